@@ -1,0 +1,451 @@
+"""Parameters of a scene: each number declared once, with unit, bounds and meaning.
+
+A scene declares its parameters as nested groups::
+
+    class Launch(Group):
+        speed: float = quantity(76.44, "m/s", low=0, high=340, meaning="ball speed after impact")
+        angle: float = quantity(10.4, "deg", low=-90, high=180, meaning="above the horizontal")
+
+    class Parameters(Group):
+        launch: Launch = group(Launch(), "how the ball starts")
+
+That declaration feeds the reading of scene files, ``--set``, the JSON schema, sliders and documentation.
+Values are floats in the declared unit; a string may carry a unit of its own (``"171 mph"``).
+"""
+
+from __future__ import annotations
+
+import difflib
+import json
+import math
+import tomllib
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from numbers import Real
+from pathlib import Path
+from typing import Any, Literal, NamedTuple, TypeVar, get_args, get_origin
+
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError
+from pydantic.fields import FieldInfo
+
+from sandbox import units
+from sandbox.errors import RequestError
+
+# ---------------------------------------------------------------------------------------------------------------------
+# Declaring
+# ---------------------------------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """What a number is: its unit, its inclusive bounds and, for a vector, how many numbers belong together."""
+
+    unit: str
+    low: float
+    high: float
+    length: int | None = None  # None for a single number
+    optional: bool = False
+
+    def read(self, value: Any) -> float | tuple[float, ...] | None:
+        """``value`` in the declared unit; ValueError says what is wrong with it."""
+        if value is None and self.optional:
+            return None
+        if self.length is None:
+            return self._number(value)
+        if isinstance(value, str | Mapping) or not hasattr(value, "__iter__") or len(value) != self.length:
+            example = json.dumps([0.0] * self.length)
+            raise ValueError(f"must be a list of {self.length} numbers{self._in_unit()}, such as {example}")
+        return tuple(self._number(item) for item in value)
+
+    def _number(self, value: Any) -> float:
+        if isinstance(value, str):
+            number = units.parse(value, self.unit)
+        elif isinstance(value, Real) and not isinstance(value, bool):
+            try:
+                number = float(value)
+            except OverflowError:
+                number = math.inf
+        else:
+            raise ValueError(f"must be a number{self._in_unit()}, {self.range}")
+        if not math.isfinite(number):
+            raise ValueError(f"must be a finite number{self._in_unit()}, {self.range}")
+        if not self.low <= number <= self.high:
+            found = f", and this is {number:.10g} {self.unit}".rstrip() if isinstance(value, str) else ""
+            raise ValueError(f"must be {self.range}{found}")
+        return number
+
+    @property
+    def range(self) -> str:
+        """The bounds for people: ``"from 0 to 340 m/s"``."""
+        return f"from {self.low:.10g} to {self.high:.10g} {self.unit}".rstrip()
+
+    def _in_unit(self) -> str:
+        return f" in {self.unit}" if self.unit else ""
+
+    def __call__(self, schema: dict[str, Any]) -> None:
+        """Write the JSON schema of this number; pydantic hands in what it knows."""
+        number: dict[str, Any] = {"type": "number", "minimum": self.low, "maximum": self.high}
+        ending = "|".join(other.replace("^", r"\^") for other in units.alternatives(self.unit) if other)
+        text = {"type": "string", "pattern": rf"^\s*[+-]?[0-9.]+([eE][+-]?[0-9]+)?\s*({ending})?\s*$"}
+        either: dict[str, Any] = {"anyOf": [number, text]}
+        if self.length is not None:
+            either = {"type": "array", "items": either, "minItems": self.length, "maxItems": self.length}
+        description = f"{schema.get('description', '')} ({self.range})".strip()
+        default = schema.get("default")
+        schema.clear()
+        schema.update(description=description, **({} if default is None else {"default": default}), **either)
+        schema["unit"] = self.unit
+
+
+def quantity(default: float | str | None, unit: str, low: float, high: float, meaning: str) -> Any:
+    """A number with ``unit`` and inclusive bounds ``low`` and ``high``; a default of None makes it optional."""
+    return _declared(default, meaning, Quantity(unit, float(low), float(high), optional=default is None))
+
+
+def vector(default: tuple[float | str, ...], unit: str, low: float, high: float, meaning: str) -> Any:
+    """As many numbers as ``default`` has, each with ``unit`` and bounds; declare it as ``tuple[float, float]``."""
+    return _declared(default, meaning, Quantity(unit, float(low), float(high), length=len(default)))
+
+
+def _declared(default: Any, meaning: str, kind: Quantity) -> Any:
+    if kind.unit not in units.KIND_OF:
+        raise KeyError(f"unit {kind.unit!r} is not in sandbox.units")
+    return _read_by(kind.read, Field(default, description=meaning, json_schema_extra=kind))
+
+
+def _read_by(reader: Callable[[Any], Any], field: FieldInfo) -> FieldInfo:
+    """Let ``reader`` turn what stands in the file into the field's value, before pydantic looks at it."""
+    field.metadata.append(BeforeValidator(reader))
+    return field
+
+
+def choice(default: str | None, meaning: str) -> Any:
+    """One of several words; declare it as ``Literal["launch", "club"]``."""
+    return Field(default, description=meaning)
+
+
+def switch(default: bool, meaning: str) -> Any:
+    """True or false; declare it as ``bool``."""
+    return Field(default, description=meaning, strict=True)
+
+
+def group(default: Group, meaning: str) -> Any:
+    """A group of parameters with a heading of its own; a file that leaves keys out takes those of ``default``."""
+    return _read_by(lambda value: _completed(value, default, None), Field(default, description=meaning))
+
+
+def either(default: Group, meaning: str, by: str = "model") -> Any:
+    """One of several groups, chosen by their word ``by``; declare it as ``ConstantDrag | NoDrag``.
+
+    Each of the groups declares its word as ``model: Literal["constant"] = choice("constant", "...")``.
+    """
+    field = Field(default, description=meaning, discriminator=by)
+    return _read_by(lambda value: _completed(value, default, by), field)
+
+
+class Group(BaseModel):
+    """Base of all groups of parameters: frozen, unknown keys refused, defaults checked like any other value."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True, validate_default=True, protected_namespaces=())
+
+
+def _completed(table: Any, default: Group, tag: str | None) -> Any:
+    """``table`` with what it leaves out taken from ``default``, unless its ``tag`` asks for another kind of group."""
+    if not isinstance(table, Mapping):
+        return table
+    if tag is not None and table.get(tag, getattr(default, tag)) != getattr(default, tag):
+        return dict(table)
+    completed = {name: getattr(default, name) for name in type(default).model_fields} | dict(table)
+    for name, value in table.items():
+        inner = getattr(default, name, None)
+        if isinstance(inner, Group):
+            inner_tag = type(default).model_fields[name].discriminator
+            completed[name] = _completed(value, inner, inner_tag if isinstance(inner_tag, str) else None)
+    return completed
+
+
+class Accuracy(Group):
+    """How much computing time to spend; common to all scenes. A key left out follows from the level."""
+
+    level: Literal["fast", "balanced", "precise"] = choice("balanced", "speed against accuracy")
+    tolerance: float | None = quantity(None, "m", 1e-12, 1.0, "error allowed in each step of the motion")
+    method: Literal["exact", "plain"] | None = choice(
+        None, "exact: stop at the moment of touching; plain: pymunk alone, at a fixed step"
+    )
+    integrator: str | None = choice(None, "name of the integrator of the motion")
+    step: float | None = quantity(None, "s", 1e-6, 0.1, "fixed step, instead of one that follows the tolerance")
+
+
+# ---------------------------------------------------------------------------------------------------------------------
+# Looking at what was declared
+# ---------------------------------------------------------------------------------------------------------------------
+
+
+class Parameter(NamedTuple):
+    """One parameter with its declaration, for sliders, sweeps and documentation."""
+
+    key: str  # dotted
+    value: Any  # in ``unit``
+    unit: str | None  # None for words and switches, "" for a number without a unit
+    low: float | None
+    high: float | None
+    choices: tuple[Any, ...]  # of a word; empty for numbers
+    meaning: str
+
+
+def walk(parameters: Group, prefix: str = "") -> Iterator[Parameter]:
+    """All parameters in order of declaration with their values; ``walk(Parameters())`` gives the defaults."""
+    for name, field in type(parameters).model_fields.items():
+        value, key = getattr(parameters, name), prefix + name
+        if isinstance(value, Group):
+            yield from walk(value, f"{key}.")
+            continue
+        declared = field.json_schema_extra
+        unit, low, high = (
+            (declared.unit, declared.low, declared.high) if isinstance(declared, Quantity) else (None,) * 3
+        )
+        yield Parameter(key, value, unit, low, high, _words(field.annotation), field.description or "")
+
+
+def _words(annotation: Any) -> tuple[Any, ...]:
+    if get_origin(annotation) is Literal:
+        return get_args(annotation)
+    return tuple(word for part in get_args(annotation) for word in _words(part))
+
+
+def _groups(annotation: Any) -> tuple[type[Group], ...]:
+    """The groups that a field of this type may hold: one, several to choose from, or those of a list."""
+    if isinstance(annotation, type) and issubclass(annotation, Group):
+        return (annotation,)
+    return tuple(found for part in get_args(annotation) for found in _groups(part))
+
+
+def known_keys(schema: type[Group], prefix: str = "") -> list[str]:
+    """Every dotted key that a scene file may hold, headings included."""
+    keys: dict[str, None] = {}
+    for name, field in schema.model_fields.items():
+        keys[prefix + name] = None
+        for inner in _groups(field.annotation):
+            keys |= dict.fromkeys(known_keys(inner, f"{prefix}{name}."))
+    return list(keys)
+
+
+def json_schema(schema: type[Group], scene: str) -> dict[str, Any]:
+    """JSON schema of the scene file of ``scene``; numbers may be strings with a unit."""
+    body = _relaxed(schema.model_json_schema())
+    properties = {"scene": {"const": scene, "description": "the scene that this file is for"}, **body["properties"]}
+    head = {"$schema": "https://json-schema.org/draft/2020-12/schema", "title": f"{scene} scene file"}
+    return {**head, **body, "title": head["title"], "properties": properties}
+
+
+def _relaxed(node: Any) -> Any:
+    """The same schema for a file that may leave the word of a choice out: ``anyOf`` in place of ``oneOf``."""
+    if isinstance(node, list):
+        return [_relaxed(item) for item in node]
+    if not isinstance(node, dict):
+        return node
+    renamed = {"anyOf" if key == "oneOf" else key: _relaxed(item) for key, item in node.items()}
+    if "mapping" in renamed.get("discriminator", {}):
+        del renamed["discriminator"]
+    return renamed
+
+
+# ---------------------------------------------------------------------------------------------------------------------
+# Reading
+# ---------------------------------------------------------------------------------------------------------------------
+
+
+def read_toml(path: Path) -> dict[str, Any]:
+    """The nested tables of a TOML file; RequestError says in one line why it cannot be read."""
+    try:
+        text = path.read_bytes().decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise RequestError(f"{path}: not a text file in UTF-8 (byte {error.start})") from None
+    except OSError as error:
+        raise RequestError(f"{path}: cannot be read: {_reason(error)}") from None
+    try:
+        return tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        raise RequestError(f"{path}: broken TOML: {error}") from None
+    except (ValueError, RecursionError) as error:
+        raise RequestError(f"{path}: cannot be read as TOML: {error}") from None
+
+
+def _reason(error: OSError) -> str:
+    return (error.strerror or str(error)).lower()
+
+
+def parse_assignment(text: str) -> tuple[str, Any]:
+    """``key.path=value`` as a dotted key and a value: a TOML value, and a plain string where it is none."""
+    key, equals, value = text.partition("=")
+    key, value = key.strip(), value.strip()
+    if not equals or not all(part.strip() for part in key.split(".")):
+        raise RequestError(f'--set {text}: write it as key.path=value, for example --set launch.speed="171 mph"')
+    try:
+        parsed = tomllib.loads(f"value = {value}")
+    except (ValueError, RecursionError):
+        return key, value
+    return key, parsed["value"] if len(parsed) == 1 else value
+
+
+def nested(dotted: Mapping[str, Any]) -> dict[str, Any]:
+    """``{"launch.speed": 70}`` as ``{"launch": {"speed": 70}}``; later keys win over earlier ones."""
+    tables: dict[str, Any] = {}
+    for key, value in dotted.items():
+        for part in reversed(key.split(".")):
+            value = {part.strip(): value}
+        tables = merged(tables, value)
+    return tables
+
+
+def merged(base: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
+    """``base`` with ``changes`` over it: tables are merged, all other values, lists too, are replaced whole."""
+    result = dict(base)
+    for key, value in changes.items():
+        old = result.get(key)
+        result[key] = merged(old, value) if isinstance(old, Mapping) and isinstance(value, Mapping) else value
+    return result
+
+
+Schema = TypeVar("Schema", bound=Group)
+
+
+def validate(
+    schema: type[Schema],
+    values: Mapping[str, Any],
+    source: str = "",
+    changes: Mapping[str, Any] | None = None,
+    changed_by: str = "override",
+) -> Schema:
+    """Check the nested ``values`` of ``source`` (a file's name) with ``changes`` over them.
+
+    Raises RequestError with a line that names file (or ``changed_by``), key, value, bound and unit.
+    """
+    changes = nested(changes or {})
+    combined = _without_leftovers(schema, merged(values, changes), changes)
+    try:
+        return schema.model_validate(combined)
+    except ValidationError as failure:
+        errors = failure.errors(include_url=False)
+    lines = dict.fromkeys(_explained(schema, error, combined, source, changes, changed_by) for error in errors)
+    first, *others = lines
+    more = f"\n({len(others)} more like this: {others[0]}{', ...' if len(others) > 1 else ''})" if others else ""
+    raise RequestError(first + more)
+
+
+def _without_leftovers(schema: type[Group], tables: dict[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
+    """Where ``changes`` choose another kind of group, drop the keys that only the kind in the file had."""
+    kept = dict(tables)
+    for name, field in schema.model_fields.items():
+        table, change = kept.get(name), changes.get(name)
+        if not isinstance(table, dict) or not isinstance(change, Mapping):
+            continue
+        for inner in _groups(field.annotation):
+            tag = field.discriminator
+            if tag is None:
+                kept[name] = _without_leftovers(inner, table, change)
+            elif isinstance(tag, str) and change.get(tag) in get_args(inner.model_fields[tag].annotation):
+                kept[name] = {k: v for k, v in table.items() if k in inner.model_fields or k in change}
+    return kept
+
+
+# ---------------------------------------------------------------------------------------------------------------------
+# Explaining
+# ---------------------------------------------------------------------------------------------------------------------
+
+
+def nearest(word: str, known: list[str]) -> str | None:
+    """The known word most like ``word``, or None where none is like it."""
+    found = difflib.get_close_matches(word, known, n=1, cutoff=0.6)
+    if not found:
+        # "speed" for "launch.speed": right at the end, but without its group.
+        endings = {key.rpartition(".")[2]: key for key in reversed(known)}
+        found = [endings[end] for end in difflib.get_close_matches(word.rpartition(".")[2], endings, n=1, cutoff=0.75)]
+    return found[0] if found else None
+
+
+def _explained(
+    schema: type[Group],
+    error: Any,
+    values: Mapping[str, Any],
+    source: str,
+    changes: Mapping[str, Any],
+    changed_by: str,
+) -> str:
+    """One line for one error of pydantic's."""
+    key, plain = _path(error["loc"], values, missing=error["type"] == "missing")
+    prefix = f"{changed_by} " if _holds(changes, plain) else f"{source}: " if source else ""
+    if error["type"] == "extra_forbidden":
+        return f"{prefix}{key}: unknown key{_suggestion('.'.join(plain), schema)}"
+    if error["type"] == "missing":
+        return f"{prefix}{key}: missing"
+    return f"{prefix}{key} = {_shown(error['input'])}: {_problem(error)}" if key else f"{prefix}{_problem(error)}"
+
+
+def _path(loc: tuple[int | str, ...], values: Any, missing: bool) -> tuple[str, tuple[str, ...]]:
+    """Where in the file: as shown (``balls[1].x``) and without positions in lists (``("balls", "x")``).
+
+    pydantic puts the word that chose a group between its key and the group's own; the file has no such level.
+    """
+    shown, plain = "", []
+    for index, item in enumerate(loc):
+        if isinstance(item, int):
+            shown += f"[{item}]"
+            values = values[item] if isinstance(values, list) and item < len(values) else None
+        elif (isinstance(values, Mapping) and item in values) or (missing and index == len(loc) - 1):
+            shown += f".{item}" if shown else item
+            plain.append(item)
+            values = values.get(item) if isinstance(values, Mapping) else None
+    return shown, tuple(plain)
+
+
+def _holds(tables: Any, path: tuple[str, ...]) -> bool:
+    """Whether the nested tables have something at ``path`` (inside a list: anywhere in it)."""
+    for part in path:
+        if isinstance(tables, list):
+            return True
+        if not isinstance(tables, Mapping) or part not in tables:
+            return False
+        tables = tables[part]
+    return bool(path)
+
+
+def _suggestion(key: str, schema: type[Group]) -> str:
+    known = known_keys(schema)
+    near = nearest(key, known)
+    if near is not None:
+        return f"; did you mean {near}?"
+    inside = key.rpartition(".")[0]
+    siblings = [k.rpartition(".")[2] for k in known if k.rpartition(".")[0] == inside]
+    return f"; {inside or 'the file'} knows {', '.join(siblings)}" if siblings else ""
+
+
+def _problem(error: Any) -> str:
+    """What is wrong, in words; ``error`` is one of pydantic's."""
+    context = error.get("ctx", {})
+    match error["type"]:
+        case "value_error":
+            return str(context["error"])
+        case "literal_error" | "union_tag_invalid":
+            expected = str(context.get("expected") or context.get("expected_tags")).replace("'", '"')
+            return f"must be {expected.replace(', ', ' or ')}"
+        case "bool_type":
+            return "must be true or false"
+        case "string_type":
+            return "must be a text in quotes"
+        case "list_type" | "tuple_type":
+            return "must be a list"
+        case "model_type" | "model_attributes_type" | "dict_type":
+            return "must be a group of keys, not a single value"
+        case _:
+            return error["msg"][:1].lower() + error["msg"][1:]
+
+
+def _shown(value: Any) -> str:
+    """A value as a TOML file would write it, shortened."""
+    try:
+        text = json.dumps(value, ensure_ascii=False, default=str)
+    except (ValueError, RecursionError):
+        text = str(type(value).__name__)
+    text = {"NaN": "nan", "Infinity": "inf", "-Infinity": "-inf"}.get(text, text)
+    return text if len(text) <= 60 else text[:57] + "..."

@@ -1,0 +1,90 @@
+"""Units that a scene file may use: a small table, and the conversion between two units of one kind."""
+
+from __future__ import annotations
+
+import math
+import re
+
+# A value in SI is (value + offset) * factor. The first unit of each kind is the SI one, with factor 1 and offset 0.
+KINDS: dict[str, dict[str, tuple[float, float]]] = {
+    "length": {
+        "m": (1.0, 0.0),
+        "cm": (1e-2, 0.0),
+        "mm": (1e-3, 0.0),
+        "km": (1e3, 0.0),
+        "yd": (0.9144, 0.0),
+        "ft": (0.3048, 0.0),
+        "in": (0.0254, 0.0),
+    },
+    "area": {"m^2": (1.0, 0.0), "cm^2": (1e-4, 0.0), "mm^2": (1e-6, 0.0)},
+    "speed": {
+        "m/s": (1.0, 0.0),
+        "km/h": (1 / 3.6, 0.0),
+        "mph": (0.44704, 0.0),
+        "kn": (1852 / 3600, 0.0),
+        "ft/s": (0.3048, 0.0),
+    },
+    "angle": {"rad": (1.0, 0.0), "deg": (math.pi / 180, 0.0)},
+    "spin": {
+        "rad/s": (1.0, 0.0),
+        "rpm": (math.pi / 30, 0.0),
+        "rev/s": (2 * math.pi, 0.0),
+        "deg/s": (math.pi / 180, 0.0),
+    },
+    "mass": {"kg": (1.0, 0.0), "g": (1e-3, 0.0), "oz": (0.028349523125, 0.0), "lb": (0.45359237, 0.0)},
+    "time": {"s": (1.0, 0.0), "ms": (1e-3, 0.0), "min": (60.0, 0.0)},
+    "rate": {"1/s": (1.0, 0.0), "1/min": (1 / 60, 0.0)},
+    "density": {"kg/m^3": (1.0, 0.0), "g/cm^3": (1e3, 0.0)},
+    "acceleration": {"m/s^2": (1.0, 0.0), "ft/s^2": (0.3048, 0.0), "g0": (9.80665, 0.0)},
+    "pressure": {"Pa": (1.0, 0.0), "hPa": (1e2, 0.0), "kPa": (1e3, 0.0)},
+    "temperature": {"K": (1.0, 0.0), "C": (1.0, 273.15), "F": (5 / 9, 459.67)},
+    "viscosity": {"Pa s": (1.0, 0.0)},
+    "inertia": {"kg m^2": (1.0, 0.0)},
+    "ratio": {"": (1.0, 0.0), "%": (1e-2, 0.0)},
+}
+
+KIND_OF = {unit: kind for kind, units in KINDS.items() for unit in units}
+
+_QUANTITY = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?|[+-]?(?:nan|inf))\s*(.*?)\s*")
+_SPELLINGS = str.maketrans({"²": "^2", "³": "^3", "°": "", "·": " "})
+
+
+def alternatives(unit: str) -> list[str]:
+    """The units that may stand in place of ``unit``, itself first."""
+    return [unit, *(other for other in KINDS[KIND_OF[unit]] if other != unit)]
+
+
+def listed(unit: str) -> str:
+    """The units that may stand in place of ``unit``, for a sentence: ``"m/s, km/h, mph, kn or ft/s"``."""
+    names = [other or "no unit" for other in alternatives(unit)]
+    return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} or {names[-1]}"
+
+
+def parse(text: str, unit: str) -> float:
+    """The number in ``text`` expressed in ``unit``; a text that names no unit is in ``unit`` already.
+
+    Raises ValueError where the text is not a number with a unit of the same kind.
+    """
+    match = _QUANTITY.fullmatch(text)
+    if match is None:
+        raise ValueError(f"is not a number with a unit; use {listed(unit)}")
+    number = float(match[1])
+    given = match[2] if "°" not in match[2] else match[2].translate(_SPELLINGS) or "deg"
+    return convert(number, given.translate(_SPELLINGS) or unit, unit)
+
+
+def convert(number: float, given: str, unit: str) -> float:
+    """``number`` of unit ``given`` expressed in ``unit``.
+
+    Raises ValueError where the two are not units of the same kind.
+    """
+    if given == unit:
+        return number
+    units = KINDS[KIND_OF[unit]]
+    if given not in units:
+        kind = f"a unit of {KIND_OF[given]}" if given in KIND_OF else "not a unit known here"
+        raise ValueError(f"{given} is {kind}; use {listed(unit)}")
+    factor, offset = units[given]
+    target_factor, target_offset = units[unit]
+    # 14 digits: "1224 km/h" is 340 m/s, not a rounding error above it and out of bounds.
+    return float(f"{(number + offset) * factor / target_factor - target_offset:.14g}")
