@@ -1,0 +1,112 @@
+"""A piece of a ball's path: polynomials in time, from which the time of touching is found and every sample is read."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from sandbox.engine.bernstein import evaluate, piece
+from sandbox.physics.integrators import Acceleration, State
+
+#: Step in s below which the mean velocity (x1 - x0) / h is mostly rounding (1e-14 m at 100 m) and is not used.
+_SHORT = 1e-3
+
+
+class Arc:
+    """The path of one ball from t0 to t1.
+
+    The position is the quintic that meets position, velocity and acceleration at both ends (error of order h^6), the velocity
+    its derivative, the spin the cubic that meets spin and its rate; all kept as Bernstein coefficients over
+    u = (t - t0) / (t1 - t0). ``contact`` is what the ball slides or rolls on meanwhile, or None in flight.
+    """
+
+    __slots__ = ("contact", "spin", "start", "t0", "t1", "vx", "vy", "x", "y")
+
+    def __init__(
+        self,
+        t0: float,
+        t1: float,
+        start: State,
+        x: Sequence[float],
+        y: Sequence[float],
+        vx: Sequence[float],
+        vy: Sequence[float],
+        spin: Sequence[float],
+        contact: object = None,
+    ) -> None:
+        self.t0 = t0  # s
+        self.t1 = t1  # s
+        self.start = start
+        self.x = x  # m
+        self.y = y
+        self.vx = vx  # m/s
+        self.vy = vy
+        self.spin = spin  # rad/s
+        self.contact = contact
+
+    def state(self, t: float) -> State:
+        """Position, velocity and spin at time t in [t0, t1]."""
+        h = self.t1 - self.t0
+        if h <= 0.0 or t <= self.t0:
+            return self.start
+        u = (t - self.t0) / h if t < self.t1 else 1.0
+        return (
+            evaluate(self.x, u),
+            evaluate(self.y, u),
+            evaluate(self.vx, u),
+            evaluate(self.vy, u),
+            evaluate(self.spin, u),
+        )
+
+    def until(self, t: float) -> Arc:
+        """The same path, ending at t."""
+        if t >= self.t1:
+            return self
+        u = max(0.0, (t - self.t0) / (self.t1 - self.t0))
+        if u == 0.0:
+            return still(self.t0, self.t0, self.start, self.contact)
+        curves = (piece(curve, 0.0, u) for curve in (self.x, self.y, self.vx, self.vy, self.spin))
+        return Arc(self.t0, t, self.start, *curves, self.contact)
+
+
+def through(
+    t: float,
+    h: float,
+    start: State,
+    acceleration: Acceleration,
+    end: State,
+    end_acceleration: Acceleration,
+    contact: object = None,
+) -> Arc:
+    """The arc that meets both ends of a step of length h."""
+    x0, y0, vx0, vy0, w0 = start
+    x1, y1, vx1, vy1, w1 = end
+    ax0, ay0, al0 = acceleration
+    ax1, ay1, al1 = end_acceleration
+    p = 0.2 * h
+    q = 0.05 * h * h
+    quarter = 0.25 * h
+    third = h / 3.0
+    if h > _SHORT:
+        mx = 5.0 * (x1 - x0) / h - 2.0 * (vx0 + vx1) + quarter * (ax1 - ax0)
+        my = 5.0 * (y1 - y0) / h - 2.0 * (vy0 + vy1) + quarter * (ay1 - ay0)
+    else:
+        mx = 0.5 * (vx0 + vx1 + third * (ax0 - ax1))
+        my = 0.5 * (vy0 + vy1 + third * (ay0 - ay1))
+    return Arc(
+        t,
+        t + h,
+        start,
+        (x0, x0 + p * vx0, x0 + 2.0 * p * vx0 + q * ax0, x1 - 2.0 * p * vx1 + q * ax1, x1 - p * vx1, x1),
+        (y0, y0 + p * vy0, y0 + 2.0 * p * vy0 + q * ay0, y1 - 2.0 * p * vy1 + q * ay1, y1 - p * vy1, y1),
+        (vx0, vx0 + quarter * ax0, mx, vx1 - quarter * ax1, vx1),
+        (vy0, vy0 + quarter * ay0, my, vy1 - quarter * ay1, vy1),
+        (w0, w0 + third * al0, w1 - third * al1, w1),
+        contact,
+    )
+
+
+def still(t: float, until: float, state: State, contact: object = None, last_spin: float | None = None) -> Arc:
+    """A ball that keeps its place from t to ``until``; its spin goes evenly to ``last_spin`` (rad/s), if that is given."""
+    x, y, _, _, spin = state
+    spins = (spin,) if last_spin is None else (spin, last_spin)
+    return Arc(t, until, state, (x,), (y,), (0.0,), (0.0,), spins, contact)

@@ -1,0 +1,158 @@
+"""Polynomials on [0, 1] in Bernstein form: bounds for free, and every root found, none missed.
+
+A polynomial ``f(u) = sum_k b[k] C(n, k) u**k (1 - u)**(n - k)`` lies between the smallest and the largest of its
+coefficients, and has at most as many roots in (0, 1) as they change sign (Descartes' rule). So a path whose coefficients of
+distance are all positive provably touches nothing, and where they are not, halving the interval isolates each root.
+
+Source: Farin, Curves and Surfaces for CAGD, 5th ed., chapters 4 to 6.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from functools import lru_cache
+from math import comb
+
+#: Deepest halving of [0, 1]: two roots nearer than 2**-40 of the interval count as one touch without crossing.
+_DEEPEST = 40
+
+
+@lru_cache
+def _binomials(n: int) -> list[int]:
+    return [comb(n, k) for k in range(n + 1)]
+
+
+def evaluate(b: Sequence[float], u: float) -> float:
+    """f(u), by Horner's rule in u / (1 - u) or its inverse, whichever is at most 1."""
+    n = len(b) - 1
+    w = 1.0 - u
+    value = 0.0
+    if u <= w:
+        ratio = u / w
+        for binomial, coefficient in zip(_binomials(n), reversed(b), strict=True):
+            value = value * ratio + binomial * coefficient
+        return value * w**n
+    ratio = w / u
+    for binomial, coefficient in zip(_binomials(n), b, strict=True):
+        value = value * ratio + binomial * coefficient
+    return value * u**n
+
+
+def split(b: Sequence[float], u: float) -> tuple[list[float], list[float]]:
+    """Coefficients on [0, u] and on [u, 1]."""
+    row = list(b)
+    n = len(row) - 1
+    left = [row[0]]
+    right = [row[n]]
+    w = 1.0 - u
+    for last in range(n, 0, -1):
+        row = [w * row[k] + u * row[k + 1] for k in range(last)]
+        left.append(row[0])
+        right.append(row[last - 1])
+    right.reverse()
+    return left, right
+
+
+def piece(b: Sequence[float], u0: float, u1: float) -> Sequence[float]:
+    """Coefficients on [u0, u1]."""
+    if u1 < 1.0:
+        b = split(b, u1)[0]
+        u0 = u0 / u1
+    if u0 > 0.0:
+        b = split(b, u0)[1]
+    return b
+
+
+def derivative(b: Sequence[float]) -> list[float]:
+    """Coefficients of df/du."""
+    n = len(b) - 1
+    return [n * (b[k + 1] - b[k]) for k in range(n)]
+
+
+def elevate(b: Sequence[float], degree: int) -> Sequence[float]:
+    """The same polynomial, written in a higher degree."""
+    while len(b) - 1 < degree:
+        n = len(b)
+        b = [b[0], *((k * b[k - 1] + (n - k) * b[k]) / n for k in range(1, n)), b[-1]]
+    return b
+
+
+@lru_cache
+def _product_weights(m: int, n: int) -> list[list[tuple[int, float]]]:
+    """For each coefficient k of a product: which b[i] c[k - i] enter it, and with what weight."""
+    return [
+        [(i, comb(m, i) * comb(n, k - i) / comb(m + n, k)) for i in range(max(0, k - n), min(m, k) + 1)]
+        for k in range(m + n + 1)
+    ]
+
+
+def product(b: Sequence[float], c: Sequence[float]) -> list[float]:
+    """Coefficients of f g."""
+    rows = _product_weights(len(b) - 1, len(c) - 1)
+    return [sum([weight * b[i] * c[k - i] for i, weight in row]) for k, row in enumerate(rows)]
+
+
+def without_root_at_start(b: Sequence[float]) -> list[float]:
+    """Coefficients of f(u) / u, where f(0) is taken as exactly zero."""
+    n = len(b) - 1
+    return [b[k + 1] * n / (k + 1) for k in range(n)]
+
+
+def downward_crossings(b: Sequence[float]) -> Iterator[float]:
+    """Every u in [0, 1] where f goes from positive to negative, in ascending order."""
+    if min(b) > 0.0 or max(b) <= 0.0:
+        return
+    yield from _crossings(list(b), 0.0, 1.0, 0)
+
+
+def _crossings(b: list[float], u0: float, u1: float, depth: int) -> Iterator[float]:
+    changes = 0
+    previous = b[0]
+    for value in b:
+        if value > 0.0:
+            if previous < 0.0:
+                changes += 1
+            previous = value
+        elif value < 0.0:
+            if previous > 0.0:
+                changes += 1
+            previous = value
+    if changes == 0:
+        return
+    if changes == 1:
+        if previous < 0.0:  # it ends below, so it began above
+            yield u0 + (u1 - u0) * _single_root(b)
+        return
+    if depth == _DEEPEST:
+        if b[0] > 0.0 > b[-1]:
+            yield u0
+        return
+    middle = 0.5 * (u0 + u1)
+    left, right = split(b, 0.5)
+    yield from _crossings(left, u0, middle, depth + 1)
+    if left[-1] == 0.0 and left[-2] > 0.0 > right[1]:  # the root sits exactly on the cut
+        yield middle
+    yield from _crossings(right, middle, u1, depth + 1)
+
+
+def _single_root(b: list[float]) -> float:
+    """The root of a polynomial that has just one in [0, 1] and falls through it: Newton, kept inside a bracket."""
+    low, high = 0.0, 1.0
+    slope = derivative(b)
+    u = b[0] / (b[0] - b[-1]) if b[0] > 0.0 > b[-1] else 0.5
+    for _ in range(100):
+        value = evaluate(b, u)
+        if value > 0.0:
+            low = u
+        elif value < 0.0:
+            high = u
+        else:
+            return u
+        fall = evaluate(slope, u)
+        following = u - value / fall if fall != 0.0 else low
+        if not low < following < high:
+            following = 0.5 * (low + high)
+        if abs(following - u) <= 2e-16 * u or high - low <= 1e-16:
+            return following
+        u = following
+    return u

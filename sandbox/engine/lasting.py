@@ -1,0 +1,155 @@
+"""From an instant of touching to what follows: flight, or lasting contact that slides, rolls, is wedged, or rests."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from sandbox.engine.motion import PINNED, RESTING, ROLLING, SLIDING, Contact, Mover
+from sandbox.engine.touch import Obstacle, Touching
+from sandbox.physics.integrators import State
+
+#: Speed in m/s, and acceleration in m/s^2, that is rounding.
+_STILL = 1e-10
+
+#: Normals nearer than this (sine of the angle) are one: two surfaces laid flush.
+_FLUSH = 1e-7
+
+Near = tuple[Obstacle, Touching]
+
+
+def settle(mover: Mover, t: float, state: State, near: Sequence[Near], height: float) -> tuple[State, Contact | None]:
+    """The state from which the ball goes on, and its lasting contact, or None for flight.
+
+    A ball stays on a surface if it is pressed on and would not bounce higher than ``height`` (m). A bounce below that is
+    taken from the state; so is the overlap, of at most CONTACT, that the surface was found with.
+    """
+    if not near:
+        return state, None
+    x, y, vx, vy, spin = state
+    fx, fy, torque = mover.force(t, state)
+    mass = mover.ball.mass
+    kept: list[Near] = []
+    for obstacle, touching in near:
+        nx, ny = touching.nx, touching.ny
+        along = vx * ny - vy * nx
+        press = -(fx * nx + fy * ny) / mass - touching.curvature * along * along  # m/s^2
+        if vx * nx + vy * ny <= (2.0 * max(press, 0.0) * height) ** 0.5 + _STILL:
+            kept.append((obstacle, touching))
+    if not kept:
+        return state, None
+    for _, touching in kept:
+        leaving = vx * touching.nx + vy * touching.ny
+        vx -= leaving * touching.nx
+        vy -= leaving * touching.ny
+    if any(_sine(touching, kept[0][1]) > _FLUSH for _, touching in kept[1:]):
+        vx = vy = 0.0  # held in two directions
+    state = (x, y, vx, vy, spin)
+
+    held: list[Contact] = []
+    for obstacle, touching in kept:
+        mx, my = (vx, vy) if vx or vy else (fx, fy)  # where it is about to go
+        place = obstacle.ahead(touching, x, y, mx, my)
+        contact = _way_of_moving(mover, state, obstacle, place, fx, fy, torque)
+        if contact is None:
+            continue
+        held.append(contact)
+    held.sort(key=lambda contact: contact.touching.curvature)  # the side of the next piece before the corner of this one
+    for contact in held:
+        (ax, ay, _), _, _ = mover.on_surface(t, state, contact)
+        if contact.mode == RESTING:
+            ax = ay = 0.0
+        if all(
+            ax * other.nx + ay * other.ny >= -1e-9 or _sine(other, contact.touching) <= _FLUSH for _, other in kept
+        ):
+            return _on(mover, state, contact), contact
+    if not held:
+        return state, None
+    return _wedged(mover, state, kept, held, fx, fy)
+
+
+def conclude(mover: Mover, state: State, contact: Contact, reason: str) -> State:
+    """The state at which one way of moving on a surface ends: just rolling, or just still, where that is why."""
+    x, y, vx, vy, spin = state
+    if reason == "grip":
+        nx, ny, _ = contact.touching.normal_at(x, y)
+        return x, y, vx, vy, -(vx * ny - vy * nx) / mover.ball.radius
+    if reason == "stop":
+        return x, y, 0.0, 0.0, 0.0
+    return state
+
+
+def _way_of_moving(
+    mover: Mover, state: State, obstacle: Obstacle, touching: Touching, fx: float, fy: float, torque: float
+) -> Contact | None:
+    """Sliding, rolling or resting on one surface; None if nothing presses the ball on."""
+    x, y, vx, vy, spin = state
+    ball, surface = mover.ball, obstacle.surface
+    nx, ny = touching.nx, touching.ny
+    tx, ty = ny, -nx
+    speed = vx * tx + vy * ty
+    normal = -(fx * nx + fy * ny) - ball.mass * touching.curvature * speed * speed
+    if normal <= 0.0:
+        return None
+    slip = speed + ball.radius * spin
+    if abs(slip) > _STILL * (1.0 + abs(speed)):
+        return Contact(SLIDING, obstacle, touching, 1.0 if slip > 0.0 else -1.0)
+    along = fx * tx + fy * ty
+    grip = surface.friction * normal
+    drive = (along - torque / ball.radius) / (ball.mass * (1.0 + ball.inertia_factor))
+    resistance = surface.rolling_resistance * normal / ball.mass
+    moves = abs(speed) > _STILL
+    if not moves and abs(drive) <= resistance + _STILL and abs(along) <= grip + _STILL * ball.mass:
+        return Contact(RESTING, obstacle, touching)
+    direction = (1.0 if speed > 0.0 else -1.0) if moves else (1.0 if drive > 0.0 else -1.0)
+    friction = ball.mass * (drive - direction * resistance) - along  # what rolling asks for
+    if abs(friction) <= grip:
+        return Contact(ROLLING, obstacle, touching, direction)
+    return Contact(SLIDING, obstacle, touching, -1.0 if friction > 0.0 else 1.0)
+
+
+def _on(mover: Mover, state: State, contact: Contact) -> State:
+    """The state put exactly on the surface, and exactly rolling or at rest where it is."""
+    x, y, vx, vy, spin = state
+    nx, ny = contact.touching.nx, contact.touching.ny
+    gap = contact.obstacle.gap(contact.touching, x, y)
+    x -= gap * nx
+    y -= gap * ny
+    if contact.mode == RESTING:
+        return x, y, 0.0, 0.0, 0.0
+    if contact.mode == ROLLING:
+        spin = -(vx * ny - vy * nx) / mover.ball.radius
+    return x, y, vx, vy, spin
+
+
+def _wedged(
+    mover: Mover, state: State, kept: Sequence[Near], held: Sequence[Contact], fx: float, fy: float
+) -> tuple[State, Contact]:
+    """Held by two surfaces at once: the place is fixed, and friction on both takes the spin.
+
+    The two normal forces are those that balance the applied force alone; what friction adds to them is left out.
+    """
+    first = held[0]
+    others = [near for near in kept if _sine(near[1], first.touching) > _FLUSH]
+    obstacle, second = others[0]
+    a, b = first.touching, second
+    determinant = a.nx * b.ny - a.ny * b.nx
+    on_first = max(0.0, (-fx * b.ny + fy * b.nx) / determinant)
+    on_second = max(0.0, (-fy * a.nx + fx * a.ny) / determinant)
+    friction = first.obstacle.surface.friction * on_first + obstacle.surface.friction * on_second
+    x, y, _, _, spin = state
+    for place, touching in ((first.obstacle, a), (obstacle, second)):
+        gap = place.gap(touching, x, y)
+        x -= gap * touching.nx
+        y -= gap * touching.ny
+    still = (x, y, 0.0, 0.0, spin)
+    if abs(spin) <= _STILL:
+        return (x, y, 0.0, 0.0, 0.0), Contact(RESTING, first.obstacle, a)
+    rate = mover.ball.radius * friction / mover.ball.inertia
+    return still, Contact(PINNED, first.obstacle, a, 1.0 if spin > 0.0 else -1.0, rate)
+
+
+def _sine(a: Touching, b: Touching) -> float:
+    """Sine of the angle between two normals; 2 where they face each other."""
+    if a.nx * b.nx + a.ny * b.ny < 0.0:
+        return 2.0
+    return abs(a.nx * b.ny - a.ny * b.nx)

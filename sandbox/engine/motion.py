@@ -1,0 +1,261 @@
+"""Motion between impacts: a ball in flight, or sliding, rolling and resting on a surface.
+
+In flight a ball moves under its forces. In lasting contact the surface adds its normal force N, which keeps the distance, and
+its friction: while sliding ``mu N`` against the slip ``v + r w``, while rolling what the constraint ``v = -r w`` asks for, as long
+as that is no more than ``mu N``. Rolling resistance slows a rolling ball by ``c N / m``. Both are the same integration with one
+more force, so a roll is as accurate as a flight.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from math import isfinite
+from typing import NamedTuple
+
+from sandbox.engine.accuracy import Accuracy
+from sandbox.engine.arc import Arc, still, through
+from sandbox.engine.run import Numerics
+from sandbox.engine.setup import Ball, Bounds
+from sandbox.engine.touch import Obstacle, Touching
+from sandbox.errors import RunError
+from sandbox.physics.integrators import INTEGRATORS, Acceleration, Law, State
+
+#: Local error of a step over the error aimed at in the end. Each impact on a round shape multiplies an error by ten or more, so
+#: the flight has to be much better than the promise; 1e-3 keeps it on shots with several rim contacts.
+_LOCAL_SHARE = 1e-3
+
+#: What error in spin counts as error in m: a spin's error moves the ball only through lift and the next bounce.
+_SPIN_WEIGHT = 0.1  # s
+
+#: First step tried under error control; it shrinks by 5 until the error fits.
+_FIRST_STEP = 0.05  # s
+
+#: Longest step, so that forces which change along the way are met several times a second.
+_LONGEST = 0.5  # s
+
+#: Largest product of a fixed step and the forces' rate of change with velocity (1/s). Explicit steps are smooth below 1 and
+#: unstable above 2, where drag reverses the motion; the drag of water on a bullet is the case that needs the limit.
+_STIFFEST = 0.5
+
+#: Changes of velocity below this share of the speed are no sign of stiffness: a force may jump.
+_JUMP = 0.01
+
+_UNITS = ("m", "m", "m/s", "m/s", "rad/s")
+
+SLIDING, ROLLING, PINNED, RESTING = "sliding", "rolling", "pinned", "resting"
+
+
+class Diverged(RunError):
+    """A ball's state stopped making sense."""
+
+
+class Contact(NamedTuple):
+    """What a ball is in lasting contact with, and how it moves there."""
+
+    mode: str
+    obstacle: Obstacle
+    touching: Touching  # where the contact began: normal, curvature, feature
+    direction: float = 0.0  # sign of: the slip if sliding, the motion along the surface if rolling, the spin if pinned
+    spin_rate: float = 0.0  # rad/s^2, how fast the spin of a pinned ball dies
+
+
+class Mover:
+    """One ball and everything that moves it."""
+
+    def __init__(self, ball: Ball, accuracy: Accuracy, bounds: Bounds, longest_step: float, numerics: Numerics) -> None:
+        self.ball = ball
+        self._inertia = ball.inertia
+        self._bounds = bounds
+        self._longest = min(longest_step, _LONGEST)
+        self._numerics = numerics
+        self._integrator = INTEGRATORS[accuracy.integrator]
+        self._step = accuracy.step  # s
+        self._local_error = accuracy.tolerance * _LOCAL_SHARE  # m
+        self._suggested = _FIRST_STEP if self._integrator.controls_error else accuracy.step  # s
+
+    # ------------------------------------------------------------------ forces
+
+    def force(self, t: float, state: State) -> tuple[float, float, float]:
+        """Applied force in N and torque in N m, without the contact's own."""
+        x, y, vx, vy, spin = state
+        self._numerics.force_evaluations += 1
+        position = (x, y)
+        velocity = (vx, vy)
+        fx = fy = torque = 0.0
+        for force in self.ball.forces:
+            px, py = force(t, position, velocity, spin)
+            fx += px
+            fy += py
+        for moment in self.ball.torques:
+            torque += moment(t, position, velocity, spin)
+        return fx, fy, torque
+
+    def _in_flight(self, t: float, state: State) -> Acceleration:
+        fx, fy, torque = self.force(t, state)
+        mass = self.ball.mass
+        return fx / mass, fy / mass, torque / self._inertia
+
+    def on_surface(self, t: float, state: State, contact: Contact) -> tuple[Acceleration, float, float]:
+        """Acceleration in lasting contact, the normal force in N, and the grip still to spare in N."""
+        fx, fy, torque = self.force(t, state)
+        mass, radius, surface = self.ball.mass, self.ball.radius, contact.obstacle.surface
+        nx, ny, curvature = contact.touching.normal_at(state[0], state[1])
+        tx, ty = ny, -nx
+        speed = state[2] * tx + state[3] * ty
+        centripetal = curvature * speed * speed
+        along = fx * tx + fy * ty
+        normal = -(fx * nx + fy * ny) - mass * centripetal
+        pressed = max(normal, 0.0)
+        if contact.mode == SLIDING:
+            friction = -contact.direction * surface.friction * pressed
+            a = (along + friction) / mass
+            alpha = (torque + radius * friction) / self._inertia
+            spare = 0.0
+        else:
+            resistance = contact.direction * surface.rolling_resistance * pressed / mass
+            a = (along - torque / radius) / (mass * (1.0 + self.ball.inertia_factor)) - resistance
+            alpha = -a / radius
+            spare = surface.friction * pressed - abs(mass * a - along)
+        return (a * tx - centripetal * nx, a * ty - centripetal * ny, alpha), normal, spare
+
+    # ------------------------------------------------------------------ one piece of path
+
+    def advance(self, t: float, until: float, state: State, contact: Contact | None) -> tuple[Arc, str]:
+        """The next arc from t, at most to ``until``, and why it ends: "" for no reason but its length.
+
+        Raises Diverged if the state is not finite or out of bounds, with the time, the ball and the quantity.
+        """
+        if contact is None:
+            return self._integrate(t, until, state, self._in_flight, None), ""
+        if contact.mode == RESTING:
+            return still(t, until, state, contact), ""
+        if contact.mode == PINNED:
+            return _spin_down(t, until, state, contact)
+        arc = self._integrate(t, until, state, lambda at, there: self.on_surface(at, there, contact)[0], contact)
+        return self._cut_where_contact_changes(arc, contact)
+
+    def _integrate(self, t: float, until: float, state: State, law: Law, contact: Contact | None) -> Arc:
+        acceleration = law(t, state)
+        step, controls_error = self._integrator.step, self._integrator.controls_error
+        wanted = self._suggested
+        h = min(wanted, self._longest, until - t)
+        shortest = max(1e-15, 1e-15 * t)
+        while True:
+            after, end_acceleration, error = step(law, t, state, acceleration, h)
+            self._numerics.steps += 1
+            if controls_error:
+                off = self._size(error)
+                if off <= self._local_error:
+                    longer = h * min(5.0, 0.9 * (self._local_error / off) ** 0.2 if off > 0.0 else 5.0)
+                    self._suggested = longer if h >= wanted else max(longer, wanted)
+                    break
+                shorter = h * max(0.2, 0.9 * (self._local_error / off) ** 0.2) if isfinite(off) else 0.1 * h
+            else:
+                end_acceleration = law(t + h, after)
+                if not _stiff(state, after, acceleration, end_acceleration, h):
+                    self._suggested = min(2.0 * h, self._step) if h >= wanted else wanted
+                    break
+                shorter = 0.5 * h
+            if shorter < shortest:
+                self._check(t + h, after)
+                raise Diverged(
+                    f"t = {t:.6g} s, ball {self.ball.name!r}: the velocity changes too fast for any step "
+                    f"(down to {h:.1e} s); look for a force that is not smooth, or raise accuracy.tolerance"
+                )
+            self._numerics.refined_steps += 1
+            h = wanted = shorter
+        self._check(t + h, after)
+        return through(t, h, state, acceleration, after, end_acceleration, contact)
+
+    def _size(self, error: State) -> float:
+        """Local error in m: that of the position, and what that of the velocity makes of it in a second."""
+        ex, ey, evx, evy, spin = error
+        off = abs(ex) + abs(ey) + abs(evx) + abs(evy) + _SPIN_WEIGHT * self.ball.radius * abs(spin)
+        return off if isfinite(off) else float("inf")
+
+    def _check(self, t: float, state: State) -> None:
+        x, y, vx, vy, spin = state
+        total = x + y + vx + vy + spin
+        left, bottom, right, top = self._bounds
+        if total - total == 0.0 and left <= x <= right and bottom <= y <= top:
+            return
+        for quantity, unit, value in zip(("x", "y", "vx", "vy", "spin"), _UNITS, state, strict=True):
+            if not isfinite(value):
+                raise Diverged(
+                    f"t = {t:.6g} s, ball {self.ball.name!r}: {quantity} is {value} {unit}; "
+                    "check the forces, or lower accuracy.step or accuracy.tolerance"
+                )
+        quantity, value, low, high = ("x", x, left, right) if not left <= x <= right else ("y", y, bottom, top)
+        raise Diverged(
+            f"t = {t:.6g} s, ball {self.ball.name!r}: {quantity} = {value:.6g} m is outside the world "
+            f"({low:g} to {high:g} m); shorten the duration, or widen the scene's bounds"
+        )
+
+    # ------------------------------------------------------------------ lasting contact
+
+    def _cut_where_contact_changes(self, arc: Arc, contact: Contact) -> tuple[Arc, str]:
+        ends: list[tuple[float, str]] = []
+        last = arc.state(arc.t1)
+        if self._progress(arc.t1, last, contact) < 0.0:
+            reason = "grip" if contact.mode == SLIDING else "stop"
+            ends.append((_crossing(arc, lambda t, state: self._progress(t, state, contact)), reason))
+        _, normal, spare = self.on_surface(arc.t1, last, contact)
+        if normal < 0.0:
+            ends.append((_crossing(arc, lambda t, state: self.on_surface(t, state, contact)[1]), "leave"))
+        elif spare < 0.0:
+            ends.append((_crossing(arc, lambda t, state: self.on_surface(t, state, contact)[2]), "slip"))
+        edge = contact.obstacle.edge(contact.touching.feature, arc)
+        if edge is not None:
+            ends.append((arc.t0 + edge * (arc.t1 - arc.t0), "edge"))
+        if not ends:
+            return arc, ""
+        t, reason = min(ends)
+        return arc.until(t), reason
+
+    def _progress(self, t: float, state: State, contact: Contact) -> float:
+        """Sliding: the slip; rolling: the speed; in m/s and positive while it goes on."""
+        nx, ny, _ = contact.touching.normal_at(state[0], state[1])
+        speed = state[2] * ny - state[3] * nx
+        if contact.mode == SLIDING:
+            speed += self.ball.radius * state[4]
+        return contact.direction * speed
+
+
+def _spin_down(t: float, until: float, state: State, contact: Contact) -> tuple[Arc, str]:
+    spin = state[4]
+    lasts = abs(spin) / contact.spin_rate if contact.spin_rate > 0.0 else until - t
+    end = min(until, t + lasts)
+    slower = spin - contact.direction * contact.spin_rate * (end - t)
+    return still(t, end, state, contact, slower), "stop" if end < until else ""
+
+
+def _crossing(arc: Arc, value: Callable[[float, State], float]) -> float:
+    """The time at which ``value``, negative at the end of the arc, reaches zero; the start if it is negative throughout."""
+    low, high = arc.t0, arc.t1
+    at_low, at_high = value(low, arc.start), value(high, arc.state(high))
+    if at_low <= 0.0:
+        return low
+    for _ in range(60):  # regula falsi with the Illinois weights
+        t = low + (high - low) * at_low / (at_low - at_high)
+        if not low < t < high:
+            break
+        here = value(t, arc.state(t))
+        if here == 0.0:
+            return t
+        if here > 0.0:
+            low, at_low = t, here
+            at_high *= 0.5
+        else:
+            high, at_high = t, here
+            at_low *= 0.5
+        if high - low <= 1e-15 * (1.0 + high):
+            break
+    return high
+
+
+def _stiff(before: State, after: State, acceleration: Acceleration, following: Acceleration, h: float) -> bool:
+    """Whether a fixed step is too long for forces that depend on velocity, judged by how they changed over the step."""
+    change = h * (abs(following[0] - acceleration[0]) + abs(following[1] - acceleration[1]))
+    gain = abs(after[2] - before[2]) + abs(after[3] - before[3])
+    speed = max(abs(before[2]) + abs(before[3]), abs(after[2]) + abs(after[3]))
+    return not (change <= _STIFFEST * gain or change <= _JUMP * speed)

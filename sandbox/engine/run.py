@@ -1,0 +1,122 @@
+"""What happened: the path of each ball, the events on the way, and what the run cost."""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+from sandbox.engine.arc import Arc
+from sandbox.engine.bernstein import downward_crossings
+from sandbox.physics.integrators import State
+
+if TYPE_CHECKING:
+    import numpy as np
+
+    from sandbox.engine.accuracy import Accuracy
+    from sandbox.engine.setup import Setup, Vector
+
+
+@dataclass(frozen=True, slots=True)
+class Event:
+    """Something that happened to a ball at one instant.
+
+    ``kind`` is ``"impact"`` (``speed`` is the normal approach speed in m/s), ``"contact"`` (from here on it slides or
+    rolls on the surface), ``"leave"`` (it lost the surface), ``"rest"``, or a kind of the scene's own.
+    """
+
+    t: float  # s
+    kind: str
+    ball: str
+    partner: str  # name of the surface or of the other ball; "" where there is none
+    speed: float  # m/s
+    x: float  # m, the ball's centre
+    y: float  # m
+
+
+@dataclass(slots=True)
+class Numerics:
+    """What the run cost."""
+
+    force_evaluations: int = 0
+    steps: int = 0  # pieces of path
+    refined_steps: int = 0  # steps repeated with a shorter length
+    impacts: int = 0
+    pymunk_steps: int = 0
+    queries: int = 0  # pairs of ball path and shape examined for touching
+    wall_s: float = 0.0
+
+
+@dataclass
+class Run:
+    """One simulated run, from ``t = 0`` to ``duration``."""
+
+    setup: Setup
+    accuracy: Accuracy
+    arcs: dict[str, list[Arc]]  # by ball, in order of time, without gaps
+    events: list[Event]
+    numerics: Numerics
+    duration: float  # s
+    ended: str  # "rest", "until" or "duration"
+    result: dict[str, Any] = field(default_factory=dict)
+
+    def state(self, ball: str, t: float) -> State:
+        """(x, y, vx, vy, spin) of a ball at time t, held at its last state beyond the end; m, m/s, rad/s.
+
+        At an impact it is the state just after.
+        """
+        arcs = self.arcs[ball]
+        if not arcs:
+            start = next(b for b in self.setup.balls if b.name == ball)
+            return (*start.position, *start.velocity, start.spin)
+        index = bisect_right(arcs, t, key=lambda arc: arc.t0) - 1
+        return arcs[max(index, 0)].state(t)
+
+    def angle(self, ball: str, t: float) -> float:
+        """How far a ball has turned since the start, in rad, counter-clockwise."""
+        turned = 0.0
+        for arc in self.arcs[ball]:
+            if arc.t0 >= t:
+                break
+            part = arc.until(t)
+            turned += (part.t1 - part.t0) * sum(part.spin) / len(part.spin)
+        return turned
+
+    def trajectory(self, ball: str = "ball", every: float = 1 / 120) -> np.ndarray:
+        """Samples of a ball's path, shape (samples, 6): t, x, y, vx, vy, spin in s, m, m/s, rad/s.
+
+        Every ``every`` seconds, and at the ends of all arcs, so that impacts are met exactly; the first row is the start.
+        """
+        import numpy as np
+
+        times = {0.0, self.duration, *(arc.t0 for arc in self.arcs[ball])}
+        times.update(float(t) for t in np.arange(0.0, self.duration, every))
+        return np.array([(t, *self.state(ball, t)) for t in sorted(times)])
+
+    def crossings(self, ball: str, point: Vector, normal: Vector) -> Iterator[tuple[float, State]]:
+        """Each time and state at which a ball's centre passes the line through ``point`` (m) against ``normal``.
+
+        Exact in the sense of the path itself: roots of its polynomials, however long the steps.
+        """
+        px, py = point
+        nx, ny = normal
+        for arc in self.arcs[ball]:
+            ahead = [(x - px) * nx + (y - py) * ny for x, y in zip(arc.x, arc.y, strict=True)]
+            for u in downward_crossings(ahead):
+                t = arc.t0 + u * (arc.t1 - arc.t0)
+                yield t, arc.state(t)
+
+    def highest(self, ball: str) -> tuple[float, State]:
+        """Time and state at which a ball's centre is highest."""
+        first = self.state(ball, 0.0)
+        best = (0.0, first)
+        for arc in self.arcs[ball]:
+            if max(arc.y) <= best[1][1]:
+                continue
+            tops = [arc.t0 + u * (arc.t1 - arc.t0) for u in downward_crossings(arc.vy)]
+            for t in (*tops, arc.t1):
+                state = arc.state(t)
+                if state[1] > best[1][1]:
+                    best = (t, state)
+        return best

@@ -1,0 +1,122 @@
+"""What a scene hands to the engine: balls, surfaces, and when the run is over."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from math import hypot, inf
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
+
+if TYPE_CHECKING:
+    from sandbox.engine.run import Event
+
+Vector = tuple[float, float]
+
+#: Moment of inertia over m r^2.
+SOLID_SPHERE = 2 / 5
+HOLLOW_SPHERE = 2 / 3
+DISC = 1 / 2
+
+
+class Force(Protocol):
+    """Force on a ball in N, as (fx, fy). Components of position (m), velocity (m/s) and the spin (rad/s, counter-clockwise)
+    are floats, or arrays of shape (n,) when many shots fly at once."""
+
+    def __call__(self, t: float, position: Any, velocity: Any, spin: Any) -> tuple[Any, Any]: ...
+
+
+class Torque(Protocol):
+    """Torque on a ball in N m, counter-clockwise; arguments as for Force."""
+
+    def __call__(self, t: float, position: Any, velocity: Any, spin: Any) -> Any: ...
+
+
+@dataclass(frozen=True)
+class Ball:
+    """A ball, its state at the start, and the forces on it. Lengths in m, kg, s, rad; spin counter-clockwise."""
+
+    name: str
+    mass: float  # kg
+    radius: float  # m
+    position: Vector  # m
+    velocity: Vector = (0.0, 0.0)  # m/s
+    spin: float = 0.0  # rad/s
+    inertia_factor: float = SOLID_SPHERE  # moment of inertia over m r^2
+    forces: Sequence[Force] = ()
+    torques: Sequence[Torque] = ()
+
+    @property
+    def inertia(self) -> float:
+        """Moment of inertia in kg m^2."""
+        return self.inertia_factor * self.mass * self.radius * self.radius
+
+
+@dataclass(frozen=True)
+class Segment:
+    """A straight piece from a to b, rounded by ``radius`` (half its thickness); touched from either side."""
+
+    a: Vector  # m
+    b: Vector  # m
+    radius: float = 0.0  # m
+
+    @property
+    def length(self) -> float:
+        return hypot(self.b[0] - self.a[0], self.b[1] - self.a[1])
+
+
+@dataclass(frozen=True)
+class Circle:
+    """A fixed disc."""
+
+    center: Vector  # m
+    radius: float  # m
+
+
+class Bounce(NamedTuple):
+    """How a surface answers one impact."""
+
+    restitution: float
+    friction: float
+    tilt: float = 0.0  # rad; the surface gives way and its normal leans against the ball's motion along it
+
+
+@dataclass(frozen=True)
+class Surface:
+    """A fixed shape and how it answers: restitution and friction are those of the pair ball and surface.
+
+    ``rolling_resistance`` c is the deceleration of a rolling ball over the normal force per mass: a = c N / m.
+    ``law`` replaces restitution and friction at an impact by a function of the normal and the tangential speed (m/s).
+    """
+
+    name: str
+    shape: Segment | Circle
+    restitution: float
+    friction: float
+    rolling_resistance: float = 0.0
+    law: Callable[[float, float], Bounce] | None = None
+
+
+#: Elastic and frictionless: what two balls do where a scene says nothing.
+ELASTIC = Bounce(1.0, 0.0)
+
+
+class Bounds(NamedTuple):
+    """The world's edges in m: a ball beyond them has left the scene, which is an error."""
+
+    left: float = -1e5
+    bottom: float = -1e5
+    right: float = 1e5
+    top: float = 1e5
+
+
+@dataclass(frozen=True)
+class Setup:
+    """One run's beginning. It is over when all balls rest, when ``until(event)`` is true, or after ``duration`` s."""
+
+    balls: Sequence[Ball]
+    surfaces: Sequence[Surface] = ()
+    duration: float = 60.0  # s
+    until: Callable[[Event], bool] | None = None
+    between_balls: Callable[[float, float], Bounce] = lambda normal_speed, tangential_speed: ELASTIC
+    bounds: Bounds = Bounds()
+    longest_step: float = inf  # s; shorter where forces change quickly in time or space

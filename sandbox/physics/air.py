@@ -1,0 +1,51 @@
+"""Air: density, viscosity, and wind as a velocity field."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from sandbox.physics.elementwise import clip, log
+
+
+def viscosity(temperature: float) -> float:
+    """Dynamic viscosity of air in Pa s at a temperature in K: ``1.458e-6 T^1.5 / (T + 110.4)``.
+
+    Valid from 100 to 1,900 K. Source: Sutherland's law with the constants of the U.S. Standard Atmosphere 1976, equation 51.
+    """
+    return 1.458e-6 * temperature**1.5 / (temperature + 110.4)
+
+
+#: Dynamic viscosity in Pa s of air at 15 C.
+VISCOSITY = viscosity(288.15)
+
+
+class UniformWind:
+    """The same wind everywhere, at all times, in m/s."""
+
+    def __init__(self, x: float, y: float) -> None:
+        self._velocity = (x, y)
+
+    def __call__(self, t: float, position: Any) -> tuple[Any, Any]:
+        return self._velocity
+
+
+class LogWind:
+    """Wind that grows with height over rough ground: ``w(y) = w_ref ln(1 + y/y0) / ln(1 + y_ref/y0)``.
+
+    ``reference`` is the velocity (m/s) at the height ``reference_height``; ``roughness`` y0 is about 0.03 m over mown grass. Valid in the
+    lowest 100 m in neutral air; above ``ceiling`` it stays constant, at the ground (height y = 0) and below it is zero.
+    Source: Wieringa 1992, J. Wind Eng. Ind. Aerodyn. 41:357; the 1 added inside the logarithm keeps it finite at the ground.
+    """
+
+    def __init__(
+        self, reference: tuple[float, float], reference_height: float, roughness: float, ceiling: float = 100.0
+    ) -> None:
+        scale = float(log(1.0 + reference_height / roughness))
+        self._x = reference[0] / scale
+        self._y = reference[1] / scale
+        self._roughness = roughness
+        self._ceiling = ceiling
+
+    def __call__(self, t: float, position: Any) -> tuple[Any, Any]:
+        profile = log(1.0 + clip(position[1], 0.0, self._ceiling) / self._roughness)
+        return self._x * profile, self._y * profile

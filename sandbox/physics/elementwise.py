@@ -1,0 +1,51 @@
+"""Functions of a float, or of an array of them: one ball stays on fast Python floats, many shots go through numpy."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+
+def exp(x: Any) -> Any:
+    """e to the x."""
+    if isinstance(x, float):
+        return math.exp(x)
+    import numpy as np
+
+    return np.exp(x)
+
+
+def sin(x: Any) -> Any:
+    """Sine of x in rad."""
+    if isinstance(x, float):
+        return math.sin(x)
+    import numpy as np
+
+    return np.sin(x)
+
+
+def log(x: Any) -> Any:
+    """Natural logarithm."""
+    if isinstance(x, float):
+        return math.log(x)
+    import numpy as np
+
+    return np.log(x)
+
+
+def clip(x: Any, low: float, high: float) -> Any:
+    """x, no less than ``low`` and no more than ``high``."""
+    if isinstance(x, float):
+        return low if x < low else high if x > high else x
+    import numpy as np
+
+    return np.clip(x, low, high)
+
+
+def choose(condition: Any, yes: Any, no: Any) -> Any:
+    """``yes`` where the condition holds, ``no`` elsewhere."""
+    if isinstance(condition, bool):
+        return yes if condition else no
+    import numpy as np
+
+    return np.where(condition, yes, no)

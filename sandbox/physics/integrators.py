@@ -1,0 +1,206 @@
+"""Integrators: one entry per method, with its order and its cost.
+
+The state of a ball is ``(x, y, vx, vy, spin)`` in m, m/s, rad/s; an acceleration is ``(ax, ay, alpha)`` in m/s^2 and rad/s^2.
+Components are floats, or arrays of shape (n,) when many shots fly at once; ``dt`` may be an array then too. The acceleration
+at the start of a step is passed in, since the path between two steps needs it anyway.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+State = tuple[Any, Any, Any, Any, Any]
+Acceleration = tuple[Any, Any, Any]
+Law = Callable[[Any, State], Acceleration]
+
+
+class Step(NamedTuple):
+    """The state after one step, and what the method gives away for free."""
+
+    state: State
+    acceleration: Acceleration | None = None  # at the new state, where the method evaluates it
+    error: State | None = None  # estimated local error, for an embedded pair
+
+
+class Integrator(NamedTuple):
+    """A method as data: ``step(law, t, state, acceleration, dt) -> Step``."""
+
+    step: Callable[[Law, Any, State, Acceleration, Any], Step]
+    order: int  # global error is O(dt**order) for smooth forces
+    evaluations: int  # of the acceleration per step, the one passed in included: the unit of work
+    source: str
+    controls_error: bool = False  # chooses its own step by its error estimate
+
+
+def _explicit_euler(law: Law, t: Any, state: State, acceleration: Acceleration, dt: Any) -> Step:
+    x, y, vx, vy, spin = state
+    ax, ay, alpha = acceleration
+    return Step((x + dt * vx, y + dt * vy, vx + dt * ax, vy + dt * ay, spin + dt * alpha))
+
+
+def _semi_implicit_euler(law: Law, t: Any, state: State, acceleration: Acceleration, dt: Any) -> Step:
+    x, y, vx, vy, spin = state
+    ax, ay, alpha = acceleration
+    vx = vx + dt * ax
+    vy = vy + dt * ay
+    return Step((x + dt * vx, y + dt * vy, vx, vy, spin + dt * alpha))
+
+
+def _heun(law: Law, t: Any, state: State, acceleration: Acceleration, dt: Any) -> Step:
+    x, y, vx, vy, spin = state
+    ax, ay, alpha = acceleration
+    ux = vx + dt * ax
+    uy = vy + dt * ay
+    bx, by, beta = law(t + dt, (x + dt * vx, y + dt * vy, ux, uy, spin + dt * alpha))
+    half = 0.5 * dt
+    return Step(
+        (
+            x + half * (vx + ux),
+            y + half * (vy + uy),
+            vx + half * (ax + bx),
+            vy + half * (ay + by),
+            spin + half * (alpha + beta),
+        )
+    )
+
+
+def _velocity_verlet(law: Law, t: Any, state: State, acceleration: Acceleration, dt: Any) -> Step:
+    """Positions by the parabola; velocities by the mean of both ends, the far one at a predicted velocity."""
+    x, y, vx, vy, spin = state
+    ax, ay, alpha = acceleration
+    half = 0.5 * dt
+    x = x + dt * (vx + half * ax)
+    y = y + dt * (vy + half * ay)
+    bx, by, beta = law(t + dt, (x, y, vx + dt * ax, vy + dt * ay, spin + dt * alpha))
+    return Step((x, y, vx + half * (ax + bx), vy + half * (ay + by), spin + half * (alpha + beta)))
+
+
+def _rk4(law: Law, t: Any, state: State, acceleration: Acceleration, dt: Any) -> Step:
+    x, y, vx, vy, spin = state
+    ax1, ay1, al1 = acceleration
+    half = 0.5 * dt
+    vx2 = vx + half * ax1
+    vy2 = vy + half * ay1
+    ax2, ay2, al2 = law(t + half, (x + half * vx, y + half * vy, vx2, vy2, spin + half * al1))
+    vx3 = vx + half * ax2
+    vy3 = vy + half * ay2
+    ax3, ay3, al3 = law(t + half, (x + half * vx2, y + half * vy2, vx3, vy3, spin + half * al2))
+    vx4 = vx + dt * ax3
+    vy4 = vy + dt * ay3
+    ax4, ay4, al4 = law(t + dt, (x + dt * vx3, y + dt * vy3, vx4, vy4, spin + dt * al3))
+    sixth = dt / 6.0
+    return Step(
+        (
+            x + sixth * (vx + 2.0 * (vx2 + vx3) + vx4),
+            y + sixth * (vy + 2.0 * (vy2 + vy3) + vy4),
+            vx + sixth * (ax1 + 2.0 * (ax2 + ax3) + ax4),
+            vy + sixth * (ay1 + 2.0 * (ay2 + ay3) + ay4),
+            spin + sixth * (al1 + 2.0 * (al2 + al3) + al4),
+        )
+    )
+
+
+def _dormand_prince(law: Law, t: Any, state: State, acceleration: Acceleration, dt: Any) -> Step:
+    """Seven stages, the last of which is the first of the next step; error by the embedded fourth order."""
+    x, y, vx, vy, w = state
+    ax1, ay1, al1 = acceleration
+
+    h = dt * (1 / 5)
+    vx2 = vx + h * ax1
+    vy2 = vy + h * ay1
+    ax2, ay2, al2 = law(t + h, (x + h * vx, y + h * vy, vx2, vy2, w + h * al1))
+
+    p, q = dt * (3 / 40), dt * (9 / 40)
+    vx3 = vx + p * ax1 + q * ax2
+    vy3 = vy + p * ay1 + q * ay2
+    ax3, ay3, al3 = law(
+        t + dt * (3 / 10), (x + p * vx + q * vx2, y + p * vy + q * vy2, vx3, vy3, w + p * al1 + q * al2)
+    )
+
+    p, q, r = dt * (44 / 45), dt * (-56 / 15), dt * (32 / 9)
+    vx4 = vx + p * ax1 + q * ax2 + r * ax3
+    vy4 = vy + p * ay1 + q * ay2 + r * ay3
+    ax4, ay4, al4 = law(
+        t + dt * (4 / 5),
+        (
+            x + p * vx + q * vx2 + r * vx3,
+            y + p * vy + q * vy2 + r * vy3,
+            vx4,
+            vy4,
+            w + p * al1 + q * al2 + r * al3,
+        ),
+    )
+
+    p, q, r, s = dt * (19372 / 6561), dt * (-25360 / 2187), dt * (64448 / 6561), dt * (-212 / 729)
+    vx5 = vx + p * ax1 + q * ax2 + r * ax3 + s * ax4
+    vy5 = vy + p * ay1 + q * ay2 + r * ay3 + s * ay4
+    ax5, ay5, al5 = law(
+        t + dt * (8 / 9),
+        (
+            x + p * vx + q * vx2 + r * vx3 + s * vx4,
+            y + p * vy + q * vy2 + r * vy3 + s * vy4,
+            vx5,
+            vy5,
+            w + p * al1 + q * al2 + r * al3 + s * al4,
+        ),
+    )
+
+    p, q, r, s, z = (
+        dt * (9017 / 3168),
+        dt * (-355 / 33),
+        dt * (46732 / 5247),
+        dt * (49 / 176),
+        dt * (-5103 / 18656),
+    )
+    vx6 = vx + p * ax1 + q * ax2 + r * ax3 + s * ax4 + z * ax5
+    vy6 = vy + p * ay1 + q * ay2 + r * ay3 + s * ay4 + z * ay5
+    ax6, ay6, al6 = law(
+        t + dt,
+        (
+            x + p * vx + q * vx2 + r * vx3 + s * vx4 + z * vx5,
+            y + p * vy + q * vy2 + r * vy3 + s * vy4 + z * vy5,
+            vx6,
+            vy6,
+            w + p * al1 + q * al2 + r * al3 + s * al4 + z * al5,
+        ),
+    )
+
+    p, r, s, z, o = dt * (35 / 384), dt * (500 / 1113), dt * (125 / 192), dt * (-2187 / 6784), dt * (11 / 84)
+    vx7 = vx + p * ax1 + r * ax3 + s * ax4 + z * ax5 + o * ax6
+    vy7 = vy + p * ay1 + r * ay3 + s * ay4 + z * ay5 + o * ay6
+    after = (
+        x + p * vx + r * vx3 + s * vx4 + z * vx5 + o * vx6,
+        y + p * vy + r * vy3 + s * vy4 + z * vy5 + o * vy6,
+        vx7,
+        vy7,
+        w + p * al1 + r * al3 + s * al4 + z * al5 + o * al6,
+    )
+    last = law(t + dt, after)
+
+    p, r, s, z, o, f = (
+        dt * (71 / 57600),
+        dt * (-71 / 16695),
+        dt * (71 / 1920),
+        dt * (-17253 / 339200),
+        dt * (22 / 525),
+        dt * (-1 / 40),
+    )
+    error = (
+        p * vx + r * vx3 + s * vx4 + z * vx5 + o * vx6 + f * vx7,
+        p * vy + r * vy3 + s * vy4 + z * vy5 + o * vy6 + f * vy7,
+        p * ax1 + r * ax3 + s * ax4 + z * ax5 + o * ax6 + f * last[0],
+        p * ay1 + r * ay3 + s * ay4 + z * ay5 + o * ay6 + f * last[1],
+        p * al1 + r * al3 + s * al4 + z * al5 + o * al6 + f * last[2],
+    )
+    return Step(after, last, error)
+
+
+INTEGRATORS = {
+    "explicit-euler": Integrator(_explicit_euler, 1, 1, "Euler 1768"),
+    "semi-implicit-euler": Integrator(_semi_implicit_euler, 1, 1, "Hairer, Lubich & Wanner, Geometric Numerical Integration, I.1.2"),
+    "heun": Integrator(_heun, 2, 2, "Heun 1900; Hairer, Norsett & Wanner, Solving ODEs I, II.1"),
+    "velocity-verlet": Integrator(_velocity_verlet, 2, 2, "Swope et al. 1982, J. Chem. Phys. 76:637"),
+    "rk4": Integrator(_rk4, 4, 4, "Kutta 1901; Hairer, Norsett & Wanner, Solving ODEs I, II.1"),
+    "dormand-prince": Integrator(_dormand_prince, 5, 6, "Dormand & Prince 1980, J. Comput. Appl. Math. 6:19, RK5(4)7M", True),
+}
