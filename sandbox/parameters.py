@@ -23,13 +23,15 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from numbers import Real
 from pathlib import Path
-from typing import Any, Literal, NamedTuple, TypeVar, get_args, get_origin
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeVar, get_args, get_origin
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError
 from pydantic.fields import FieldInfo
 
 from sandbox import units
 from sandbox.errors import RequestError
+from sandbox.files import reason
+from sandbox.physics.integrators import INTEGRATORS
 
 # ---------------------------------------------------------------------------------------------------------------------
 # Declaring
@@ -54,7 +56,7 @@ class Quantity:
             return self._number(value)
         if isinstance(value, str | Mapping) or not hasattr(value, "__iter__") or len(value) != self.length:
             example = json.dumps([0.0] * self.length)
-            raise ValueError(f"must be a list of {self.length} numbers{self._in_unit()}, such as {example}")
+            raise ValueError(f"must be a list of {self.length} numbers, each {self.range}, such as {example}")
         return tuple(self._number(item) for item in value)
 
     def _number(self, value: Any) -> float:
@@ -66,9 +68,9 @@ class Quantity:
             except OverflowError:
                 number = math.inf
         else:
-            raise ValueError(f"must be a number{self._in_unit()}, {self.range}")
+            raise ValueError(f"must be a number {self.range}")
         if not math.isfinite(number):
-            raise ValueError(f"must be a finite number{self._in_unit()}, {self.range}")
+            raise ValueError(f"must be a finite number {self.range}")
         if not self.low <= number <= self.high:
             found = f", and this is {number:.10g} {self.unit}".rstrip() if isinstance(value, str) else ""
             raise ValueError(f"must be {self.range}{found}")
@@ -78,9 +80,6 @@ class Quantity:
     def range(self) -> str:
         """The bounds for people: ``"from 0 to 340 m/s"``."""
         return f"from {self.low:.10g} to {self.high:.10g} {self.unit}".rstrip()
-
-    def _in_unit(self) -> str:
-        return f" in {self.unit}" if self.unit else ""
 
     def __call__(self, schema: dict[str, Any]) -> None:
         """Write the JSON schema of this number; pydantic hands in what it knows."""
@@ -110,11 +109,13 @@ def vector(default: tuple[float | str, ...], unit: str, low: float, high: float,
 def _declared(default: Any, meaning: str, kind: Quantity) -> Any:
     if kind.unit not in units.KIND_OF:
         raise KeyError(f"unit {kind.unit!r} is not in sandbox.units")
-    return _read_by(kind.read, Field(default, description=meaning, json_schema_extra=kind))
+    return _field(default, meaning, kind.read, json_schema_extra=kind)
 
 
-def _read_by(reader: Callable[[Any], Any], field: FieldInfo) -> FieldInfo:
-    """Let ``reader`` turn what stands in the file into the field's value, before pydantic looks at it."""
+def _field(default: Any, meaning: str, reader: Callable[[Any], Any], **more: Any) -> FieldInfo:
+    """A field whose ``reader`` turns what stands in the file into a value, before pydantic looks at it."""
+    field = Field(default, description=meaning, **more)
+    assert isinstance(field, FieldInfo)  # its declared type is that of the default, for the sake of annotations
     field.metadata.append(BeforeValidator(reader))
     return field
 
@@ -131,7 +132,7 @@ def switch(default: bool, meaning: str) -> Any:
 
 def group(default: Group, meaning: str) -> Any:
     """A group of parameters with a heading of its own; a file that leaves keys out takes those of ``default``."""
-    return _read_by(lambda value: _completed(value, default, None), Field(default, description=meaning))
+    return _field(default, meaning, lambda value: _completed(value, default, None))
 
 
 def either(default: Group, meaning: str, by: str = "model") -> Any:
@@ -139,8 +140,7 @@ def either(default: Group, meaning: str, by: str = "model") -> Any:
 
     Each of the groups declares its word as ``model: Literal["constant"] = choice("constant", "...")``.
     """
-    field = Field(default, description=meaning, discriminator=by)
-    return _read_by(lambda value: _completed(value, default, by), field)
+    return _field(default, meaning, lambda value: _completed(value, default, by), discriminator=by)
 
 
 class Group(BaseModel):
@@ -164,6 +164,12 @@ def _completed(table: Any, default: Group, tag: str | None) -> Any:
     return completed
 
 
+if TYPE_CHECKING:
+    IntegratorName = str
+else:
+    IntegratorName = Literal[tuple(INTEGRATORS)]
+
+
 class Accuracy(Group):
     """How much computing time to spend; common to all scenes. A key left out follows from the level."""
 
@@ -172,7 +178,7 @@ class Accuracy(Group):
     method: Literal["exact", "plain"] | None = choice(
         None, "exact: stop at the moment of touching; plain: pymunk alone, at a fixed step"
     )
-    integrator: str | None = choice(None, "name of the integrator of the motion")
+    integrator: IntegratorName | None = choice(None, "the integrator of the motion")
     step: float | None = quantity(None, "s", 1e-6, 0.1, "fixed step, instead of one that follows the tolerance")
 
 
@@ -220,14 +226,25 @@ def _groups(annotation: Any) -> tuple[type[Group], ...]:
     return tuple(found for part in get_args(annotation) for found in _groups(part))
 
 
-def known_keys(schema: type[Group], prefix: str = "") -> list[str]:
-    """Every dotted key that a scene file may hold, headings included."""
+def known_keys(schema: type[Group], values: Any = None, prefix: str = "") -> list[str]:
+    """Every dotted key that a scene file may hold beside ``values``, which choose between groups; headings included."""
     keys: dict[str, None] = {}
     for name, field in schema.model_fields.items():
         keys[prefix + name] = None
+        table = values.get(name) if isinstance(values, Mapping) else None
         for inner in _groups(field.annotation):
-            keys |= dict.fromkeys(known_keys(inner, f"{prefix}{name}."))
+            if _chosen(field, inner, table):
+                keys |= dict.fromkeys(known_keys(inner, table, f"{prefix}{name}."))
     return list(keys)
+
+
+def _chosen(field: FieldInfo, inner: type[Group], table: Any) -> bool:
+    """Whether the ``table`` of a file is for the group ``inner``, one of those that the field may hold."""
+    tag = field.discriminator
+    if not isinstance(tag, str):
+        return True
+    word = table.get(tag) if isinstance(table, Mapping) else None
+    return (word or getattr(field.default, tag)) in get_args(inner.model_fields[tag].annotation)
 
 
 def json_schema(schema: type[Group], scene: str) -> dict[str, Any]:
@@ -262,17 +279,13 @@ def read_toml(path: Path) -> dict[str, Any]:
     except UnicodeDecodeError as error:
         raise RequestError(f"{path}: not a text file in UTF-8 (byte {error.start})") from None
     except OSError as error:
-        raise RequestError(f"{path}: cannot be read: {_reason(error)}") from None
+        raise RequestError(f"{path}: cannot be read: {reason(error)}") from None
     try:
         return tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
         raise RequestError(f"{path}: broken TOML: {error}") from None
     except (ValueError, RecursionError) as error:
         raise RequestError(f"{path}: cannot be read as TOML: {error}") from None
-
-
-def _reason(error: OSError) -> str:
-    return (error.strerror or str(error)).lower()
 
 
 def parse_assignment(text: str) -> tuple[str, Any]:
@@ -341,10 +354,9 @@ def _without_leftovers(schema: type[Group], tables: dict[str, Any], changes: Map
         if not isinstance(table, dict) or not isinstance(change, Mapping):
             continue
         for inner in _groups(field.annotation):
-            tag = field.discriminator
-            if tag is None:
+            if field.discriminator is None:
                 kept[name] = _without_leftovers(inner, table, change)
-            elif isinstance(tag, str) and change.get(tag) in get_args(inner.model_fields[tag].annotation):
+            elif field.discriminator in change and _chosen(field, inner, change):
                 kept[name] = {k: v for k, v in table.items() if k in inner.model_fields or k in change}
     return kept
 
@@ -376,7 +388,7 @@ def _explained(
     key, plain = _path(error["loc"], values, missing=error["type"] == "missing")
     prefix = f"{changed_by} " if _holds(changes, plain) else f"{source}: " if source else ""
     if error["type"] == "extra_forbidden":
-        return f"{prefix}{key}: unknown key{_suggestion('.'.join(plain), schema)}"
+        return f"{prefix}{key}: unknown key{_suggestion('.'.join(plain), schema, values)}"
     if error["type"] == "missing":
         return f"{prefix}{key}: missing"
     return f"{prefix}{key} = {_shown(error['input'])}: {_problem(error)}" if key else f"{prefix}{_problem(error)}"
@@ -410,14 +422,31 @@ def _holds(tables: Any, path: tuple[str, ...]) -> bool:
     return bool(path)
 
 
-def _suggestion(key: str, schema: type[Group]) -> str:
-    known = known_keys(schema)
+def _suggestion(key: str, schema: type[Group], values: Mapping[str, Any]) -> str:
+    """What may have been meant by an unknown key, as the end of a sentence."""
+    inside = key.rpartition(".")[0]
+    for word in _words_for(key, schema):
+        return f" here; it goes with {inside}.{word}"
+    known = known_keys(schema, values)
     near = nearest(key, known)
     if near is not None:
         return f"; did you mean {near}?"
-    inside = key.rpartition(".")[0]
     siblings = [k.rpartition(".")[2] for k in known if k.rpartition(".")[0] == inside]
     return f"; {inside or 'the file'} knows {', '.join(siblings)}" if siblings else ""
+
+
+def _words_for(key: str, schema: type[Group]) -> Iterator[str]:
+    """The choices, such as ``model = "constant"``, with which a group would know ``key``."""
+    *path, last = key.split(".")
+    fields = [FieldInfo(annotation=schema)]
+    for part in path:
+        inner = [g for field in fields for g in _groups(field.annotation) if part in g.model_fields]
+        fields = [g.model_fields[part] for g in inner]
+    for field in fields:
+        tag = field.discriminator
+        for g in _groups(field.annotation):
+            if isinstance(tag, str) and last in g.model_fields:
+                yield f"{tag} = {json.dumps(get_args(g.model_fields[tag].annotation)[0])}"
 
 
 def _problem(error: Any) -> str:
@@ -428,7 +457,7 @@ def _problem(error: Any) -> str:
             return str(context["error"])
         case "literal_error" | "union_tag_invalid":
             expected = str(context.get("expected") or context.get("expected_tags")).replace("'", '"')
-            return f"must be {expected.replace(', ', ' or ')}"
+            return f"must be {' or '.join(expected.replace(' or ', ', ').rsplit(', ', 1))}"
         case "bool_type":
             return "must be true or false"
         case "string_type":

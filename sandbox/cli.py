@@ -1,0 +1,249 @@
+"""The ``sandbox`` program: one thin function per command. Everything heavy is imported by the command that needs it."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from io import TextIOWrapper
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, Literal
+
+import typer
+
+import sandbox
+from sandbox.errors import RequestError, RunError, SandboxError
+
+if TYPE_CHECKING:
+    from sandbox.scene import Scene
+
+app = typer.Typer(
+    name="sandbox",
+    add_completion=False,
+    no_args_is_help=True,
+    rich_markup_mode=None,
+    pretty_exceptions_enable=False,
+    context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110},
+)
+
+SceneArgument = Annotated[
+    str,
+    typer.Argument(
+        metavar="SCENE", help="A scene (golf), a preset (golf/driver) or a scene file of your own.", show_default=False
+    ),
+]
+Settings = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--set", metavar="KEY=VALUE", help='Change a parameter; repeatable. A value may have a unit: "171 mph".'
+    ),
+]
+Level = Annotated[
+    Literal["fast", "balanced", "precise"] | None,
+    typer.Option(
+        "--accuracy", help="Speed against accuracy, in place of the scene file's accuracy.level.", show_default=False
+    ),
+]
+
+
+def _show_version(wanted: bool) -> None:
+    if wanted:
+        _say(f"sandbox {sandbox.__version__}")
+        raise typer.Exit
+
+
+@app.callback()
+def _program(
+    version: Annotated[
+        bool, typer.Option("--version", callback=_show_version, is_eager=True, help="Show the version and leave.")
+    ] = False,
+) -> None:
+    """A 2D sports sandbox: pick a sport, let go, and see real physics.
+
+    \b
+    Begin with:
+      sandbox list                                  # what there is
+      sandbox run golf                              # one shot, and its numbers
+      sandbox run golf --set launch.speed="150 mph" --poster golf.png
+    """
+
+
+@app.command("list")
+def list_scenes() -> None:
+    """Show the scenes and their presets, a line each."""
+    from sandbox.scene import listings
+
+    found = list(listings())
+    width = max((len(listing.name) for listing in found), default=0)
+    for listing in found:
+        _say(f"{listing.name:{width}}  {listing.about}".rstrip())
+
+
+@app.command()
+def schema(scene: SceneArgument) -> None:
+    """Print the JSON schema of a scene's file: every key with its unit, bounds and meaning.
+
+    \b
+    Example:
+      sandbox schema golf > golf.schema.json     # an editor then completes and checks golf.toml
+    """
+    import json
+
+    from sandbox.parameters import json_schema
+    from sandbox.scene import parameters_of
+
+    name, parameters = parameters_of(scene)
+    _say(json.dumps(json_schema(parameters, name), indent=2))
+
+
+@app.command()
+def run(
+    scene: SceneArgument,
+    set_: Settings = None,
+    accuracy: Level = None,
+    as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object in place of the result card.")] = False,
+    check: Annotated[
+        bool, typer.Option("--check", help="Run again, finer, and estimate the error of each number.")
+    ] = False,
+    trajectory: Annotated[
+        Path | None, typer.Option(metavar="F.csv", help="Write the path of every ball: t,ball,x,y,vx,vy,spin.")
+    ] = None,
+    poster: Annotated[Path | None, typer.Option(metavar="F.png", help="Write the whole run as one picture.")] = None,
+    frames: Annotated[
+        Path | None, typer.Option(metavar="DIR", help="Write the run as PNG frames; the folder is made if missing.")
+    ] = None,
+    gif: Annotated[Path | None, typer.Option(metavar="F.gif", help="Write the run as an animation.")] = None,
+    fps: Annotated[
+        int | None,
+        typer.Option(min=1, max=240, help="Frames per second of the run.  [default: 60 for --frames, 25 for --gif]"),
+    ] = None,
+) -> None:
+    """Run a scene once, without a window, to its end, and print its result card.
+
+    \b
+    Examples:
+      sandbox run golf
+      sandbox run golf --set launch.speed="171 mph" --set air.wind=[-3,0]
+      sandbox run golf --poster golf.png --trajectory golf.csv
+      sandbox run golf --frames frames --fps 30
+      sandbox run my-shot.toml --accuracy precise --check --json
+    """
+    from sandbox import report
+    from sandbox.scene import check as check_scene
+    from sandbox.scene import simulate
+
+    chosen = _load(scene, set_, accuracy)
+    outputs = {"--trajectory": trajectory, "--poster": poster, "--gif": gif, "--frames": frames}
+    _check_outputs(outputs, fps)
+    done = simulate(chosen)
+    checked = check_scene(chosen, done) if check else None
+    if trajectory is not None:
+        with _writing("--trajectory", trajectory):
+            report.write_trajectory(done, trajectory)
+    if poster is not None or frames is not None or gif is not None:
+        _draw(chosen, done, poster, frames, gif, fps)
+    if as_json:
+        _say(report.as_json(chosen, done, checked))
+        return
+    written = [f"wrote {path}" for path in outputs.values() if path is not None]
+    _say("\n".join([*report.card(chosen, done, checked), *written]))
+
+
+def _load(source: str, settings: list[str] | None, accuracy: str | None) -> Scene:
+    """The scene with ``--set`` and ``--accuracy`` over its file."""
+    from sandbox.parameters import parse_assignment
+    from sandbox.scene import load
+
+    overrides = dict(parse_assignment(text) for text in settings or [])
+    if accuracy is not None:
+        overrides["accuracy.level"] = accuracy
+    return load(source, overrides, overrides_from="--set")
+
+
+def _check_outputs(outputs: dict[str, Path | None], fps: int | None) -> None:
+    """Refuse what could not be written before any work is done."""
+    from sandbox.files import check_file, check_folder
+
+    suffixes = {"--trajectory": ".csv", "--poster": ".png", "--gif": ".gif"}
+    for option, suffix in suffixes.items():
+        path = outputs[option]
+        if path is not None:
+            check_file(option, path, suffix)
+    if outputs["--frames"] is not None:
+        check_folder("--frames", outputs["--frames"])
+    if fps is not None and outputs["--frames"] is None and outputs["--gif"] is None:
+        raise RequestError(f"--fps {fps}: goes with --frames or --gif")
+
+
+@contextmanager
+def _writing(option: str, path: Path) -> Iterator[None]:
+    """A disk that is full, or a folder that went away, in one line."""
+    from sandbox.files import reason
+
+    try:
+        yield
+    except OSError as error:
+        raise RunError(f"{option} {path}: cannot be written: {reason(error)}") from None
+
+
+def _draw(scene: Scene, done: Any, poster: Path | None, frames: Path | None, gif: Path | None, fps: int | None) -> None:
+    from sandbox.picture.frames import save_frames, save_gif, save_poster
+
+    picture = scene.picture_module().Picture(done, scene.parameters)
+    if poster is not None:
+        with _writing("--poster", poster):
+            save_poster(picture, poster)
+    if frames is not None:
+        with _writing("--frames", frames):
+            save_frames(picture, done, frames, fps or 60)
+    if gif is not None:
+        with _writing("--gif", gif):
+            save_gif(picture, done, gif, fps or 25)
+
+
+# ---------------------------------------------------------------------------------------------------------------------
+# The way out
+# ---------------------------------------------------------------------------------------------------------------------
+
+
+def main(args: list[str] | None = None) -> int:
+    """Run one command; what goes wrong becomes a line on stderr and an exit code."""
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, TextIOWrapper):
+            stream.reconfigure(errors="replace")  # a terminal without "±" shows "?"
+    try:
+        return app(args, prog_name="sandbox", standalone_mode=False) or 0
+    except typer.TyperException as error:  # unknown command, missing argument, bad option
+        return _fail(f"{error.format_message()}\nsandbox --help shows how to ask", error.exit_code)
+    except SandboxError as error:
+        return _fail(str(error), error.exit_code)
+    except KeyboardInterrupt:
+        return 130
+    except Exception as error:
+        from sandbox.tracebacks import of_user_code
+
+        text = of_user_code(error)
+        if text is None:
+            raise
+        return _fail(text, 1)
+
+
+def _say(text: str) -> None:
+    """Print on stdout, at once. The reader of a pipe may go when it likes; a full disk is told."""
+    try:
+        typer.echo(text)
+        sys.stdout.flush()
+    except OSError as error:
+        # What is left in the buffer goes nowhere, or Python complains about it when it ends.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        if isinstance(error, BrokenPipeError):
+            raise typer.Exit(1) from None
+        from sandbox.files import reason
+
+        raise RunError(f"stdout cannot be written: {reason(error)}") from None
+
+
+def _fail(message: str, code: int) -> int:
+    typer.echo(f"error: {message}".rstrip(), err=True)
+    return code

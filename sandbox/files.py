@@ -1,0 +1,72 @@
+"""Output files: checked before the work begins, and written whole or not at all."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TextIO
+
+from sandbox.errors import RequestError
+
+
+def reason(error: OSError) -> str:
+    """Why the system refused, in its words: ``"permission denied"``."""
+    return (error.strerror or str(error)).lower()
+
+
+def check_file(option: str, path: Path, suffix: str) -> None:
+    """Raise RequestError if the file for ``option`` could not be written, before any work is done for it."""
+    if path.is_dir():
+        raise RequestError(f"{option} {path}: is a folder; name a file in it, such as {path / ('out' + suffix)}")
+    if _is_device(path):
+        return
+    if path.suffix.lower() != suffix:
+        raise RequestError(f"{option} {path}: its name must end in {suffix}")
+    _check_folder(option, path.parent)
+    if path.exists() and not os.access(path, os.W_OK):
+        raise RequestError(f"{option} {path}: cannot be written: permission denied")
+
+
+def check_folder(option: str, path: Path) -> None:
+    """Make the folder for ``option`` if it is missing; RequestError if files could not be written into it."""
+    if path.exists() and not path.is_dir():
+        raise RequestError(f"{option} {path}: is a file, and a folder is needed")
+    try:
+        path.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise RequestError(f"{option} {path}: cannot be made: {reason(error)}") from None
+    _check_folder(option, path)
+
+
+def _check_folder(option: str, folder: Path) -> None:
+    if not folder.is_dir():
+        raise RequestError(f"{option}: there is no folder {folder}; make it first")
+    trial = folder / f".sandbox-{os.getpid()}.part"
+    try:
+        trial.touch()
+        trial.unlink()
+    except OSError as error:
+        raise RequestError(f"{option}: cannot write into {folder}: {reason(error)}") from None
+
+
+@contextmanager
+def written_whole(path: Path) -> Iterator[TextIO]:
+    """A text file that takes its name only when it is complete; a device such as /dev/stdout is written directly."""
+    if _is_device(path):
+        with path.open("w", encoding="utf-8", newline="") as file:
+            yield file
+        return
+    target = Path(os.path.realpath(path))  # the file behind a link, not the link
+    part = target.with_name(f".{target.name}.{os.getpid()}.part")
+    try:
+        with part.open("w", encoding="utf-8", newline="") as file:
+            yield file
+        part.replace(target)
+    finally:
+        part.unlink(missing_ok=True)
+
+
+def _is_device(path: Path) -> bool:
+    return path.exists() and not path.is_file() and not path.is_dir()

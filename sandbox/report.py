@@ -1,0 +1,143 @@
+"""What a run says: to people as a card, to programs as JSON and CSV."""
+
+from __future__ import annotations
+
+import json
+import math
+import re
+from collections.abc import Mapping
+from dataclasses import asdict
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from sandbox.files import written_whole
+
+if TYPE_CHECKING:
+    from sandbox.engine.run import Event, Run
+    from sandbox.scene import Check, Scene
+
+#: Events shown on a card; a ball that rolls through a rack has hundreds.
+EVENTS_SHOWN = 8
+
+
+def as_json(scene: Scene, run: Run, check: Check | None = None) -> str:
+    """One JSON object; what is not a number (NaN) or has no bound is null."""
+    report = {
+        "scene": scene.name,
+        "preset": scene.preset,
+        "parameters": scene.parameters.model_dump(mode="json"),
+        "accuracy": asdict(run.accuracy),
+        "result": run.result,
+        "ended": run.ended,
+        "duration": run.duration,
+        "events": [_event(event) for event in run.events],
+        "numerics": asdict(run.numerics),
+    }
+    if check is not None:
+        report["errors"] = check.errors
+        report["changed"] = {name: list(pair) for name, pair in check.changed.items()}
+    return json.dumps(_plain(report), allow_nan=False, ensure_ascii=False)
+
+
+def _event(event: Event) -> dict[str, Any]:
+    return {
+        "t": event.t,
+        "kind": event.kind,
+        "ball": event.ball,
+        "with": event.partner,
+        "speed": event.speed,
+        "x": event.x,
+        "y": event.y,
+    }
+
+
+def _plain(value: Any) -> Any:
+    """The same in what JSON knows."""
+    if isinstance(value, Mapping):
+        return {str(key): _plain(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [_plain(item) for item in value]
+    if hasattr(value, "tolist"):  # numpy's numbers and arrays
+        return _plain(value.tolist())
+    return None if isinstance(value, float) and not math.isfinite(value) else value
+
+
+def write_trajectory(run: Run, path: Path) -> None:
+    """The path of every ball as CSV: ``t,ball,x,y,vx,vy,spin`` in s, m, m/s and rad/s."""
+    with written_whole(path) as file:
+        file.write("t,ball,x,y,vx,vy,spin\n")
+        for ball in run.setup.balls:
+            for t, *state in run.trajectory(ball.name).tolist():
+                file.write(f"{t!r},{ball.name},{','.join(map(repr, state))}\n")
+
+
+def card(scene: Scene, run: Run, check: Check | None = None) -> list[str]:
+    """Lines for the terminal: what was played, what came out, what happened on the way, what it cost."""
+    rows = scene.module.card(run.result, scene.parameters)
+    if check is not None:
+        rows = [(label, _with_error(text, check.errors.get(label.replace(" ", "_")))) for label, text in rows]
+    width = max((len(label) for label, _ in rows), default=0)
+    title = f"{scene.name}/{scene.preset}" if scene.preset else scene.name
+    return [
+        f"{title}: {scene.about}" if scene.about else title,
+        "",
+        *(f"  {label:{width}}  {text}".rstrip() for label, text in rows),
+        "",
+        *_events(run),
+        "",
+        f"  {_numerics(run)}",
+        *([] if check is None else _verdict(check)),
+    ]
+
+
+def _events(run: Run) -> list[str]:
+    several = len(run.setup.balls) > 1
+    shown = run.events if len(run.events) <= EVENTS_SHOWN else run.events[: EVENTS_SHOWN - 1]
+    lines = [_event_line(event, several) for event in shown]
+    if len(shown) < len(run.events):
+        lines += [f"  {'':10}  ... {len(run.events) - len(shown) - 1} more", _event_line(run.events[-1], several)]
+    return lines
+
+
+def _event_line(event: Event, several: bool) -> str:
+    ball = f"{event.ball} " if several else ""
+    speed = f"at {event.speed:.1f} m/s" if event.kind == "impact" else ""
+    return f"  {event.t:8.2f} s  {ball}{event.kind:8} {event.partner:10} {speed}".rstrip()
+
+
+def _numerics(run: Run) -> str:
+    cost, accuracy = run.numerics, run.accuracy
+    return (
+        f"{accuracy.level}, {accuracy.method} method, {accuracy.integrator}: {_count(cost.steps, 'step')}, "
+        f"{_count(cost.impacts, 'impact')}, {cost.wall_s * 1e3:.1f} ms"
+    )
+
+
+def _count(number: int, noun: str) -> str:
+    return f"{number} {noun}{'' if number == 1 else 's'}"
+
+
+def _with_error(text: str, error: float | None) -> str:
+    """``"257.3 m  (281 yd)"`` as ``"257.3 m ± 0.4 mm  (281 yd)"``; the error is in the text's first unit."""
+    match = re.match(r"[-+]?[\d.]+(?: ([^\s(]+))?", text)
+    if error is None or match is None:
+        return text
+    unit = match[1] or ""
+    if unit == "m" and error < 0.1:
+        error, unit = error * 1e3, "mm"
+    amount = f"± {error:.1g} {unit}" if error >= 1e-3 else f"± less than 0.001 {unit}"
+    return f"{match[0]} {amount.rstrip()}{text[match.end() :]}"
+
+
+def _verdict(check: Check) -> list[str]:
+    """Whether anything but a number hangs on the accuracy."""
+    if not check.changed:
+        return ["  checked against a finer run: nothing but the numbers moves, by no more than their ±"]
+    return [
+        f"  hangs on the accuracy: {name} is {_word(here)} here and {_word(finer)} in a finer run"
+        for name, (here, finer) in check.changed.items()
+    ]
+
+
+def _word(value: Any) -> str:
+    return json.dumps(_plain(value), ensure_ascii=False, default=str)

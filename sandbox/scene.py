@@ -1,0 +1,365 @@
+"""Scenes: what one is, how it is found, and how it is run.
+
+A scene is a folder with a ``scene.py`` that offers ``Parameters``, ``build``, ``result`` and ``card``, a scene file
+``<name>.toml``, presets in ``presets/*.toml`` and a ``picture.py``. It may come with the sandbox, with an installed
+package (entry point group ``sandbox.scenes``), or stand anywhere on disk.
+"""
+
+from __future__ import annotations
+
+import ast
+import hashlib
+import importlib
+import importlib.util
+import math
+import re
+import sys
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from types import ModuleType
+from typing import TYPE_CHECKING, Any
+
+from sandbox import parameters as declared
+from sandbox import resources
+from sandbox.errors import RequestError
+from sandbox.files import reason
+
+if TYPE_CHECKING:
+    from sandbox.engine.accuracy import Accuracy
+    from sandbox.engine.run import Run
+
+#: Scene folders are imported as packages below this name, which nothing else can have taken.
+NAMESPACE = "sandbox_scenes"
+ENTRY_POINTS = "sandbox.scenes"
+OFFERS = ("Parameters", "build", "result", "card")
+
+
+@dataclass(frozen=True)
+class Scene:
+    """A sport with all its numbers, ready to run."""
+
+    name: str
+    preset: str | None
+    parameters: Any  # the scene's own Parameters
+    folder: Path
+
+    @property
+    def module(self) -> ModuleType:
+        """The scene's ``scene.py``."""
+        return _module(self.folder, "scene")
+
+    @property
+    def about(self) -> str:
+        """What it is, in a line: of the preset if there is one, else of the scene."""
+        if self.preset is not None:
+            return _first_comment(self.folder / "presets" / f"{self.preset}.toml")
+        return _docstring(self.folder / "scene.py")
+
+    def picture_module(self) -> ModuleType:
+        """The scene's ``picture.py``, imported when first asked for: it brings pygame with it."""
+        if not (self.folder / "picture.py").is_file():
+            raise RequestError(f"{self.name} has no picture: {self.folder / 'picture.py'} is missing")
+        return _module(self.folder, "picture")
+
+    def build(self) -> Any:
+        """The setup that the engine simulates."""
+        return self.module.build(self.parameters)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        # By value, so that a process that never imported this scene's module can read it.
+        return _revived, (self.name, self.preset, self.folder, self.parameters.model_dump(exclude_defaults=True))
+
+
+def _revived(name: str, preset: str | None, folder: Path, values: dict[str, Any]) -> Scene:
+    return Scene(name, preset, _parameters_class(folder).model_validate(values), folder)
+
+
+# ---------------------------------------------------------------------------------------------------------------------
+# Running
+# ---------------------------------------------------------------------------------------------------------------------
+
+
+def simulate(scene: Scene) -> Run:
+    """Run the scene to its end at the accuracy that its parameters ask for; ``run.result`` holds its numbers."""
+    from sandbox.engine.accuracy import resolve
+
+    return _simulate_at(scene, resolve(**scene.parameters.accuracy.model_dump()))
+
+
+def _simulate_at(scene: Scene, accuracy: Accuracy) -> Run:
+    from sandbox.engine import simulate as run_setup
+
+    run = run_setup(scene.build(), accuracy)
+    run.result = scene.module.result(run, scene.parameters)
+    return run
+
+
+@dataclass(frozen=True)
+class Check:
+    """How far a result is to be trusted, by a second run at a finer accuracy."""
+
+    finer: Run
+    errors: dict[str, float] = field(default_factory=dict)  # estimated, for each number of the result, in its unit
+    changed: dict[str, tuple[Any, Any]] = field(default_factory=dict)  # what else differs: in the run, in the finer one
+
+
+def check(scene: Scene, run: Run | None = None) -> Check:
+    """Estimate the errors of the scene's result: run it again, finer, and compare."""
+    run = run or simulate(scene)
+    outcome = Check(_simulate_at(scene, run.accuracy.finer()))
+    for name, value in run.result.items():
+        other = outcome.finer.result.get(name)
+        form, numbers = _taken_apart(value)
+        other_form, other_numbers = _taken_apart(other)
+        if form != other_form:
+            outcome.changed[name] = (value, other)
+        elif numbers:
+            outcome.errors[name] = max(abs(a - b) for a, b in zip(numbers, other_numbers, strict=True))
+    return outcome
+
+
+def _taken_apart(value: Any) -> tuple[Any, list[float]]:
+    """The form of a value with its numbers left out, and those numbers in order."""
+    if isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value):
+        return float, [float(value)]
+    if isinstance(value, Mapping):
+        items, forms = list(value.values()), list(value)
+    elif isinstance(value, list | tuple):
+        items, forms = list(value), []
+    else:
+        return value if value == value else None, []  # NaN is a result that is not there
+    parts = [_taken_apart(item) for item in items]
+    return [*forms, *(form for form, _ in parts)], [number for _, numbers in parts for number in numbers]
+
+
+# ---------------------------------------------------------------------------------------------------------------------
+# Finding
+# ---------------------------------------------------------------------------------------------------------------------
+
+
+def load(source: str | Path, overrides: Mapping[str, Any] | None = None, *, overrides_from: str = "override") -> Scene:
+    """The scene named by ``source``, with ``overrides`` (dotted keys) over its scene file.
+
+    ``source`` is a scene (``"golf"``), a preset (``"golf/driver"``), or a path to a scene file or a scene's folder.
+    Raises RequestError for what cannot be found, read or accepted; ``overrides_from`` names the overrides in it.
+    """
+    name, folder, file = _find(source)
+    values: dict[str, Any] = {}
+    where = _shown(folder) if file is None else _shown(file)
+    if file is not None:
+        values = declared.read_toml(file)
+        written = values.pop("scene", name)
+        if written != name:
+            raise RequestError(f'{where}: scene = "{written}", but here it is a file for {name}')
+    preset = file.stem if file is not None and file.resolve().parent == folder / "presets" else None
+    parameters = declared.validate(_parameters_class(folder), values, where, overrides, overrides_from)
+    return Scene(name, preset, parameters, folder)
+
+
+def parameters_of(source: str | Path) -> tuple[str, type[declared.Group]]:
+    """Name and Parameters class of the scene that ``source`` names; of a file only the key ``scene`` matters."""
+    name, folder, _ = _find(source)
+    return name, _parameters_class(folder)
+
+
+@dataclass(frozen=True)
+class Listing:
+    """One scene or preset as ``sandbox list`` shows it."""
+
+    name: str
+    about: str
+
+
+def listings() -> Iterator[Listing]:
+    """Every scene that can be named, each followed by its presets."""
+    for name, folder in sorted(_named_folders().items()):
+        yield Listing(name, _docstring(folder / "scene.py"))
+        for preset in _presets(folder):
+            yield Listing(f"{name}/{preset.stem}", _first_comment(preset))
+
+
+def _find(source: str | Path) -> tuple[str, Path, Path | None]:
+    """Name of the scene, its folder, and the scene file to read (None for a folder without one)."""
+    try:
+        return _named(source) if isinstance(source, str) else _at(source)
+    except OSError as error:  # a name too long, a folder that may not be entered
+        raise RequestError(f"{source}: cannot be read: {reason(error)}") from None
+
+
+def _named(source: str) -> tuple[str, Path, Path | None]:
+    name, _, preset = source.partition("/")
+    folder = _built_in(name) or _installed(name)
+    if folder is not None and not preset:
+        return name, folder, _default_file(folder)
+    if folder is not None and _is_word(preset):
+        return name, folder, _preset(name, folder, preset)
+    return _at(Path(source))
+
+
+def _at(path: Path) -> tuple[str, Path, Path | None]:
+    if (path / "scene.py").is_file():
+        folder = path.resolve()
+        return folder.name, folder, _default_file(path)
+    if path.is_file() or (path.suffix == ".toml" and not path.is_dir()):
+        return *_scene_of_file(path), path
+    if path.is_dir():
+        raise RequestError(f"{path}: a folder without scene.py is not a scene")
+    raise RequestError(_unknown(str(path)))
+
+
+def _is_word(name: str) -> bool:
+    return bool(name) and all(character.isalnum() or character in "-_" for character in name)
+
+
+def _unknown(name: str) -> str:
+    near = declared.nearest(name, [listing.name for listing in listings()])
+    return f"unknown scene {name}; " + (f"did you mean {near}?" if near else "sandbox list shows all there are")
+
+
+def _built_in(name: str) -> Path | None:
+    if not _is_word(name):
+        return None
+    folder = resources.folder("scenes") / name
+    return folder if (folder / "scene.py").is_file() else None
+
+
+def _installed(name: str) -> Path | None:
+    """The folder of a scene that another installed package offers."""
+    if not _is_word(name):
+        return None
+    from importlib.metadata import entry_points
+
+    for point in entry_points(group=ENTRY_POINTS, name=name):
+        return _folder_of(point.value)
+    return None
+
+
+def _folder_of(module_name: str) -> Path | None:
+    """Where the module ``package.scene`` of an installed package stands."""
+    try:
+        spec = importlib.util.find_spec(module_name.partition(":")[0])
+    except ModuleNotFoundError:
+        return None
+    return Path(spec.origin).resolve().parent if spec is not None and spec.origin else None
+
+
+def _named_folders() -> dict[str, Path]:
+    from importlib.metadata import entry_points
+
+    folders = {point.name: _folder_of(point.value) for point in entry_points(group=ENTRY_POINTS)}
+    built_in = {path.parent.name: path.parent for path in resources.folder("scenes").glob("*/scene.py")}
+    return {name: folder for name, folder in (folders | built_in).items() if folder is not None}
+
+
+def _default_file(folder: Path) -> Path | None:
+    file = folder / f"{folder.resolve().name}.toml"
+    return file if file.is_file() else None
+
+
+def _presets(folder: Path) -> list[Path]:
+    return sorted((folder / "presets").glob("*.toml"))
+
+
+def _preset(name: str, folder: Path, preset: str) -> Path:
+    file = folder / "presets" / f"{preset}.toml"
+    if file.is_file():
+        return file
+    known = [f"{name}/{path.stem}" for path in _presets(folder)]
+    near = declared.nearest(f"{name}/{preset}", known)
+    hint = f"did you mean {near}?" if near else f"it has {', '.join(known) or 'none'}"
+    raise RequestError(f"{name} has no preset {preset}; {hint}")
+
+
+def _scene_of_file(path: Path) -> tuple[str, Path]:
+    """Name and folder of the scene that a scene file is for; the nearest wins: around it, beside it, by its name."""
+    name = declared.read_toml(path).get("scene")
+    parent = path.resolve().parent
+    around = parent.parent if parent.name == "presets" else parent
+    if (around / "scene.py").is_file():
+        return around.name, around
+    if not isinstance(name, str) or not _is_word(name):
+        raise RequestError(f'{path}: needs a line that names its scene, such as scene = "golf"')
+    beside = parent / name
+    folder = beside if (beside / "scene.py").is_file() else _built_in(name) or _installed(name)
+    if folder is None:
+        raise RequestError(f"{path}: {_unknown(name)}")
+    return name, folder
+
+
+def _shown(path: Path) -> str:
+    """A path as short as it can be said from the current folder."""
+    try:
+        return str(path.resolve().relative_to(Path.cwd()))
+    except (ValueError, OSError):
+        return str(path)
+
+
+def _docstring(file: Path) -> str:
+    """The first line of a module's docstring, without importing the module."""
+    try:
+        return (ast.get_docstring(ast.parse(file.read_bytes())) or "").partition("\n")[0]
+    except (SyntaxError, ValueError, OSError):
+        return ""
+
+
+def _first_comment(file: Path) -> str:
+    """The first comment of a scene file that is meant for people."""
+    try:
+        lines = file.read_text(encoding="utf-8").splitlines()
+    except (UnicodeDecodeError, OSError):
+        return ""
+    return next((line.lstrip("# ").rstrip() for line in lines if line.startswith("# ")), "")
+
+
+# ---------------------------------------------------------------------------------------------------------------------
+# Importing
+# ---------------------------------------------------------------------------------------------------------------------
+
+
+def _parameters_class(folder: Path) -> type[declared.Group]:
+    module = _module(folder, "scene")
+    missing = [name for name in OFFERS if not callable(getattr(module, name, None))]
+    if missing:
+        raise RequestError(f"{folder / 'scene.py'}: a scene offers {', '.join(OFFERS)}; {missing[0]} is missing")
+    parameters = module.Parameters
+    if not (isinstance(parameters, type) and issubclass(parameters, declared.Group)):
+        raise RequestError(f"{folder / 'scene.py'}: Parameters must be a sandbox.parameters.Group")
+    accuracy = parameters.model_fields.get("accuracy")
+    if accuracy is None or not isinstance(accuracy.default, declared.Accuracy):
+        raise RequestError(
+            f'{folder / "scene.py"}: Parameters needs a line accuracy: Accuracy = group(Accuracy(), "...")'
+        )
+    return parameters
+
+
+def _module(folder: Path, name: str) -> ModuleType:
+    """``folder/name.py``, imported as part of a package, so that relative imports and pickling work in it."""
+    built_in = resources.folder("scenes")
+    _package(NAMESPACE, built_in)
+    package = f"{NAMESPACE}.{re.sub(r'[^0-9A-Za-z_]', '_', folder.name)}"
+    if folder.parent != built_in:
+        # Two folders of one name may be in use at once.
+        package += "_" + hashlib.sha256(str(folder).encode()).hexdigest()[:12]
+    _package(package, folder)
+    return importlib.import_module(f"{package}.{name}")
+
+
+def _package(name: str, folder: Path) -> None:
+    """Make ``folder`` importable under ``name``."""
+    if name in sys.modules:
+        return
+    init = folder / "__init__.py"
+    if not init.is_file():
+        package = sys.modules[name] = ModuleType(name)
+        package.__path__ = [str(folder)]
+        return
+    spec = importlib.util.spec_from_file_location(name, init, submodule_search_locations=[str(folder)])
+    assert spec is not None
+    assert spec.loader is not None  # a .py file always has one
+    package = sys.modules[name] = importlib.util.module_from_spec(spec)
+    try:
+        spec.loader.exec_module(package)
+    except BaseException:
+        del sys.modules[name]
+        raise

@@ -1,0 +1,35 @@
+"""Whose fault it was: the part of a traceback that a user wrote."""
+
+from __future__ import annotations
+
+import sysconfig
+import traceback
+from pathlib import Path
+
+from sandbox import resources
+
+
+def of_user_code(error: Exception) -> str | None:
+    """The traceback from the first line of a user's own code on, without lines of ours; None if it was all ours."""
+    frames = traceback.extract_tb(error.__traceback__)
+    first = next((index for index, frame in enumerate(frames) if not _is_ours(frame.filename)), None)
+    blamed = isinstance(error, SyntaxError) and error.filename is not None and not _is_ours(error.filename)
+    if first is None and not blamed:
+        return None
+    shown = [frame for frame in frames[first:] if not _is_sandbox(frame.filename)] if first is not None else []
+    head = ["your scene failed\n", "Traceback (most recent call last):\n"] if shown else ["your scene failed\n"]
+    return "".join([*head, *traceback.format_list(shown), *traceback.format_exception_only(error)])
+
+
+def _is_ours(filename: str) -> bool:
+    """Whether a file came with the sandbox, Python or an installed package."""
+    libraries = {sysconfig.get_path(name) for name in ("stdlib", "purelib", "platlib")}
+    return filename.startswith("<") or _is_sandbox(filename) or any(_inside(filename, library) for library in libraries)
+
+
+def _is_sandbox(filename: str) -> bool:
+    return _inside(filename, resources.PACKAGE) or _inside(filename, resources.folder("scenes"))
+
+
+def _inside(filename: str, folder: str | Path) -> bool:
+    return Path(filename).resolve().is_relative_to(Path(folder).resolve())

@@ -1,0 +1,96 @@
+"""A ball dropped on the floor: the smallest scene there can be, for tests of everything around scenes.
+
+Models: gravity, bounces. Leaves out: air.
+"""
+
+from __future__ import annotations
+
+from typing import Any, Literal
+
+from sandbox.engine.setup import Ball, Segment, Setup, Surface
+from sandbox.parameters import Accuracy, Group, choice, either, group, quantity, switch, vector
+
+
+class Launch(Group):
+    height: float = quantity(2.0, "m", low=0.1, high=100, meaning="of the ball's centre above the floor")
+    speed: float = quantity(0.0, "m/s", low=0, high=340, meaning="upwards")
+    spin: float = quantity(0.0, "rpm", low=-20000, high=20000, meaning="backspin")
+    angle: float = quantity(90.0, "deg", low=-90, high=180, meaning="above the horizontal")
+
+
+class NoDrag(Group):
+    model: Literal["none"] = choice("none", "no drag at all")
+
+
+class ConstantDrag(Group):
+    model: Literal["constant"] = choice("constant", "one coefficient for all speeds")
+    coefficient: float = quantity(0.47, "", low=0, high=5, meaning="drag coefficient")
+
+
+class DroppedBall(Group):
+    mass: float = quantity(0.1, "kg", low=1e-6, high=1e3, meaning="mass")
+    radius: float = quantity(0.05, "m", low=1e-4, high=10, meaning="radius")
+    drag: NoDrag | ConstantDrag = either(NoDrag(), "drag of the air")
+
+
+class Air(Group):
+    temperature: float = quantity(20.0, "C", low=-90, high=60, meaning="of the air")
+    wind: tuple[float, float] = vector((0.0, 0.0), "m/s", low=-100, high=100, meaning="along x and y")
+
+
+class Floor(Group):
+    restitution: float = quantity(0.8, "", low=0, high=1, meaning="of the pair ball and floor")
+    present: bool = switch(True, "whether there is a floor")
+
+
+class Mark(Group):
+    name: str = "mark"
+    x: float = quantity(0.0, "m", low=-10, high=10, meaning="where it lies")
+
+
+class Parameters(Group):
+    gravity: float = quantity(9.81, "m/s^2", low=0, high=30, meaning="downwards")
+    duration: float = quantity(1.0, "s", low=0.01, high=100, meaning="of the run")
+    launch: Launch = group(Launch(), "how the ball starts")
+    ball: DroppedBall = group(DroppedBall(mass=0.2), "the ball")
+    air: Air = group(Air(), "the air")
+    floor: Floor = group(Floor(), "the floor")
+    marks: list[Mark] = []
+    accuracy: Accuracy = group(Accuracy(), "speed against accuracy")
+
+
+class Gravity:
+    """Force in N on a mass in kg."""
+
+    def __init__(self, mass: float, gravity: float):
+        self.weight = -mass * gravity
+
+    def __call__(self, t: float, position: Any, velocity: Any, spin: Any) -> tuple[Any, Any]:
+        return 0.0 * velocity[0], self.weight + 0.0 * velocity[1]
+
+
+def build(parameters: Parameters) -> Setup:
+    ball = Ball(
+        "ball",
+        parameters.ball.mass,
+        parameters.ball.radius,
+        (0.0, parameters.launch.height),
+        (0.0, parameters.launch.speed),
+        forces=(Gravity(parameters.ball.mass, parameters.gravity),),
+    )
+    floor = Surface("floor", Segment((-100.0, 0.0), (100.0, 0.0)), parameters.floor.restitution, friction=0.5)
+    return Setup((ball,), (floor,) if parameters.floor.present else (), duration=parameters.duration)
+
+
+def result(run: Any, parameters: Parameters) -> dict[str, Any]:
+    impacts = [event for event in run.events if event.kind == "impact"]
+    return {
+        "bounces": len(impacts),
+        "first_touch": impacts[0].t if impacts else None,
+        "bounced": bool(impacts),
+        "final_height": float(run.state("ball", run.duration)[1]),
+    }
+
+
+def card(result: dict[str, Any], parameters: Parameters) -> list[tuple[str, str]]:
+    return [("bounces", str(result["bounces"])), ("final height", f"{result['final_height']:.2f} m  (above the floor)")]
