@@ -61,5 +61,6 @@ def resolve(
             raise RequestError(f"accuracy.integrator: {integrator!r} is not one of {', '.join(INTEGRATORS)}")
         accuracy = replace(accuracy, integrator=integrator)
     if step is not None:
-        accuracy = replace(accuracy, step=step)
+        # a step of one's own means a method that keeps it
+        accuracy = replace(accuracy, step=step, integrator=integrator or "rk4")
     return accuracy

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from bisect import bisect_right
+from bisect import bisect_left, bisect_right
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
@@ -72,6 +72,12 @@ class Run:
             return (*start.position, *start.velocity, start.spin)
         index = bisect_right(arcs, t, key=lambda arc: arc.t0) - 1
         return arcs[max(index, 0)].state(t)
+
+    def before(self, ball: str, t: float) -> State:
+        """The state of a ball just before time t, which differs from ``state`` where there is an impact at t."""
+        arcs = self.arcs[ball]
+        index = bisect_left(arcs, t, key=lambda arc: arc.t1)
+        return arcs[index].state(t) if index < len(arcs) and arcs[index].t1 == t else self.state(ball, t)
 
     def angle(self, ball: str, t: float) -> float:
         """How far a ball has turned since the start, in rad, counter-clockwise."""

@@ -349,7 +349,3 @@ def _clear_of(ball: Ball, obstacles: Sequence[Obstacle]) -> tuple[float, float]:
         y -= touching.gap * touching.ny
     raise RequestError(f"ball {ball.name!r} does not fit where it starts: surfaces overlap it from several sides")
 
-
-def simulate(setup: Setup, accuracy: Accuracy) -> Run:
-    """Run a setup to its end."""
-    return Simulation(setup, accuracy).run()

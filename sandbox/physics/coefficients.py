@@ -76,3 +76,28 @@ def quadratic_lift(reynolds: Any, spin_ratio: Any) -> Any:
     """
     s = clip(spin_ratio, 0.0, 0.4856)
     return (0.06628 + (1.37548 - 1.41620 * s) * s) * clip(50.0 * s, 0.0, 1.0)
+
+
+def usga_drag(reynolds: Any, spin_ratio: Any) -> Any:
+    """Golf ball: ``Cd = 0.2028 + 2.8466 S^2 + 0.0165 Re - 0.2159 S``, Re in 1e5, held inside 0.5e5 to 2.5e5, S inside 0 to 0.35.
+
+    Source: USGA indoor test range, as quoted in US patent 6186002.
+    """
+    s = clip(spin_ratio, 0.0, 0.35)
+    return 0.2028 + (2.8466 * s - 0.2159) * s + 0.0165e-5 * clip(reynolds, 0.5e5, 2.5e5)
+
+
+def usga_lift(reynolds: Any, spin_ratio: Any) -> Any:
+    """Golf ball: ``Cl = 0.0860 + 0.6463 S - 0.0122 / Re^2 + 1.4789 S^2``, Re in 1e5, held as for usga_drag. Source: as there."""
+    s = clip(spin_ratio, 0.0, 0.35)
+    re = 1e-5 * clip(reynolds, 0.5e5, 2.5e5)
+    return (0.0860 + (0.6463 + 1.4789 * s) * s - 0.0122 / (re * re)) * clip(50.0 * s, 0.0, 1.0)
+
+
+#: Models of a golf ball that differ in both coefficients, by name: drag and lift.
+GOLF_BALL: dict[str, tuple[Coefficient, Coefficient]] = {
+    "quadratic": (quadratic_drag, quadratic_lift),
+    "smits-smith": (smits_smith_drag, smits_smith_lift),
+    "lyu": (lyu_drag, lyu_lift),
+    "usga": (usga_drag, usga_lift),
+}

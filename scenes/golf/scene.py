@@ -1,0 +1,404 @@
+"""Golf in side view: from the tee, through the air, over the turf, to rest or into the cup.
+
+Models: gravity; drag and Magnus lift with coefficients by Reynolds number and spin ratio; wind, even or growing with height; spin
+decay; bounces on turf that gives way (Penner 2002), sliding, rolling, slopes, and a cup with real walls, which a fast ball rolls over.
+Leaves out: everything sideways (hook, slice, break of the green); the ball's deformation; moisture and grain of the grass.
+"""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from math import atan2, cos, degrees, hypot, pi, radians, sin
+from typing import Any, Literal
+
+from sandbox.engine.run import Event, Run
+from sandbox.engine.setup import Ball, Bounce, Force, Segment, Setup, Surface, Torque
+from sandbox.errors import RequestError
+from sandbox.parameters import Accuracy, Group, choice, either, group, quantity, vector
+from sandbox.physics import coefficients
+from sandbox.physics.air import LogWind, UniformWind
+from sandbox.physics.forces import Drag, Gravity, Magnus, SpinDecay, Wind
+from sandbox.physics.impulse import club_on_ball
+from sandbox.physics.turf import penner_restitution, penner_tilt, stimp_resistance
+
+RPM = pi / 30.0  # rad/s
+YARD = 0.9144  # m
+FOOT = 0.3048  # m
+
+#: Density in kg/m^3 of the air in which the spin decay was measured.
+STANDARD_DENSITY = 1.204
+
+# ------------------------------------------------------------------------------------------------------------ parameters
+
+
+class Launch(Group):
+    """The ball just after it was struck."""
+
+    speed: float = quantity("171 mph", "m/s", 0, 340, "ball speed")
+    angle: float = quantity(10.4, "deg", -90, 180, "direction above the horizontal")
+    spin: float = quantity(2545, "rpm", -20000, 20000, "backspin positive")
+
+
+class Club(Group):
+    """The head that strikes the ball, where start is \"club\"."""
+
+    speed: float = quantity("115 mph", "m/s", 0, 150, "speed of the head")
+    mass: float = quantity(0.2, "kg", 0.01, 10, "mass of the head")
+    loft: float = quantity(10.5, "deg", 0, 80, "angle of the face from the vertical")
+    restitution: float = quantity(0.83, "", 0, 1, "of head and ball")
+
+
+class ModelDrag(Group):
+    """Drag by a published model of the golf ball."""
+
+    model: Literal["quadratic", "smits-smith", "lyu", "usga"] = choice("quadratic", "drag coefficient by its source")
+
+
+class ConstantDrag(Group):
+    """One drag coefficient for all speeds."""
+
+    model: Literal["constant"] = choice("constant", "drag coefficient by its source")
+    coefficient: float = quantity(0.25, "", 0, 10, "drag coefficient")
+
+
+class NoDrag(Group):
+    """No drag."""
+
+    model: Literal["none"] = choice("none", "drag coefficient by its source")
+
+
+class ModelLift(Group):
+    """Lift by a published model of the golf ball."""
+
+    model: Literal["quadratic", "smits-smith", "lyu", "usga", "spin-ratio"] = choice(
+        "quadratic", "lift coefficient by its source"
+    )
+    velocity: Literal["air", "ground"] = choice("air", "velocity that lift is reckoned by: relative to air or ground")
+
+
+class ConstantLift(Group):
+    """One lift coefficient for all spins."""
+
+    model: Literal["constant"] = choice("constant", "lift coefficient by its source")
+    coefficient: float = quantity(0.2, "", 0, 10, "lift coefficient")
+    velocity: Literal["air", "ground"] = choice("air", "velocity that lift is reckoned by: relative to air or ground")
+
+
+class NoLift(Group):
+    """No lift."""
+
+    model: Literal["none"] = choice("none", "lift coefficient by its source")
+
+
+class BallParameters(Group):
+    """The golf ball, a solid sphere."""
+
+    mass: float = quantity(0.04593, "kg", 0.0001, 10, "mass")
+    radius: float = quantity(0.021335, "m", 0.0005, 0.5, "radius")
+    spin_decay: float = quantity(6e-5, "", 0, 0.01, "k of dw/dt = -k |u| w / r")
+    drag: ModelDrag | ConstantDrag | NoDrag = either(ModelDrag(), "drag of the air")
+    lift: ModelLift | ConstantLift | NoLift = either(ModelLift(), "Magnus lift")
+
+
+class Air(Group):
+    """The air and how it moves."""
+
+    density: float = quantity(1.204, "kg/m^3", 0, 1100, "density")
+    wind: tuple[float, float] = vector((0.0, 0.0), "m/s", -100, 100, "along x and y; negative x is a headwind")
+    profile: Literal["uniform", "log"] = choice("uniform", "even wind, or one that grows with height over the ground")
+    reference_height: float = quantity(10.0, "m", 0.1, 100, "height at which a log profile has the wind given")
+    roughness: float = quantity(0.03, "m", 0.0001, 2, "roughness length of a log profile")
+
+
+class Turf(Group):
+    """A kind of ground: how a ball bounces and rolls on it."""
+
+    bounce: float = quantity(1.0, "", 0, 2, "restitution over that of Penner's green")
+    friction: float = quantity(0.40, "", 0, 10, "friction of ball and ground")
+    resistance: float = quantity(0.14, "", 0, 10, "deceleration of a rolling ball over gravity")
+
+
+class Green(Group):
+    """The green around the pin."""
+
+    length: float = quantity(30.0, "m", 0, 200, "length, the pin in its middle")
+    stimp: float = quantity("10 ft", "m", 0.3, 12, "reading of a stimpmeter")
+    bounce: float = quantity(1.0, "", 0, 2, "restitution over that of Penner's green")
+    friction: float = quantity(0.40, "", 0, 10, "friction of ball and ground")
+
+
+class Strip(Group):
+    """A stretch of another kind of ground."""
+
+    kind: Literal["tee", "fairway", "rough", "bunker", "water"] = choice("rough", "kind of ground")
+    start: float = quantity(0.0, "m", -1000, 3000, "where it begins")
+    end: float = quantity(10.0, "m", -1000, 3000, "where it ends")
+
+
+class Ground(Group):
+    """The course, from the side."""
+
+    tee: Turf = group(Turf(), "tee")
+    fairway: Turf = group(Turf(), "fairway")
+    rough: Turf = group(Turf(bounce=0.7, friction=0.5, resistance=0.4), "rough")
+    bunker: Turf = group(Turf(bounce=0.2, friction=0.8, resistance=1.0), "bunker")
+    green: Green = group(Green(), "green")
+    strips: list[Strip] = choice([], "stretches laid over the fairway, later ones on top")  # type: ignore[arg-type]
+    heights: list[tuple[float, float]] = choice([], "points (x, height in m) of the ground's line; flat at 0 where empty")  # type: ignore[arg-type]
+
+
+class Pin(Group):
+    """The flag and its cup."""
+
+    distance: float = quantity(280.0, "m", -500, 2500, "from the tee to the middle of the cup")
+    cup_width: float = quantity("108 mm", "m", 0, 10, "width of the cup; 0 for none")
+    cup_depth: float = quantity("101.6 mm", "m", 0.01, 2, "depth of the cup")
+
+
+class Parameters(Group):
+    """All numbers of a golf shot."""
+
+    start: Literal["launch", "club"] = choice("launch", "begin with the ball's launch, or with the club head")
+    launch: Launch = group(Launch(), "the ball just after it was struck")
+    club: Club = group(Club(), "the club head")
+    gravity: float = quantity(9.81, "m/s^2", 0, 30, "gravity")
+    air: Air = group(Air(), "the air")
+    ball: BallParameters = group(BallParameters(), "the ball")
+    ground: Ground = group(Ground(), "the course")
+    pin: Pin = group(Pin(), "the flag and its cup")
+    accuracy: Accuracy = group(Accuracy(), "speed against accuracy")
+
+
+# ----------------------------------------------------------------------------------------------------------------- build
+
+#: The course reaches this far behind and beyond, in m.
+BEHIND, BEYOND = -1000.0, 3000.0
+
+#: A shot that has not come to rest after this time in s is ended.
+LONGEST = 300.0
+
+
+def build(parameters: Parameters) -> Setup:
+    """Ball, course, and the forces that this shot needs. Raises RequestError where the course makes no sense."""
+    air, ball = parameters.air, parameters.ball
+    velocity, spin = launched(parameters)
+    inertia = 0.4 * ball.mass * ball.radius**2
+    wind = _wind(air)
+    forces: list[Force] = []
+    torques: list[Torque] = []
+    if parameters.gravity > 0.0:
+        forces.append(Gravity(ball.mass, parameters.gravity))
+    if air.density > 0.0:
+        drag, lift = ball.drag, ball.lift
+        if not isinstance(drag, NoDrag):
+            forces.append(Drag(ball.radius, air.density, _drag_coefficient(drag), wind))
+        if not isinstance(lift, NoLift) and spin != 0.0:
+            along_ground = lift.velocity == "ground"
+            forces.append(Magnus(ball.radius, air.density, _lift_coefficient(lift), wind, along_ground=along_ground))
+        if ball.spin_decay > 0.0:
+            torques.append(SpinDecay(inertia, ball.radius, ball.spin_decay * air.density / STANDARD_DENSITY, wind))
+    return Setup(
+        balls=[
+            Ball(
+                "ball",
+                ball.mass,
+                ball.radius,
+                position=(0.0, ball.radius),
+                velocity=velocity,
+                spin=spin,
+                forces=forces,
+                torques=torques,
+            )
+        ],
+        surfaces=_course(parameters),
+        duration=LONGEST,
+        until=_is_in_water,
+    )
+
+
+def launched(parameters: Parameters) -> tuple[tuple[float, float], float]:
+    """Velocity (m/s) and spin (rad/s, counter-clockwise) of the ball as it leaves the tee."""
+    if parameters.start == "club":
+        club, ball = parameters.club, parameters.ball
+        struck = club_on_ball(
+            club.speed, radians(club.loft), club.mass, ball.mass, ball.radius, club.restitution
+        )
+        return (struck.vx, struck.vy), struck.spin
+    launch = parameters.launch
+    angle = radians(launch.angle)
+    return (launch.speed * cos(angle), launch.speed * sin(angle)), launch.spin * RPM
+
+
+def _is_in_water(event: Event) -> bool:
+    return event.partner == "water"
+
+
+def _wind(air: Air) -> Wind | None:
+    if air.wind == (0.0, 0.0):
+        return None
+    if air.profile == "log":
+        return LogWind(air.wind, air.reference_height, air.roughness)
+    return UniformWind(*air.wind)
+
+
+def _drag_coefficient(drag: ModelDrag | ConstantDrag) -> coefficients.Coefficient:
+    if isinstance(drag, ConstantDrag):
+        return coefficients.constant(drag.coefficient)
+    return coefficients.GOLF_BALL[drag.model][0]
+
+
+def _lift_coefficient(lift: ModelLift | ConstantLift) -> coefficients.Coefficient:
+    if isinstance(lift, ConstantLift):
+        return coefficients.constant(lift.coefficient)
+    if lift.model == "spin-ratio":
+        return coefficients.spin_ratio_lift
+    return coefficients.GOLF_BALL[lift.model][1]
+
+
+# ---------------------------------------------------------------------------------------------------------------- course
+
+
+def height(parameters: Parameters, x: float) -> float:
+    """Height of the ground in m at x."""
+    points = parameters.ground.heights
+    if not points:
+        return 0.0
+    if x <= points[0][0]:
+        return points[0][1]
+    for (x0, y0), (x1, y1) in pairwise(points):
+        if x <= x1:
+            return y0 + (y1 - y0) * (x - x0) / (x1 - x0)
+    return points[-1][1]
+
+
+def kind_at(parameters: Parameters, x: float) -> str:
+    """Kind of ground at x: the green around the pin, else the last strip laid there, else fairway."""
+    if abs(x - parameters.pin.distance) < 0.5 * parameters.ground.green.length:
+        return "green"
+    for strip in reversed(parameters.ground.strips):
+        if strip.start <= x < strip.end:
+            return strip.kind
+    return "fairway"
+
+
+def _course(parameters: Parameters) -> list[Surface]:
+    ground, pin = parameters.ground, parameters.pin
+    for (x0, _), (x1, _) in pairwise(ground.heights):
+        if x1 <= x0:
+            raise RequestError(f"ground.heights: x must grow from point to point, but {x1:g} m follows {x0:g} m")
+    for strip in ground.strips:
+        if strip.end <= strip.start:
+            raise RequestError(f"ground.strips: the {strip.kind} from {strip.start:g} m to {strip.end:g} m has no length")
+    half = 0.5 * pin.cup_width
+    left, right = pin.distance - half, pin.distance + half
+    if half > 0.0 and left < parameters.ball.radius and right > -parameters.ball.radius:
+        raise RequestError(f"pin.distance: the cup at {pin.distance:g} m is where the ball starts, at 0 m")
+    edges = {BEHIND, BEYOND, left, right, *(x for x, _ in ground.heights)}
+    for strip in ground.strips:
+        edges |= {strip.start, strip.end}
+    edges |= {pin.distance - 0.5 * ground.green.length, pin.distance + 0.5 * ground.green.length}
+    surfaces = []
+    for a, b in pairwise(sorted(x for x in edges if BEHIND <= x <= BEYOND)):
+        middle = 0.5 * (a + b)
+        if left <= middle <= right:
+            continue  # the cup
+        kind = kind_at(parameters, middle)
+        surfaces.append(_turf(parameters, kind, (a, height(parameters, a)), (b, height(parameters, b))))
+    if half > 0.0:
+        top_left, top_right = height(parameters, left), height(parameters, right)
+        bottom = min(top_left, top_right) - pin.cup_depth
+        corners = [(left, top_left), (left, bottom), (right, bottom), (right, top_right)]
+        surfaces += [Surface("cup", Segment(a, b), 0.4, 0.4, 0.1) for a, b in pairwise(corners)]
+    return surfaces
+
+
+def _turf(parameters: Parameters, kind: str, a: tuple[float, float], b: tuple[float, float]) -> Surface:
+    ground = parameters.ground
+    if kind == "water":
+        return Surface("water", Segment(a, b), 0.0, 0.0)
+    if kind == "green":
+        bounce, friction, resistance = ground.green.bounce, ground.green.friction, stimp_resistance(ground.green.stimp / FOOT)
+    else:
+        turf: Turf = getattr(ground, kind)
+        bounce, friction, resistance = turf.bounce, turf.friction, turf.resistance
+
+    def law(normal_speed: float, tangential_speed: float) -> Bounce:
+        restitution = min(1.0, bounce * penner_restitution(normal_speed))
+        return Bounce(restitution, friction, penner_tilt(normal_speed, tangential_speed))
+
+    return Surface(kind, Segment(a, b), min(1.0, bounce * penner_restitution(0.0)), friction, resistance, law)
+
+
+# ---------------------------------------------------------------------------------------------------------------- result
+
+
+def result(run: Run, parameters: Parameters) -> dict[str, Any]:
+    """Carry, total, apex and the rest; lengths in m, times in s, angles in deg, spin in rpm. None where it never landed."""
+    start = run.state("ball", 0.0)
+    landed = _landing(run, start[1])
+    end_x, end_y = run.state("ball", run.duration)[:2]
+    pin = parameters.pin
+    in_cup = abs(end_x - pin.distance) < 0.5 * pin.cup_width and end_y < height(parameters, pin.distance)
+    in_water = any(_is_in_water(event) for event in run.events)
+    found: dict[str, Any] = {
+        "carry": None,
+        "total": end_x,
+        "apex": run.highest("ball")[1][1] - start[1],
+        "flight_time": None,
+        "landing_angle": None,
+        "landing_speed": None,
+        "landing_spin": None,
+        "distance_to_pin": abs(end_x - pin.distance),
+        "holed": in_cup,
+        "ended": "cup" if in_cup else "water" if in_water else run.ended,
+    }
+    if landed is not None:
+        t, (x, _, vx, vy, spin) = landed
+        found |= {
+            "carry": x,
+            "flight_time": t,
+            "landing_angle": degrees(atan2(-vy, abs(vx))),
+            "landing_speed": hypot(vx, vy),
+            "landing_spin": spin / RPM,
+        }
+    return found
+
+
+def _landing(run: Run, launch_height: float) -> tuple[float, tuple[float, ...]] | None:
+    """Time and state at which the ball is back at launch height, or comes down on higher ground before that."""
+    touched = next((event.t for event in run.events if event.kind in ("impact", "contact", "rest")), None)
+    back = next(iter(run.crossings("ball", (0.0, launch_height), (0.0, 1.0))), None)
+    if touched is not None and (back is None or touched < back[0]):
+        return touched, run.before("ball", touched)
+    return back
+
+
+def card(result: dict[str, Any], parameters: Parameters) -> list[tuple[str, str]]:
+    """The result for people."""
+    launch_velocity, spin = launched(parameters)
+    speed = hypot(*launch_velocity)
+    angle = degrees(atan2(launch_velocity[1], launch_velocity[0]))
+    lines = [("launch", f"{speed:.1f} m/s ({speed / 0.44704:.0f} mph) at {angle:.1f}°, {spin / RPM:.0f} rpm")]
+    if result["carry"] is None:
+        lines.append(("carry", "did not come down"))
+    else:
+        lines += [
+            ("carry", _length(result["carry"])),
+            ("flight", f"{result['flight_time']:.2f} s, {result['apex']:.1f} m high"),
+            ("landing", f"{result['landing_angle']:.1f}° at {result['landing_speed']:.1f} m/s, {result['landing_spin']:.0f} rpm"),
+        ]
+    lines.append(("total", _length(result["total"])))
+    endings = {
+        "cup": "holed",
+        "water": "in the water",
+        "rest": f"{_length(result['distance_to_pin'])} from the pin",
+        "duration": "still moving when time ran out",
+    }
+    lines.append(("verdict", endings[result["ended"]]))
+    return lines
+
+
+def _length(metres: float) -> str:
+    if abs(metres) < 10.0:
+        return f"{metres:.2f} m ({metres / FOOT:.1f} ft)"
+    return f"{metres:.1f} m ({metres / YARD:.0f} yd)"
