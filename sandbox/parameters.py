@@ -427,7 +427,7 @@ def _suggestion(key: str, schema: type[Group], values: Mapping[str, Any]) -> str
     inside = key.rpartition(".")[0]
     for word in _words_for(key, schema):
         return f" here; it goes with {inside}.{word}"
-    known = known_keys(schema, values)
+    known = [known for known in known_keys(schema, values) if not key.startswith(f"{known}.")]
     near = nearest(key, known)
     if near is not None:
         return f"; did you mean {near}?"
