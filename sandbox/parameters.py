@@ -19,7 +19,7 @@ import difflib
 import json
 import math
 import tomllib
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sized
 from dataclasses import dataclass
 from numbers import Real
 from pathlib import Path
@@ -40,23 +40,30 @@ from sandbox.physics.integrators import INTEGRATORS
 
 @dataclass(frozen=True)
 class Quantity:
-    """What a number is: its unit, its inclusive bounds and, for a vector, how many numbers belong together."""
+    """What a number is: its unit, its inclusive bounds, and how many belong together."""
 
     unit: str
     low: float
     high: float
-    length: int | None = None  # None for a single number
+    length: int | None = None  # of a vector; None for a single number
+    several: bool = False  # a list of vectors
     optional: bool = False
 
-    def read(self, value: Any) -> float | tuple[float, ...] | None:
+    def read(self, value: Any) -> Any:
         """``value`` in the declared unit; ValueError says what is wrong with it."""
         if value is None and self.optional:
             return None
         if self.length is None:
             return self._number(value)
-        if isinstance(value, str | Mapping) or not hasattr(value, "__iter__") or len(value) != self.length:
-            example = json.dumps([0.0] * self.length)
-            raise ValueError(f"must be a list of {self.length} numbers, each {self.range}, such as {example}")
+        if not self.several:
+            return self._vector(value, self.length)
+        if not _is_list(value):
+            raise ValueError(f"must be a list such as [{[0.0] * self.length}, {[1.0] * self.length}]")
+        return [self._vector(item, self.length) for item in value]
+
+    def _vector(self, value: Any, length: int) -> tuple[float, ...]:
+        if not _is_list(value) or len(value) != length:
+            raise ValueError(f"must be a list of {length} numbers, each {self.range}, such as {[0.0] * length}")
         return tuple(self._number(item) for item in value)
 
     def _number(self, value: Any) -> float:
@@ -89,6 +96,8 @@ class Quantity:
         either: dict[str, Any] = {"anyOf": [number, text]}
         if self.length is not None:
             either = {"type": "array", "items": either, "minItems": self.length, "maxItems": self.length}
+        if self.several:
+            either = {"type": "array", "items": either}
         description = f"{schema.get('description', '')} ({self.range})".strip()
         default = schema.get("default")
         schema.clear()
@@ -104,6 +113,15 @@ def quantity(default: float | str | None, unit: str, low: float, high: float, me
 def vector(default: tuple[float | str, ...], unit: str, low: float, high: float, meaning: str) -> Any:
     """As many numbers as ``default`` has, each with ``unit`` and bounds; declare it as ``tuple[float, float]``."""
     return _declared(default, meaning, Quantity(unit, float(low), float(high), length=len(default)))
+
+
+def vectors(default: list[tuple[float, ...]], length: int, unit: str, low: float, high: float, meaning: str) -> Any:
+    """A list of vectors of ``length`` numbers, such as points; declare it as ``list[tuple[float, float]]``."""
+    return _declared(default, meaning, Quantity(unit, float(low), float(high), length=length, several=True))
+
+
+def _is_list(value: Any) -> bool:
+    return isinstance(value, Iterable) and isinstance(value, Sized) and not isinstance(value, str | bytes | Mapping)
 
 
 def _declared(default: Any, meaning: str, kind: Quantity) -> Any:
@@ -135,6 +153,11 @@ def group(default: Group, meaning: str) -> Any:
     return _field(default, meaning, lambda value: _completed(value, default, None))
 
 
+def groups(default: list[Any], meaning: str) -> Any:
+    """A list of groups, ``[[balls]]`` in a file; declare it as ``list[Spot]``. A file replaces it whole."""
+    return Field(default, description=meaning)
+
+
 def either(default: Group, meaning: str, by: str = "model") -> Any:
     """One of several groups, chosen by their word ``by``; declare it as ``ConstantDrag | NoDrag``.
 
@@ -153,7 +176,7 @@ def _completed(table: Any, default: Group, tag: str | None) -> Any:
     """``table`` with what it leaves out taken from ``default``, unless its ``tag`` asks for another kind of group."""
     if not isinstance(table, Mapping):
         return table
-    if tag is not None and table.get(tag, getattr(default, tag)) != getattr(default, tag):
+    if tag is not None and tag in table and table[tag] not in get_args(type(default).model_fields[tag].annotation):
         return dict(table)
     completed = {name: getattr(default, name) for name in type(default).model_fields} | dict(table)
     for name, value in table.items():
@@ -367,13 +390,14 @@ def _without_leftovers(schema: type[Group], tables: dict[str, Any], changes: Map
 
 
 def nearest(word: str, known: list[str]) -> str | None:
-    """The known word most like ``word``, or None where none is like it."""
-    found = difflib.get_close_matches(word, known, n=1, cutoff=0.6)
-    if not found:
-        # "speed" for "launch.speed": right at the end, but without its group.
-        endings = {key.rpartition(".")[2]: key for key in reversed(known)}
-        found = [endings[end] for end in difflib.get_close_matches(word.rpartition(".")[2], endings, n=1, cutoff=0.75)]
-    return found[0] if found else None
+    """The known dotted key most like ``word``: in the same group, or by its last part anywhere; None if none is."""
+    inside, _, last = word.rpartition(".")
+    anywhere = {key.rpartition(".")[2]: key for key in reversed(known)}
+    siblings = {key.rpartition(".")[2]: key for key in known if key.rpartition(".")[0] == inside}
+    for among, cutoff in ((siblings, 0.6), (anywhere, 0.75)):
+        for found in difflib.get_close_matches(last, among, n=1, cutoff=cutoff):
+            return among[found]
+    return None
 
 
 def _explained(
@@ -427,7 +451,7 @@ def _suggestion(key: str, schema: type[Group], values: Mapping[str, Any]) -> str
     inside = key.rpartition(".")[0]
     for word in _words_for(key, schema):
         return f" here; it goes with {inside}.{word}"
-    known = [known for known in known_keys(schema, values) if not key.startswith(f"{known}.")]
+    known = known_keys(schema, values)
     near = nearest(key, known)
     if near is not None:
         return f"; did you mean {near}?"

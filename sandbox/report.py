@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from sandbox.scene import Check, Scene
 
 #: Events shown on a card; a ball that rolls through a rack has hundreds.
-EVENTS_SHOWN = 8
+EVENTS_SHOWN = 6
 
 
 def as_json(scene: Scene, run: Run, check: Check | None = None) -> str:

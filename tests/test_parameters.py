@@ -21,6 +21,7 @@ from sandbox.parameters import (
     choice,
     either,
     group,
+    groups,
     json_schema,
     known_keys,
     merged,
@@ -31,6 +32,7 @@ from sandbox.parameters import (
     switch,
     validate,
     vector,
+    vectors,
     walk,
 )
 
@@ -52,7 +54,7 @@ class ConstantDrag(Group):
 
 
 class FittedDrag(Group):
-    model: Literal["fitted"] = choice("fitted", "a curve")
+    model: Literal["fitted", "table"] = choice("fitted", "a curve")
     critical: float = quantity(1e5, "", low=0, high=1e7, meaning="critical Reynolds number")
     velocity: Literal["air", "ground"] = choice("air", "relative to which the ball moves")
 
@@ -79,7 +81,8 @@ class Parameters(Group):
     ball: Ball = group(Ball(mass=0.0459, drag=FittedDrag(critical=6e4)), "the ball")
     air: Air = group(Air(), "the air")
     holed: bool = switch(True, "whether there is a cup")
-    balls: list[Place] = []
+    balls: list[Place] = groups([], "where the balls lie")
+    heights: list[tuple[float, float]] = vectors([], 2, "m", low=-1e3, high=1e3, meaning="of the ground")
     accuracy: Accuracy = group(Accuracy(), "speed against accuracy")
 
 
@@ -189,6 +192,7 @@ def test_vectors():
 
     assert wind([-3, "10 mph"]) == (-3.0, 4.4704)
     assert wind((1.0, 2.0)) == (1.0, 2.0)
+    assert validate(Parameters, {"heights": [[0, "1 ft"], [5, 2]]}).heights == [(0.0, 0.3048), (5.0, 2.0)]
 
 
 def test_groups_are_frozen_and_their_defaults_are_checked():
@@ -242,13 +246,16 @@ def test_a_bad_number_is_refused_with_file_key_value_bound_and_unit(value: Any, 
         ({"lunch": {"speed": 1}}, "shot.toml: lunch: unknown key; did you mean launch?"),
         ({"speed": 1}, "shot.toml: speed: unknown key; did you mean launch.speed?"),
         ({"ball": {"temperature": 1}}, "ball.temperature: unknown key; did you mean air.temperature?"),
-        ({"qqqqqq": 1}, "qqqqqq: unknown key; the file knows gravity, launch, ball, air, holed, balls, accuracy"),
+        (
+            {"qqqqqq": 1},
+            "qqqqqq: unknown key; the file knows gravity, launch, ball, air, holed, balls, heights, accuracy",
+        ),
         ({"ball": {"drag": {"qqq": 1}}}, "ball.drag.qqq: unknown key; ball.drag knows model, critical, velocity"),
         (
             {"ball": {"drag": {"coefficient": 1}}},
             'ball.drag.coefficient: unknown key here; it goes with ball.drag.model = "const',
         ),
-        ({"balls": [{"name": "one", "y": 0}]}, "balls[0].y: unknown key; did you mean balls.x?"),
+        ({"balls": [{"name": "one", "y": 0}]}, "balls[0].y: unknown key; balls knows name, x"),
     ],
 )
 def test_an_unknown_key_is_refused_with_the_nearest_one(values: dict[str, Any], expected: str):
@@ -260,13 +267,16 @@ def test_an_unknown_key_is_refused_with_the_nearest_one(values: dict[str, Any], 
     [
         ({"launch": 3}, "launch = 3: must be a group of keys, not a single value"),
         ({"ball": {"drag": 3}}, "ball.drag = 3: must be a group of keys"),
-        ({"ball": {"drag": {"model": "ideal"}}}, 'must be "none", "constant" or "fitted"'),
+        ({"ball": {"drag": {"model": "ideal"}}}, 'must be "none", "constant", "fitted" or "table"'),
         ({"ball": {"drag": {"velocity": "water"}}}, 'ball.drag.velocity = "water": must be "air" or "ground"'),
         ({"air": {"wind": 3}}, "air.wind = 3: must be a list of 2 numbers, each from -100 to 100 m/s"),
         ({"air": {"wind": [1]}}, "air.wind = [1]: must be a list of 2 numbers"),
         ({"air": {"wind": "westerly"}}, "must be a list of 2 numbers"),
         ({"air": {"wind": [1, "5 kg"]}}, "kg is a unit of mass"),
         ({"air": {"wind": [1, math.nan]}}, "must be a finite number"),
+        ({"heights": 3}, "heights = 3: must be a list such as [[0.0, 0.0], [1.0, 1.0]]"),
+        ({"heights": [[0, 1], [1]]}, "must be a list of 2 numbers, each from -1000 to 1000 m"),
+        ({"heights": [[0, math.nan]]}, "must be a finite number"),
         ({"holed": 1}, "holed = 1: must be true or false"),
         ({"holed": "yes"}, "must be true or false"),
         ({"balls": 4}, "balls = 4: must be a list"),
@@ -312,6 +322,12 @@ def test_keys_without_the_word_that_chooses_are_for_the_default():
 
 def test_another_choice_starts_from_its_own_defaults():
     assert validate(Parameters, {"ball": {"drag": {"model": "constant"}}}).ball.drag == ConstantDrag()
+
+
+def test_another_word_for_the_same_group_keeps_the_defaults_of_the_scene():
+    assert validate(Parameters, {"ball": {"drag": {"model": "table"}}}).ball.drag == FittedDrag(
+        model="table", critical=6e4
+    )
 
 
 def test_a_changed_choice_drops_the_keys_that_only_the_old_one_had():

@@ -8,7 +8,7 @@ from __future__ import annotations
 from typing import Any, Literal
 
 from sandbox.engine.setup import Ball, Segment, Setup, Surface
-from sandbox.parameters import Accuracy, Group, choice, either, group, quantity, switch, vector
+from sandbox.parameters import Accuracy, Group, choice, either, group, groups, quantity, switch, vector
 
 
 class Launch(Group):
@@ -55,7 +55,7 @@ class Parameters(Group):
     ball: DroppedBall = group(DroppedBall(mass=0.2), "the ball")
     air: Air = group(Air(), "the air")
     floor: Floor = group(Floor(), "the floor")
-    marks: list[Mark] = []
+    marks: list[Mark] = groups([], "what lies about")
     accuracy: Accuracy = group(Accuracy(), "speed against accuracy")
 
 
