@@ -33,7 +33,8 @@ def settle(mover: Mover, t: float, state: State, near: Sequence[Near], height: f
         nx, ny = touching.nx, touching.ny
         along = vx * ny - vy * nx
         press = -(fx * nx + fy * ny) / mass - touching.curvature * along * along  # m/s^2
-        if vx * nx + vy * ny <= (2.0 * max(press, 0.0) * height) ** 0.5 + _STILL:
+        lowest = max(height, obstacle.surface.lowest_bounce)
+        if vx * nx + vy * ny <= (2.0 * max(press, 0.0) * lowest) ** 0.5 + _STILL:
             kept.append((obstacle, touching))
     if not kept:
         return state, None
@@ -67,15 +68,24 @@ def settle(mover: Mover, t: float, state: State, near: Sequence[Near], height: f
     return _wedged(mover, state, kept, held, fx, fy)
 
 
-def conclude(mover: Mover, state: State, contact: Contact, reason: str) -> State:
-    """The state at which one way of moving on a surface ends: just rolling, or just still, where that is why."""
+def conclude(mover: Mover, state: State, contact: Contact | None, reason: str) -> State:
+    """The state at the end of an arc: put back on a round surface, whose path the arc only follows closely; just rolling, or just
+    still, where that is why it ended."""
+    if contact is None:
+        return state
     x, y, vx, vy, spin = state
+    nx, ny, _ = contact.touching.normal_at(x, y)
+    if contact.touching.center is not None and contact.mode in (SLIDING, ROLLING):
+        x = contact.touching.center[0] + contact.obstacle.reach * nx
+        y = contact.touching.center[1] + contact.obstacle.reach * ny
+        leaving = vx * nx + vy * ny
+        vx -= leaving * nx
+        vy -= leaving * ny
     if reason == "grip":
-        nx, ny, _ = contact.touching.normal_at(x, y)
-        return x, y, vx, vy, -(vx * ny - vy * nx) / mover.ball.radius
+        spin = -(vx * ny - vy * nx) / mover.ball.radius
     if reason == "stop":
-        return x, y, 0.0, 0.0, 0.0
-    return state
+        vx = vy = spin = 0.0
+    return x, y, vx, vy, spin
 
 
 def _way_of_moving(

@@ -85,6 +85,7 @@ class Surface:
     """A fixed shape and how it answers: restitution and friction are those of the pair ball and surface.
 
     ``rolling_resistance`` c is the deceleration of a rolling ball over the normal force per mass: a = c N / m.
+    ``lowest_bounce`` is the height in m below which a bounce is lost in the surface and the ball goes on rolling: grass.
     ``law`` replaces restitution and friction at an impact by a function of the normal and the tangential speed (m/s).
     """
 
@@ -93,6 +94,7 @@ class Surface:
     restitution: float
     friction: float
     rolling_resistance: float = 0.0
+    lowest_bounce: float = 0.0  # m
     law: Callable[[float, float], Bounce] | None = None
 
 

@@ -110,12 +110,11 @@ class Simulation:
             track = self._tracks[i]
             if track.arc.t1 >= duration and kind == "":
                 return duration, "duration"
-            track.state = track.arc.state(track.arc.t1)
             _keep(track, track.arc)
+            track.state = conclude(track.mover, track.arc.state(track.arc.t1), track.contact, kind)
             if kind == "":
                 self._plan(i, t)
             else:
-                track.state = conclude(track.mover, track.state, track.contact, kind)
                 self._resume(i, t)
             if self._over:
                 return t, "until"

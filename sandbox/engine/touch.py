@@ -16,14 +16,14 @@ from sandbox.engine.bernstein import downward_crossings, elevate, evaluate, piec
 from sandbox.engine.setup import Circle, Surface
 
 #: Overlap in m at which two shapes count as touching. Positive, so that a ball rolling across the seam of two flush
-#: surfaces, off by rounding only (1e-13 m at 1 km), touches nothing. 1e-7 m and more would show in the results.
-SKIN = 1e-9
+#: surfaces, off by rounding only (1e-13 m at 1 km), touches nothing. An impact on a round shape multiplies it by ten or more.
+SKIN = 2e-11
 
 #: Largest gap in m at which shapes are taken to be in contact when an impact or a new contact is sorted out.
-CONTACT = 4e-9
+CONTACT = 1e-10
 
 #: Distance in m along a side within which a ball is at the side's end.
-_SEAM = 1e-10
+_SEAM = 1e-11
 
 #: Rounding in m that is not motion: a path nearer than this to parallel neither closes nor opens a gap.
 _NOISE = 1e-13
