@@ -1,0 +1,142 @@
+"""The rooms of the house and who may look into which: ``physics <- engine <- scene <- picture, lab <- window <- cli``."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parent.parent
+
+#: A module may import from its own room and from rooms of a lower floor. ``errors`` is open to all.
+FLOORS = {
+    "errors": 0,
+    "physics": 1,
+    "engine": 2,
+    "units": 3,
+    "files": 3,
+    "resources": 3,
+    "parameters": 3,
+    "scene": 3,
+    "picture": 4,
+    "lab": 4,
+    "golden": 5,
+    "window": 5,
+    "tracebacks": 6,
+    "report": 6,
+    "cli": 6,
+    "": 6,  # sandbox/__init__.py
+}
+SHARED_FLOORS = (3, 6)  # single modules, which may import each other
+
+#: Libraries that only some rooms may import; scenes/*/picture.py counts as picture.
+OWNERS = {"pymunk": {"engine"}, "pygame": {"picture", "window"}, "pygame_gui": {"window"}, "PIL": {"picture", "golden"}}
+
+SCENES = sorted(path.parent.name for path in (ROOT / "scenes").glob("*/scene.py"))
+
+
+def imported(tree: ast.AST, package: str) -> Iterator[str]:
+    """Dotted names of all modules that a module imports anywhere in it; ``package`` resolves relative imports."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Import):
+            yield from (alias.name for alias in node.names)
+        elif isinstance(node, ast.ImportFrom):
+            base = package.split(".")[: len(package.split(".")) + 1 - node.level] if node.level else []
+            module = ".".join([*base, *([node.module] if node.module else [])])
+            yield from (f"{module}.{alias.name}" for alias in node.names)
+
+
+def room(module: str) -> str:
+    """``"engine"`` for ``sandbox.engine.run``; ``""`` for ``sandbox`` itself."""
+    name = [*module.split("."), ""][1]
+    return name if name in FLOORS else ""  # sandbox.load is sandbox/__init__.py
+
+
+def broken_rules(source: str, where: str, own: str) -> list[str]:
+    """What a module of the room ``own`` imports or says that it must not."""
+    tree = ast.parse(source)
+    broken = []
+    for module in imported(tree, f"sandbox.{own}"):
+        top = module.partition(".")[0]
+        if own not in OWNERS.get(top, {own}):
+            broken.append(f"{where}: {own} imports {top}")
+        if top in ("scenes", "sandbox_scenes", "tests"):
+            broken.append(f"{where}: imports {module}")
+        if top == "sandbox":
+            other = room(module)
+            neighbours = FLOORS[own] == FLOORS[other] and (own == other or FLOORS[own] in SHARED_FLOORS)
+            if not neighbours and FLOORS[other] >= FLOORS[own]:
+                broken.append(f"{where}: {own} imports {module}")
+    broken += [
+        f"{where}, line {node.lineno}: names the scene {node.value}"
+        for node in ast.walk(tree)
+        if isinstance(node, ast.Constant) and isinstance(node.value, str) and node.value.partition("/")[0] in SCENES
+    ]
+    return broken
+
+
+@pytest.mark.parametrize("path", sorted((ROOT / "sandbox").rglob("*.py")), ids=lambda path: str(path.relative_to(ROOT)))
+def test_modules_look_only_downstairs(path: Path):
+    parts = path.relative_to(ROOT / "sandbox").with_suffix("").parts
+    own = "" if parts[0] == "__init__" else parts[0]
+    assert own in FLOORS, f"{path}: a new room needs its floor in FLOORS"
+    assert broken_rules(path.read_text("utf-8"), str(path.relative_to(ROOT)), own) == []
+
+
+def used_by_scene(folder: Path) -> set[str]:
+    """Names of the modules of a scene that its scene.py imports, which must do without pygame as it does."""
+    names, waiting = set(), ["__init__", "scene"]
+    while waiting:
+        name = waiting.pop()
+        file = folder / f"{name}.py"
+        if name not in names and file.is_file():
+            names.add(name)
+            modules = imported(ast.parse(file.read_text("utf-8")), "itself")
+            waiting += [module.split(".")[1] for module in modules if module.startswith("itself.")]
+    return names
+
+
+@pytest.mark.parametrize("path", sorted((ROOT / "scenes").rglob("*.py")), ids=lambda path: str(path.relative_to(ROOT)))
+def test_scenes_use_what_a_scene_may(path: Path):
+    own = "scene" if path.parent == ROOT / "scenes" or path.stem in used_by_scene(path.parent) else "picture"
+    broken = broken_rules(path.read_text("utf-8"), str(path.relative_to(ROOT)), own)
+    assert [line for line in broken if "names the scene" not in line] == []
+
+
+@pytest.mark.parametrize(
+    ("own", "source"),
+    [
+        ("physics", "from sandbox.engine import run"),
+        ("physics", "from ..engine import run"),
+        ("physics", "import sandbox.parameters"),
+        ("engine", "def late():\n    from sandbox.scene import load"),
+        ("engine", "import sandbox"),
+        ("scene", "from sandbox.picture.camera import Camera"),
+        ("scene", "import pymunk"),
+        ("scene", "from PIL import Image"),
+        ("picture", "from pymunk import Space"),
+        ("picture", "import sandbox.lab"),
+        ("lab", "import pygame"),
+        ("errors", "import sandbox.units"),
+        ("cli", "import scenes.golf.scene"),
+        ("cli", "load('golf')"),
+        ("cli", "load('golf/driver')"),
+    ],
+)
+def test_the_rules_can_be_broken(own: str, source: str):
+    assert len(broken_rules(source, "here", own)) >= 1
+
+
+@pytest.mark.parametrize(
+    ("own", "source"),
+    [
+        ("engine", "from sandbox.physics.integrators import rk4\nfrom sandbox.errors import RunError\nimport pymunk"),
+        ("picture", "from sandbox.scene import load\nimport pygame"),
+        ("scene", "from sandbox import parameters, resources"),
+        ("cli", "import sandbox\nfrom sandbox import report"),
+    ],
+)
+def test_the_rules_allow_what_they_should(own: str, source: str):
+    assert broken_rules(source, "here", own) == []
