@@ -174,6 +174,9 @@ class Parameters(Group):
 #: The course reaches this far behind and beyond, in m.
 BEHIND, BEYOND = -1000.0, 3000.0
 
+#: Bounces lower than this, in m, are lost in the grass and the ball rolls (Penner 2002, Can. J. Phys. 80:931).
+LOWEST_BOUNCE = 0.005
+
 #: A shot that has not come to rest after this time in s is ended.
 LONGEST = 300.0
 
@@ -326,7 +329,8 @@ def _turf(parameters: Parameters, kind: str, a: tuple[float, float], b: tuple[fl
         restitution = min(1.0, bounce * penner_restitution(normal_speed))
         return Bounce(restitution, friction, penner_tilt(normal_speed, tangential_speed))
 
-    return Surface(kind, Segment(a, b), min(1.0, bounce * penner_restitution(0.0)), friction, resistance, law)
+    restitution = min(1.0, bounce * penner_restitution(0.0))
+    return Surface(kind, Segment(a, b), restitution, friction, resistance, LOWEST_BOUNCE, law)
 
 
 # ---------------------------------------------------------------------------------------------------------------- result
