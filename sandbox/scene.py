@@ -68,7 +68,7 @@ class Scene:
 
     def __reduce__(self) -> tuple[Any, ...]:
         # By value, so that a process that never imported this scene's module can read it.
-        return _revived, (self.name, self.preset, self.folder, self.parameters.model_dump(exclude_defaults=True))
+        return _revived, (self.name, self.preset, self.folder, self.parameters.model_dump())
 
 
 def _revived(name: str, preset: str | None, folder: Path, values: dict[str, Any]) -> Scene:
@@ -184,7 +184,7 @@ def _find(source: str | Path) -> tuple[str, Path, Path | None]:
     try:
         return _named(source) if isinstance(source, str) else _at(source)
     except OSError as error:  # a name too long, a folder that may not be entered
-        raise RequestError(f"{source}: cannot be read: {reason(error)}") from None
+        raise RequestError(f"{_shortened(str(source))}: cannot be read: {reason(error)}") from None
 
 
 def _named(source: str) -> tuple[str, Path, Path | None]:
@@ -194,6 +194,8 @@ def _named(source: str) -> tuple[str, Path, Path | None]:
         return name, folder, _default_file(folder)
     if folder is not None and _is_word(preset):
         return name, folder, _preset(name, folder, preset)
+    if not source:
+        raise RequestError(_unknown('""'))
     return _at(Path(source))
 
 
@@ -214,7 +216,13 @@ def _is_word(name: str) -> bool:
 
 def _unknown(name: str) -> str:
     near = declared.nearest(name, [listing.name for listing in listings()])
-    return f"unknown scene {name}; " + (f"did you mean {near}?" if near else "sandbox list shows all there are")
+    return f"unknown scene {_shortened(name)}; " + (
+        f"did you mean {near}?" if near else "sandbox list shows all there are"
+    )
+
+
+def _shortened(text: str) -> str:
+    return text if len(text) <= 80 else text[:77] + "..."
 
 
 def _built_in(name: str) -> Path | None:

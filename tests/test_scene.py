@@ -1,0 +1,281 @@
+"""Finding, loading and running scenes: those that come with the sandbox and a user's own."""
+
+from __future__ import annotations
+
+import math
+import pickle
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import sandbox
+from sandbox import resources
+from sandbox.errors import RequestError
+from sandbox.parameters import read_toml, walk
+from sandbox.scene import listings
+
+DROP = Path(__file__).parent / "scenes" / "drop"
+SCENES = resources.folder("scenes")
+NAMES = [listing.name for listing in listings()]
+
+
+@pytest.fixture
+def drop(tmp_path: Path) -> Path:
+    """A scene of the user's own: a copy of the folder ``drop``."""
+    return Path(shutil.copytree(DROP, tmp_path / "drop", ignore=shutil.ignore_patterns("__pycache__")))
+
+
+def refusal(*args: Any) -> str:
+    with pytest.raises(RequestError) as refused:
+        sandbox.load(*args)
+    return str(refused.value)
+
+
+# The scenes that come with it ---------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_every_scene_and_preset_runs_to_its_end_and_stays_finite(name: str):
+    scene = sandbox.load(name)
+    assert (scene.name, scene.preset) == (name.partition("/")[0], name.partition("/")[2] or None)
+    run = sandbox.simulate(scene)
+    assert run.ended in ("rest", "until")
+    for ball in run.setup.balls:
+        assert all(math.isfinite(number) for row in run.trajectory(ball.name).tolist() for number in row)
+    numbers = [value for value in run.result.values() if isinstance(value, float)]
+    assert all(math.isfinite(number) for number in numbers)
+    assert scene.module.card(run.result, scene.parameters)
+
+
+@pytest.mark.parametrize("listing", list(listings()), ids=lambda listing: listing.name)
+def test_every_scene_and_preset_says_what_it_is(listing: Any):
+    assert 10 <= len(listing.about) <= 110
+
+
+@pytest.mark.parametrize("name", [name for name in NAMES if "/" not in name])
+def test_a_scene_file_shows_the_defaults_of_its_scene(name: str):
+    scene = sandbox.load(name)
+    assert scene.parameters == type(scene.parameters)()
+
+
+@pytest.mark.parametrize("file", sorted(SCENES.rglob("*.toml")), ids=lambda file: str(file.relative_to(SCENES)))
+def test_a_scene_file_is_found_by_name_and_by_path(file: Path):
+    by_path = sandbox.load(file)
+    name = by_path.name if by_path.preset is None else f"{by_path.name}/{by_path.preset}"
+    by_name = sandbox.load(name)
+    assert by_path == by_name == sandbox.load(str(file))
+    assert by_path.module is by_name.module
+
+
+def test_overrides_stand_over_the_file():
+    scene = sandbox.load(DROP, {"launch.height": "6 ft", "air": {"wind": [1, 2]}})
+    assert scene.parameters.launch.height == pytest.approx(1.8288)
+    assert scene.parameters.air.wind == (1.0, 2.0)
+    assert "override launch.height = -1: must be from 0.1 to 100 m" in refusal(DROP, {"launch.height": -1})
+
+
+def test_runs_are_repeatable():
+    one, other = (sandbox.simulate(sandbox.load(DROP)) for _ in range(2))
+    assert one.result == other.result
+    assert one.trajectory("ball").tobytes() == other.trajectory("ball").tobytes()
+
+
+# A user's own -------------------------------------------------------------------------------------------------------
+
+
+def test_a_folder_is_a_scene(drop: Path):
+    scene = sandbox.load(drop)
+    assert (scene.name, scene.preset) == ("drop", None)
+    assert scene.parameters.launch.height == 2.0
+    assert scene.about.startswith("A ball dropped on the floor")
+
+
+def test_a_folder_without_a_scene_file_takes_the_defaults(drop: Path):
+    (drop / "drop.toml").unlink()
+    assert sandbox.load(drop).parameters == sandbox.load(drop).module.Parameters()
+
+
+def test_a_preset_is_read_alone(drop: Path):
+    (drop / "drop.toml").write_text('scene = "drop"\n[launch]\nheight = 3.0')
+    scene = sandbox.load(drop / "presets" / "moon.toml")
+    assert (scene.name, scene.preset) == ("drop", "moon")
+    assert scene.parameters.gravity == 1.62
+    assert scene.parameters.launch.height == 2.0
+    assert scene.about == "The same drop on the moon."
+
+
+def test_a_scene_file_beside_a_folder_of_its_scene(drop: Path):
+    (drop.parent / "shot.toml").write_text('scene = "drop"\ngravity = 3.7')
+    scene = sandbox.load(drop.parent / "shot.toml")
+    assert (scene.name, scene.preset, scene.folder) == ("drop", None, drop)
+    assert scene.parameters.gravity == 3.7
+
+
+def test_a_scene_file_beside_scene_py_need_not_name_it(drop: Path):
+    (drop / "high.toml").write_text("launch.height = 50")
+    assert sandbox.load(drop / "high.toml").parameters.launch.height == 50
+
+
+def test_a_relative_path_is_enough(drop: Path, monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.chdir(drop.parent)
+    assert sandbox.load("drop").folder == drop
+    monkeypatch.chdir(drop)
+    assert sandbox.load(".") == sandbox.load("drop.toml") == sandbox.load("presets/../drop.toml")
+    assert refusal("drop.toml", {"launch.speed": -1}) == "override launch.speed = -1: must be from 0 to 340 m/s"
+    (drop / "drop.toml").write_text("gravity = -1")
+    assert refusal(str(drop / "drop.toml")) == "drop.toml: gravity = -1: must be from 0 to 30 m/s^2"
+
+
+def test_a_scene_may_import_its_neighbours(drop: Path):
+    (drop / "weights.py").write_text("GRAVITY = 1.5")
+    source = (
+        (drop / "scene.py").read_text("utf-8").replace("from sandbox", "from .weights import GRAVITY\nfrom sandbox", 1)
+    )
+    (drop / "scene.py").write_text(source, "utf-8")
+    assert sandbox.load(drop).module.GRAVITY == 1.5
+
+
+def test_two_folders_of_one_name_do_not_mix(drop: Path, tmp_path: Path):
+    other = tmp_path / "elsewhere" / "drop"
+    shutil.copytree(drop, other)
+    (other / "scene.py").write_text((other / "scene.py").read_text("utf-8").replace('9.81, "m/s^2"', '1.0, "m/s^2"'))
+    assert sandbox.load(drop).parameters.gravity == 9.81
+    assert sandbox.load(other).parameters.gravity == 1.0
+    assert sandbox.load(drop).parameters.gravity == 9.81
+
+
+def test_a_folder_may_have_any_name(drop: Path):
+    odd = drop.rename(drop.parent / "my drop, v1.2")
+    assert sandbox.load(odd).name == "my drop, v1.2"
+
+
+def test_an_installed_package_may_offer_scenes(drop: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    package = tmp_path / "site"
+    shutil.copytree(drop, package / "droppings" / "drop")
+    (package / "droppings" / "__init__.py").touch()
+    info = package / "droppings-1.0.dist-info"
+    info.mkdir()
+    (info / "METADATA").write_text("Metadata-Version: 2.1\nName: droppings\nVersion: 1.0\n")
+    (info / "entry_points.txt").write_text("[sandbox.scenes]\ndrop = droppings.drop.scene\ngone = nowhere.scene\n")
+    monkeypatch.syspath_prepend(str(package))
+    assert sandbox.load("drop").folder == package / "droppings" / "drop"
+    assert sandbox.load("drop/moon").parameters.gravity == 1.62
+    assert {"drop", "drop/moon"} < {listing.name for listing in listings()}
+    assert "unknown scene gone" in refusal("gone")
+
+
+def test_a_scene_can_be_sent_to_another_process(drop: Path):
+    scene = sandbox.load(drop / "presets" / "moon.toml", {"launch.height": 3, "ball.drag.model": "constant"})
+    assert pickle.loads(pickle.dumps(scene)) == scene
+    code = "import pickle, sys; print(pickle.load(sys.stdin.buffer).parameters)"
+    process = subprocess.run([sys.executable, "-c", code], input=pickle.dumps(scene), capture_output=True, check=True)
+    assert process.stdout.decode().strip() == str(scene.parameters)
+
+
+# Refusals -----------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("source", "expected"),
+    [
+        ("golff", "unknown scene golff; did you mean golf?"),
+        ("Golf", "unknown scene Golf; did you mean golf?"),
+        ("qqqqqq", "unknown scene qqqqqq; sandbox list shows all there are"),
+        ("", "unknown scene"),
+        ("golf/qqqqqq", "golf has no preset qqqqqq"),
+        ("golf/../golf", "unknown scene golf/../golf"),
+        ("nowhere/shot.toml", "nowhere/shot.toml: cannot be read: no such file or directory"),
+        ("x" * 5000, "cannot be read: file name too long"),
+        ("tests" if Path("tests").is_dir() else ".", "a folder without scene.py is not a scene"),
+    ],
+)
+def test_what_cannot_be_found_is_refused(source: str, expected: str):
+    message = refusal(source)
+    assert expected in message
+    assert len(message.splitlines()) == 1
+    assert len(message) < 200
+
+
+@pytest.mark.parametrize(
+    ("content", "expected"),
+    [
+        ("", 'needs a line that names its scene, such as scene = "golf"'),
+        ("gravity = 3", 'needs a line that names its scene, such as scene = "golf"'),
+        ("scene = 3", "needs a line that names its scene"),
+        ('scene = "../golf"', "needs a line that names its scene"),
+        ('scene = "golff"', "unknown scene golff; did you mean golf?"),
+        ("scene = ", "broken TOML"),
+    ],
+)
+def test_a_file_that_names_no_scene_is_refused(tmp_path: Path, content: str, expected: str):
+    (tmp_path / "shot.toml").write_text(content)
+    message = refusal(tmp_path / "shot.toml")
+    assert expected in message
+    assert message.startswith(str(tmp_path / "shot.toml"))
+
+
+def test_a_file_for_another_scene_is_refused(drop: Path):
+    (drop / "drop.toml").write_text('scene = "golf"')
+    assert 'scene = "golf", but here it is a file for drop' in refusal(drop)
+    assert 'scene = "golf", but here it is a file for drop' in refusal(drop / "drop.toml")
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "expected"),
+    [
+        ("def build", "def construct", "a scene offers Parameters, build, result, card; build is missing"),
+        ("class Parameters(Group)", "class Numbers(Group)", "Parameters is missing"),
+        ("class Parameters(Group)", "class Parameters(dict)", "Parameters must be a sandbox.parameters.Group"),
+        ("    accuracy: Accuracy", "    precision: Accuracy", "Parameters needs a line accuracy: Accuracy"),
+    ],
+)
+def test_a_folder_that_is_no_scene_is_refused(drop: Path, old: str, new: str, expected: str):
+    source = (drop / "scene.py").read_text("utf-8")
+    assert old in source
+    (drop / "scene.py").write_text(source.replace(old, new), "utf-8")
+    assert expected in refusal(drop)
+
+
+def test_a_scene_without_a_picture_says_so(drop: Path):
+    with pytest.raises(RequestError, match=r"picture\.py is missing"):
+        sandbox.load(drop).picture_module()
+
+
+# Checking -----------------------------------------------------------------------------------------------------------
+
+
+def test_check_estimates_the_error_of_each_number():
+    scene = sandbox.load("golf", {"accuracy.level": "fast"})
+    run = sandbox.simulate(scene)
+    check = sandbox.check(scene, run)
+    precise = sandbox.simulate(sandbox.load("golf", {"accuracy.level": "precise"}))
+    assert 0 < check.errors["carry"] < 1.0  # m
+    assert abs(run.result["carry"] - precise.result["carry"]) < 2 * check.errors["carry"]
+    assert check.changed == {}
+
+
+def test_check_tells_what_hangs_on_the_accuracy(drop: Path):
+    source = (drop / "scene.py").read_text("utf-8")
+    verdict = '"verdict": "in" if run.accuracy.tolerance < 5e-4 else "out", "nothing": float("nan"), "bounces"'
+    (drop / "scene.py").write_text(source.replace('"bounces"', verdict, 1), "utf-8")
+    check = sandbox.check(sandbox.load(drop))
+    assert check.changed == {"verdict": ("out", "in")}
+    assert check.errors.keys() == {"bounces", "first_touch", "final_height"}
+
+
+def test_walking_the_parameters_of_a_file_covers_it():
+    """Every key in golf.toml is a parameter that sliders and sweeps can name."""
+
+    def dotted(table: dict[str, Any], prefix: str = "") -> set[str]:
+        return {
+            key
+            for name, value in table.items()
+            for key in (dotted(value, f"{prefix}{name}.") if isinstance(value, dict) else {prefix + name})
+        }
+
+    keys = dotted(read_toml(SCENES / "golf" / "golf.toml")) - {"scene"}
+    assert keys <= {parameter.key for parameter in walk(sandbox.load("golf").parameters)}
