@@ -1,0 +1,99 @@
+"""Metres to pixels. The only place where y is flipped: up in the world, down on the picture."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+
+class Box(NamedTuple):
+    """A rectangle of the world in m, y up."""
+
+    left: float
+    bottom: float
+    right: float
+    top: float
+
+
+class Area(NamedTuple):
+    """A rectangle of the picture in px, y down."""
+
+    left: float
+    top: float
+    right: float
+    bottom: float
+
+
+@dataclass(frozen=True)
+class Camera:
+    """Shows the world point ``at`` (m) at the picture's point ``anchor`` (px), with ``scale`` px/m.
+
+    Heights are drawn ``stretch`` times as large as lengths; a picture that stretches them says so.
+    """
+
+    at: tuple[float, float]
+    anchor: tuple[float, float]
+    scale: float
+    stretch: float = 1.0
+
+    def pixel(self, x: float, y: float) -> tuple[float, float]:
+        """World point in m to picture point in px."""
+        return (
+            self.anchor[0] + (x - self.at[0]) * self.scale,
+            self.anchor[1] - (y - self.at[1]) * self.scale * self.stretch,
+        )
+
+    def pixels(self, points: np.ndarray) -> np.ndarray:
+        """World points in m, shape (n, 2), to picture points in px, shape (n, 2)."""
+        return np.asarray(self.anchor) + (np.asarray(points)[:, :2] - self.at) * (self.scale, -self.scale * self.stretch)
+
+    def world(self, px: float, py: float) -> tuple[float, float]:
+        """Picture point in px to world point in m."""
+        return (
+            self.at[0] + (px - self.anchor[0]) / self.scale,
+            self.at[1] - (py - self.anchor[1]) / (self.scale * self.stretch),
+        )
+
+    @classmethod
+    def fit(cls, box: Box, area: Area, stretch: float = 1.0) -> Camera:
+        """The largest scale at which the box is inside the area: in its middle along, standing on its floor."""
+        width, height = area.right - area.left, area.bottom - area.top
+        spans = ((width, box.right - box.left), (height, (box.top - box.bottom) * stretch))
+        scale = min(pixels / metres for pixels, metres in spans if metres > 0)
+        middle = (box.left + box.right) / 2
+        return cls((middle, box.bottom), ((area.left + area.right) / 2, area.bottom), scale, stretch)
+
+
+class Follow:
+    """A camera that goes with something, smoothly, and may be asked for any time in any order.
+
+    ``times`` (s) are evenly spaced, ``at`` (m, shape (n, 2)) is where to look and ``scales`` (px/m, shape (n,)) how near.
+    Both are averaged over about ``settle`` s before and after, the scale in its logarithm: a zoom looks even that way.
+    """
+
+    def __init__(
+        self, times: np.ndarray, at: np.ndarray, scales: np.ndarray, anchor: tuple[float, float], settle: float = 0.25
+    ):
+        self.times, self.anchor = times, anchor
+        step = times[1] - times[0] if len(times) > 1 else 1.0
+        self.paths = [_smooth(path, settle / step) for path in (at[:, 0], at[:, 1], np.log(scales))]
+
+    @property
+    def largest_scale(self) -> float:
+        """The nearest that the camera comes, px/m."""
+        return float(np.exp(self.paths[2].max()))
+
+    def camera(self, t: float) -> Camera:
+        """The camera at time t in s."""
+        x, y, log_scale = (float(np.interp(t, self.times, path)) for path in self.paths)
+        return Camera((x, y), self.anchor, float(np.exp(log_scale)))
+
+
+def _smooth(values: np.ndarray, spread: float) -> np.ndarray:
+    """Weighted with a bell of ``spread`` samples; the ends are held."""
+    reach = int(3 * spread) + 1
+    bell = np.exp(-0.5 * (np.arange(-reach, reach + 1) / max(spread, 1e-9)) ** 2)
+    padded = np.concatenate([np.full(reach, values[0]), values, np.full(reach, values[-1])])
+    return np.convolve(padded, bell / bell.sum(), mode="valid")

@@ -1,0 +1,118 @@
+"""An open landscape: sky, sun, clouds, three lines of hills that fade with distance, trees. Drawn once, then moved."""
+
+from __future__ import annotations
+
+from math import tau
+from typing import Any
+
+import numpy as np
+import pygame
+
+from sandbox.picture.painter import blank, from_colours, from_coverage
+from sandbox.picture.palette import Colour, mix
+
+#: How far each layer moves when the eye moves by 1 px: the far hills hardly, the near trees most.
+CLOUDS, HILLS, TREES = 0.01, (0.02, 0.04, 0.08), 0.16
+
+
+class Landscape:
+    """Everything behind the playing field, down to ``horizon`` px, for a picture of ``size`` px.
+
+    Layers are twice as wide as the picture and join at their ends, so a camera may move for ever.
+    """
+
+    def __init__(self, size: tuple[int, int], horizon: int, colours: dict[str, Any], seed: int = 7):
+        self.size, self.horizon, self.colours = size, horizon, colours
+        self.random = np.random.default_rng(seed)
+        self.unit = size[1] / 720
+        self.width = 2 * size[0]
+        self.sky = self._sky()
+        self.layers = [(self._clouds(), CLOUDS)]
+        for i, (speed, height) in enumerate(zip(HILLS, (104, 70, 44), strict=True)):
+            self.layers.append((self._hills(i, height * self.unit), speed))
+        self.layers.append((self._trees(), TREES))
+
+    def draw(self, surface: pygame.Surface, shift: float = 0.0) -> None:
+        """Draw the landscape as seen by an eye that has moved ``shift`` px to the right."""
+        surface.blit(self.sky, (0, 0))
+        for (layer, top), speed in self.layers:
+            left = -(round(shift * speed) % self.width)
+            for x in (left, left + self.width):
+                if x < self.size[0]:
+                    surface.blit(layer, (x, top))
+
+    def _sky(self) -> pygame.Surface:
+        width, height = self.size
+        top, low = (np.array(colour, float) for colour in self.colours["sky"])
+        down = np.linspace(0, 1, height)[None, :, None] * height / self.horizon
+        sky = top + (low - top) * np.clip(down, 0, 1) ** 1.15
+        across = (np.arange(width)[:, None] - 0.74 * width) / (0.34 * width)
+        along = (np.arange(height)[None, :] - 0.80 * self.horizon) / (0.62 * self.horizon)
+        glow = np.exp(-(across**2) - along**2)[:, :, None] * 0.75
+        sky = np.broadcast_to(sky, (width, height, 3))
+        return from_colours(sky + (np.array(self.colours["sun"], float) - sky) * glow)
+
+    def _wave(self, periods: tuple[int, ...], weights: tuple[float, ...]) -> np.ndarray:
+        """A soft line over the layer's width that joins at its ends; between 0 and 1."""
+        x = np.arange(self.width) / self.width * tau
+        line = sum(
+            weight * np.sin(period * x + phase)
+            for period, weight, phase in zip(periods, weights, self.random.uniform(0, tau, len(periods)), strict=True)
+        )
+        return (line - line.min()) / (line.max() - line.min())
+
+    def _hills(self, layer: int, height: float) -> tuple[pygame.Surface, int]:
+        periods = ((3, 5, 8, 13), (4, 7, 11, 17), (3, 7, 12, 19))[layer]
+        line = (0.35 + 0.65 * self._wave(periods, (1.0, 0.7, 0.3, 0.14))) * height
+        rows = int(height) + 2
+        depth = np.arange(rows)[None, :] + 0.5 - (rows - line[:, None])  # px below the crest
+        crest, foot = self.colours["hills"][layer], mix(self.colours["hills"][layer], self.colours["haze"], 0.55)
+        surface = from_coverage(depth + 0.5, crest)
+        fade = np.clip(depth / height, 0, 1)[:, :, None]
+        pixels = pygame.surfarray.pixels3d(surface)
+        pixels[...] = np.array(crest) + (np.array(foot) - np.array(crest)) * fade
+        del pixels
+        return surface, self.horizon - rows
+
+    def _clouds(self) -> tuple[pygame.Surface, int]:
+        """Flat underneath, heaped above, hardly brighter than the sky."""
+        rows = int(self.horizon * 0.72)
+        cover = np.zeros((self.width, rows), np.float32)
+        for centre in np.linspace(0.08, 0.94, 7):
+            x0 = (centre + self.random.uniform(-0.04, 0.04)) * self.width
+            base = self.random.uniform(0.22, 0.92) * rows
+            size = self.random.uniform(0.6, 1.25) * 26 * self.unit
+            cloud = np.zeros_like(cover)
+            for offset in np.linspace(-3.2, 3.2, 9):
+                radius = size * (1.25 - 0.25 * abs(offset) + self.random.uniform(-0.2, 0.2))
+                if radius < 2:
+                    continue
+                x, reach = x0 + offset * size * 0.9, int(radius) + 2
+                columns = (int(x) + np.arange(-reach, reach + 1)) % self.width
+                across = np.arange(-reach, reach + 1)[:, None] + int(x) - x
+                down = (np.arange(rows)[None, :] - base) * 1.25
+                disc = np.clip(radius - np.hypot(across, down) + 0.5, 0, 1)
+                cloud[columns] = np.maximum(cloud[columns], disc)
+            below = np.clip(base - np.arange(rows) + 0.5, 0, 1)[None, :]
+            softly = np.clip((np.arange(rows) - (base - 1.3 * size)) / (1.3 * size), 0, 1)[None, :]
+            cover = np.maximum(cover, cloud * below * (0.75 - 0.45 * softly))
+        return from_coverage(cover * 0.8, self.colours["cloud"]), int(self.horizon * 0.08)
+
+    def _trees(self) -> tuple[pygame.Surface, int]:
+        """Woods along the horizon: a far and paler line with gaps, and groups before it."""
+        rows = round(40 * self.unit)
+        layer = blank((self.width, rows), transparent=True)
+        for colour, count, groups, small, large in zip(self.colours["trees"], (260, 70), (15, 12), (3, 5), (8, 12), strict=True):
+            cover = np.zeros((self.width, rows), np.float32)
+            middles = (np.arange(groups) + self.random.uniform(0.0, 1.0, groups)) / groups * self.width
+            for _ in range(count):
+                x = self.random.choice(middles) + self.random.normal(0, 42) * self.unit
+                radius = self.random.uniform(small, large) * self.unit
+                y = rows - radius * self.random.uniform(0.4, 1.1)
+                reach = int(radius) + 2
+                columns = (int(x) + np.arange(-reach, reach + 1)) % self.width
+                across = np.arange(-reach, reach + 1)[:, None] + int(x) - x
+                disc = np.clip(radius - np.hypot(across, np.arange(rows)[None, :] - y) + 0.5, 0, 1)
+                cover[columns] = np.maximum(cover[columns], disc)
+            layer.blit(from_coverage(cover, colour), (0, 0))
+        return layer, self.horizon - rows + round(2 * self.unit)

@@ -1,0 +1,86 @@
+"""Text: Noto Sans from assets/fonts, whose figures are all equally wide, in three sizes that go with the picture's height."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from functools import cache, lru_cache
+
+import pygame
+
+from sandbox.picture.palette import ASSETS, Colour
+
+#: Height of the letters in px on a picture of 720 rows, and the least at which they can be read.
+SIZES = {"small": (14.5, 11), "medium": (20, 14), "large": (40, 24)}
+
+
+@cache
+def _font(pixels: int, bold: bool) -> pygame.font.Font:
+    pygame.font.init()
+    return pygame.font.Font(str(ASSETS / "fonts" / f"NotoSans-{'Bold' if bold else 'Regular'}.ttf"), pixels)
+
+
+@lru_cache(maxsize=1024)
+def _rendered(text: str, pixels: int, bold: bool, colour: Colour) -> pygame.Surface:
+    return _font(pixels, bold).render(text, True, colour)
+
+
+class Lettering:
+    """The three sizes for a picture of ``height`` px."""
+
+    def __init__(self, height: int):
+        self.pixels = {name: max(least, round(size * height / 720)) for name, (size, least) in SIZES.items()}
+
+    def height(self, size: str) -> int:
+        """From the top of a tall letter to the bottom of a deep one, in px."""
+        return round(self.pixels[size] * 1.2)
+
+    def width(self, text: str, size: str, bold: bool = False) -> int:
+        """In px."""
+        return _font(self.pixels[size], bold).size(text)[0]
+
+    def rect(self, text: str, size: str, at: tuple[float, float], anchor: str = "topleft", bold: bool = False) -> pygame.Rect:
+        """Where ``write`` would put the text."""
+        rect = pygame.Rect(0, 0, self.width(text, size, bold), self.height(size))
+        setattr(rect, anchor, (round(at[0]), round(at[1])))
+        return rect
+
+    def write(
+        self,
+        surface: pygame.Surface,
+        text: str,
+        size: str,
+        at: tuple[float, float],
+        colour: Colour,
+        anchor: str = "topleft",
+        bold: bool = False,
+    ) -> pygame.Rect:
+        """Write one line with the corner or side named ``anchor`` (as pygame.Rect names them) at a point in px."""
+        rect = self.rect(text, size, at, anchor, bold)
+        image = _rendered(text, self.pixels[size], bold, colour)
+        surface.blit(image, (rect.left, rect.centery - image.get_height() // 2))
+        return rect
+
+
+class Labels:
+    """Finds room for labels: inside the frame, off what is taken, off each other."""
+
+    def __init__(self, frame: pygame.Rect, gap: int):
+        self.frame, self.gap, self.taken = frame, gap, []
+
+    def take(self, rect: pygame.Rect) -> pygame.Rect:
+        """Nothing will be put here."""
+        self.taken.append(rect.copy())
+        return rect
+
+    def take_path(self, points: Iterable[tuple[float, float]], radius: float) -> None:
+        """Nothing will be put within ``radius`` px of these points."""
+        size = round(2 * radius) + 1
+        self.taken += [pygame.Rect(round(x - radius), round(y - radius), size, size) for x, y in points]
+
+    def place(self, candidates: Iterable[pygame.Rect]) -> pygame.Rect | None:
+        """The first of the candidates with room, now taken; None where there is no room for any."""
+        for rect in candidates:
+            room = rect.inflate(2 * self.gap, 2 * self.gap)
+            if self.frame.contains(rect) and room.collidelist(self.taken) < 0:
+                return self.take(rect)
+        return None

@@ -1,0 +1,224 @@
+"""Smooth shapes on a pygame surface. Positions and sizes are in px and may lie between pixels.
+
+pygame's own shapes have rough edges, so discs and shadows are computed exactly and kept, and everything else is drawn
+larger and scaled down.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from functools import lru_cache
+from math import ceil, degrees, floor, hypot
+
+import numpy as np
+import pygame
+
+from sandbox.picture.palette import Colour
+
+Point = tuple[float, float]
+
+#: How many times larger a shape is drawn before it is scaled down. 4 gives 16 levels along an edge; 2 shows steps.
+OVERSAMPLING = 4
+#: Discs are kept for centres this far apart (px) and radii half as far: finer than the eye, coarse enough to be reused.
+PHASE = 1 / 8
+
+
+def blank(size: tuple[int, int], transparent: bool = False) -> pygame.Surface:
+    """A new surface: 32 bits whatever the display is, and black or see-through."""
+    surface = pygame.Surface(size, pygame.SRCALPHA if transparent else 0, 32)
+    if transparent:
+        surface.fill((0, 0, 0, 0))
+    return surface
+
+
+def from_coverage(coverage: np.ndarray, colour: Colour) -> pygame.Surface:
+    """A surface of one colour whose opacity is the array (0 to 1, shape (width, height))."""
+    surface = blank(coverage.shape, transparent=True)
+    surface.fill((*colour, 0))
+    alpha = pygame.surfarray.pixels_alpha(surface)
+    alpha[...] = np.clip(coverage, 0, 1) * 255 + 0.5
+    del alpha  # unlocks the surface
+    return surface
+
+
+def from_colours(colours: np.ndarray) -> pygame.Surface:
+    """An opaque surface from an array of colours (0 to 255, shape (width, height, 3))."""
+    surface = blank(colours.shape[:2])
+    pygame.surfarray.blit_array(surface, np.clip(colours + 0.5, 0, 255).astype(np.uint8))
+    return surface
+
+
+@lru_cache(maxsize=2048)
+def _disc(radius: float, width: float, phase: Point, colour: Colour) -> pygame.Surface:
+    """A disc, or with ``width`` > 0 a ring, whose centre lies ``phase`` px past the middle pixel's centre."""
+    reach = ceil(radius + width / 2 + 1)
+    grid = np.arange(-reach, reach + 1)
+    distance = np.hypot(grid[:, None] - phase[0], grid[None, :] - phase[1])
+    inside = radius - distance if width == 0 else width / 2 - abs(distance - radius)
+    return from_coverage(inside + 0.5, colour)
+
+
+@lru_cache(maxsize=256)
+def _shadow(half_width: float, half_height: float, colour: Colour) -> pygame.Surface:
+    reach = ceil(half_width * 1.5), ceil(half_height * 1.5) + 1
+    across, down = (np.arange(-r, r + 1) / size for r, size in zip(reach, (half_width, half_height), strict=True))
+    return from_coverage(np.clip(1.5 - np.hypot(across[:, None], down[None, :]), 0, 1) ** 1.5, colour)
+
+
+@lru_cache(maxsize=64)
+def _panel(size: tuple[int, int], colour: Colour, corner: float) -> pygame.Surface:
+    across, down = (np.arange(pixels) + 0.5 - pixels / 2 for pixels in size)
+    beyond = [abs(line) - (pixels / 2 - corner) for line, pixels in zip((across, down), size, strict=True)]
+    outside = np.hypot(np.maximum(beyond[0], 0)[:, None], np.maximum(beyond[1], 0)[None, :])
+    return from_coverage(corner - outside + 0.5, colour)
+
+
+class Painter:
+    """Draws on one surface."""
+
+    def __init__(self, surface: pygame.Surface):
+        self.surface = surface
+
+    def disc(self, centre: Point, radius: float, colour: Colour, opacity: float = 1.0, width: float = 0.0) -> None:
+        """A disc, or with ``width`` > 0 the ring of that width along its edge."""
+        x, y = (round(value / PHASE) * PHASE for value in centre)
+        column, row = floor(x), floor(y)  # pixel i covers i to i + 1, so its centre is at i + 1/2
+        phase = x - column - 0.5, y - row - 0.5
+        sprite = _disc(round(radius * 2 / PHASE) * PHASE / 2, width, phase, colour)
+        self._blit(sprite, (column - sprite.get_width() // 2, row - sprite.get_height() // 2), opacity)
+
+    def ring(self, centre: Point, radius: float, width: float, colour: Colour, opacity: float = 1.0) -> None:
+        self.disc(centre, radius, colour, opacity, width)
+
+    def shadow(self, centre: Point, half_width: float, half_height: float, colour: Colour, opacity: float) -> None:
+        """A soft ellipse, fading over its outer half."""
+        sprite = _shadow(max(0.5, round(half_width * 2) / 2), max(0.5, round(half_height * 2) / 2), colour)
+        left, top = centre[0] - sprite.get_width() / 2, centre[1] - sprite.get_height() / 2
+        self._blit(sprite, (round(left), round(top)), opacity)
+
+    def polygon(self, points: Sequence[Point], colour: Colour, opacity: float = 1.0) -> None:
+        self._shape(points, 0, colour, opacity, lambda mask, drawn, _: pygame.draw.polygon(mask, colour, drawn))
+
+    def line(self, points: Sequence[Point], width: float, colour: Colour, opacity: float = 1.0) -> None:
+        """A line through the points with round ends and joints."""
+
+        def draw(mask: pygame.Surface, drawn: np.ndarray, larger: int) -> None:
+            radius = width * larger / 2
+            for a, b in zip(drawn[:-1], drawn[1:], strict=True):
+                pygame.draw.polygon(mask, colour, _quad(a, b, radius))
+            for point in drawn:
+                pygame.draw.circle(mask, colour, point, radius)
+
+        self._shape(points, width, colour, opacity, draw)
+
+    def trace(self, points: Sequence[Point], width: float, colour: Colour, rim: Colour, rim_width: float) -> None:
+        """A line with a thin edge of another colour, so that it stands out on any ground."""
+        self.line(points, width + 2 * rim_width, rim, 0.55)
+        self.line(points, width, colour)
+
+    def dashes(
+        self, points: Sequence[Point], width: float, colour: Colour, dash: float, gap: float, opacity: float = 1.0
+    ) -> None:
+        """A dashed line along the points; ``dash`` and ``gap`` in px."""
+        for piece in _dashed(points, dash, gap):
+            self.line(piece, width, colour, opacity)
+
+    def fading(self, points: Sequence[Point], width: float, colour: Colour, opacity: float) -> None:
+        """A line that grows from nothing at its first point to full width and opacity at its last."""
+        array = np.asarray(points, dtype=float)
+        if len(array) < 2:
+            return
+        ahead = np.gradient(array, axis=0)
+        across = np.column_stack([-ahead[:, 1], ahead[:, 0]]) / np.maximum(np.hypot(*ahead.T), 1e-9)[:, None]
+        share = np.linspace(0, 1, len(array))
+        half = across * (share * width / 2)[:, None]
+
+        def draw(mask: pygame.Surface, drawn: np.ndarray, larger: int) -> None:
+            one, other = drawn + half * larger, drawn - half * larger
+            for i in range(len(drawn) - 1):
+                corners = [one[i], one[i + 1], other[i + 1], other[i]]
+                pygame.draw.polygon(mask, (*colour, round(255 * share[i + 1])), corners)
+
+        self._shape(array, width, colour, opacity, draw, larger=3)
+
+    def arrow(self, a: Point, b: Point, width: float, colour: Colour, opacity: float = 1.0) -> None:
+        """From a to b, with a head three line widths long on either side."""
+        length = hypot(b[0] - a[0], b[1] - a[1])
+        if length == 0:
+            return
+        along = (b[0] - a[0]) / length, (b[1] - a[1]) / length
+        head = min(3.5 * width, length)
+        neck = b[0] - along[0] * head, b[1] - along[1] * head
+        across = -along[1] * head * 0.62, along[0] * head * 0.62
+
+        def draw(mask: pygame.Surface, drawn: np.ndarray, larger: int) -> None:
+            pygame.draw.polygon(mask, colour, _quad(drawn[0], drawn[1], width * larger / 2))
+            pygame.draw.circle(mask, colour, drawn[0], width * larger / 2)
+            pygame.draw.polygon(mask, colour, drawn[2:])
+
+        sides = [(neck[0] + across[0], neck[1] + across[1]), b, (neck[0] - across[0], neck[1] - across[1])]
+        self._shape([a, neck, *sides], width, colour, opacity, draw)
+
+    def panel(self, rect: pygame.Rect, colour: Colour, opacity: float, corner: float) -> None:
+        """A rectangle with round corners."""
+        self._blit(_panel(rect.size, colour, corner), rect.topleft, opacity)
+
+    def turned(self, texture: pygame.Surface, centre: Point, angle: float) -> None:
+        """A square texture, ``OVERSAMPLING`` times larger than it is shown, turned by ``angle`` rad counter-clockwise."""
+        spun = pygame.transform.rotate(texture, degrees(angle) % 360)
+        side = texture.get_width() // OVERSAMPLING + 3
+        left, top = floor(centre[0] - side / 2), floor(centre[1] - side / 2)
+        mask = blank((side * OVERSAMPLING, side * OVERSAMPLING), transparent=True)
+        mask.fill((*texture.get_at((0, 0))[:3], 0))
+        middle = (centre[0] - left) * OVERSAMPLING, (centre[1] - top) * OVERSAMPLING
+        mask.blit(spun, (round(middle[0] - spun.get_width() / 2), round(middle[1] - spun.get_height() / 2)))
+        self._blit(pygame.transform.smoothscale(mask, (side, side)), (left, top), 1.0)
+
+    def centred(self, sprite: pygame.Surface, centre: Point) -> None:
+        """A surface with its middle at a point, to the nearest px."""
+        width, height = sprite.get_size()
+        self._blit(sprite, (round(centre[0] - width / 2), round(centre[1] - height / 2)), 1.0)
+
+    def _shape(
+        self,
+        points: Iterable[Point],
+        width: float,
+        colour: Colour,
+        opacity: float,
+        draw: Callable[[pygame.Surface, np.ndarray, int], object],
+        larger: int = OVERSAMPLING,
+    ) -> None:
+        """Call ``draw`` on a surface ``larger`` times the size of what is seen of the shape, and put it on ours."""
+        array = np.asarray(points, dtype=float)
+        low, high = array.min(axis=0) - width / 2 - 1, array.max(axis=0) + width / 2 + 1
+        box = pygame.Rect(floor(low[0]), floor(low[1]), ceil(high[0] - low[0]) + 1, ceil(high[1] - low[1]) + 1)
+        seen = box.clip(self.surface.get_rect())
+        if seen.width == 0 or seen.height == 0:
+            return
+        mask = blank((seen.width * larger, seen.height * larger), transparent=True)
+        mask.fill((*colour, 0))  # the colour everywhere, or scaling down would mix black into the edges
+        draw(mask, (array - seen.topleft) * larger, larger)
+        self._blit(pygame.transform.smoothscale(mask, seen.size), seen.topleft, opacity)
+
+    def _blit(self, sprite: pygame.Surface, position: tuple[int, int], opacity: float) -> None:
+        sprite.set_alpha(round(255 * opacity))
+        self.surface.blit(sprite, position)
+
+
+def _quad(a: np.ndarray, b: np.ndarray, radius: float) -> list[Point]:
+    """The rectangle from a to b, ``radius`` to either side."""
+    along = b - a
+    length = hypot(along[0], along[1]) or 1.0
+    across = np.array([-along[1], along[0]]) * (radius / length)
+    return [tuple(a + across), tuple(b + across), tuple(b - across), tuple(a - across)]
+
+
+def _dashed(points: Sequence[Point], dash: float, gap: float) -> list[list[Point]]:
+    """The pieces of a line that a dashed pen leaves."""
+    array = np.asarray(points, dtype=float)
+    along = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(array, axis=0).T))])
+    pieces = []
+    for start in np.arange(0, along[-1], dash + gap):
+        cuts = [start, *along[(along > start) & (along < start + dash)], min(start + dash, along[-1])]
+        pieces.append([(float(np.interp(s, along, array[:, 0])), float(np.interp(s, along, array[:, 1]))) for s in cuts])
+    return pieces

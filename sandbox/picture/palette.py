@@ -1,0 +1,35 @@
+"""The one palette, from assets/palette.toml."""
+
+from __future__ import annotations
+
+import tomllib
+from functools import cache
+from typing import Any
+
+from sandbox import resources
+
+Colour = tuple[int, int, int]
+
+ASSETS = resources.folder("assets")
+
+
+def _colour(value: Any) -> Any:
+    """#RRGGBB to (red, green, blue); lists and tables likewise; numbers stay."""
+    if isinstance(value, str):
+        return tuple(int(value[i : i + 2], 16) for i in (1, 3, 5))
+    if isinstance(value, list):
+        return [_colour(item) for item in value]
+    if isinstance(value, dict):
+        return {key: _colour(item) for key, item in value.items()}
+    return value
+
+
+@cache
+def palette(section: str) -> dict[str, Any]:
+    """One section of the palette, colours as (red, green, blue) from 0 to 255."""
+    return _colour(tomllib.loads((ASSETS / "palette.toml").read_text("utf-8")))[section]
+
+
+def mix(a: Colour, b: Colour, share: float) -> Colour:
+    """The colour that is ``share`` (0 to 1) of the way from a to b."""
+    return tuple(round(p + (q - p) * share) for p, q in zip(a, b, strict=True))  # type: ignore[return-value]

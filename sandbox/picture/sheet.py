@@ -1,0 +1,173 @@
+"""One picture in the making: its surface, and what the pictures of all scenes have in common."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from math import ceil, floor, hypot, log10
+
+import pygame
+
+from sandbox.picture.camera import Camera
+from sandbox.picture.lettering import Labels, Lettering
+from sandbox.picture.painter import Painter, blank
+from sandbox.picture.palette import Colour, palette
+
+CARD = palette("card")
+
+#: Nearest that anything important comes to an edge, as a share of the picture's width and height.
+MARGIN = 0.05
+YARD = 0.9144  # m
+#: Under so many rows a ruler has no second row of figures.
+ROWS_FOR_YARDS = 480
+
+
+class Sheet:
+    """A surface of ``size`` px with its painter and lettering; ``unit`` is what 1 px is on a picture of 720 rows."""
+
+    def __init__(self, size: tuple[int, int]):
+        width, height = size
+        self.size, self.unit = size, height / 720
+        self.gap = max(3, round(6 * self.unit))
+        self.surface = blank(size)
+        self.painter = Painter(self.surface)
+        self.lettering = Lettering(height)
+        self.frame = pygame.Rect(0, 0, width, height).inflate(-2 * ceil(MARGIN * width), -2 * ceil(MARGIN * height))
+        self.labels = Labels(self.frame, self.gap)
+        self.written: list[tuple[str, pygame.Rect]] = []
+
+    def write(
+        self, text: str, size: str, at: tuple[float, float], colour: Colour, anchor: str = "topleft", bold: bool = False
+    ) -> pygame.Rect:
+        """Write one line of text; no label will be placed on it."""
+        rect = self.lettering.write(self.surface, text, size, at, colour, anchor, bold)
+        self.written.append((text, rect))
+        return self.labels.take(rect)
+
+    def label(
+        self,
+        text: str,
+        size: str,
+        spots: Iterable[tuple[float, float, str]],
+        colour: Colour,
+        bold: bool = False,
+    ) -> pygame.Rect | None:
+        """Write a text at the first of the spots (x, y, anchor) with room for it; None if there is none."""
+        rect = self.labels.place(self.lettering.rect(text, size, (x, y), anchor, bold) for x, y, anchor in spots)
+        if rect:
+            self.lettering.write(self.surface, text, size, rect.topleft, colour, bold=bold)
+            self.written.append((text, rect))
+        return rect
+
+    def headline(self, text: str, notes: Sequence[str], room: float) -> None:
+        """What happened, large, at the top left, and a line of notes below it; ``room`` px wide at most."""
+        size = "large" if self.lettering.width(text, "large", bold=True) <= room else "medium"
+        rect = self.write(text, size, self.frame.topleft, CARD["ink"], bold=True)
+        self.write("   ·   ".join(notes), "small", (rect.left, rect.bottom + self.gap), CARD["ink_quiet"])
+
+    def columns(self, top: float, entries: Sequence[tuple[str, str]]) -> None:
+        """A card along the bottom with a number in each column, the first one in the accent's colour."""
+        rect = pygame.Rect(self.frame.left, top, self.frame.width, self.frame.bottom - top)
+        self.painter.panel(rect, CARD["background"], CARD["opacity"], 10 * self.unit)
+        inset = 2.6 * self.gap
+        step = (rect.width - inset) / len(entries)
+        middle = rect.centery
+        for i, (label, value) in enumerate(entries):
+            x = rect.left + inset + step * i
+            self.write(label, "small", (x, middle - 0.2 * self.gap), CARD["quiet"], "bottomleft")
+            self.write(value, "medium", (x, middle), CARD["text"] if i else CARD["accent"], "topleft", bold=True)
+
+    def card_height(self) -> int:
+        """Height of the card that ``columns`` draws, in px."""
+        return self.lettering.height("small") + self.lettering.height("medium") + 4 * self.gap
+
+    def ruler_heights(self) -> tuple[int, int]:
+        """What the ruler takes above and below its line, in px."""
+        figures = self.lettering.height("small") + round(8 * self.unit)
+        return figures, figures if self.size[1] >= ROWS_FOR_YARDS else 0
+
+    def ruler(self, camera: Camera, row: float) -> None:
+        """A ruler along x over the frame's width, in metres and, where there is room, in yards below."""
+        thin = max(1, round(self.unit))
+        y = round(row)
+        self._hairline((self.frame.left, y, self.frame.width, thin), CARD["text"], 0.45)
+        self._scale(camera, y, thin, "m", 1.0, upward=True)
+        if self.size[1] >= ROWS_FOR_YARDS:
+            self._scale(camera, y, thin, "yd", YARD, upward=False)
+
+    def _scale(self, camera: Camera, row: int, thin: int, unit: str, metre: float, upward: bool) -> None:
+        room = max(self.lettering.width("−000.0 ", "small"), 104 * self.unit)
+        step = nice(room / camera.scale / metre)
+        low, high = (camera.world(px, 0)[0] / metre / step * 5 for px in (self.frame.left, self.frame.right))
+        for i in range(ceil(low), floor(high) + 1):
+            x = camera.pixel(i / 5 * step * metre, 0)[0]
+            tall = round((7 if i % 5 == 0 else 4) * self.unit)
+            self._hairline((round(x), row - tall if upward else row + thin, thin, tall), CARD["text"], 0.8 if i % 5 == 0 else 0.4)
+            if i % 5 == 0:
+                text = signed(f"{i / 5 * step:g}") + (f" {unit}" if i == 0 else "")
+                at = (x, row - 8 * self.unit) if upward else (x, row + thin + 8 * self.unit)
+                anchor = "midbottom" if upward else "midtop"
+                if self.frame.contains(self.lettering.rect(text, "small", at, anchor)):
+                    self.write(text, "small", at, CARD["text"] if upward else CARD["quiet"], anchor)
+
+    def _hairline(self, rect: tuple[int, int, int, int], colour: Colour, opacity: float) -> None:
+        self.painter.panel(pygame.Rect(rect), colour, opacity, 0.0)
+
+    def dimension(self, text: str, row: float, start: float, end: float, colour: Colour) -> None:
+        """A line from ``start`` to ``end`` (px along x) with a stroke at either end and its text in a gap."""
+        thin = max(1, round(1.6 * self.unit))
+        left, right = sorted((round(start), round(end)))
+        y = round(row)
+        rect = self.lettering.rect(text, "small", ((left + right) / 2, row), "center", bold=True)
+        if right - left >= rect.width + 6 * self.gap:
+            pieces = [(left, rect.left - self.gap), (rect.right + self.gap, right)]
+        else:
+            pieces = [(left, right)]
+            beside = [(right + 2 * self.gap, "midleft"), (left - 2 * self.gap, "midright")]
+            spots = [self.lettering.rect(text, "small", (x, row), anchor, bold=True) for x, anchor in beside]
+            rect = next((spot for spot in spots if self.frame.contains(spot)), spots[0].clamp(self.frame))
+        for a, b in pieces:
+            self._hairline((a, y, b - a, thin), colour, 0.75)
+        tall = round(9 * self.unit)
+        for x in (left, right):
+            self._hairline((x, y - tall // 2, thin, tall + thin - 1), colour, 1.0)
+        self.write(text, "small", rect.topleft, colour, bold=True)
+
+    def wind(self, along: float, up: float, right: float, top: float) -> pygame.Rect:
+        """An arrow with the wind's speed below it (m/s), its top right corner at the given point in px."""
+        speed = hypot(along, up)
+        text = f"wind {speed:.1f} m/s"
+        size = max(self.lettering.width(text, "small", bold=True), round(84 * self.unit))
+        tall = round(26 * self.unit)
+        rect = pygame.Rect(round(right) - size, round(top), size, tall + self.lettering.height("small"))
+        along, up = along / speed, up / speed
+        half = min(size / max(abs(along), 1e-9), (tall - 8 * self.unit) / max(abs(up), 1e-9)) / 2
+        middle = rect.centerx, rect.top + tall / 2
+        tail, head = (middle[0] - half * along, middle[1] + half * up), (middle[0] + half * along, middle[1] - half * up)
+        self.painter.arrow(tail, head, 3.6 * self.unit, CARD["wind"])
+        self.write(text, "small", rect.midbottom, CARD["ink"], "midbottom", bold=True)
+        return rect
+
+
+def nice(least: float) -> float:
+    """The smallest of 1, 2, 5, 10, 20, ... times a power of ten that is at least this."""
+    power = 10.0 ** floor(log10(least))
+    return next(factor * power for factor in (1, 2, 5, 10) if factor * power >= least * 0.999)
+
+
+def signed(number: str) -> str:
+    """With a true minus sign, and none before a zero."""
+    return number.replace("-", "−") if float(number) else number.lstrip("-")
+
+
+def metres(value: float, digits: int | None = None) -> str:
+    """A length as people write it: 0.42 m, 8.31 m, 251.4 m, 12.3 km; or with so many digits after the point."""
+    if abs(value) >= 10_000:
+        return signed(f"{value / 1000:.1f}") + " km"
+    if digits is None:
+        digits = 2 if abs(value) < 10 else 1
+    return signed(f"{value:.{digits}f}") + " m"
+
+
+def yards(value: float) -> str:
+    """A length in m as people write it in yards."""
+    return signed(f"{value / YARD:.{1 if abs(value) < 20 * YARD else 0}f}") + " yd"

@@ -1,0 +1,242 @@
+"""The golf course as it is drawn: field, ground, hole and ball."""
+
+from __future__ import annotations
+
+from functools import cached_property, lru_cache
+from math import ceil, floor, sin
+from typing import Any
+
+import numpy as np
+import pygame
+
+from sandbox.picture.camera import Box, Camera
+from sandbox.picture.landscape import Landscape
+from sandbox.picture.painter import OVERSAMPLING, Painter, blank, from_coverage
+from sandbox.picture.palette import Colour, mix, palette
+
+GOLF, CARD, TRACE = palette("golf"), palette("card"), palette("trace")
+
+FLAGSTICK = 2.13  # m
+#: How much smaller things look at the far side of the fairway than on the line of play.
+FAR = 0.42
+#: The horizon's height above the line of play, px on 720 rows.
+FIELD = 58
+
+
+class Course:
+    """The place that the ball flies over, for pictures on which the lowest ground is ``base`` px from the top."""
+
+    def __init__(self, setup: Any, pin: float, size: tuple[int, int], base: int):
+        self.pin, self.size, self.base = pin, size, base
+        self.unit = size[1] / 720
+        self.horizon = base - round(FIELD * self.unit)
+        turf = [s for s in setup.surfaces if s.name != "cup"]
+        line = sorted({point for s in turf for point in (s.shape.a, s.shape.b)})
+        self.line = np.array(line, float)  # m, the ground from left to right
+        self.pieces = _pieces(turf)
+        corners = [point for s in setup.surfaces if s.name == "cup" for point in (s.shape.a, s.shape.b)]
+        self.cup = Box(*np.min(corners, axis=0), *np.max(corners, axis=0)) if corners else None
+
+    def height(self, x: float) -> float:
+        """Height of the ground in m at x, across the cup too."""
+        return float(np.interp(x, self.line[:, 0], self.line[:, 1]))
+
+    def lowest_and_highest(self, left: float, right: float) -> tuple[float, float]:
+        """Of the ground between two places, in m."""
+        heights = self.between(left, right)[:, 1]
+        return float(heights.min()), float(heights.max())
+
+    def between(self, left: float, right: float) -> np.ndarray:
+        """The ground's line from one place to another, in m."""
+        inner = self.line[(self.line[:, 0] > left) & (self.line[:, 0] < right)]
+        return np.array([(left, self.height(left)), *inner, (right, self.height(right))])
+
+    @cached_property
+    def landscape(self) -> Landscape:
+        return Landscape(self.size, self.horizon, GOLF)
+
+    @cached_property
+    def soil(self) -> pygame.Surface:
+        """The ground cut open along the line of play, darker with depth."""
+        rows = self.size[1] - self.base
+        top, middle, low = (np.array(colour, float) for colour in GOLF["soil"])
+        share = np.linspace(0, 2, rows)[:, None]
+        column = np.where(share < 1, top + (middle - top) * share, middle + (low - middle) * (share - 1))
+        soil = blank((self.size[0], rows))
+        pygame.surfarray.blit_array(soil, np.broadcast_to(column.round().astype(np.uint8), (self.size[0], rows, 3)))
+        return soil
+
+    # The ground
+
+    def draw(self, painter: Painter, camera: Camera, stripe: float, moved: float = 0.0) -> None:
+        """Landscape, field and ground; mown stripes are ``stripe`` m wide; the eye has ``moved`` px to the right."""
+        self.landscape.draw(painter.surface, moved)
+        self._field(painter.surface, camera, stripe)
+        self._section(painter, camera, stripe)
+
+    def _field(self, surface: pygame.Surface, camera: Camera, stripe: float) -> None:
+        """The ground behind the line of play, up to the horizon: rough, and before it the mown fairway."""
+        larger = 2
+        width, rows = self.size[0], self.base - self.horizon
+        field = blank((width * larger, rows * larger))
+        top, bottom = round(rows * FAR * larger), rows * larger
+        for row in range(top):
+            pygame.draw.line(field, mix(GOLF["rough_far"], GOLF["rough"], row / top), (0, row), (width * larger, row))
+        middle = camera.world(width / 2, 0)[0]
+
+        def column(x: float, nearness: float) -> float:
+            return (width / 2 + (x - middle) * camera.scale * nearness) * larger
+
+        def across(a: float, b: float, colour: Colour) -> None:
+            """A strip from one side of the fairway to the other."""
+            quad = [(column(a, FAR), top), (column(b, FAR), top), (column(b, 1), bottom), (column(a, 1), bottom)]
+            pygame.draw.polygon(field, colour, quad)
+
+        pygame.draw.rect(field, GOLF["fairway"], (0, top, width * larger, bottom - top))
+        reach = width / 2 / FAR / camera.scale
+        light = self._light(camera, stripe)
+        for a, b in _bands(middle - reach, middle + reach, stripe):
+            across(a, b, light)
+        for name, a, b in self.pieces:
+            if name in ("rough", "tee"):
+                across(max(a, middle - reach), min(b, middle + reach), GOLF[name])
+            elif name != "fairway":
+                left, right = column(a, 1), column(b, 1)
+                tall = min(0.5 * bottom, max(0.16 * (right - left), 8.0 * self.unit))
+                pygame.draw.ellipse(field, GOLF[name], (left, bottom - tall, right - left, 2 * tall))
+        surface.blit(pygame.transform.smoothscale(field, (width, rows)), (0, self.horizon))
+
+    def _light(self, camera: Camera, stripe: float) -> Colour:
+        """The lighter stripes' colour; it goes over into the darker one's where stripes are too narrow to see."""
+        fade = min(1.0, max(0.0, stripe * camera.scale / (12 * self.unit) - 0.5))
+        return mix(GOLF["fairway"], GOLF["fairway_stripe"], fade)
+
+    def _section(self, painter: Painter, camera: Camera, stripe: float) -> None:
+        """The ground along the line of play, cut open: turf on top of soil."""
+        surface, (width, height) = painter.surface, self.size
+        low, high = camera.world(0, 0)[0], camera.world(width, 0)[0]
+        outline = camera.pixels(self.between(low, high))
+        deepest = min(height, round(outline[:, 1].max()))
+        surface.fill(GOLF["fairway"], (0, self.base, width, max(0, deepest - self.base)))
+        surface.blit(self.soil, (0, max(deepest, self.base)))
+        if outline[:, 1].min() < deepest - 1:
+            painter.polygon([*outline, (width, deepest), (0, deepest)], GOLF["soil"][0])
+        light = self._light(camera, stripe)
+        for name, a, b in self.pieces:
+            a, b = max(a, low), min(b, high)
+            if a >= b:
+                continue
+            self._turf(painter, camera, a, b, GOLF[name])
+            if name == "fairway":
+                for left, right in _bands(a, b, stripe):
+                    self._turf(painter, camera, left, right, light)
+            elif name in ("bunker", "water"):
+                self._hollow(painter, camera, a, b, GOLF[name])
+
+    def _turf(self, painter: Painter, camera: Camera, a: float, b: float, colour: Colour) -> None:
+        thick = max(3, round(7 * self.unit))
+        lighter = mix(colour, (255, 255, 255), 0.13)
+        outline = camera.pixels(self.between(a, b))
+        if np.ptp(outline[:, 1]) < 0.01:
+            left, right = round(outline[0, 0]), round(outline[-1, 0])
+            painter.surface.fill(lighter, (left, round(outline[0, 1]), right - left, thick))
+        else:
+            painter.polygon([*outline, *(outline[::-1] + (0, thick))], lighter)
+
+    def _hollow(self, painter: Painter, camera: Camera, a: float, b: float, colour: Colour) -> None:
+        """Sand or water lies in a shallow bowl."""
+        outline = camera.pixels(self.between(a, b))
+        (left, top), (right, end) = outline[0], outline[-1]
+        deep = min(16 * self.unit, 0.2 * (right - left))
+        turn = np.linspace(0, np.pi, 25)
+        x, y = (left + right) / 2 + np.cos(turn) * (right - left) / 2, np.sin(turn) ** 0.7 * deep
+        painter.polygon([*outline, *zip(x, y + np.interp(x, [left, right], [top, end]), strict=True)], colour)
+
+    # The hole and the ball
+
+    def hole(self, painter: Painter, camera: Camera, t: float, wind: float) -> pygame.Rect | None:
+        """Cup and flag, larger than they are where they would be too small to see; the flag flutters in the wind (m/s).
+
+        Returns the place that the flag takes.
+        """
+        unit = self.unit
+        x, ground = camera.pixel(self.pin, self.height(self.pin))
+        tall = min(max(FLAGSTICK * camera.scale, 66 * unit), 190 * unit)
+        cloth = 30 * unit
+        if not -cloth < x < self.size[0] + cloth:
+            return None
+        foot = ground
+        if self.cup is not None and (self.cup.right - self.cup.left) * camera.scale > 10 * unit:
+            left, right = (round(camera.pixel(edge, 0)[0]) for edge in (self.cup.left, self.cup.right))
+            foot = camera.pixel(0, self.cup.bottom)[1]
+            painter.surface.fill(GOLF["cup"], (left, round(ground), right - left, round(foot - ground)))
+        elif self.cup is not None:
+            foot += 3 * unit
+            painter.shadow((x, foot), 7 * unit, 2.5 * unit, GOLF["cup"], 0.9)
+        painter.shadow((x + 12 * unit, ground - unit), 16 * unit, 2.5 * unit, CARD["shadow"], 0.3)
+        pole = max(2.0, 2.6 * unit)
+        painter.line([(x, foot), (x, ground - tall)], pole + 1.4 * unit, CARD["shadow"], 0.3)
+        painter.line([(x, foot), (x, ground - tall)], pole, GOLF["pole"])
+        side = -1 if wind < 0 else 1
+        share = np.linspace(0, 1, 9)
+        along = x + side * cloth * share
+        wave = ground - tall + np.array([1.6 * unit * s * sin(5 * s - 9 * t) for s in share])
+        upper, lower = wave + 9 * unit * share, wave + (19 - 9 * share) * unit
+        painter.polygon([*zip(along, upper, strict=True), *zip(along[::-1], lower[::-1], strict=True)], GOLF["flag"])
+        return pygame.Rect(round(x - cloth), round(ground - tall), round(2 * cloth), round(tall))
+
+    def ball(self, painter: Painter, centre: tuple[float, float], radius: float, angle: float, ring: bool) -> None:
+        """The ball with its marks turned by ``angle`` rad, and the ring that says that it is drawn too large."""
+        painter.disc(centre, radius + max(0.7, 0.8 * self.unit), TRACE["rim"], 0.65)
+        if radius < 6:
+            painter.disc(centre, radius, GOLF["ball"])
+        else:
+            painter.turned(_marked(radius), centre, angle)
+            painter.centred(_shade(radius), centre)
+        if ring:
+            painter.ring(centre, radius + 4.5 * self.unit, max(1.2, 1.7 * self.unit), CARD["accent"])
+
+
+def _pieces(turf: list[Any]) -> list[tuple[str, float, float]]:
+    """Kind and ends in m of each stretch of ground, from left to right; the two sides of the cup make one."""
+    merged: list[tuple[str, float, float]] = []
+    for a, b, name in sorted((s.shape.a[0], s.shape.b[0], s.name) for s in turf):
+        start = merged.pop()[1] if merged and merged[-1][0] == name else a
+        merged.append((name, start, b))
+    return merged
+
+
+def _bands(low: float, high: float, stripe: float) -> list[tuple[float, float]]:
+    """Every second stripe between two places in m."""
+    first, last = floor(low / stripe), ceil(high / stripe)
+    even = range(first + first % 2, last, 2)
+    return [(max(low, i * stripe), min(high, (i + 1) * stripe)) for i in even]
+
+
+@lru_cache(maxsize=16)
+def _marked(radius: float) -> pygame.Surface:
+    """A golf ball's face with dimples and a stripe, larger by OVERSAMPLING."""
+    reach = round(radius * OVERSAMPLING)
+    face = blank((2 * reach + 1, 2 * reach + 1), transparent=True)
+    face.fill((*GOLF["ball"], 0))
+    pygame.draw.circle(face, GOLF["ball"], (reach, reach), reach)
+    apart = reach / 3.4
+    for row in range(-4, 5):
+        for place in range(-4, 5):
+            x, y = (place + row % 2 / 2) * apart, row * apart * 0.87
+            if np.hypot(x, y) < reach * 0.93:
+                pygame.draw.circle(face, GOLF["dimple"], (reach + x, reach + y), apart * 0.30)
+    band = pygame.Rect(0, 0, round(1.36 * reach), round(0.26 * reach))
+    band.center = (reach, reach)
+    pygame.draw.rect(face, GOLF["ball_mark"], band, border_radius=band.height // 2)
+    return face
+
+
+@lru_cache(maxsize=16)
+def _shade(radius: float) -> pygame.Surface:
+    """Light from above the left shoulder: a soft shade over the ball's lower right."""
+    reach = ceil(radius) + 1
+    grid = np.arange(-reach, reach + 1)
+    inside = np.clip(radius - np.hypot(grid[:, None], grid[None, :]) + 0.5, 0, 1)
+    away = np.hypot(grid[:, None] / radius + 0.38, grid[None, :] / radius + 0.45) / 1.5
+    return from_coverage(inside * np.clip(away - 0.42, 0, 1) ** 1.3 * 0.85, GOLF["ball_shade"])

@@ -1,0 +1,351 @@
+"""Golf from the side: a wide sky, the ground cut open along the line of play, and the ball's path over it."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from itertools import pairwise
+from math import atan2, degrees, floor, hypot, pi
+from typing import Any
+
+import numpy as np
+import pygame
+
+from sandbox.picture.camera import Area, Box, Camera, Follow
+from sandbox.picture.palette import Colour, palette
+from sandbox.picture.sheet import Sheet, metres, nice, signed, yards
+
+from .course import Course
+
+CARD, TRACE, GOLF = palette("card"), palette("trace"), palette("golf")
+
+#: A smaller ball is drawn this large, in px across on 360 rows and in proportion on more, with a ring that says so.
+SMALLEST_BALL = 7.0
+#: The pin is left out of the poster when the path would take up less than this share of the way to it.
+LEAST_PATH = 0.2
+#: A flight that rises at least this much (px on 720 rows) and leaves most of the sky empty is drawn twice as high.
+LEAST_RISE = 24
+#: Frames show at most this much of the world's length in m, until the ball flies too high for it.
+WIDEST_VIEW = 64.0
+#: s of path that the trail behind the ball shows.
+TRAIL = 1.4
+#: The path is sampled this often in s; of a long run, in so many pieces.
+SAMPLING, MOST_SAMPLES = 1 / 120, 5000
+
+
+class Picture:
+    """Draws one run of golf at ``size`` px: as a poster, or as it is at a time t."""
+
+    def __init__(self, run: Any, parameters: Any, size: tuple[int, int] = (1280, 720)):
+        self.run, self.size = run, size
+        ball = run.setup.balls[0]
+        self.name, self.radius = ball.name, ball.radius
+        self.path = run.trajectory(self.name, every=max(SAMPLING, run.duration / MOST_SAMPLES))
+        self.pin = parameters.pin.distance
+        self.wind = parameters.air.wind
+        sheet = Sheet(size)
+        self.unit = sheet.unit
+        # Rows in px, from the bottom up: the card, the ruler, the distances; and where the sky is free.
+        small = sheet.lettering.height("small")
+        above, below = sheet.ruler_heights()
+        self.card_row = sheet.frame.bottom - sheet.card_height()
+        self.ruler_row = self.card_row - 2.2 * sheet.gap - below
+        self.total_row = self.ruler_row - above - 0.8 * sheet.gap - small / 2
+        self.carry_row = self.total_row - small - 0.7 * sheet.gap
+        self.sky_row = sheet.frame.top + sheet.lettering.height("large") + small + 2 * sheet.gap
+        self.frame_base = round(self.ruler_row - above - 2.4 * sheet.gap)
+        self.poster_base = round(self.carry_row - small / 2 - 2.4 * sheet.gap)
+
+    # The poster
+
+    @cached_property
+    def poster_course(self) -> Course:
+        """The course on the poster; the deeper the cup, the higher the ground, for the distances stand below it."""
+        course = Course(self.run.setup, self.pin, self.size, self.poster_base)
+        camera = self._composed(course)
+        if course.cup is None or not 0 < camera.pixel(self.pin, 0)[0] < self.size[0]:
+            return course
+        deep = (course.cup.top - course.cup.bottom) * camera.scale
+        lifted = max(0.0, deep - (self.carry_row - self.poster_base) + 8 * self.unit)
+        return Course(self.run.setup, self.pin, self.size, round(self.poster_base - min(lifted, 0.15 * self.size[1])))
+
+    @cached_property
+    def camera(self) -> Camera:
+        """The poster's camera."""
+        return self._composed(self.poster_course)
+
+    def _composed(self, course: Course) -> Camera:
+        """Shows the whole path, and the pin unless that would make the path too small to see."""
+        x, y = self.path[:, 1], self.path[:, 2]
+        left, right, top = float(x.min()), float(x.max()), float(y.max())
+        least = 60 * self.radius
+        if right - left < least:
+            left, right = (left + right - least) / 2, (left + right + least) / 2
+        wide = min(left, self.pin), max(right, self.pin)
+        if max(right - left, top) >= LEAST_PATH * (wide[1] - wide[0]):
+            left, right = wide
+        bottom, hill = course.lowest_and_highest(left, right)
+        side = 0.085 * self.size[0]
+        area = Area(side, self.sky_row + 40 * self.unit, self.size[0] - side, course.base)
+        box = Box(left, bottom, right, max(top, hill))
+        camera = Camera.fit(box, area)
+        rise, room = (box.top - box.bottom) * camera.scale, area.bottom - area.top
+        if self._enlarged(camera) > 3 and LEAST_RISE * self.unit < rise < 0.45 * room:
+            return Camera.fit(box, area, stretch=2.0)
+        return camera
+
+    def poster(self) -> pygame.Surface:
+        """The whole run in one picture."""
+        sheet = self.sheet = Sheet(self.size)
+        camera, course = self.camera, self.poster_course
+        course.draw(sheet.painter, camera, nice(70 * self.unit / camera.scale))
+        flag = course.hole(sheet.painter, camera, 0.4, self.wind[0])
+        if flag:
+            sheet.labels.take(flag)
+        self.trace = _thinned(camera.pixels(self.path[:, 1:3]))
+        sheet.labels.take_path(self.trace, 4 * self.unit)
+        self._apex(sheet, camera)
+        width = max(2.5, 4.5 * self.unit)
+        sheet.painter.trace(self.trace, width, TRACE["colours"][0], TRACE["rim"], max(0.75, self.unit))
+        every = self._balls_at_even_times(sheet, camera)
+        self._distances(sheet, camera)
+        sheet.ruler(camera, self.ruler_row)
+        right = sheet.frame.right
+        if any(self.wind):
+            right = sheet.wind(*self.wind, sheet.frame.right, sheet.frame.top).left
+        notes = [f"a ball every {every:g} s"]
+        if camera.stretch != 1:
+            notes.append(f"heights drawn {camera.stretch:g} times as large as lengths")
+        if (factor := self._enlarged(camera)) > 1:
+            notes.append(f"ball drawn {factor:.{0 if factor >= 10 else 1}f} times its size")
+        sheet.headline(self.verdict(), notes, right - sheet.frame.left - 2 * sheet.gap)
+        sheet.columns(self.card_row, self._numbers())
+        return sheet.surface
+
+    @property
+    def _smallest(self) -> float:
+        """Least radius of the ball in px."""
+        return SMALLEST_BALL / 2 * max(1.0, self.size[1] / 360)
+
+    def _enlarged(self, camera: Camera) -> float:
+        """How many times its size the ball is drawn."""
+        return max(1.0, self._smallest / (self.radius * camera.scale))
+
+    def _apex(self, sheet: Sheet, camera: Camera) -> None:
+        """The highest point: a dashed line down to the ground, and its height over the start."""
+        top = self.path[self.path[:, 2].argmax()]
+        x, y = camera.pixel(top[1], top[2])
+        unit = self.unit
+        ground = camera.pixel(top[1], self.poster_course.height(top[1]))[1]
+        if ground - y < 44 * unit:
+            return
+        sheet.painter.dashes([(x, y + 10 * unit), (x, ground - 4 * unit)], 1.3 * unit, CARD["ink"], 4 * unit, 5 * unit, 0.5)
+        text = f"apex {metres(self.run.result['apex'])}"
+        sheet.label(text, "small", [(x, y - lift * unit, "midbottom") for lift in (12, 18, 24)], CARD["ink"], bold=True)
+
+    def _spot(self, course: Course, camera: Camera, x: float, y: float, radius: float) -> tuple[float, float]:
+        """Where in px a ball drawn with ``radius`` px goes: not into the ground that it lies on."""
+        px, py = camera.pixel(x, y)
+        ground = camera.pixel(x, course.height(x))[1]
+        in_cup = y < course.height(x)
+        return px, py if in_cup else min(py, ground - radius)
+
+    def _balls_at_even_times(self, sheet: Sheet, camera: Camera) -> float:
+        """The ball at even times, where there is room for it, and at the end; returns the time between in s."""
+        course, run = self.poster_course, self.run
+        every = nice(self._flown / 14)
+        true = self.radius * camera.scale
+        radius, largest = max(true, 0.62 * self._smallest), max(true, self._smallest)
+        end = self._spot(course, camera, *run.state(self.name, run.duration)[:2], largest)
+        last = (-1e9, 0.0)
+        for i in range(floor(run.duration / every) + 1):
+            at = self._spot(course, camera, *run.state(self.name, i * every)[:2], radius)
+            apart = hypot(at[0] - last[0], at[1] - last[1])
+            if apart > 2.6 * radius and hypot(at[0] - end[0], at[1] - end[1]) > largest + 2 * radius:
+                course.ball(sheet.painter, at, radius, run.angle(self.name, i * every), ring=False)
+                last = at
+        sheet.painter.shadow((end[0] + 2 * self.unit, end[1] + largest), 1.5 * largest, 0.4 * largest, CARD["shadow"], 0.5)
+        course.ball(sheet.painter, end, largest, run.angle(self.name, run.duration), ring=largest > true)
+        return every
+
+    @property
+    def _flown(self) -> float:
+        """Time in the air in s; the whole time where it hardly flew or did not come down."""
+        flight = self.run.result["flight_time"] or 0.0
+        return flight if flight > 0.2 * self.run.duration else max(self.run.duration, 0.01)
+
+    def _distances(self, sheet: Sheet, camera: Camera) -> None:
+        """Carry and total, measured along the ground."""
+        start = camera.pixel(0, 0)[0]
+        for name, row, colour in (("carry", self.carry_row, CARD["accent"]), ("total", self.total_row, CARD["text"])):
+            value = self.run.result[name]
+            if value and abs(value) * camera.scale > 4:
+                text = f"{name} {metres(value)}   {yards(value)}"
+                sheet.dimension(text, row, start, camera.pixel(value, 0)[0], colour)
+
+    def _numbers(self) -> list[tuple[str, str]]:
+        result = self.run.result
+        _, _, vx, vy, spin = self.run.state(self.name, 0.0)
+        landed = self._landed
+        return [
+            ("carry", metres(result["carry"]) if landed else "–"),
+            ("total", metres(result["total"])),
+            ("apex", metres(result["apex"])),
+            ("flight time", f"{result['flight_time']:.2f} s" if landed else "–"),
+            ("ball speed", f"{hypot(vx, vy):.1f} m/s"),
+            ("launch angle", signed(f"{degrees(atan2(vy, vx)):.1f}") + "°"),
+            ("backspin", signed(f"{spin * 30 / pi:.0f}") + " rpm"),
+            ("landing angle", signed(f"{result['landing_angle']:.0f}") + "°" if landed else "–"),
+        ]
+
+    @property
+    def _landed(self) -> bool:
+        """Whether it flew at all, and came down."""
+        return (self.run.result["flight_time"] or 0.0) > 0.02
+
+    def verdict(self) -> str:
+        """What happened, in one line."""
+        result = self.run.result
+        carry, total = result["carry"], result["total"]
+        if result["holed"]:
+            return f"Holed from {metres(abs(self.pin), 0 if abs(self.pin) >= 10 else 2)}"
+        if carry is None:
+            return "Did not come down"
+        if abs(carry) < 0.05 * abs(total):
+            story = f"Rolls {metres(abs(total))}"
+        else:
+            carried = metres(abs(carry), 0 if abs(carry) >= 10 else 1)
+            story = f"Flies {carried} backwards" if carry < 0 else f"{carried} carry"
+        if result["ended"] == "water":
+            return f"{story}, into the water"
+        if result["ended"] != "rest":
+            return f"{story}, still rolling after {self.run.duration:.0f} s"
+        side = "short of" if (self.pin - total) * self.pin > 0 else "past"
+        away = result["distance_to_pin"]
+        return f"{story}, stops {metres(away, 0 if away >= 10 else 1)} {side} the pin"
+
+    # Frames
+
+    @cached_property
+    def frame_course(self) -> Course:
+        return Course(self.run.setup, self.pin, self.size, self.frame_base)
+
+    @cached_property
+    def follow(self) -> Follow:
+        """The camera of the frames: near the ball, far enough for the ground to stay in sight."""
+        course, width = self.frame_course, self.size[0]
+        times = np.linspace(0.0, self.run.duration, max(2, min(MOST_SAMPLES, round(self.run.duration * 60))))
+        states = np.array([self.run.state(self.name, t) for t in times])
+        ground = np.interp(states[:, 0], course.line[:, 0], course.line[:, 1])
+        span = float(np.ptp(self.path[:, 1]))
+        nearest = width / min(WIDEST_VIEW, max(0.35 * span, 60 * self.radius))
+        room = 0.8 * (course.base - self.sky_row)
+        scales = np.minimum(nearest, room / np.maximum(states[:, 1] - ground, 1e-9))
+        ahead = 0.10 * width / scales * np.tanh(states[:, 2] / 3)
+        return Follow(times, np.column_stack([states[:, 0] + ahead, ground]), scales, (width / 2, course.base))
+
+    def frame(self, t: float) -> pygame.Surface:
+        """The scene at time t in s, seen by a camera that follows the ball."""
+        t = min(max(t, 0.0), self.run.duration)
+        sheet = self.sheet = Sheet(self.size)
+        painter, unit, course = sheet.painter, self.unit, self.frame_course
+        camera = self.follow.camera(t)
+        nearest = self.follow.largest_scale
+        x, y, vx, vy, spin = self.run.state(self.name, t)
+        course.draw(painter, camera, nice(110 * unit / nearest), camera.at[0] * nearest)
+        course.hole(painter, camera, t, self.wind[0])
+        true = self.radius * camera.scale
+        radius = max(true, 1.4 * self._smallest)
+        at = self._spot(course, camera, x, y, radius)
+        height = y - self.radius - course.height(x)
+        if height > -0.5 * self.radius:
+            near = 1 / (1 + height * camera.scale / (80 * unit))
+            below = at[0], camera.pixel(x, course.height(x))[1] + 1
+            painter.shadow(below, radius * (2.2 - near), 0.35 * radius, CARD["shadow"], 0.15 + 0.45 * near)
+        self._trail(sheet, camera, t, radius)
+        course.ball(painter, at, radius, self.run.angle(self.name, t), ring=radius > true)
+        sheet.ruler(camera, self.ruler_row)
+        corner = self._map(sheet, t)
+        if any(self.wind):
+            sheet.wind(*self.wind, corner.right, corner.bottom + 2 * sheet.gap)
+        notes = ["ball drawn larger than it is"] if radius > true else []
+        digits = 1 if self.run.result["apex"] >= 10 else 2
+        if t >= self.run.duration:
+            sheet.headline(self.verdict(), notes, corner.left - sheet.frame.left - 2 * sheet.gap)
+        else:
+            sheet.headline(metres(x - self.path[0, 1], digits), ["from the tee", *notes], self.size[0])
+        speed = hypot(vx, vy)
+        sheet.columns(
+            self.card_row,
+            [
+                ("time", f"{t:.2f} s"),
+                ("height", metres(max(0.0, y - self.path[0, 2]) if y > 0 else y - self.path[0, 2], digits)),
+                ("speed", f"{speed:.1f} m/s"),
+                ("direction", signed(f"{degrees(atan2(vy, vx)):.0f}") + "°" if speed > 0.01 else "–"),
+                ("backspin", signed(f"{spin * 30 / pi:.0f}") + " rpm"),
+            ],
+        )
+        return sheet.surface
+
+    def _trail(self, sheet: Sheet, camera: Camera, t: float, radius: float) -> None:
+        """Where the ball has just been; kept out of the header."""
+        times = np.linspace(max(0.0, t - TRAIL), t, 61)
+        points = camera.pixels(np.array([self.run.state(self.name, s)[:2] for s in times]))
+        sheet.surface.set_clip(0, round(self.sky_row), self.size[0], self.size[1])
+        sheet.painter.fading(_thinned(points, 2.0), 1.1 * radius, TRACE["colours"][0], 0.9)
+        sheet.surface.set_clip(None)
+
+    def _map(self, sheet: Sheet, t: float) -> pygame.Rect:
+        """The whole path, small, in the upper right corner, and where on it the ball is."""
+        rect, camera, ground, path = self._mapped
+        surface, painter, unit = sheet.surface, sheet.painter, self.unit
+        thin = max(1, round(1.6 * unit))
+        painter.panel(rect, CARD["background"], CARD["opacity"], 8 * unit)
+        surface.set_clip(rect)
+        _draw_path(surface, ground, GOLF["fairway"], thin)
+        _draw_path(surface, path, CARD["quiet"], 1)
+        x, y, *_ = self.run.state(self.name, t)
+        at = camera.pixel(x, y)
+        flown = camera.pixels(self.path[self.path[:, 0] <= t, 1:3])
+        _draw_path(surface, _thinned(np.vstack([flown, at]), 2.0), TRACE["colours"][0], thin + 1)
+        px, py = camera.pixel(self.pin, self.frame_course.height(self.pin))
+        tall = 24 * unit
+        pygame.draw.line(surface, GOLF["pole"], (px, py), (px, py - tall), thin)
+        painter.polygon([(px, py - tall), (px + 0.6 * tall, py - 0.8 * tall), (px, py - 0.6 * tall)], GOLF["flag"])
+        painter.disc(at, max(2.5, 4 * unit), CARD["accent"])
+        surface.set_clip(None)
+        return rect
+
+    @cached_property
+    def _mapped(self) -> tuple[pygame.Rect, Camera, np.ndarray, np.ndarray]:
+        """The map's place, its camera, the ground and the path on it in px."""
+        sheet, course = Sheet(self.size), self.frame_course
+        inset = 2.4 * sheet.gap
+        x, y = self.path[:, 1], self.path[:, 2]
+        left, right = min(float(x.min()), self.pin), max(float(x.max()), self.pin)
+        low, high = course.lowest_and_highest(left, right)
+        world = Box(left, low, max(right, left + 60 * self.radius), max(high, float(y.max())))
+        width = round(0.24 * self.size[0])
+        area = Area(inset, 0, width - 2 * inset, 0.11 * self.size[1])  # on the right the flag needs room too
+        camera = Camera.fit(world, area, self.camera.stretch)
+        rise = max((world.top - world.bottom) * camera.scale * camera.stretch, 26 * self.unit)
+        rect = pygame.Rect(0, 0, width, round(rise + 2 * inset))
+        rect.topright = sheet.frame.topright
+        anchor = rect.left + camera.anchor[0], rect.bottom - inset
+        camera = Camera(camera.at, anchor, camera.scale, camera.stretch)
+        edges = (camera.world(px, 0)[0] for px in (rect.left + sheet.gap, rect.right - sheet.gap))
+        ground = camera.pixels(course.between(*edges)) + (0, 1)
+        return rect, camera, ground, _thinned(camera.pixels(self.path[:, 1:3]))
+
+
+def _draw_path(surface: pygame.Surface, points: np.ndarray, colour: Colour, width: int) -> None:
+    for a, b in pairwise(points):
+        pygame.draw.aaline(surface, colour, a, b, width)
+
+
+def _thinned(points: np.ndarray, apart: float = 1.5) -> np.ndarray:
+    """The points that are ``apart`` px from each other, and the last."""
+    kept = [points[0]]
+    for point in points[1:-1]:
+        if hypot(point[0] - kept[-1][0], point[1] - kept[-1][1]) >= apart:
+            kept.append(point)
+    return np.array([*kept, points[-1]])
