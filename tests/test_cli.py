@@ -1,0 +1,392 @@
+"""The program from outside: what it prints, what it writes, what it refuses, and with which exit code."""
+
+from __future__ import annotations
+
+import csv
+import json
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+from typing import NamedTuple
+
+import pytest
+
+import sandbox
+from sandbox.cli import main
+
+DROP = Path(__file__).parent / "scenes" / "drop"
+COMMAND = [sys.executable, "-c", "import sys; from sandbox.cli import main; sys.exit(main())"]
+
+
+BUILD = "def build(parameters: Parameters) -> Setup:\n"  # in scene.py of drop
+
+
+class Outcome(NamedTuple):
+    code: int
+    out: str
+    err: str
+
+
+@pytest.fixture
+def call(capsys: pytest.CaptureFixture[str]):
+    """Call the program in this process."""
+
+    def called(*args: object) -> Outcome:
+        code = main([str(arg) for arg in args])
+        return Outcome(code, *capsys.readouterr())
+
+    return called
+
+
+@pytest.fixture
+def drop(tmp_path: Path) -> Path:
+    """A scene of the user's own: a copy of the folder ``drop``."""
+    return Path(shutil.copytree(DROP, tmp_path / "drop", ignore=shutil.ignore_patterns("__pycache__")))
+
+
+def change(scene: Path, old: str, new: str) -> None:
+    source = (scene / "scene.py").read_text("utf-8")
+    assert old in source
+    (scene / "scene.py").write_text(source.replace(old, new, 1), "utf-8")
+
+
+def assert_refused(outcome: Outcome, expected: str, code: int = 2) -> None:
+    """One or two plain lines on stderr that say ``expected``, nothing on stdout, and no traceback."""
+    assert expected in outcome.err
+    assert outcome.code == code
+    assert outcome.out == ""
+    assert outcome.err.startswith("error: ")
+    assert 1 <= len(outcome.err.strip().splitlines()) <= 2
+    assert "Traceback" not in outcome.err
+
+
+# What it shows ------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("command", [[], ["list"], ["run"], ["schema"]])
+def test_help(call, command: list[str]):
+    code, out, err = call(*command, "--help")
+    assert (code, err) == (0, "")
+    assert out.startswith("Usage: sandbox")
+    assert max(len(line) for line in out.splitlines()) <= 110
+
+
+def test_version(call):
+    assert call("--version") == (0, f"sandbox {sandbox.__version__}\n", "")
+
+
+def test_list_has_a_line_for_each_scene(call):
+    code, out, _ = call("list")
+    assert code == 0
+    assert any(line.startswith("golf ") and len(line) > 20 for line in out.splitlines())
+
+
+def test_schema_is_json(call):
+    code, out, err = call("schema", "golf")
+    assert (code, err) == (0, "")
+    assert json.loads(out)["properties"]["scene"]["const"] == "golf"
+    assert call("schema", DROP / "drop.toml").out == call("schema", DROP).out
+
+
+def test_the_card_shows_what_a_player_wants_to_know(call):
+    code, out, err = call("run", "golf")
+    assert (code, err) == (0, "")
+    assert out.startswith("golf: ")
+    assert "carry" in out
+    assert "\x1b" not in out
+
+
+def test_the_card_names_the_preset(call):
+    assert call("run", DROP / "presets" / "moon.toml").out.startswith("drop/moon: The same drop on the moon.")
+
+
+def test_check_adds_errors_and_the_verdict(call):
+    out = call("run", DROP, "--check").out
+    assert "1.21 m ± less than 0.001 mm  (above the floor)" in out
+    assert "nothing but the numbers moves" in out
+    report = json.loads(call("run", DROP, "--check", "--json").out)
+    assert set(report["errors"]) == {"bounces", "first_touch", "final_height"}
+    assert report["changed"] == {}
+
+
+def test_check_tells_when_the_verdict_hangs_on_the_accuracy(call, drop: Path):
+    change(drop, '"bounces"', '"in": run.accuracy.tolerance < 5e-4, "bounces"')
+    assert "hangs on the accuracy: in is false here and true in a finer run" in call("run", drop, "--check").out
+
+
+# JSON and CSV -------------------------------------------------------------------------------------------------------
+
+
+def test_json_is_one_object_with_everything(call):
+    code, out, err = call("run", "golf", "--set", "launch.speed=171 mph", "--accuracy", "fast", "--json")
+    assert (code, err) == (0, "")
+    report = json.loads(out)
+    assert (report["scene"], report["preset"]) == ("golf", None)
+    assert report["parameters"]["launch"]["speed"] == pytest.approx(76.44384)
+    assert report["parameters"]["air"]["wind"] == [0.0, 0.0]
+    assert report["accuracy"]["level"] == report["parameters"]["accuracy"]["level"] == "fast"
+    results = "carry total apex flight_time landing_angle landing_speed landing_spin distance_to_pin holed ended"
+    assert set(results.split()) <= set(report["result"])
+    assert {"t", "kind", "ball", "with", "speed"} <= set(report["events"][0])
+    assert {"force_evaluations", "steps", "impacts", "wall_s"} <= set(report["numerics"])
+
+
+def test_what_is_no_number_is_null_in_json(call, drop: Path):
+    change(drop, '"bounces"', '"a": float("nan"), "b": [float("inf")], "c": {"d": float("nan")}, "bounces"')
+    out = call("run", drop, "--json").out
+    result = json.loads(out, parse_constant=pytest.fail)["result"]
+    assert (result["a"], result["b"], result["c"]) == (None, [None], {"d": None})
+
+
+def test_json_agrees_with_the_library(call):
+    report = json.loads(call("run", "golf", "--set", "launch.speed=70", "--json").out)
+    assert report["result"] == sandbox.simulate(sandbox.load("golf", {"launch.speed": 70})).result
+
+
+def test_trajectory(call, tmp_path: Path):
+    file = tmp_path / "path.csv"
+    code, out, _ = call("run", DROP, "--trajectory", file)
+    assert (code, out.splitlines()[-1]) == (0, f"wrote {file}")
+    with file.open(newline="") as lines:
+        rows = list(csv.DictReader(lines))
+    assert list(rows[0]) == ["t", "ball", "x", "y", "vx", "vy", "spin"]
+    assert {row["ball"] for row in rows} == {"ball"}
+    run = sandbox.simulate(sandbox.load(DROP))
+    numbers = [[float(row[key]) for key in ("t", "x", "y", "vx", "vy", "spin")] for row in rows]
+    assert numbers == run.trajectory("ball").tolist()
+    assert [path.name for path in tmp_path.iterdir()] == ["path.csv"]
+
+
+# Settings -----------------------------------------------------------------------------------------------------------
+
+
+def test_settings_and_accuracy_stand_over_the_file(call, tmp_path: Path):
+    (tmp_path / "shot.toml").write_text('scene = "golf"\nlaunch.speed = 50\naccuracy.level = "precise"')
+    args = ["--set", "launch.angle=0.3 rad", "--set", "ball.drag.model=none", "--set", "launch.angle=20", "--json"]
+    report = json.loads(call("run", tmp_path / "shot.toml", *args).out)
+    assert report["parameters"]["launch"] | {"spin": 0} == {"speed": 50, "angle": 20, "spin": 0}
+    assert report["parameters"]["ball"]["drag"] == {"model": "none"}
+    assert report["accuracy"]["level"] == "precise"
+    assert json.loads(call("run", DROP, "--accuracy", "fast", "--json").out)["accuracy"]["level"] == "fast"
+
+
+@pytest.mark.parametrize(
+    ("args", "expected"),
+    [
+        (["run", "golff"], "unknown scene golff; did you mean golf?"),
+        (["run", "golf/nowhere"], "golf has no preset nowhere"),
+        (["run", "nowhere.toml"], "nowhere.toml: cannot be read: no such file or directory"),
+        (["schema", "golff"], "unknown scene golff; did you mean golf?"),
+        (["run", "golf", "--set", "launch.sped=3"], "--set launch.sped: unknown key; did you mean launch.speed?"),
+        (["run", "golf", "--set", "launch.speed=341"], "--set launch.speed = 341: must be from 0 to 340 m/s"),
+        (["run", "golf", "--set", "launch.speed=70 kg"], "kg is a unit of mass; use m/s, km/h, mph, kn or ft/s"),
+        (["run", "golf", "--set", "launch.speed=nan"], "--set launch.speed = nan: must be a finite number"),
+        (["run", "golf", "--set", "launch.speed=inf"], "--set launch.speed = inf: must be a finite number"),
+        (["run", "golf", "--set", "launch.speed=true"], "--set launch.speed = true: must be a number"),
+        (["run", "golf", "--set", "launch.speed="], 'launch.speed = "": is not a number with a unit'),
+        (["run", "golf", "--set", "launch=3"], "--set launch = 3: must be a group of keys"),
+        (["run", "golf", "--set", "launch.speed"], "--set launch.speed: write it as key.path=value"),
+        (["run", "golf", "--set", "air.wind=3"], "--set air.wind = 3: must be a list of 2 numbers"),
+        (["run", "golf", "--set", "ball.drag.model=ideal"], "ball.drag"),
+        (["run", "golf", "--accuracy", "best"], "'best' is not one of 'fast', 'balanced', 'precise'"),
+        (["run", "golf", "--set", "accuracy.level=best"], 'must be "fast", "balanced" or "precise"'),
+        (["run", "golf", "--fps", "30"], "--fps 30: goes with --frames or --gif"),
+        (["run", "golf", "--frames", "frames", "--fps", "0"], "--fps"),
+        (["run", "golf", "--bogus"], "No such option: --bogus"),
+        (["run"], "Missing argument 'SCENE'"),
+        (["bogus"], "No such command 'bogus'"),
+    ],
+)
+def test_a_wrong_request_is_refused_in_a_line(call, tmp_path: Path, monkeypatch, args: list[str], expected: str):
+    monkeypatch.chdir(tmp_path)
+    assert_refused(call(*args), expected)
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    ("content", "expected"),
+    [
+        (b"scene = 'golf'\n[launch]\nspeed = 400\n", "shot.toml: launch.speed = 400: must be from 0 to 340 m/s"),
+        (b"scene = 'golf'\n[launch]\nspeed = '70 kg'\n", "kg is a unit of mass"),
+        (b"scene = 'golf'\n[launch]\nspeed = nan\n", "shot.toml: launch.speed = nan: must be a finite number"),
+        (b"scene = 'golf'\n[launch]\nsped = 70\n", "shot.toml: launch.sped: unknown key; did you mean launch.speed?"),
+        (b"scene = 'golf'\n[launch\nspeed = 70\n", "shot.toml: broken TOML: "),
+        (b"scene = 'golff'\n", "shot.toml: unknown scene golff; did you mean golf?"),
+        (b"[launch]\nspeed = 70\n", "shot.toml: needs a line that names its scene"),
+        (b"", "shot.toml: needs a line that names its scene"),
+        (b"\xff\xfe", "shot.toml: not a text file in UTF-8"),
+        (b"\x00", "shot.toml: broken TOML"),
+    ],
+)
+def test_a_wrong_file_is_refused_in_a_line(call, tmp_path: Path, content: bytes, expected: str):
+    (tmp_path / "shot.toml").write_bytes(content)
+    assert_refused(call("run", tmp_path / "shot.toml", "--json"), expected)
+
+
+@pytest.mark.skipif(os.geteuid() == 0, reason="root may read everything")
+def test_an_unreadable_file_is_refused(call, tmp_path: Path):
+    (tmp_path / "shot.toml").touch(mode=0o000)
+    assert_refused(call("run", tmp_path / "shot.toml"), "shot.toml: cannot be read: permission denied")
+
+
+# Outputs ------------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("args", "expected"),
+    [
+        (["--trajectory", "missing/path.csv"], "--trajectory: there is no folder missing; make it first"),
+        (["--trajectory", "."], "--trajectory .: is a folder; name a file in it"),
+        (["--trajectory", "path.txt"], "--trajectory path.txt: its name must end in .csv"),
+        (["--trajectory", "file/path.csv"], "--trajectory: there is no folder file"),
+        (["--trajectory", "/proc/path.csv"], "--trajectory: cannot write into /proc"),
+        (["--poster", "missing/shot.png"], "--poster: there is no folder missing"),
+        (["--poster", "shot.jpg"], "--poster shot.jpg: its name must end in .png"),
+        (["--gif", "shot.png"], "--gif shot.png: its name must end in .gif"),
+        (["--frames", "file"], "--frames file: is a file, and a folder is needed"),
+        (["--frames", "/proc/frames"], "--frames /proc/frames: cannot be made"),
+    ],
+)
+def test_an_output_that_cannot_be_written_is_refused_before_the_run(
+    call, drop: Path, tmp_path: Path, monkeypatch, args: list[str], expected: str
+):
+    change(drop, BUILD, f"{BUILD}    1 / 0\n")
+    monkeypatch.chdir(tmp_path)
+    Path("file").touch()
+    assert_refused(call("run", "drop", *args), expected)
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["drop", "file"]
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs /dev/full")
+def test_a_full_disk_is_told(call):
+    assert_refused(
+        call("run", DROP, "--trajectory", "/dev/full", "--json"),
+        "--trajectory /dev/full: cannot be written: no space left on device",
+        code=1,
+    )
+    assert Path("/dev/full").is_char_device()
+
+
+def test_nothing_half_written_stays_behind(call, drop: Path, tmp_path: Path, monkeypatch):
+    """The second row of the trajectory fails; the file of an earlier run must survive."""
+    file = tmp_path / "path.csv"
+    assert call("run", DROP, "--trajectory", file).code == 0
+    before = file.read_bytes()
+
+    class Rows:
+        def tolist(self) -> list:
+            return [[0.0] * 6, None]
+
+    monkeypatch.setattr("sandbox.engine.run.Run.trajectory", lambda run, ball: Rows())
+    with pytest.raises(TypeError):
+        call("run", DROP, "--trajectory", file)
+    assert file.read_bytes() == before
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["drop", "path.csv"]
+
+
+def test_a_link_is_written_through(call, tmp_path: Path):
+    (tmp_path / "real.csv").touch()
+    (tmp_path / "link.csv").symlink_to("real.csv")
+    assert call("run", DROP, "--trajectory", tmp_path / "link.csv").code == 0
+    assert (tmp_path / "link.csv").is_symlink()
+    assert (tmp_path / "real.csv").stat().st_size > 100
+
+
+# A user's own code --------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "expected"),
+    [
+        ("class Launch", "1 / 0\nclass Launch", "ZeroDivisionError: division by zero"),
+        ("    ball = Ball(", "    ball = nowhere(", "NameError: name 'nowhere' is not defined"),
+        (
+            "        return 0.0 * velocity[0]",
+            "        return velocity[2], self",
+            "IndexError: tuple index out of range",
+        ),
+        ('"bounced": bool(impacts)', '"bounced": impacts[99]', "IndexError: list index out of range"),
+        ('    return [("bounces"', "    return [nowhere", "SyntaxError: "),
+        ("duration=parameters.duration", "length=parameters.duration", "TypeError: "),
+        ("import Accuracy", "import Accuracies, Accuracy", "ImportError: cannot import name 'Accuracies'"),
+    ],
+)
+def test_a_failure_in_a_users_scene_shows_the_users_lines_only(call, drop: Path, old: str, new: str, expected: str):
+    change(drop, old, new)
+    code, out, err = call("run", drop, "--json")
+    assert (code, out) == (1, "")
+    assert err.startswith("error: your scene failed\n")
+    assert expected in err.splitlines()[-1]
+    assert str(drop / "scene.py") in err
+    files = [line.split('"')[1] for line in err.splitlines() if line.startswith("  File ")]
+    assert set(files) == {str(drop / "scene.py")}
+
+
+def test_a_bug_of_ours_is_not_hidden(call, monkeypatch):
+    monkeypatch.setattr("sandbox.report.card", lambda *_: [][0])
+    monkeypatch.setattr("sandbox.tracebacks._is_ours", lambda filename: True)  # this test stands in for our own code
+    with pytest.raises(IndexError):
+        call("run", "golf")
+
+
+# As a process -------------------------------------------------------------------------------------------------------
+
+
+def test_a_process_prints_one_json_object_and_ends_with_0():
+    process = subprocess.run([*COMMAND, "run", "golf", "--json"], capture_output=True, text=True)
+    assert (process.returncode, process.stderr) == (0, "")
+    assert json.loads(process.stdout)["scene"] == "golf"
+
+
+def test_a_process_that_was_asked_wrongly_ends_with_2():
+    process = subprocess.run([*COMMAND, "run", "golff"], capture_output=True, text=True)
+    assert (process.returncode, process.stdout) == (2, "")
+    assert process.stderr == "error: unknown scene golff; did you mean golf?\n"
+
+
+@pytest.mark.parametrize("command", ["list", "--help", "schema golf"])
+def test_a_reader_that_leaves_is_no_trouble(command: str):
+    read, write = os.pipe()
+    os.close(read)
+    process = subprocess.run([*COMMAND, *command.split()], stdout=write, stderr=subprocess.PIPE, text=True)
+    os.close(write)
+    assert process.stderr == ""
+    assert process.returncode == 1
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs /dev/full")
+def test_a_full_disk_behind_stdout_is_told():
+    with Path("/dev/full").open("w") as full:
+        process = subprocess.run([*COMMAND, "schema", "golf"], stdout=full, stderr=subprocess.PIPE, text=True)
+    assert process.stderr == "error: stdout cannot be written: no space left on device\n"
+    assert process.returncode == 1
+
+
+def test_a_terminal_that_cannot_show_a_character_is_no_trouble():
+    environment = os.environ | {"PYTHONIOENCODING": "koi8-r"}
+    process = subprocess.run([*COMMAND, "run", str(DROP), "--check"], capture_output=True, env=environment)
+    assert (process.returncode, process.stderr) == (0, b"")
+    assert b"1.21 m ? less" in process.stdout
+
+
+def test_ctrl_c_ends_quietly_with_130(drop: Path, tmp_path: Path):
+    sign = tmp_path / "running"
+    change(
+        drop, BUILD, f"{BUILD}    import pathlib, time\n    pathlib.Path({str(sign)!r}).touch()\n    time.sleep(60)\n"
+    )
+    process = subprocess.Popen([*COMMAND, "run", str(drop)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    while not sign.exists() and process.poll() is None:
+        time.sleep(0.01)
+    process.send_signal(signal.SIGINT)
+    assert process.communicate(timeout=30) == ("", "")
+    assert process.returncode == 130
+
+
+def test_help_imports_nothing_heavy():
+    code = "import sys; from sandbox.cli import main; main(['--help']); print(*sys.modules)"
+    process = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert not {"pydantic", "numpy", "pymunk", "pygame", "PIL", "rich"} & set(process.stdout.splitlines()[-1].split())
