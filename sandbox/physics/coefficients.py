@@ -105,7 +105,7 @@ GOLF_BALL: dict[str, tuple[Coefficient, Coefficient]] = {
 
 # ------------------------------------------------------------------------------------------------------ soccer ball
 
-#: Reynolds number per m/s of Goff and Carre's ball (0.0375 m^2, so 0.2185 m across) in their air, 1.2 kg/m^3 and 1.8e-5 Pa s.
+#: Reynolds number per m/s of Goff and Carre's ball (0.0375 m^2, so 0.2185 m across) in air of 1.2 kg/m^3 and 1.8e-5 Pa s.
 _GOFF_CARRE = 1.2 * 0.2185 / 1.8e-5
 
 #: Spin ratio at which their drag of a spinning ball is that of a ball without spin, beyond the crisis: 0.041.
@@ -113,12 +113,13 @@ _EVEN_SPIN = (0.155 / 0.4127) ** (1.0 / 0.3056)
 
 
 def goff_carre_drag(reynolds: Any, spin_ratio: Any) -> Any:
-    """Soccer ball: ``Cd = a + (0.501 - a) / (1 + exp((v - 12.19) / 1.309))``, v in m/s, with ``a = 0.155`` without spin.
+    """Soccer ball: ``Cd = a + (0.501 - a) / (1 + exp((v - 12.19) / 1.309))`` with ``a = 0.155`` without spin.
 
-    The drag crisis is at 12.19 m/s; v stands for ``Re / 1.457e4``, the source's ball and air. Beyond the crisis spin raises drag
-    to ``a = 0.4127 S^0.3056``, here as soon as that is more than 0.155 (S = 0.041). The source switches to it all at once, at
-    S = 0.05 and 12.19 m/s; we pass over smoothly. S is held at most 1; at low speed Cd stays at 0.501, whatever the spin.
-    Source: Goff & Carre 2010, Eur. J. Phys. 31:775, second-hand; the part with spin is to be verified.
+    The drag crisis is at v = 12.19 m/s; v stands for ``Re / 1.457e4``, the source's ball and air. Beyond the crisis
+    spin raises drag to ``a = 0.4127 S^0.3056``, here as soon as that is more than 0.155 (S = 0.041). The source switches
+    to it all at once, at S = 0.05 and 12.19 m/s; we pass over smoothly. S is held at most 1; at low speed Cd stays at
+    0.501, whatever the spin. Source: Goff & Carre 2010, Eur. J. Phys. 31:775, second-hand; the part with spin is to be
+    verified.
     """
     beyond = 0.4127 * clip(spin_ratio, _EVEN_SPIN, 1.0) ** 0.3056
     crisis = clip((reynolds / _GOFF_CARRE - 12.19) / 1.309, -50.0, 50.0)
@@ -134,10 +135,11 @@ def textbook_soccer_drag(reynolds: Any, spin_ratio: Any) -> Any:
 
 
 def asai_lift(reynolds: Any, spin_ratio: Any) -> Any:
-    """Soccer ball: ``Cl = 0.498 S / (0.242 + S)``, which meets 0.21 at S 0.18, 0.24 at 0.22 and 0.29 at 0.34 within 0.003.
+    """Soccer ball: ``Cl = 0.498 S / (0.242 + S)``: 0.21 at S 0.18, 0.24 at 0.22 and 0.29 at 0.34, each within 0.003.
 
-    Between and beyond these points the curve is ours: it starts in proportion to S, as lift must, and levels off at 0.498.
-    Other measurements find half to twice as much. Source of the points: Asai et al. 2007, Sports Eng. 10:101, second-hand.
+    Between and beyond these points the curve is ours: it starts in proportion to S, as lift must, and levels off at
+    0.498. Other measurements find half to twice as much. Source of the points: Asai et al. 2007, Sports Eng. 10:101,
+    second-hand.
     """
     return 0.498 * spin_ratio / (0.242 + spin_ratio)
 
