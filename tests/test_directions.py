@@ -19,6 +19,7 @@ FLOORS = {
     "files": 3,
     "resources": 3,
     "parameters": 3,
+    "aerodynamics": 3,
     "scene": 3,
     "picture": 4,
     "lab": 4,

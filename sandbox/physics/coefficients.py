@@ -105,7 +105,7 @@ GOLF_BALL: dict[str, tuple[Coefficient, Coefficient]] = {
 
 # ------------------------------------------------------------------------------------------------------ soccer ball
 
-#: Reynolds number per m/s of Goff and Carre's ball (0.0375 m^2, so 0.2185 m across) in air of 1.2 kg/m^3 and 1.8e-5 Pa s.
+#: Reynolds number per m/s of Goff and Carre's ball (0.0375 m^2: 0.2185 m across), air of 1.2 kg/m^3 and 1.8e-5 Pa s.
 _GOFF_CARRE = 1.2 * 0.2185 / 1.8e-5
 
 #: Spin ratio at which their drag of a spinning ball is that of a ball without spin, beyond the crisis: 0.041.
@@ -116,7 +116,7 @@ def goff_carre_drag(reynolds: Any, spin_ratio: Any) -> Any:
     """Soccer ball: ``Cd = a + (0.501 - a) / (1 + exp((v - 12.19) / 1.309))`` with ``a = 0.155`` without spin.
 
     The drag crisis is at v = 12.19 m/s; v stands for ``Re / 1.457e4``, the source's ball and air. Beyond the crisis
-    spin raises drag to ``a = 0.4127 S^0.3056``, here as soon as that is more than 0.155 (S = 0.041). The source switches
+    spin raises drag to ``a = 0.4127 S^0.3056``, here as soon as that is more than 0.155 (S = 0.041). The source turns
     to it all at once, at S = 0.05 and 12.19 m/s; we pass over smoothly. S is held at most 1; at low speed Cd stays at
     0.501, whatever the spin. Source: Goff & Carre 2010, Eur. J. Phys. 31:775, second-hand; the part with spin is to be
     verified.
