@@ -12,6 +12,11 @@ if TYPE_CHECKING:
 
 def simulate(setup: Setup, accuracy: Accuracy) -> Run:
     """Run a setup to its end. Raises RunError where that cannot be done, with the time, the ball and the quantity."""
-    from sandbox.engine.simulation import Simulation  # brings pymunk, which reading a scene does not need
+    # here, not above: they bring pymunk, which reading a scene does not need
+    if accuracy.method == "plain":
+        from sandbox.engine.plain import PlainSimulation
+
+        return PlainSimulation(setup, accuracy).run()
+    from sandbox.engine.simulation import Simulation
 
     return Simulation(setup, accuracy).run()

@@ -1,0 +1,308 @@
+"""The plain method: stock pymunk at a fixed step, forces in ``velocity_func``. The baseline, and the choice for heaps of balls.
+
+Chipmunk moves first, then finds contacts, then changes velocities, then exchanges impulses: so a contact is found up to one step late, at
+whatever depth that step brought, and forces are integrated to first order. Nothing here improves on that, except that errors are
+not lost: cffi prints and swallows what a callback raises, so it is kept and raised after the step.
+"""
+
+from __future__ import annotations
+
+from math import isfinite
+from time import perf_counter
+from typing import Any
+
+import pymunk
+
+from sandbox.engine.accuracy import Accuracy
+from sandbox.engine.arc import Arc
+from sandbox.engine.motion import Diverged
+from sandbox.engine.run import Event, Numerics, Run
+from sandbox.engine.setup import Ball, Bounce, Circle, Setup, Surface
+from sandbox.physics.integrators import State
+
+#: Depth in m that Chipmunk leaves to overlapping shapes; its own default of 0.1 is for pixels.
+_SLOP = 1e-5
+
+#: Path is recorded at impacts and this often, in s.
+_RECORD = 1 / 240
+
+#: A ball rests once it is slower than this (m/s, and r w as well) for this long (s) while touching something.
+_REST_SPEED, _REST_TIME = 0.01, 0.25
+
+#: A step longer than the forces' own time by more than this reverses what drag should slow.
+_REVERSAL = 1.0
+#: Changes below this share of the speed are no reversal: a force may jump.
+_JUMP = 0.01
+
+#: A ball rolls where its slip is below this share of its speed.
+_GRIP = 0.01
+
+_BALL, _SURFACE = 1, 2
+
+
+class _Tracked:
+    """A ball's body, what was recorded of it, and what it touched."""
+
+    def __init__(self, ball: Ball, body: pymunk.Body) -> None:
+        self.ball = ball
+        self.body = body
+        self.path: list[Arc] = []
+        self.since = 0.0  # s, start of the arc under way
+        self.start: State = (*ball.position, *ball.velocity, ball.spin)
+        self.acceleration = (0.0, 0.0)
+        self.before = (0.0, 0.0)  # velocity ahead of the last step's forces
+        self.pressed = 0.0  # N, normal force of the last step
+        self.resistance = 0.0  # rolling resistance of what it touches
+        self.touched = False
+        self.presses = False  # lasting contact, not an impact
+        self.turned = 0.0  # rad, by which its velocity is turned while a tilted surface is met
+        self.still_since: float | None = None
+
+    def state(self) -> State:
+        body = self.body
+        return (*body.position, *body.velocity, body.angular_velocity)
+
+    def record(self, t: float) -> None:
+        if t > self.since:
+            x0, y0, vx0, vy0, w0 = self.start
+            x1, y1, vx1, vy1, w1 = after = self.state()
+            self.path.append(Arc(self.since, t, self.start, (x0, x1), (y0, y1), (vx0, vx1), (vy0, vy1), (w0, w1)))
+            self.start = after
+            self.since = t
+
+
+class PlainSimulation:
+    """One run in a Space of real shapes at ``accuracy.step``. Raises RunError and what the scene's own forces raise."""
+
+    def __init__(self, setup: Setup, accuracy: Accuracy) -> None:
+        self._setup = setup
+        self._accuracy = accuracy
+        self._numerics = Numerics()
+        self._events: list[Event] = []
+        self._raised: BaseException | None = None
+        self._over = False
+        self._t = 0.0
+        self._space = pymunk.Space()
+        self._space.iterations = 30
+        self._space.collision_slop = _SLOP
+        self._surfaces: dict[Any, Surface] = {}
+        self._tracked: dict[Any, _Tracked] = {}
+        for surface in setup.surfaces:
+            shape = _fixed(self._space.static_body, surface)
+            self._surfaces[shape] = surface
+            self._space.add(shape)
+        for ball in setup.balls:
+            body = pymunk.Body(ball.mass, ball.inertia)
+            body.position, body.velocity, body.angular_velocity = ball.position, ball.velocity, ball.spin
+            disc = pymunk.Circle(body, ball.radius)
+            disc.collision_type = _BALL
+            disc.elasticity = disc.friction = 1.0
+            tracked = _Tracked(ball, body)
+            body.velocity_func = self._apply_forces(tracked)
+            self._tracked[body] = tracked
+            self._space.add(body, disc)
+        self._space.on_collision(
+            _BALL, _SURFACE, begin=self._kept(self._begin), pre_solve=self._kept(self._meet_surface),
+            post_solve=self._kept(self._press),
+        )  # fmt: skip
+        self._space.on_collision(_BALL, _BALL, begin=self._kept(self._begin), pre_solve=self._kept(self._meet_ball))
+
+    def run(self) -> Run:
+        started = perf_counter()
+        ended = self._loop()
+        for tracked in self._tracked.values():
+            tracked.record(self._t)
+        self._numerics.wall_s = perf_counter() - started
+        arcs = {tracked.ball.name: tracked.path for tracked in self._tracked.values()}
+        return Run(self._setup, self._accuracy, arcs, self._events, self._numerics, self._t, ended)
+
+    def _loop(self) -> str:
+        step, duration = self._accuracy.step, self._setup.duration
+        steps = 0
+        next_record = _RECORD
+        while self._t < duration:
+            h = min(step, duration - self._t)
+            for tracked in self._tracked.values():
+                tracked.touched = False
+            steps += 1
+            self._t = min(steps * step, duration)  # the time at which a step finds contacts and evaluates forces: it moves first
+            self._space.step(h)
+            if self._raised is not None:
+                raise self._raised
+            self._numerics.pymunk_steps += 1
+            self._numerics.steps += 1
+            self._check()
+            if self._t >= next_record:
+                next_record = self._t + _RECORD
+                for tracked in self._tracked.values():
+                    tracked.record(self._t)
+            if self._over:
+                return "until"
+            if all([self._rests(tracked) for tracked in self._tracked.values()]):
+                return "rest"
+        return "duration"
+
+    # ------------------------------------------------------------------ callbacks
+
+    def _kept(self, callback: Any) -> Any:
+        """The callback, with what it raises kept for after the step."""
+
+        def call(arbiter: pymunk.Arbiter, space: pymunk.Space, data: Any) -> None:
+            if self._raised is None:
+                try:
+                    callback(arbiter)
+                except BaseException as error:  # noqa: BLE001
+                    self._raised = error
+
+        return call
+
+    def _apply_forces(self, tracked: _Tracked) -> Any:
+        ball = tracked.ball
+
+        def update(body: pymunk.Body, gravity: Any, damping: float, h: float) -> None:
+            if self._raised is not None:
+                return
+            try:
+                self._numerics.force_evaluations += 1
+                position, velocity, spin = tuple(body.position), tuple(body.velocity), body.angular_velocity
+                fx = fy = torque = 0.0
+                for force in ball.forces:
+                    px, py = force(self._t, position, velocity, spin)
+                    fx += px
+                    fy += py
+                for moment in ball.torques:
+                    torque += moment(self._t, position, velocity, spin)
+                ax, ay = fx / ball.mass, fy / ball.mass
+                if not tracked.touched:
+                    self._refuse_reversal(tracked, ax, ay, velocity, h)
+                tracked.acceleration, tracked.before = (ax, ay), velocity
+                vx, vy = velocity[0] + h * ax, velocity[1] + h * ay
+                spin += h * torque / ball.inertia
+                if tracked.pressed > 0.0:
+                    speed = (vx * vx + vy * vy) ** 0.5
+                    slower = max(0.0, 1.0 - h * tracked.resistance * tracked.pressed / ball.mass / (speed + 1e-30))
+                    vx, vy, spin = slower * vx, slower * vy, slower * spin
+                    tracked.pressed = 0.0
+                body.velocity = (vx, vy)
+                body.angular_velocity = spin
+            except BaseException as error:  # noqa: BLE001
+                self._raised = error
+
+        return update
+
+    def _refuse_reversal(self, tracked: _Tracked, ax: float, ay: float, velocity: Any, h: float) -> None:
+        change = h * (abs(ax - tracked.acceleration[0]) + abs(ay - tracked.acceleration[1]))
+        gain = abs(velocity[0] - tracked.before[0]) + abs(velocity[1] - tracked.before[1])
+        speed = abs(velocity[0]) + abs(velocity[1])
+        if tracked.before != (0.0, 0.0) and change > _REVERSAL * gain and change > _JUMP * speed and gain > _JUMP * speed:
+            raise Diverged(
+                f"t = {self._t:.6g} s, ball {tracked.ball.name!r}: its drag would reverse its velocity within one step of "
+                f"{h:.3g} s; lower accuracy.step, or use accuracy.method = \"exact\""
+            )
+
+    def _begin(self, arbiter: pymunk.Arbiter) -> None:
+        first, second = arbiter.shapes
+        tracked = self._tracked[first.body]
+        normal, approach, _ = _closing(arbiter)
+        partner = self._surfaces[second].name if second in self._surfaces else self._tracked[second.body].ball.name
+        if approach > 0.0:
+            self._numerics.impacts += 1
+            tracked.record(self._t)
+            x, y = first.body.position
+            event = Event(self._t, "impact", tracked.ball.name, partner, approach, x, y)
+            self._events.append(event)
+            if self._setup.until is not None and self._setup.until(event):
+                self._over = True
+
+    def _meet_surface(self, arbiter: pymunk.Arbiter) -> None:
+        first, second = arbiter.shapes
+        surface = self._surfaces[second]
+        self._tracked[first.body].touched = True
+        normal, approach, along = _closing(arbiter)
+        if approach <= 0.0:
+            return
+        ax, ay = self._tracked[first.body].acceleration
+        bounce = Bounce(surface.restitution, surface.friction) if surface.law is None else surface.law(approach, abs(along))
+        press = max(0.0, ax * normal.x + ay * normal.y)  # m/s^2
+        tracked = self._tracked[first.body]
+        resting_speed = 2.0 * press * self._accuracy.step  # what weight alone gathers in a step or two
+        lowest = (2.0 * press * surface.lowest_bounce) ** 0.5
+        tracked.presses = approach <= resting_speed or bounce.restitution * approach <= lowest
+        if tracked.presses:
+            arbiter.restitution = 0.0
+            return
+        arbiter.restitution, arbiter.friction = bounce.restitution, bounce.friction
+        # a tilted surface meets the ball as a straight one meets the velocity turned the other way, until _press turns it back
+        if bounce.tilt != 0.0 and tracked.turned == 0.0:
+            tracked.turned = bounce.tilt if along >= 0.0 else -bounce.tilt
+            first.body.velocity = first.body.velocity.rotated(-tracked.turned)
+
+    def _meet_ball(self, arbiter: pymunk.Arbiter) -> None:
+        first, second = arbiter.shapes
+        a, b = self._tracked[first.body], self._tracked[second.body]
+        a.touched = b.touched = True
+        normal, approach, along = _closing(arbiter)
+        slip = along + a.ball.radius * first.body.angular_velocity + b.ball.radius * second.body.angular_velocity
+        bounce: Bounce = self._setup.between_balls(max(approach, 0.0), abs(slip))
+        arbiter.restitution, arbiter.friction = bounce.restitution, bounce.friction
+
+    def _press(self, arbiter: pymunk.Arbiter) -> None:
+        first, second = arbiter.shapes
+        surface = self._surfaces[second]
+        tracked = self._tracked[first.body]
+        if tracked.turned != 0.0:
+            first.body.velocity = first.body.velocity.rotated(tracked.turned)
+            tracked.turned = 0.0
+        slip = abs(_closing(arbiter)[2] + tracked.ball.radius * first.body.angular_velocity)
+        speed = first.body.velocity.length
+        if surface.rolling_resistance > 0.0 and tracked.presses and slip <= _GRIP * speed:
+            nx, ny = arbiter.normal
+            jx, jy = arbiter.total_impulse
+            tracked.pressed = abs(jx * nx + jy * ny) / self._accuracy.step
+            tracked.resistance = surface.rolling_resistance
+
+    # ------------------------------------------------------------------ guards
+
+    def _check(self) -> None:
+        left, bottom, right, top = self._setup.bounds
+        for tracked in self._tracked.values():
+            x, y, vx, vy, spin = tracked.state()
+            if isfinite(x + y + vx + vy + spin) and left <= x <= right and bottom <= y <= top:
+                continue
+            raise Diverged(
+                f"t = {self._t:.6g} s, ball {tracked.ball.name!r}: position ({x:.6g}, {y:.6g}) m, velocity ({vx:.6g}, {vy:.6g}) m/s, "
+                f"spin {spin:.6g} rad/s is not finite or out of the world; lower accuracy.step, or use accuracy.method = \"exact\""
+            )
+
+    def _rests(self, tracked: _Tracked) -> bool:
+        _, _, vx, vy, spin = tracked.state()
+        slow = (vx * vx + vy * vy) ** 0.5 + tracked.ball.radius * abs(spin) < _REST_SPEED
+        if not (slow and tracked.touched):
+            tracked.still_since = None
+            return False
+        if tracked.still_since is None:
+            tracked.still_since = self._t
+        return self._t - tracked.still_since >= _REST_TIME
+
+
+def _fixed(body: pymunk.Body, surface: Surface) -> pymunk.Shape:
+    shape = surface.shape
+    fixed: pymunk.Shape
+    if isinstance(shape, Circle):
+        fixed = pymunk.Circle(body, shape.radius, shape.center)
+    else:
+        fixed = pymunk.Segment(body, shape.a, shape.b, shape.radius)
+    fixed.collision_type = _SURFACE
+    fixed.elasticity = surface.restitution
+    fixed.friction = surface.friction
+    return fixed
+
+
+def _closing(arbiter: pymunk.Arbiter) -> tuple[Any, float, float]:
+    """Normal from the first to the second shape, speed of approach along it, and speed of the first along the surface (m/s)."""
+    first, second = arbiter.shapes
+    normal = arbiter.contact_point_set.normal
+    ux = first.body.velocity[0] - second.body.velocity[0]
+    uy = first.body.velocity[1] - second.body.velocity[1]
+    # the surface's own normal is -normal, and its forward direction (ny, -nx) of that
+    return normal, ux * normal.x + uy * normal.y, -ux * normal.y + uy * normal.x
