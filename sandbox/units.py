@@ -86,5 +86,5 @@ def convert(number: float, given: str, unit: str) -> float:
         raise ValueError(f"{given} is {kind}; use {listed(unit)}")
     factor, offset = units[given]
     target_factor, target_offset = units[unit]
-    # 14 digits: "1224 km/h" is 340 m/s, not a rounding error above it and out of bounds.
+    # 14 digits: "140 F" is 60 C, not a rounding error above it and out of bounds.
     return float(f"{(number + offset) * factor / target_factor - target_offset:.14g}")

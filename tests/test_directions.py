@@ -1,4 +1,4 @@
-"""The rooms of the house and who may look into which: ``physics <- engine <- scene <- picture, lab <- window <- cli``."""
+"""Who may look into which room: ``physics <- engine <- scene <- picture, lab <- window <- cli``."""
 
 from __future__ import annotations
 

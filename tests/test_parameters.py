@@ -152,8 +152,9 @@ def test_units(text: str, unit: str, expected: float):
 
 
 def test_a_bound_may_be_given_in_another_unit():
-    """1224 km/h is 340 m/s exactly; rounding must not push it over the bound."""
+    """140 F is 60 C exactly; rounding must not push it over the bound."""
     assert speed("1224 km/h") == 340.0
+    assert validate(Parameters, {"air": {"temperature": "140 F"}}).air.temperature == 60.0
 
 
 @given(
