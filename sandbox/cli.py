@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -234,11 +233,9 @@ def _say(text: str) -> None:
     try:
         typer.echo(text)
         sys.stdout.flush()
+    except BrokenPipeError:
+        raise typer.Exit(1) from None
     except OSError as error:
-        # What is left in the buffer goes nowhere, or Python complains about it when it ends.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        if isinstance(error, BrokenPipeError):
-            raise typer.Exit(1) from None
         from sandbox.files import reason
 
         raise RunError(f"stdout cannot be written: {reason(error)}") from None

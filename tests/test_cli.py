@@ -325,6 +325,7 @@ def test_a_link_is_written_through(call, tmp_path: Path):
         ('"bounced": bool(impacts)', '"bounced": impacts[99]', "IndexError: list index out of range"),
         ('    return [("bounces"', "    return [nowhere", "SyntaxError: "),
         ("duration=parameters.duration", "length=parameters.duration", "TypeError: "),
+        ('"m/s", low=0, high=340', '"furlong", low=0, high=340', "KeyError: "),
         ("import Accuracy", "import Accuracies, Accuracy", "ImportError: cannot import name 'Accuracies'"),
     ],
 )
