@@ -179,26 +179,30 @@ def _check_outputs(outputs: dict[str, Path | None], fps: int | None) -> None:
 def _writing(option: str, path: Path) -> Iterator[None]:
     """A disk that is full, or a folder that went away, in one line."""
     from sandbox.files import reason
+    from sandbox.tracebacks import of_user_code
 
     try:
         yield
     except OSError as error:
+        if of_user_code(error) is not None:
+            raise
         raise RunError(f"{option} {path}: cannot be written: {reason(error)}") from None
 
 
 def _draw(scene: Scene, done: Any, poster: Path | None, frames: Path | None, gif: Path | None, fps: int | None) -> None:
     from sandbox.picture.frames import save_frames, save_gif, save_poster
+    from sandbox.progress import bar
 
     picture = scene.picture_module().Picture(done, scene.parameters)
     if poster is not None:
         with _writing("--poster", poster):
             save_poster(picture, poster)
     if frames is not None:
-        with _writing("--frames", frames):
-            save_frames(picture, done, frames, fps or 60)
+        with _writing("--frames", frames), bar("frames") as progress:
+            save_frames(picture, done, frames, fps or 60, progress)
     if gif is not None:
-        with _writing("--gif", gif):
-            save_gif(picture, done, gif, fps or 25)
+        with _writing("--gif", gif), bar("gif") as progress:
+            save_gif(picture, done, gif, fps or 25, progress)
 
 
 # ---------------------------------------------------------------------------------------------------------------------

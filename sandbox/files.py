@@ -30,14 +30,10 @@ def check_file(option: str, path: Path, suffix: str) -> None:
 
 
 def check_folder(option: str, path: Path) -> None:
-    """Make the folder for ``option`` if it is missing; RequestError if files could not be written into it."""
+    """Raise RequestError if the folder for ``option`` could not be made or written into."""
     if path.exists() and not path.is_dir():
         raise RequestError(f"{option} {path}: is a file, and a folder is needed")
-    try:
-        path.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise RequestError(f"{option} {path}: cannot be made: {reason(error)}") from None
-    _check_folder(option, path)
+    _check_folder(option, next(folder for folder in (path, *path.absolute().parents) if folder.exists()))
 
 
 def _check_folder(option: str, folder: Path) -> None:

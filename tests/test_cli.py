@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 import pytest
+from PIL import Image
 
 import sandbox
 from sandbox.cli import main
@@ -63,6 +64,21 @@ def assert_refused(outcome: Outcome, expected: str, code: int = 2) -> None:
     assert outcome.err.startswith("error: ")
     assert 1 <= len(outcome.err.strip().splitlines()) <= 2
     assert "Traceback" not in outcome.err
+
+
+def full_disk(folder: Path) -> Path:
+    """A device without room. root gets one of its own: a mistake in the code under test could replace the system's."""
+    if not Path("/dev/full").is_char_device():
+        pytest.skip("needs /dev/full")
+    if os.geteuid() != 0:
+        return Path("/dev/full")
+    device = folder / "full"
+    os.mknod(device, 0o666 | stat.S_IFCHR, Path("/dev/full").stat().st_rdev)
+    try:
+        device.open("w").close()
+    except OSError:
+        pytest.skip("devices cannot be opened here")
+    return device
 
 
 # What it shows ------------------------------------------------------------------------------------------------------
@@ -162,6 +178,47 @@ def test_trajectory(call, tmp_path: Path):
     assert [path.name for path in tmp_path.iterdir()] == ["path.csv"]
 
 
+# Pictures -----------------------------------------------------------------------------------------------------------
+
+
+def test_pictures(call, tmp_path: Path):
+    poster, frames, gif = tmp_path / "drop.png", tmp_path / "new" / "frames", tmp_path / "drop.gif"
+    code, out, err = call("run", DROP, "--poster", poster, "--frames", frames, "--gif", gif, "--fps", 10)
+    assert (code, err) == (0, "")
+    assert out.splitlines()[-3:] == [f"wrote {poster}", f"wrote {gif}", f"wrote {frames}"]
+    with Image.open(poster) as image:
+        assert (image.format, image.size) == ("PNG", (32, 18))
+    with Image.open(gif) as image:
+        assert image.format == "GIF"
+        assert image.n_frames > 1
+    assert sorted(path.name for path in frames.iterdir()) == [f"frame_{number:05d}.png" for number in range(11)]
+
+
+def test_pictures_leave_json_alone(tmp_path: Path):
+    """pygame greets on stdout when it is imported."""
+    process = subprocess.run(
+        [*COMMAND, "run", str(DROP), "--json", "--poster", str(tmp_path / "drop.png")], capture_output=True, text=True
+    )
+    assert (process.returncode, process.stderr) == (0, "")
+    assert json.loads(process.stdout)["scene"] == "drop"
+
+
+def test_a_picture_for_a_full_disk(call, tmp_path: Path):
+    device = full_disk(tmp_path)
+    for option in ("--poster", "--gif"):
+        outcome = call("run", DROP, option, device)
+        assert_refused(outcome, f"{option} {device}: cannot be written: no space left on device", code=1)
+
+
+def test_a_failure_in_a_users_picture_is_the_users(call, drop: Path, tmp_path: Path):
+    source = (drop / "picture.py").read_text("utf-8")
+    (drop / "picture.py").write_text(source.replace("return self.frame", 'open("missing"); return self.frame'))
+    code, _, err = call("run", drop, "--poster", tmp_path / "drop.png")
+    assert code == 1
+    assert err.startswith("error: your scene failed\n")
+    assert "FileNotFoundError" in err
+
+
 # Settings -----------------------------------------------------------------------------------------------------------
 
 
@@ -249,7 +306,8 @@ def test_an_unreadable_file_is_refused(call, tmp_path: Path):
         (["--poster", "shot.jpg"], "--poster shot.jpg: its name must end in .png"),
         (["--gif", "shot.png"], "--gif shot.png: its name must end in .gif"),
         (["--frames", "file"], "--frames file: is a file, and a folder is needed"),
-        (["--frames", "/proc/frames"], "--frames /proc/frames: cannot be made"),
+        (["--frames", "file/frames"], "--frames: there is no folder"),
+        (["--frames", "/proc/some/frames"], "--frames: cannot write into /proc"),
     ],
 )
 def test_an_output_that_cannot_be_written_is_refused_before_the_run(
@@ -260,21 +318,6 @@ def test_an_output_that_cannot_be_written_is_refused_before_the_run(
     Path("file").touch()
     assert_refused(call("run", "drop", *args), expected)
     assert sorted(path.name for path in tmp_path.iterdir()) == ["drop", "file"]
-
-
-def full_disk(folder: Path) -> Path:
-    """A device without room. root gets one of its own: a mistake in the code under test could replace the system's."""
-    if not Path("/dev/full").is_char_device():
-        pytest.skip("needs /dev/full")
-    if os.geteuid() != 0:
-        return Path("/dev/full")
-    device = folder / "full"
-    os.mknod(device, 0o666 | stat.S_IFCHR, Path("/dev/full").stat().st_rdev)
-    try:
-        device.open("w").close()
-    except OSError:
-        pytest.skip("devices cannot be opened here")
-    return device
 
 
 def test_a_full_disk_is_told(call, tmp_path: Path):

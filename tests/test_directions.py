@@ -26,6 +26,7 @@ FLOORS = {
     "golden": 5,
     "window": 5,
     "tracebacks": 6,
+    "progress": 6,
     "report": 6,
     "cli": 6,
     "": 6,  # sandbox/__init__.py

@@ -1,0 +1,68 @@
+"""The progress bar: on a terminal, after two seconds, and gone at the end."""
+
+from __future__ import annotations
+
+import io
+import time
+
+import pytest
+
+from sandbox.progress import bar
+
+
+class Terminal(io.StringIO):
+    def isatty(self) -> bool:
+        return True
+
+
+@pytest.fixture
+def clock(monkeypatch: pytest.MonkeyPatch):
+    """Time that stands still until it is moved on."""
+    now = [1000.0]
+    monkeypatch.setattr(time, "monotonic", lambda: now[0])
+
+    def forward(seconds: float) -> None:
+        now[0] += seconds
+
+    return forward
+
+
+def work(clock, seconds: float) -> None:
+    with bar("frames") as progress:
+        for done in range(1, 11):
+            clock(seconds / 10)
+            progress(done, 10)
+
+
+def fail(clock) -> None:
+    with bar("frames") as progress:
+        clock(3.0)
+        progress(1, 2)
+        raise ZeroDivisionError
+
+
+def test_long_work_shows_a_bar_and_clears_it(clock, monkeypatch):
+    monkeypatch.setattr("sys.stderr", terminal := Terminal())
+    work(clock, 4.0)
+    assert f"frames [{'#' * 19}{'.' * 13}] 6/10" in terminal.getvalue()
+    assert "4/10" not in terminal.getvalue()
+    assert terminal.getvalue().endswith("\r\x1b[K")
+
+
+def test_short_work_shows_nothing(clock, monkeypatch):
+    monkeypatch.setattr("sys.stderr", terminal := Terminal())
+    work(clock, 1.9)
+    assert terminal.getvalue() == ""
+
+
+def test_what_is_no_terminal_shows_nothing(clock, monkeypatch):
+    monkeypatch.setattr("sys.stderr", file := io.StringIO())
+    work(clock, 4.0)
+    assert file.getvalue() == ""
+
+
+def test_a_failure_clears_the_bar(clock, monkeypatch):
+    monkeypatch.setattr("sys.stderr", terminal := Terminal())
+    with pytest.raises(ZeroDivisionError):
+        fail(clock)
+    assert terminal.getvalue().endswith("\r\x1b[K")
