@@ -16,10 +16,11 @@ class Arc:
 
     The position is the quintic that meets position, velocity and acceleration at both ends (error of order h^6), the velocity
     its derivative, the spin the cubic that meets spin and its rate; all kept as Bernstein coefficients over
-    u = (t - t0) / (t1 - t0). ``contact`` is what the ball slides or rolls on meanwhile, or None in flight.
+    u = (t - t0) / (t1 - t0). ``contact`` is what the ball slides or rolls on meanwhile, or None in flight; ``rolling_spin`` the
+    coefficients of the spin about x and about y, for a ball on cloth, whose state has two more components.
     """
 
-    __slots__ = ("contact", "spin", "start", "t0", "t1", "vx", "vy", "x", "y")
+    __slots__ = ("contact", "end", "rolling_spin", "spin", "start", "t0", "t1", "vx", "vy", "x", "y")
 
     def __init__(
         self,
@@ -32,6 +33,8 @@ class Arc:
         vy: Sequence[float],
         spin: Sequence[float],
         contact: object = None,
+        rolling_spin: tuple[Sequence[float], ...] = (),
+        end: State | None = None,
     ) -> None:
         self.t0 = t0  # s
         self.t1 = t1  # s
@@ -42,12 +45,16 @@ class Arc:
         self.vy = vy
         self.spin = spin  # rad/s
         self.contact = contact
+        self.rolling_spin = rolling_spin
+        self.end = end  # the state at t1 where it is known without evaluating
 
     def state(self, t: float) -> State:
         """Position, velocity and spin at time t in [t0, t1]."""
         h = self.t1 - self.t0
         if h <= 0.0 or t <= self.t0:
             return self.start
+        if t >= self.t1 and self.end is not None:
+            return self.end
         u = (t - self.t0) / h if t < self.t1 else 1.0
         return (
             evaluate(self.x, u),
@@ -55,7 +62,16 @@ class Arc:
             evaluate(self.vx, u),
             evaluate(self.vy, u),
             evaluate(self.spin, u),
+            *[evaluate(curve, u) for curve in self.rolling_spin],
         )
+
+    def position(self, t: float) -> tuple[float, float]:
+        """x and y at time t, in m."""
+        h = self.t1 - self.t0
+        if h <= 0.0 or len(self.x) == 1:
+            return self.x[0], self.y[0]
+        u = min(1.0, max(0.0, (t - self.t0) / h))
+        return evaluate(self.x, u), evaluate(self.y, u)
 
     def until(self, t: float) -> Arc:
         """The same path, ending at t."""
@@ -65,7 +81,8 @@ class Arc:
         if u == 0.0:
             return still(self.t0, self.t0, self.start, self.contact)
         curves = (piece(curve, 0.0, u) for curve in (self.x, self.y, self.vx, self.vy, self.spin))
-        return Arc(self.t0, t, self.start, *curves, self.contact)
+        rolling_spin = tuple(piece(curve, 0.0, u) for curve in self.rolling_spin)
+        return Arc(self.t0, t, self.start, *curves, self.contact, rolling_spin)
 
 
 def through(
@@ -102,11 +119,13 @@ def through(
         (vy0, vy0 + quarter * ay0, my, vy1 - quarter * ay1, vy1),
         (w0, w0 + third * al0, w1 - third * al1, w1),
         contact,
+        end=end,
     )
 
 
 def still(t: float, until: float, state: State, contact: object = None, last_spin: float | None = None) -> Arc:
     """A ball that keeps its place from t to ``until``; its spin goes evenly to ``last_spin`` (rad/s), if that is given."""
-    x, y, _, _, spin = state
+    x, y, _, _, spin, *rolling_spin = state
     spins = (spin,) if last_spin is None else (spin, last_spin)
-    return Arc(t, until, state, (x,), (y,), (0.0,), (0.0,), spins, contact)
+    rest = tuple((component,) for component in rolling_spin)
+    return Arc(t, until, state, (x,), (y,), (0.0,), (0.0,), spins, contact, rest)

@@ -50,9 +50,10 @@ class Contact:
     second: int | None  # index into the cluster, or None for a fixed surface
     nx: float
     ny: float
-    bounce: Bounce
+    bounce: Bounce  # with the friction that acts in the plane
+    full_friction: float  # of the pair, in all directions
     approach: float  # m/s, normal speed of approach, positive when closing
-    slip_direction: float  # sign of the motion of the first ball along (ny, -nx)
+    forward: float  # sign of the motion of the first ball along (ny, -nx)
 
 
 class Contacts:
@@ -68,6 +69,7 @@ class Contacts:
         self._bodies: list[pymunk.Body] = []
         self._discs: list[pymunk.Circle] = []
         self._planes: list[pymunk.Segment] = []
+        self.normal_impulses: list[float] = []  # N s, of the contacts of the last exchange
         self._spread = 100.0 * max(ball.radius for ball in balls)  # m, between balls that take no part
         for index, ball in enumerate(balls):
             body = pymunk.Body(ball.mass, ball.inertia)
@@ -98,6 +100,7 @@ class Contacts:
                 planes += 1
         self._space.iterations = _ROUNDS if len(contacts) == 1 else _CLUSTER_ROUNDS
         self._space.step(_INSTANT)
+        self.normal_impulses = self._read_impulses(cluster, contacts)
         for moving in cluster:
             body = self._bodies[moving.index]
             moving.vx, moving.vy = body.velocity
@@ -108,11 +111,36 @@ class Contacts:
         self._space.step(_INSTANT)  # parted: forget the contact, so that the next impact starts from nothing
         self._numerics.pymunk_steps += 2
 
+    def _read_impulses(self, cluster: Sequence[Moving], contacts: Sequence[Contact]) -> list[float]:
+        """The normal impulse of each contact in N s, before the velocities are read back into the cluster."""
+        if len(contacts) == 1:
+            contact = contacts[0]
+            moving = cluster[contact.first]
+            vx, vy = self._bodies[moving.index].velocity
+            gain = (vx - moving.vx) * contact.nx + (vy - moving.vy) * contact.ny
+            return [self._balls[moving.index].mass * gain]
+        by_shapes: dict[frozenset[int], float] = {}
+
+        def read(arbiter: pymunk.Arbiter) -> None:
+            jx, jy = arbiter.total_impulse
+            nx, ny = arbiter.normal
+            by_shapes[frozenset(id(shape) for shape in arbiter.shapes)] = abs(jx * nx + jy * ny)
+
+        for moving in cluster:
+            self._bodies[moving.index].each_arbiter(read)
+        impulses = []
+        planes = iter(self._planes)
+        for contact in contacts:
+            disc = self._discs[cluster[contact.first].index]
+            other = next(planes) if contact.second is None else self._discs[cluster[contact.second].index]
+            impulses.append(by_shapes.get(frozenset((id(disc), id(other))), 0.0))
+        return impulses
+
     def _lay_plane(self, number: int, moving: Moving, contact: Contact, elasticity: float, friction: float) -> None:
         radius = self._balls[moving.index].radius
         nx, ny = contact.nx, contact.ny
         if contact.bounce.tilt != 0.0:
-            c, s = cos(contact.bounce.tilt), contact.slip_direction * sin(contact.bounce.tilt)
+            c, s = cos(contact.bounce.tilt), contact.forward * sin(contact.bounce.tilt)
             nx, ny = c * nx - s * ny, c * ny + s * nx
         x, y = self._bodies[moving.index].position
         depth = radius * (1.0 - _OVERLAP)

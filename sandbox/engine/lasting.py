@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 from sandbox.engine.motion import PINNED, RESTING, ROLLING, SLIDING, Contact, Mover
 from sandbox.engine.touch import Obstacle, Touching
+from sandbox.engine.track import Near
 from sandbox.physics.integrators import State
 
 #: Speed in m/s, and acceleration in m/s^2, that is rounding.
@@ -13,8 +14,6 @@ _STILL = 1e-10
 
 #: Normals nearer than this (sine of the angle) are one: two surfaces laid flush.
 _FLUSH = 1e-7
-
-Near = tuple[Obstacle, Touching]
 
 
 def settle(mover: Mover, t: float, state: State, near: Sequence[Near], height: float) -> tuple[State, Contact | None]:

@@ -66,18 +66,30 @@ class Run:
 
         At an impact it is the state just after.
         """
+        return self._full_state(ball, t)[:5]
+
+    def _full_state(self, ball: str, t: float) -> State:
         arcs = self.arcs[ball]
         if not arcs:
             start = next(b for b in self.setup.balls if b.name == ball)
-            return (*start.position, *start.velocity, start.spin)
+            return (*start.position, *start.velocity, start.spin, *start.rolling_spin)
         index = bisect_right(arcs, t, key=lambda arc: arc.t0) - 1
         return arcs[max(index, 0)].state(t)
+
+    def rolling_spin(self, ball: str, t: float) -> tuple[float, float]:
+        """Spin about x and about y of a ball on cloth at time t, in rad/s."""
+        wx, wy = self._full_state(ball, t)[5:]
+        return wx, wy
+
+    def caught_at(self, ball: str) -> float | None:
+        """The time in s at which a ball was caught, or None."""
+        return next((event.t for event in self.events if event.kind == "caught" and event.ball == ball), None)
 
     def before(self, ball: str, t: float) -> State:
         """The state of a ball just before time t, which differs from ``state`` where there is an impact at t."""
         arcs = self.arcs[ball]
         index = bisect_left(arcs, t, key=lambda arc: arc.t1)
-        return arcs[index].state(t) if index < len(arcs) and arcs[index].t1 == t else self.state(ball, t)
+        return (arcs[index].state(t) if index < len(arcs) and arcs[index].t1 == t else self._full_state(ball, t))[:5]
 
     def angle(self, ball: str, t: float) -> float:
         """How far a ball has turned since the start, in rad, counter-clockwise."""
@@ -111,7 +123,7 @@ class Run:
             ahead = [(x - px) * nx + (y - py) * ny for x, y in zip(arc.x, arc.y, strict=True)]
             for u in downward_crossings(ahead):
                 t = arc.t0 + u * (arc.t1 - arc.t0)
-                yield t, arc.state(t)
+                yield t, arc.state(t)[:5]
 
     def highest(self, ball: str) -> tuple[float, State]:
         """Time and state at which a ball's centre is highest."""

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 if TYPE_CHECKING:
     from sandbox.engine.run import Event
+    from sandbox.physics.cloth import Cloth
 
 Vector = tuple[float, float]
 
@@ -40,7 +41,8 @@ class Ball:
     radius: float  # m
     position: Vector  # m
     velocity: Vector = (0.0, 0.0)  # m/s
-    spin: float = 0.0  # rad/s
+    spin: float = 0.0  # rad/s, about the axis that points out of the picture
+    rolling_spin: Vector = (0.0, 0.0)  # rad/s, about x and y: only for a ball on cloth, seen from above
     inertia_factor: float = SOLID_SPHERE  # moment of inertia over m r^2
     forces: Sequence[Force] = ()
     torques: Sequence[Torque] = ()
@@ -98,6 +100,15 @@ class Surface:
     law: Callable[[float, float], Bounce] | None = None
 
 
+@dataclass(frozen=True)
+class Catch:
+    """A place that takes a ball from the table once its centre is nearer than ``radius``: a pocket."""
+
+    name: str
+    center: Vector  # m
+    radius: float  # m
+
+
 #: Elastic and frictionless: what two balls do where a scene says nothing.
 ELASTIC = Bounce(1.0, 0.0)
 
@@ -113,12 +124,18 @@ class Bounds(NamedTuple):
 
 @dataclass(frozen=True)
 class Setup:
-    """One run's beginning. It is over when all balls rest, when ``until(event)`` is true, or after ``duration`` s."""
+    """One run's beginning. It is over when all balls rest, when ``until(event)`` is true, or after ``duration`` s.
+
+    ``between_balls(normal_speed, slip_speed)`` says how two balls answer each other. With ``cloth`` the balls are seen from above, sliding
+    and rolling on it in closed form; their own forces play no part then.
+    """
 
     balls: Sequence[Ball]
     surfaces: Sequence[Surface] = ()
     duration: float = 60.0  # s
     until: Callable[[Event], bool] | None = None
-    between_balls: Callable[[float, float], Bounce] = lambda normal_speed, tangential_speed: ELASTIC
+    between_balls: Callable[[float, float], Bounce] = lambda normal_speed, slip_speed: ELASTIC
+    cloth: Cloth | None = None
+    catches: Sequence[Catch] = ()
     bounds: Bounds = Bounds()
     longest_step: float = inf  # s; shorter where forces change quickly in time or space

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
-State = tuple[Any, Any, Any, Any, Any]
+State = tuple[Any, ...]
 Acceleration = tuple[Any, Any, Any]
 Law = Callable[[Any, State], Acceleration]
 

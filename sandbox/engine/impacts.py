@@ -1,0 +1,181 @@
+"""One instant of impact: who touches whom, what each contact is like, and the exchange of impulses."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+from sandbox.engine.contacts import Contact, Contacts, Moving
+from sandbox.engine.on_cloth import looseness, rub_over, slip_over
+from sandbox.engine.setup import Ball, Bounce, Setup
+from sandbox.engine.touch import CONTACT
+from sandbox.engine.track import Track
+from sandbox.physics.integrators import State
+
+#: Approach speed in m/s that is rounding, not an impact.
+_STILL = 1e-10
+
+
+class Hit(NamedTuple):
+    """One contact that closed."""
+
+    index: int  # of the ball
+    partner: str
+    speed: float  # m/s, normal speed of approach
+
+
+class Impacts:
+    """Resolves impacts among the balls of a run."""
+
+    def __init__(self, setup: Setup, tracks: Sequence[Track], contacts: Contacts, lowest_hop_speed: float) -> None:
+        self._setup = setup
+        self._tracks = tracks
+        self._contacts = contacts
+        self._lowest_hop_speed = lowest_hop_speed  # m/s, below which balls on cloth bounce elastically
+
+    def exchange(self, t: float, seeds: Sequence[int]) -> tuple[dict[int, State], list[Hit]]:
+        """The states after the impact at t of all balls that touch those of ``seeds``, directly or through others."""
+        states = self._touching(t, seeds)
+        members = list(states)
+        cluster = [Moving(index, *states[index][:5]) for index in members]
+        found: list[Contact] = []
+        partners: list[tuple[int, str]] = []
+        slips: list[tuple[float, float]] = []  # m/s, in the plane and upward
+        for place, index in enumerate(members):
+            self._meet_surfaces(place, index, states[index], found, partners, slips)
+        for place, index in enumerate(members):
+            for later in range(place + 1, len(members)):
+                self._meet_ball(place, later, members, states, found, partners, slips)
+        if not any(contact.approach > _STILL for contact in found):
+            return states, []
+        self._contacts.exchange(cluster, found)
+        after = {
+            moving.index: (*states[moving.index][:2], moving.vx, moving.vy, moving.spin, *states[moving.index][5:])
+            for moving in cluster
+        }
+        if self._setup.cloth is not None:
+            self._rub(members, states, after, found, slips)
+        hits = [
+            Hit(index, partner, contact.approach)
+            for contact, (index, partner) in zip(found, partners, strict=True)
+            if contact.approach > _STILL
+        ]
+        return after, hits
+
+    def _touching(self, t: float, seeds: Sequence[int]) -> dict[int, State]:
+        states: dict[int, State] = {}
+        waiting = list(seeds)
+        while waiting:
+            index = waiting.pop(0)
+            if index in states:
+                continue
+            track = self._tracks[index]
+            states[index] = state = track.arc.state(t)
+            for other, neighbour in enumerate(self._tracks):
+                if other in states or neighbour.caught:
+                    continue
+                reach = track.ball.radius + neighbour.ball.radius + CONTACT
+                x, y = neighbour.arc.position(t)
+                if (x - state[0]) ** 2 + (y - state[1]) ** 2 <= reach * reach:
+                    waiting.append(other)
+        return states
+
+    def _meet_surfaces(
+        self,
+        place: int,
+        index: int,
+        state: State,
+        found: list[Contact],
+        partners: list[tuple[int, str]],
+        slips: list[tuple[float, float]],
+    ) -> None:
+        track = self._tracks[index]
+        x, y, vx, vy, spin = state[:5]
+        first = len(found)
+        for obstacle, touching in track.near(x, y):
+            nx, ny = touching.nx, touching.ny
+            if any(nx * other.nx + ny * other.ny > 1.0 - 1e-12 for other in found[first:]):
+                continue  # laid flush with one already met
+            approach = -(vx * nx + vy * ny)
+            along = vx * ny - vy * nx
+            slip = (along + track.ball.radius * spin, self._upward(index, state, nx, ny))
+            surface = obstacle.surface
+            bounce = (
+                Bounce(surface.restitution, surface.friction)
+                if surface.law is None or approach <= 0.0
+                else surface.law(approach, abs(along))
+            )
+            forward = 1.0 if along >= 0.0 else -1.0
+            found.append(Contact(place, None, nx, ny, self._shared(bounce, approach, slip), bounce.friction, approach, forward))
+            partners.append((index, surface.name))
+            slips.append(slip)
+
+    def _meet_ball(
+        self,
+        place: int,
+        later: int,
+        members: Sequence[int],
+        states: dict[int, State],
+        found: list[Contact],
+        partners: list[tuple[int, str]],
+        slips: list[tuple[float, float]],
+    ) -> None:
+        i, j = members[place], members[later]
+        a, b = self._tracks[i].ball, self._tracks[j].ball
+        x, y, vx, vy, spin = states[i][:5]
+        u, v, wx, wy, other_spin = states[j][:5]
+        distance = ((x - u) ** 2 + (y - v) ** 2) ** 0.5
+        if distance > a.radius + b.radius + CONTACT:
+            return
+        nx, ny = (x - u) / distance, (y - v) / distance
+        approach = (wx - vx) * nx + (wy - vy) * ny
+        flat = (vx - wx) * ny - (vy - wy) * nx + a.radius * spin + b.radius * other_spin
+        slip = (flat, self._upward(i, states[i], nx, ny) - self._upward(j, states[j], -nx, -ny))
+        bounce = self._setup.between_balls(max(approach, 0.0), (slip[0] ** 2 + slip[1] ** 2) ** 0.5)
+        found.append(Contact(place, later, nx, ny, self._shared(bounce, approach, slip), bounce.friction, approach, 1.0))
+        partners.append((i, b.name))
+        slips.append(slip)
+
+    # ------------------------------------------------------------------ balls on cloth, whose spin has three components
+
+    def _upward(self, index: int, state: State, nx: float, ny: float) -> float:
+        return slip_over(self._tracks[index].ball, state, nx, ny) if len(state) > 5 else 0.0
+
+    def _shared(self, bounce: Bounce, approach: float, slip: tuple[float, float]) -> Bounce:
+        """What pymunk, which sees the plane alone, is told: the plane's share of the friction.
+
+        Friction acts against the whole slip and all directions of a sphere's surface give way alike, so its part in the plane is
+        to the whole as that part of the slip is, sticking or sliding.
+        """
+        flat, upward = slip
+        if upward != 0.0:
+            bounce = bounce._replace(friction=bounce.friction * abs(flat) / (flat * flat + upward * upward) ** 0.5)
+        if 0.0 < approach < self._lowest_hop_speed:
+            bounce = bounce._replace(restitution=1.0)
+        return bounce
+
+    def _rub(
+        self,
+        members: Sequence[int],
+        before: dict[int, State],
+        after: dict[int, State],
+        found: Sequence[Contact],
+        slips: Sequence[tuple[float, float]],
+    ) -> None:
+        """The upward share of the friction, in closed form from the normal impulse that pymunk found."""
+        pushes = self._contacts.normal_impulses
+        for contact, (flat, upward), push in zip(found, slips, pushes, strict=True):
+            if upward == 0.0 or push <= 0.0:
+                continue
+            i = members[contact.first]
+            balls: list[tuple[int, Ball]] = [(i, self._tracks[i].ball)]
+            if contact.second is not None:
+                j = members[contact.second]
+                balls.append((j, self._tracks[j].ball))
+            slip = (flat * flat + upward * upward) ** 0.5
+            share = abs(upward) / slip
+            most = contact.full_friction * push * share
+            stopping = abs(upward) / sum(looseness(ball) for _, ball in balls)
+            impulse = -min(most, stopping) if upward > 0.0 else min(most, stopping)
+            for index, ball in balls:
+                after[index] = rub_over(ball, after[index], contact.nx, contact.ny, impulse)

@@ -1,0 +1,71 @@
+"""Motion on cloth, seen from above: exact arcs, one for each phase of sliding, rolling, spinning or rest."""
+
+from __future__ import annotations
+
+
+from sandbox.engine.arc import Arc, still
+from sandbox.engine.run import Numerics
+from sandbox.engine.setup import Ball
+from sandbox.physics.cloth import Cloth
+from sandbox.physics.integrators import State
+
+#: Friction of the cloth can press a ball against another or against a cushion for as long as it slides. Bounces below this height (m)
+#: are taken as elastic, so that such a push is a run of even hops and not an endless series of ever smaller ones.
+LOWEST_HOP = 1e-7
+
+
+class OnCloth:
+    """One ball and the cloth it moves on."""
+
+    def __init__(self, ball: Ball, cloth: Cloth, numerics: Numerics) -> None:
+        self.ball = ball
+        self._cloth = cloth
+        self._numerics = numerics
+
+    def advance(self, t: float, until: float, state: State) -> Arc:
+        """The next arc from t, at most to ``until``: a whole phase, however long."""
+        phase = self._cloth.phase(state, self.ball.radius)
+        self._numerics.steps += 1
+        if phase.mode == "resting":
+            return still(t, until, state)
+        h = min(phase.duration, until - t)
+        end = self._cloth.after(state, phase, h)
+        x, y, vx, vy, spin, wx, wy = state
+        x1, y1, vx1, vy1, spin1, wx1, wy1 = end
+        half = 0.5 * h
+        return Arc(
+            t,
+            t + h,
+            state,
+            (x, x + half * vx, x1),
+            (y, y + half * vy, y1),
+            (vx, vx + h * phase.ax),
+            (vy, vy + h * phase.ay),
+            (spin, spin + h * phase.alpha_z),
+            None,
+            ((wx, wx + h * phase.alpha_x), (wy, wy + h * phase.alpha_y)),
+            end,
+        )
+
+    def rests(self, state: State) -> bool:
+        """Whether nothing moves any more."""
+        return self._cloth.phase(state, self.ball.radius).mode == "resting"
+
+
+def slip_over(ball: Ball, state: State, nx: float, ny: float) -> float:
+    """Upward velocity in m/s of a ball's surface where it touches something against the normal (nx, ny)."""
+    return ball.radius * (state[6] * nx - state[5] * ny)
+
+
+def rub_over(ball: Ball, state: State, nx: float, ny: float, impulse: float) -> State:
+    """The state after an upward frictional impulse (N s) on the surface there. What it does to the height is left out."""
+    x, y, vx, vy, spin, wx, wy = state
+    turn = ball.radius * impulse / ball.inertia
+    return x, y, vx, vy, spin, wx - turn * ny, wy + turn * nx
+
+
+def looseness(ball: Ball) -> float:
+    """Velocity in m/s that a frictional impulse of 1 N s gives the surface of a ball: its 1 / m and its turning."""
+    return (1.0 + 1.0 / ball.inertia_factor) / ball.mass
+
+

@@ -1,0 +1,44 @@
+"""One ball on its way through a run."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from sandbox.engine.arc import Arc, still
+from sandbox.engine.motion import Contact, Mover
+from sandbox.engine.on_cloth import OnCloth
+from sandbox.engine.touch import CONTACT, Obstacle, Touching
+from sandbox.physics.integrators import State
+
+Near = tuple[Obstacle, Touching]
+
+
+class Track:
+    """A ball's state, the arc it is on, and the path behind it."""
+
+    def __init__(
+        self, mover: Mover | OnCloth, obstacles: Sequence[Obstacle], catches: Sequence[Obstacle], state: State
+    ) -> None:
+        self.mover = mover
+        self.ball = mover.ball
+        self.obstacles = obstacles
+        self.catches = catches
+        self.state = state
+        self.contact: Contact | None = None
+        self.arc = still(0.0, 0.0, state)
+        self.path: list[Arc] = []
+        self.version = 0  # of the arc: what was foreseen for an earlier one no longer holds
+        self.rests = False
+        self.caught = False
+
+    def keep(self, t: float) -> None:
+        """Add what was travelled of the arc until t to the path."""
+        arc = self.arc.until(t)
+        if arc.t1 > arc.t0:
+            self.path.append(arc)
+
+    def near(self, x: float, y: float) -> list[Near]:
+        """The surfaces that the ball touches at (x, y), each at its nearest feature."""
+        point = (x, y, x, y)
+        found = [(obstacle, obstacle.near(x, y)) for obstacle in self.obstacles if obstacle.may_meet(point)]
+        return [(obstacle, touching) for obstacle, touching in found if touching.gap <= CONTACT]
