@@ -42,12 +42,11 @@ class Landscape:
                     surface.blit(layer, (x, top))
 
     def _sky(self) -> pygame.Surface:
-        width, height = self.size
+        width, height = self.size[0], self.horizon
         top, low = (np.array(colour, float) for colour in self.colours["sky"])
-        down = np.linspace(0, 1, height)[None, :, None] * height / self.horizon
-        sky = top + (low - top) * np.clip(down, 0, 1) ** 1.15
+        sky = top + (low - top) * np.linspace(0, 1, height)[None, :, None] ** 1.15
         across = (np.arange(width)[:, None] - 0.74 * width) / (0.34 * width)
-        along = (np.arange(height)[None, :] - 0.80 * self.horizon) / (0.62 * self.horizon)
+        along = (np.arange(height)[None, :] / height - 0.80) / 0.62
         glow = np.exp(-(across**2) - along**2)[:, :, None] * 0.75
         sky = np.broadcast_to(sky, (width, height, 3))
         return from_colours(sky + (np.array(self.colours["sun"], float) - sky) * glow)
@@ -79,24 +78,26 @@ class Landscape:
         rows = int(self.horizon * 0.72)
         cover = np.zeros((self.width, rows), np.float32)
         for centre in np.linspace(0.08, 0.94, 7):
-            x0 = (centre + self.random.uniform(-0.04, 0.04)) * self.width
+            x = (centre + self.random.uniform(-0.04, 0.04)) * self.width
             base = self.random.uniform(0.22, 0.92) * rows
             size = self.random.uniform(0.6, 1.25) * 26 * self.unit
-            cloud = np.zeros_like(cover)
             for offset in np.linspace(-3.2, 3.2, 9):
                 radius = size * (1.25 - 0.25 * abs(offset) + self.random.uniform(-0.2, 0.2))
-                if radius < 2:
-                    continue
-                x, reach = x0 + offset * size * 0.9, int(radius) + 2
-                columns = (int(x) + np.arange(-reach, reach + 1)) % self.width
-                across = np.arange(-reach, reach + 1)[:, None] + int(x) - x
-                down = (np.arange(rows)[None, :] - base) * 1.25
-                disc = np.clip(radius - np.hypot(across, down) + 0.5, 0, 1)
-                cloud[columns] = np.maximum(cloud[columns], disc)
-            below = np.clip(base - np.arange(rows) + 0.5, 0, 1)[None, :]
-            softly = np.clip((np.arange(rows) - (base - 1.3 * size)) / (1.3 * size), 0, 1)[None, :]
-            cover = np.maximum(cover, cloud * below * (0.75 - 0.45 * softly))
+                height = base - np.arange(rows) + 0.5  # px over the cloud's foot
+                fading = 0.75 - 0.45 * np.clip(1 - height / (1.3 * size), 0, 1)
+                self._heap(cover, x + offset * size * 0.9, base, radius, 1.25, np.clip(height, 0, 1) * fading)
         return from_coverage(cover * 0.8, self.colours["cloud"]), int(self.horizon * 0.08)
+
+    def _heap(
+        self, cover: np.ndarray, x: float, y: float, radius: float, flat: float = 1.0, rows: np.ndarray | float = 1.0
+    ) -> None:
+        """Add a disc, ``flat`` times wider than high, to the cover, over the layer's ends; ``rows`` weighs each row."""
+        reach = int(radius) + 2
+        across = np.arange(-reach, reach + 1)
+        down = (np.arange(cover.shape[1])[None, :] - y) * flat
+        disc = np.clip(radius - np.hypot(across[:, None] + int(x) - x, down) + 0.5, 0, 1) * rows
+        columns = (int(x) + across) % self.width
+        cover[columns] = np.maximum(cover[columns], disc)
 
     def _trees(self) -> tuple[pygame.Surface, int]:
         """Woods along the horizon: a far and paler line with gaps, and groups before it."""
@@ -109,10 +110,6 @@ class Landscape:
                 x = self.random.choice(middles) + self.random.normal(0, 42) * self.unit
                 radius = self.random.uniform(small, large) * self.unit
                 y = rows - radius * self.random.uniform(0.4, 1.1)
-                reach = int(radius) + 2
-                columns = (int(x) + np.arange(-reach, reach + 1)) % self.width
-                across = np.arange(-reach, reach + 1)[:, None] + int(x) - x
-                disc = np.clip(radius - np.hypot(across, np.arange(rows)[None, :] - y) + 0.5, 0, 1)
-                cover[columns] = np.maximum(cover[columns], disc)
+                self._heap(cover, x, y, radius)
             layer.blit(from_coverage(cover, colour), (0, 0))
         return layer, self.horizon - rows + round(2 * self.unit)

@@ -4,24 +4,36 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from functools import cache, lru_cache
+from math import ceil
 
 import pygame
 
+from sandbox.picture.painter import scratch
 from sandbox.picture.palette import ASSETS, Colour
 
 #: Height of the letters in px on a picture of 720 rows, and the least at which they can be read.
 SIZES = {"small": (14.5, 11), "medium": (20, 14), "large": (40, 24)}
 
 
+#: Letters are drawn this much larger and scaled down: set straight at 11 px they would be moved to whole px, and words
+#: would run into each other.
+FINER = 4
+
+
 @cache
 def _font(pixels: int, bold: bool) -> pygame.font.Font:
+    """The font, larger by FINER."""
     pygame.font.init()
-    return pygame.font.Font(str(ASSETS / "fonts" / f"NotoSans-{'Bold' if bold else 'Regular'}.ttf"), pixels)
+    return pygame.font.Font(str(ASSETS / "fonts" / f"NotoSans-{'Bold' if bold else 'Regular'}.ttf"), pixels * FINER)
 
 
 @lru_cache(maxsize=1024)
 def _rendered(text: str, pixels: int, bold: bool, colour: Colour) -> pygame.Surface:
-    return _font(pixels, bold).render(text, True, colour)
+    drawn = _font(pixels, bold).render(text, True, colour)
+    width, height = (ceil(side / FINER) for side in drawn.get_size())
+    whole = scratch((width * FINER, height * FINER), colour)
+    whole.blit(drawn, (0, 0))
+    return pygame.transform.smoothscale(whole, (width, height))
 
 
 class Lettering:
@@ -36,7 +48,7 @@ class Lettering:
 
     def width(self, text: str, size: str, bold: bool = False) -> int:
         """In px."""
-        return _font(self.pixels[size], bold).size(text)[0]
+        return ceil(_font(self.pixels[size], bold).size(text)[0] / FINER)
 
     def rect(self, text: str, size: str, at: tuple[float, float], anchor: str = "topleft", bold: bool = False) -> pygame.Rect:
         """Where ``write`` would put the text."""

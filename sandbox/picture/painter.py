@@ -6,6 +6,7 @@ larger and scaled down.
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Callable, Iterable, Sequence
 from functools import lru_cache
 from math import ceil, degrees, floor, hypot
@@ -29,6 +30,23 @@ def blank(size: tuple[int, int], transparent: bool = False) -> pygame.Surface:
     if transparent:
         surface.fill((0, 0, 0, 0))
     return surface
+
+
+def scratch(size: tuple[int, int], colour: Colour) -> pygame.Surface:
+    """A surface to draw on and forget, see-through and ready for shapes of the colour; it is valid until the next one.
+
+    New memory is slow, and every shape needs some, so each thread keeps its own.
+    """
+    kept = getattr(_kept, "surface", None)
+    if kept is None or kept.get_width() < size[0] or kept.get_height() < size[1]:
+        width, height = kept.get_size() if kept is not None else (1024, 1024)
+        kept = _kept.surface = blank((max(width, size[0]), max(height, size[1])), transparent=True)
+    part = kept.subsurface((0, 0, *size))
+    part.fill((*colour, 0))  # the colour everywhere, or scaling down would mix black into the edges
+    return part
+
+
+_kept = threading.local()
 
 
 def from_coverage(coverage: np.ndarray, colour: Colour) -> pygame.Surface:
@@ -168,8 +186,7 @@ class Painter:
         spun = pygame.transform.rotate(texture, degrees(angle) % 360)
         side = texture.get_width() // OVERSAMPLING + 3
         left, top = floor(centre[0] - side / 2), floor(centre[1] - side / 2)
-        mask = blank((side * OVERSAMPLING, side * OVERSAMPLING), transparent=True)
-        mask.fill((*texture.get_at((0, 0))[:3], 0))
+        mask = scratch((side * OVERSAMPLING, side * OVERSAMPLING), texture.get_at((0, 0))[:3])
         middle = (centre[0] - left) * OVERSAMPLING, (centre[1] - top) * OVERSAMPLING
         mask.blit(spun, (round(middle[0] - spun.get_width() / 2), round(middle[1] - spun.get_height() / 2)))
         self._blit(pygame.transform.smoothscale(mask, (side, side)), (left, top), 1.0)
@@ -195,8 +212,7 @@ class Painter:
         seen = box.clip(self.surface.get_rect())
         if seen.width == 0 or seen.height == 0:
             return
-        mask = blank((seen.width * larger, seen.height * larger), transparent=True)
-        mask.fill((*colour, 0))  # the colour everywhere, or scaling down would mix black into the edges
+        mask = scratch((seen.width * larger, seen.height * larger), colour)
         draw(mask, (array - seen.topleft) * larger, larger)
         self._blit(pygame.transform.smoothscale(mask, seen.size), seen.topleft, opacity)
 

@@ -25,9 +25,20 @@ def _colour(value: Any) -> Any:
 
 
 @cache
+def _sections() -> dict[str, dict[str, Any]]:
+    return _colour(tomllib.loads((ASSETS / "palette.toml").read_text("utf-8")))
+
+
 def palette(section: str) -> dict[str, Any]:
     """One section of the palette, colours as (red, green, blue) from 0 to 255."""
-    return _colour(tomllib.loads((ASSETS / "palette.toml").read_text("utf-8")))[section]
+    return _sections()[section]
+
+
+def every_colour() -> list[Colour]:
+    """All colours of the palette, each once."""
+    values = [value for section in _sections().values() for value in section.values()]
+    colours = [item for value in values for item in (value if isinstance(value, list) else [value])]
+    return sorted({colour for colour in colours if isinstance(colour, tuple)})
 
 
 def mix(a: Colour, b: Colour, share: float) -> Colour:

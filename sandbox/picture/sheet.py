@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from math import ceil, floor, hypot, log10
 
+import numpy as np
 import pygame
 
 from sandbox.picture.camera import Camera
@@ -68,13 +69,19 @@ class Sheet:
         """A card along the bottom with a number in each column, the first one in the accent's colour."""
         rect = pygame.Rect(self.frame.left, top, self.frame.width, self.frame.bottom - top)
         self.painter.panel(rect, CARD["background"], CARD["opacity"], 10 * self.unit)
-        inset = 2.6 * self.gap
-        step = (rect.width - inset) / len(entries)
-        middle = rect.centery
-        for i, (label, value) in enumerate(entries):
-            x = rect.left + inset + step * i
-            self.write(label, "small", (x, middle - 0.2 * self.gap), CARD["quiet"], "bottomleft")
-            self.write(value, "medium", (x, middle), CARD["text"] if i else CARD["accent"], "topleft", bold=True)
+        inset = round(2.6 * self.gap)
+        widths = [
+            max(self.lettering.width(label, "small"), self.lettering.width(value, "medium", bold=True))
+            for label, value in entries
+        ]
+        room = rect.width - 2 * inset
+        columns = np.arange(len(entries)) * (room + self.gap) / len(entries)
+        if np.any(np.diff([*columns, room + self.gap]) < np.array(widths) + 2.5 * self.gap):  # too narrow to be even
+            between = max(self.gap, (room - sum(widths)) / max(1, len(entries) - 1))
+            columns = np.cumsum([0, *(width + between for width in widths[:-1])])
+        for i, ((label, value), x) in enumerate(zip(entries, rect.left + inset + columns, strict=True)):
+            self.write(label, "small", (x, rect.centery - 0.2 * self.gap), CARD["quiet"], "bottomleft")
+            self.write(value, "medium", (x, rect.centery), CARD["text"] if i else CARD["accent"], "topleft", bold=True)
 
     def card_height(self) -> int:
         """Height of the card that ``columns`` draws, in px."""
@@ -89,7 +96,7 @@ class Sheet:
         """A ruler along x over the frame's width, in metres and, where there is room, in yards below."""
         thin = max(1, round(self.unit))
         y = round(row)
-        self._hairline((self.frame.left, y, self.frame.width, thin), CARD["text"], 0.45)
+        self.surface.fill(CARD["rule"], (self.frame.left, y, self.frame.width, thin))
         self._scale(camera, y, thin, "m", 1.0, upward=True)
         if self.size[1] >= ROWS_FOR_YARDS:
             self._scale(camera, y, thin, "yd", YARD, upward=False)
@@ -101,16 +108,14 @@ class Sheet:
         for i in range(ceil(low), floor(high) + 1):
             x = camera.pixel(i / 5 * step * metre, 0)[0]
             tall = round((7 if i % 5 == 0 else 4) * self.unit)
-            self._hairline((round(x), row - tall if upward else row + thin, thin, tall), CARD["text"], 0.8 if i % 5 == 0 else 0.4)
+            top = row - tall if upward else row + thin
+            self.surface.fill(CARD["quiet"] if i % 5 == 0 else CARD["rule"], (round(x), top, thin, tall))
             if i % 5 == 0:
                 text = signed(f"{i / 5 * step:g}") + (f" {unit}" if i == 0 else "")
                 at = (x, row - 8 * self.unit) if upward else (x, row + thin + 8 * self.unit)
                 anchor = "midbottom" if upward else "midtop"
                 if self.frame.contains(self.lettering.rect(text, "small", at, anchor)):
                     self.write(text, "small", at, CARD["text"] if upward else CARD["quiet"], anchor)
-
-    def _hairline(self, rect: tuple[int, int, int, int], colour: Colour, opacity: float) -> None:
-        self.painter.panel(pygame.Rect(rect), colour, opacity, 0.0)
 
     def dimension(self, text: str, row: float, start: float, end: float, colour: Colour) -> None:
         """A line from ``start`` to ``end`` (px along x) with a stroke at either end and its text in a gap."""
@@ -126,10 +131,10 @@ class Sheet:
             spots = [self.lettering.rect(text, "small", (x, row), anchor, bold=True) for x, anchor in beside]
             rect = next((spot for spot in spots if self.frame.contains(spot)), spots[0].clamp(self.frame))
         for a, b in pieces:
-            self._hairline((a, y, b - a, thin), colour, 0.75)
+            self.surface.fill(colour, (a, y, b - a, thin))
         tall = round(9 * self.unit)
         for x in (left, right):
-            self._hairline((x, y - tall // 2, thin, tall + thin - 1), colour, 1.0)
+            self.surface.fill(colour, (x, y - tall // 2, thin, tall + thin - 1))
         self.write(text, "small", rect.topleft, colour, bold=True)
 
     def wind(self, along: float, up: float, right: float, top: float) -> pygame.Rect:

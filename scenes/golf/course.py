@@ -21,6 +21,8 @@ FLAGSTICK = 2.13  # m
 FAR = 0.42
 #: The horizon's height above the line of play, px on 720 rows.
 FIELD = 58
+#: The field's stripes differ little, so a lower factor than for other shapes will do.
+FIELD_OVERSAMPLING = 2
 
 
 class Course:
@@ -76,12 +78,10 @@ class Course:
 
     def _field(self, surface: pygame.Surface, camera: Camera, stripe: float) -> None:
         """The ground behind the line of play, up to the horizon: rough, and before it the mown fairway."""
-        larger = 2
+        larger = FIELD_OVERSAMPLING
         width, rows = self.size[0], self.base - self.horizon
-        field = blank((width * larger, rows * larger))
+        field = self._field_drawn
         top, bottom = round(rows * FAR * larger), rows * larger
-        for row in range(top):
-            pygame.draw.line(field, mix(GOLF["rough_far"], GOLF["rough"], row / top), (0, row), (width * larger, row))
         middle = camera.world(width / 2, 0)[0]
 
         def column(x: float, nearness: float) -> float:
@@ -105,6 +105,16 @@ class Course:
                 tall = min(0.5 * bottom, max(0.16 * (right - left), 8.0 * self.unit))
                 pygame.draw.ellipse(field, GOLF[name], (left, bottom - tall, right - left, 2 * tall))
         surface.blit(pygame.transform.smoothscale(field, (width, rows)), (0, self.horizon))
+
+    @cached_property
+    def _field_drawn(self) -> pygame.Surface:
+        """Where the field is drawn, larger; the far rough is on it already, paler with distance."""
+        rows = self.base - self.horizon
+        field = blank((self.size[0] * FIELD_OVERSAMPLING, rows * FIELD_OVERSAMPLING))
+        far = round(rows * FAR * FIELD_OVERSAMPLING)
+        for row in range(far):
+            field.fill(mix(GOLF["rough_far"], GOLF["rough"], row / far), (0, row, field.get_width(), 1))
+        return field
 
     def _light(self, camera: Camera, stripe: float) -> Colour:
         """The lighter stripes' colour; it goes over into the darker one's where stripes are too narrow to see."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from functools import cached_property
 from itertools import pairwise
 from math import atan2, degrees, floor, hypot, pi
@@ -101,7 +102,8 @@ class Picture:
         flag = course.hole(sheet.painter, camera, 0.4, self.wind[0])
         if flag:
             sheet.labels.take(flag)
-        self.trace = _thinned(camera.pixels(self.path[:, 1:3]))
+        path = camera.pixels(self.path[:, 1:3])
+        self.trace = path[_apart(path, 1.5)]
         sheet.labels.take_path(self.trace, 4 * self.unit)
         self._apex(sheet, camera)
         width = max(2.5, 4.5 * self.unit)
@@ -152,7 +154,9 @@ class Picture:
     def _balls_at_even_times(self, sheet: Sheet, camera: Camera) -> float:
         """The ball at even times, where there is room for it, and at the end; returns the time between in s."""
         course, run = self.poster_course, self.run
-        every = nice(self._flown / 14)
+        flight = run.result["flight_time"] or 0.0
+        seen = run.result["apex"] * camera.scale * camera.stretch > 60 * self.unit
+        every = nice(max(flight if flight and seen else run.duration, 0.01) / 14)
         true = self.radius * camera.scale
         radius, largest = max(true, 0.62 * self._smallest), max(true, self._smallest)
         end = self._spot(course, camera, *run.state(self.name, run.duration)[:2], largest)
@@ -166,12 +170,6 @@ class Picture:
         sheet.painter.shadow((end[0] + 2 * self.unit, end[1] + largest), 1.5 * largest, 0.4 * largest, CARD["shadow"], 0.5)
         course.ball(sheet.painter, end, largest, run.angle(self.name, run.duration), ring=largest > true)
         return every
-
-    @property
-    def _flown(self) -> float:
-        """Time in the air in s; the whole time where it hardly flew or did not come down."""
-        flight = self.run.result["flight_time"] or 0.0
-        return flight if flight > 0.2 * self.run.duration else max(self.run.duration, 0.01)
 
     def _distances(self, sheet: Sheet, camera: Camera) -> None:
         """Carry and total, measured along the ground."""
@@ -192,9 +190,9 @@ class Picture:
             ("apex", metres(result["apex"])),
             ("flight time", f"{result['flight_time']:.2f} s" if landed else "–"),
             ("ball speed", f"{hypot(vx, vy):.1f} m/s"),
-            ("launch angle", signed(f"{degrees(atan2(vy, vx)):.1f}") + "°"),
+            ("launch", signed(f"{degrees(atan2(vy, vx)):.1f}") + "°"),
             ("backspin", signed(f"{spin * 30 / pi:.0f}") + " rpm"),
-            ("landing angle", signed(f"{result['landing_angle']:.0f}") + "°" if landed else "–"),
+            ("landing", signed(f"{result['landing_angle']:.0f}") + "°" if landed else "–"),
         ]
 
     @property
@@ -288,15 +286,15 @@ class Picture:
 
     def _trail(self, sheet: Sheet, camera: Camera, t: float, radius: float) -> None:
         """Where the ball has just been; kept out of the header."""
-        times = np.linspace(max(0.0, t - TRAIL), t, 61)
+        times = np.linspace(max(0.0, t - TRAIL), t, 41)
         points = camera.pixels(np.array([self.run.state(self.name, s)[:2] for s in times]))
         sheet.surface.set_clip(0, round(self.sky_row), self.size[0], self.size[1])
-        sheet.painter.fading(_thinned(points, 2.0), 1.1 * radius, TRACE["colours"][0], 0.9)
+        sheet.painter.fading(points[_apart(points, 2.0)], 1.1 * radius, TRACE["colours"][0], 0.9)
         sheet.surface.set_clip(None)
 
     def _map(self, sheet: Sheet, t: float) -> pygame.Rect:
         """The whole path, small, in the upper right corner, and where on it the ball is."""
-        rect, camera, ground, path = self._mapped
+        rect, camera, ground, times, path = self._mapped
         surface, painter, unit = sheet.surface, sheet.painter, self.unit
         thin = max(1, round(1.6 * unit))
         painter.panel(rect, CARD["background"], CARD["opacity"], 8 * unit)
@@ -305,8 +303,7 @@ class Picture:
         _draw_path(surface, path, CARD["quiet"], 1)
         x, y, *_ = self.run.state(self.name, t)
         at = camera.pixel(x, y)
-        flown = camera.pixels(self.path[self.path[:, 0] <= t, 1:3])
-        _draw_path(surface, _thinned(np.vstack([flown, at]), 2.0), TRACE["colours"][0], thin + 1)
+        _draw_path(surface, [*path[times <= t], at], TRACE["colours"][0], thin + 1)
         px, py = camera.pixel(self.pin, self.frame_course.height(self.pin))
         tall = 24 * unit
         pygame.draw.line(surface, GOLF["pole"], (px, py), (px, py - tall), thin)
@@ -316,8 +313,8 @@ class Picture:
         return rect
 
     @cached_property
-    def _mapped(self) -> tuple[pygame.Rect, Camera, np.ndarray, np.ndarray]:
-        """The map's place, its camera, the ground and the path on it in px."""
+    def _mapped(self) -> tuple[pygame.Rect, Camera, np.ndarray, np.ndarray, np.ndarray]:
+        """The map's place, its camera, the ground in px, and times (s) and points (px) of the path."""
         sheet, course = Sheet(self.size), self.frame_course
         inset = 2.4 * sheet.gap
         x, y = self.path[:, 1], self.path[:, 2]
@@ -334,18 +331,20 @@ class Picture:
         camera = Camera(camera.at, anchor, camera.scale, camera.stretch)
         edges = (camera.world(px, 0)[0] for px in (rect.left + sheet.gap, rect.right - sheet.gap))
         ground = camera.pixels(course.between(*edges)) + (0, 1)
-        return rect, camera, ground, _thinned(camera.pixels(self.path[:, 1:3]))
+        path = camera.pixels(self.path[:, 1:3])
+        kept = _apart(path, 1.5)
+        return rect, camera, ground, self.path[kept, 0], path[kept]
 
 
-def _draw_path(surface: pygame.Surface, points: np.ndarray, colour: Colour, width: int) -> None:
+def _draw_path(surface: pygame.Surface, points: Iterable[Any], colour: Colour, width: int) -> None:
     for a, b in pairwise(points):
         pygame.draw.aaline(surface, colour, a, b, width)
 
 
-def _thinned(points: np.ndarray, apart: float = 1.5) -> np.ndarray:
-    """The points that are ``apart`` px from each other, and the last."""
-    kept = [points[0]]
-    for point in points[1:-1]:
-        if hypot(point[0] - kept[-1][0], point[1] - kept[-1][1]) >= apart:
-            kept.append(point)
-    return np.array([*kept, points[-1]])
+def _apart(points: np.ndarray, least: float) -> list[int]:
+    """Indices of the points that are ``least`` px from each other, and of the last."""
+    kept = [0]
+    for i in range(1, len(points) - 1):
+        if hypot(*(points[i] - points[kept[-1]])) >= least:
+            kept.append(i)
+    return [*kept, len(points) - 1]

@@ -1,0 +1,166 @@
+"""Pictures to files: a poster, a sequence of PNG frames, a GIF. Every file is written whole or not at all."""
+
+from __future__ import annotations
+
+import io
+import os
+import sys
+import tempfile
+from collections import deque
+from collections.abc import Callable, Iterator
+from concurrent.futures import Future, ThreadPoolExecutor
+from itertools import pairwise
+from pathlib import Path
+from typing import Any, Protocol, TypeVar
+
+import pygame
+from PIL import Image
+
+from sandbox.files import written_whole
+from sandbox.picture.palette import every_colour
+
+#: zlib levels: frames are many and passing, so they are packed quickly; a poster is kept, so it is packed well.
+FRAME_COMPRESSION, POSTER_COMPRESSION = 1, 6
+#: Of so many frames the colours of a GIF are chosen.
+PALETTE_FRAMES = 12
+#: Viewers slow a GIF down that shows more frames per second than this.
+FASTEST_GIF = 50
+#: The last picture of a GIF stays for so long, in s, before it begins again.
+GIF_PAUSE = 2.0
+
+Progress = Callable[[int, int], object]
+T = TypeVar("T")
+R = TypeVar("R")
+
+
+class Picture(Protocol):
+    """What a scene's picture.py offers."""
+
+    def poster(self) -> pygame.Surface: ...
+
+    def frame(self, t: float) -> pygame.Surface: ...
+
+
+def to_image(surface: pygame.Surface) -> Image.Image:
+    """The surface as a Pillow image, RGB."""
+    if surface.get_bytesize() == 4 and surface.get_masks()[:3] == (0xFF0000, 0xFF00, 0xFF) and sys.byteorder == "little":
+        # The common layout, four times as fast.
+        return Image.frombuffer("RGB", surface.get_size(), surface.get_view("0"), "raw", "BGRX", surface.get_pitch(), 1)
+    return Image.frombytes("RGB", surface.get_size(), pygame.image.tobytes(surface, "RGB"))
+
+
+def save_png(surface: pygame.Surface, path: Path | str) -> None:
+    """Write a surface as PNG. Raises OSError where it cannot be written."""
+    _write(Path(path), _png(to_image(surface), POSTER_COMPRESSION))
+
+
+def save_poster(picture: Picture, path: Path | str) -> None:
+    """Write the whole run as one PNG. Raises OSError where it cannot be written."""
+    save_png(picture.poster(), path)
+
+
+def save_frames(picture: Picture, run: Any, folder: Path | str, fps: float, progress: Progress | None = None) -> int:
+    """Write frame_00000.png, frame_00001.png, ... into a folder, all or none; returns how many.
+
+    Frames of an earlier run with higher numbers are removed, or a film made of the folder would end in two runs. Raises OSError
+    where the folder cannot be written.
+    """
+    folder = Path(folder)
+    folder.mkdir(parents=True, exist_ok=True)
+    times = frame_times(run.duration, fps)
+    with tempfile.TemporaryDirectory(prefix=".frames-", dir=folder) as part:
+
+        def keep(item: tuple[int, Image.Image]) -> str:
+            number, image = item
+            name = f"frame_{number:05d}.png"
+            (Path(part) / name).write_bytes(_png(image, FRAME_COMPRESSION))
+            return name
+
+        drawn = ((i, to_image(picture.frame(t))) for i, t in enumerate(times))
+        names = list(_in_threads(keep, drawn, len(times), progress))
+        for name in names:
+            os.replace(Path(part) / name, folder / name)
+    for old in folder.glob("frame_[0-9][0-9][0-9][0-9][0-9].png"):
+        if old.name > names[-1]:
+            old.unlink()
+    return len(names)
+
+
+def save_gif(picture: Picture, run: Any, path: Path | str, fps: float, progress: Progress | None = None) -> int:
+    """Write the run as an animated GIF that repeats; returns the number of frames. Raises OSError where it cannot be written.
+
+    All frames share one palette, and times are rounded to the 10 ms that the format knows so that none is lost.
+    """
+    times = frame_times(run.duration, min(fps, FASTEST_GIF))
+    colours = _shared_palette(picture, times)
+
+    def reduced(image: Image.Image) -> Image.Image:
+        return image.quantize(palette=colours, dither=Image.Dither.NONE)
+
+    images = _in_threads(reduced, (to_image(picture.frame(t)) for t in times), len(times), progress)
+    hundredths = [round(100 * t) for t in times]
+    durations = [10 * (b - a) for a, b in pairwise(hundredths)] + [round(1000 * GIF_PAUSE)]
+    data = io.BytesIO()
+    first = next(images)
+    first.save(data, "GIF", save_all=True, append_images=images, duration=durations, loop=0, optimize=False, disposal=1)
+    _write(Path(path), data.getvalue())
+    return len(times)
+
+
+def frame_times(duration: float, fps: float) -> list[float]:
+    """Times of the frames in s: ``fps`` of them per second from 0, and the end."""
+    count = int(duration * fps * (1 + 1e-12)) + 1
+    times = [i / fps for i in range(count)]
+    # The end replaces a frame that is nearer to it than a tenth of a frame's time.
+    return [t for t in times if t < duration - 0.1 / fps] + [duration] if duration > 0 else [0.0]
+
+
+def _shared_palette(picture: Picture, times: list[float]) -> Image.Image:
+    """256 colours for all frames: the commonest of some, and with weight of their own those that are rare but matter."""
+    chosen = [times[round(i * (len(times) - 1) / (PALETTE_FRAMES - 1))] for i in range(PALETTE_FRAMES)]
+    views = [to_image(picture.frame(t)).reduce(2) for t in sorted(set(chosen))]
+    width, height = views[0].size
+    rare = every_colour()
+    patch = max(1, height // 40)
+    sheet = Image.new("RGB", (width, height * len(views) + patch * len(rare)))
+    for i, view in enumerate(views):
+        sheet.paste(view, (0, i * height))
+    for i, colour in enumerate(rare):
+        top = height * len(views) + patch * i
+        sheet.paste(colour, (0, top, width, top + patch))
+    return sheet.quantize(256, method=Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE)
+
+
+def _in_threads(work: Callable[[T], R], items: Iterator[T], total: int, progress: Progress | None) -> Iterator[R]:
+    """``work`` on each item, on all cores, results in order; Pillow packs and reduces without holding Python up."""
+    workers = os.cpu_count() or 1
+    waiting: deque[Future[R]] = deque()
+    done = 0
+    with ThreadPoolExecutor(workers) as pool:
+        try:
+            for item in items:
+                waiting.append(pool.submit(work, item))
+                while len(waiting) > 2 * workers:  # no more pictures in memory than are needed to keep all cores at work
+                    yield waiting.popleft().result()
+                    done += 1
+                    if progress:
+                        progress(done, total)
+            while waiting:
+                yield waiting.popleft().result()
+                done += 1
+                if progress:
+                    progress(done, total)
+        finally:
+            for future in waiting:
+                future.cancel()
+
+
+def _png(image: Image.Image, level: int) -> bytes:
+    data = io.BytesIO()
+    image.save(data, "PNG", compress_level=level)
+    return data.getvalue()
+
+
+def _write(path: Path, data: bytes) -> None:
+    with written_whole(path) as file:
+        file.buffer.write(data)
