@@ -54,11 +54,17 @@ class NoLift(Group):
 
 
 def aerodynamic_forces(
-    air: Air, radius: float, drag: Any, lift: Any, models: Mapping[str, Coefficient] | None = None
+    air: Air,
+    radius: float,
+    drag: Any,
+    lift: Any,
+    models: Mapping[str, Coefficient] | None = None,
+    lift_share: float = 1.0,
 ) -> list[Force]:
     """Drag and Magnus lift on a ball of ``radius`` (m), each only where there is one.
 
     ``drag`` and ``lift`` are groups with a ``model``: one of the above, or a scene's own, named in ``models``.
+    Of the lift only ``lift_share`` lies in the scene's plane, less than 1 where the spin's axis leans.
     """
     if air.density == 0.0:
         return []
@@ -69,9 +75,15 @@ def aerodynamic_forces(
         forces.append(Drag(radius, air.density, drag_coefficient, wind))
     lift_coefficient = _coefficient(lift, models or {})
     if lift_coefficient is not None:
+        if lift_share != 1.0:
+            lift_coefficient = _scaled(lift_coefficient, lift_share)
         along_ground = lift.velocity == "ground"
         forces.append(Magnus(radius, air.density, lift_coefficient, wind, along_ground=along_ground))
     return forces
+
+
+def _scaled(coefficient: Coefficient, share: float) -> Coefficient:
+    return lambda reynolds, spin_ratio: share * coefficient(reynolds, spin_ratio)
 
 
 def _coefficient(chosen: Any, models: Mapping[str, Coefficient]) -> Coefficient | None:

@@ -1,0 +1,331 @@
+"""Soccer from above: a free kick that bends round the wall, past the keeper, between the posts.
+
+Models: drag with its crisis; the sideways part of the Magnus force; an even wind; posts, wall, keeper (standing, or
+moving at a given speed) and net as things to hit.
+Leaves out: everything upright. Gravity has no part in this plane, so the scene does not know how high the ball is,
+whether it clears the wall, or when it would come down: give it kicks that stay in the air. The ball's loss of spin.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import pairwise
+from math import cos, hypot, pi, radians, sin, tan
+from typing import Any, Literal
+
+from sandbox.aerodynamics import (
+    Air,
+    ConstantDrag,
+    ConstantLift,
+    NoDrag,
+    NoLift,
+    SpinRatioLift,
+    aerodynamic_forces,
+)
+from sandbox.engine.run import Event, Run
+from sandbox.engine.setup import HOLLOW_SPHERE, Ball, Bounce, Circle, Segment, Setup, Surface, Vector
+from sandbox.errors import RequestError
+from sandbox.parameters import Accuracy, Group, choice, either, group, quantity, switch
+from sandbox.physics.coefficients import SOCCER_DRAG, SOCCER_LIFT
+
+RPM = pi / 30.0  # rad/s
+
+# --------------------------------------------------------------------------------------------------------- parameters
+
+
+class Launch(Group):
+    """The ball just after the kick."""
+
+    speed: float = quantity(27.0, "m/s", 0, 340, "ball speed")
+    angle: float = quantity(-12.0, "deg", -180, 180, "direction, to the left of straight at the goal line")
+    spin: float = quantity(500.0, "rpm", -20000, 20000, "positive bends the ball to the left")
+    tilt: float = quantity(
+        0.0, "deg", -90, 90, "lean of the spin's axis from the upright; only its cosine bends the ball"
+    )
+
+
+class ModelDrag(Group):
+    """Drag of a soccer ball by its source."""
+
+    model: Literal["goff-carre", "textbook"] = choice("goff-carre", "drag coefficient by its source")
+
+
+class ModelLift(Group):
+    """Magnus force of a soccer ball by its source."""
+
+    model: Literal["asai", "power-law"] = choice("asai", "lift coefficient by its source")
+    velocity: Literal["air", "ground"] = choice("air", "velocity that lift is reckoned by: relative to air or ground")
+
+
+class BallParameters(Group):
+    """The soccer ball, a hollow sphere."""
+
+    mass: float = quantity(0.430, "kg", 0.001, 10, "mass")
+    radius: float = quantity(0.110, "m", 0.01, 0.5, "radius")
+    drag: ModelDrag | ConstantDrag | NoDrag = either(ModelDrag(), "drag of the air")
+    lift: ModelLift | ConstantLift | SpinRatioLift | NoLift = either(ModelLift(), "Magnus force")
+
+
+class Goal(Group):
+    """The goal from above."""
+
+    distance: float = quantity(22.0, "m", 0, 200, "from the ball straight to the middle of the goal line's width")
+    offset: float = quantity(0.0, "m", -40, 40, "middle of the goal to the left of the ball")
+    width: float = quantity(7.32, "m", 0, 20, "between the posts")
+    post_radius: float = quantity(0.06, "m", 0.001, 1, "radius of the posts; the goal line is as wide")
+    restitution: float = quantity(0.7, "", 0, 1, "of ball and post")
+    friction: float = quantity(0.3, "", 0, 10, "of ball and post")
+    depth: float = quantity(2.0, "m", 0.5, 5, "from the goal line to the back of the net")
+    net_restitution: float = quantity(0.05, "", 0, 1, "of ball and net")
+    net_friction: float = quantity(0.1, "", 0, 10, "of ball and net")
+
+
+class Wall(Group):
+    """The wall of players."""
+
+    present: bool = switch(True, "whether there is a wall of players")
+    distance: float = quantity(9.15, "m", 0, 200, "from the ball straight to the middle of the wall")
+    offset: float = quantity(0.0, "m", -40, 40, "middle of the wall to the left of the ball")
+    width: float = quantity(2.0, "m", 0.1, 40, "from side to side")
+    thickness: float = quantity(0.3, "m", 0.01, 5, "how deep a player is")
+    restitution: float = quantity(0.4, "", 0, 1, "of ball and player")
+    friction: float = quantity(0.5, "", 0, 10, "of ball and player")
+
+
+class Keeper(Group):
+    """The keeper, a heavy disc."""
+
+    present: bool = switch(True, "whether there is a keeper")
+    distance: float = quantity(0.5, "m", 0, 20, "in front of the goal line")
+    offset: float = quantity(0.5, "m", -20, 20, "at the kick, to the left of the middle of the goal")
+    speed: float = quantity(0.0, "m/s", -15, 15, "along the goal line from the kick on, to the left")
+    radius: float = quantity(0.4, "m", 0.05, 5, "half the width that he covers")
+    mass: float = quantity(80.0, "kg", 1, 1000, "mass")
+    restitution: float = quantity(0.3, "", 0, 1, "of ball and keeper")
+    friction: float = quantity(0.5, "", 0, 10, "of ball and keeper")
+
+
+class Parameters(Group):
+    """All numbers of a kick."""
+
+    launch: Launch = group(Launch(), "the ball just after the kick")
+    air: Air = group(Air(), "the air")
+    ball: BallParameters = group(BallParameters(), "the ball")
+    wall: Wall = group(Wall(), "the wall of players")
+    keeper: Keeper = group(Keeper(), "the keeper")
+    goal: Goal = group(Goal(), "the goal")
+    accuracy: Accuracy = group(Accuracy(), "speed against accuracy")
+
+
+# -------------------------------------------------------------------------------------------------------------- build
+
+#: A kick still under way after this time in s is ended: no ball stays in the air so long.
+LONGEST = 10.0
+
+#: Advertising boards behind the ball, behind the goal line and on either side, in m; a ball that gets there is out.
+BOARDS_BEHIND, BOARDS_BEYOND, BOARDS_ASIDE = -15.0, 8.0, 60.0
+
+
+def build(parameters: Parameters) -> Setup:
+    """Ball, keeper, wall and goal. Raises RequestError where they do not go together."""
+    _check(parameters)
+    launch, ball, keeper = parameters.launch, parameters.ball, parameters.keeper
+    angle = radians(launch.angle)
+    share = cos(radians(launch.tilt))
+    forces = aerodynamic_forces(parameters.air, ball.radius, ball.drag, ball.lift, SOCCER_DRAG | SOCCER_LIFT, share)
+    balls = [
+        Ball(
+            "ball",
+            ball.mass,
+            ball.radius,
+            position=(0.0, 0.0),
+            velocity=(launch.speed * cos(angle), launch.speed * sin(angle)),
+            spin=launch.spin * RPM,
+            inertia_factor=HOLLOW_SPHERE,
+            forces=forces,
+        )
+    ]
+    if keeper.present:
+        balls.append(
+            Ball("keeper", keeper.mass, keeper.radius, position=_keeper(parameters), velocity=(0.0, keeper.speed))
+        )
+    return Setup(
+        balls,
+        _pitch(parameters),
+        duration=LONGEST,
+        until=_is_over,
+        between_balls=lambda normal_speed, tangential_speed: Bounce(keeper.restitution, keeper.friction),
+    )
+
+
+def _is_over(event: Event) -> bool:
+    return event.ball == "ball" and event.partner in ("net", "boards")
+
+
+def _keeper(parameters: Parameters) -> Vector:
+    """Where the keeper stands at the kick."""
+    goal, keeper = parameters.goal, parameters.keeper
+    return goal.distance - keeper.distance, goal.offset + keeper.offset
+
+
+def _posts(parameters: Parameters) -> tuple[Vector, Vector]:
+    """Middles of the right and the left post."""
+    goal = parameters.goal
+    aside = 0.5 * goal.width + goal.post_radius
+    return (goal.distance, goal.offset - aside), (goal.distance, goal.offset + aside)
+
+
+def _from_wall(parameters: Parameters, point: Vector) -> float:
+    """Distance in m from a point to the wall, 0 inside."""
+    wall = parameters.wall
+    ahead = abs(point[0] - wall.distance) - 0.5 * wall.thickness
+    aside = abs(point[1] - wall.offset) - 0.5 * wall.width
+    return hypot(max(ahead, 0.0), max(aside, 0.0))
+
+
+def _check(parameters: Parameters) -> None:
+    goal, wall, keeper, radius = parameters.goal, parameters.wall, parameters.keeper, parameters.ball.radius
+    at_goal = f"goal.distance = {goal.distance:g} m"
+    at_wall = f"wall.distance = {wall.distance:g} m, wall.offset = {wall.offset:g} m"
+    at_keeper = f"keeper.distance = {keeper.distance:g} m, keeper.offset = {keeper.offset:g} m"
+    ball = f"the ball, which starts at 0 m with ball.radius = {radius:g} m"
+    if goal.distance <= goal.post_radius + radius:
+        raise RequestError(f"{at_goal} puts the goal on {ball}: move it away")
+    if wall.present and _from_wall(parameters, (0.0, 0.0)) <= radius:
+        raise RequestError(f"{at_wall} puts the wall on {ball}: move it away, or set wall.present = false")
+    if wall.present and wall.distance + 0.5 * wall.thickness >= goal.distance - goal.post_radius:
+        raise RequestError(
+            f"wall.distance = {wall.distance:g} m is not in front of the goal, which is at {at_goal}: "
+            "bring it nearer, or set wall.present = false"
+        )
+    if not keeper.present:
+        return
+    x, y = _keeper(parameters)
+    if hypot(x, y) <= keeper.radius + radius:
+        raise RequestError(f"{at_keeper} puts the keeper on {ball}: move him, or set keeper.present = false")
+    if wall.present and _from_wall(parameters, (x, y)) <= keeper.radius:
+        raise RequestError(f"{at_keeper} puts the keeper into the wall, {at_wall}: move one of them")
+    if any(hypot(x - px, y - py) <= keeper.radius + goal.post_radius for px, py in _posts(parameters)):
+        raise RequestError(f"{at_keeper} puts the keeper into a post of goal.width = {goal.width:g} m: move him")
+
+
+def _pitch(parameters: Parameters) -> list[Surface]:
+    goal, wall = parameters.goal, parameters.wall
+    behind, beyond = BOARDS_BEHIND, goal.distance + BOARDS_BEYOND
+    corners = _rectangle(behind, beyond, -BOARDS_ASIDE, BOARDS_ASIDE)
+    surfaces = [Surface("boards", Segment(a, b), 0.0, 0.0) for a, b in pairwise(corners)]
+    right, left = _posts(parameters)
+    for name, center in (("right post", right), ("left post", left)):
+        surfaces.append(Surface(name, Circle(center, goal.post_radius), goal.restitution, goal.friction))
+    back = goal.distance + goal.depth
+    corners = [right, (back, right[1]), (back, left[1]), left]
+    net = goal.net_restitution, goal.net_friction
+    surfaces += [Surface("net", Segment(a, b), *net) for a, b in pairwise(corners)]
+    if wall.present:
+        half, aside = 0.5 * wall.thickness, 0.5 * wall.width
+        corners = _rectangle(wall.distance - half, wall.distance + half, wall.offset - aside, wall.offset + aside)
+        surfaces += [Surface("wall", Segment(a, b), wall.restitution, wall.friction) for a, b in pairwise(corners)]
+    return surfaces
+
+
+def _rectangle(left: float, right: float, bottom: float, top: float) -> list[Vector]:
+    return [(left, bottom), (right, bottom), (right, top), (left, top), (left, bottom)]
+
+
+# ------------------------------------------------------------------------------------------------------------- result
+
+
+def result(run: Run, parameters: Parameters) -> dict[str, Any]:
+    """Goal or not, and how the ball bent; lengths in m and positive to the left, speeds in m/s, times in s.
+
+    ``deviation`` is measured along the goal line, from where the straight line of the launch meets it, if it does;
+    ``offset_at_goal`` from the middle of the goal. Both, and the speed, are None where the ball does not get there, or
+    is touched on its way. ``flight_time`` lasts until the goal line or the first touch. A goal is one with the whole of
+    the ball over the whole of the line.
+    """
+    goal = parameters.goal
+    touches = [event for event in run.events if "ball" in (event.ball, event.partner)]
+    touched = touches[0].t if touches else None
+    at_goal = next(_forward(run, goal.distance), None)
+    reached = at_goal is not None
+    if at_goal is not None and touched is not None and touched < at_goal[0]:
+        at_goal = None
+    over_the_line = goal.distance + goal.post_radius + parameters.ball.radius
+    scored = any(abs(state[1] - goal.offset) < 0.5 * goal.width for _, state in _forward(run, over_the_line))
+    found: dict[str, Any] = {
+        "goal": scored,
+        "verdict": _verdict({name for event in touches for name in (event.ball, event.partner)}, scored, reached),
+        "deviation": None,
+        "offset_at_goal": None,
+        "speed_at_goal": None,
+        "flight_time": touched,
+        "ended": run.ended,
+    }
+    if at_goal is not None:
+        t, (_, y, vx, vy, _) = at_goal
+        angle = parameters.launch.angle
+        found |= {
+            "deviation": None if abs(angle) >= 90.0 else y - goal.distance * tan(radians(angle)),
+            "offset_at_goal": y - goal.offset,
+            "speed_at_goal": hypot(vx, vy),
+            "flight_time": t,
+        }
+    return found
+
+
+def _forward(run: Run, x: float) -> Iterator[tuple[float, tuple[float, ...]]]:
+    """Times and states at which the ball's centre passes x (m) on its way to the goal."""
+    return run.crossings("ball", (x, 0.0), (-1.0, 0.0))
+
+
+def _verdict(touched: set[str], scored: bool, reached: bool) -> str:
+    """goal; saved, post or wall, where that was touched and it is no goal; wide; short of the goal line."""
+    if scored:
+        return "goal"
+    if "keeper" in touched:
+        return "saved"
+    if touched & {"left post", "right post"}:
+        return "post"
+    if "wall" in touched:
+        return "wall"
+    return "wide" if reached else "short"
+
+
+def card(result: dict[str, Any], parameters: Parameters) -> list[tuple[str, str]]:
+    """The result for people."""
+    launch, goal = parameters.launch, parameters.goal
+    spin = f"{abs(launch.spin):.0f} rpm that bends it to the {_side(launch.spin)}" if launch.spin else "no spin"
+    lines = [("kick", f"{_speed(launch.speed)} at {abs(launch.angle):.1f}° to the {_side(launch.angle)}, {spin}")]
+    if result["deviation"] is not None:
+        lines.append(("deviation", f"{result['deviation']:.2f} m, to the {_side(result['deviation'])}"))
+    if result["offset_at_goal"] is not None:
+        lines += [
+            ("offset at goal", _beside_the_post(result["offset_at_goal"], parameters)),
+            ("speed at goal", _speed(result["speed_at_goal"])),
+        ]
+    if result["flight_time"] is not None:
+        lines.append(("flight time", f"{result['flight_time']:.2f} s"))
+    endings = {
+        "goal": "goal",
+        "wide": "wide of the goal",
+        "wall": "into the wall",
+        "post": "off the post",
+        "saved": "saved by the keeper",
+        "short": f"did not get to the goal line, {goal.distance:.1f} m away",
+    }
+    lines.append(("verdict", endings[result["verdict"]]))
+    return lines
+
+
+def _side(amount: float) -> str:
+    return "right" if amount < 0.0 else "left"
+
+
+def _speed(metres_per_second: float) -> str:
+    return f"{metres_per_second:.1f} m/s ({metres_per_second * 3.6:.0f} km/h)"
+
+
+def _beside_the_post(offset: float, parameters: Parameters) -> str:
+    inside = 0.5 * parameters.goal.width - abs(offset) - parameters.ball.radius
+    where = f"{abs(inside):.2f} m {'inside' if inside >= 0.0 else 'outside'} the {_side(offset)} post"
+    return f"{offset:.2f} m, {where}"
