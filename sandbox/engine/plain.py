@@ -63,7 +63,7 @@ class _Tracked:
         return (*body.position, *body.velocity, body.angular_velocity)
 
     def record(self, t: float) -> None:
-        if t > self.since:
+        if t > self.since or not self.path:
             x0, y0, vx0, vy0, w0 = self.start
             x1, y1, vx1, vy1, w1 = after = self.state()
             self.path.append(Arc(self.since, t, self.start, (x0, x1), (y0, y1), (vx0, vx1), (vy0, vy1), (w0, w1)))
@@ -132,6 +132,9 @@ class PlainSimulation:
             self._numerics.pymunk_steps += 1
             self._numerics.steps += 1
             self._check()
+            for tracked in self._tracked.values():
+                if tracked.since == self._t:  # it hit something in this step: from here on the state is that after the impact
+                    tracked.start = tracked.state()
             if self._t >= next_record:
                 next_record = self._t + _RECORD
                 for tracked in self._tracked.values():

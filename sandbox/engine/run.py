@@ -54,7 +54,7 @@ class Run:
 
     setup: Setup
     accuracy: Accuracy
-    arcs: dict[str, list[Arc]]  # by ball, in order of time, without gaps
+    arcs: dict[str, list[Arc]]  # by ball, in order of time, without gaps; at least one
     events: list[Event]
     numerics: Numerics
     duration: float  # s
@@ -70,9 +70,6 @@ class Run:
 
     def _full_state(self, ball: str, t: float) -> State:
         arcs = self.arcs[ball]
-        if not arcs:
-            start = next(b for b in self.setup.balls if b.name == ball)
-            return (*start.position, *start.velocity, start.spin, *start.rolling_spin)
         index = bisect_right(arcs, t, key=lambda arc: arc.t0) - 1
         return arcs[max(index, 0)].state(t)
 

@@ -67,10 +67,9 @@ class Obstacle:
         self._round = self._length == 0.0
         self._tx = 1.0 if self._round else (b[0] - self._a[0]) / self._length
         self._ty = 0.0 if self._round else (b[1] - self._a[1]) / self._length
-        self.left = min(self._a[0], b[0]) - self.reach
-        self.right = max(self._a[0], b[0]) + self.reach
-        self.bottom = min(self._a[1], b[1]) - self.reach
-        self.top = max(self._a[1], b[1]) + self.reach
+        margin = self.reach + CONTACT
+        self._left, self._right = min(self._a[0], b[0]) - margin, max(self._a[0], b[0]) + margin
+        self._bottom, self._top = min(self._a[1], b[1]) - margin, max(self._a[1], b[1]) + margin
 
     def near(self, x: float, y: float) -> Touching:
         """How near a ball centred at (x, y) is to the feature nearest to it."""
@@ -125,7 +124,7 @@ class Obstacle:
 
     def may_meet(self, box: tuple[float, float, float, float]) -> bool:
         """Whether a path inside the box (left, bottom, right, top) could touch."""
-        return box[0] <= self.right and box[2] >= self.left and box[1] <= self.top and box[3] >= self.bottom
+        return box[0] <= self._right and box[2] >= self._left and box[1] <= self._top and box[3] >= self._bottom
 
     def first_touch(self, arc: Arc) -> float | None:
         """The first u in [0, 1] of the arc at which the ball comes to touch, or None."""

@@ -34,7 +34,7 @@ class Track:
     def keep(self, t: float) -> None:
         """Add what was travelled of the arc until t to the path."""
         arc = self.arc.until(t)
-        if arc.t1 > arc.t0:
+        if arc.t1 > arc.t0 or not self.path:
             self.path.append(arc)
 
     def near(self, x: float, y: float) -> list[Near]:

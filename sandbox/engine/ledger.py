@@ -1,0 +1,116 @@
+"""Where the energy went: the work of each force, the loss at each surface, and what the solver got wrong.
+
+Computed from the finished path when asked for, so a run pays nothing for it.
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from dataclasses import dataclass
+from itertools import pairwise
+
+from sandbox.engine.arc import Arc
+from sandbox.engine.motion import PINNED, RESTING, Contact, Mover
+from sandbox.engine.run import Numerics, Run
+from sandbox.engine.setup import Ball
+from sandbox.physics.integrators import State
+
+#: Gauss-Legendre nodes and weights on [0, 1]: exact for polynomials of degree 9.
+_NODES = (0.04691007703066802, 0.23076534494715845, 0.5, 0.7692346550528415, 0.953089922969332)
+_WEIGHTS = (0.11846344252809454, 0.23931433524968324, 0.28444444444444444, 0.23931433524968324, 0.11846344252809454)
+
+
+@dataclass(frozen=True)
+class Ledger:
+    """Energies in J: ``start`` and the sums of ``work``, ``impacts``, ``contacts`` and ``residue`` make up ``end``."""
+
+    start: float  # kinetic, of all balls, their turning included
+    end: float
+    work: dict[str, float]  # by force, torques too
+    impacts: dict[str, float]  # by what was hit; two balls under both names
+    contacts: dict[str, float]  # by what was slid or rolled on, bounces too low to follow included
+    residue: float  # kinetic energy gained along the path that no cause accounts for: the numerical error
+
+
+def kinetic(ball: Ball, state: State) -> float:
+    """Kinetic energy of a ball in J, that of its turning included."""
+    _, _, vx, vy, *spins = state
+    return 0.5 * ball.mass * (vx * vx + vy * vy) + 0.5 * ball.inertia * sum(spin * spin for spin in spins)
+
+
+def ledger(run: Run) -> Ledger:
+    """The energy ledger of a run."""
+    work: dict[str, float] = defaultdict(float)
+    impacts: dict[str, float] = defaultdict(float)
+    contacts: dict[str, float] = defaultdict(float)
+    start = end = residue = 0.0
+    hits = _hits(run)
+    for ball in run.setup.balls:
+        arcs = run.arcs[ball.name]
+        mover = Mover(ball, run.accuracy, run.setup.bounds, run.setup.longest_step, Numerics())
+        start += kinetic(ball, arcs[0].start)
+        end += kinetic(ball, arcs[-1].state(arcs[-1].t1))
+        for arc in arcs:
+            gain = kinetic(ball, arc.state(arc.t1)) - kinetic(ball, arc.start)
+            if run.setup.cloth is not None:
+                contacts["cloth"] += gain
+            else:
+                residue += gain - _book(mover, arc, work, contacts)
+        for before, after in pairwise(arcs):
+            jump = kinetic(ball, after.start) - kinetic(ball, before.state(before.t1))
+            hit = hits.get((ball.name, after.t0))
+            lasting = after.contact or before.contact
+            if hit is not None:
+                impacts[hit] += jump
+            elif isinstance(lasting, Contact):
+                contacts[lasting.obstacle.surface.name] += jump
+            else:
+                residue += jump
+    return Ledger(start, end, dict(work), dict(impacts), dict(contacts), residue)
+
+
+def _hits(run: Run) -> dict[tuple[str, float], str]:
+    """What each ball hit, by ball and time."""
+    balls = {ball.name for ball in run.setup.balls}
+    hits: dict[tuple[str, float], str] = {}
+    for event in run.events:
+        if event.kind == "impact" and event.partner in balls:
+            both = " and ".join(sorted((event.ball, event.partner)))
+            hits[event.ball, event.t] = hits[event.partner, event.t] = both
+        elif event.kind == "impact":
+            hits[event.ball, event.t] = event.partner
+    return hits
+
+
+def _book(mover: Mover, arc: Arc, work: dict[str, float], contacts: dict[str, float]) -> float:
+    """Enter the work done along an arc, and give its sum in J."""
+    ball, h, contact = mover.ball, arc.t1 - arc.t0, arc.contact
+    booked = 0.0
+    for node, weight in zip(_NODES, _WEIGHTS, strict=True):
+        t = arc.t0 + node * h
+        state = arc.state(t)
+        x, y, vx, vy, spin = state
+        applied = 0.0
+        for force in ball.forces:
+            fx, fy = force(t, (x, y), (vx, vy), spin)
+            work[_name(force)] += weight * h * (fx * vx + fy * vy)
+            applied += fx * vx + fy * vy
+        for torque in ball.torques:
+            power = torque(t, (x, y), (vx, vy), spin) * spin
+            work[_name(torque)] += weight * h * power
+            applied += power
+        if isinstance(contact, Contact) and contact.mode != RESTING:
+            if contact.mode == PINNED:
+                total = -ball.inertia * contact.spin_rate * abs(spin)
+            else:
+                (ax, ay, alpha), _, _ = mover.on_surface(t, state, contact)
+                total = ball.mass * (ax * vx + ay * vy) + ball.inertia * alpha * spin
+            contacts[contact.obstacle.surface.name] += weight * h * (total - applied)
+            applied = total
+        booked += weight * h * applied
+    return booked
+
+
+def _name(cause: object) -> str:
+    """``Drag`` is "drag"; a function goes by its own name."""
+    return str(getattr(cause, "__name__", type(cause).__name__)).lower()

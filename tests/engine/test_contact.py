@@ -1,0 +1,253 @@
+"""Touching: nothing tunnels, corners and grazes are handled, and every kind of start is."""
+
+from math import atan2, cos, hypot, inf, pi, sin
+
+import numpy as np
+import pymunk
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from sandbox.engine import simulate
+from sandbox.engine.accuracy import resolve
+from sandbox.engine.setup import Ball, Bounce, Circle, Segment, Setup, Surface
+from sandbox.engine.simulation import Stalled
+from sandbox.engine.touch import Obstacle
+from sandbox.errors import RequestError
+from sandbox.physics.coefficients import constant
+from sandbox.physics.forces import Drag, Gravity
+
+G = 9.81
+
+
+def ball(position, velocity=(0.0, 0.0), spin=0.0, radius=0.05, mass=0.3, gravity=G, name="ball"):
+    forces = [Gravity(mass, gravity)] if gravity else []
+    return Ball(name, mass, radius, position, velocity, spin, forces=forces)
+
+
+def box(half, restitution=0.8, friction=0.3, thickness=1e-4):
+    """A closed box around the origin with walls as thin as 0.2 mm."""
+    corners = [(-half, -half), (half, -half), (half, half), (-half, half)]
+    return [
+        Surface(f"wall {k}", Segment(a, b, thickness), restitution, friction)
+        for k, (a, b) in enumerate(zip(corners, corners[1:] + corners[:1], strict=True))
+    ]
+
+
+def inside(run, half, radius):
+    path = run.trajectory("ball", every=1 / 500)
+    return np.abs(path[:, 1:3]).max() <= half - radius + 1e-6
+
+
+# --------------------------------------------------------------------------------------------------------- tunnelling
+
+
+@settings(deadline=None, max_examples=60)
+@given(
+    speed=st.floats(0.0, 340.0),
+    direction=st.floats(0.0, 2 * pi),
+    spin=st.floats(-2000.0, 2000.0),
+    radius=st.floats(0.001, 0.2),
+    density=st.sampled_from([0.0, 1.2, 1000.0]),
+    level=st.sampled_from(["fast", "balanced", "precise"]),
+)
+def test_nothing_leaves_a_box_with_thin_walls(speed, direction, spin, radius, density, level):
+    forces = [Gravity(0.3, G)]
+    if density:
+        forces.append(Drag(radius, density, constant(0.4)))
+    shot = Ball("ball", 0.3, radius, (0.1, -0.2), (speed * cos(direction), speed * sin(direction)), spin, forces=forces)
+    run = simulate(Setup([shot], box(0.5), duration=0.3), resolve(level))
+    assert inside(run, 0.5, radius)
+
+
+@pytest.mark.parametrize("integrator", ["explicit-euler", "semi-implicit-euler", "heun", "velocity-verlet", "rk4"])
+@pytest.mark.parametrize("step", [0.5, 1 / 60, 1e-3])
+def test_nothing_leaves_the_box_at_any_fixed_step(integrator, step):
+    shot = ball((0.1, -0.2), (200.0, 130.0))
+    run = simulate(Setup([shot], box(0.5), duration=0.2), resolve(integrator=integrator, step=step))
+    assert inside(run, 0.5, 0.05)
+    assert run.numerics.impacts > 10
+
+
+def test_two_fast_balls_meet_head_on():
+    """300 m/s each, 2 cm across, 600 m apart: a step of 1/60 s would carry each 5 m past."""
+    balls = [
+        ball((-300.0, 0.0), (300.0, 0.0), radius=0.01, gravity=0, name="left"),
+        ball((300.0, 0.0), (-300.0, 0.0), radius=0.01, gravity=0, name="right"),
+    ]
+    run = simulate(Setup(balls, duration=2.0), resolve())
+    (event,) = run.events
+    assert event.t == pytest.approx((600.0 - 0.02) / 600.0, abs=1e-10)
+    assert run.state("left", 2.0)[0] < run.state("right", 2.0)[0]
+
+
+# -------------------------------------------------------------------------------------------------- corners and grazes
+
+
+def test_two_walls_at_once():
+    """Into a right-angled corner along the diagonal, e = 1, no friction: straight back."""
+    walls = [
+        Surface("floor", Segment((-5.0, 0.0), (5.0, 0.0)), 1.0, 0.0),
+        Surface("wall", Segment((0.0, -5.0), (0.0, 5.0)), 1.0, 0.0),
+    ]
+    run = simulate(Setup([ball((1.0, 1.0), (-2.0, -2.0), gravity=0)], walls, duration=1.0), resolve())
+    assert {event.partner for event in run.events} == {"floor", "wall"}
+    assert len({event.t for event in run.events}) == 1
+    assert run.state("ball", 1.0)[2:4] == pytest.approx((2.0, 2.0), abs=1e-9)
+
+
+def test_convex_corner_turns_the_ball_about_its_point():
+    """A ball that meets the end of a segment bounces along the line from that point to its centre."""
+    wall = Surface("wall", Segment((0.0, 0.0), (0.0, -5.0)), 1.0, 0.0)
+    run = simulate(Setup([ball((-0.03, 1.0), (0.0, -2.0), gravity=0)], [wall], duration=1.0), resolve())
+    n = np.array([-0.03, (0.05**2 - 0.03**2) ** 0.5]) / 0.05
+    v = np.array([0.0, -2.0])
+    assert run.state("ball", 1.0)[2:4] == pytest.approx(v - 2 * (v @ n) * n, abs=1e-7)
+
+
+def test_a_graze_within_rounding_changes_nothing_and_one_within_a_micrometre_is_met():
+    post = Surface("post", Circle((0.0, 0.0), 0.1), 1.0, 0.0)
+    shots = {
+        above: simulate(
+            Setup([ball((-1.0, 0.15 + above), (3.0, 0.0), gravity=0)], [post], duration=1.0), resolve()
+        )
+        for above in (1e-9, -1e-6)
+    }
+    assert shots[1e-9].events == []
+    (event,) = shots[-1e-6].events
+    assert event.speed < 0.02
+    x, y = event.x, event.y
+    assert hypot(x, y) == pytest.approx(0.15, abs=1e-9)
+
+
+def test_flush_surfaces_are_rolled_over_without_a_bump():
+    floor = [Surface(f"{k}", Segment((k - 5.0, 0.0), (k - 4.0, 0.0)), 0.5, 0.9) for k in range(10)]
+    run = simulate(Setup([ball((-4.5, 0.05), (3.0, 0.0), spin=-60.0)], floor, duration=2.0), resolve())
+    assert [event.kind for event in run.events if event.kind == "impact"] == []
+    assert run.state("ball", 2.0)[:3] == pytest.approx((1.5, 0.05, 3.0), abs=1e-6)
+
+
+@pytest.mark.parametrize("angle", [0.3, 1.2])
+def test_flush_slopes_are_rolled_over_without_a_bump(angle):
+    c, s = cos(angle), -sin(angle)
+    floor = [Surface(f"{k}", Segment((k * c, k * s), ((k + 1) * c, (k + 1) * s)), 0.5, 5.0) for k in range(10)]
+    start = (0.5 * c + 0.05 * sin(angle), 0.5 * s + 0.05 * c)
+    run = simulate(Setup([ball(start)], floor, duration=0.9), resolve())
+    assert [event.kind for event in run.events if event.kind == "impact"] == []
+    assert hypot(*run.state("ball", 0.9)[2:4]) == pytest.approx(5 / 7 * G * sin(angle) * 0.9, abs=1e-6)
+
+
+def test_a_ball_between_two_slopes_comes_to_rest_touching_both():
+    valley = [
+        Surface("left", Segment((-5.0, 5.0), (0.0, 0.0)), 0.6, 0.5, 0.01),
+        Surface("right", Segment((0.0, 0.0), (5.0, 5.0)), 0.6, 0.5, 0.01),
+    ]
+    run = simulate(Setup([ball((-1.0, 2.0), spin=30.0)], valley, duration=60.0), resolve())
+    assert run.ended == "rest"
+    x, y = run.state("ball", run.duration)[:2]
+    assert (x, y) == pytest.approx((0.0, 0.05 * 2**0.5), abs=1e-6)
+
+
+def test_spin_of_a_wedged_ball_dies():
+    """In a V of 45 deg both sides carry m g / sqrt 2, so the spin slows by mu 2 (g / sqrt 2) r m / I."""
+    valley = [
+        Surface("left", Segment((-5.0, 5.0), (0.0, 0.0)), 0.0, 0.2),
+        Surface("right", Segment((0.0, 0.0), (5.0, 5.0)), 0.0, 0.2),
+    ]
+    run = simulate(Setup([ball((0.0, 0.05 * 2**0.5), spin=0.5)], valley, duration=60.0), resolve())
+    assert run.ended == "rest"
+    rate = 0.2 * 2 * G / 2**0.5 / (0.4 * 0.05)
+    assert run.duration == pytest.approx(0.5 / rate, rel=1e-6)
+
+
+def test_rolling_into_a_kerb_and_stopping_there():
+    """A slope that ends at a wall: bounces get smaller, then the ball leans on both."""
+    a = 0.2
+    slope = Surface("slope", Segment((-10 * cos(a), 10 * sin(a)), (0.0, 0.0)), 0.4, 0.8, 0.02)
+    wall = Surface("wall", Segment((0.0, -1.0), (0.0, 3.0)), 0.4, 0.3)
+    run = simulate(Setup([ball((-2.0, 2.0))], [slope, wall], duration=60.0), resolve())
+    assert run.ended == "rest"
+    assert Obstacle(wall, 0.05).near(*run.state("ball", 60.0)[:2]).gap == pytest.approx(0.0, abs=1e-6)
+
+
+# -------------------------------------------------------------------------------------------------------------- starts
+
+
+def test_starts_in_contact():
+    floor = Surface("floor", Segment((-5.0, 0.0), (5.0, 0.0)), 0.5, 0.5, 0.01)
+    run = simulate(Setup([ball((0.0, 0.05))], [floor], duration=1.0), resolve())
+    assert (run.ended, run.duration) == ("rest", 0.0)
+    assert run.trajectory("ball").shape == (1, 6)
+
+
+def test_a_launch_from_the_ground_is_no_impact():
+    floor = Surface("floor", Segment((-50.0, 0.0), (50.0, 0.0)), 0.5, 0.5, 0.01)
+    run = simulate(Setup([ball((0.0, 0.05), (3.0, 3.0))], [floor], duration=0.3), resolve())
+    assert run.events == []
+
+
+def test_slight_overlap_is_pushed_out_and_a_deep_one_refused():
+    floor = Surface("floor", Segment((-5.0, 0.0), (5.0, 0.0)), 0.5, 0.5)
+    run = simulate(Setup([ball((0.0, 0.0495))], [floor], duration=0.5), resolve())
+    assert run.state("ball", 0.0)[1] == pytest.approx(0.05, abs=1e-12)
+    with pytest.raises(RequestError, match=r"'ball'.*overlaps 'floor'.*0\.02 m"):
+        simulate(Setup([ball((0.0, 0.03))], [floor], duration=0.5), resolve())
+    with pytest.raises(RequestError, match="'a' and 'b' overlap"):
+        simulate(Setup([ball((0.0, 0.0), name="a"), ball((0.05, 0.0), name="b")], duration=0.5), resolve())
+
+
+def test_no_room_between_surfaces_is_an_error():
+    walls = [Surface(f"{s}", Segment((s * 0.0497, -1.0), (s * 0.0497, 1.0)), 0.5, 0.5) for s in (-1, 1)]
+    with pytest.raises(RequestError, match="does not fit"):
+        simulate(Setup([ball((0.0, 0.0))], walls, duration=0.5), resolve())
+
+
+# -------------------------------------------------------------------------------------------------------------- stalls
+
+
+def test_a_ball_resting_on_another_is_a_named_error():
+    floor = Surface("floor", Segment((-5.0, 0.0), (5.0, 0.0)), 0.5, 0.5)
+    pair = [ball((0.0, 0.05), name="lower"), ball((0.0, 0.25), name="upper")]
+    setup = Setup(pair, [floor], duration=5.0, between_balls=lambda n, s: Bounce(0.5, 0.0))
+    with pytest.raises(Stalled, match=r"t = .* s, ball '(upper|lower)' at .* m: events without end, last with"):
+        simulate(setup, resolve())
+    heap = simulate(setup, resolve(method="plain", step=1e-3))
+    assert heap.state("upper", 5.0)[1] == pytest.approx(0.15, abs=1e-3)
+
+
+# ------------------------------------------------------------------------------------------------- distance, by pymunk
+
+
+@given(st.floats(-3.0, 3.0), st.floats(-3.0, 3.0), st.floats(0.0, 0.5))
+def test_distances_agree_with_pymunks_point_query(x, y, radius):
+    space = pymunk.Space()
+    for surface in (
+        Surface("s", Segment((-1.0, -0.5), (1.5, 0.7), radius), 0.5, 0.5),
+        Surface("c", Circle((0.3, 0.2), radius + 0.1), 0.5, 0.5),
+    ):
+        shape = surface.shape
+        theirs = (
+            pymunk.Circle(space.static_body, shape.radius, shape.center)
+            if isinstance(shape, Circle)
+            else pymunk.Segment(space.static_body, shape.a, shape.b, shape.radius)
+        )
+        space.add(theirs)
+        ours = Obstacle(surface, 0.05).near(x, y)
+        query = theirs.point_query((x, y))
+        assert ours.gap + 0.05 == pytest.approx(query.distance, abs=1e-12)
+        if query.distance > 1e-6:
+            assert (ours.nx, ours.ny) == pytest.approx(tuple(query.gradient), abs=1e-6)
+
+
+@settings(deadline=None, max_examples=40)
+@given(st.floats(0.0, 2 * pi), st.floats(0.5, 300.0), st.floats(0.0, 0.999))
+def test_time_of_impact_on_a_circle(direction, speed, offset):
+    """Straight flight at a circle: t = (d - sqrt(R^2 - b^2)) / v for the offset b."""
+    reach, b = 0.3, offset * 0.3
+    u, n = np.array([cos(direction), sin(direction)]), np.array([-sin(direction), cos(direction)])
+    start = -5.0 * u + b * n
+    post = Surface("post", Circle((0.0, 0.0), 0.25), 1.0, 0.0)
+    shot = ball(tuple(start), tuple(speed * u), gravity=0)
+    run = simulate(Setup([shot], [post], duration=20.0, until=lambda e: True), resolve())
+    assert run.events[0].t == pytest.approx((5.0 - (reach**2 - b**2) ** 0.5) / speed, rel=1e-7)
+    assert atan2(run.events[0].y, run.events[0].x) != inf
