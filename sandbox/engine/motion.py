@@ -158,6 +158,10 @@ class Mover:
                 shorter = 0.5 * h
             if shorter < shortest:
                 self._check(t + h, after)
+                if end_acceleration is not None and not all(map(isfinite, end_acceleration)):
+                    raise Diverged(
+                        f"t = {t + h:.6g} s, ball {self.ball.name!r}: a force or torque is not finite; check the scene's forces"
+                    )
                 raise Diverged(
                     f"t = {t:.6g} s, ball {self.ball.name!r}: the velocity changes too fast for any step "
                     f"(down to {h:.1e} s); look for a force that is not smooth, or raise accuracy.tolerance"

@@ -1,0 +1,135 @@
+"""What must never pass in silence: values that are not finite, balls outside the world, stiff forces, errors in a user's force."""
+
+from math import inf, nan, pi, sin, tanh
+
+import numpy as np
+import pytest
+
+from sandbox.engine import simulate
+from sandbox.engine.accuracy import LEVELS, resolve
+from sandbox.engine.ledger import ledger
+from sandbox.engine.motion import Diverged
+from sandbox.engine.setup import Ball, Bounds, Segment, Setup, Surface
+from sandbox.errors import RequestError
+from sandbox.physics.coefficients import constant
+from sandbox.physics.forces import Drag, Gravity
+from sandbox.physics.integrators import INTEGRATORS
+
+G = 9.81
+PLAIN = resolve(method="plain", step=1e-3)
+EXACT = [resolve(level) for level in LEVELS] + [resolve(integrator=name, step=1 / 240) for name in INTEGRATORS]
+
+
+def shot(*forces, mass=0.5, velocity=(10.0, 5.0)):
+    return Ball("cue", mass, 0.05, (0.0, 1.0), velocity, forces=[Gravity(mass, G), *forces])
+
+
+@pytest.mark.parametrize("accuracy", [*EXACT, PLAIN], ids=lambda a: f"{a.level}-{a.method}-{a.integrator}")
+@pytest.mark.parametrize("value", [nan, inf, -inf])
+def test_a_force_that_is_not_finite_stops_the_run(accuracy, value):
+    late = lambda t, p, v, s: (value if t > 0.3 else 0.0, 0.0)  # noqa: E731
+    with pytest.raises(Diverged, match=r"t = 0\.[34]\d* s, ball 'cue'.*(not finite|is -?(nan|inf))"):
+        simulate(Setup([shot(late)], duration=1.0), accuracy)
+
+
+@pytest.mark.parametrize("accuracy", [*EXACT[:3], PLAIN], ids=lambda a: f"{a.level}-{a.method}")
+def test_leaving_the_world_stops_the_run(accuracy):
+    with pytest.raises(Diverged, match=r"ball 'cue'.*(x = .* m is outside the world \(-3 to 3 m\)|out of the world)"):
+        simulate(Setup([shot()], duration=1.0, bounds=Bounds(-3.0, -9.0, 3.0, 9.0)), accuracy)
+
+
+@pytest.mark.parametrize("accuracy", [resolve(), PLAIN], ids=["exact", "plain"])
+def test_an_error_in_a_users_force_comes_out_with_its_own_traceback(accuracy):
+    def broken(t, position, velocity, spin):
+        return 1.0 / (position[0] - position[0]), 0.0
+
+    with pytest.raises(ZeroDivisionError) as caught:
+        simulate(Setup([shot(broken)], duration=1.0), accuracy)
+    assert caught.traceback[-1].name == "broken"
+
+
+def bullet_in_water(velocity=(300.0, 0.0)):
+    """1 g, 1 cm across, drag coefficient 0.5 at 1,000 kg/m^3: the drag's own time is 8 microseconds at first."""
+    return Ball("bullet", 1e-3, 0.005, (0.0, 0.0), velocity, forces=[Gravity(1e-3, G), Drag(0.005, 1000.0, constant(0.5))])
+
+
+@pytest.mark.parametrize("accuracy", EXACT, ids=lambda a: f"{a.level}-{a.integrator}")
+def test_stiff_drag_is_stable_and_never_turns_the_motion_round(accuracy):
+    run = simulate(Setup([bullet_in_water()], duration=3.0), accuracy)
+    path = run.trajectory("bullet", every=1 / 2000)
+    k = 0.5 * 1000.0 * 0.5 * pi * 0.005**2 / 1e-3  # 1/m
+    terminal = (G / k) ** 0.5
+    assert np.diff(path[:, 1]).min() >= -1e-10
+    assert path[:, 3].min() >= -1e-7  # of 300 m/s
+    assert np.hypot(path[:, 3], path[:, 4]).max() <= 300.0 + 1e-9
+    assert path[-1, 4] == pytest.approx(-terminal * tanh(3.0 / (terminal / G)), rel=0.02)
+    x_without_gravity = np.log(1 + k * 300.0 * 0.01) / k
+    rough = INTEGRATORS[accuracy.integrator].order == 1
+    assert run.state("bullet", 0.01)[0] == pytest.approx(x_without_gravity, rel=0.3 if rough else 0.02)
+
+
+def test_stiff_drag_at_a_fixed_step_takes_smaller_steps_where_it_must():
+    run = simulate(Setup([bullet_in_water()], duration=0.5), resolve(integrator="rk4", step=1 / 60))
+    assert run.numerics.refined_steps > 5
+    calm = simulate(Setup([shot(Drag(0.05, 1.2, constant(0.5)))], duration=0.5), resolve(integrator="rk4", step=1 / 60))
+    assert calm.numerics.refined_steps == 0
+
+
+def test_plain_refuses_a_step_in_which_drag_would_turn_the_motion_round():
+    with pytest.raises(Diverged, match=r"'bullet': its drag would reverse its velocity.*accuracy\.step"):
+        simulate(Setup([bullet_in_water()], duration=0.5), resolve(method="plain", step=1 / 60))
+
+
+def test_a_force_that_jumps_is_no_error():
+    """An updraft with a sharp edge in space: the steps get short there, and go on."""
+    edge = lambda t, p, v, s: (0.0, 8.0) if p[0] > 2.0 else (0.0, 0.0)  # noqa: E731
+    ends = [simulate(Setup([shot(edge)], duration=1.0), accuracy).state("cue", 1.0)[1] for accuracy in EXACT]
+    # 0.8 s under 8 N on 0.5 kg
+    exact = 1.0 + 5.0 - 0.5 * G + 0.5 * 16.0 * 0.8**2
+    assert ends[0] == pytest.approx(exact, abs=1e-2)
+    assert ends[1] == pytest.approx(exact, abs=1e-4)
+    assert ends[2] == pytest.approx(exact, abs=1e-5)
+
+
+def test_a_users_own_force_of_position_and_time_beside_ours():
+    """An updraft over one stretch of ground that comes and goes: met by every integrator alike."""
+
+    def updraft(t, position, velocity, spin):
+        return 0.0, 4.0 * np.exp(-((position[0] - 4.0) ** 2)) * (1.0 + sin(3.0 * t))
+
+    drag = Drag(0.05, 1.2, constant(0.5))
+    floor = Surface("floor", Segment((-50.0, 0.0), (50.0, 0.0)), 0.6, 0.3)
+    with_it, without = (
+        simulate(Setup([shot(*forces)], [floor], duration=2.0), resolve("precise")).state("cue", 2.0)
+        for forces in ((drag, updraft), (drag,))
+    )
+    assert abs(with_it[1] - without[1]) + abs(with_it[0] - without[0]) > 0.5
+    for name in ("heun", "rk4"):
+        other = simulate(Setup([shot(drag, updraft)], [floor], duration=2.0), resolve(integrator=name, step=1 / 2000))
+        assert other.state("cue", 2.0)[:2] == pytest.approx(with_it[:2], abs=1e-4)
+
+
+def test_unknown_choices_are_named():
+    with pytest.raises(RequestError, match="accuracy.level: 'best' is not one of fast, balanced, precise"):
+        resolve("best")
+    with pytest.raises(RequestError, match="accuracy.integrator: 'rk5'"):
+        resolve(integrator="rk5")
+    with pytest.raises(RequestError, match="accuracy.method: 'magic'"):
+        resolve(method="magic")
+
+
+@pytest.mark.parametrize("restitution", [0.0, 0.5, 1.0])
+@pytest.mark.parametrize("friction", [0.0, 0.3, 10.0])
+@pytest.mark.parametrize("level", LEVELS)
+def test_no_energy_from_nowhere(restitution, friction, level):
+    """With gravity alone, kinetic and potential energy together never grow, beyond what the level's tolerance allows."""
+    floor = Surface("floor", Segment((-90.0, 0.0), (90.0, 0.0)), restitution, friction)
+    walls = [Surface(f"wall {x}", Segment((x, -1.0), (x, 40.0), 0.01), restitution, friction) for x in (-3.0, 3.0)]
+    start = Ball("ball", 0.5, 0.05, (0.0, 1.0), (7.0, 4.0), 300.0, forces=[Gravity(0.5, G)])
+    run = simulate(Setup([start], [floor, *walls], duration=4.0), resolve(level))
+    path = run.trajectory("ball", every=1 / 300)
+    energy = 0.5 * 0.5 * (path[:, 3] ** 2 + path[:, 4] ** 2) + 0.5 * start.inertia * path[:, 5] ** 2 + 0.5 * G * path[:, 2]
+    assert np.diff(energy).max() <= 1e-6 * energy[0]
+    book = ledger(run)
+    assert abs(book.residue) <= 1e-6 * book.start
+    assert all(change <= 1e-9 for change in book.impacts.values())

@@ -1,0 +1,126 @@
+"""The run record: samples, crossings, angles, events, and the energy ledger."""
+
+from math import pi, sqrt
+
+import numpy as np
+import pytest
+
+from sandbox.engine import simulate
+from sandbox.engine.accuracy import resolve
+from sandbox.engine.ledger import ledger
+from sandbox.engine.setup import Ball, Segment, Setup, Surface
+from sandbox.physics.coefficients import constant
+from sandbox.physics.forces import Drag, Gravity, Magnus, SpinDecay
+
+from tests.engine import shots
+
+G = 9.81
+
+
+@pytest.fixture(scope="module")
+def bouncing():
+    floor = Surface("floor", Segment((-50.0, 0.0), (50.0, 0.0)), 0.6, 0.4, 0.05)
+    inertia = 0.4 * 0.2 * 0.05**2
+    forces = [Gravity(0.2, G), Drag(0.05, 1.2, constant(0.4)), Magnus(0.05, 1.2, constant(0.2))]
+    ball = Ball("ball", 0.2, 0.05, (0.0, 1.0), (6.0, 3.0), 20.0, forces=forces,
+                torques=[SpinDecay(inertia, 0.05, 1e-3)])  # fmt: skip
+    return simulate(Setup([ball], [floor], duration=30.0), resolve("precise"))
+
+
+def test_trajectory_starts_at_the_start_and_meets_every_impact(bouncing):
+    path = bouncing.trajectory("ball", every=1 / 50)
+    assert path.shape[1] == 6
+    assert path[0] == pytest.approx([0.0, 0.0, 1.0, 6.0, 3.0, 20.0])
+    assert (np.diff(path[:, 0]) > 0).all()
+    assert path[-1, 0] == bouncing.duration
+    assert np.diff(path[:, 0]).max() <= 1 / 50 + 1e-12
+    impacts = [event.t for event in bouncing.events if event.kind == "impact"]
+    assert set(impacts) <= set(path[:, 0])
+
+
+def test_state_at_an_impact_is_the_one_after_and_before_gives_the_one_before(bouncing):
+    event = next(event for event in bouncing.events if event.kind == "impact")
+    before, after = bouncing.before("ball", event.t), bouncing.state("ball", event.t)
+    assert -before[3] == pytest.approx(event.speed, abs=1e-12)
+    assert after[3] == pytest.approx(0.6 * event.speed, abs=1e-9)
+    assert before[:2] == pytest.approx(after[:2], abs=1e-9)
+    assert (event.x, event.y) == pytest.approx(after[:2], abs=1e-9)
+
+
+def test_velocity_is_the_slope_of_the_position(bouncing):
+    for t in (0.1, 0.33, 0.71, 1.5):
+        early, late = bouncing.state("ball", t - 1e-6), bouncing.state("ball", t + 1e-6)
+        assert (late[0] - early[0]) / 2e-6 == pytest.approx(bouncing.state("ball", t)[2], abs=1e-6)
+        assert (late[1] - early[1]) / 2e-6 == pytest.approx(bouncing.state("ball", t)[3], abs=1e-6)
+
+
+def test_angle_is_the_integral_of_the_spin(bouncing):
+    t = np.linspace(0.0, 2.0, 20001)
+    spins = np.array([bouncing.state("ball", x)[4] for x in t])
+    assert bouncing.angle("ball", 2.0) == pytest.approx(np.trapezoid(spins, t), abs=1e-2)
+
+
+def test_crossings_are_exact_and_one_sided():
+    """A parabola meets the height h on its way down at v/g + sqrt((v/g)^2 - 2h/g)."""
+    ball = Ball("ball", 0.2, 0.05, (0.0, 0.0), (1.0, 8.0), forces=[Gravity(0.2, G)])
+    run = simulate(Setup([ball], duration=3.0), resolve())
+    ((down, _),) = run.crossings("ball", (0.0, 2.0), (0.0, 1.0))
+    ((up, _),) = run.crossings("ball", (0.0, 2.0), (0.0, -1.0))
+    assert down == pytest.approx(8 / G + sqrt((8 / G) ** 2 - 4 / G), abs=1e-9)
+    assert up == pytest.approx(8 / G - sqrt((8 / G) ** 2 - 4 / G), abs=1e-9)
+    assert run.highest("ball")[1][1] == pytest.approx(64 / (2 * G), abs=1e-9)
+
+
+def test_ledger_closes_and_names_every_cause(bouncing):
+    book = ledger(bouncing)
+    assert set(book.work) == {"gravity", "drag", "magnus", "spindecay"}
+    assert set(book.impacts) == {"floor"}
+    assert set(book.contacts) == {"floor"}
+    causes = sum(book.work.values()) + sum(book.impacts.values()) + sum(book.contacts.values())
+    assert book.start + causes + book.residue == pytest.approx(book.end, abs=1e-12)
+    assert book.start == pytest.approx(0.5 * 0.2 * 45.0 + 0.5 * 0.4 * 0.2 * 0.05**2 * 400.0)
+    assert book.work["gravity"] == pytest.approx(0.2 * G * 0.95, abs=1e-6)
+    assert book.work["magnus"] == pytest.approx(0.0, abs=1e-12)
+    assert book.work["drag"] < 0 and book.impacts["floor"] < 0 and book.contacts["floor"] < 0
+    assert abs(book.residue) < 1e-6
+
+
+def test_residue_of_the_ledger_shrinks_with_the_tolerance():
+    shot = shots.seeded(3)[2]
+    residues = [abs(ledger(simulate(shots.setup(*shot, 2.5), resolve(level))).residue) for level in ("fast", "precise")]
+    assert residues[1] < 0.05 * residues[0]
+
+
+@pytest.mark.parametrize(
+    ("integrator", "order", "steps"),
+    [("explicit-euler", 1, (400, 3200)), ("heun", 2, (100, 800)), ("velocity-verlet", 2, (100, 800)), ("rk4", 4, (30, 120))],
+)
+def test_the_whole_converges_at_the_integrators_order_with_impacts_in_it(integrator, order, steps):
+    """Rim, board and floor included: the end after 2.5 s, against precise at a hundredth of its tolerance."""
+    shot = next(
+        s for s in shots.seeded(50) if len(simulate(shots.setup(*s, 2.5), resolve()).events) == 3
+    )
+    exact = simulate(shots.setup(*shot, 2.5), resolve("precise", tolerance=1e-8)).state("ball", 2.5)
+    errors = []
+    for count in steps:
+        end = simulate(shots.setup(*shot, 2.5), resolve(integrator=integrator, step=1 / count)).state("ball", 2.5)
+        errors.append(np.hypot(end[0] - exact[0], end[1] - exact[1]))
+    slope = np.log(errors[0] / errors[1]) / np.log(steps[1] / steps[0])
+    assert slope == pytest.approx(order, abs=0.45)
+
+
+def test_plain_converges_to_the_same_end_at_first_order():
+    shot = next(s for s in shots.seeded(50) if len(simulate(shots.setup(*s, 1.2), resolve()).events) == 1)
+    exact = simulate(shots.setup(*shot, 1.2), resolve("precise")).state("ball", 1.2)
+    errors = []
+    for count in (500, 8000):
+        end = simulate(shots.setup(*shot, 1.2), resolve(method="plain", step=1 / count)).state("ball", 1.2)
+        errors.append(np.hypot(end[0] - exact[0], end[1] - exact[1]))
+    assert errors[1] < 0.02
+    assert errors[1] < 0.3 * errors[0]
+
+
+def test_a_turn_is_two_pi():
+    ball = Ball("ball", 0.2, 0.05, (0.0, 0.0), spin=2 * pi)
+    run = simulate(Setup([ball], duration=3.0), resolve())
+    assert run.angle("ball", 1.5) == pytest.approx(3 * pi, abs=1e-12)
