@@ -4,6 +4,9 @@ Models: drag with its crisis; the sideways part of the Magnus force; an even win
 moving at a given speed) and net as things to hit.
 Leaves out: everything upright. Gravity has no part in this plane, so the scene does not know how high the ball is,
 whether it clears the wall, or when it would come down: give it kicks that stay in the air. The ball's loss of spin.
+
+What that is worth: if a soccer ball lost its spin as a golf ball does (k = 6e-5 in dw/dt = -k v w / r; nothing published
+for soccer), Beckham's kick would bend 0.8 cm less and Roberto Carlos's 2.8 cm less.
 """
 
 from __future__ import annotations

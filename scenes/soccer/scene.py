@@ -4,6 +4,9 @@ Models: gravity; drag with its crisis; Magnus lift and dip; an even wind; bounci
 wall of players, the crossbar and the net as things to hit.
 Leaves out: everything sideways (see the view from above); the ball's loss of spin in the air; the wobble of a ball
 without spin; players who move; the give of grass, net and ball.
+
+What that is worth: if a soccer ball lost its spin as a golf ball does (k = 6e-5 in dw/dt = -k v w / r; nothing published
+for soccer), the dipping free kick would come 1.2 cm higher to the goal.
 """
 
 from __future__ import annotations
