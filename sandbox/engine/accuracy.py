@@ -14,9 +14,10 @@ METHODS = ("exact", "plain")
 class Accuracy:
     """How a run is computed.
 
-    ``method`` is "exact" (fly by an integrator, stop at the exact time of impact, let pymunk push) or "plain" (stock pymunk
-    at a fixed step). ``tolerance`` is the error aimed at, in m; an integrator with error control chooses its steps by it,
-    one without uses ``step``. ``settle`` is the height in m below which a bounce counts as lasting contact.
+    ``method`` is "exact" (fly by an integrator, stop at the exact time of impact, let pymunk push) or "plain" (stock
+    pymunk at a fixed step). ``tolerance`` is the error aimed at, in m; an integrator with error control chooses its
+    steps by it, one without uses ``step``. ``settle`` is the height in m below which a bounce counts as lasting
+    contact.
     """
 
     level: str

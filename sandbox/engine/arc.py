@@ -14,10 +14,11 @@ _SHORT = 1e-3
 class Arc:
     """The path of one ball from t0 to t1.
 
-    The position is the quintic that meets position, velocity and acceleration at both ends (error of order h^6), the velocity
-    its derivative, the spin the cubic that meets spin and its rate; all kept as Bernstein coefficients over
-    u = (t - t0) / (t1 - t0). ``contact`` is what the ball slides or rolls on meanwhile, or None in flight; ``rolling_spin`` the
-    coefficients of the spin about x and about y, for a ball on cloth, whose state has two more components.
+    The position is the quintic that meets position, velocity and acceleration at both ends (error of order h^6), the
+    velocity its derivative, the spin the cubic that meets spin and its rate; all kept as Bernstein coefficients over
+    u = (t - t0) / (t1 - t0). ``contact`` is what the ball slides or rolls on meanwhile, or None in flight;
+    ``rolling_spin`` the coefficients of the spin about x and about y, for a ball on cloth, whose state has two more
+    components.
     """
 
     __slots__ = ("contact", "end", "rolling_spin", "spin", "start", "t0", "t1", "vx", "vy", "x", "y")
@@ -80,9 +81,18 @@ class Arc:
         u = max(0.0, (t - self.t0) / (self.t1 - self.t0))
         if u == 0.0:
             return still(self.t0, self.t0, self.start, self.contact)
-        curves = (piece(curve, 0.0, u) for curve in (self.x, self.y, self.vx, self.vy, self.spin))
-        rolling_spin = tuple(piece(curve, 0.0, u) for curve in self.rolling_spin)
-        return Arc(self.t0, t, self.start, *curves, self.contact, rolling_spin)
+        return Arc(
+            self.t0,
+            t,
+            self.start,
+            piece(self.x, 0.0, u),
+            piece(self.y, 0.0, u),
+            piece(self.vx, 0.0, u),
+            piece(self.vy, 0.0, u),
+            piece(self.spin, 0.0, u),
+            self.contact,
+            tuple(piece(curve, 0.0, u) for curve in self.rolling_spin),
+        )
 
 
 def through(
@@ -124,7 +134,9 @@ def through(
 
 
 def still(t: float, until: float, state: State, contact: object = None, last_spin: float | None = None) -> Arc:
-    """A ball that keeps its place from t to ``until``; its spin goes evenly to ``last_spin`` (rad/s), if that is given."""
+    """A ball that keeps its place from t to ``until``; its spin goes evenly to ``last_spin`` (rad/s), if that is
+    given.
+    """
     x, y, _, _, spin, *rolling_spin = state
     spins = (spin,) if last_spin is None else (spin, last_spin)
     rest = tuple((component,) for component in rolling_spin)

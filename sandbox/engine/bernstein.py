@@ -1,8 +1,9 @@
 """Polynomials on [0, 1] in Bernstein form: bounds for free, and every root found, none missed.
 
 A polynomial ``f(u) = sum_k b[k] C(n, k) u**k (1 - u)**(n - k)`` lies between the smallest and the largest of its
-coefficients, and has at most as many roots in (0, 1) as they change sign (Descartes' rule). So a path whose coefficients of
-distance are all positive provably touches nothing, and where they are not, halving the interval isolates each root.
+coefficients, and has at most as many roots in (0, 1) as they change sign (Descartes' rule). So a path whose
+coefficients of distance are all positive provably touches nothing, and where they are not, halving the interval
+isolates each root.
 
 Source: Farin, Curves and Surfaces for CAGD, 5th ed., chapters 4 to 6.
 """

@@ -1,8 +1,9 @@
 """Impacts: at the touching position pymunk exchanges the impulses.
 
-The touching balls are placed in a small Space, each fixed shape as a short piece of its tangent plane there (a ball touches any
-shape as it touches its tangent plane), and one step of next to no length lets Chipmunk's solver do restitution, Coulomb
-friction and spin. Nothing moves in that step, so its size does not matter; position correction plays no part.
+The touching balls are placed in a small Space, each fixed shape as a short piece of its tangent plane there (a ball
+touches any shape as it touches its tangent plane), and one step of next to no length lets Chipmunk's solver do
+restitution, Coulomb friction and spin. Nothing moves in that step, so its size does not matter; position correction
+plays no part.
 """
 
 from __future__ import annotations
@@ -19,8 +20,8 @@ from sandbox.engine.setup import Ball, Bounce
 #: Length in s of the step in which impulses are exchanged: at 340 m/s a ball moves 3e-13 m in it.
 _INSTANT = 1e-15
 
-#: Balls overlap by this share of their distances while impulses are exchanged, so that Chipmunk sees the contact. The impulse
-#: of round shapes depends on the directions of their contacts alone, which scaling leaves as they are.
+#: Balls overlap by this share of their distances while impulses are exchanged, so that Chipmunk sees the contact. The
+#: impulse of round shapes depends on the directions of their contacts alone, which scaling leaves as they are.
 _OVERLAP = 1e-6
 
 #: Solver rounds. One contact of round shapes is exact after one; a cluster of 16 balls needs 50 for 1e-7 m/s.

@@ -19,7 +19,7 @@ _STILL = 1e-10
 class Hit(NamedTuple):
     """One contact that closed."""
 
-    index: int  # of the ball
+    ball: int  # its place among the balls of the setup
     partner: str
     speed: float  # m/s, normal speed of approach
 
@@ -43,7 +43,7 @@ class Impacts:
         slips: list[tuple[float, float]] = []  # m/s, in the plane and upward
         for place, index in enumerate(members):
             self._meet_surfaces(place, index, states[index], found, partners, slips)
-        for place, index in enumerate(members):
+        for place in range(len(members)):
             for later in range(place + 1, len(members)):
                 self._meet_ball(place, later, members, states, found, partners, slips)
         if not any(contact.approach > _STILL for contact in found):
@@ -106,7 +106,9 @@ class Impacts:
                 else surface.law(approach, abs(along))
             )
             forward = 1.0 if along >= 0.0 else -1.0
-            found.append(Contact(place, None, nx, ny, self._shared(bounce, approach, slip), bounce.friction, approach, forward))
+            found.append(
+                Contact(place, None, nx, ny, self._shared(bounce, approach, slip), bounce.friction, approach, forward)
+            )
             partners.append((index, surface.name))
             slips.append(slip)
 
@@ -132,7 +134,9 @@ class Impacts:
         flat = (vx - wx) * ny - (vy - wy) * nx + a.radius * spin + b.radius * other_spin
         slip = (flat, self._upward(i, states[i], nx, ny) - self._upward(j, states[j], -nx, -ny))
         bounce = self._setup.between_balls(max(approach, 0.0), (slip[0] ** 2 + slip[1] ** 2) ** 0.5)
-        found.append(Contact(place, later, nx, ny, self._shared(bounce, approach, slip), bounce.friction, approach, 1.0))
+        found.append(
+            Contact(place, later, nx, ny, self._shared(bounce, approach, slip), bounce.friction, approach, 1.0)
+        )
         partners.append((i, b.name))
         slips.append(slip)
 
@@ -144,8 +148,8 @@ class Impacts:
     def _shared(self, bounce: Bounce, approach: float, slip: tuple[float, float]) -> Bounce:
         """What pymunk, which sees the plane alone, is told: the plane's share of the friction.
 
-        Friction acts against the whole slip and all directions of a sphere's surface give way alike, so its part in the plane is
-        to the whole as that part of the slip is, sticking or sliding.
+        Friction acts against the whole slip and all directions of a sphere's surface give way alike, so its part in
+        the plane is to the whole as that part of the slip is, sticking or sliding.
         """
         flat, upward = slip
         if upward != 0.0:

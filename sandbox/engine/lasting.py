@@ -19,8 +19,8 @@ _FLUSH = 1e-7
 def settle(mover: Mover, t: float, state: State, near: Sequence[Near], height: float) -> tuple[State, Contact | None]:
     """The state from which the ball goes on, and its lasting contact, or None for flight.
 
-    A ball stays on a surface if it is pressed on and would not bounce higher than ``height`` (m). A bounce below that is
-    taken from the state; so is the overlap, of at most CONTACT, that the surface was found with.
+    A ball stays on a surface if it is pressed on and would not bounce higher than ``height`` (m). A bounce below that
+    is taken from the state; so is the overlap, of at most CONTACT, that the surface was found with.
     """
     if not near:
         return state, None
@@ -53,14 +53,14 @@ def settle(mover: Mover, t: float, state: State, near: Sequence[Near], height: f
         if contact is None:
             continue
         held.append(contact)
-    held.sort(key=lambda contact: contact.touching.curvature)  # the side of the next piece before the corner of this one
+    held.sort(
+        key=lambda contact: contact.touching.curvature
+    )  # the side of the next piece before the corner of this one
     for contact in held:
         (ax, ay, _), _, _ = mover.on_surface(t, state, contact)
         if contact.mode == RESTING:
             ax = ay = 0.0
-        if all(
-            ax * other.nx + ay * other.ny >= -1e-9 or _sine(other, contact.touching) <= _FLUSH for _, other in kept
-        ):
+        if all(ax * other.nx + ay * other.ny >= -1e-9 or _sine(other, contact.touching) <= _FLUSH for _, other in kept):
             return _on(mover, state, contact), contact
     if not held:
         return state, None
@@ -68,8 +68,8 @@ def settle(mover: Mover, t: float, state: State, near: Sequence[Near], height: f
 
 
 def conclude(mover: Mover, state: State, contact: Contact | None, reason: str) -> State:
-    """The state at the end of an arc: put back on a round surface, whose path the arc only follows closely; just rolling, or just
-    still, where that is why it ended."""
+    """The state at the end of an arc: put back on a round surface, whose path the arc only follows closely; just
+    rolling, or just still, where that is why it ended."""
     if contact is None:
         return state
     x, y, vx, vy, spin = state

@@ -1,9 +1,9 @@
 """Motion between impacts: a ball in flight, or sliding, rolling and resting on a surface.
 
-In flight a ball moves under its forces. In lasting contact the surface adds its normal force N, which keeps the distance, and
-its friction: while sliding ``mu N`` against the slip ``v + r w``, while rolling what the constraint ``v = -r w`` asks for, as long
-as that is no more than ``mu N``. Rolling resistance slows a rolling ball by ``c N / m``. Both are the same integration with one
-more force, so a roll is as accurate as a flight.
+In flight a ball moves under its forces. In lasting contact the surface adds its normal force N, which keeps the
+distance, and its friction: while sliding ``mu N`` against the slip ``v + r w``, while rolling what the constraint ``v
+= -r w`` asks for, as long as that is no more than ``mu N``. Rolling resistance slows a rolling ball by ``c N / m``.
+Both are the same integration with one more force, so a roll is as accurate as a flight.
 """
 
 from __future__ import annotations
@@ -20,8 +20,8 @@ from sandbox.engine.touch import Obstacle, Touching
 from sandbox.errors import RunError
 from sandbox.physics.integrators import INTEGRATORS, Acceleration, Law, State
 
-#: Local error of a step over the error aimed at in the end. Each impact on a round shape multiplies an error by ten or more, so
-#: the flight has to be much better than the promise; 1e-3 keeps it on shots with several rim contacts.
+#: Local error of a step over the error aimed at in the end. Each impact on a round shape multiplies an error by ten
+#: or more, so the flight has to be much better than the promise; 1e-3 keeps it on shots with several rim contacts.
 _LOCAL_SHARE = 1e-3
 
 #: What error in spin counts as error in m: a spin's error moves the ball only through lift and the next bounce.
@@ -33,8 +33,9 @@ _FIRST_STEP = 0.05  # s
 #: Longest step, so that forces which change along the way are met several times a second.
 _LONGEST = 0.5  # s
 
-#: Largest product of a fixed step and the forces' rate of change with velocity (1/s). Explicit steps are smooth below 1 and
-#: unstable above 2, where drag reverses the motion; the drag of water on a bullet is the case that needs the limit.
+#: Largest product of a fixed step and the forces' rate of change with velocity (1/s). Explicit steps are smooth below
+#: 1 and unstable above 2, where drag reverses the motion; the drag of water on a bullet is the case that needs the
+#: limit.
 _STIFFEST = 0.5
 
 #: Changes of velocity below this share of the speed are no sign of stiffness: a force may jump.
@@ -136,14 +137,15 @@ class Mover:
 
     def _integrate(self, t: float, until: float, state: State, law: Law, contact: Contact | None) -> Arc:
         acceleration = law(t, state)
-        step, controls_error = self._integrator.step, self._integrator.controls_error
+        step = self._integrator.step
         wanted = self._suggested
         h = min(wanted, self._longest, until - t)
         shortest = max(1e-15, 1e-15 * t)
         while True:
-            after, end_acceleration, error = step(law, t, state, acceleration, h)
+            after, last, error = step(law, t, state, acceleration, h)
+            end_acceleration = law(t + h, after) if last is None else last
             self._numerics.steps += 1
-            if controls_error:
+            if error is not None:
                 off = self._size(error)
                 if off <= self._local_error:
                     longer = h * min(5.0, 0.9 * (self._local_error / off) ** 0.2 if off > 0.0 else 5.0)
@@ -151,16 +153,16 @@ class Mover:
                     break
                 shorter = h * max(0.2, 0.9 * (self._local_error / off) ** 0.2) if isfinite(off) else 0.1 * h
             else:
-                end_acceleration = law(t + h, after)
                 if not _stiff(state, after, acceleration, end_acceleration, h):
                     self._suggested = min(2.0 * h, self._step) if h >= wanted else wanted
                     break
                 shorter = 0.5 * h
             if shorter < shortest:
                 self._check(t + h, after)
-                if end_acceleration is not None and not all(map(isfinite, end_acceleration)):
+                if not all(map(isfinite, end_acceleration)):
                     raise Diverged(
-                        f"t = {t + h:.6g} s, ball {self.ball.name!r}: a force or torque is not finite; check the scene's forces"
+                        f"t = {t + h:.6g} s, ball {self.ball.name!r}: a force or torque is not finite; "
+                        "check the scene's forces"
                     )
                 raise Diverged(
                     f"t = {t:.6g} s, ball {self.ball.name!r}: the velocity changes too fast for any step "
@@ -234,7 +236,9 @@ def _spin_down(t: float, until: float, state: State, contact: Contact) -> tuple[
 
 
 def _crossing(arc: Arc, value: Callable[[float, State], float]) -> float:
-    """The time at which ``value``, negative at the end of the arc, reaches zero; the start if it is negative throughout."""
+    """The time at which ``value``, negative at the end of the arc, reaches zero; the start if it is negative
+    throughout.
+    """
     low, high = arc.t0, arc.t1
     at_low, at_high = value(low, arc.start), value(high, arc.state(high))
     if at_low <= 0.0:

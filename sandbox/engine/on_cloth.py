@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-
 from sandbox.engine.arc import Arc, still
 from sandbox.engine.run import Numerics
 from sandbox.engine.setup import Ball
 from sandbox.physics.cloth import Cloth
 from sandbox.physics.integrators import State
 
-#: Friction of the cloth can press a ball against another or against a cushion for as long as it slides. Bounces below this height (m)
-#: are taken as elastic, so that such a push is a run of even hops and not an endless series of ever smaller ones.
+#: Friction of the cloth can press a ball against another or against a cushion for as long as it slides. Bounces below
+#: this height (m) are taken as elastic, so that such a push is a run of even hops and not an endless series of ever
+#: smaller ones.
 LOWEST_HOP = 1e-7
 
 
@@ -58,7 +58,9 @@ def slip_over(ball: Ball, state: State, nx: float, ny: float) -> float:
 
 
 def rub_over(ball: Ball, state: State, nx: float, ny: float, impulse: float) -> State:
-    """The state after an upward frictional impulse (N s) on the surface there. What it does to the height is left out."""
+    """The state after an upward frictional impulse (N s) on the surface there. What it does to the height is left
+    out.
+    """
     x, y, vx, vy, spin, wx, wy = state
     turn = ball.radius * impulse / ball.inertia
     return x, y, vx, vy, spin, wx - turn * ny, wy + turn * nx
@@ -67,5 +69,3 @@ def rub_over(ball: Ball, state: State, nx: float, ny: float, impulse: float) -> 
 def looseness(ball: Ball) -> float:
     """Velocity in m/s that a frictional impulse of 1 N s gives the surface of a ball: its 1 / m and its turning."""
     return (1.0 + 1.0 / ball.inertia_factor) / ball.mass
-
-

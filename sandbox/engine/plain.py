@@ -1,8 +1,10 @@
-"""The plain method: stock pymunk at a fixed step, forces in ``velocity_func``. The baseline, and the choice for heaps of balls.
+"""The plain method: stock pymunk at a fixed step, forces in ``velocity_func``. The baseline, and the choice for heaps
+of balls.
 
-Chipmunk moves first, then finds contacts, then changes velocities, then exchanges impulses: so a contact is found up to one step late, at
-whatever depth that step brought, and forces are integrated to first order. Nothing here improves on that, except that errors are
-not lost: cffi prints and swallows what a callback raises, so it is kept and raised after the step.
+Chipmunk moves first, then finds contacts, then changes velocities, then exchanges impulses: so a contact is found up
+to one step late, at whatever depth that step brought, and forces are integrated to first order. Nothing here improves
+on that, except that errors are not lost: cffi prints and swallows what a callback raises, so it is kept and raised
+after the step.
 """
 
 from __future__ import annotations
@@ -125,7 +127,9 @@ class PlainSimulation:
             for tracked in self._tracked.values():
                 tracked.touched = False
             steps += 1
-            self._t = min(steps * step, duration)  # the time at which a step finds contacts and evaluates forces: it moves first
+            self._t = min(
+                steps * step, duration
+            )  # the time at which a step finds contacts and evaluates forces: it moves first
             self._space.step(h)
             if self._raised is not None:
                 raise self._raised
@@ -133,7 +137,9 @@ class PlainSimulation:
             self._numerics.steps += 1
             self._check()
             for tracked in self._tracked.values():
-                if tracked.since == self._t:  # it hit something in this step: from here on the state is that after the impact
+                if (
+                    tracked.since == self._t
+                ):  # it hit something in this step: from here on the state is that after the impact
                     tracked.start = tracked.state()
             if self._t >= next_record:
                 next_record = self._t + _RECORD
@@ -141,7 +147,8 @@ class PlainSimulation:
                     tracked.record(self._t)
             if self._over:
                 return "until"
-            if all([self._rests(tracked) for tracked in self._tracked.values()]):
+            resting = [self._rests(tracked) for tracked in self._tracked.values()]  # each keeps its own clock
+            if all(resting):
                 return "rest"
         return "duration"
 
@@ -154,7 +161,7 @@ class PlainSimulation:
             if self._raised is None:
                 try:
                     callback(arbiter)
-                except BaseException as error:  # noqa: BLE001
+                except BaseException as error:
                     self._raised = error
 
         return call
@@ -167,7 +174,11 @@ class PlainSimulation:
                 return
             try:
                 self._numerics.force_evaluations += 1
-                position, velocity, spin = tuple(body.position), tuple(body.velocity), body.angular_velocity
+                position, velocity, spin = (
+                    (body.position.x, body.position.y),
+                    (body.velocity.x, body.velocity.y),
+                    body.angular_velocity,
+                )
                 fx = fy = torque = 0.0
                 for force in ball.forces:
                     px, py = force(self._t, position, velocity, spin)
@@ -188,7 +199,7 @@ class PlainSimulation:
                     tracked.pressed = 0.0
                 body.velocity = (vx, vy)
                 body.angular_velocity = spin
-            except BaseException as error:  # noqa: BLE001
+            except BaseException as error:
                 self._raised = error
 
         return update
@@ -197,21 +208,26 @@ class PlainSimulation:
         change = h * (abs(ax - tracked.acceleration[0]) + abs(ay - tracked.acceleration[1]))
         gain = abs(velocity[0] - tracked.before[0]) + abs(velocity[1] - tracked.before[1])
         speed = abs(velocity[0]) + abs(velocity[1])
-        if tracked.before != (0.0, 0.0) and change > _REVERSAL * gain and change > _JUMP * speed and gain > _JUMP * speed:
+        if (
+            tracked.before != (0.0, 0.0)
+            and change > _REVERSAL * gain
+            and change > _JUMP * speed
+            and gain > _JUMP * speed
+        ):
             raise Diverged(
-                f"t = {self._t:.6g} s, ball {tracked.ball.name!r}: its drag would reverse its velocity within one step of "
-                f"{h:.3g} s; lower accuracy.step, or use accuracy.method = \"exact\""
+                f"t = {self._t:.6g} s, ball {tracked.ball.name!r}: its drag would reverse its velocity "
+                f'within a step of {h:.3g} s; lower accuracy.step, or use accuracy.method = "exact"'
             )
 
     def _begin(self, arbiter: pymunk.Arbiter) -> None:
         first, second = arbiter.shapes
-        tracked = self._tracked[first.body]
+        tracked = self._tracked[_body(first)]
         normal, approach, _ = _closing(arbiter)
-        partner = self._surfaces[second].name if second in self._surfaces else self._tracked[second.body].ball.name
+        partner = self._surfaces[second].name if second in self._surfaces else self._tracked[_body(second)].ball.name
         if approach > 0.0:
             self._numerics.impacts += 1
             tracked.record(self._t)
-            x, y = first.body.position
+            x, y = _body(first).position
             event = Event(self._t, "impact", tracked.ball.name, partner, approach, x, y)
             self._events.append(event)
             if self._setup.until is not None and self._setup.until(event):
@@ -220,14 +236,16 @@ class PlainSimulation:
     def _meet_surface(self, arbiter: pymunk.Arbiter) -> None:
         first, second = arbiter.shapes
         surface = self._surfaces[second]
-        self._tracked[first.body].touched = True
+        self._tracked[_body(first)].touched = True
         normal, approach, along = _closing(arbiter)
         if approach <= 0.0:
             return
-        ax, ay = self._tracked[first.body].acceleration
-        bounce = Bounce(surface.restitution, surface.friction) if surface.law is None else surface.law(approach, abs(along))
+        ax, ay = self._tracked[_body(first)].acceleration
+        bounce = (
+            Bounce(surface.restitution, surface.friction) if surface.law is None else surface.law(approach, abs(along))
+        )
         press = max(0.0, ax * normal.x + ay * normal.y)  # m/s^2
-        tracked = self._tracked[first.body]
+        tracked = self._tracked[_body(first)]
         resting_speed = 2.0 * press * self._accuracy.step  # what weight alone gathers in a step or two
         lowest = (2.0 * press * surface.lowest_bounce) ** 0.5
         tracked.presses = approach <= resting_speed or bounce.restitution * approach <= lowest
@@ -235,29 +253,30 @@ class PlainSimulation:
             arbiter.restitution = 0.0
             return
         arbiter.restitution, arbiter.friction = bounce.restitution, bounce.friction
-        # a tilted surface meets the ball as a straight one meets the velocity turned the other way, until _press turns it back
+        # a tilted surface meets the ball as a straight one meets the velocity turned the other way, until _press
+        # turns it back
         if bounce.tilt != 0.0 and tracked.turned == 0.0:
             tracked.turned = bounce.tilt if along >= 0.0 else -bounce.tilt
-            first.body.velocity = first.body.velocity.rotated(-tracked.turned)
+            _body(first).velocity = _body(first).velocity.rotated(-tracked.turned)
 
     def _meet_ball(self, arbiter: pymunk.Arbiter) -> None:
         first, second = arbiter.shapes
-        a, b = self._tracked[first.body], self._tracked[second.body]
+        a, b = self._tracked[_body(first)], self._tracked[_body(second)]
         a.touched = b.touched = True
         normal, approach, along = _closing(arbiter)
-        slip = along + a.ball.radius * first.body.angular_velocity + b.ball.radius * second.body.angular_velocity
+        slip = along + a.ball.radius * _body(first).angular_velocity + b.ball.radius * _body(second).angular_velocity
         bounce: Bounce = self._setup.between_balls(max(approach, 0.0), abs(slip))
         arbiter.restitution, arbiter.friction = bounce.restitution, bounce.friction
 
     def _press(self, arbiter: pymunk.Arbiter) -> None:
         first, second = arbiter.shapes
         surface = self._surfaces[second]
-        tracked = self._tracked[first.body]
+        tracked = self._tracked[_body(first)]
         if tracked.turned != 0.0:
-            first.body.velocity = first.body.velocity.rotated(tracked.turned)
+            _body(first).velocity = _body(first).velocity.rotated(tracked.turned)
             tracked.turned = 0.0
-        slip = abs(_closing(arbiter)[2] + tracked.ball.radius * first.body.angular_velocity)
-        speed = first.body.velocity.length
+        slip = abs(_closing(arbiter)[2] + tracked.ball.radius * _body(first).angular_velocity)
+        speed = _body(first).velocity.length
         if surface.rolling_resistance > 0.0 and tracked.presses and slip <= _GRIP * speed:
             nx, ny = arbiter.normal
             jx, jy = arbiter.total_impulse
@@ -273,8 +292,9 @@ class PlainSimulation:
             if isfinite(x + y + vx + vy + spin) and left <= x <= right and bottom <= y <= top:
                 continue
             raise Diverged(
-                f"t = {self._t:.6g} s, ball {tracked.ball.name!r}: position ({x:.6g}, {y:.6g}) m, velocity ({vx:.6g}, {vy:.6g}) m/s, "
-                f"spin {spin:.6g} rad/s is not finite or out of the world; lower accuracy.step, or use accuracy.method = \"exact\""
+                f"t = {self._t:.6g} s, ball {tracked.ball.name!r}: position ({x:.6g}, {y:.6g}) m, "
+                f"velocity ({vx:.6g}, {vy:.6g}) m/s, spin {spin:.6g} rad/s is not finite or out of the world; "
+                'lower accuracy.step, or use accuracy.method = "exact"'
             )
 
     def _rests(self, tracked: _Tracked) -> bool:
@@ -301,11 +321,19 @@ def _fixed(body: pymunk.Body, surface: Surface) -> pymunk.Shape:
     return fixed
 
 
+def _body(shape: pymunk.Shape) -> pymunk.Body:
+    """The body of a shape that is in the Space."""
+    assert shape.body is not None
+    return shape.body
+
+
 def _closing(arbiter: pymunk.Arbiter) -> tuple[Any, float, float]:
-    """Normal from the first to the second shape, speed of approach along it, and speed of the first along the surface (m/s)."""
+    """Normal from the first to the second shape, speed of approach along it, and speed of the first along the surface
+    (m/s).
+    """
     first, second = arbiter.shapes
     normal = arbiter.contact_point_set.normal
-    ux = first.body.velocity[0] - second.body.velocity[0]
-    uy = first.body.velocity[1] - second.body.velocity[1]
+    ux = _body(first).velocity[0] - _body(second).velocity[0]
+    uy = _body(first).velocity[1] - _body(second).velocity[1]
     # the surface's own normal is -normal, and its forward direction (ny, -nx) of that
     return normal, ux * normal.x + uy * normal.y, -ux * normal.y + uy * normal.x

@@ -101,7 +101,8 @@ class Run:
     def trajectory(self, ball: str = "ball", every: float = 1 / 120) -> np.ndarray:
         """Samples of a ball's path, shape (samples, 6): t, x, y, vx, vy, spin in s, m, m/s, rad/s.
 
-        Every ``every`` seconds, and at the ends of all arcs, so that impacts are met exactly; the first row is the start.
+        Every ``every`` seconds, and at the ends of all arcs, so that impacts are met exactly; the first row is the
+        start.
         """
         import numpy as np
 

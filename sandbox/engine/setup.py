@@ -20,8 +20,8 @@ DISC = 1 / 2
 
 
 class Force(Protocol):
-    """Force on a ball in N, as (fx, fy). Components of position (m), velocity (m/s) and the spin (rad/s, counter-clockwise)
-    are floats, or arrays of shape (n,) when many shots fly at once."""
+    """Force on a ball in N, as (fx, fy). Components of position (m), velocity (m/s) and the spin (rad/s,
+    counter-clockwise) are floats, or arrays of shape (n,) when many shots fly at once."""
 
     def __call__(self, t: float, position: Any, velocity: Any, spin: Any) -> tuple[Any, Any]: ...
 
@@ -87,7 +87,8 @@ class Surface:
     """A fixed shape and how it answers: restitution and friction are those of the pair ball and surface.
 
     ``rolling_resistance`` c is the deceleration of a rolling ball over the normal force per mass: a = c N / m.
-    ``lowest_bounce`` is the height in m below which a bounce is lost in the surface and the ball goes on rolling: grass.
+    ``lowest_bounce`` is the height in m below which a bounce is lost in the surface and the ball goes on rolling:
+    grass.
     ``law`` replaces restitution and friction at an impact by a function of the normal and the tangential speed (m/s).
     """
 
@@ -126,8 +127,8 @@ class Bounds(NamedTuple):
 class Setup:
     """One run's beginning. It is over when all balls rest, when ``until(event)`` is true, or after ``duration`` s.
 
-    ``between_balls(normal_speed, slip_speed)`` says how two balls answer each other. With ``cloth`` the balls are seen from above, sliding
-    and rolling on it in closed form; their own forces play no part then.
+    ``between_balls(normal_speed, slip_speed)`` says how two balls answer each other. With ``cloth`` the balls are
+    seen from above, sliding and rolling on it in closed form; their own forces play no part then.
     """
 
     balls: Sequence[Ball]

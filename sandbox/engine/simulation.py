@@ -1,7 +1,7 @@
 """The loop: fly exactly, touch exactly, let pymunk push.
 
-Each ball moves along its own arc. The next thing to happen is the earliest of: an arc's end, a touch with a surface, a touch
-of two balls. Only the balls it changes get a new arc and new predictions.
+Each ball moves along its own arc. The next thing to happen is the earliest of: an arc's end, a touch with a surface,
+a touch of two balls. Only the balls it changes get a new arc and new predictions.
 """
 
 from __future__ import annotations
@@ -22,6 +22,7 @@ from sandbox.engine.setup import Ball, Circle, Setup, Surface
 from sandbox.engine.touch import CONTACT, Obstacle, balls_touch, box
 from sandbox.engine.track import Track
 from sandbox.errors import RequestError, RunError
+from sandbox.physics.integrators import State
 
 #: Events that may pass while time advances by less than _STANDSTILL s, before the run is declared stalled.
 _MOST_AT_ONCE = 2_000
@@ -66,7 +67,7 @@ class Simulation:
                 obstacles[ball.radius] = [Obstacle(surface, ball.radius) for surface in setup.surfaces]
             x, y = _clear_of(ball, obstacles[ball.radius])
             mover: Mover | OnCloth
-            state = (x, y, *ball.velocity, ball.spin)
+            state: State = (x, y, *ball.velocity, ball.spin)
             if setup.cloth is None:
                 mover = Mover(ball, self._accuracy, setup.bounds, setup.longest_step, self._numerics)
             else:
@@ -135,8 +136,8 @@ class Simulation:
             self._tracks[index].keep(t)
         for hit in hits:
             self._numerics.impacts += 1
-            x, y = states[hit.index][:2]
-            self._note(Event(t, "impact", self._tracks[hit.index].ball.name, hit.partner, hit.speed, x, y))
+            x, y = states[hit.ball][:2]
+            self._note(Event(t, "impact", self._tracks[hit.ball].ball.name, hit.partner, hit.speed, x, y))
         for index, state in states.items():
             self._tracks[index].state = state
             self._resume(index, t)
@@ -245,7 +246,7 @@ class Simulation:
         last = next((e.partner for e in reversed(self._events) if e.ball == track.ball.name), "nothing")
         return Stalled(
             f"t = {t:.6g} s, ball {track.ball.name!r} at ({x:.4g}, {y:.4g}) m: events without end, last with {last!r}; "
-            "a heap of balls needs accuracy.method = \"plain\""
+            'a heap of balls needs accuracy.method = "plain"'
         )
 
 
@@ -253,7 +254,9 @@ def _clear_of(ball: Ball, obstacles: Sequence[Obstacle]) -> tuple[float, float]:
     """Where the ball starts: pushed out of a slight overlap. Raises RequestError for a deep one, naming both."""
     x, y = ball.position
     for _ in range(20):
-        deepest = min(((obstacle.near(x, y), obstacle) for obstacle in obstacles), key=lambda near: near[0].gap, default=None)
+        deepest = min(
+            ((obstacle.near(x, y), obstacle) for obstacle in obstacles), key=lambda near: near[0].gap, default=None
+        )
         if deepest is None or deepest[0].gap >= -1e-12:
             return x, y
         touching, obstacle = deepest
@@ -265,4 +268,3 @@ def _clear_of(ball: Ball, obstacles: Sequence[Obstacle]) -> tuple[float, float]:
         x -= touching.gap * touching.nx
         y -= touching.gap * touching.ny
     raise RequestError(f"ball {ball.name!r} does not fit where it starts: surfaces overlap it from several sides")
-

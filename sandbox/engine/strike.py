@@ -31,9 +31,10 @@ def strike(
 ) -> Launch:
     """Velocity and spin that a free club head gives to a solid ball at rest.
 
-    The face is a straight piece leaning back by ``loft`` (rad), on a body of ``club_mass`` kg that moves at ``speed`` m/s,
-    ``attack`` rad above the horizontal, and cannot rotate. Restitution and friction are those of ball and face. The same
-    as ``sandbox.physics.impulse.club_on_ball``. Raises ValueError where the face moves away from the ball.
+    The face is a straight piece leaning back by ``loft`` (rad), on a body of ``club_mass`` kg that moves at ``speed``
+    m/s,
+    ``attack`` rad above the horizontal, and cannot rotate. Restitution and friction are those of ball and face. The
+    same as ``sandbox.physics.impulse.club_on_ball``. Raises ValueError where the face moves away from the ball.
     """
     if speed * cos(loft - attack) < 0.0:
         raise ValueError("the face moves away from the ball")

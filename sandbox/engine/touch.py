@@ -1,8 +1,9 @@
 """When and where a ball on an arc first touches a fixed shape or another ball.
 
-Every shape is made of features: straight sides and round corners (or a whole circle). A ball of radius r touches a feature
-when its centre reaches the feature's outline grown by r, which is a line or a circle. Along an arc the distance to either
-is a polynomial in time, and its first downward crossing is the time of impact: nothing can tunnel, at any speed.
+Every shape is made of features: straight sides and round corners (or a whole circle). A ball of radius r touches a
+feature when its centre reaches the feature's outline grown by r, which is a line or a circle. Along an arc the
+distance to either is a polynomial in time, and its first downward crossing is the time of impact: nothing can tunnel,
+at any speed.
 """
 
 from __future__ import annotations
@@ -16,7 +17,8 @@ from sandbox.engine.bernstein import downward_crossings, elevate, evaluate, piec
 from sandbox.engine.setup import Circle, Surface
 
 #: Overlap in m at which two shapes count as touching. Positive, so that a ball rolling across the seam of two flush
-#: surfaces, off by rounding only (1e-13 m at 1 km), touches nothing. An impact on a round shape multiplies it by ten or more.
+#: surfaces, off by rounding only (1e-13 m at 1 km), touches nothing. An impact on a round shape multiplies it by ten
+#: or more.
 SKIN = 2e-11
 
 #: Largest gap in m at which shapes are taken to be in contact when an impact or a new contact is sorted out.
@@ -79,8 +81,8 @@ class Obstacle:
         return self._at(CORNER_A if along < 0.0 else CORNER_B if along > self._length else SIDE, x, y)
 
     def ahead(self, touching: Touching, x: float, y: float, mx: float, my: float) -> Touching:
-        """The feature that a ball touching here, and about to move along (mx, my), will be on: at the seam of side and corner
-        both are touched."""
+        """The feature that a ball touching here, and about to move along (mx, my), will be on: at the seam of side
+        and corner both are touched."""
         if touching.feature == WHOLE:
             return touching
         along = self._along(x, y)
@@ -104,7 +106,10 @@ class Obstacle:
             return next(downward_crossings([-s for s in along]), None)
         if feature == CORNER_B:
             return next(downward_crossings([s - self._length for s in along]), None)
-        ends = [next(downward_crossings(along), None), next(downward_crossings([self._length - s for s in along]), None)]
+        ends = [
+            next(downward_crossings(along), None),
+            next(downward_crossings([self._length - s for s in along]), None),
+        ]
         return min((u for u in ends if u is not None), default=None)
 
     def _along(self, x: float, y: float) -> float:
@@ -176,7 +181,9 @@ def _round(xs: Sequence[float], ys: Sequence[float], center: Point, reach: float
 
 
 def _closings(gap: list[float], starts_beside: bool) -> Iterable[float]:
-    """Times at which a gap closes. One that is closed at the start, within rounding, counts only if it is closing further."""
+    """Times at which a gap closes. One that is closed at the start, within rounding, counts only if it is closing
+    further.
+    """
     if starts_beside and gap[0] <= _NOISE:
         opening = without_root_at_start([g - gap[0] for g in gap])
         if opening[0] < -_NOISE:
@@ -191,7 +198,9 @@ def box(arc: Arc) -> tuple[float, float, float, float]:
 
 
 def balls_touch(first: Arc, second: Arc, reach: float, t: float) -> float | None:
-    """The first time from t on, while both arcs last, at which two centres come within ``reach`` of each other, or None."""
+    """The first time from t on, while both arcs last, at which two centres come within ``reach`` of each other, or
+    None.
+    """
     until = min(first.t1, second.t1)
     if until <= t:
         return None

@@ -10,7 +10,8 @@ from sandbox.physics.elementwise import clip, log
 def viscosity(temperature: float) -> float:
     """Dynamic viscosity of air in Pa s at a temperature in K: ``1.458e-6 T^1.5 / (T + 110.4)``.
 
-    Valid from 100 to 1,900 K. Source: Sutherland's law with the constants of the U.S. Standard Atmosphere 1976, equation 51.
+    Valid from 100 to 1,900 K. Source: Sutherland's law with the constants of the U.S. Standard Atmosphere 1976,
+    equation 51.
     """
     return 1.458e-6 * temperature**1.5 / (temperature + 110.4)
 
@@ -32,9 +33,10 @@ class UniformWind:
 class LogWind:
     """Wind that grows with height over rough ground: ``w(y) = w_ref ln(1 + y/y0) / ln(1 + y_ref/y0)``.
 
-    ``reference`` is the velocity (m/s) at the height ``reference_height``; ``roughness`` y0 is about 0.03 m over mown grass. Valid in the
-    lowest 100 m in neutral air; above ``ceiling`` it stays constant, at the ground (height y = 0) and below it is zero.
-    Source: Wieringa 1992, J. Wind Eng. Ind. Aerodyn. 41:357; the 1 added inside the logarithm keeps it finite at the ground.
+    ``reference`` is the velocity (m/s) at the height ``reference_height``; ``roughness`` y0 is about 0.03 m over mown
+    grass. Valid in the lowest 100 m in neutral air; above ``ceiling`` it stays constant, at the ground (height y = 0)
+    and below it is zero. Source: Wieringa 1992, J. Wind Eng. Ind. Aerodyn. 41:357; the 1 added inside the logarithm
+    keeps it finite at the ground.
     """
 
     def __init__(

@@ -1,7 +1,8 @@
-"""Forces on a ball in newtons, each a callable of time, position, velocity and spin; and the torque that slows its spin.
+"""Forces on a ball in newtons, each a callable of time, position, velocity and spin; and the torque that slows its
+spin.
 
-Position (m), velocity (m/s) and spin (rad/s, counter-clockwise) are floats, or arrays of shape (n,) for many shots at once. A user's own
-force is any callable of this form, listed beside these.
+Position (m), velocity (m/s) and spin (rad/s, counter-clockwise) are floats, or arrays of shape (n,) for many shots at
+once. A user's own force is any callable of this form, listed beside these.
 """
 
 from __future__ import annotations
@@ -68,10 +69,11 @@ class Drag(_InAir):
 
 
 class Magnus(_InAir):
-    """Magnus lift, ``F = 1/2 rho Cl A |u|^2``, at right angles to u, towards the side to which the spin carries its front.
+    """Magnus lift, ``F = 1/2 rho Cl A |u|^2``, at right angles to u, towards the side to which the spin carries its
+    front.
 
-    With ``along_ground`` the speed, the spin ratio and the direction are those of the velocity over the ground, the textbook's shortcut.
-    Source: Briggs 1959, Am. J. Phys. 27:589, for the direction; the size is the coefficient's.
+    With ``along_ground`` the speed, the spin ratio and the direction are those of the velocity over the ground, the
+    textbook's shortcut. Source: Briggs 1959, Am. J. Phys. 27:589, for the direction; the size is the coefficient's.
     """
 
     def __init__(self, *args: Any, along_ground: bool = False, **kwargs: Any) -> None:

@@ -1,8 +1,8 @@
 """Integrators: one entry per method, with its order and its cost.
 
-The state of a ball is ``(x, y, vx, vy, spin)`` in m, m/s, rad/s; an acceleration is ``(ax, ay, alpha)`` in m/s^2 and rad/s^2.
-Components are floats, or arrays of shape (n,) when many shots fly at once; ``dt`` may be an array then too. The acceleration
-at the start of a step is passed in, since the path between two steps needs it anyway.
+The state of a ball is ``(x, y, vx, vy, spin)`` in m, m/s, rad/s; an acceleration is ``(ax, ay, alpha)`` in m/s^2 and
+rad/s^2. Components are floats, or arrays of shape (n,) when many shots fly at once; ``dt`` may be an array then too.
+The acceleration at the start of a step is passed in, since the path between two steps needs it anyway.
 """
 
 from __future__ import annotations
@@ -198,9 +198,13 @@ def _dormand_prince(law: Law, t: Any, state: State, acceleration: Acceleration, 
 
 INTEGRATORS = {
     "explicit-euler": Integrator(_explicit_euler, 1, 1, "Euler 1768"),
-    "semi-implicit-euler": Integrator(_semi_implicit_euler, 1, 1, "Hairer, Lubich & Wanner, Geometric Numerical Integration, I.1.2"),
+    "semi-implicit-euler": Integrator(
+        _semi_implicit_euler, 1, 1, "Hairer, Lubich & Wanner, Geometric Numerical Integration, I.1.2"
+    ),
     "heun": Integrator(_heun, 2, 2, "Heun 1900; Hairer, Norsett & Wanner, Solving ODEs I, II.1"),
     "velocity-verlet": Integrator(_velocity_verlet, 2, 2, "Swope et al. 1982, J. Chem. Phys. 76:637"),
     "rk4": Integrator(_rk4, 4, 4, "Kutta 1901; Hairer, Norsett & Wanner, Solving ODEs I, II.1"),
-    "dormand-prince": Integrator(_dormand_prince, 5, 6, "Dormand & Prince 1980, J. Comput. Appl. Math. 6:19, RK5(4)7M", True),
+    "dormand-prince": Integrator(
+        _dormand_prince, 5, 6, "Dormand & Prince 1980, J. Comput. Appl. Math. 6:19, RK5(4)7M", True
+    ),
 }

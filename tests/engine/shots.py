@@ -9,7 +9,6 @@ import numpy as np
 from sandbox.engine.setup import HOLLOW_SPHERE, Ball, Circle, Segment, Setup, Surface
 from sandbox.physics.coefficients import constant
 from sandbox.physics.forces import Drag, Gravity, Magnus
-
 from tests.engine.reference import Bar, Disc
 
 MASS, RADIUS, GRAVITY, DENSITY = 0.624, 0.1194, 9.81, 1.2

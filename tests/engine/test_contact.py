@@ -108,9 +108,7 @@ def test_convex_corner_turns_the_ball_about_its_point():
 def test_a_graze_within_rounding_changes_nothing_and_one_within_a_micrometre_is_met():
     post = Surface("post", Circle((0.0, 0.0), 0.1), 1.0, 0.0)
     shots = {
-        above: simulate(
-            Setup([ball((-1.0, 0.15 + above), (3.0, 0.0), gravity=0)], [post], duration=1.0), resolve()
-        )
+        above: simulate(Setup([ball((-1.0, 0.15 + above), (3.0, 0.0), gravity=0)], [post], duration=1.0), resolve())
         for above in (1e-9, -1e-6)
     }
     assert shots[1e-9].events == []

@@ -129,7 +129,9 @@ def test_an_endless_series_of_bounces_ends_when_it_should(restitution):
 @pytest.mark.parametrize("factor", [SOLID_SPHERE, HOLLOW_SPHERE, DISC])
 @pytest.mark.parametrize(("mu", "grips"), [(10.0, True), (0.1, False)])
 def test_oblique_bounce(factor, mu, grips):
-    """Grips: vx' = vx - a/(1+a)... with a = I/(m r^2): vx' = vx - (vx + r w)/(1 + 1/a); slides: vx' = vx - mu (1+e) vn."""
+    """Grips: vx' = vx - a/(1+a)... with a = I/(m r^2): vx' = vx - (vx + r w)/(1 + 1/a); slides: vx' = vx - mu (1+e)
+    vn.
+    """
     e, r, vx, vy, w = 0.6, 0.1, 5.0, -3.0, 4.0
     floor = Surface("floor", Segment((-9.0, 0.0), (9.0, 0.0)), e, mu)
     run = fly(Ball("ball", 0.5, r, (0.0, r + 0.3), (vx, vy), w, inertia_factor=factor), 0.2, [floor])

@@ -1,4 +1,6 @@
-"""What must never pass in silence: values that are not finite, balls outside the world, stiff forces, errors in a user's force."""
+"""What must never pass in silence: values that are not finite, balls outside the world, stiff forces, errors in a
+user's force.
+"""
 
 from math import inf, nan, pi, sin, tanh
 
@@ -50,7 +52,9 @@ def test_an_error_in_a_users_force_comes_out_with_its_own_traceback(accuracy):
 
 def bullet_in_water(velocity=(300.0, 0.0)):
     """1 g, 1 cm across, drag coefficient 0.5 at 1,000 kg/m^3: the drag's own time is 8 microseconds at first."""
-    return Ball("bullet", 1e-3, 0.005, (0.0, 0.0), velocity, forces=[Gravity(1e-3, G), Drag(0.005, 1000.0, constant(0.5))])
+    return Ball(
+        "bullet", 1e-3, 0.005, (0.0, 0.0), velocity, forces=[Gravity(1e-3, G), Drag(0.005, 1000.0, constant(0.5))]
+    )
 
 
 @pytest.mark.parametrize("accuracy", EXACT, ids=lambda a: f"{a.level}-{a.integrator}")
@@ -110,11 +114,11 @@ def test_a_users_own_force_of_position_and_time_beside_ours():
 
 
 def test_unknown_choices_are_named():
-    with pytest.raises(RequestError, match="accuracy.level: 'best' is not one of fast, balanced, precise"):
+    with pytest.raises(RequestError, match=r"accuracy\.level: 'best' is not one of fast, balanced, precise"):
         resolve("best")
-    with pytest.raises(RequestError, match="accuracy.integrator: 'rk5'"):
+    with pytest.raises(RequestError, match=r"accuracy\.integrator: 'rk5'"):
         resolve(integrator="rk5")
-    with pytest.raises(RequestError, match="accuracy.method: 'magic'"):
+    with pytest.raises(RequestError, match=r"accuracy\.method: 'magic'"):
         resolve(method="magic")
 
 
@@ -122,13 +126,17 @@ def test_unknown_choices_are_named():
 @pytest.mark.parametrize("friction", [0.0, 0.3, 10.0])
 @pytest.mark.parametrize("level", LEVELS)
 def test_no_energy_from_nowhere(restitution, friction, level):
-    """With gravity alone, kinetic and potential energy together never grow, beyond what the level's tolerance allows."""
+    """With gravity alone, kinetic and potential energy together never grow, beyond what the level's tolerance
+    allows.
+    """
     floor = Surface("floor", Segment((-90.0, 0.0), (90.0, 0.0)), restitution, friction)
     walls = [Surface(f"wall {x}", Segment((x, -1.0), (x, 40.0), 0.01), restitution, friction) for x in (-3.0, 3.0)]
     start = Ball("ball", 0.5, 0.05, (0.0, 1.0), (7.0, 4.0), 300.0, forces=[Gravity(0.5, G)])
     run = simulate(Setup([start], [floor, *walls], duration=4.0), resolve(level))
     path = run.trajectory("ball", every=1 / 300)
-    energy = 0.5 * 0.5 * (path[:, 3] ** 2 + path[:, 4] ** 2) + 0.5 * start.inertia * path[:, 5] ** 2 + 0.5 * G * path[:, 2]
+    energy = (
+        0.5 * 0.5 * (path[:, 3] ** 2 + path[:, 4] ** 2) + 0.5 * start.inertia * path[:, 5] ** 2 + 0.5 * G * path[:, 2]
+    )
     assert np.diff(energy).max() <= 1e-6 * energy[0]
     book = ledger(run)
     assert abs(book.residue) <= 1e-6 * book.start

@@ -1,4 +1,6 @@
-"""The engine against an independent reference, shot by shot: scipy's DOP853 with located events and closed-form impulses."""
+"""The engine against an independent reference, shot by shot: scipy's DOP853 with located events and closed-form
+impulses.
+"""
 
 from functools import cache
 from math import hypot
@@ -7,7 +9,6 @@ import pytest
 
 from sandbox.engine import simulate
 from sandbox.engine.accuracy import resolve
-
 from tests.engine import shots
 from tests.engine.reference import shoot
 
@@ -29,7 +30,9 @@ def firm(impacts):
 
 
 def compare(level, number):
-    """Largest difference of impact times (s) and the difference in the end (m); None where grazes make the runs part."""
+    """Largest difference of impact times (s) and the difference in the end (m); None where grazes make the runs
+    part.
+    """
     expected, end = reference(number)
     run = simulate(shots.setup(*SHOTS[number], DURATION), resolve(level))
     found = [(e.t, e.partner, e.speed) for e in run.events if e.kind == "impact"]

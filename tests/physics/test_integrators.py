@@ -69,13 +69,17 @@ def test_counts_its_evaluations(name):
 @pytest.mark.parametrize("name", INTEGRATORS)
 def test_many_shots_at_once_are_the_same_as_one_by_one(name):
     speeds = [1.0, 2.5, 4.0]
-    together = INTEGRATORS[name].step(
-        drag_alone,
-        0.0,
-        (np.zeros(3), np.zeros(3), np.array(speeds), np.zeros(3), np.ones(3)),
-        drag_alone(0.0, (np.zeros(3), np.zeros(3), np.array(speeds), np.zeros(3), np.ones(3))),
-        np.array([0.01, 0.02, 0.03]),
-    ).state
+    together = (
+        INTEGRATORS[name]
+        .step(
+            drag_alone,
+            0.0,
+            (np.zeros(3), np.zeros(3), np.array(speeds), np.zeros(3), np.ones(3)),
+            drag_alone(0.0, (np.zeros(3), np.zeros(3), np.array(speeds), np.zeros(3), np.ones(3))),
+            np.array([0.01, 0.02, 0.03]),
+        )
+        .state
+    )
     for k, (speed, dt) in enumerate(zip(speeds, (0.01, 0.02, 0.03), strict=True)):
         state = (0.0, 0.0, speed, 0.0, 1.0)
         alone = INTEGRATORS[name].step(drag_alone, 0.0, state, drag_alone(0.0, state), dt).state
