@@ -77,7 +77,7 @@ class Follow:
         self, times: np.ndarray, at: np.ndarray, scales: np.ndarray, anchor: tuple[float, float], settle: float = 0.25
     ):
         self.times, self.anchor = times, anchor
-        step = times[1] - times[0] if len(times) > 1 else 1.0
+        step = (times[1] - times[0]) or 1.0
         self.paths = [_smooth(path, settle / step) for path in (at[:, 0], at[:, 1], np.log(scales))]
 
     @property

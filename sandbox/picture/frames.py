@@ -13,16 +13,16 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Any, Protocol, TypeVar
 
+import numpy as np
 import pygame
 from PIL import Image
 
 from sandbox.files import written_whole
-from sandbox.picture.palette import every_colour
 
 #: zlib levels: frames are many and passing, so they are packed quickly; a poster is kept, so it is packed well.
 FRAME_COMPRESSION, POSTER_COMPRESSION = 1, 6
 #: Of so many frames the colours of a GIF are chosen.
-PALETTE_FRAMES = 12
+PALETTE_FRAMES = 16
 #: Viewers slow a GIF down that shows more frames per second than this.
 FASTEST_GIF = 50
 #: The last picture of a GIF stays for so long, in s, before it begins again.
@@ -116,19 +116,18 @@ def frame_times(duration: float, fps: float) -> list[float]:
 
 
 def _shared_palette(picture: Picture, times: list[float]) -> Image.Image:
-    """256 colours for all frames: the commonest of some, and with weight of their own those that are rare but matter."""
-    chosen = [times[round(i * (len(times) - 1) / (PALETTE_FRAMES - 1))] for i in range(PALETTE_FRAMES)]
-    views = [to_image(picture.frame(t)).reduce(2) for t in sorted(set(chosen))]
-    width, height = views[0].size
-    rare = every_colour()
-    patch = max(1, height // 40)
-    sheet = Image.new("RGB", (width, height * len(views) + patch * len(rare)))
-    for i, view in enumerate(views):
-        sheet.paste(view, (0, i * height))
-    for i, colour in enumerate(rare):
-        top = height * len(views) + patch * i
-        sheet.paste(colour, (0, top, width, top + patch))
-    return sheet.quantize(256, method=Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE)
+    """256 colours for all frames, chosen from some of them.
+
+    A colour counts by the square root of its area: small things such as ball and trace matter more than their size.
+    """
+    chosen = {times[round(i * (len(times) - 1) / (PALETTE_FRAMES - 1))] for i in range(PALETTE_FRAMES)}
+    pixels = np.concatenate([np.asarray(to_image(picture.frame(t))).reshape(-1, 3) for t in sorted(chosen)])
+    packed = (pixels >> 2).astype(np.uint32) @ np.array([1 << 12, 1 << 6, 1], np.uint32)
+    counts = np.bincount(packed, minlength=1 << 18)
+    present = np.flatnonzero(counts)
+    colours = np.stack([present >> 12, present >> 6 & 63, present & 63], axis=1).astype(np.uint8) << 2 | 2
+    row = np.repeat(colours, np.ceil(np.sqrt(counts[present])).astype(int), axis=0)
+    return Image.fromarray(row[None]).quantize(256, method=Image.Quantize.MEDIANCUT, kmeans=2, dither=Image.Dither.NONE)
 
 
 def _in_threads(work: Callable[[T], R], items: Iterator[T], total: int, progress: Progress | None) -> Iterator[R]:

@@ -15,6 +15,8 @@ from sandbox.picture.palette import ASSETS, Colour
 SIZES = {"small": (14.5, 11), "medium": (20, 14), "large": (40, 24)}
 
 
+#: Height of a line in units of the letters' size, and what the font keeps free above it.
+LINE, ABOVE = 1.21, 0.105
 #: Letters are drawn this much larger and scaled down: set straight at 11 px they would be moved to whole px, and words
 #: would run into each other.
 FINER = 4
@@ -44,7 +46,7 @@ class Lettering:
 
     def height(self, size: str) -> int:
         """From the top of a tall letter to the bottom of a deep one, in px."""
-        return round(self.pixels[size] * 1.2)
+        return round(self.pixels[size] * LINE)
 
     def width(self, text: str, size: str, bold: bool = False) -> int:
         """In px."""
@@ -69,7 +71,7 @@ class Lettering:
         """Write one line with the corner or side named ``anchor`` (as pygame.Rect names them) at a point in px."""
         rect = self.rect(text, size, at, anchor, bold)
         image = _rendered(text, self.pixels[size], bold, colour)
-        surface.blit(image, (rect.left, rect.centery - image.get_height() // 2))
+        surface.blit(image, (rect.left, rect.top - round(ABOVE * self.pixels[size])))
         return rect
 
 

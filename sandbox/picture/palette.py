@@ -34,13 +34,6 @@ def palette(section: str) -> dict[str, Any]:
     return _sections()[section]
 
 
-def every_colour() -> list[Colour]:
-    """All colours of the palette, each once."""
-    values = [value for section in _sections().values() for value in section.values()]
-    colours = [item for value in values for item in (value if isinstance(value, list) else [value])]
-    return sorted({colour for colour in colours if isinstance(colour, tuple)})
-
-
 def mix(a: Colour, b: Colour, share: float) -> Colour:
     """The colour that is ``share`` (0 to 1) of the way from a to b."""
     return tuple(round(p + (q - p) * share) for p, q in zip(a, b, strict=True))  # type: ignore[return-value]

@@ -53,9 +53,9 @@ class Course:
         inner = self.line[(self.line[:, 0] > left) & (self.line[:, 0] < right)]
         return np.array([(left, self.height(left)), *inner, (right, self.height(right))])
 
-    @cached_property
+    @property
     def landscape(self) -> Landscape:
-        return Landscape(self.size, self.horizon, GOLF)
+        return _landscape(self.size, self.horizon)
 
     @cached_property
     def soil(self) -> pygame.Surface:
@@ -205,6 +205,12 @@ class Course:
             painter.centred(_shade(radius), centre)
         if ring:
             painter.ring(centre, radius + 4.5 * self.unit, max(1.2, 1.7 * self.unit), CARD["accent"])
+
+
+@lru_cache(maxsize=4)
+def _landscape(size: tuple[int, int], horizon: int) -> Landscape:
+    """Shared by all pictures of the same shape."""
+    return Landscape(size, horizon, GOLF)
 
 
 def _pieces(turf: list[Any]) -> list[tuple[str, float, float]]:

@@ -27,6 +27,8 @@ LEAST_PATH = 0.2
 LEAST_RISE = 24
 #: Frames show at most this much of the world's length in m, until the ball flies too high for it.
 WIDEST_VIEW = 64.0
+#: Frames are so wide that the ball takes this long, in s, over the middle of them.
+SIGHT = 0.5
 #: s of path that the trail behind the ball shows.
 TRAIL = 1.4
 #: The path is sampled this often in s; of a long run, in so many pieces.
@@ -237,7 +239,9 @@ class Picture:
         span = float(np.ptp(self.path[:, 1]))
         nearest = width / min(WIDEST_VIEW, max(0.35 * span, 60 * self.radius))
         room = 0.8 * (course.base - self.sky_row)
-        scales = np.minimum(nearest, room / np.maximum(states[:, 1] - ground, 1e-9))
+        high = room / np.maximum(states[:, 1] - ground, 1e-9)
+        fast = 0.6 * width / (SIGHT * np.maximum(np.hypot(states[:, 2], states[:, 3]), 1e-9))
+        scales = np.minimum(nearest, np.minimum(high, fast))
         ahead = 0.10 * width / scales * np.tanh(states[:, 2] / 3)
         return Follow(times, np.column_stack([states[:, 0] + ahead, ground]), scales, (width / 2, course.base))
 
@@ -288,9 +292,10 @@ class Picture:
         """Where the ball has just been; kept out of the header."""
         times = np.linspace(max(0.0, t - TRAIL), t, 41)
         points = camera.pixels(np.array([self.run.state(self.name, s)[:2] for s in times]))
-        sheet.surface.set_clip(0, round(self.sky_row), self.size[0], self.size[1])
-        sheet.painter.fading(points[_apart(points, 2.0)], 1.1 * radius, TRACE["colours"][0], 0.9)
-        sheet.surface.set_clip(None)
+        above = np.flatnonzero(points[:, 1] < self.sky_row)
+        points = points[above[-1] + 1 :] if len(above) else points
+        if len(points) > 1:
+            sheet.painter.fading(points[_apart(points, 2.0)], 1.1 * radius, TRACE["colours"][0], 0.9)
 
     def _map(self, sheet: Sheet, t: float) -> pygame.Rect:
         """The whole path, small, in the upper right corner, and where on it the ball is."""

@@ -1,0 +1,185 @@
+"""Pictures to files: whole or not at all, as many as asked, as long as the run."""
+
+import numpy as np
+import pygame
+import pytest
+from PIL import Image
+
+from sandbox.picture.frames import FASTEST_GIF, GIF_PAUSE, frame_times, save_frames, save_gif, save_png, save_poster, to_image
+from sandbox.picture.painter import Painter, blank
+
+ORANGE = (213, 94, 0)
+
+
+class Run:
+    def __init__(self, duration: float):
+        self.duration = duration
+
+
+class Picture:
+    """A ball that goes from left to right over grey; it may fail at a time."""
+
+    def __init__(self, run: Run, fails_at: float = np.inf):
+        self.run, self.fails_at = run, fails_at
+
+    def poster(self) -> pygame.Surface:
+        return self.frame(0.0)
+
+    def frame(self, t: float) -> pygame.Surface:
+        if t >= self.fails_at:
+            raise ZeroDivisionError("the picture failed")
+        surface = blank((96, 54))
+        surface.fill((120, 130, 140))
+        Painter(surface).disc((10 + 70 * t / self.run.duration, 27), 4, ORANGE)
+        return surface
+
+
+def ball_at(image: Image.Image) -> float:
+    """Where the ball is along x, in px."""
+    pixels = np.asarray(image.convert("RGB")).astype(int)
+    weight = np.clip(pixels[:, :, 0] - pixels[:, :, 2], 0, None).sum(axis=0)
+    return float((np.arange(len(weight)) + 0.5) @ weight / weight.sum())
+
+
+def test_pixels_keep_their_colours():
+    surface = blank((3, 2))
+    surface.set_at((2, 1), (1, 2, 3))
+    assert to_image(surface).getpixel((2, 1)) == (1, 2, 3)
+    other = pygame.Surface((3, 2), 0, 24)
+    other.set_at((0, 1), (9, 8, 7))
+    assert to_image(other).getpixel((0, 1)) == (9, 8, 7)
+
+
+def test_an_image_does_not_change_with_its_surface():
+    surface = blank((3, 2))
+    image = to_image(surface)
+    surface.fill((255, 255, 255))
+    assert image.getpixel((0, 0)) == (0, 0, 0)
+
+
+class TestPosters:
+    def test_is_a_png(self, tmp_path):
+        save_poster(Picture(Run(1.0)), tmp_path / "poster.png")
+        with Image.open(tmp_path / "poster.png") as image:
+            assert (image.format, image.size) == ("PNG", (96, 54))
+        assert [path.name for path in tmp_path.iterdir()] == ["poster.png"]
+
+    def test_what_was_there_stays_when_the_disk_is_full(self, tmp_path, monkeypatch):
+        (tmp_path / "poster.png").write_bytes(b"before")
+        full = _fails_after(10)
+        monkeypatch.setattr("sandbox.picture.frames.written_whole", full)
+        with pytest.raises(OSError, match="No space left"):
+            save_png(blank((96, 54)), tmp_path / "poster.png")
+        assert (tmp_path / "poster.png").read_bytes() == b"before"
+
+    def test_a_folder_that_is_not_there(self, tmp_path):
+        with pytest.raises(FileNotFoundError):
+            save_png(blank((4, 4)), tmp_path / "nowhere" / "poster.png")
+
+
+def _fails_after(count: int):
+    """``written_whole`` on a disk that has room for so many bytes."""
+    from contextlib import contextmanager
+
+    from sandbox.files import written_whole
+
+    class Full:
+        def __init__(self, file):
+            self.file = file
+
+        def write(self, data: bytes) -> None:
+            self.file.write(data[:count])
+            raise OSError(28, "No space left on device")
+
+    class Text:
+        def __init__(self, file):
+            self.buffer = Full(file.buffer)
+
+    @contextmanager
+    def full(path):
+        with written_whole(path) as file:
+            yield Text(file)
+
+    return full
+
+
+class TestFrames:
+    def test_one_for_each_time_and_the_end(self, tmp_path):
+        run = Run(1.03)
+        assert save_frames(Picture(run), run, tmp_path / "film", 10) == 12  # 0.0, 0.1, ... 1.0, and 1.03
+        files = sorted((tmp_path / "film").iterdir())
+        assert [file.name for file in files] == [f"frame_{i:05d}.png" for i in range(12)]
+        for file, t in zip(files, [*np.arange(11) / 10, 1.03], strict=True):
+            with Image.open(file) as image:
+                assert ball_at(image) == pytest.approx(10 + 70 * t / 1.03, abs=0.2)
+
+    def test_all_or_none(self, tmp_path):
+        run = Run(1.0)
+        with pytest.raises(ZeroDivisionError):
+            save_frames(Picture(run, fails_at=0.7), run, tmp_path / "film", 20)
+        assert list((tmp_path / "film").iterdir()) == []
+
+    def test_a_longer_film_before_leaves_nothing_behind(self, tmp_path):
+        (tmp_path / "notes.txt").write_text("mine")
+        for duration in (2.0, 1.0):
+            save_frames(Picture(Run(duration)), Run(duration), tmp_path, 5)
+        assert len(list(tmp_path.glob("frame_*.png"))) == 6
+        assert (tmp_path / "notes.txt").read_text() == "mine"
+
+    def test_tells_how_far_it_is(self, tmp_path):
+        run, told = Run(1.0), []
+        save_frames(Picture(run), run, tmp_path, 10, progress=lambda done, total: told.append((done, total)))
+        assert told == [(i, 11) for i in range(1, 12)]
+
+
+@pytest.mark.parametrize(
+    ("duration", "fps", "times"),
+    [
+        (1.0, 4, [0.0, 0.25, 0.5, 0.75, 1.0]),
+        (0.3, 10, [0.0, 0.1, 0.2, 0.3]),  # 0.3 * 10 is a little less than 3
+        (0.9, 2, [0.0, 0.5, 0.9]),
+        (1.001, 2, [0.0, 0.5, 1.001]),
+        (0.0, 30, [0.0]),
+    ],
+)
+def test_times_of_frames(duration, fps, times):
+    assert frame_times(duration, fps) == pytest.approx(times)
+
+
+class TestGif:
+    def read(self, path) -> tuple[list[Image.Image], list[int]]:
+        with Image.open(path) as image:
+            frames, durations = [], []
+            for i in range(image.n_frames):
+                image.seek(i)
+                frames.append(image.convert("RGB"))
+                durations.append(image.info["duration"])
+            assert image.info["loop"] == 0
+        return frames, durations
+
+    @pytest.mark.parametrize("fps", [10, 24, 30])
+    def test_frames_and_how_long_they_stay(self, tmp_path, fps):
+        run = Run(2.0)
+        count = save_gif(Picture(run), run, tmp_path / "run.gif", fps)
+        frames, durations = self.read(tmp_path / "run.gif")
+        assert len(frames) == count == 2 * fps + 1
+        assert sum(durations[:-1]) == 2000  # ms, though 1/24 s and 1/30 s are no multiples of 10 ms
+        assert durations[-1] == 1000 * GIF_PAUSE
+        for i in (0, fps, 2 * fps):
+            assert ball_at(frames[i]) == pytest.approx(10 + 35 * i / fps, abs=0.4)
+
+    def test_small_things_keep_their_colour(self, tmp_path):
+        run = Run(1.0)
+        save_gif(Picture(run), run, tmp_path / "run.gif", 10)
+        frames, _ = self.read(tmp_path / "run.gif")
+        assert frames[5].getpixel((45, 27)) == pytest.approx(ORANGE, abs=4)
+
+    def test_no_faster_than_viewers_show(self, tmp_path):
+        run = Run(0.5)
+        assert save_gif(Picture(run), run, tmp_path / "run.gif", 120) == FASTEST_GIF * 0.5 + 1
+
+    def test_all_or_nothing(self, tmp_path):
+        run = Run(1.0)
+        with pytest.raises(ZeroDivisionError):
+            save_gif(Picture(run, fails_at=0.5), run, tmp_path / "run.gif", 10)
+        assert list(tmp_path.iterdir()) == []

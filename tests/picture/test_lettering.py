@@ -1,0 +1,95 @@
+"""Text and where it goes."""
+
+import pygame
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from sandbox.picture.lettering import Labels, Lettering, _font
+from sandbox.picture.painter import blank
+from sandbox.picture.sheet import Sheet, metres, nice, signed, yards
+
+HEIGHTS = (360, 720, 1080)
+
+
+@pytest.mark.parametrize("bold", [False, True])
+def test_all_figures_are_equally_wide(bold):
+    font = _font(20, bold)
+    assert len({font.metrics(figure)[0][4] for figure in "0123456789"}) == 1
+
+
+@pytest.mark.parametrize("height", HEIGHTS)
+def test_three_sizes_that_can_be_read(height):
+    pixels = Lettering(height).pixels
+    assert set(pixels) == {"small", "medium", "large"}
+    assert 11 <= pixels["small"] < pixels["medium"] < pixels["large"]
+
+
+@pytest.mark.parametrize("height", HEIGHTS)
+@pytest.mark.parametrize("anchor", ["topleft", "midbottom", "center", "topright"])
+def test_ink_stays_in_the_rectangle_that_is_returned(height, anchor):
+    surface = blank((600, 200))
+    lettering = Lettering(height)
+    rect = lettering.write(surface, "Éqj 253.6 m", "medium", (300, 100), (255, 255, 255), anchor, bold=True)
+    ink = pygame.mask.from_threshold(surface, (255, 255, 255), (200, 200, 200)).get_bounding_rects()
+    assert rect.inflate(2, 2).contains(ink[0].unionall(ink[1:]))
+    assert getattr(rect, anchor) == (300, 100)
+
+
+rects = st.builds(pygame.Rect, st.integers(-50, 350), st.integers(-50, 250), st.integers(1, 120), st.integers(1, 40))
+
+
+@given(st.lists(st.lists(rects, min_size=1, max_size=4), max_size=12))
+def test_labels_never_overlap_or_leave_the_frame(wishes):
+    labels = Labels(pygame.Rect(10, 10, 300, 200), gap=4)
+    labels.take_path([(x, 0.5 * x) for x in range(0, 300, 5)], radius=3)
+    placed = [rect for rect in map(labels.place, wishes) if rect]
+    for i, rect in enumerate(placed):
+        assert labels.frame.contains(rect)
+        assert rect.inflate(8, 8).collidelist(placed[:i]) < 0
+        assert not any(rect.collidepoint(x, 0.5 * x) for x in range(0, 300, 5))
+
+
+@pytest.mark.parametrize("size", [(640, 360), (1280, 720), (1920, 1080)])
+def test_numbers_in_a_card_keep_apart_and_inside(size):
+    sheet = Sheet(size)
+    entries = [("carry", "1450.1 m"), ("total", "1483.3 m"), ("apex", "253.9 m"), ("flight time", "135.41 s")]
+    entries += [("ball speed", "340.0 m/s"), ("launch", "−35.0°"), ("backspin", "−20000 rpm"), ("landing", "−35°")]
+    sheet.columns(sheet.frame.bottom - sheet.card_height(), entries)
+    _assert_apart(sheet)
+
+
+@pytest.mark.parametrize("size", [(640, 360), (1280, 720)])
+@pytest.mark.parametrize(("start", "end"), [(100, 500), (300, 310), (35, 40), (560, 605), (500, 100)])
+def test_a_dimension_stays_in_the_frame(size, start, end):
+    sheet = Sheet(size)
+    sheet.dimension("carry 253.6 m   277 yd", 100, start, end, (255, 255, 255))
+    _assert_apart(sheet)
+
+
+def _assert_apart(sheet: Sheet) -> None:
+    for i, (text, rect) in enumerate(sheet.written):
+        assert sheet.frame.contains(rect), text
+        for other_text, other in sheet.written[:i]:
+            assert not rect.colliderect(other), (text, other_text)
+
+
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [(0.42, "0.42 m"), (-8.314, "−8.31 m"), (251.36, "251.4 m"), (-0.001, "0.00 m"), (12_345.0, "12.3 km")],
+)
+def test_lengths_as_people_write_them(value, text):
+    assert metres(value) == text
+
+
+def test_yards_and_signs():
+    assert yards(9.144) == "10.0 yd"
+    assert yards(-228.6) == "−250 yd"
+    assert signed("-0") == "0"
+
+
+@given(st.floats(1e-6, 1e6))
+def test_nice_steps(least):
+    step = nice(least)
+    assert least * 0.99 < step <= least * 2.51
+    assert f"{step:e}"[0] in "125"
