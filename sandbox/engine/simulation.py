@@ -191,7 +191,7 @@ class Simulation:
         else:
             arc, kind = track.mover.advance(t, self._setup.duration, track.state), ""
             rested, track.rests = track.rests, len(arc.x) == 1 and len(arc.spin) == 1
-            if track.rests and not rested:
+            if track.rests and not rested and t > 0.0:
                 self._note(Event(t, "rest", track.ball.name, "", 0.0, *track.state[:2]))
         track.arc = arc
         at, own = arc.t1, None if track.contact is None else track.contact.obstacle
