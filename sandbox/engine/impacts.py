@@ -13,7 +13,7 @@ from sandbox.engine.track import Track
 from sandbox.physics.integrators import State
 
 #: Approach speed in m/s that is rounding, not an impact.
-_STILL = 1e-10
+_STILL = 1e-9
 
 
 class Hit(NamedTuple):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from sandbox.engine.motion import PINNED, RESTING, ROLLING, SLIDING, Contact, Mover
+from sandbox.engine.motion import PINNED, RESTING, ROLLING, SLIDING, Contact, Mover, rolling
 from sandbox.engine.touch import Obstacle, Touching
 from sandbox.engine.track import Near
 from sandbox.physics.integrators import State
@@ -103,17 +103,16 @@ def _way_of_moving(
     if abs(slip) > _STILL * (1.0 + abs(speed)):
         return Contact(SLIDING, obstacle, touching, 1.0 if slip > 0.0 else -1.0)
     along = fx * tx + fy * ty
-    grip = surface.friction * normal
-    drive = (along - torque / ball.radius) / (ball.mass * (1.0 + ball.inertia_factor))
-    resistance = surface.rolling_resistance * normal / ball.mass
+    drive = along - torque / ball.radius
     moves = abs(speed) > _STILL
-    if not moves and abs(drive) <= resistance + _STILL and abs(along) <= grip + _STILL * ball.mass:
-        return Contact(RESTING, obstacle, touching)
     direction = (1.0 if speed > 0.0 else -1.0) if moves else (1.0 if drive > 0.0 else -1.0)
-    friction = ball.mass * (drive - direction * resistance) - along  # what rolling asks for
-    if abs(friction) <= grip:
-        return Contact(ROLLING, obstacle, touching, direction)
-    return Contact(SLIDING, obstacle, touching, -1.0 if friction > 0.0 else 1.0)
+    a, spare = rolling(ball, surface, along, torque, normal, direction)
+    if spare < 0.0:
+        slip_direction = 1.0 if drive / (1.0 + ball.inertia_factor) - along < 0.0 else -1.0
+        return Contact(SLIDING, obstacle, touching, slip_direction)
+    if not moves and direction * a <= _STILL:
+        return Contact(RESTING, obstacle, touching)
+    return Contact(ROLLING, obstacle, touching, direction)
 
 
 def _on(mover: Mover, state: State, contact: Contact) -> State:

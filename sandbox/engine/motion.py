@@ -15,7 +15,7 @@ from typing import NamedTuple
 from sandbox.engine.accuracy import Accuracy
 from sandbox.engine.arc import Arc, still, through
 from sandbox.engine.run import Numerics
-from sandbox.engine.setup import Ball, Bounds
+from sandbox.engine.setup import Ball, Bounds, Surface
 from sandbox.engine.touch import Obstacle, Touching
 from sandbox.errors import RunError
 from sandbox.physics.integrators import INTEGRATORS, Acceleration, Law, State
@@ -40,6 +40,9 @@ _STIFFEST = 0.5
 
 #: Changes of velocity below this share of the speed are no sign of stiffness: a force may jump.
 _JUMP = 0.01
+
+#: A ball that needs all the grip there is still rolls.
+_WITHIN_ROUNDING = 1.0 + 1e-9
 
 _UNITS = ("m", "m", "m/s", "m/s", "rad/s")
 
@@ -113,10 +116,8 @@ class Mover:
             alpha = (torque + radius * friction) / self._inertia
             spare = 0.0
         else:
-            resistance = contact.direction * surface.rolling_resistance * pressed / mass
-            a = (along - torque / radius) / (mass * (1.0 + self.ball.inertia_factor)) - resistance
+            a, spare = rolling(self.ball, surface, along, torque, pressed, contact.direction)
             alpha = -a / radius
-            spare = surface.friction * pressed - abs(mass * a - along)
         return (a * tx - centripetal * nx, a * ty - centripetal * ny, alpha), normal, spare
 
     # ------------------------------------------------------------------ one piece of path
@@ -225,6 +226,21 @@ class Mover:
         if contact.mode == SLIDING:
             speed += self.ball.radius * state[4]
         return contact.direction * speed
+
+
+def rolling(
+    ball: Ball, surface: Surface, along: float, torque: float, pressed: float, direction: float
+) -> tuple[float, float]:
+    """Acceleration in m/s^2 along the surface of a ball that rolls in ``direction``, and the grip to spare in N.
+
+    Friction turns the ball as fast as it moves and passes on the rolling resistance, as far as ``mu N`` reaches; less than nothing
+    to spare means that it cannot even do the first, and the ball slides.
+    """
+    grip = surface.friction * pressed
+    turning = (along - torque / ball.radius) / (1.0 + ball.inertia_factor) - along
+    friction = turning - direction * surface.rolling_resistance * pressed
+    friction = max(-grip, min(grip, friction))
+    return (along + friction) / ball.mass, grip * _WITHIN_ROUNDING - abs(turning)
 
 
 def _spin_down(t: float, until: float, state: State, contact: Contact) -> tuple[Arc, str]:

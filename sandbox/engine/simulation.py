@@ -12,6 +12,7 @@ from itertools import count
 from time import perf_counter
 
 from sandbox.engine.accuracy import Accuracy
+from sandbox.engine.arc import still
 from sandbox.engine.contacts import Contacts
 from sandbox.engine.impacts import Impacts
 from sandbox.engine.lasting import conclude, settle
@@ -79,8 +80,9 @@ class Simulation:
     def run(self) -> Run:
         """From the start to the end."""
         started = perf_counter()
-        for index in range(len(self._tracks)):
-            self._resume(index, 0.0)
+        for index, track in enumerate(self._tracks):
+            if track.version == 0:
+                self._collide(0.0, [index])  # whatever it touches at the start comes first
         t, ended = self._loop()
         for track in self._tracks:
             if not track.caught:
@@ -127,7 +129,8 @@ class Simulation:
         if reason == "":
             self._plan(index, t)
         else:
-            self._resume(index, t)
+            track.arc = still(t, t, track.state)
+            self._collide(t, [index])
 
     def _collide(self, t: float, seeds: Sequence[int]) -> None:
         """Everything that touches at this instant exchanges impulses at once."""

@@ -249,3 +249,35 @@ def test_time_of_impact_on_a_circle(direction, speed, offset):
     run = simulate(Setup([shot], [post], duration=20.0, until=lambda e: True), resolve())
     assert run.events[0].t == pytest.approx((5.0 - (reach**2 - b**2) ** 0.5) / speed, rel=1e-7)
     assert atan2(run.events[0].y, run.events[0].x) != inf
+
+
+def test_a_ball_that_starts_against_a_surface_and_moves_into_it_bounces():
+    floor = Surface("floor", Segment((-100.0, 0.0), (100.0, 0.0)), 1.0, 0.0)
+    run = simulate(Setup([ball((0.0, 0.05), (3.0, -4.0))], [floor], duration=0.5), resolve())
+    assert (run.events[0].kind, run.events[0].t, run.events[0].speed) == ("impact", 0.0, 4.0)
+    assert run.state("ball", 0.0)[2:4] == pytest.approx((3.0, 4.0))
+
+
+@pytest.mark.parametrize("resistance", [0.1, 0.5, 0.8, 2.0])
+def test_friction_passes_on_no_more_rolling_resistance_than_its_own(resistance):
+    """Rolls at -min(c, mu) g: with mu = 0.5 a resistance above that changes nothing."""
+    floor = Surface("floor", Segment((-5.0, 0.0), (100.0, 0.0)), 0.5, 0.5, resistance)
+    run = simulate(Setup([ball((0.0, 0.05), (2.0, 0.0), spin=-40.0)], [floor], duration=60.0), resolve())
+    assert run.duration == pytest.approx(2.0 / (min(resistance, 0.5) * G), rel=1e-6)
+
+
+@pytest.mark.parametrize("push", [1.0, 3.0, 10.0, 100.0])
+@pytest.mark.parametrize("resistance", [0.0, 0.3])
+def test_a_steady_push_along_the_ground_rolls_or_slides_and_never_stalls(push, resistance):
+    """Rolls while a push F needs no more grip than mu N: F (1 - 1/(1 + 2/5)) <= mu m g; slides at F/m - mu g beyond."""
+    floor = Surface("floor", Segment((-500.0, 0.0), (500.0, 0.0)), 0.5, 0.5, resistance)
+    shot = ball((0.0, 0.05), (2.0, 0.0))
+    pushed = Ball(**{**vars(shot), "forces": (*shot.forces, lambda t, p, v, s: (-push, 0.0))})
+    early, late = (simulate(Setup([pushed], [floor], duration=t), resolve()).state("ball", t)[2] for t in (2.0, 2.5))
+    a = (early - late) / 0.5
+    if push * (1 - 5 / 7) > 0.5 * 0.3 * G:
+        assert a == pytest.approx(push / 0.3 - 0.5 * G, rel=1e-6)
+    elif resistance == 0.0:
+        assert a == pytest.approx(5 / 7 * push / 0.3, rel=1e-6)
+    else:
+        assert 0.0 <= a < 5 / 7 * push / 0.3
