@@ -96,10 +96,8 @@ class Simulation:
         moment, at_once = 0.0, 0
         t = 0.0
         while self._queue:
-            if self._over:
-                return t, "until"
-            if all(track.rests or track.caught for track in self._tracks):
-                return t, "rest"
+            if self._over or self._all_rest():
+                break
             t, _, kind, i, version, j, other_version = heapq.heappop(self._queue)
             track = self._tracks[i]
             if track.version != version or (j >= 0 and self._tracks[j].version != other_version):
@@ -117,7 +115,10 @@ class Simulation:
                 return duration, "duration"
             else:
                 self._go_on(t, i, kind)
-        return t, "duration"
+        return t, "until" if self._over else "rest"
+
+    def _all_rest(self) -> bool:
+        return all(track.rests or track.caught for track in self._tracks)
 
     def _go_on(self, t: float, index: int, reason: str) -> None:
         """An arc has come to its end."""

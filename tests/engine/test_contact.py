@@ -270,7 +270,7 @@ def test_friction_passes_on_no_more_rolling_resistance_than_its_own(resistance):
 @pytest.mark.parametrize("resistance", [0.0, 0.3])
 def test_a_steady_push_along_the_ground_rolls_or_slides_and_never_stalls(push, resistance):
     """Rolls while a push F needs no more grip than mu N: F (1 - 1/(1 + 2/5)) <= mu m g; slides at F/m - mu g beyond."""
-    floor = Surface("floor", Segment((-500.0, 0.0), (500.0, 0.0)), 0.5, 0.5, resistance)
+    floor = Surface("floor", Segment((-9e3, 0.0), (9e3, 0.0)), 0.5, 0.5, resistance)
     shot = ball((0.0, 0.05), (2.0, 0.0))
     pushed = Ball(**{**vars(shot), "forces": (*shot.forces, lambda t, p, v, s: (-push, 0.0))})
     early, late = (simulate(Setup([pushed], [floor], duration=t), resolve()).state("ball", t)[2] for t in (2.0, 2.5))
