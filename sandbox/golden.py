@@ -3,11 +3,13 @@
     def test_my_scene(golden):
         golden.check("my_scene", picture.poster())
 
-The golden picture is ``golden/my_scene.png`` in the folder of the test or the nearest one above it. ``pytest --golden-update``
-makes and rewrites golden pictures and lists them for review; on CI, where the variable CI is set, nothing is ever written.
+The golden picture is ``golden/my_scene.png`` in the folder of the test or the nearest one above it.
+``pytest --golden-update`` makes and rewrites golden pictures and lists them for review; on CI, where the variable CI is
+set, nothing is ever written.
 
-The comparison is our own. Pixelmatch was tried: it forgives what it takes for anti-aliasing, and that is where a small white ball
-on a pale sky differs when it is one pixel larger (it counts 0 pixels, this counts 44); and it takes 0.8 s for 640x360.
+The comparison is our own. Pixelmatch was tried: it forgives what it takes for anti-aliasing, and that is where a small
+white ball on a pale sky differs when it is larger by a pixel all around (it counts 0 pixels, this counts 44); and it
+takes 0.8 s for 640x360.
 """
 
 from __future__ import annotations
@@ -24,11 +26,11 @@ if TYPE_CHECKING:
     import numpy as np
     from PIL import Image
 
-#: A pixel has changed when a channel differs by more than this, of 255. Another machine's rounding moves it by 1 or 2, a ball
-#: moved by a quarter of a pixel by 20 and more.
+#: A pixel has changed when a channel differs by more than this, of 255. Another machine's rounding moves it by 1 or 2,
+#: a ball moved by a quarter of a pixel by 20 and more.
 ROUNDING_LEVELS = 8
-#: So many changed pixels may stand within NEIGHBOURHOOD px of each other: an edge pixel or two that was rounded the other way. A
-#: ball of 7 px that is moved by half a pixel changes a dozen.
+#: So many changed pixels may stand within NEIGHBOURHOOD px of each other: an edge pixel or two that was rounded the
+#: other way. A ball of 7 px that is moved by half a pixel changes a dozen.
 STRAY_PIXELS = 3
 NEIGHBOURHOOD = 9
 #: Share of all pixels that may have changed, strays all over the picture.
@@ -95,7 +97,9 @@ def side_by_side(expected: Image.Image, actual: Image.Image) -> Image.Image:
         pale = 170 + np.asarray(expected.convert("L"))[:, :, None] // 3 * np.ones(3, np.uint8)
         pale[levels > ROUNDING_LEVELS] = (220, 20, 20)
         images.append(Image.fromarray(pale.astype(np.uint8)))
-    sheet = Image.new("RGB", (sum(i.width for i in images) + 8 * (len(images) - 1), max(i.height for i in images)), "white")
+    sheet = Image.new(
+        "RGB", (sum(i.width for i in images) + 8 * (len(images) - 1), max(i.height for i in images)), "white"
+    )
     left = 0
     for image in images:
         sheet.paste(image, (left, 0))
@@ -171,7 +175,7 @@ def _save(image: Image.Image, path: Path) -> None:
 
 
 def _folder_for(test: Path, root: Path) -> Path:
-    """The folder ``golden`` beside a test, or the nearest one above it; where there is none, it will be beside the test."""
+    """The folder ``golden`` beside a test, or the nearest above it; where there is none, one will be made beside it."""
     for parent in test.parents:
         if (parent / FOLDER).is_dir():
             return parent / FOLDER

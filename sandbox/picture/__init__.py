@@ -1,4 +1,4 @@
-"""Pictures of runs: always off-screen. SDL's video is never started here, so no window can open and no driver is needed."""
+"""Pictures of runs: always off-screen. SDL's video is never started here: no window can open, no driver is needed."""
 
 import os
 

@@ -47,7 +47,10 @@ class Camera:
 
     def pixels(self, points: np.ndarray) -> np.ndarray:
         """World points in m, shape (n, 2), to picture points in px, shape (n, 2)."""
-        return np.asarray(self.anchor) + (np.asarray(points)[:, :2] - self.at) * (self.scale, -self.scale * self.stretch)
+        return np.asarray(self.anchor) + (np.asarray(points)[:, :2] - self.at) * (
+            self.scale,
+            -self.scale * self.stretch,
+        )
 
     def world(self, px: float, py: float) -> tuple[float, float]:
         """Picture point in px to world point in m."""
@@ -69,8 +72,8 @@ class Camera:
 class Follow:
     """A camera that goes with something, smoothly, and may be asked for any time in any order.
 
-    ``times`` (s) are evenly spaced, ``at`` (m, shape (n, 2)) is where to look and ``scales`` (px/m, shape (n,)) how near.
-    Both are averaged over about ``settle`` s before and after, the scale in its logarithm: a zoom looks even that way.
+    ``times`` (s) are evenly spaced, ``at`` (m, shape (n, 2)) is where to look and ``scales`` (px/m, shape (n,)) how
+    near. Both are averaged over about ``settle`` s before and after, the scale in its logarithm: so a zoom looks even.
     """
 
     def __init__(

@@ -43,7 +43,11 @@ class Picture(Protocol):
 
 def to_image(surface: pygame.Surface) -> Image.Image:
     """The surface as a Pillow image, RGB."""
-    if surface.get_bytesize() == 4 and surface.get_masks()[:3] == (0xFF0000, 0xFF00, 0xFF) and sys.byteorder == "little":
+    if (
+        surface.get_bytesize() == 4
+        and surface.get_masks()[:3] == (0xFF0000, 0xFF00, 0xFF)
+        and sys.byteorder == "little"
+    ):
         # The common layout, four times as fast.
         return Image.frombuffer("RGB", surface.get_size(), surface.get_view("0"), "raw", "BGRX", surface.get_pitch(), 1)
     return Image.frombytes("RGB", surface.get_size(), pygame.image.tobytes(surface, "RGB"))
@@ -62,8 +66,8 @@ def save_poster(picture: Picture, path: Path | str) -> None:
 def save_frames(picture: Picture, run: Any, folder: Path | str, fps: float, progress: Progress | None = None) -> int:
     """Write frame_00000.png, frame_00001.png, ... into a folder, all or none; returns how many.
 
-    Frames of an earlier run with higher numbers are removed, or a film made of the folder would end in two runs. Raises OSError
-    where the folder cannot be written.
+    Frames of an earlier run with higher numbers are removed, or a film made of the folder would end in two runs.
+    Raises OSError where the folder cannot be written.
     """
     folder = Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
@@ -79,7 +83,7 @@ def save_frames(picture: Picture, run: Any, folder: Path | str, fps: float, prog
         drawn = ((i, to_image(picture.frame(t))) for i, t in enumerate(times))
         names = list(_in_threads(keep, drawn, len(times), progress))
         for name in names:
-            os.replace(Path(part) / name, folder / name)
+            (Path(part) / name).replace(folder / name)
     for old in folder.glob("frame_[0-9][0-9][0-9][0-9][0-9].png"):
         if old.name > names[-1]:
             old.unlink()
@@ -87,9 +91,10 @@ def save_frames(picture: Picture, run: Any, folder: Path | str, fps: float, prog
 
 
 def save_gif(picture: Picture, run: Any, path: Path | str, fps: float, progress: Progress | None = None) -> int:
-    """Write the run as an animated GIF that repeats; returns the number of frames. Raises OSError where it cannot be written.
+    """Write the run as an animated GIF that repeats; returns the number of frames.
 
     All frames share one palette, and times are rounded to the 10 ms that the format knows so that none is lost.
+    Raises OSError where it cannot be written.
     """
     times = frame_times(run.duration, min(fps, FASTEST_GIF))
     colours = _shared_palette(picture, times)
@@ -139,7 +144,9 @@ def _in_threads(work: Callable[[T], R], items: Iterator[T], total: int, progress
         try:
             for item in items:
                 waiting.append(pool.submit(work, item))
-                while len(waiting) > 2 * workers:  # no more pictures in memory than are needed to keep all cores at work
+                while (
+                    len(waiting) > 2 * workers
+                ):  # no more pictures in memory than are needed to keep all cores at work
                     yield waiting.popleft().result()
                     done += 1
                     if progress:

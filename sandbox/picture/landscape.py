@@ -9,7 +9,7 @@ import numpy as np
 import pygame
 
 from sandbox.picture.painter import blank, from_colours, from_coverage
-from sandbox.picture.palette import Colour, mix
+from sandbox.picture.palette import mix
 
 #: How far each layer moves when the eye moves by 1 px: the far hills hardly, the near trees most.
 CLOUDS, HILLS, TREES = 0.01, (0.02, 0.04, 0.08), 0.16
@@ -103,13 +103,15 @@ class Landscape:
         """Woods along the horizon: a far and paler line with gaps, and groups before it."""
         rows = round(40 * self.unit)
         layer = blank((self.width, rows), transparent=True)
-        for colour, count, groups, small, large in zip(self.colours["trees"], (260, 70), (15, 12), (3, 5), (8, 12), strict=True):
+        for colour, count, groups, small, large in zip(
+            self.colours["trees"], (260, 70), (15, 12), (3, 5), (8, 12), strict=True
+        ):
             cover = np.zeros((self.width, rows), np.float32)
             middles = (np.arange(groups) + self.random.uniform(0.0, 1.0, groups)) / groups * self.width
             for _ in range(count):
                 x = self.random.choice(middles) + self.random.normal(0, 42) * self.unit
                 radius = self.random.uniform(small, large) * self.unit
                 y = rows - radius * self.random.uniform(0.4, 1.1)
-                self._heap(cover, x, y, radius)
+                self._heap(cover, x, y, radius, self.random.uniform(0.75, 1.15))
             layer.blit(from_coverage(cover, colour), (0, 0))
         return layer, self.horizon - rows + round(2 * self.unit)

@@ -1,4 +1,4 @@
-"""Text: Noto Sans from assets/fonts, whose figures are all equally wide, in three sizes that go with the picture's height."""
+"""Text: Noto Sans from assets/fonts, its figures all equally wide, in three sizes that go with the picture's height."""
 
 from __future__ import annotations
 
@@ -52,7 +52,9 @@ class Lettering:
         """In px."""
         return ceil(_font(self.pixels[size], bold).size(text)[0] / FINER)
 
-    def rect(self, text: str, size: str, at: tuple[float, float], anchor: str = "topleft", bold: bool = False) -> pygame.Rect:
+    def rect(
+        self, text: str, size: str, at: tuple[float, float], anchor: str = "topleft", bold: bool = False
+    ) -> pygame.Rect:
         """Where ``write`` would put the text."""
         rect = pygame.Rect(0, 0, self.width(text, size, bold), self.height(size))
         setattr(rect, anchor, (round(at[0]), round(at[1])))
@@ -79,7 +81,8 @@ class Labels:
     """Finds room for labels: inside the frame, off what is taken, off each other."""
 
     def __init__(self, frame: pygame.Rect, gap: int):
-        self.frame, self.gap, self.taken = frame, gap, []
+        self.frame, self.gap = frame, gap
+        self.taken: list[pygame.Rect] = []
 
     def take(self, rect: pygame.Rect) -> pygame.Rect:
         """Nothing will be put here."""

@@ -9,6 +9,7 @@ from __future__ import annotations
 import threading
 from collections.abc import Callable, Iterable, Sequence
 from functools import lru_cache
+from itertools import pairwise
 from math import ceil, degrees, floor, hypot
 
 import numpy as np
@@ -122,7 +123,7 @@ class Painter:
 
         def draw(mask: pygame.Surface, drawn: np.ndarray, larger: int) -> None:
             radius = width * larger / 2
-            for a, b in zip(drawn[:-1], drawn[1:], strict=True):
+            for a, b in pairwise(drawn):
                 pygame.draw.polygon(mask, colour, _quad(a, b, radius))
             for point in drawn:
                 pygame.draw.circle(mask, colour, point, radius)
@@ -182,11 +183,12 @@ class Painter:
         self._blit(_panel(rect.size, colour, corner), rect.topleft, opacity)
 
     def turned(self, texture: pygame.Surface, centre: Point, angle: float) -> None:
-        """A square texture, ``OVERSAMPLING`` times larger than it is shown, turned by ``angle`` rad counter-clockwise."""
+        """A square texture, larger by ``OVERSAMPLING`` than it is shown, turned by ``angle`` rad counter-clockwise."""
         spun = pygame.transform.rotate(texture, degrees(angle) % 360)
         side = texture.get_width() // OVERSAMPLING + 3
         left, top = floor(centre[0] - side / 2), floor(centre[1] - side / 2)
-        mask = scratch((side * OVERSAMPLING, side * OVERSAMPLING), texture.get_at((0, 0))[:3])
+        red, green, blue, _ = texture.get_at((0, 0))
+        mask = scratch((side * OVERSAMPLING, side * OVERSAMPLING), (red, green, blue))
         middle = (centre[0] - left) * OVERSAMPLING, (centre[1] - top) * OVERSAMPLING
         mask.blit(spun, (round(middle[0] - spun.get_width() / 2), round(middle[1] - spun.get_height() / 2)))
         self._blit(pygame.transform.smoothscale(mask, (side, side)), (left, top), 1.0)
@@ -236,5 +238,7 @@ def _dashed(points: Sequence[Point], dash: float, gap: float) -> list[list[Point
     pieces = []
     for start in np.arange(0, along[-1], dash + gap):
         cuts = [start, *along[(along > start) & (along < start + dash)], min(start + dash, along[-1])]
-        pieces.append([(float(np.interp(s, along, array[:, 0])), float(np.interp(s, along, array[:, 1]))) for s in cuts])
+        pieces.append(
+            [(float(np.interp(s, along, array[:, 0])), float(np.interp(s, along, array[:, 1]))) for s in cuts]
+        )
     return pieces

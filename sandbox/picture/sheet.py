@@ -119,7 +119,7 @@ class Sheet:
 
     def dimension(self, text: str, row: float, start: float, end: float, colour: Colour) -> None:
         """A line from ``start`` to ``end`` (px along x) with a stroke at either end and its text in a gap."""
-        thin = max(1, round(1.6 * self.unit))
+        thin = max(1, round(1.2 * self.unit))
         left, right = sorted((round(start), round(end)))
         y = round(row)
         rect = self.lettering.rect(text, "small", ((left + right) / 2, row), "center", bold=True)
@@ -147,7 +147,10 @@ class Sheet:
         along, up = along / speed, up / speed
         half = min(size / max(abs(along), 1e-9), (tall - 8 * self.unit) / max(abs(up), 1e-9)) / 2
         middle = rect.centerx, rect.top + tall / 2
-        tail, head = (middle[0] - half * along, middle[1] + half * up), (middle[0] + half * along, middle[1] - half * up)
+        tail, head = (
+            (middle[0] - half * along, middle[1] + half * up),
+            (middle[0] + half * along, middle[1] - half * up),
+        )
         self.painter.arrow(tail, head, 3.6 * self.unit, CARD["wind"])
         self.write(text, "small", rect.midbottom, CARD["ink"], "midbottom", bold=True)
         return rect

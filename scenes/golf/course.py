@@ -151,7 +151,7 @@ class Course:
             left, right = round(outline[0, 0]), round(outline[-1, 0])
             painter.surface.fill(lighter, (left, round(outline[0, 1]), right - left, thick))
         else:
-            painter.polygon([*outline, *(outline[::-1] + (0, thick))], lighter)
+            painter.polygon([*outline, *np.add(outline[::-1], (0, thick))], lighter)
 
     def _hollow(self, painter: Painter, camera: Camera, a: float, b: float, colour: Colour) -> None:
         """Sand or water lies in a shallow bowl."""
@@ -179,7 +179,10 @@ class Course:
         if self.cup is not None and (self.cup.right - self.cup.left) * camera.scale > 10 * unit:
             left, right = (round(camera.pixel(edge, 0)[0]) for edge in (self.cup.left, self.cup.right))
             foot = camera.pixel(0, self.cup.bottom)[1]
-            painter.surface.fill(GOLF["cup"], (left, round(ground), right - left, round(foot - ground)))
+            deep = round(foot - ground)
+            painter.surface.fill(GOLF["liner"], (left, round(ground), right - left, deep))
+            thin = max(1, round(1.6 * unit))
+            painter.surface.fill(GOLF["cup"], (left + thin, round(ground), right - left - 2 * thin, deep - thin))
         elif self.cup is not None:
             foot += 3 * unit
             painter.shadow((x, foot), 7 * unit, 2.5 * unit, GOLF["cup"], 0.9)

@@ -21,6 +21,8 @@ CARD, TRACE, GOLF = palette("card"), palette("trace"), palette("golf")
 
 #: A smaller ball is drawn this large, in px across on 360 rows and in proportion on more, with a ring that says so.
 SMALLEST_BALL = 7.0
+#: The balls along the path are so much smaller than the one at its end, where they are all drawn too large.
+MARK = 0.62
 #: The pin is left out of the poster when the path would take up less than this share of the way to it.
 LEAST_PATH = 0.2
 #: A flight that rises at least this much (px on 720 rows) and leaves most of the sky empty is drawn twice as high.
@@ -103,11 +105,14 @@ class Picture:
         course.draw(sheet.painter, camera, nice(70 * self.unit / camera.scale))
         flag = course.hole(sheet.painter, camera, 0.4, self.wind[0])
         if flag:
-            sheet.labels.take(flag)
-        path = camera.pixels(self.path[:, 1:3])
+            sheet.labels.take(flag.inflate(0, 2 * sheet.gap))
+        path = self._lifted(course, camera, self.path[:, 1:3])
         self.trace = path[_apart(path, 1.5)]
         sheet.labels.take_path(self.trace, 4 * self.unit)
         self._apex(sheet, camera)
+        if flag:
+            above = [(flag.centerx, flag.top - lift * self.unit, "midbottom") for lift in (8, 14)]
+            sheet.label(f"pin {signed(f'{self.pin:g}')} m", "small", above, CARD["ink"], bold=True)
         width = max(2.5, 4.5 * self.unit)
         sheet.painter.trace(self.trace, width, TRACE["colours"][0], TRACE["rim"], max(0.75, self.unit))
         every = self._balls_at_even_times(sheet, camera)
@@ -142,16 +147,24 @@ class Picture:
         ground = camera.pixel(top[1], self.poster_course.height(top[1]))[1]
         if ground - y < 44 * unit:
             return
-        sheet.painter.dashes([(x, y + 10 * unit), (x, ground - 4 * unit)], 1.3 * unit, CARD["ink"], 4 * unit, 5 * unit, 0.5)
+        sheet.painter.dashes(
+            [(x, y + 10 * unit), (x, ground - 4 * unit)], 1.3 * unit, CARD["ink"], 4 * unit, 5 * unit, 0.5
+        )
         text = f"apex {metres(self.run.result['apex'])}"
         sheet.label(text, "small", [(x, y - lift * unit, "midbottom") for lift in (12, 18, 24)], CARD["ink"], bold=True)
 
+    def _lifted(self, course: Course, camera: Camera, points: np.ndarray) -> np.ndarray:
+        """Path in px for points in m, raised so that balls drawn too large along it lie on the ground and not in it."""
+        path = camera.pixels(points)
+        on_ground = points[:, 1] > np.interp(points[:, 0], *course.line.T)
+        path[:, 1] -= np.where(on_ground, max(0.0, MARK * self._smallest - self.radius * camera.scale), 0.0)
+        return path
+
     def _spot(self, course: Course, camera: Camera, x: float, y: float, radius: float) -> tuple[float, float]:
-        """Where in px a ball drawn with ``radius`` px goes: not into the ground that it lies on."""
-        px, py = camera.pixel(x, y)
+        """Where in px a ball drawn with ``radius`` px goes: on the path, and not into the ground."""
         ground = camera.pixel(x, course.height(x))[1]
-        in_cup = y < course.height(x)
-        return px, py if in_cup else min(py, ground - radius)
+        px, py = self._lifted(course, camera, np.array([(x, y)]))[0]
+        return float(px), float(py if y < course.height(x) else min(py, ground - radius))
 
     def _balls_at_even_times(self, sheet: Sheet, camera: Camera) -> float:
         """The ball at even times, where there is room for it, and at the end; returns the time between in s."""
@@ -160,7 +173,7 @@ class Picture:
         seen = run.result["apex"] * camera.scale * camera.stretch > 60 * self.unit
         every = nice(max(flight if flight and seen else run.duration, 0.01) / 14)
         true = self.radius * camera.scale
-        radius, largest = max(true, 0.62 * self._smallest), max(true, self._smallest)
+        radius, largest = max(true, MARK * self._smallest), max(true, self._smallest)
         end = self._spot(course, camera, *run.state(self.name, run.duration)[:2], largest)
         last = (-1e9, 0.0)
         for i in range(floor(run.duration / every) + 1):
@@ -169,7 +182,9 @@ class Picture:
             if apart > 2.6 * radius and hypot(at[0] - end[0], at[1] - end[1]) > largest + 2 * radius:
                 course.ball(sheet.painter, at, radius, run.angle(self.name, i * every), ring=False)
                 last = at
-        sheet.painter.shadow((end[0] + 2 * self.unit, end[1] + largest), 1.5 * largest, 0.4 * largest, CARD["shadow"], 0.5)
+        sheet.painter.shadow(
+            (end[0] + 2 * self.unit, end[1] + largest), 1.5 * largest, 0.4 * largest, CARD["shadow"], 0.5
+        )
         course.ball(sheet.painter, end, largest, run.angle(self.name, run.duration), ring=largest > true)
         return every
 
@@ -189,7 +204,7 @@ class Picture:
         return [
             ("carry", metres(result["carry"]) if landed else "–"),
             ("total", metres(result["total"])),
-            ("apex", metres(result["apex"])),
+            ("apex", metres(result["apex"]) if landed or result["carry"] is None else "–"),
             ("flight time", f"{result['flight_time']:.2f} s" if landed else "–"),
             ("ball speed", f"{hypot(vx, vy):.1f} m/s"),
             ("launch", signed(f"{degrees(atan2(vy, vx)):.1f}") + "°"),
@@ -221,7 +236,8 @@ class Picture:
             return f"{story}, still rolling after {self.run.duration:.0f} s"
         side = "short of" if (self.pin - total) * self.pin > 0 else "past"
         away = result["distance_to_pin"]
-        return f"{story}, stops {metres(away, 0 if away >= 10 else 1)} {side} the pin"
+        digits = 0 if away >= 10 else 1 if away >= 1 else 2
+        return f"{story}, stops {metres(away, digits)} {side} the pin"
 
     # Frames
 
@@ -291,7 +307,7 @@ class Picture:
     def _trail(self, sheet: Sheet, camera: Camera, t: float, radius: float) -> None:
         """Where the ball has just been; kept out of the header."""
         times = np.linspace(max(0.0, t - TRAIL), t, 41)
-        points = camera.pixels(np.array([self.run.state(self.name, s)[:2] for s in times]))
+        points = self._lifted(self.frame_course, camera, np.array([self.run.state(self.name, s)[:2] for s in times]))
         above = np.flatnonzero(points[:, 1] < self.sky_row)
         points = points[above[-1] + 1 :] if len(above) else points
         if len(points) > 1:
@@ -335,7 +351,7 @@ class Picture:
         anchor = rect.left + camera.anchor[0], rect.bottom - inset
         camera = Camera(camera.at, anchor, camera.scale, camera.stretch)
         edges = (camera.world(px, 0)[0] for px in (rect.left + sheet.gap, rect.right - sheet.gap))
-        ground = camera.pixels(course.between(*edges)) + (0, 1)
+        ground = np.add(camera.pixels(course.between(*edges)), (0, 1))
         path = camera.pixels(self.path[:, 1:3])
         kept = _apart(path, 1.5)
         return rect, camera, ground, self.path[kept, 0], path[kept]

@@ -5,7 +5,16 @@ import pygame
 import pytest
 from PIL import Image
 
-from sandbox.picture.frames import FASTEST_GIF, GIF_PAUSE, frame_times, save_frames, save_gif, save_png, save_poster, to_image
+from sandbox.picture.frames import (
+    FASTEST_GIF,
+    GIF_PAUSE,
+    frame_times,
+    save_frames,
+    save_gif,
+    save_png,
+    save_poster,
+    to_image,
+)
 from sandbox.picture.painter import Painter, blank
 
 ORANGE = (213, 94, 0)

@@ -96,7 +96,7 @@ class TestEveryShot:
         for share in np.linspace(0, 1, 9):
             picture.frame(share * shot[1].duration)
         (*_, rest), frames = drawn[:-9], drawn[-9:]
-        for (x, y), radius, ring in (rest, *frames):
+        for (x, y), radius, _ in (rest, *frames):
             assert 2 * radius >= 7
             assert 0.04 * size[0] <= x <= 0.96 * size[0]
             assert 0.04 * size[1] <= y <= 0.96 * size[1]
