@@ -233,8 +233,8 @@ def rolling(
 ) -> tuple[float, float]:
     """Acceleration in m/s^2 along the surface of a ball that rolls in ``direction``, and the grip to spare in N.
 
-    Friction turns the ball as fast as it moves and passes on the rolling resistance, as far as ``mu N`` reaches; less than nothing
-    to spare means that it cannot even do the first, and the ball slides.
+    Friction turns the ball as fast as it moves and passes on the rolling resistance, as far as ``mu N`` reaches;
+    less than nothing to spare means that it cannot even do the first, and the ball slides.
     """
     grip = surface.friction * pressed
     turning = (along - torque / ball.radius) / (1.0 + ball.inertia_factor) - along

@@ -184,6 +184,8 @@ def _closings(gap: list[float], starts_beside: bool) -> Iterable[float]:
     """Times at which a gap closes. One that is closed at the start, within rounding, counts only if it is closing
     further.
     """
+    if len(gap) == 1:
+        return ()  # nothing moves
     if starts_beside and gap[0] <= _NOISE:
         opening = without_root_at_start([g - gap[0] for g in gap])
         if opening[0] < -_NOISE:

@@ -281,3 +281,23 @@ def test_a_steady_push_along_the_ground_rolls_or_slides_and_never_stalls(push, r
         assert a == pytest.approx(5 / 7 * push / 0.3, rel=1e-6)
     else:
         assert 0.0 <= a < 5 / 7 * push / 0.3
+
+
+@pytest.mark.parametrize("restitution", [0.0, 0.05, 0.4])
+@pytest.mark.parametrize("speed", [1.2, 1.3, 1.35, 1.5, 1.9])
+def test_a_ball_rolls_over_a_hole_or_comes_to_rest_in_it(restitution, speed):
+    """A golf ball and its cup: an edge to roll about, walls to rattle between, corners to lie in."""
+    radius, mass = 0.021335, 0.04593
+    walls = [((0.146, 0.0), (0.146, -0.1)), ((0.146, -0.1), (0.254, -0.1)), ((0.254, -0.1), (0.254, 0.0))]
+    cup = [Surface("cup", Segment(a, b), restitution, 0.4, 0.1) for a, b in walls]
+    green = [
+        Surface("green", Segment(a, b), 0.5, 0.4, 0.056, lowest_bounce=0.005)
+        for a, b in (((-9.0, 0.0), (0.146, 0.0)), ((0.254, 0.0), (99.0, 0.0)))
+    ]
+    putt = ball((0.0, radius), (speed, 0.0), -speed / radius, radius, mass)
+    run = simulate(Setup([putt], cup + green, duration=60.0), resolve())
+    assert run.ended == "rest"
+    x, y = run.state("ball", run.duration)[:2]
+    holed = y < 0.0
+    assert holed == (0.146 < x < 0.254)
+    assert y == pytest.approx(radius - 0.1 if holed else radius, abs=1e-6)
