@@ -2,13 +2,20 @@
 
 from __future__ import annotations
 
-from math import atan2, degrees, radians
+from math import atan2, cos, degrees, radians, sin
+
+#: Speed in m/s at which a stimpmeter lets the ball go. USGA, Stimpmeter Instruction Booklet (6 ft/s); second-hand.
+STIMPMETER_SPEED = 1.83
+
+#: Gravity in m/s^2 where stimpmeters are read.
+_GRAVITY = 9.81
 
 
 def penner_restitution(normal_speed: float) -> float:
     """Restitution of a golf ball on turf: ``e = 0.510 - 0.0375 v + 0.000903 v^2`` for v up to 20 m/s, 0.120 above.
 
-    ``normal_speed`` v in m/s. Source: Penner 2002, Can. J. Phys. 80:931, equation 6.
+    ``normal_speed`` v in m/s. Source: Penner 2002, Can. J. Phys. 80:931, from Haake's measurements on greens;
+    second-hand.
     """
     if normal_speed > 20.0:
         return 0.120
@@ -18,18 +25,29 @@ def penner_restitution(normal_speed: float) -> float:
 def penner_tilt(normal_speed: float, tangential_speed: float) -> float:
     """Angle in rad by which the turf gives way, so that the ball bounces off a slope of its own making.
 
-    ``15.4 deg (v / 18.6 m/s) (phi / 44.4 deg)`` with the impact speed v and its angle phi from the vertical. Held at 45 deg.
-    Source: Penner 2002, Can. J. Phys. 80:931, equation 5, with the values measured by Haake for a firm green.
+    ``15.4 deg (v / 18.6 m/s) (phi / 44.4 deg)`` with the speed v of the impact and its angle phi from the vertical;
+    held at 45 deg, far beyond what a landing ball reaches. Source: Penner 2002, as above, who draws a line through one
+    measurement of Haake's on a green (18.6 m/s, 44.4 deg); second-hand.
     """
     speed = (normal_speed * normal_speed + tangential_speed * tangential_speed) ** 0.5
     incidence = degrees(atan2(tangential_speed, normal_speed))
     return radians(min(15.4 * (speed / 18.6) * (incidence / 44.4), 45.0))
 
 
-def stimp_resistance(stimp: float) -> float:
-    """Deceleration over gravity of a ball rolling on a green of the given stimpmeter reading in feet: ``0.56 / stimp``.
+def penner_bounce(normal_speed: float, tangential_speed: float, give: float = 1.0) -> tuple[float, float]:
+    """Restitution, and the tilt in rad of the surface that the ball bounces off, for an impact on level turf.
 
-    A stimpmeter lets the ball go at 1.83 m/s and reads how far it rolls, so ``a = 1.83^2 / (2 * 0.3048 stimp)``.
-    Source: USGA, Stimpmeter Instruction Booklet; Holmes 1991, Am. J. Phys. 59:129.
+    The turf tilts by ``give`` times penner_tilt; the restitution is that of the speed normal to the tilted surface.
+    Speeds in m/s, both positive. Source: Penner 2002, as above.
     """
-    return 0.56 / stimp
+    tilt = give * penner_tilt(normal_speed, tangential_speed)
+    return penner_restitution(normal_speed * cos(tilt) + tangential_speed * sin(tilt)), tilt
+
+
+def stimp_resistance(stimp: float) -> float:
+    """Deceleration over gravity of a ball rolling on a green with a stimpmeter reading of ``stimp`` m.
+
+    A stimpmeter lets the ball go at 1.83 m/s and reads how far it rolls: ``c = (1.83 m/s)^2 / (2 g stimp)``, which is
+    0.56 over the reading in feet. Source: Holmes 1991, Am. J. Phys. 59:129; second-hand.
+    """
+    return STIMPMETER_SPEED**2 / (2.0 * _GRAVITY * stimp)

@@ -1,34 +1,30 @@
 """Golf in side view: from the tee, through the air, over the turf, to rest or into the cup.
 
-Models: gravity; drag and Magnus lift with coefficients by Reynolds number and spin ratio; wind, even or growing with height; spin
-decay; bounces on turf that gives way (Penner 2002), sliding, rolling, slopes, and a cup with real walls, which a fast ball rolls over.
-Leaves out: everything sideways (hook, slice, break of the green); the ball's deformation; moisture and grain of the grass.
+LEAVES
 """
 
 from __future__ import annotations
 
 from itertools import pairwise
-from math import atan2, cos, degrees, hypot, pi, radians, sin
+from math import atan2, cos, degrees, hypot, inf, pi, radians, sin, sqrt
 from typing import Any, Literal
 
+from sandbox.aerodynamics import Air as EvenAir
+from sandbox.aerodynamics import ConstantLift, NoDrag, NoLift, SpinRatioLift
 from sandbox.engine.run import Event, Run
-from sandbox.engine.setup import Ball, Bounce, Force, Segment, Setup, Surface, Torque
+from sandbox.engine.setup import SOLID_SPHERE, Ball, Bounce, Bounds, Force, Segment, Setup, Surface, Torque
 from sandbox.errors import RequestError
-from sandbox.parameters import Accuracy, Group, choice, either, group, quantity, vector
+from sandbox.parameters import Accuracy, Group, choice, either, group, groups, quantity, vectors
 from sandbox.physics import coefficients
 from sandbox.physics.air import LogWind, UniformWind
 from sandbox.physics.forces import Drag, Gravity, Magnus, SpinDecay, Wind
-from sandbox.physics.impulse import club_on_ball
-from sandbox.physics.turf import penner_restitution, penner_tilt, stimp_resistance
+from sandbox.physics.turf import penner_bounce, penner_restitution, stimp_resistance
 
 RPM = pi / 30.0  # rad/s
 YARD = 0.9144  # m
 FOOT = 0.3048  # m
 
-#: Density in kg/m^3 of the air in which the spin decay was measured.
-STANDARD_DENSITY = 1.204
-
-# ------------------------------------------------------------------------------------------------------------ parameters
+# ----------------------------------------------------------------------------------------------------------- parameters
 
 
 class Launch(Group):
@@ -45,13 +41,17 @@ class Club(Group):
     speed: float = quantity("115 mph", "m/s", 0, 150, "speed of the head")
     mass: float = quantity(0.2, "kg", 0.01, 10, "mass of the head")
     loft: float = quantity(10.5, "deg", 0, 80, "angle of the face from the vertical")
+    attack: float = quantity(0.0, "deg", -45, 45, "way of the head above the horizontal; negative hits down")
     restitution: float = quantity(0.83, "", 0, 1, "of head and ball")
+    friction: float = quantity(0.6, "", 0, 10, "of face and ball; with too little the ball slides up the face")
 
 
-class ModelDrag(Group):
-    """Drag by a published model of the golf ball."""
+class GolfDrag(Group):
+    """Drag by a model of the golf ball."""
 
-    model: Literal["quadratic", "smits-smith", "lyu", "usga"] = choice("quadratic", "drag coefficient by its source")
+    model: Literal["tour-fit", "smits-smith", "lyu", "usga", "quadratic", "power-law"] = choice(
+        "tour-fit", "drag coefficient by its source"
+    )
 
 
 class ConstantDrag(Group):
@@ -61,33 +61,13 @@ class ConstantDrag(Group):
     coefficient: float = quantity(0.25, "", 0, 10, "drag coefficient")
 
 
-class NoDrag(Group):
-    """No drag."""
+class GolfLift(Group):
+    """Lift by a model of the golf ball."""
 
-    model: Literal["none"] = choice("none", "drag coefficient by its source")
-
-
-class ModelLift(Group):
-    """Lift by a published model of the golf ball."""
-
-    model: Literal["quadratic", "smits-smith", "lyu", "usga", "spin-ratio"] = choice(
-        "quadratic", "lift coefficient by its source"
+    model: Literal["tour-fit", "smits-smith", "lyu", "usga", "quadratic", "power-law"] = choice(
+        "tour-fit", "lift coefficient by its source"
     )
     velocity: Literal["air", "ground"] = choice("air", "velocity that lift is reckoned by: relative to air or ground")
-
-
-class ConstantLift(Group):
-    """One lift coefficient for all spins."""
-
-    model: Literal["constant"] = choice("constant", "lift coefficient by its source")
-    coefficient: float = quantity(0.2, "", 0, 10, "lift coefficient")
-    velocity: Literal["air", "ground"] = choice("air", "velocity that lift is reckoned by: relative to air or ground")
-
-
-class NoLift(Group):
-    """No lift."""
-
-    model: Literal["none"] = choice("none", "lift coefficient by its source")
 
 
 class BallParameters(Group):
@@ -95,16 +75,15 @@ class BallParameters(Group):
 
     mass: float = quantity(0.04593, "kg", 0.0001, 10, "mass")
     radius: float = quantity(0.021335, "m", 0.0005, 0.5, "radius")
-    spin_decay: float = quantity(6e-5, "", 0, 0.01, "k of dw/dt = -k |u| w / r")
-    drag: ModelDrag | ConstantDrag | NoDrag = either(ModelDrag(), "drag of the air")
-    lift: ModelLift | ConstantLift | NoLift = either(ModelLift(), "Magnus lift")
+    cross_section: float | None = quantity(None, "m^2", 1e-7, 1, "area against the air, where not that of the radius")
+    spin_decay: float = quantity(2e-5, "", 0, 0.01, "k of dw/dt = -k |u| w / r, in air of 1.204 kg/m^3")
+    drag: GolfDrag | ConstantDrag | NoDrag = either(GolfDrag(), "drag of the air")
+    lift: GolfLift | SpinRatioLift | ConstantLift | NoLift = either(GolfLift(), "Magnus lift")
 
 
-class Air(Group):
+class Air(EvenAir):
     """The air and how it moves."""
 
-    density: float = quantity(1.204, "kg/m^3", 0, 1100, "density")
-    wind: tuple[float, float] = vector((0.0, 0.0), "m/s", -100, 100, "along x and y; negative x is a headwind")
     profile: Literal["uniform", "log"] = choice("uniform", "even wind, or one that grows with height over the ground")
     reference_height: float = quantity(10.0, "m", 0.1, 100, "height at which a log profile has the wind given")
     roughness: float = quantity(0.03, "m", 0.0001, 2, "roughness length of a log profile")
@@ -115,6 +94,7 @@ class Turf(Group):
 
     bounce: float = quantity(1.0, "", 0, 2, "restitution over that of Penner's green")
     friction: float = quantity(0.40, "", 0, 10, "friction of ball and ground")
+    give: float = quantity(1.0, "", 0, 2, "how far it gives way under a bounce, over Penner's green")
     resistance: float = quantity(0.14, "", 0, 10, "deceleration of a rolling ball over gravity")
 
 
@@ -125,6 +105,7 @@ class Green(Group):
     stimp: float = quantity("10 ft", "m", 0.3, 12, "reading of a stimpmeter")
     bounce: float = quantity(1.0, "", 0, 2, "restitution over that of Penner's green")
     friction: float = quantity(0.40, "", 0, 10, "friction of ball and ground")
+    give: float = quantity(1.0, "", 0, 2, "how far it gives way under a bounce, over Penner's green")
 
 
 class Strip(Group):
@@ -143,14 +124,16 @@ class Ground(Group):
     rough: Turf = group(Turf(bounce=0.7, friction=0.5, resistance=0.4), "rough")
     bunker: Turf = group(Turf(bounce=0.2, friction=0.8, resistance=1.0), "bunker")
     green: Green = group(Green(), "green")
-    strips: list[Strip] = choice([], "stretches laid over the fairway, later ones on top")  # type: ignore[arg-type]
-    heights: list[tuple[float, float]] = choice([], "points (x, height in m) of the ground's line; flat at 0 where empty")  # type: ignore[arg-type]
+    strips: list[Strip] = groups([], "stretches laid over the fairway, later ones on top; the green lies over all")
+    heights: list[tuple[float, float]] = vectors(
+        [], 2, "m", -1000, 3000, "points (x, height) of the ground's line, level beyond its ends; empty: level at 0"
+    )
 
 
 class Pin(Group):
     """The flag and its cup."""
 
-    distance: float = quantity(280.0, "m", -500, 2500, "from the tee to the middle of the cup")
+    distance: float = quantity(277.0, "m", -500, 2500, "from the tee to the middle of the cup")
     cup_width: float = quantity("108 mm", "m", 0, 10, "width of the cup; 0 for none")
     cup_depth: float = quantity("101.6 mm", "m", 0.01, 2, "depth of the cup")
 
@@ -169,23 +152,31 @@ class Parameters(Group):
     accuracy: Accuracy = group(Accuracy(), "speed against accuracy")
 
 
-# ----------------------------------------------------------------------------------------------------------------- build
+# ---------------------------------------------------------------------------------------------------------------- build
 
-#: The course reaches this far behind and beyond, in m.
-BEHIND, BEYOND = -1000.0, 3000.0
+#: Density in kg/m^3 of the air that the spin decay is given for; thinner air slows the spin less, in proportion.
+STANDARD_DENSITY = 1.204
+
+#: The course goes on this far in m, behind and beyond: farther than a shot gets in LONGEST.
+FAR = 2e5
+
+#: A shot that has not come to rest after this time in s is ended.
+LONGEST = 300.0
 
 #: Bounces lower than this, in m, are lost in the grass and the ball rolls (Penner 2002, Can. J. Phys. 80:931).
 LOWEST_BOUNCE = 0.005
 
-#: A shot that has not come to rest after this time in s is ended.
-LONGEST = 300.0
+#: Restitution, friction and rolling resistance of the cup and its rim. The restitution is chosen so that the fastest
+#: putt it holds crosses the near edge at 1.64 m/s; Holmes 1991, Am. J. Phys. 59:129, has 1.63 m/s (second-hand). The
+#: others are assumed.
+CUP = (0.05, 0.4, 0.1)
 
 
 def build(parameters: Parameters) -> Setup:
     """Ball, course, and the forces that this shot needs. Raises RequestError where the course makes no sense."""
     air, ball = parameters.air, parameters.ball
+    surfaces = _course(parameters)
     velocity, spin = launched(parameters)
-    inertia = 0.4 * ball.mass * ball.radius**2
     wind = _wind(air)
     forces: list[Force] = []
     torques: list[Torque] = []
@@ -194,37 +185,46 @@ def build(parameters: Parameters) -> Setup:
     if air.density > 0.0:
         drag, lift = ball.drag, ball.lift
         if not isinstance(drag, NoDrag):
-            forces.append(Drag(ball.radius, air.density, _drag_coefficient(drag), wind))
-        if not isinstance(lift, NoLift) and spin != 0.0:
-            along_ground = lift.velocity == "ground"
-            forces.append(Magnus(ball.radius, air.density, _lift_coefficient(lift), wind, along_ground=along_ground))
-        if ball.spin_decay > 0.0:
-            torques.append(SpinDecay(inertia, ball.radius, ball.spin_decay * air.density / STANDARD_DENSITY, wind))
-    return Setup(
-        balls=[
-            Ball(
-                "ball",
-                ball.mass,
-                ball.radius,
-                position=(0.0, ball.radius),
-                velocity=velocity,
-                spin=spin,
-                forces=forces,
-                torques=torques,
+            forces.append(Drag(ball.radius, air.density, _drag_coefficient(drag), wind, ball.cross_section))
+        if not isinstance(lift, NoLift):
+            coefficient, along_ground = _lift_coefficient(lift), lift.velocity == "ground"
+            forces.append(
+                Magnus(ball.radius, air.density, coefficient, wind, ball.cross_section, along_ground=along_ground)
             )
-        ],
-        surfaces=_course(parameters),
+        if ball.spin_decay > 0.0:
+            inertia = SOLID_SPHERE * ball.mass * ball.radius**2
+            torques.append(SpinDecay(inertia, ball.radius, ball.spin_decay * air.density / STANDARD_DENSITY, wind))
+    start = (0.0, _resting_height(parameters, 0.0))
+    return Setup(
+        balls=[Ball("ball", ball.mass, ball.radius, start, velocity, spin, forces=forces, torques=torques)],
+        surfaces=surfaces,
         duration=LONGEST,
         until=_is_in_water,
+        bounds=Bounds(-FAR, -FAR, FAR, FAR),
     )
 
 
 def launched(parameters: Parameters) -> tuple[tuple[float, float], float]:
     """Velocity (m/s) and spin (rad/s, counter-clockwise) of the ball as it leaves the tee."""
     if parameters.start == "club":
+        # here, not above: it brings pymunk, which reading a scene does not need
+        from sandbox.engine.strike import strike
+
         club, ball = parameters.club, parameters.ball
-        struck = club_on_ball(
-            club.speed, radians(club.loft), club.mass, ball.mass, ball.radius, club.restitution
+        if club.loft - club.attack > 90.0:
+            raise RequestError(
+                f"club.attack = {club.attack:g} deg: with club.loft = {club.loft:g} deg "
+                "the face moves away from the ball"
+            )
+        struck = strike(
+            club.speed,
+            radians(club.loft),
+            club.mass,
+            ball.mass,
+            ball.radius,
+            club.restitution,
+            radians(club.attack),
+            club.friction,
         )
         return (struck.vx, struck.vy), struck.spin
     launch = parameters.launch
@@ -244,21 +244,21 @@ def _wind(air: Air) -> Wind | None:
     return UniformWind(*air.wind)
 
 
-def _drag_coefficient(drag: ModelDrag | ConstantDrag) -> coefficients.Coefficient:
+def _drag_coefficient(drag: GolfDrag | ConstantDrag) -> coefficients.Coefficient:
     if isinstance(drag, ConstantDrag):
         return coefficients.constant(drag.coefficient)
-    return coefficients.GOLF_BALL[drag.model][0]
+    return coefficients.GOLF_DRAG[drag.model]
 
 
-def _lift_coefficient(lift: ModelLift | ConstantLift) -> coefficients.Coefficient:
+def _lift_coefficient(lift: GolfLift | SpinRatioLift | ConstantLift) -> coefficients.Coefficient:
     if isinstance(lift, ConstantLift):
         return coefficients.constant(lift.coefficient)
-    if lift.model == "spin-ratio":
+    if isinstance(lift, SpinRatioLift):
         return coefficients.spin_ratio_lift
-    return coefficients.GOLF_BALL[lift.model][1]
+    return coefficients.GOLF_LIFT[lift.model]
 
 
-# ---------------------------------------------------------------------------------------------------------------- course
+# --------------------------------------------------------------------------------------------------------------- course
 
 
 def height(parameters: Parameters, x: float) -> float:
@@ -284,6 +284,22 @@ def kind_at(parameters: Parameters, x: float) -> str:
     return "fairway"
 
 
+def _resting_height(parameters: Parameters, x: float) -> float:
+    """Height in m of the centre of a ball that touches the ground from above, at x."""
+    radius, points = parameters.ball.radius, parameters.ground.heights
+    if not points:
+        return radius
+    line = [(-FAR, points[0][1]), *points, (FAR, points[-1][1])]
+    touching = [y0 + sqrt(radius**2 - (x - x0) ** 2) for x0, y0 in points if abs(x - x0) <= radius]
+    for (x0, y0), (x1, y1) in pairwise(line):
+        length = hypot(x1 - x0, y1 - y0)
+        tx, ty = (x1 - x0) / length, (y1 - y0) / length
+        along = (x - x0 + radius * ty) / tx
+        if 0.0 <= along <= length:
+            touching.append(y0 + along * ty + radius * tx)
+    return max(touching)
+
+
 def _course(parameters: Parameters) -> list[Surface]:
     ground, pin = parameters.ground, parameters.pin
     for (x0, _), (x1, _) in pairwise(ground.heights):
@@ -291,54 +307,52 @@ def _course(parameters: Parameters) -> list[Surface]:
             raise RequestError(f"ground.heights: x must grow from point to point, but {x1:g} m follows {x0:g} m")
     for strip in ground.strips:
         if strip.end <= strip.start:
-            raise RequestError(f"ground.strips: the {strip.kind} from {strip.start:g} m to {strip.end:g} m has no length")
+            raise RequestError(
+                f"ground.strips: the {strip.kind} from {strip.start:g} m to {strip.end:g} m has no length"
+            )
     half = 0.5 * pin.cup_width
     left, right = pin.distance - half, pin.distance + half
     if half > 0.0 and left < parameters.ball.radius and right > -parameters.ball.radius:
         raise RequestError(f"pin.distance: the cup at {pin.distance:g} m is where the ball starts, at 0 m")
-    edges = {BEHIND, BEYOND, left, right, *(x for x, _ in ground.heights)}
+    edges = {-FAR, FAR, left, right, *(x for x, _ in ground.heights)}
     for strip in ground.strips:
         edges |= {strip.start, strip.end}
     edges |= {pin.distance - 0.5 * ground.green.length, pin.distance + 0.5 * ground.green.length}
     surfaces = []
-    for a, b in pairwise(sorted(x for x in edges if BEHIND <= x <= BEYOND)):
+    if half > 0.0:
+        top_left, top_right = height(parameters, left), height(parameters, right)
+        bottom = min(top_left, top_right) - pin.cup_depth
+        corners = [(left, top_left), (left, bottom), (right, bottom), (right, top_right)]
+        surfaces += [Surface("cup", Segment(a, b), *CUP) for a, b in pairwise(corners)]
+    for a, b in pairwise(sorted(edges)):
         middle = 0.5 * (a + b)
         if left <= middle <= right:
             continue  # the cup
         kind = kind_at(parameters, middle)
         surfaces.append(_turf(parameters, kind, (a, height(parameters, a)), (b, height(parameters, b))))
-    if half > 0.0:
-        top_left, top_right = height(parameters, left), height(parameters, right)
-        bottom = min(top_left, top_right) - pin.cup_depth
-        corners = [(left, top_left), (left, bottom), (right, bottom), (right, top_right)]
-        surfaces += [Surface("cup", Segment(a, b), 0.4, 0.4, 0.1) for a, b in pairwise(corners)]
     return surfaces
 
 
 def _turf(parameters: Parameters, kind: str, a: tuple[float, float], b: tuple[float, float]) -> Surface:
-    ground = parameters.ground
     if kind == "water":
         return Surface("water", Segment(a, b), 0.0, 0.0)
-    if kind == "green":
-        bounce, friction, resistance = ground.green.bounce, ground.green.friction, stimp_resistance(ground.green.stimp / FOOT)
-    else:
-        turf: Turf = getattr(ground, kind)
-        bounce, friction, resistance = turf.bounce, turf.friction, turf.resistance
+    turf: Turf | Green = getattr(parameters.ground, kind)
+    resistance = stimp_resistance(turf.stimp) if isinstance(turf, Green) else turf.resistance
 
     def law(normal_speed: float, tangential_speed: float) -> Bounce:
-        restitution = min(1.0, bounce * penner_restitution(normal_speed))
-        return Bounce(restitution, friction, penner_tilt(normal_speed, tangential_speed))
+        restitution, tilt = penner_bounce(normal_speed, tangential_speed, turf.give)
+        return Bounce(min(1.0, turf.bounce * restitution), turf.friction, tilt)
 
-    restitution = min(1.0, bounce * penner_restitution(0.0))
-    return Surface(kind, Segment(a, b), restitution, friction, resistance, LOWEST_BOUNCE, law)
+    slow = min(1.0, turf.bounce * penner_restitution(0.0))
+    return Surface(kind, Segment(a, b), slow, turf.friction, resistance, LOWEST_BOUNCE, law)
 
 
-# ---------------------------------------------------------------------------------------------------------------- result
+# --------------------------------------------------------------------------------------------------------------- result
 
 
 def result(run: Run, parameters: Parameters) -> dict[str, Any]:
-    """Carry, total, apex and the rest; lengths in m, times in s, angles in deg, spin in rpm. None where it never landed."""
-    start = run.state("ball", 0.0)
+    """Carry, total, apex and the rest, in m, s, deg and rpm. None where the ball never came down."""
+    start = run.setup.balls[0].position
     landed = _landing(run, start[1])
     end_x, end_y = run.state("ball", run.duration)[:2]
     pin = parameters.pin
@@ -347,7 +361,7 @@ def result(run: Run, parameters: Parameters) -> dict[str, Any]:
     found: dict[str, Any] = {
         "carry": None,
         "total": end_x,
-        "apex": run.highest("ball")[1][1] - start[1],
+        "apex": max(0.0, run.highest("ball")[1][1] - start[1]),
         "flight_time": None,
         "landing_angle": None,
         "landing_speed": None,
@@ -361,7 +375,7 @@ def result(run: Run, parameters: Parameters) -> dict[str, Any]:
         found |= {
             "carry": x,
             "flight_time": t,
-            "landing_angle": degrees(atan2(-vy, abs(vx))),
+            "landing_angle": degrees(atan2(0.0 - vy, abs(vx))),
             "landing_speed": hypot(vx, vy),
             "landing_spin": spin / RPM,
         }
@@ -370,26 +384,36 @@ def result(run: Run, parameters: Parameters) -> dict[str, Any]:
 
 def _landing(run: Run, launch_height: float) -> tuple[float, tuple[float, ...]] | None:
     """Time and state at which the ball is back at launch height, or comes down on higher ground before that."""
-    touched = next((event.t for event in run.events if event.kind in ("impact", "contact", "rest")), None)
+    ball = run.setup.balls[0]
+    touched = next((event.t for event in run.events if event.kind in ("impact", "contact", "rest")), inf)
+    if touched == 0.0:
+        return 0.0, (*ball.position, *ball.velocity, ball.spin)  # into the ground, or along it
     back = next(iter(run.crossings("ball", (0.0, launch_height), (0.0, 1.0))), None)
-    if touched is not None and (back is None or touched < back[0]):
+    if touched < (inf if back is None else back[0]):
         return touched, run.before("ball", touched)
     return back
 
 
 def card(result: dict[str, Any], parameters: Parameters) -> list[tuple[str, str]]:
     """The result for people."""
-    launch_velocity, spin = launched(parameters)
-    speed = hypot(*launch_velocity)
-    angle = degrees(atan2(launch_velocity[1], launch_velocity[0]))
+    (vx, vy), spin = launched(parameters)
+    speed = hypot(vx, vy)
+    angle = degrees(atan2(vy, vx))
     lines = [("launch", f"{speed:.1f} m/s ({speed / 0.44704:.0f} mph) at {angle:.1f}°, {spin / RPM:.0f} rpm")]
+    if parameters.start == "club" and parameters.club.speed > 0.0:
+        club = parameters.club.speed
+        lines.insert(0, ("club", f"{club:.1f} m/s ({club / 0.44704:.0f} mph), smash factor {speed / club:.2f}"))
     if result["carry"] is None:
         lines.append(("carry", "did not come down"))
     else:
         lines += [
             ("carry", _length(result["carry"])),
             ("flight", f"{result['flight_time']:.2f} s, {result['apex']:.1f} m high"),
-            ("landing", f"{result['landing_angle']:.1f}° at {result['landing_speed']:.1f} m/s, {result['landing_spin']:.0f} rpm"),
+            (
+                "landing",
+                f"{result['landing_angle']:.1f}° at {result['landing_speed']:.1f} m/s, "
+                f"{result['landing_spin']:.0f} rpm",
+            ),
         ]
     lines.append(("total", _length(result["total"])))
     endings = {
