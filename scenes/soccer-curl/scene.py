@@ -5,8 +5,8 @@ moving at a given speed) and net as things to hit.
 Leaves out: everything upright. Gravity has no part in this plane, so the scene does not know how high the ball is,
 whether it clears the wall, or when it would come down: give it kicks that stay in the air. The ball's loss of spin.
 
-What that is worth: if a soccer ball lost its spin as a golf ball does (k = 6e-5 in dw/dt = -k v w / r; nothing published
-for soccer), Beckham's kick would bend 0.8 cm less and Roberto Carlos's 2.8 cm less.
+What that is worth: if a soccer ball lost its spin as a golf ball does (k = 6e-5 in dw/dt = -k v w / r; nothing
+published for soccer), Beckham's kick would bend 0.8 cm less and Roberto Carlos's 2.8 cm less.
 """
 
 from __future__ import annotations
@@ -122,8 +122,9 @@ class Parameters(Group):
 
 # -------------------------------------------------------------------------------------------------------------- build
 
-#: A kick still under way after this time in s is ended: no ball stays in the air so long.
-LONGEST = 10.0
+#: A kick still under way after this time in s is ended: no ball stays in the air so long. A fast one is ended earlier,
+#: after this many times what it needs to the goal line without air, and a moment to see it saved.
+LONGEST, PATIENCE, MOMENT = 10.0, 3.0, 1.0
 
 #: Advertising boards behind the ball, behind the goal line and on either side, in m; a ball that gets there is out.
 BOARDS_BEHIND, BOARDS_BEYOND, BOARDS_ASIDE = -15.0, 8.0, 60.0
@@ -152,10 +153,11 @@ def build(parameters: Parameters) -> Setup:
         balls.append(
             Ball("keeper", keeper.mass, keeper.radius, position=_keeper(parameters), velocity=(0.0, keeper.speed))
         )
+    needed = parameters.goal.distance / max(launch.speed, 0.1)
     return Setup(
         balls,
         _pitch(parameters),
-        duration=LONGEST,
+        duration=min(LONGEST, PATIENCE * needed + MOMENT),
         until=_is_over,
         between_balls=lambda normal_speed, tangential_speed: Bounce(keeper.restitution, keeper.friction),
     )

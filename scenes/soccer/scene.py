@@ -5,8 +5,8 @@ wall of players, the crossbar and the net as things to hit.
 Leaves out: everything sideways (see the view from above); the ball's loss of spin in the air; the wobble of a ball
 without spin; players who move; the give of grass, net and ball.
 
-What that is worth: if a soccer ball lost its spin as a golf ball does (k = 6e-5 in dw/dt = -k v w / r; nothing published
-for soccer), the dipping free kick would come 1.2 cm higher to the goal.
+What that is worth: if a soccer ball lost its spin as a golf ball does (k = 6e-5 in dw/dt = -k v w / r; nothing
+published for soccer), the dipping free kick would come 1.2 cm higher to the goal.
 """
 
 from __future__ import annotations
@@ -123,7 +123,7 @@ FAR = 25_000.0
 #: Bounces lower than this, in m, are lost in the grass and the ball rolls; assumed.
 LOWEST_BOUNCE = 0.01
 
-#: Advertising boards behind the ball and behind the goal, in m; a ball that gets there is out of play.
+#: Advertising boards behind the ball and beyond the goal, in m; a ball that gets there is out of play.
 BOARDS_BEHIND, BOARDS_BEYOND, BOARDS_HEIGHT = -30.0, 8.0, 0.9
 
 
@@ -135,7 +135,7 @@ def build(parameters: Parameters) -> Setup:
     forces = aerodynamic_forces(parameters.air, ball.radius, ball.drag, ball.lift, SOCCER_DRAG | SOCCER_LIFT)
     if parameters.gravity > 0.0:
         forces.append(Gravity(ball.mass, parameters.gravity))
-    beyond = parameters.goal.distance + BOARDS_BEYOND
+    beyond = _beyond(parameters)
 
     def out_of_play(event: Event) -> bool:
         if event.partner == "boards":
@@ -176,6 +176,12 @@ def _check(parameters: Parameters) -> None:
         )
 
 
+def _beyond(parameters: Parameters) -> float:
+    """Where the boards beyond the goal stand, or beyond the wall where that is further."""
+    wall = parameters.wall
+    return max(parameters.goal.distance, wall.distance if wall.present else 0.0) + BOARDS_BEYOND
+
+
 def _pitch(parameters: Parameters) -> list[Surface]:
     ground, goal, wall = parameters.ground, parameters.goal, parameters.wall
     surfaces = [
@@ -189,8 +195,7 @@ def _pitch(parameters: Parameters) -> list[Surface]:
         )
     ]
     surfaces += [
-        Surface("boards", Segment((x, 0.0), (x, BOARDS_HEIGHT)), 0.0, 0.0)
-        for x in (BOARDS_BEHIND, goal.distance + BOARDS_BEYOND)
+        Surface("boards", Segment((x, 0.0), (x, BOARDS_HEIGHT)), 0.0, 0.0) for x in (BOARDS_BEHIND, _beyond(parameters))
     ]
     if wall.present:
         front, back = wall.distance - 0.5 * wall.thickness, wall.distance + 0.5 * wall.thickness

@@ -1,0 +1,75 @@
+"""Drag and lift coefficients of a soccer ball."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from sandbox.physics.coefficients import (
+    SOCCER_DRAG,
+    SOCCER_LIFT,
+    asai_lift,
+    goff_carre_drag,
+    power_law_soccer_lift,
+    textbook_soccer_drag,
+)
+
+#: Reynolds number per m/s of the ball and air of Goff and Carre.
+PER_SPEED = 1.457e4
+
+
+@pytest.mark.parametrize("speed", [5.0, 8.0, 11.0, 12.19, 14.0, 20.0, 35.0])
+def test_drag_without_spin_is_the_published_curve(speed: float):
+    published = 0.155 + 0.346 / (1.0 + np.exp((speed - 12.19) / 1.309))
+    assert goff_carre_drag(PER_SPEED * speed, 0.0) == pytest.approx(published, abs=2e-4)
+
+
+@pytest.mark.parametrize("spin_ratio", [0.05, 0.1, 0.2, 0.3])
+def test_drag_of_a_fast_spinning_ball_is_the_published_power(spin_ratio: float):
+    assert goff_carre_drag(PER_SPEED * 25.0, spin_ratio) == pytest.approx(0.4127 * spin_ratio**0.3056, rel=1e-3)
+
+
+def test_drag_has_no_jumps():
+    """The source jumps at v = 12.19 m/s and at S = 0.05; a jump would defeat the integrator's error control."""
+    speeds = np.linspace(1.0, 40.0, 4001)
+    spins = np.linspace(0.0, 0.6, 601)
+    over_speed = np.array(
+        [goff_carre_drag(PER_SPEED * speeds, np.full_like(speeds, s)) for s in (0.0, 0.049, 0.051, 0.3)]
+    )
+    over_spin = np.array([goff_carre_drag(np.full_like(spins, PER_SPEED * v), spins) for v in (8.0, 12.1, 12.3, 30.0)])
+    assert np.abs(np.diff(over_speed, axis=1)).max() < 1e-3
+    assert np.abs(np.diff(over_spin, axis=1)).max() < 2e-3
+
+
+def test_textbook_drag():
+    values = [textbook_soccer_drag(re, 0.0) for re in (5e4, 1e5, 1.175e5, 1.35e5, 4e5)]
+    assert values == pytest.approx([0.47, 0.47, 0.345, 0.22, 0.22])
+
+
+@pytest.mark.parametrize(("spin_ratio", "published"), [(0.18, 0.21), (0.22, 0.24), (0.34, 0.29)])
+def test_lift_meets_the_published_points(spin_ratio: float, published: float):
+    assert asai_lift(4e5, spin_ratio) == pytest.approx(published, abs=0.0031)
+
+
+def test_lift_grows_evenly_from_nothing_and_stays_bounded():
+    spins = np.linspace(0.0, 5.0, 501)
+    lift = asai_lift(np.full_like(spins, 4e5), spins)
+    assert lift[0] == 0.0
+    assert (np.diff(lift) > 0.0).all()
+    assert (np.diff(lift, 2) < 0.0).all()
+    assert lift[-1] < 0.5
+
+
+def test_power_law_lift():
+    assert power_law_soccer_lift(4e5, 0.2) == pytest.approx(0.385 * 0.2**0.25)
+    assert power_law_soccer_lift(4e5, 3.0) == 0.385
+
+
+@pytest.mark.parametrize("name", [*SOCCER_DRAG, *SOCCER_LIFT])
+def test_arrays_give_what_floats_give(name: str):
+    model = (SOCCER_DRAG | SOCCER_LIFT)[name]
+    reynolds = [0.0, 3e4, 1.2e5, 1.8e5, 6e5, 5e7]
+    spins = [0.0, 0.02, 0.06, 0.3, 1.0, 1e4]
+    one_by_one = [float(model(re, s)) for re, s in zip(reynolds, spins, strict=True)]
+    assert model(np.array(reynolds), np.array(spins)) == pytest.approx(one_by_one, rel=1e-14)
+    assert all(0.0 <= value < 1.0 for value in one_by_one)

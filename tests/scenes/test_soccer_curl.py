@@ -1,0 +1,203 @@
+"""Soccer from above."""
+
+from __future__ import annotations
+
+from math import asin, cos, pi, radians
+from typing import Any
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import sandbox
+from sandbox.engine.run import Run
+from sandbox.errors import RequestError
+
+ALONE = {"wall.present": False, "keeper.present": False}
+PRESETS = ["soccer-curl", "soccer-curl/beckham-2001", "soccer-curl/roberto-carlos-1997"]
+
+
+def kick(scene: str = "soccer-curl", **changes: Any) -> Run:
+    """A run with changed parameters: ``launch__speed=20`` stands for launch.speed."""
+    return sandbox.simulate(sandbox.load(scene, {key.replace("__", "."): value for key, value in changes.items()}))
+
+
+# Presets ------------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("level", ["fast", "balanced", "precise"])
+@pytest.mark.parametrize("name", PRESETS)
+def test_presets_are_goals_at_every_accuracy(name: str, level: str):
+    result = kick(name, accuracy__level=level).result
+    assert result["verdict"] == "goal"
+    assert result["goal"] is True
+
+
+def test_roberto_carlos_clears_the_wall_by_a_metre_and_starts_far_outside_the_goal():
+    """Physics World 1998: clear of the wall by at least a metre, at a ball-boy metres outside, in by the right post."""
+    run = kick("soccer-curl/roberto-carlos-1997")
+    _, (_, y, *_) = next(run.crossings("ball", (9.15, 0.0), (-1.0, 0.0)))
+    right_end_of_wall = -1.0
+    assert right_end_of_wall - (y + 0.11) >= 0.95
+    right_post = 2.0 - 3.66
+    straight = -35.0 * 0.3057  # where the line of the launch meets the goal line, tan 17 deg
+    assert straight < right_post - 5.0
+    assert -3.66 < run.result["offset_at_goal"] < -2.66
+
+
+def test_beckham_ends_in_the_left_corner():
+    assert 2.66 < kick("soccer-curl/beckham-2001").result["offset_at_goal"] < 3.55
+
+
+@pytest.mark.parametrize("name", PRESETS)
+def test_without_spin_they_would_not_have_bent(name: str):
+    result = kick(name, launch__spin=0, **{key.replace(".", "__"): value for key, value in ALONE.items()}).result
+    assert result["deviation"] == pytest.approx(0.0, abs=1e-9)
+
+
+# Exact cases --------------------------------------------------------------------------------------------------------
+
+
+def test_constant_lift_without_drag_draws_a_circle():
+    """Radius r = 2 m / (rho A Cl); x along the tangent it is r - (r^2 - x^2)^(1/2) aside, after r asin(x / r)."""
+    changes = {
+        "ball.drag.model": "none",
+        "ball.lift": {"model": "constant", "coefficient": 0.3},
+        "launch.angle": 0,
+        **ALONE,
+    }
+    run = sandbox.simulate(sandbox.load("soccer-curl", changes))
+    radius = 2.0 * 0.43 / (1.204 * pi * 0.11**2 * 0.3)
+    assert run.result["deviation"] == pytest.approx(radius - (radius**2 - 22.0**2) ** 0.5, abs=1e-6)
+    assert run.result["flight_time"] == pytest.approx(radius * asin(22.0 / radius) / 27.0, abs=1e-7)
+    assert run.result["speed_at_goal"] == pytest.approx(27.0, abs=1e-7)
+
+
+def test_the_lean_of_the_axis_takes_its_cosine():
+    """With constant coefficients a leaning axis is a smaller lift coefficient."""
+    lift = {"model": "constant", "coefficient": 0.3}
+    leaning = kick(ball__lift=lift, launch__tilt=60, wall__present=False, keeper__present=False)
+    upright = kick(
+        ball__lift=lift | {"coefficient": 0.3 * cos(radians(60.0))}, wall__present=False, keeper__present=False
+    )
+    assert leaning.result["deviation"] == pytest.approx(upright.result["deviation"], rel=1e-12)
+
+
+# Properties ---------------------------------------------------------------------------------------------------------
+
+
+@settings(max_examples=15, deadline=None)
+@given(
+    speed=st.floats(10, 45),
+    angle=st.floats(-25, 25),
+    spin=st.floats(-900, 900),
+    wind=st.floats(-10, 10),
+    aside=st.floats(-2, 2),
+)
+def test_mirror_image_in_mirror_image_out(speed: float, angle: float, spin: float, wind: float, aside: float):
+    def played(side: float) -> dict[str, Any]:
+        changes = {
+            "launch.speed": speed,
+            "launch.angle": side * angle,
+            "launch.spin": side * spin,
+            "air.wind": [0.0, side * wind],
+            "wall.offset": side * aside,
+            "keeper.offset": -side * aside,
+            "keeper.speed": side * 1.0,
+        }
+        return sandbox.simulate(sandbox.load("soccer-curl", changes)).result
+
+    one, other = played(1.0), played(-1.0)
+    assert one["verdict"] == other["verdict"]
+    for name in ("deviation", "offset_at_goal"):
+        assert (one[name] is None) is (other[name] is None)
+        if one[name] is not None:
+            assert one[name] == pytest.approx(-other[name], abs=1e-9)
+    assert one["flight_time"] == pytest.approx(other["flight_time"], abs=1e-9)
+
+
+def test_more_spin_bends_more_and_positive_spin_to_the_left():
+    changes = {key.replace(".", "__"): value for key, value in ALONE.items()}
+    bends = [kick(launch__spin=spin, **changes).result["deviation"] for spin in (-600, -300, 0, 300, 600)]
+    assert bends == sorted(bends)
+    assert bends[0] < 0.0 < bends[-1]
+
+
+def test_thinner_air_bends_less():
+    changes = {key.replace(".", "__"): value for key, value in ALONE.items()}
+    assert kick(air__density=0.9, **changes).result["deviation"] < kick(air__density=1.2, **changes).result["deviation"]
+
+
+# Verdicts -----------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("changes", "verdict"),
+    [
+        ({}, "goal"),
+        ({"wall.offset": -1.4}, "wall"),
+        ({"keeper.offset": -1.4}, "saved"),
+        ({"keeper.offset": 2.0, "keeper.speed": -3.7}, "saved"),
+        ({"launch.angle": -18.0}, "post"),
+        ({"launch.angle": -25.0}, "wide"),
+        ({"launch.speed": 0.0}, "short"),
+        ({"launch.angle": 180.0}, "short"),
+    ],
+)
+def test_verdicts(changes: dict[str, Any], verdict: str):
+    run = sandbox.simulate(sandbox.load("soccer-curl", changes))
+    assert run.result["verdict"] == verdict
+    assert run.result["goal"] is (verdict == "goal")
+    touched = {event.partner for event in run.events if event.ball == "ball"}
+    expected = {"goal": "net", "wall": "wall", "saved": "keeper", "post": "right post", "wide": "boards"}
+    assert expected.get(verdict, "boards") in touched or verdict == "short"
+
+
+def test_the_moving_keeper_is_late_when_he_is_slower():
+    assert kick(keeper__offset=2.0, keeper__speed=-3.7).result["verdict"] == "saved"
+    assert kick(keeper__offset=2.0, keeper__speed=-2.0).result["verdict"] == "goal"
+
+
+def test_a_keeper_hardly_moves_when_the_ball_meets_him():
+    run = kick(keeper__offset=-1.4)
+    _, _, vx, vy, _ = run.state("keeper", run.duration)
+    assert 0.0 < vx < 0.3
+    assert abs(vy) < 0.3
+
+
+def test_a_goal_narrower_than_the_ball_is_never_scored():
+    assert all(not kick(goal__width=0.2, launch__angle=a).result["goal"] for a in (-10, -9, -8.5, -8.2, -8, -7.5))
+
+
+# Bad input ----------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("changes", "named"),
+    [
+        ({"wall.distance": 30}, ("wall.distance = 30 m", "goal.distance = 22 m")),
+        ({"wall.distance": 0.2}, ("wall.distance = 0.2 m", "ball.radius = 0.11 m")),
+        ({"goal.distance": 0.1}, ("goal.distance = 0.1 m", "ball.radius = 0.11 m")),
+        ({"keeper.distance": 12.8}, ("keeper.distance = 12.8 m", "wall.distance = 9.15 m")),
+        (
+            {"goal.distance": 15, "keeper.distance": 14.8, "keeper.offset": 0},
+            ("keeper.distance = 14.8 m", "ball.radius = 0.11 m"),
+        ),
+        ({"keeper.distance": 0.2, "keeper.offset": 3.5}, ("keeper.offset = 3.5 m", "goal.width = 7.32 m")),
+    ],
+)
+def test_what_makes_no_sense_is_refused_in_a_line_that_names_both(changes: dict[str, Any], named: tuple[str, ...]):
+    scene = sandbox.load("soccer-curl", changes)
+    with pytest.raises(RequestError) as refused:
+        sandbox.simulate(scene)
+    assert all(part in str(refused.value) for part in named)
+    assert "\n" not in str(refused.value)
+
+
+def test_the_card_speaks_to_players():
+    scene = sandbox.load("soccer-curl/roberto-carlos-1997")
+    run = sandbox.simulate(scene)
+    card = dict(scene.module.card(run.result, scene.parameters))
+    assert card["kick"] == "38.0 m/s (137 km/h) at 17.0° to the right, 840 rpm that bends it to the left"
+    assert card["offset at goal"].endswith("m inside the right post")
+    assert card["verdict"] == "goal"
