@@ -9,7 +9,6 @@ after the step.
 
 from __future__ import annotations
 
-from math import isfinite
 from time import perf_counter
 from typing import Any
 
@@ -25,8 +24,8 @@ from sandbox.physics.integrators import State
 #: Depth in m that Chipmunk leaves to overlapping shapes; its own default of 0.1 is for pixels.
 _SLOP = 1e-5
 
-#: Path is recorded at impacts and this often, in s.
-_RECORD = 1 / 240
+#: The path is recorded, and balls are checked for rest and for having left the world, this often, in s.
+_LOOK = 1 / 240
 
 #: A ball rests once it is slower than this (m/s, and r w as well) for this long (s) while touching something.
 _REST_SPEED, _REST_TIME = 0.01, 0.25
@@ -55,7 +54,7 @@ class _Tracked:
         self.before = (0.0, 0.0)  # velocity ahead of the last step's forces
         self.pressed = 0.0  # N, normal force of the last step
         self.resistance = 0.0  # rolling resistance of what it touches
-        self.touched = False
+        self.touched = -2  # number of the last step in which it touched something
         self.presses = False  # lasting contact, not an impact
         self.turned = 0.0  # rad, by which its velocity is turned while a tilted surface is met
         self.still_since: float | None = None
@@ -84,6 +83,8 @@ class PlainSimulation:
         self._raised: BaseException | None = None
         self._over = False
         self._t = 0.0
+        self._steps = 0
+        self._hit: list[_Tracked] = []  # in the step under way
         self._space = pymunk.Space()
         self._space.iterations = 30
         self._space.collision_slop = _SLOP
@@ -120,37 +121,35 @@ class PlainSimulation:
 
     def _loop(self) -> str:
         step, duration = self._accuracy.step, self._setup.duration
-        steps = 0
-        next_record = _RECORD
+        space, numerics = self._space, self._numerics
+        next_look = 0.0
         while self._t < duration:
-            h = min(step, duration - self._t)
-            for tracked in self._tracked.values():
-                tracked.touched = False
-            steps += 1
-            self._t = min(
-                steps * step, duration
-            )  # the time at which a step finds contacts and evaluates forces: it moves first
-            self._space.step(h)
+            self._steps += 1
+            # it moves first: contacts and forces belong to the end of the step
+            before, self._t = self._t, min(self._steps * step, duration)
+            space.step(self._t - before)
             if self._raised is not None:
                 raise self._raised
-            self._numerics.pymunk_steps += 1
-            self._numerics.steps += 1
-            self._check()
-            for tracked in self._tracked.values():
-                if (
-                    tracked.since == self._t
-                ):  # it hit something in this step: from here on the state is that after the impact
-                    tracked.start = tracked.state()
-            if self._t >= next_record:
-                next_record = self._t + _RECORD
-                for tracked in self._tracked.values():
-                    tracked.record(self._t)
+            for tracked in self._hit:
+                tracked.start = tracked.state()  # from here on it is as it is after the impact
+            self._hit.clear()
             if self._over:
-                return "until"
-            resting = [self._rests(tracked) for tracked in self._tracked.values()]  # each keeps its own clock
-            if all(resting):
-                return "rest"
-        return "duration"
+                break
+            if self._t >= next_look:
+                next_look = self._t + _LOOK
+                if self._look():
+                    break
+        numerics.pymunk_steps = numerics.steps = self._steps
+        return "until" if self._over else "duration" if self._t >= duration else "rest"
+
+    def _look(self) -> bool:
+        """Record where everything is, and check it; whether all balls rest."""
+        rest = True
+        for tracked in self._tracked.values():
+            tracked.record(self._t)
+            self._check(tracked)
+            rest = self._rests(tracked) and rest
+        return rest
 
     # ------------------------------------------------------------------ callbacks
 
@@ -174,11 +173,9 @@ class PlainSimulation:
                 return
             try:
                 self._numerics.force_evaluations += 1
-                position, velocity, spin = (
-                    (body.position.x, body.position.y),
-                    (body.velocity.x, body.velocity.y),
-                    body.angular_velocity,
-                )
+                x, y = position = body.position
+                vx, vy = body.velocity
+                velocity, spin = (vx, vy), body.angular_velocity
                 fx = fy = torque = 0.0
                 for force in ball.forces:
                     px, py = force(self._t, position, velocity, spin)
@@ -187,16 +184,19 @@ class PlainSimulation:
                 for moment in ball.torques:
                     torque += moment(self._t, position, velocity, spin)
                 ax, ay = fx / ball.mass, fy / ball.mass
-                if not tracked.touched:
+                if tracked.touched != self._steps:
                     self._refuse_reversal(tracked, ax, ay, velocity, h)
                 tracked.acceleration, tracked.before = (ax, ay), velocity
-                vx, vy = velocity[0] + h * ax, velocity[1] + h * ay
+                vx, vy = vx + h * ax, vy + h * ay
                 spin += h * torque / ball.inertia
                 if tracked.pressed > 0.0:
                     speed = (vx * vx + vy * vy) ** 0.5
                     slower = max(0.0, 1.0 - h * tracked.resistance * tracked.pressed / ball.mass / (speed + 1e-30))
                     vx, vy, spin = slower * vx, slower * vy, slower * spin
                     tracked.pressed = 0.0
+                total = x + y + vx + vy + spin
+                if total - total != 0.0:
+                    raise self._diverged(tracked, (x, y, vx, vy, spin))
                 body.velocity = (vx, vy)
                 body.angular_velocity = spin
             except BaseException as error:
@@ -227,6 +227,7 @@ class PlainSimulation:
         if approach > 0.0:
             self._numerics.impacts += 1
             tracked.record(self._t)
+            self._hit.append(tracked)
             x, y = _body(first).position
             event = Event(self._t, "impact", tracked.ball.name, partner, approach, x, y)
             self._events.append(event)
@@ -236,7 +237,7 @@ class PlainSimulation:
     def _meet_surface(self, arbiter: pymunk.Arbiter) -> None:
         first, second = arbiter.shapes
         surface = self._surfaces[second]
-        self._tracked[_body(first)].touched = True
+        self._tracked[_body(first)].touched = self._steps
         normal, approach, along = _closing(arbiter)
         if approach <= 0.0:
             return
@@ -262,7 +263,7 @@ class PlainSimulation:
     def _meet_ball(self, arbiter: pymunk.Arbiter) -> None:
         first, second = arbiter.shapes
         a, b = self._tracked[_body(first)], self._tracked[_body(second)]
-        a.touched = b.touched = True
+        a.touched = b.touched = self._steps
         normal, approach, along = _closing(arbiter)
         slip = along + a.ball.radius * _body(first).angular_velocity + b.ball.radius * _body(second).angular_velocity
         bounce: Bounce = self._setup.between_balls(max(approach, 0.0), abs(slip))
@@ -285,22 +286,24 @@ class PlainSimulation:
 
     # ------------------------------------------------------------------ guards
 
-    def _check(self) -> None:
+    def _check(self, tracked: _Tracked) -> None:
         left, bottom, right, top = self._setup.bounds
-        for tracked in self._tracked.values():
-            x, y, vx, vy, spin = tracked.state()
-            if isfinite(x + y + vx + vy + spin) and left <= x <= right and bottom <= y <= top:
-                continue
-            raise Diverged(
-                f"t = {self._t:.6g} s, ball {tracked.ball.name!r}: position ({x:.6g}, {y:.6g}) m, "
-                f"velocity ({vx:.6g}, {vy:.6g}) m/s, spin {spin:.6g} rad/s is not finite or out of the world; "
-                'lower accuracy.step, or use accuracy.method = "exact"'
-            )
+        state = tracked.state()
+        if not (left <= state[0] <= right and bottom <= state[1] <= top):
+            raise self._diverged(tracked, state)
+
+    def _diverged(self, tracked: _Tracked, state: State) -> Diverged:
+        x, y, vx, vy, spin = state
+        return Diverged(
+            f"t = {self._t:.6g} s, ball {tracked.ball.name!r}: position ({x:.6g}, {y:.6g}) m, velocity "
+            f"({vx:.6g}, {vy:.6g}) m/s, spin {spin:.6g} rad/s is not finite or out of the world; "
+            'lower accuracy.step, or use accuracy.method = "exact"'
+        )
 
     def _rests(self, tracked: _Tracked) -> bool:
         _, _, vx, vy, spin = tracked.state()
         slow = (vx * vx + vy * vy) ** 0.5 + tracked.ball.radius * abs(spin) < _REST_SPEED
-        if not (slow and tracked.touched):
+        if not slow or self._steps - tracked.touched > 1:
             tracked.still_since = None
             return False
         if tracked.still_since is None:
