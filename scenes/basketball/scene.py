@@ -2,12 +2,13 @@
 
 Models: gravity; drag in flight; impacts with rim, bracket, backboard and floor, where the spin takes part; wind, lift
 and a net that slows the ball only where the scene file asks for them.
-Leaves out: lift in flight; wind; the ball's loss of spin in the air; everything sideways, so the ring is two tubes and a
-shot is never off to the side; the give of ball, rim and board.
+Leaves out: lift in flight; wind; the ball's loss of spin in the air; everything sideways, so the ring is two tubes and
+a shot is never off to the side; the give of ball, rim and board.
 
 What that is worth, measured on the default free throw as the shift of the place where the ball comes down to the ring:
 lift as large as the spin ratio, Cl = S = 0.3, 9.6 cm further and 1.3 deg steeper (0.07 m/s less speed makes up for it);
-1 m/s of headwind, 11.4 cm shorter. Drag, which is kept, takes 44 cm. The ball swishes through within 4.8 cm either way.
+1 m/s of headwind, 11.4 cm shorter. Drag, which is kept, takes 44 cm. The swish is 9.4 cm wide: from 4.3 cm short of the
+middle of the ring to 5.1 cm beyond it.
 """
 
 from __future__ import annotations
@@ -87,7 +88,7 @@ class Net(Group):
 
     slows: bool = switch(False, "whether it slows the ball, or is only drawn")
     length: float = quantity(0.45, "m", 0.1, 2, "length")
-    damping: float = quantity(5.0, "1/s", 0, 100, "deceleration over speed of a ball well inside it")
+    damping: float = quantity(6.0, "1/s", 0, 100, "deceleration over speed of a ball that slips down inside it")
 
 
 class Floor(Group):
@@ -123,15 +124,19 @@ FAR = 25_000.0
 #: The run is over when the ball comes down on the floor no faster than this, in m/s: after a few bounces.
 TIRED = 3.0
 
-#: How much lower than the ring its bracket is, in m: a ball between ring and board lies on the tube. Assumed.
-BRACKET_DROP = 0.01
+#: Thickness of the bracket over that of the tube: a ball between ring and board lies on the tube, not on it. Assumed.
+BRACKET_SHARE = 0.5
 
 
 class NetDrag:
-    """The net around a ball that passes through: ``F = -k m v`` inside a box below the ring, k in 1/s.
+    """The net around a ball that passes through: ``F = -m k (4 vx, vy)`` inside a box below the ring, k in 1/s.
 
-    The force sets in and ends over a short way, so that it has no jumps. Assumed; no measurement of a net was found.
+    It hangs in the way sideways, and lets the ball slip down. The force sets in and ends over a short way, so that it
+    has no jumps. All of it is assumed: no measurement of a net was found.
     """
+
+    #: Sideways over downwards.
+    HOLD = 4.0
 
     #: The way in m over which the net takes hold, and lets go.
     EDGE = 0.05
@@ -145,11 +150,12 @@ class NetDrag:
     def __call__(self, t: float, position: Any, velocity: Any, spin: Any) -> tuple[Any, Any]:
         x, y = position
         depth = self._middle[1] - y
-        aside = x - self._middle[0]
-        hold = _smooth(depth / self.EDGE) * _smooth((self._length - depth) / self.EDGE)
-        hold = hold * _smooth((self._half_width - aside) / self.EDGE) * _smooth((self._half_width + aside) / self.EDGE)
+        inside = self._half_width - abs(x - self._middle[0])
+        hold = (
+            _smooth(depth / self.EDGE) * _smooth((self._length - depth) / self.EDGE) * _smooth(1.0 + inside / self.EDGE)
+        )
         k = -self._strength * hold
-        return k * velocity[0], k * velocity[1]
+        return self.HOLD * k * velocity[0], k * velocity[1]
 
 
 def _smooth(x: Any) -> Any:
@@ -241,8 +247,7 @@ def _court(parameters: Parameters) -> list[Surface]:
     front, back = rims(parameters)
     left, bottom, right, top = board(parameters)
     corners = [(left, bottom), (right, bottom), (right, top), (left, top), (left, bottom)]
-    level = back[1] - BRACKET_DROP
-    bracket = Segment((back[0] + hoop.tube_radius, level), (left, level), hoop.tube_radius)
+    bracket = Segment(back, (left, back[1]), BRACKET_SHARE * hoop.tube_radius)
     return [
         Surface("floor", Segment((-FAR, 0.0), (FAR, 0.0)), floor.restitution, floor.friction),
         Surface("rim front", Circle(front, hoop.tube_radius), hoop.restitution, hoop.friction),
