@@ -22,25 +22,27 @@ def penner_restitution(normal_speed: float) -> float:
     return 0.510 - 0.0375 * normal_speed + 0.000903 * normal_speed * normal_speed
 
 
-def penner_tilt(normal_speed: float, tangential_speed: float) -> float:
+def penner_tilt(normal_speed: float, tangential_speed: float, give: float = 1.0) -> float:
     """Angle in rad by which the turf gives way, so that the ball bounces off a slope of its own making.
 
-    ``15.4 deg (v / 18.6 m/s) (phi / 44.4 deg)`` with the speed v of the impact and its angle phi from the vertical;
-    held at 45 deg, far beyond what a landing ball reaches. Source: Penner 2002, as above, who draws a line through one
-    measurement of Haake's on a green (18.6 m/s, 44.4 deg); second-hand.
+    ``give * 15.4 deg (v / 18.6 m/s) (phi / 44.4 deg)`` with the speed v of the impact and its angle phi from the
+    vertical. Source: Penner 2002, as above, who draws a line through one measurement of Haake's on a green (18.6 m/s,
+    44.4 deg); second-hand. Ours is the limit: the slope is no steeper than the ball's own way into the turf, 90 deg -
+    phi, and than 45 deg. Balls that come down at less than 30 deg feel it; without it a topped ball would bounce
+    straight up.
     """
     speed = (normal_speed * normal_speed + tangential_speed * tangential_speed) ** 0.5
     incidence = degrees(atan2(tangential_speed, normal_speed))
-    return radians(min(15.4 * (speed / 18.6) * (incidence / 44.4), 45.0))
+    return radians(min(give * 15.4 * (speed / 18.6) * (incidence / 44.4), 90.0 - incidence, 45.0))
 
 
 def penner_bounce(normal_speed: float, tangential_speed: float, give: float = 1.0) -> tuple[float, float]:
     """Restitution, and the tilt in rad of the surface that the ball bounces off, for an impact on level turf.
 
-    The turf tilts by ``give`` times penner_tilt; the restitution is that of the speed normal to the tilted surface.
-    Speeds in m/s, both positive. Source: Penner 2002, as above.
+    The turf tilts by penner_tilt; the restitution is that of the speed normal to the tilted surface. Speeds in m/s, both
+    positive. Source: Penner 2002, as above.
     """
-    tilt = give * penner_tilt(normal_speed, tangential_speed)
+    tilt = penner_tilt(normal_speed, tangential_speed, give)
     return penner_restitution(normal_speed * cos(tilt) + tangential_speed * sin(tilt)), tilt
 
 
