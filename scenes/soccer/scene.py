@@ -231,7 +231,7 @@ def result(run: Run, parameters: Parameters) -> dict[str, Any]:
     moments = [t for t in (scored, None if touched is None else touched.t) if t is not None]
     return {
         "goal": scored is not None,
-        "verdict": _verdict(run, parameters, scored is not None, at_goal is not None),
+        "verdict": _verdict(run, parameters, scored is not None, None if at_goal is None else at_goal[1][1]),
         "height_at_wall": None if at_wall is None else at_wall[1][1],
         "height_at_goal": None if at_goal is None else at_goal[1][1],
         "speed_at_goal": None if at_goal is None else hypot(at_goal[1][2], at_goal[1][3]),
@@ -247,17 +247,20 @@ def _forward(run: Run, x: float) -> Any:
     return run.crossings("ball", (x, 0.0), (-1.0, 0.0))
 
 
-def _verdict(run: Run, parameters: Parameters, scored: bool, reached: bool) -> str:
-    """goal; bar or wall, where that was touched and it is no goal; over; short; past, where there is no goal to hit."""
+def _verdict(run: Run, parameters: Parameters, scored: bool, height_at_goal: float | None) -> str:
+    """goal; bar or wall, where that was touched and it is no goal; over; short, a ball that stops on the line included;
+    past, where there is no goal to hit."""
     if scored:
         return "goal"
     touched = {event.partner for event in run.events}
     for name in ("bar", "wall"):
         if name in touched:
             return name
-    if not reached:
+    if height_at_goal is None:
         return "short"
-    return "over" if parameters.goal.present else "past"
+    if not parameters.goal.present:
+        return "past"
+    return "over" if height_at_goal > parameters.goal.height else "short"
 
 
 def card(result: dict[str, Any], parameters: Parameters) -> list[tuple[str, str]]:

@@ -124,6 +124,16 @@ def test_a_goal_is_the_whole_ball_over_the_whole_line():
     assert verdicts == {"goal", "bar"}
 
 
+@pytest.mark.parametrize(("rolls", "verdict"), [(21.9, "short"), (22.1, "short"), (22.16, "short"), (22.2, "goal")])
+def test_a_ball_that_stops_on_the_line_is_no_goal(rolls: float, verdict: str):
+    """Rolling at v it stops after v^2 / (2 c g): on the line, up to where all of it is over the line's far edge."""
+    speed = (2.0 * 0.1 * 9.81 * rolls) ** 0.5
+    rolling = {"launch__speed": speed, "launch__angle": 0, "launch__spin": f"{-speed / 0.11} rad/s"}
+    run = kick(air__density=0, wall__present=False, **rolling)
+    assert run.state("ball", run.duration)[0] == pytest.approx(rolls, abs=1e-6)
+    assert run.result["verdict"] == verdict
+
+
 def test_heights_are_none_where_the_ball_never_comes():
     result = kick(launch__angle=8).result
     assert result["verdict"] == "wall"
