@@ -153,6 +153,24 @@ def test_verdicts(changes: dict[str, Any], verdict: str):
     assert expected.get(verdict, "boards") in touched or verdict == "short"
 
 
+def test_a_ball_blown_back_from_the_line_is_no_goal():
+    """A gale against the kick turns the ball on the line: across its middle, but not the whole ball across all of it."""
+    outcomes: dict[bool, set[bool]] = {True: set(), False: set()}
+    for hundredths in range(2840, 2940, 4):
+        run = kick(
+            launch__speed=hundredths / 100,
+            launch__angle=0,
+            launch__spin=0,
+            air__wind=[-30, 0],
+            wall__present=False,
+            keeper__present=False,
+        )
+        furthest = run.trajectory("ball")[:, 1].max()
+        if 22.0 < furthest < 24.0 - 0.12:
+            outcomes[bool(furthest > 22.17)].add(run.result["goal"])
+    assert outcomes == {True: {True}, False: {False}}
+
+
 def test_the_moving_keeper_is_late_when_he_is_slower():
     assert kick(keeper__offset=2.0, keeper__speed=-3.7).result["verdict"] == "saved"
     assert kick(keeper__offset=2.0, keeper__speed=-2.0).result["verdict"] == "goal"
