@@ -154,7 +154,7 @@ def test_verdicts(changes: dict[str, Any], verdict: str):
 
 
 def test_a_ball_blown_back_from_the_line_is_no_goal():
-    """A gale against the kick turns the ball on the line: across its middle, but not the whole ball across all of it."""
+    """A gale against the kick turns the ball on the line: over its middle, but not all of it over all of it."""
     outcomes: dict[bool, set[bool]] = {True: set(), False: set()}
     for hundredths in range(2840, 2940, 4):
         run = kick(
