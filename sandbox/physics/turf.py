@@ -39,8 +39,8 @@ def penner_tilt(normal_speed: float, tangential_speed: float, give: float = 1.0)
 def penner_bounce(normal_speed: float, tangential_speed: float, give: float = 1.0) -> tuple[float, float]:
     """Restitution, and the tilt in rad of the surface that the ball bounces off, for an impact on level turf.
 
-    The turf tilts by penner_tilt; the restitution is that of the speed normal to the tilted surface. Speeds in m/s, both
-    positive. Source: Penner 2002, as above.
+    The turf tilts by penner_tilt; the restitution is that of the speed normal to the tilted surface. Speeds in m/s,
+    both positive. Source: Penner 2002, as above.
     """
     tilt = penner_tilt(normal_speed, tangential_speed, give)
     return penner_restitution(normal_speed * cos(tilt) + tangential_speed * sin(tilt)), tilt

@@ -1,6 +1,13 @@
 """Golf in side view: from the tee, through the air, over the turf, to rest or into the cup.
 
-LEAVES
+Models: gravity; drag and Magnus lift with coefficients by Reynolds number and spin ratio; wind, even or growing with
+height; spin decay; the strike of the club head, as a collision; bounces on turf that gives way (Penner 2002), sliding,
+rolling, slopes, water, and a cup with real walls, which a fast ball skips over.
+
+Leaves out, with what it is worth in carry on the default drive: the fading of lift below the drag crisis (2.6 m if half
+of it went), air that thins with height (0.2 m), buoyancy (0.1 m), the turning Earth (less than 0.05 m). And, not
+measured: everything sideways (hook, slice, the break of a green), the deformation of the ball, the flagstick, grain and
+moisture of the grass.
 """
 
 from __future__ import annotations
@@ -84,7 +91,8 @@ class BallParameters(Group):
 class Air(EvenAir):
     """The air and how it moves."""
 
-    profile: Literal["uniform", "log"] = choice("uniform", "even wind, or one that grows with height over the ground")
+    viscosity: float = quantity(1.789e-5, "Pa s", 1e-7, 10, "dynamic viscosity, for the Reynolds number")
+    profile: Literal["uniform", "log"] = choice("uniform", "even wind, or one that grows with height over the tee")
     reference_height: float = quantity(10.0, "m", 0.1, 100, "height at which a log profile has the wind given")
     roughness: float = quantity(0.03, "m", 0.0001, 2, "roughness length of a log profile")
 
@@ -183,14 +191,12 @@ def build(parameters: Parameters) -> Setup:
     if parameters.gravity > 0.0:
         forces.append(Gravity(ball.mass, parameters.gravity))
     if air.density > 0.0:
-        drag, lift = ball.drag, ball.lift
+        drag, lift, about = ball.drag, ball.lift, (wind, ball.cross_section, air.viscosity)
         if not isinstance(drag, NoDrag):
-            forces.append(Drag(ball.radius, air.density, _drag_coefficient(drag), wind, ball.cross_section))
+            forces.append(Drag(ball.radius, air.density, _drag_coefficient(drag), *about))
         if not isinstance(lift, NoLift):
-            coefficient, along_ground = _lift_coefficient(lift), lift.velocity == "ground"
-            forces.append(
-                Magnus(ball.radius, air.density, coefficient, wind, ball.cross_section, along_ground=along_ground)
-            )
+            along_ground = lift.velocity == "ground"
+            forces.append(Magnus(ball.radius, air.density, _lift_coefficient(lift), *about, along_ground=along_ground))
         if ball.spin_decay > 0.0:
             inertia = SOLID_SPHERE * ball.mass * ball.radius**2
             torques.append(SpinDecay(inertia, ball.radius, ball.spin_decay * air.density / STANDARD_DENSITY, wind))

@@ -1,0 +1,59 @@
+"""Air: viscosity and wind."""
+
+from __future__ import annotations
+
+from math import log
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from sandbox.physics.air import VISCOSITY, LogWind, UniformWind, viscosity
+
+
+@pytest.mark.parametrize(
+    ("temperature", "published"),
+    [(216.65, 1.4216e-5), (288.15, 1.7894e-5)],  # U.S. Standard Atmosphere 1976, at 11 km and at sea level
+)
+def test_viscosity_of_the_standard_atmosphere(temperature: float, published: float):
+    assert viscosity(temperature) == pytest.approx(published, rel=1e-4)
+
+
+def test_viscosity_without_a_word_is_that_of_15_degrees():
+    assert viscosity(288.15) == VISCOSITY
+
+
+def test_uniform_wind_is_the_same_everywhere():
+    assert UniformWind(-3.0, 1.0)(7.0, (100.0, 30.0)) == (-3.0, 1.0)
+
+
+def test_log_wind_has_the_wind_given_at_its_height():
+    assert LogWind((-8.0, 0.5), 10.0, 0.03)(0.0, (0.0, 10.0)) == pytest.approx((-8.0, 0.5))
+
+
+def test_log_wind_by_its_formula():
+    """w(y) = w_ref ln(1 + y / y0) / ln(1 + y_ref / y0)."""
+    wind = LogWind((6.0, 0.0), 10.0, 0.03)
+    assert wind(0.0, (0.0, 2.0))[0] == pytest.approx(6.0 * log(1.0 + 2.0 / 0.03) / log(1.0 + 10.0 / 0.03))
+
+
+@given(low=st.floats(-10.0, 300.0), more=st.floats(0.0, 300.0))
+def test_log_wind_never_falls_with_height(low: float, more: float):
+    wind = LogWind((5.0, 0.0), 10.0, 0.03)
+    assert wind(0.0, (0.0, low + more))[0] >= wind(0.0, (0.0, low))[0] >= 0.0
+
+
+def test_log_wind_stands_still_at_the_ground_and_is_even_above_its_ceiling():
+    wind = LogWind((5.0, 0.0), 10.0, 0.03, ceiling=100.0)
+    assert wind(0.0, (0.0, 0.0)) == wind(0.0, (0.0, -3.0)) == (0.0, 0.0)
+    assert wind(0.0, (0.0, 100.0)) == wind(0.0, (0.0, 5000.0))
+
+
+def test_log_wind_takes_arrays():
+    wind = LogWind((5.0, -1.0), 10.0, 0.03)
+    heights = np.array([-1.0, 0.0, 3.0, 250.0])
+    x, y = wind(0.0, (np.zeros(4), heights))
+    one_by_one = [wind(0.0, (0.0, float(h))) for h in heights]
+    for number, expected in enumerate(one_by_one):
+        assert (x[number], y[number]) == pytest.approx(expected, rel=1e-15)

@@ -1,0 +1,56 @@
+"""Turf: Penner's bounce, and the stimpmeter."""
+
+from __future__ import annotations
+
+from math import atan2, cos, degrees, radians, sin
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from sandbox.physics.turf import penner_bounce, penner_restitution, penner_tilt, stimp_resistance
+
+SPEEDS = st.floats(0.0, 120.0)
+
+
+@pytest.mark.parametrize(
+    ("speed", "restitution"),
+    [(0.0, 0.510), (10.0, 0.510 - 0.375 + 0.0903), (20.0, 0.1212), (20.1, 0.120), (60.0, 0.120)],
+)
+def test_restitution(speed: float, restitution: float):
+    assert penner_restitution(speed) == pytest.approx(restitution)
+
+
+def test_tilt_at_the_measurement_that_it_is_drawn_through():
+    """Haake: 18.6 m/s at 44.4 deg from the vertical gives 15.4 deg."""
+    angle = radians(44.4)
+    assert degrees(penner_tilt(18.6 * cos(angle), 18.6 * sin(angle))) == pytest.approx(15.4)
+
+
+def test_a_ball_that_drops_straight_down_bounces_straight_up():
+    assert penner_tilt(15.0, 0.0) == 0.0
+    assert penner_bounce(15.0, 0.0) == (penner_restitution(15.0), 0.0)
+
+
+@given(normal=SPEEDS, along=SPEEDS, give=st.floats(0.0, 2.0))
+def test_the_slope_is_no_steeper_than_the_way_into_the_turf(normal: float, along: float, give: float):
+    tilt = degrees(penner_tilt(normal, along, give))
+    assert 0.0 <= tilt <= min(45.0, max(0.0, degrees(atan2(normal, along)))) + 1e-9
+
+
+@given(normal=st.floats(0.1, 60.0), along=st.floats(0.0, 60.0))
+def test_restitution_is_that_of_the_speed_normal_to_the_tilted_turf(normal: float, along: float):
+    restitution, tilt = penner_bounce(normal, along)
+    assert restitution == penner_restitution(normal * cos(tilt) + along * sin(tilt))
+
+
+def test_firm_turf_does_not_tilt():
+    assert penner_bounce(12.0, 20.0, give=0.0) == (penner_restitution(12.0), 0.0)
+
+
+@pytest.mark.parametrize("feet", [7.0, 10.0, 13.0])
+def test_stimpmeter(feet: float):
+    """0.56 over the reading in feet; a ball let go at 1.83 m/s stops after v^2 / (2 c g), which is the reading."""
+    resistance = stimp_resistance(0.3048 * feet)
+    assert resistance == pytest.approx(0.56 / feet, rel=1e-3)
+    assert 1.83**2 / (2.0 * resistance * 9.81) == pytest.approx(0.3048 * feet)
