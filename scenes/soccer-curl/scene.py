@@ -302,7 +302,7 @@ def card(result: dict[str, Any], parameters: Parameters) -> list[tuple[str, str]
     spin = f"{abs(launch.spin):.0f} rpm that bends it to the {_side(launch.spin)}" if launch.spin else "no spin"
     lines = [("kick", f"{_speed(launch.speed)} at {abs(launch.angle):.1f}° to the {_side(launch.angle)}, {spin}")]
     if result["deviation"] is not None:
-        lines.append(("deviation", f"{result['deviation']:.2f} m, to the {_side(result['deviation'])}"))
+        lines.append(("deviation", f"{result['deviation']:.2f} m to the {_side(result['deviation'])}"))
     if result["offset_at_goal"] is not None:
         lines += [
             ("offset at goal", _beside_the_post(result["offset_at_goal"], parameters)),
@@ -333,4 +333,4 @@ def _speed(metres_per_second: float) -> str:
 def _beside_the_post(offset: float, parameters: Parameters) -> str:
     inside = 0.5 * parameters.goal.width - abs(offset) - parameters.ball.radius
     where = f"{abs(inside):.2f} m {'inside' if inside >= 0.0 else 'outside'} the {_side(offset)} post"
-    return f"{offset:.2f} m, {where}"
+    return f"{offset:.2f} m ({where})"

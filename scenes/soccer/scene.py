@@ -273,7 +273,7 @@ def card(result: dict[str, Any], parameters: Parameters) -> list[tuple[str, str]
     ]
     if wall.present and result["height_at_wall"] is not None:
         clear = result["height_at_wall"] - parameters.ball.radius - wall.height
-        lines.append(("height at wall", f"{result['height_at_wall']:.2f} m, {clear:.2f} m clear of the heads"))
+        lines.append(("height at wall", f"{result['height_at_wall']:.2f} m ({clear:.2f} m clear of the heads)"))
     if result["height_at_goal"] is not None:
         lines.append(("height at goal", _under_the_bar(result["height_at_goal"], parameters)))
         lines.append(("speed at goal", _speed(result["speed_at_goal"])))
@@ -302,4 +302,4 @@ def _under_the_bar(height: float, parameters: Parameters) -> str:
         return f"{height:.2f} m"
     under = parameters.goal.height - height - parameters.ball.radius
     where = "under the bar" if under >= 0.0 else "too high for it"
-    return f"{height:.2f} m, {abs(under):.2f} m {where}"
+    return f"{height:.2f} m ({abs(under):.2f} m {where})"

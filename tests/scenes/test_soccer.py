@@ -199,5 +199,5 @@ def test_the_card_speaks_to_players():
     run = sandbox.simulate(scene)
     card = dict(scene.module.card(run.result, scene.parameters))
     assert card["kick"] == "27.0 m/s (97 km/h) at 20.0°, 300 rpm topspin"
-    assert card["height at wall"].endswith("m clear of the heads")
+    assert card["height at wall"].endswith("m clear of the heads)")
     assert card["verdict"] == "goal"

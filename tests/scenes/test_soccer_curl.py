@@ -217,5 +217,5 @@ def test_the_card_speaks_to_players():
     run = sandbox.simulate(scene)
     card = dict(scene.module.card(run.result, scene.parameters))
     assert card["kick"] == "38.0 m/s (137 km/h) at 17.0° to the right, 840 rpm that bends it to the left"
-    assert card["offset at goal"].endswith("m inside the right post")
+    assert card["offset at goal"].endswith("m inside the right post)")
     assert card["verdict"] == "goal"
