@@ -126,7 +126,8 @@ def _is_list(value: Any) -> bool:
 
 def _declared(default: Any, meaning: str, kind: Quantity) -> Any:
     if kind.unit not in units.KIND_OF:
-        raise KeyError(f"unit {kind.unit!r} is not in sandbox.units")
+        known = ", ".join(unit for unit in units.KIND_OF if unit)
+        raise KeyError(f'unit {kind.unit!r} is not known; write it as one of {known}; or "" for none')
     return _field(default, meaning, kind.read, json_schema_extra=kind)
 
 
