@@ -83,11 +83,6 @@ class Follow:
         step = (times[1] - times[0]) or 1.0
         self.paths = [_smooth(path, settle / step) for path in (at[:, 0], at[:, 1], np.log(scales))]
 
-    @property
-    def largest_scale(self) -> float:
-        """The nearest that the camera comes, px/m."""
-        return float(np.exp(self.paths[2].max()))
-
     def camera(self, t: float) -> Camera:
         """The camera at time t in s."""
         x, y, log_scale = (float(np.interp(t, self.times, path)) for path in self.paths)

@@ -6,6 +6,7 @@ import io
 import os
 import sys
 import tempfile
+import zlib
 from collections import deque
 from collections.abc import Callable, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
@@ -19,8 +20,9 @@ from PIL import Image
 
 from sandbox.files import written_whole
 
-#: zlib levels: frames are many and passing, so they are packed quickly; a poster is kept, so it is packed well.
-FRAME_COMPRESSION, POSTER_COMPRESSION = 1, 6
+#: Frames are many and passing, so they are packed quickly; a poster is kept, so it is packed well.
+FRAME_COMPRESSION = {"compress_level": 1, "compress_type": zlib.Z_RLE}
+POSTER_COMPRESSION = {"compress_level": 6}
 #: Of so many frames the colours of a GIF are chosen.
 PALETTE_FRAMES = 16
 #: Viewers slow a GIF down that shows more frames per second than this.
@@ -161,9 +163,9 @@ def _in_threads(work: Callable[[T], R], items: Iterator[T], total: int, progress
                 future.cancel()
 
 
-def _png(image: Image.Image, level: int) -> bytes:
+def _png(image: Image.Image, compression: dict[str, int]) -> bytes:
     data = io.BytesIO()
-    image.save(data, "PNG", compress_level=level)
+    image.save(data, "PNG", **compression)
     return data.getvalue()
 
 

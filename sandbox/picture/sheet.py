@@ -66,7 +66,10 @@ class Sheet:
         self.write("   ·   ".join(notes), "small", (rect.left, rect.bottom + self.gap), CARD["ink_quiet"])
 
     def columns(self, top: float, entries: Sequence[tuple[str, str]]) -> None:
-        """A card along the bottom with a number in each column, the first one in the accent's colour."""
+        """A card along the bottom with a number in each column, the first in the accent's colour.
+
+        Where there is no room for all, the last are left out.
+        """
         rect = pygame.Rect(self.frame.left, top, self.frame.width, self.frame.bottom - top)
         self.painter.panel(rect, CARD["background"], CARD["opacity"], 10 * self.unit)
         inset = round(2.6 * self.gap)
@@ -75,9 +78,12 @@ class Sheet:
             for label, value in entries
         ]
         room = rect.width - 2 * inset
+        while sum(widths) + 2 * self.gap * (len(widths) - 1) > room:
+            widths.pop()
+        entries = entries[: len(widths)]
         columns = np.arange(len(entries)) * (room + self.gap) / len(entries)
         if np.any(np.diff([*columns, room + self.gap]) < np.array(widths) + 2.5 * self.gap):  # too narrow to be even
-            between = max(self.gap, (room - sum(widths)) / max(1, len(entries) - 1))
+            between = (room - sum(widths)) / max(1, len(entries) - 1)
             columns = np.cumsum([0, *(width + between for width in widths[:-1])])
         for i, ((label, value), x) in enumerate(zip(entries, rect.left + inset + columns, strict=True)):
             self.write(label, "small", (x, rect.centery - 0.2 * self.gap), CARD["quiet"], "bottomleft")
@@ -145,7 +151,7 @@ class Sheet:
         tall = round(26 * self.unit)
         rect = pygame.Rect(round(right) - size, round(top), size, tall + self.lettering.height("small"))
         along, up = along / speed, up / speed
-        half = min(size / max(abs(along), 1e-9), (tall - 8 * self.unit) / max(abs(up), 1e-9)) / 2
+        half = min((size - 4 * self.unit) / max(abs(along), 1e-9), (tall - 8 * self.unit) / max(abs(up), 1e-9)) / 2
         middle = rect.centerx, rect.top + tall / 2
         tail, head = (
             (middle[0] - half * along, middle[1] + half * up),

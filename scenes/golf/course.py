@@ -70,29 +70,51 @@ class Course:
 
     # The ground
 
-    def draw(self, painter: Painter, camera: Camera, stripe: float, moved: float = 0.0) -> None:
-        """Landscape, field and ground; mown stripes are ``stripe`` m wide; the eye has ``moved`` px to the right."""
-        self.landscape.draw(painter.surface, moved)
-        self._field(painter.surface, camera, stripe)
-        self._section(painter, camera, stripe)
+    def draw(self, painter: Painter, camera: Camera, stripe: float, moved: float = 0.0) -> int:
+        """Landscape, field and ground; mown stripes are ``stripe`` m wide; the eye has ``moved`` px to the right.
 
-    def _field(self, surface: pygame.Surface, camera: Camera, stripe: float) -> None:
-        """The ground behind the line of play, up to the horizon: rough, and before it the mown fairway."""
+        Returns the row of the lowest ground in sight; there is nothing but soil below it.
+        """
+        self.landscape.draw(painter.surface, moved)
+        low, high = camera.world(0, 0)[0], camera.world(self.size[0], 0)[0]
+        outline = camera.pixels(self.between(low, high))
+        deepest = min(self.size[1], max(self.base, round(outline[:, 1].max())))
+        self._field(painter.surface, camera, stripe, deepest)
+        painter.surface.blit(self.soil, (0, deepest))
+        if outline[:, 1].min() < deepest - 1:
+            under = np.add(outline, (0, self._turf_depth / 2))  # so that its rough edge is hidden
+            pygame.draw.polygon(painter.surface, GOLF["soil"][0], [*under, (self.size[0], deepest), (0, deepest)])
+        light = self._light(camera, stripe)
+        for name, a, b in self.pieces:
+            left, right = max(a, low), min(b, high)
+            if left >= right:
+                continue
+            self._turf(painter, camera, left, right, GOLF[name])
+            if name == "fairway":
+                for band in _bands(left, right, stripe):
+                    self._turf(painter, camera, *band, light)
+            elif name in ("bunker", "water"):
+                self._hollow(painter, camera, a, b, GOLF[name])
+        return deepest
+
+    def _field(self, surface: pygame.Surface, camera: Camera, stripe: float, deepest: int) -> None:
+        """The ground behind the line of play, from the horizon to row ``deepest``: rough, before it mown fairway."""
         larger = FIELD_OVERSAMPLING
-        width, rows = self.size[0], self.base - self.horizon
-        field = self._field_drawn
-        top, bottom = round(rows * FAR * larger), rows * larger
+        width, rows = self.size[0], deepest - self.horizon
+        field = self._field_drawn.subsurface((0, 0, width * larger, rows * larger))
+        line = (self.base - self.horizon) * larger  # the row where things are as large as on the line of play
+        top, bottom = round(line * FAR), rows * larger
         middle = camera.world(width / 2, 0)[0]
 
-        def column(x: float, nearness: float) -> float:
-            return (width / 2 + (x - middle) * camera.scale * nearness) * larger
+        def column(x: float, row: float) -> float:
+            return (width / 2 + (x - middle) * camera.scale * row / line) * larger
 
         def across(a: float, b: float, colour: Colour) -> None:
             """A strip from one side of the fairway to the other."""
-            quad = [(column(a, FAR), top), (column(b, FAR), top), (column(b, 1), bottom), (column(a, 1), bottom)]
-            pygame.draw.polygon(field, colour, quad)
+            corners = ((a, top), (b, top), (b, bottom), (a, bottom))
+            pygame.draw.polygon(field, colour, [(column(x, row), row) for x, row in corners])
 
-        pygame.draw.rect(field, GOLF["fairway"], (0, top, width * larger, bottom - top))
+        field.fill(GOLF["fairway"], (0, top, width * larger, bottom - top))
         reach = width / 2 / FAR / camera.scale
         light = self._light(camera, stripe)
         for a, b in _bands(middle - reach, middle + reach, stripe):
@@ -101,17 +123,23 @@ class Course:
             if name in ("rough", "tee"):
                 across(max(a, middle - reach), min(b, middle + reach), GOLF[name])
             elif name != "fairway":
-                left, right = column(a, 1), column(b, 1)
-                tall = min(0.5 * bottom, max(0.16 * (right - left), 8.0 * self.unit))
-                pygame.draw.ellipse(field, GOLF[name], (left, bottom - tall, right - left, 2 * tall))
+                left, right = column(a, line), column(b, line)
+                tall = min(0.5 * line, max(0.16 * (right - left), 8.0 * self.unit))
+                x = np.linspace(max(left, -width), min(right, 3 * width), 61)
+                away = np.clip((2 * x - left - right) / (right - left), -1, 1)
+                edge = line - tall * np.sqrt(1 - away**2)
+                if x[0] < x[-1]:
+                    pygame.draw.polygon(
+                        field, GOLF[name], [*zip(x, edge, strict=True), (x[-1], bottom), (x[0], bottom)]
+                    )
         surface.blit(pygame.transform.smoothscale(field, (width, rows)), (0, self.horizon))
 
     @cached_property
     def _field_drawn(self) -> pygame.Surface:
         """Where the field is drawn, larger; the far rough is on it already, paler with distance."""
-        rows = self.base - self.horizon
+        rows = self.size[1] - self.horizon
         field = blank((self.size[0] * FIELD_OVERSAMPLING, rows * FIELD_OVERSAMPLING))
-        far = round(rows * FAR * FIELD_OVERSAMPLING)
+        far = round((self.base - self.horizon) * FAR * FIELD_OVERSAMPLING)
         for row in range(far):
             field.fill(mix(GOLF["rough_far"], GOLF["rough"], row / far), (0, row, field.get_width(), 1))
         return field
@@ -121,30 +149,13 @@ class Course:
         fade = min(1.0, max(0.0, stripe * camera.scale / (12 * self.unit) - 0.5))
         return mix(GOLF["fairway"], GOLF["fairway_stripe"], fade)
 
-    def _section(self, painter: Painter, camera: Camera, stripe: float) -> None:
-        """The ground along the line of play, cut open: turf on top of soil."""
-        surface, (width, height) = painter.surface, self.size
-        low, high = camera.world(0, 0)[0], camera.world(width, 0)[0]
-        outline = camera.pixels(self.between(low, high))
-        deepest = min(height, round(outline[:, 1].max()))
-        surface.fill(GOLF["fairway"], (0, self.base, width, max(0, deepest - self.base)))
-        surface.blit(self.soil, (0, max(deepest, self.base)))
-        if outline[:, 1].min() < deepest - 1:
-            painter.polygon([*outline, (width, deepest), (0, deepest)], GOLF["soil"][0])
-        light = self._light(camera, stripe)
-        for name, a, b in self.pieces:
-            a, b = max(a, low), min(b, high)
-            if a >= b:
-                continue
-            self._turf(painter, camera, a, b, GOLF[name])
-            if name == "fairway":
-                for left, right in _bands(a, b, stripe):
-                    self._turf(painter, camera, left, right, light)
-            elif name in ("bunker", "water"):
-                self._hollow(painter, camera, a, b, GOLF[name])
+    @property
+    def _turf_depth(self) -> int:
+        """In px."""
+        return max(3, round(7 * self.unit))
 
     def _turf(self, painter: Painter, camera: Camera, a: float, b: float, colour: Colour) -> None:
-        thick = max(3, round(7 * self.unit))
+        thick = self._turf_depth
         lighter = mix(colour, (255, 255, 255), 0.13)
         outline = camera.pixels(self.between(a, b))
         if np.ptp(outline[:, 1]) < 0.01:

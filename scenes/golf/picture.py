@@ -62,16 +62,22 @@ class Picture:
 
     # The poster
 
+    def _course(self, base: int, scale: float) -> Course:
+        """The course at ``scale`` px/m: where a cup can be seen, the ground is higher, for the ruler is below it."""
+        course = Course(self.run.setup, self.pin, self.size, base)
+        ends = float(self.path[:, 1].min()), float(self.path[:, 1].max())
+        near = 0.5 * self.size[0] / scale
+        if course.cup is None or not ends[0] - near < self.pin < ends[1] + near:
+            return course
+        deep = (course.cup.top - course.cup.bottom) * scale - 4 * self.unit
+        if deep <= 0:
+            return course
+        return Course(self.run.setup, self.pin, self.size, round(base - min(deep, 0.15 * self.size[1])))
+
     @cached_property
     def poster_course(self) -> Course:
-        """The course on the poster; the deeper the cup, the higher the ground, for the distances stand below it."""
         course = Course(self.run.setup, self.pin, self.size, self.poster_base)
-        camera = self._composed(course)
-        if course.cup is None or not 0 < camera.pixel(self.pin, 0)[0] < self.size[0]:
-            return course
-        deep = (course.cup.top - course.cup.bottom) * camera.scale
-        lifted = max(0.0, deep - (self.carry_row - self.poster_base) + 8 * self.unit)
-        return Course(self.run.setup, self.pin, self.size, round(self.poster_base - min(lifted, 0.15 * self.size[1])))
+        return self._course(self.poster_base, self._composed(course).scale)
 
     @cached_property
     def camera(self) -> Camera:
@@ -220,30 +226,33 @@ class Picture:
     def verdict(self) -> str:
         """What happened, in one line."""
         result = self.run.result
-        carry, total = result["carry"], result["total"]
+        carry, total, away = result["carry"], result["total"], result["distance_to_pin"]
         if result["holed"]:
-            return f"Holed from {metres(abs(self.pin), 0 if abs(self.pin) >= 10 else 2)}"
+            return f"Holed from {_roughly(abs(self.pin))}"
         if carry is None:
             return "Did not come down"
+        if result["ended"] == "duration":
+            return f"Still rolling after {self.run.duration:.0f} s, {_roughly(abs(total))} from the start"
         if abs(carry) < 0.05 * abs(total):
-            story = f"Rolls {metres(abs(total))}"
+            story = f"Rolls {_roughly(abs(total))}"
         else:
-            carried = metres(abs(carry), 0 if abs(carry) >= 10 else 1)
-            story = f"Flies {carried} backwards" if carry < 0 else f"{carried} carry"
+            story = f"Flies {_roughly(-carry)} backwards" if carry < 0 else f"{_roughly(carry)} carry"
         if result["ended"] == "water":
             return f"{story}, into the water"
-        if result["ended"] != "rest":
-            return f"{story}, still rolling after {self.run.duration:.0f} s"
         side = "short of" if (self.pin - total) * self.pin > 0 else "past"
-        away = result["distance_to_pin"]
-        digits = 0 if away >= 10 else 1 if away >= 1 else 2
-        return f"{story}, stops {metres(away, digits)} {side} the pin"
+        return f"{story}, stops {_roughly(away)} {side} the pin"
 
     # Frames
 
     @cached_property
+    def nearest(self) -> float:
+        """The nearest that the camera of the frames goes, in px/m."""
+        span = float(np.ptp(self.path[:, 1]))
+        return self.size[0] / min(WIDEST_VIEW, max(0.35 * span, 100 * self.radius))
+
+    @cached_property
     def frame_course(self) -> Course:
-        return Course(self.run.setup, self.pin, self.size, self.frame_base)
+        return self._course(self.frame_base, self.nearest)
 
     @cached_property
     def follow(self) -> Follow:
@@ -252,12 +261,10 @@ class Picture:
         times = np.linspace(0.0, self.run.duration, max(2, min(MOST_SAMPLES, round(self.run.duration * 60))))
         states = np.array([self.run.state(self.name, t) for t in times])
         ground = np.interp(states[:, 0], course.line[:, 0], course.line[:, 1])
-        span = float(np.ptp(self.path[:, 1]))
-        nearest = width / min(WIDEST_VIEW, max(0.35 * span, 60 * self.radius))
         room = 0.8 * (course.base - self.sky_row)
         high = room / np.maximum(states[:, 1] - ground, 1e-9)
         fast = 0.6 * width / (SIGHT * np.maximum(np.hypot(states[:, 2], states[:, 3]), 1e-9))
-        scales = np.minimum(nearest, np.minimum(high, fast))
+        scales = np.minimum(self.nearest, np.minimum(high, fast))
         ahead = 0.10 * width / scales * np.tanh(states[:, 2] / 3)
         return Follow(times, np.column_stack([states[:, 0] + ahead, ground]), scales, (width / 2, course.base))
 
@@ -267,9 +274,8 @@ class Picture:
         sheet = self.sheet = Sheet(self.size)
         painter, unit, course = sheet.painter, self.unit, self.frame_course
         camera = self.follow.camera(t)
-        nearest = self.follow.largest_scale
         x, y, vx, vy, spin = self.run.state(self.name, t)
-        course.draw(painter, camera, nice(110 * unit / nearest), camera.at[0] * nearest)
+        lowest = course.draw(painter, camera, nice(110 * unit / self.nearest), camera.at[0] * self.nearest)
         course.hole(painter, camera, t, self.wind[0])
         true = self.radius * camera.scale
         radius = max(true, 1.4 * self._smallest)
@@ -281,6 +287,10 @@ class Picture:
             painter.shadow(below, radius * (2.2 - near), 0.35 * radius, CARD["shadow"], 0.15 + 0.45 * near)
         self._trail(sheet, camera, t, radius)
         course.ball(painter, at, radius, self.run.angle(self.name, t), ring=radius > true)
+        above, below = sheet.ruler_heights()
+        if lowest > self.ruler_row - above:  # the ruler would stand on bright turf
+            backing = pygame.Rect(sheet.frame.left, self.ruler_row - above, sheet.frame.width, above + below)
+            painter.panel(backing, CARD["background"], 0.5, 10 * unit)
         sheet.ruler(camera, self.ruler_row)
         corner = self._map(sheet, t)
         if any(self.wind):
@@ -290,7 +300,7 @@ class Picture:
         if t >= self.run.duration:
             sheet.headline(self.verdict(), notes, corner.left - sheet.frame.left - 2 * sheet.gap)
         else:
-            sheet.headline(metres(x - self.path[0, 1], digits), ["from the tee", *notes], self.size[0])
+            sheet.headline(metres(x - self.path[0, 1], digits), ["from the start", *notes], self.size[0])
         speed = hypot(vx, vy)
         sheet.columns(
             self.card_row,
@@ -360,6 +370,11 @@ class Picture:
 def _draw_path(surface: pygame.Surface, points: Iterable[Any], colour: Colour, width: int) -> None:
     for a, b in pairwise(points):
         pygame.draw.aaline(surface, colour, a, b, width)
+
+
+def _roughly(value: float) -> str:
+    """A length of 0 or more as one says it: 0.14 m, 2.9 m, 252 m."""
+    return metres(value, 0 if value >= 9.95 else 1 if value >= 0.995 else 2)
 
 
 def _apart(points: np.ndarray, least: float) -> list[int]:

@@ -57,6 +57,16 @@ def test_numbers_in_a_card_keep_apart_and_inside(size):
     entries += [("ball speed", "340.0 m/s"), ("launch", "−35.0°"), ("backspin", "−20000 rpm"), ("landing", "−35°")]
     sheet.columns(sheet.frame.bottom - sheet.card_height(), entries)
     _assert_apart(sheet)
+    assert len(sheet.written) == 2 * len(entries)
+
+
+def test_a_card_that_is_too_narrow_leaves_out_the_last():
+    sheet = Sheet((200, 300))
+    sheet.columns(
+        sheet.frame.bottom - sheet.card_height(), [("carry", "253.6 m"), ("total", "277.0 m"), ("apex", "33.9 m")]
+    )
+    _assert_apart(sheet)
+    assert [text for text, _ in sheet.written] == ["carry", "253.6 m", "total", "277.0 m"]
 
 
 @pytest.mark.parametrize("size", [(640, 360), (1280, 720)])
