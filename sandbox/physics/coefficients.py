@@ -63,8 +63,8 @@ def tour_fit_drag(reynolds: Any, spin_ratio: Any) -> Any:
 
     tests/reference/fit_golf_ball.py fits again and prints these numbers.
 
-    Covered by these flights: S from 0.07 to 0.9, Re from 0.6e5 to 2.2e5, in air of 1.1839 kg/m^3. Beyond, towards
-    S = 1 and more and Re = 0 and 5e5, the form is a fair guess, not a measurement.
+    Covered by these flights: S from 0.07 to 1.07, Re from 0.5e5 to 2.2e5. Beyond, down to a chip at Re = 0.2e5 and up
+    to Re = 5e5, the form is a fair guess, not a measurement.
     """
     q = reynolds * _CRITICAL
     q = q * q

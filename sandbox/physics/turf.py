@@ -27,13 +27,13 @@ def penner_tilt(normal_speed: float, tangential_speed: float, give: float = 1.0)
 
     ``give * 15.4 deg (v / 18.6 m/s) (phi / 44.4 deg)`` with the speed v of the impact and its angle phi from the
     vertical. Source: Penner 2002, as above, who draws a line through one measurement of Haake's on a green (18.6 m/s,
-    44.4 deg); second-hand. Ours is the limit: the slope is no steeper than the ball's own way into the turf, 90 deg -
-    phi, and than 45 deg. Balls that come down at less than 30 deg feel it; without it a topped ball would bounce
-    straight up.
+    44.4 deg); second-hand. Ours is the limit, as a line through one point says nothing of balls that skim the ground:
+    no more than two thirds of the angle at which the ball comes down, and than 45 deg. Balls that come down at less
+    than some 35 deg feel it; without it a topped ball would bounce straight up.
     """
     speed = (normal_speed * normal_speed + tangential_speed * tangential_speed) ** 0.5
     incidence = degrees(atan2(tangential_speed, normal_speed))
-    return radians(min(give * 15.4 * (speed / 18.6) * (incidence / 44.4), 90.0 - incidence, 45.0))
+    return radians(min(give * 15.4 * (speed / 18.6) * (incidence / 44.4), (90.0 - incidence) / 1.5, 45.0))
 
 
 def penner_bounce(normal_speed: float, tangential_speed: float, give: float = 1.0) -> tuple[float, float]:

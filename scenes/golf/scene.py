@@ -12,6 +12,7 @@ moisture of the grass.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from itertools import pairwise
 from math import atan2, cos, degrees, hypot, inf, pi, radians, sin, sqrt
 from typing import Any, Literal
@@ -174,10 +175,10 @@ LONGEST = 300.0
 #: Bounces lower than this, in m, are lost in the grass and the ball rolls (Penner 2002, Can. J. Phys. 80:931).
 LOWEST_BOUNCE = 0.005
 
-#: Restitution, friction and rolling resistance of the cup and its rim. The restitution is chosen so that the fastest
-#: putt it holds crosses the near edge at 1.64 m/s; Holmes 1991, Am. J. Phys. 59:129, has 1.63 m/s (second-hand). The
-#: others are assumed.
-CUP = (0.05, 0.4, 0.1)
+#: Restitution, friction and rolling resistance of the cup and its rim. Without restitution the fastest putt that it
+#: holds crosses the near edge at 1.64 m/s; Holmes 1991, Am. J. Phys. 59:129, has 1.63 m/s (second-hand). The others are
+#: assumed.
+CUP = (0.0, 0.4, 0.1)
 
 
 def build(parameters: Parameters) -> Setup:
@@ -367,7 +368,7 @@ def result(run: Run, parameters: Parameters) -> dict[str, Any]:
     found: dict[str, Any] = {
         "carry": None,
         "total": end_x,
-        "apex": max(0.0, run.highest("ball")[1][1] - start[1]),
+        "apex": _highest(run, landed) - start[1],
         "flight_time": None,
         "landing_angle": None,
         "landing_speed": None,
@@ -398,6 +399,13 @@ def _landing(run: Run, launch_height: float) -> tuple[float, tuple[float, ...]] 
     if touched < (inf if back is None else back[0]):
         return touched, run.before("ball", touched)
     return back
+
+
+def _highest(run: Run, landed: tuple[float, tuple[float, ...]] | None) -> float:
+    """Greatest height in m of the flight; of the whole run, where there was no flight or no end to it."""
+    if landed is not None and landed[0] > 0.0:
+        run = replace(run, arcs={"ball": [arc for arc in run.arcs["ball"] if arc.t0 < landed[0]]})
+    return run.highest("ball")[1][1]
 
 
 def card(result: dict[str, Any], parameters: Parameters) -> list[tuple[str, str]]:

@@ -1,0 +1,470 @@
+"""Golf: published flights, exact cases, bounce, roll and cup, presets, and whatever else may be asked of it."""
+
+from __future__ import annotations
+
+import csv
+from dataclasses import replace
+from math import atan2, cos, degrees, exp, hypot, pi, radians, sin
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.integrate import solve_ivp
+
+import sandbox
+from sandbox.engine import simulate
+from sandbox.engine.accuracy import resolve
+from sandbox.engine.run import Run
+from sandbox.errors import RequestError
+from sandbox.physics import coefficients
+from sandbox.physics.forces import Magnus
+from sandbox.physics.impulse import club_on_ball
+from sandbox.physics.turf import STIMPMETER_SPEED
+
+YARD, FOOT, RPM = 0.9144, 0.3048, pi / 30.0
+RADIUS, G = 0.021335, 9.81
+REFERENCE = Path(__file__).parent.parent / "reference"
+PRESETS = Path(sandbox.__file__).parent.parent / "scenes" / "golf" / "presets"
+
+#: Air of the tour averages: dry, 25 C, sea level.
+TOUR_AIR = {"air.density": 1.1839}
+
+VERDICTS = dict.fromkeys(sorted(path.stem for path in PRESETS.glob("*.toml")), "rest") | {
+    "putt": "cup",
+    "splash": "water",
+}
+
+
+def play(scene: str = "golf", **changes: Any) -> Run:
+    """A run with changed parameters: ``launch__speed=20`` stands for launch.speed."""
+    return sandbox.simulate(sandbox.load(scene, {key.replace("__", "."): value for key, value in changes.items()}))
+
+
+def putt(speed: float, **changes: Any) -> Run:
+    """A ball that rolls at ``speed`` m/s from the start, in a vacuum."""
+    rolling = {"launch.speed": speed, "launch.angle": 0.0, "launch.spin": -speed / RADIUS / RPM, "air.density": 0.0}
+    return sandbox.simulate(sandbox.load("golf", rolling | {k.replace("__", "."): v for k, v in changes.items()}))
+
+
+def table(name: str) -> list[dict[str, str]]:
+    with (REFERENCE / name).open(newline="", encoding="utf-8") as file:
+        return list(csv.DictReader(file))
+
+
+# Published flights --------------------------------------------------------------------------------------------------
+
+
+def misfit(tour: str, **changes: Any) -> np.ndarray:
+    """Rms errors on a tour's averages: height in yd, landing angle in deg, carry in yd."""
+    errors = []
+    for row in table("golf_tour.csv"):
+        if row["tour"] == tour:
+            launch = {
+                "launch.speed": f"{row['ball_speed_mph']} mph",
+                "launch.angle": float(row["launch_deg"]),
+                "launch.spin": float(row["spin_rpm"]),
+            }
+            found = sandbox.simulate(sandbox.load("golf", TOUR_AIR | launch | changes)).result
+            errors.append(
+                (
+                    found["apex"] / YARD - float(row["max_height_yd"]),
+                    found["landing_angle"] - float(row["land_deg"]),
+                    found["carry"] / YARD - float(row["carry_yd"]),
+                )
+            )
+    assert len(errors) > 10
+    return np.sqrt(np.mean(np.square(errors), axis=0))
+
+
+def test_the_pga_averages_are_met():
+    """The aim: at most 2.9 yd, 3.0 deg and 3.5 yd together, with one set of numbers for all clubs."""
+    assert np.all(misfit("PGA") <= [2.0, 1.9, 3.3])
+
+
+def test_the_lpga_averages_which_were_not_fitted_are_met():
+    assert np.all(misfit("LPGA") <= [2.5, 2.0, 4.1])
+
+
+@pytest.mark.parametrize("row", table("golf_models.csv"), ids=lambda row: f"{row['model']} {row['tour']}")
+def test_errors_of_all_models_are_as_stated(row: dict[str, str]):
+    model = {"ball.drag.model": row["model"], "ball.lift.model": row["model"], "ball.spin_decay": row["spin_decay"]}
+    stated = [float(row[column]) for column in ("height_yd", "land_deg", "carry_yd")]
+    assert misfit(row["tour"], **model) == pytest.approx(stated, abs=0.02)
+
+
+def test_the_rows_of_the_tour_averages_say_where_they_come_from():
+    assert all(row["source"] for row in table("golf_tour.csv") + table("golf_models.csv"))
+
+
+def test_a_drive_in_denver_and_into_the_wind():
+    """Rules of thumb: 6 % more carry a mile up; 10 mph against costs more than 10 mph behind gives."""
+    level, denver = (play(air__density=density).result["carry"] for density in (1.184, 0.975))
+    assert 1.04 < denver / level < 1.07
+    against, behind = (play(air__wind=[wind, 0.0]).result["carry"] for wind in ("-10 mph", "10 mph"))
+    calm = play().result["carry"]
+    assert 14.0 < calm - against < 22.0
+    assert 10.0 < behind - calm < calm - against
+
+
+# Exact cases --------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("angle", [10.4, 45.0, 80.0, 120.0])
+def test_flight_without_air(angle: float):
+    """R = v^2 sin(2 a) / g, H = (v sin a)^2 / (2 g), T = 2 v sin a / g; speed, angle and spin come back."""
+    v, a = 50.0, radians(angle)
+    found = play(air__density=0.0, launch__speed=v, launch__angle=angle).result
+    assert found["carry"] == pytest.approx(v**2 * sin(2 * a) / G, abs=1e-6)
+    assert found["apex"] == pytest.approx((v * sin(a)) ** 2 / (2 * G), abs=1e-6)
+    assert found["flight_time"] == pytest.approx(2 * v * sin(a) / G, abs=1e-7)
+    assert found["landing_angle"] == pytest.approx(min(angle, 180.0 - angle), abs=1e-6)
+    assert found["landing_speed"] == pytest.approx(v, abs=1e-6)
+    assert found["landing_spin"] == pytest.approx(2545.0)
+
+
+@pytest.mark.parametrize("wind", [(0.0, 0.0), (-7.0, 2.0)])
+def test_the_golf_game_is_the_books_equations(wind: tuple[float, float]):
+    """m v' = -m g - 1/2 rho Cd A |u| u + 1/2 rho A r w (-vy, vx) with u = v - wind, as r w / |v| |v|^2 = r w |v|."""
+    mass, area, density, drag, radius, spin = 0.0459, 0.001432, 1.225, 0.25, 0.02135, 300.0
+    speed, angle = 51.0, radians(12.0)
+
+    def equations(t, state):
+        _, _, vx, vy = state
+        ux, uy = vx - wind[0], vy - wind[1]
+        resistance = 0.5 * density * drag * area * hypot(ux, uy) / mass
+        lift = 0.5 * density * area * radius * spin / mass
+        return vx, vy, -resistance * ux - lift * vy, -G - resistance * uy + lift * vx
+
+    def down(t, state):
+        return state[1]
+
+    down.terminal, down.direction = True, -1.0
+    start = (0.0, 0.0, speed * cos(angle), speed * sin(angle))
+    book = solve_ivp(equations, (0.0, 60.0), start, method="DOP853", rtol=1e-12, atol=1e-12, events=down)
+    x, _, vx, vy = book.y_events[0][0]
+    found = play("golf/golf-game", air__wind=wind).result
+    assert found["carry"] == pytest.approx(x, abs=1e-5)
+    assert found["flight_time"] == pytest.approx(book.t_events[0][0], abs=1e-6)
+    assert found["landing_angle"] == pytest.approx(degrees(atan2(-vy, vx)), abs=1e-5)
+    assert found["landing_spin"] == pytest.approx(spin / RPM)
+
+
+def test_the_golf_game_has_the_numbers_of_the_contract():
+    parameters = sandbox.load("golf/golf-game").parameters
+    ball, air = parameters.ball, parameters.air
+    assert (ball.mass, ball.cross_section, air.density, parameters.gravity) == (0.0459, 0.001432, 1.225, 9.81)
+    assert (ball.drag.model, ball.drag.coefficient) == ("constant", 0.25)
+    assert (ball.lift.model, ball.lift.velocity, ball.spin_decay) == ("spin-ratio", "ground", 0.0)
+    assert parameters.launch.spin * RPM == pytest.approx(300.0)
+    assert parameters.pin.distance == 200.0
+
+
+def test_a_shot_to_the_left_is_the_mirror_image_of_one_to_the_right():
+    right = play(launch__angle=20.0, launch__spin=3000.0, air__wind=[-5.0, 0.0]).result
+    left = play(launch__angle=160.0, launch__spin=-3000.0, air__wind=[5.0, 0.0]).result
+    assert left["carry"] == pytest.approx(-right["carry"], abs=1e-9)
+    for name in ("apex", "flight_time", "landing_angle", "landing_speed"):
+        assert left[name] == pytest.approx(right[name], abs=1e-9)
+    assert left["total"] == pytest.approx(-right["total"], abs=0.2)  # the green is on one side only
+
+
+@pytest.mark.parametrize("loft", [10.5, 34.0, 46.0])
+def test_a_club_gives_the_launch_of_the_closed_form(loft: float):
+    club = club_on_ball(45.0, radians(loft), 0.25, 0.04593, RADIUS, 0.8, radians(-3.0))
+    speed, angle = hypot(club.vx, club.vy), degrees(atan2(club.vy, club.vx))
+    struck = {"start": "club", "club__speed": 45.0, "club__mass": 0.25, "club__loft": loft}
+    by_club = play(**struck, club__restitution=0.8, club__attack=-3.0).result
+    by_launch = play(launch__speed=speed, launch__angle=angle, launch__spin=club.spin / RPM).result
+    assert by_club["carry"] == pytest.approx(by_launch["carry"], abs=1e-6)
+
+
+def test_the_card_of_a_struck_ball_has_the_smash_factor():
+    scene = sandbox.load("golf/club-head", {"club.loft": 0.0, "club.attack": 0.0})
+    card = dict(scene.module.card(sandbox.simulate(scene).result, scene.parameters))
+    assert "smash factor 1.49" in card["club"]
+
+
+# Bounce and roll ----------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("feet", [8.0, 10.0, 12.5])
+def test_a_ball_from_a_stimpmeter_rolls_the_reading(feet: float):
+    """In a vacuum; air takes some 3 % of it."""
+    reading = {"ground__green__stimp": f"{feet} ft", "ground__green__length": 100.0, "pin__distance": -40.0}
+    assert putt(STIMPMETER_SPEED, **reading).result["total"] == pytest.approx(feet * FOOT, abs=1e-6)
+    in_air = putt(STIMPMETER_SPEED, **reading, air__density=1.2).result["total"]
+    assert 0.02 < 1.0 - in_air / (feet * FOOT) < 0.05
+
+
+@pytest.mark.parametrize(
+    ("preset", "least", "most"), [("driver", 15.0, 26.0), ("7-iron", 1.0, 8.0), ("pitching-wedge", -2.0, 2.0)]
+)
+def test_run_after_landing(preset: str, least: float, most: float):
+    """In yd: a drive runs out on the fairway, a 7-iron holds the green, a wedge stops where it lands."""
+    found = play(f"golf/{preset}").result
+    assert least < (found["total"] - found["carry"]) / YARD < most
+
+
+def test_a_lob_with_much_spin_comes_back():
+    found = play(launch__speed=42.0, launch__angle=32.0, launch__spin=12000.0, pin__distance=104.0).result
+    assert found["total"] < found["carry"] - 2.0
+
+
+def test_a_ball_runs_less_far_on_rougher_ground():
+    landing_on = {
+        kind: play(ground__strips=[{"kind": kind, "start": 100, "end": 400}], pin__distance=-100).result
+        for kind in ("fairway", "rough", "bunker", "tee")
+    }
+    runs = {kind: found["total"] - found["carry"] for kind, found in landing_on.items()}
+    assert runs["bunker"] < runs["rough"] < runs["fairway"] == runs["tee"]
+
+
+def test_firm_turf_gives_more_run_than_soft():
+    runs = [play(ground__fairway__give=give).result["total"] for give in (0.3, 1.0, 1.5)]
+    assert runs == sorted(runs, reverse=True)
+
+
+def test_water_ends_the_shot():
+    run = play(ground__strips=[{"kind": "water", "start": 200, "end": 300}], pin__distance=350)
+    assert run.result["ended"] == "water"
+    assert run.result["total"] == pytest.approx(run.result["carry"], abs=1e-6)
+    rolled_in = play(ground__strips=[{"kind": "water", "start": 260, "end": 300}], pin__distance=350).result
+    assert rolled_in["ended"] == "water"
+    assert rolled_in["total"] == pytest.approx(260.0, abs=3.0)
+
+
+def test_a_ball_rolls_down_a_slope_and_rests_on_a_gentle_one():
+    """It rests where the slope is less than the resistance of rolling, 0.14."""
+    for slope, rests in ((0.05, True), (0.3, False)):
+        hill = {"ground__heights": [[-50.0, 50.0 * slope], [50.0, -50.0 * slope]], "launch__speed": 0.0}
+        moved = play(**hill, launch__spin=0.0, pin__distance=300.0).result["total"]
+        assert (moved == 0.0) is rests
+        assert rests or moved > 40.0
+
+
+# The cup ------------------------------------------------------------------------------------------------------------
+
+
+def speed_at_the_cup(run: Run) -> float:
+    edge = 0.2 - 0.054
+    _, (_, _, vx, _, _) = next(run.crossings("ball", (edge, 0.0), (-1.0, 0.0)))
+    return vx
+
+
+def test_the_cup_holds_a_putt_up_to_the_published_speed():
+    """Holmes 1991: 1.63 m/s for a dead centre putt. Found here by bisection, at the near edge: 1.64 m/s."""
+    slow, fast = 1.2, 3.0
+    while fast - slow > 1e-3:
+        middle = 0.5 * (slow + fast)
+        if putt(middle, pin__distance=0.2).result["holed"]:
+            slow = middle
+        else:
+            fast = middle
+    assert speed_at_the_cup(putt(slow, pin__distance=0.2)) == pytest.approx(1.63, abs=0.04)
+
+
+def test_a_slow_putt_meets_the_far_wall_and_a_faster_one_the_far_edge():
+    """It falls by its radius on the way across up to (2 R - r) sqrt(g / (2 r)) = 1.31 m/s."""
+    free_fall = (0.108 - RADIUS) * (G / (2 * RADIUS)) ** 0.5
+    for share, on_the_wall in ((0.97, True), (1.03, False)):
+        run = putt(1.1 * share * free_fall, pin__distance=0.2)
+        run = putt(1.1 * share * free_fall * share * free_fall / speed_at_the_cup(run), pin__distance=0.2)
+        impact = next(event for event in run.events if event.kind == "impact" and event.x > 0.2)
+        assert (impact.y <= 0.0) is on_the_wall
+
+
+def test_a_cup_of_no_width_is_no_cup():
+    assert not play("golf/putt", pin__cup_width=0.0).result["holed"]
+
+
+# Presets ------------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", VERDICTS)
+def test_presets_end_the_same_at_every_accuracy(name: str):
+    fast, balanced, precise = (
+        play(f"golf/{name}", accuracy__level=level).result for level in ("fast", "balanced", "precise")
+    )
+    for found in (fast, balanced, precise):
+        assert found["ended"] == VERDICTS[name]
+        assert found["holed"] is (VERDICTS[name] == "cup")
+    assert balanced["carry"] == pytest.approx(precise["carry"], abs=1e-4)
+    assert balanced["total"] == pytest.approx(precise["total"], abs=1e-3)
+    assert fast["carry"] == pytest.approx(precise["carry"], abs=1e-2)
+    assert fast["total"] == pytest.approx(precise["total"], abs=0.1)
+
+
+def test_there_is_a_preset_for_every_club_of_the_tour():
+    names = {"Dr": "driver", "3w": "3-wood", "5w": "5-wood", "Hy": "hybrid", "PW": "pitching-wedge"}
+    for row in table("golf_tour.csv"):
+        if row["tour"] == "PGA":
+            launch = sandbox.load("golf/" + names.get(row["club"], f"{row['club'][0]}-iron")).parameters.launch
+            assert launch.speed == pytest.approx(0.44704 * float(row["ball_speed_mph"]))
+            assert (launch.angle, launch.spin) == (float(row["launch_deg"]), float(row["spin_rpm"]))
+
+
+@pytest.mark.parametrize("name", [None, *(name for name, verdict in VERDICTS.items() if verdict == "rest")])
+def test_shots_that_are_meant_to_end_near_the_pin_do(name: str | None):
+    found = play("golf" if name is None else f"golf/{name}").result
+    short_on_purpose = {"headwind": 69.0, "topped": 139.0, "blow-up": 59.0}
+    assert found["distance_to_pin"] == pytest.approx(short_on_purpose.get(name or "", 3.5), abs=3.5)
+
+
+def test_topspin_brings_the_topped_ball_down():
+    topped, clean = play("golf/topped").result, play("golf/topped", launch__spin=0.0).result
+    assert topped["carry"] < 0.7 * clean["carry"]
+
+
+def test_a_blown_up_drive_climbs_higher_and_carries_less_than_a_good_one():
+    blown_up, good = play("golf/blow-up").result, play().result
+    assert blown_up["apex"] > 1.5 * good["apex"]
+    assert blown_up["carry"] < good["carry"] - 30.0
+
+
+def test_the_pond_takes_only_the_ball_in_the_wind():
+    touched = {event.partner for event in play("golf/pond").events}
+    assert "water" not in touched
+    assert "green" in touched
+    bunkered = play("golf/pond", launch__speed="115 mph")
+    assert "bunker" in {event.partner for event in bunkered.events}
+
+
+# Whatever else may be asked -----------------------------------------------------------------------------------------
+
+
+def test_results_are_those_of_the_contract():
+    names = "carry total apex flight_time landing_angle landing_speed landing_spin distance_to_pin holed ended"
+    assert list(play().result) == names.split()
+
+
+@pytest.mark.parametrize("changes", [{"gravity": 0.0}, {"gravity": 0.0, "air__density": 0.0}])
+def test_a_ball_that_never_comes_down_has_no_landing(changes: dict[str, Any]):
+    run = play(**changes, launch__speed=340.0)
+    assert run.result["ended"] == "duration"
+    assert run.result["carry"] is run.result["flight_time"] is run.result["landing_angle"] is None
+    assert run.result["landing_speed"] is run.result["landing_spin"] is None
+    scene = sandbox.load("golf")
+    assert ("carry", "did not come down") in scene.module.card(run.result, scene.parameters)
+
+
+def test_a_ball_struck_into_the_ground_has_landed_at_once():
+    for angle in (-90.0, -30.0, -0.1):
+        found = play(launch__angle=angle).result
+        assert (found["carry"], found["flight_time"]) == (0.0, 0.0)
+        assert found["landing_angle"] == pytest.approx(-angle)
+        assert found["landing_speed"] == pytest.approx(0.44704 * 171)
+
+
+def test_carry_is_measured_at_launch_height():
+    """From a tee 20 m up the ball is back at launch height where it would be on level ground, and lands farther on."""
+    level = play(pin__distance=350).result
+    raised = play(pin__distance=350, ground__heights=[[-10, 20], [10, 20], [60, 0]])
+    assert raised.setup.balls[0].position[1] == pytest.approx(20.0 + RADIUS)
+    for name in ("carry", "apex", "flight_time", "landing_angle"):
+        assert raised.result[name] == pytest.approx(level[name], abs=1e-4)
+    assert raised.result["total"] > level["total"] + 5.0
+
+
+def test_on_higher_ground_the_carry_is_where_it_comes_down():
+    run = play(pin__distance=350, ground__heights=[[150, 0], [230, 15]])
+    impact = next(event for event in run.events if event.kind == "impact")
+    assert run.result["carry"] == pytest.approx(impact.x)
+    assert run.result["flight_time"] == pytest.approx(impact.t)
+    assert impact.y > 10.0
+
+
+@settings(max_examples=60, deadline=None)
+@given(
+    speed=st.floats(0.0, 340.0),
+    angle=st.floats(-90.0, 180.0),
+    spin=st.floats(-20000.0, 20000.0),
+    wind=st.tuples(st.floats(-100.0, 100.0), st.floats(-20.0, 20.0)),
+    density=st.sampled_from([0.0, 0.02, 1.2, 65.0, 1100.0]),
+    gravity=st.sampled_from([0.0, 0.3, 1.62, 9.81, 30.0]),
+)
+def test_any_shot_ends_and_its_numbers_are_finite(
+    speed: float, angle: float, spin: float, wind: tuple[float, float], density: float, gravity: float
+):
+    launch = {"launch__speed": speed, "launch__angle": angle, "launch__spin": spin}
+    found = play(**launch, air__wind=wind, air__density=density, gravity=gravity).result
+    assert found["ended"] in ("rest", "cup", "water", "duration")
+    assert all(np.isfinite(value) for value in found.values() if isinstance(value, float))
+    assert found["apex"] >= 0.0
+
+
+@pytest.mark.parametrize(
+    ("changes", "says"),
+    [
+        ({"pin__distance": 0.01}, "pin.distance: the cup at 0.01 m is where the ball starts"),
+        ({"ground__heights": [[10, 0], [10, 5]]}, "ground.heights: x must grow"),
+        ({"ground__strips": [{"kind": "rough", "start": 9, "end": 3}]}, "the rough from 9 m to 3 m has no length"),
+        ({"start": "club", "club__loft": 80, "club__attack": -45}, "the face moves away from the ball"),
+    ],
+)
+def test_senseless_courses_and_strikes_are_refused(changes: dict[str, Any], says: str):
+    with pytest.raises(RequestError, match=says):
+        play(**changes)
+
+
+def test_a_ball_on_uneven_ground_starts_on_it():
+    """It lies beside a steep step, in a dip, on a ridge: always touching, never inside."""
+    for heights in ([[0.01, 0], [0.011, 0.015]], [[-1, 0.5], [0, 0], [1, 0.5]], [[-1, -1], [0, 0], [1, -1]]):
+        run = play(ground__heights=heights, launch__speed=0.0, launch__spin=0.0)
+        assert run.events[0].t == 0.0 or not run.events
+
+
+# What is left out -----------------------------------------------------------------------------------------------------
+
+
+def carry_with(change: Any) -> float:
+    """Carry of the default drive with its list of forces changed."""
+    scene = sandbox.load("golf")
+    setup = scene.build()
+    ball = setup.balls[0]
+    changed = replace(setup, balls=[replace(ball, forces=change(scene.parameters, list(ball.forces)))])
+    return scene.module.result(simulate(changed, resolve()), scene.parameters)["carry"]
+
+
+def buoyant(parameters: Any, forces: list[Any]) -> list[Any]:
+    lift = parameters.air.density * 4 / 3 * pi * RADIUS**3 * parameters.gravity
+    return [*forces, lambda t, position, velocity, spin: (0.0, lift)]
+
+
+def thinner_higher_up(parameters: Any, forces: list[Any]) -> list[Any]:
+    """The density falls by e in 9,600 m."""
+
+    def thinned(force: Any) -> Any:
+        def thin(t, position, velocity, spin):
+            share = exp(-position[1] / 9600.0)
+            fx, fy = force(t, position, velocity, spin)
+            return share * fx, share * fy
+
+        return thin
+
+    return [forces[0], *(thinned(force) for force in forces[1:])]
+
+
+def turning_earth(parameters: Any, forces: list[Any]) -> list[Any]:
+    """Coriolis force on a shot to the east at 45 deg."""
+    k = 2 * 7.292e-5 * cos(radians(45.0)) * parameters.ball.mass
+    return [*forces, lambda t, position, velocity, spin: (-k * velocity[1], k * velocity[0])]
+
+
+def fading_lift(parameters: Any, forces: list[Any]) -> list[Any]:
+    """Half of the lift goes in the drag crisis."""
+
+    def faded(reynolds, spin_ratio):
+        return coefficients.tour_fit_lift(reynolds, spin_ratio) * (1.0 - 0.5 / (1.0 + (reynolds / 0.68e5) ** 8))
+
+    return [*forces[:2], Magnus(RADIUS, parameters.air.density, faded, viscosity=parameters.air.viscosity)]
+
+
+@pytest.mark.parametrize(
+    ("effect", "metres"), [(buoyant, 0.13), (thinner_higher_up, 0.22), (turning_earth, 0.04), (fading_lift, -2.6)]
+)
+def test_what_is_left_out_is_worth_what_the_docstring_says(effect: Any, metres: float):
+    unchanged = carry_with(lambda parameters, forces: forces)
+    assert carry_with(effect) - unchanged == pytest.approx(metres, rel=0.1, abs=0.01)
