@@ -205,16 +205,17 @@ class Picture:
 
     def _numbers(self) -> list[tuple[str, str]]:
         result = self.run.result
-        _, _, vx, vy, spin = self.run.state(self.name, 0.0)
+        ball = self.run.setup.balls[0]  # before it touches anything, which it may do at once
+        vx, vy = ball.velocity
         landed = self._landed
         return [
             ("carry", metres(result["carry"]) if landed else "–"),
             ("total", metres(result["total"])),
-            ("apex", metres(result["apex"]) if landed or result["carry"] is None else "–"),
+            ("apex", metres(result["apex"]) if result["apex"] >= 0.005 else "–"),
             ("flight time", f"{result['flight_time']:.2f} s" if landed else "–"),
             ("ball speed", f"{hypot(vx, vy):.1f} m/s"),
             ("launch", signed(f"{degrees(atan2(vy, vx)):.1f}") + "°"),
-            ("backspin", signed(f"{spin * 30 / pi:.0f}") + " rpm"),
+            ("backspin", signed(f"{ball.spin * 30 / pi:.0f}") + " rpm"),
             ("landing", signed(f"{result['landing_angle']:.0f}") + "°" if landed else "–"),
         ]
 
