@@ -33,6 +33,9 @@ _FIRST_STEP = 0.05  # s
 #: Longest step, so that forces which change along the way are met several times a second.
 _LONGEST = 0.5  # s
 
+#: Longest turn in rad that one arc makes around a round feature.
+_LONGEST_TURN = 0.3
+
 #: Largest product of a fixed step and the forces' rate of change with velocity (1/s). Explicit steps are smooth below
 #: 1 and unstable above 2, where drag reverses the motion; the drag of water on a bullet is the case that needs the
 #: limit.
@@ -141,6 +144,9 @@ class Mover:
         step = self._integrator.step
         wanted = self._suggested
         h = min(wanted, self._longest, until - t)
+        if contact is not None and contact.touching.center is not None:
+            # around a round feature a quintic follows the circle to 1e-9 of its radius for an eighth of a turn or less
+            h = min(h, _LONGEST_TURN / (contact.touching.curvature * (abs(state[2]) + abs(state[3])) + 1e-30))
         shortest = max(1e-15, 1e-15 * t)
         while True:
             after, last, error = step(law, t, state, acceleration, h)

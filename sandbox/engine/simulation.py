@@ -27,7 +27,7 @@ from sandbox.physics.integrators import State
 
 #: Events that may pass while time advances by less than _STANDSTILL s, before the run is declared stalled.
 _MOST_AT_ONCE = 2_000
-_STANDSTILL = 1e-9
+_STANDSTILL = 1e-6
 
 #: Impacts in one run beyond which it is declared stalled; Galperin's billiard with mass ratio 1e8 needs 31,415.
 _MOST_IMPACTS = 200_000

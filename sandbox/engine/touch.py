@@ -150,7 +150,7 @@ class Obstacle:
             gap = [side * d - self.reach + SKIN for d in across]
             if max(gap) <= -_NOISE:
                 continue  # wholly beyond the line
-            for u in _closings(gap, side * across[0] > 0.0 and self._within(arc.x[0], arc.y[0])):
+            for u in _closings(gap, side * across[0] > 0.0 and self._within(arc.x[0], arc.y[0], CONTACT)):
                 if first is not None and u >= first:
                     break
                 if self._within(evaluate(arc.x, u), evaluate(arc.y, u)):
@@ -158,8 +158,8 @@ class Obstacle:
                     break
         return first
 
-    def _within(self, x: float, y: float) -> bool:
-        return 0.0 <= self._along(x, y) <= self._length
+    def _within(self, x: float, y: float, margin: float = 0.0) -> bool:
+        return -margin <= self._along(x, y) <= self._length + margin
 
 
 def _round(xs: Sequence[float], ys: Sequence[float], center: Point, reach: float) -> float | None:
@@ -189,7 +189,8 @@ def _closings(gap: list[float], starts_beside: bool) -> Iterable[float]:
     if starts_beside and gap[0] <= _NOISE:
         opening = without_root_at_start([g - gap[0] for g in gap])
         if opening[0] < -_NOISE:
-            return (0.0,)
+            # closing, but perhaps by no more than rounding, as where a ball that glides along a side passes its end
+            return downward_crossings([g - gap[0] + _NOISE for g in gap])
         return downward_crossings([g + _NOISE for g in opening])
     return downward_crossings(gap)
 
