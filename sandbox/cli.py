@@ -96,6 +96,23 @@ def schema(scene: SceneArgument) -> None:
     _say(json.dumps(json_schema(parameters, name), indent=2))
 
 
+@app.command("new")
+def new_scene(
+    name: Annotated[Path, typer.Argument(metavar="NAME", help="The folder to make: its name is the scene's.")],
+) -> None:
+    """Write a scene of your own: a folder with one that works, to change as you like.
+
+    \b
+    Example:
+      sandbox new volleyball
+      sandbox run ./volleyball
+    """
+    from sandbox import new
+
+    files = new.new_scene(name)
+    _say("\n".join([*(f"wrote {file}" for file in files), "", *new.next_steps(name)]))
+
+
 @app.command()
 def run(
     scene: SceneArgument,
@@ -193,7 +210,7 @@ def _draw(scene: Scene, done: Any, poster: Path | None, frames: Path | None, gif
     from sandbox.picture.frames import save_frames, save_gif, save_poster
     from sandbox.progress import bar
 
-    picture = scene.picture_module().Picture(done, scene.parameters)
+    picture = scene.picture(done)
     if poster is not None:
         with _writing("--poster", poster):
             save_poster(picture, poster)

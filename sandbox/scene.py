@@ -12,6 +12,7 @@ import hashlib
 import importlib
 import importlib.util
 import math
+import os
 import re
 import sys
 from collections.abc import Iterator, Mapping
@@ -60,7 +61,13 @@ class Scene:
         """The scene's ``picture.py``, imported when first asked for: it brings pygame with it."""
         if not (self.folder / "picture.py").is_file():
             raise RequestError(f"{self.name} has no picture: {self.folder / 'picture.py'} is missing")
+        os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")  # its greeting on stdout, which belongs to --json
         return _module(self.folder, "picture")
+
+    def picture(self, run: Run, size: tuple[int, int] | None = None) -> Any:
+        """The scene's picture of a run, with ``poster()`` and ``frame(t)``; ``size`` in px, or what the scene likes."""
+        picture = self.picture_module().Picture
+        return picture(run, self.parameters) if size is None else picture(run, self.parameters, size)
 
     def build(self) -> Any:
         """The setup that the engine simulates."""
@@ -107,7 +114,12 @@ class Check:
 def check(scene: Scene, run: Run | None = None) -> Check:
     """Estimate the errors of the scene's result: run it again, finer, and compare."""
     run = run or simulate(scene)
-    outcome = Check(_simulate_at(scene, run.accuracy.finer()))
+    return compare(run, _simulate_at(scene, run.accuracy.finer()))
+
+
+def compare(run: Run, finer: Run) -> Check:
+    """The estimated errors of a run's result, by those of a finer run of the same scene."""
+    outcome = Check(finer)
     for name, value in run.result.items():
         other = outcome.finer.result.get(name)
         form, numbers = _taken_apart(value)

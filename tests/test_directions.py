@@ -29,6 +29,7 @@ FLOORS = {
     "progress": 6,
     "report": 6,
     "cli": 6,
+    "new": 6,
     "": 6,  # sandbox/__init__.py
 }
 SHARED_FLOORS = (3, 6)  # single modules, which may import each other

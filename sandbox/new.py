@@ -1,0 +1,74 @@
+"""A scene of one's own, to begin from: the folder ``template``, copied and renamed."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import shutil
+import tempfile
+from pathlib import Path
+
+from sandbox import resources
+from sandbox.errors import RequestError, RunError
+from sandbox.files import reason
+from sandbox.parameters import json_schema
+from sandbox.scene import listings, parameters_of
+
+#: What the scene is called in the template, in names of files and inside them.
+TEMPLATE = "template"
+
+_WRITTEN_BY_TOOLS = shutil.ignore_patterns("__pycache__", "golden", "out", ".*", "*.schema.json")
+
+
+def new_scene(folder: Path) -> list[Path]:
+    """Write a scene that works into ``folder``, which must not exist yet; returns its files.
+
+    Raises RequestError where the name will not do, RunError where the folder cannot be written. Whole or not at all.
+    """
+    name = folder.name
+    _check(folder, name)
+    try:
+        with tempfile.TemporaryDirectory(prefix=f".{name}-", dir=folder.parent) as part:
+            scene = Path(part) / name
+            shutil.copytree(resources.folder(TEMPLATE), scene, ignore=_WRITTEN_BY_TOOLS)
+            for file in sorted(scene.rglob("*")):
+                if file.is_file():
+                    _rename(file, name)
+            schema = json_schema(parameters_of(scene)[1], name)
+            (scene / f"{name}.schema.json").write_text(json.dumps(schema, indent=2) + "\n", encoding="utf-8")
+            shutil.rmtree(scene / "__pycache__", ignore_errors=True)
+            scene.rename(folder)
+    except OSError as error:
+        raise RunError(f"{folder}: cannot be written: {reason(error)}") from None
+    return sorted(file for file in folder.rglob("*") if file.is_file())
+
+
+def next_steps(folder: Path) -> list[str]:
+    """What to try in the new scene, a line each."""
+    shown = folder if folder.is_absolute() or len(folder.parts) > 1 else f"./{folder}"
+    return [
+        "now try:",
+        f"  sandbox run {shown} --poster {folder.name}.png",
+        f"  pytest {folder} --golden-update    # makes the golden picture: look at it; from then on: pytest {folder}",
+    ]
+
+
+def _check(folder: Path, name: str) -> None:
+    if not re.fullmatch(r"[A-Za-z][A-Za-z0-9_-]{0,63}", name):
+        raise RequestError(f'new {folder}: a scene\'s name has letters, digits, "-" and "_", and begins with a letter')
+    if name in {listing.name for listing in listings()}:
+        raise RequestError(f"new {folder}: there is a scene {name} already; choose another name")
+    if os.path.lexists(folder):
+        raise RequestError(f"new {folder}: it exists already; choose another name, or remove it first")
+    if not folder.parent.is_dir():
+        raise RequestError(f"new {folder}: there is no folder {folder.parent}; make it first")
+
+
+def _rename(file: Path, name: str) -> None:
+    """``template.toml`` to ``<name>.toml``, and the name inside it; a test's name is one that Python can import."""
+    text = file.read_text(encoding="utf-8")
+    if file.suffix in (".toml", ".py"):
+        file.write_text(re.sub(rf"\b{TEMPLATE}\b", name, text), encoding="utf-8")
+    own = name.replace("-", "_") if file.suffix == ".py" else name
+    file.rename(file.with_name(file.name.replace(TEMPLATE, own)))
