@@ -217,6 +217,9 @@ def _at(path: Path) -> tuple[str, Path, Path | None]:
         return folder.name, folder, _default_file(path)
     if path.is_file() or (path.suffix == ".toml" and not path.is_dir()):
         return *_scene_of_file(path), path
+    if (path.parent / "scene.py").is_file() and not path.exists():  # ./volleyball/float, as golf/driver
+        folder = path.parent.resolve()
+        return folder.name, folder, _preset(folder.name, path.parent, path.name)
     if path.is_dir():
         raise RequestError(f"{path}: a folder without scene.py is not a scene")
     raise RequestError(_unknown(str(path)))
@@ -285,9 +288,10 @@ def _preset(name: str, folder: Path, preset: str) -> Path:
     file = folder / "presets" / f"{preset}.toml"
     if file.is_file():
         return file
-    known = [f"{name}/{path.stem}" for path in _presets(folder)]
-    near = declared.nearest(f"{name}/{preset}", known)
-    hint = f"did you mean {near}?" if near else f"it has {', '.join(known) or 'none'}"
+    known = [path.stem for path in _presets(folder)]
+    near = declared.nearest(preset, known)
+    few = f"it has {', '.join(known) or 'none'}" if len(known) <= 6 else f"sandbox list shows its {len(known)}"
+    hint = f"did you mean {name}/{near}?" if near else few
     raise RequestError(f"{name} has no preset {preset}; {hint}")
 
 
