@@ -70,10 +70,10 @@ def _program(
 
 @app.command("list")
 def list_scenes() -> None:
-    """Show the scenes and their presets, a line each."""
-    from sandbox.scene import listings
+    """Show the scenes and their presets, a line each; those whose folders stand here, too."""
+    from sandbox.scene import listings, listings_in
 
-    found = list(listings())
+    found = [*listings(), *listings_in(Path())]
     width = max((len(listing.name) for listing in found), default=0)
     for listing in found:
         _say(f"{listing.name:{width}}  {listing.about}".rstrip())
@@ -220,6 +220,88 @@ def _draw(scene: Scene, done: Any, poster: Path | None, frames: Path | None, gif
     if gif is not None:
         with _writing("--gif", gif), bar("gif") as progress:
             save_gif(picture, done, gif, fps or 25, progress)
+
+
+@app.command()
+def sweep(
+    scene: SceneArgument,
+    over: Annotated[
+        list[str],
+        typer.Option(
+            metavar="KEY=LO:HI:N", help="A parameter and its values, also as KEY=A,B,C; repeatable.", show_default=False
+        ),
+    ],
+    out: Annotated[Path, typer.Option(metavar="F.csv", help="One row for each point.", show_default=False)],
+    set_: Settings = None,
+    accuracy: Level = None,
+    samples: Annotated[
+        int, typer.Option(metavar="N", min=1, help="So many random points in place of a grid.", show_default=False)
+    ] = 0,
+    seed: Annotated[int, typer.Option(min=0, help="Which random points.")] = 0,
+    check: Annotated[bool, typer.Option("--check", help="Run each point again, finer, and add its errors.")] = False,
+    plot: Annotated[
+        Path | None, typer.Option(metavar="F.png", help="A map over two parameters, a curve over one.")
+    ] = None,
+    of: Annotated[str | None, typer.Option(metavar="NAME", help="The result that --plot shows.")] = None,
+    parquet: Annotated[
+        Path | None, typer.Option(metavar="F.parquet", help="The rows once more; needs pyarrow.")
+    ] = None,
+    jobs: Annotated[
+        int | None, typer.Option(min=1, metavar="N", help="Processes.  [default: one for each core]")
+    ] = None,
+    scheduler: Annotated[
+        str | None, typer.Option(metavar="ADDRESS", help="Have the workers of a Dask scheduler compute.")
+    ] = None,
+) -> None:
+    """Run a scene once for each point of a grid, or for random points, and write a row for each.
+
+    Ctrl-C keeps the rows that are done; the same command again goes on from there. A point that fails is a row with
+    its error.
+
+    \b
+    Examples:
+      sandbox sweep basketball --over launch.speed=6:9:61 --over launch.angle=35:75:41 --out map.csv --plot map.png
+      sandbox sweep golf --over launch.angle=5:40:71 --over ball.drag.model=tour-fit,usga --out carry.csv
+      sandbox sweep golf --over launch.speed="160 mph:180 mph" --over air.wind[0]=-8:8 --samples 5000 --out wind.csv
+    """
+    from sandbox.files import check_file
+    from sandbox.lab.axes import parse_axis
+    from sandbox.lab.plan import Plan
+    from sandbox.lab.sweep import sweep_to_file, workers
+    from sandbox.lab.workers import cores
+    from sandbox.progress import bar
+
+    chosen = _load(scene, set_, accuracy)
+    plan = Plan(chosen, tuple(parse_axis(chosen, "--over", text) for text in over), samples, seed, check)
+    check_file("--out", out, ".csv")
+    if of is not None and plot is None:
+        raise RequestError(f"--of {of}: goes with --plot")
+    if plot is not None:
+        from sandbox.lab.maps import check_plot
+
+        check_file("--plot", plot, ".png")
+        check_plot(plan, of)
+    if parquet is not None:
+        from sandbox.lab.parquet import check_installed, write_parquet
+
+        check_file("--parquet", parquet, ".parquet")
+        check_installed("--parquet")
+    with workers(jobs or min(cores(), plan.size), scheduler) as staff, bar("sweep") as progress:
+        with _writing("--out", out):
+            done = sweep_to_file(plan, out, staff, progress)
+    if plot is not None:
+        from sandbox.lab.maps import draw_sweep
+
+        with _writing("--plot", plot):
+            draw_sweep(plan, out, plot, of)
+    if parquet is not None:
+        with _writing("--parquet", parquet):
+            write_parquet(plan, out, parquet)
+    if str(out) != "/dev/stdout":
+        written = [f"wrote {path}" for path in (out, plot, parquet) if path is not None]
+        _say("\n".join([done.as_text(), *written]))
+    if done.failures == done.points - done.resumed > 0:
+        raise RunError(f"every point failed, first with: {done.first_error}")
 
 
 # ---------------------------------------------------------------------------------------------------------------------

@@ -186,9 +186,19 @@ class Listing:
 def listings() -> Iterator[Listing]:
     """Every scene that can be named, each followed by its presets."""
     for name, folder in sorted(_named_folders().items()):
-        yield Listing(name, _docstring(folder / "scene.py"))
-        for preset in _presets(folder):
-            yield Listing(f"{name}/{preset.stem}", _first_comment(preset))
+        yield from _listed(name, folder)
+
+
+def listings_in(place: Path) -> Iterator[Listing]:
+    """The scenes whose folders stand in ``place``, each followed by its presets; named as found from there."""
+    for file in sorted(place.glob("*/scene.py")):
+        yield from _listed(f"./{file.parent.name}", file.parent)
+
+
+def _listed(name: str, folder: Path) -> Iterator[Listing]:
+    yield Listing(name, _docstring(folder / "scene.py"))
+    for preset in _presets(folder):
+        yield Listing(f"{name}/{preset.stem}", _first_comment(preset))
 
 
 def _find(source: str | Path) -> tuple[str, Path, Path | None]:
