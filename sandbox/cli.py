@@ -235,8 +235,8 @@ def sweep(
     set_: Settings = None,
     accuracy: Level = None,
     samples: Annotated[
-        int, typer.Option(metavar="N", min=1, help="So many random points in place of a grid.", show_default=False)
-    ] = 0,
+        int | None, typer.Option(metavar="N", min=1, help="So many random points in place of a grid.")
+    ] = None,
     seed: Annotated[int, typer.Option(min=0, help="Which random points.")] = 0,
     check: Annotated[bool, typer.Option("--check", help="Run each point again, finer, and add its errors.")] = False,
     plot: Annotated[
@@ -272,7 +272,7 @@ def sweep(
     from sandbox.progress import bar
 
     chosen = _load(scene, set_, accuracy)
-    plan = Plan(chosen, tuple(parse_axis(chosen, "--over", text) for text in over), samples, seed, check)
+    plan = Plan(chosen, tuple(parse_axis(chosen, "--over", text) for text in over), samples or 0, seed, check)
     check_file("--out", out, ".csv")
     if of is not None and plot is None:
         raise RequestError(f"--of {of}: goes with --plot")
@@ -287,8 +287,7 @@ def sweep(
         check_file("--parquet", parquet, ".parquet")
         check_installed("--parquet")
     with workers(jobs or min(cores(), plan.size), scheduler) as staff, bar("sweep") as progress:
-        with _writing("--out", out):
-            done = sweep_to_file(plan, out, staff, progress)
+        done = sweep_to_file(plan, out, staff, progress)
     if plot is not None:
         from sandbox.lab.maps import draw_sweep
 

@@ -66,3 +66,12 @@ def test_a_failure_clears_the_bar(clock, monkeypatch):
     with pytest.raises(ZeroDivisionError):
         fail(clock)
     assert terminal.getvalue().endswith("\r\x1b[K")
+
+
+def test_it_tells_the_rate_and_the_time_left(clock, monkeypatch):
+    monkeypatch.setattr("sys.stderr", terminal := Terminal())
+    with bar("sweep") as progress:
+        progress(1000, 5000)  # done before
+        clock(4.0)
+        progress(3000, 5000)
+    assert "] 3000/5000  500/s  4 s left" in terminal.getvalue()

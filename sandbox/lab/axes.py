@@ -1,0 +1,244 @@
+"""What a sweep or a search varies: parameters by their keys, and a scene with other values in their place."""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from sandbox import parameters as declared
+from sandbox.errors import RequestError
+from sandbox.parameters import Group, Quantity
+from sandbox.scene import Scene
+
+#: Most values along one axis, and most points of a sweep: a mistake in the request beyond that, not a plan.
+MOST_VALUES, MOST_POINTS = 1_000_000, 100_000_000
+
+#: Combinations of words and switches whose parameters are kept, as each takes milliseconds to check.
+_KEPT = 64
+
+_STEP = re.compile(r"([^.\[\]]+)|\[(\d+)\]")
+
+Path = tuple[str | int, ...]
+
+
+@dataclass(frozen=True)
+class Values:
+    """One parameter and the values that it takes, in its declared unit: numbers, words or switches."""
+
+    key: str
+    values: tuple[Any, ...]
+
+
+@dataclass(frozen=True)
+class Span:
+    """One number and the range that it is looked for, or drawn, in; in its declared unit."""
+
+    key: str
+    low: float
+    high: float
+
+
+Axis = Values | Span
+
+
+# ---------------------------------------------------------------------------------------------------------------------
+# Reading
+# ---------------------------------------------------------------------------------------------------------------------
+
+
+def parse_axis(scene: Scene, option: str, text: str) -> Axis:
+    """``KEY=LO:HI:N``, ``KEY=LO:HI`` or ``KEY=A,B,C``; the ends may carry units. Raises RequestError."""
+    key, equals, body = (part.strip() for part in text.partition("="))
+    if not key or not equals or not body:
+        raise RequestError(f"{option} {text}: write it as KEY=LO:HI:N, for example {option} launch.angle=10:60:51")
+    parts = [part.strip() for part in body.split(":")]
+    if len(parts) == 1:
+        values = [checked(scene, option, key, value) for value in _listed(body)]
+        return Values(key, tuple(values))
+    if len(parts) > 3:
+        raise RequestError(f"{option} {text}: {len(parts)} parts, and a range has two or three: LO:HI:N")
+    low, high = (_number(scene, option, key, part) for part in parts[:2])
+    if len(parts) == 2:
+        return span(option, key, low, high)
+    count = _count(option, text, parts[2])
+    return Values(key, tuple(np.linspace(low, high, count).tolist()) if count > 1 else (low,))
+
+
+def as_axis(scene: Scene, key: str, given: Any, option: str = "over") -> Axis:
+    """An axis from Python: a pair as a tuple is a span, any other sequence or array its values."""
+    if isinstance(given, tuple) and len(given) == 2 and not isinstance(given[0], bool):
+        low, high = (checked(scene, option, key, end) for end in given)
+        if isinstance(low, float) and isinstance(high, float):
+            return span(option, key, low, high)
+        return Values(key, (low, high))
+    values = list(given.tolist() if isinstance(given, np.ndarray) else given)
+    if not values:
+        raise RequestError(f"{option} {key}: no values")
+    if len(values) > 2 and all(isinstance(value, int | float) and not isinstance(value, bool) for value in values):
+        low, high = (checked(scene, option, key, end) for end in (min(values), max(values)))
+        if isinstance(low, float):  # within bounds at both ends, so all the way
+            return Values(key, tuple(float(value) for value in values))
+    return Values(key, tuple(checked(scene, option, key, value) for value in values))
+
+
+def span(option: str, key: str, low: float, high: float) -> Span:
+    """Raises RequestError where the range has no length."""
+    if low >= high:
+        raise RequestError(f"{option} {key}: a range from {low:g} to {high:g} has no length; write the lower end first")
+    return Span(key, low, high)
+
+
+def _number(scene: Scene, option: str, key: str, text: str) -> float:
+    value = checked(scene, option, key, _toml(text))
+    if not isinstance(value, float):
+        raise RequestError(f"{option} {key}: only numbers have a range; list the values instead, separated by commas")
+    return value
+
+
+def _count(option: str, text: str, number: str) -> int:
+    try:
+        count = int(number)
+    except ValueError:
+        count = 0
+    if not 1 <= count <= MOST_VALUES:
+        raise RequestError(f"{option} {text}: {number!r} is not a number of points from 1 to {MOST_VALUES:,}")
+    return count
+
+
+def _toml(text: str) -> Any:
+    """A TOML value, and a plain string where it is none."""
+    try:
+        parsed = tomllib.loads(f"value = {text}")
+    except (ValueError, RecursionError):
+        return text
+    return parsed["value"] if len(parsed) == 1 else text
+
+
+def _listed(text: str) -> list[Any]:
+    values = _toml(f"[{text}]")
+    return values if isinstance(values, list) else [_toml(part.strip()) for part in text.split(",")]
+
+
+def checked(scene: Scene, option: str, key: str, value: Any) -> Any:
+    """The value that the scene's parameter takes for ``value``, in its declared unit. Raises RequestError."""
+    path = path_of(option, key)
+    schema, current = type(scene.parameters), scene.parameters.model_dump()
+    if any(isinstance(step, int) for step in path):
+        parameters = declared.validate(schema, _placed(current, path, value, option, key), option)
+    else:
+        parameters = declared.validate(schema, current, "", {key: value}, option)
+    found = at(parameters, path)
+    if isinstance(found, Group):
+        raise RequestError(f"{option} {key}: is a group of parameters, not one")
+    return found
+
+
+def path_of(option: str, key: str) -> Path:
+    """``"air.wind[0]"`` as ``("air", "wind", 0)``."""
+    steps = tuple(name or int(number) for name, number in _STEP.findall(key))
+    if "".join(f"[{step}]" if isinstance(step, int) else f".{step}" for step in steps) != f".{key}":
+        raise RequestError(f"{option} {key}: a key is written like launch.speed, or air.wind[0] for one of a list")
+    return steps
+
+
+def at(node: Any, path: Path) -> Any:
+    """What stands at ``path``."""
+    for step in path:
+        node = node[step] if isinstance(step, int) else getattr(node, step)
+    return node
+
+
+def _placed(node: Any, path: Path, value: Any, option: str, key: str) -> Any:
+    """Nested tables and lists with ``value`` at ``path``."""
+    if not path:
+        return value
+    head, *rest = path
+    if isinstance(head, int):
+        if not isinstance(node, list | tuple):
+            raise RequestError(f"{option} {key}: is not a list, so it has no [{head}]")
+        if head >= len(node):
+            raise RequestError(f"{option} {key}: there is no [{head}]; the list has {len(node)}, the first is [0]")
+        return [*node[:head], _placed(node[head], tuple(rest), value, option, key), *node[head + 1 :]]
+    inner = node.get(head) if isinstance(node, Mapping) else None
+    return {**(node or {}), head: _placed(inner, tuple(rest), value, option, key)}
+
+
+# ---------------------------------------------------------------------------------------------------------------------
+# A scene with other values
+# ---------------------------------------------------------------------------------------------------------------------
+
+
+class Varied:
+    """The parameters of a scene with other values at some keys.
+
+    Numbers are put in place without further checks: their bounds were checked where the axes were read, and a range
+    within bounds at both ends is within them all the way. Words and switches may change which other keys there are,
+    so each combination of those is checked as a whole, and kept.
+    """
+
+    def __init__(self, scene: Scene, keys: Sequence[str]) -> None:
+        self._scene = scene
+        self._paths = [path_of("over", key) for key in keys]
+        self._keys = list(keys)
+        self._quick = [_is_plain_number(scene.parameters, path) for path in self._paths]
+        self._bases: dict[str, Group] = {}
+
+    def parameters(self, values: Sequence[Any]) -> Any:
+        """The scene's parameters with ``values`` at the keys, in their order. Raises RequestError."""
+        slow = {key: value for key, value, quick in zip(self._keys, values, self._quick, strict=True) if not quick}
+        parameters = self._base(slow) if slow else self._scene.parameters
+        for path, value, quick in zip(self._paths, values, self._quick, strict=True):
+            if quick:
+                parameters = _put(parameters, path, value)
+        return parameters
+
+    def scene(self, values: Sequence[Any]) -> Scene:
+        """The scene with ``values`` at the keys."""
+        return replace(self._scene, parameters=self.parameters(values))
+
+    def _base(self, changes: Mapping[str, Any]) -> Any:
+        name = repr(changes)
+        if name not in self._bases:
+            if len(self._bases) >= _KEPT:
+                self._bases.clear()
+            parameters = self._scene.parameters
+            for key, value in changes.items():
+                path = path_of("over", key)
+                current, schema = parameters.model_dump(), type(parameters)
+                if any(isinstance(step, int) for step in path):
+                    parameters = declared.validate(schema, _placed(current, path, value, "over", key), "over")
+                else:
+                    parameters = declared.validate(schema, current, "", {key: value}, "over")
+            self._bases[name] = parameters
+        return self._bases[name]
+
+
+def _is_plain_number(parameters: Any, path: Path) -> bool:
+    """Whether a number may be put at ``path`` unchecked: groups without checks of their own, down to a quantity."""
+    node, quantity = parameters, None
+    for step in path:
+        if isinstance(step, int):
+            node = node[step]
+            continue
+        if not isinstance(node, Group):
+            return False
+        checks = type(node).__pydantic_decorators__
+        if checks.model_validators or checks.field_validators or checks.root_validators or checks.validators:
+            return False
+        quantity = type(node).model_fields[step].json_schema_extra
+        node = getattr(node, step)
+    return isinstance(quantity, Quantity) and (isinstance(node, float) or node is None)
+
+
+def _put(node: Any, path: Path, value: Any) -> Any:
+    if not path:
+        return value
+    head, rest = path[0], path[1:]
+    if isinstance(head, int):
+        return type(node)((*node[:head], _put(node[head], rest, value), *node[head + 1 :]))
+    return node.model_copy(update={head: _put(getattr(node, head), rest, value)})

@@ -1,0 +1,328 @@
+"""Pictures of sweeps: a map over two parameters, a curve or a strip over one, by matplotlib, as in chart.py."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from sandbox import parameters as declared
+from sandbox.errors import RequestError
+from sandbox.lab.axes import Axis, Values, at, path_of
+from sandbox.lab.chart import _chart as chart
+from sandbox.lab.chart import check_installed
+from sandbox.lab.plan import FLAGS, HANGS, Plan, records
+from sandbox.lab.row_file import cell, rows
+from sandbox.lab.tables import significant
+from sandbox.scene import Scene
+
+#: Words that a legend has room for; rarer ones go together.
+_MOST_WORDS, _OTHERS = 8, "others"
+
+#: Points that failed.
+FAILED = "failed"
+
+#: Colours of numbers: even steps to the eye, colour-blind or not.
+_HEIGHTS = "viridis"
+
+#: Cells along an axis from which on lines of equal height help.
+_FEWEST_FOR_LINES = 8
+
+#: Most cells that are outlined, and most points of a curve that are marked with dots.
+_MOST_OUTLINED, _MOST_DOTS = 40_000, 60
+
+
+@dataclass(frozen=True)
+class Found:
+    """The columns that a picture needs: numbers with NaN where there is none, or words."""
+
+    axes: list[np.ndarray]  # where each point stands along each axis; words stand at 0, 1, 2...
+    name: str  # of what is shown
+    numbers: np.ndarray | None
+    words: list[str]  # of the same length as the axes; empty if what is shown is a number
+    good: frozenset[str]  # words that stand for success
+
+
+def check_plot(plan: Plan, of: str | None) -> None:
+    """Raise RequestError for a picture that could not be drawn, before any work is done."""
+    check_installed("--plot")
+    if len(plan.axes) > 2:
+        raise RequestError(f"--plot shows one or two parameters, not {len(plan.axes)}: {', '.join(plan.keys)}")
+    if any(len(axis.values) < 2 for axis in plan.axes if isinstance(axis, Values)):
+        raise RequestError("--plot needs two values or more along each parameter")
+    first = records(plan, 0, 1)[0]
+    if of is not None and of not in first and not first["error"]:
+        raise RequestError(_no_such(of, list(first)))
+
+
+def _no_such(name: str, there: list[str]) -> str:
+    near = declared.nearest(name, there)
+    return f"--of {name}: no such result; " + (f"did you mean {near}?" if near else f"there are {', '.join(there)}")
+
+
+def draw_sweep(plan: Plan, file: Path, path: Path, of: str | None = None) -> None:
+    """A picture of the rows in ``file``; ``of`` names the column, or else it is the verdict or the first result."""
+    found = read(plan, file, of)
+    name = f"{plan.scene.name}/{plan.scene.preset}" if plan.scene.preset else plan.scene.name
+    title = f"{name}: {found.name.replace('_', ' ')}"
+    with chart(path, title, _about(plan)) as (axes, colours):
+        if len(plan.axes) == 1:
+            _line(axes, plan, found, colours)
+        elif plan.samples:
+            _cloud(axes, found, colours)
+        else:
+            _map(axes, plan, found, colours)
+        _tick_words(axes, plan)
+        _mark_own(axes, plan, colours)
+        labels = [_label(plan.scene, axis.key) for axis in plan.axes]
+        axes.set_xlabel(labels[0])
+        axes.set_ylabel(labels[1] if len(labels) == 2 else found.name.replace("_", " ") if not found.words else "")
+
+
+# ---------------------------------------------------------------------------------------------------------------------
+# What to show
+# ---------------------------------------------------------------------------------------------------------------------
+
+
+def read(plan: Plan, file: Path, of: str | None) -> Found:
+    """The swept columns and the one to show. Raises RequestError where there is no such column."""
+    table = rows(file)
+    first = next(table, {})
+    names = [name for name in first if name not in (*plan.keys, *FLAGS, HANGS, "ended", "error")]
+    shown = of or ("verdict" if "verdict" in names else next(iter(names), None))
+    if shown is None:
+        raise RequestError("--plot: every point failed, there is nothing to show")
+    if shown not in first:
+        raise RequestError(_no_such(shown, list(first)))
+    switch = next((name for name in names if first[name] in ("true", "false")), None)
+    places: list[list[str]] = [[] for _ in plan.keys]
+    texts: list[str] = []
+    wins: dict[str, list[int]] = {}
+    for row in _chained(first, table):
+        for place, key in zip(places, plan.keys, strict=True):
+            place.append(row[key])
+        text = row[shown] if not row["error"] else FAILED
+        texts.append(text)
+        if switch is not None and switch in row:
+            count = wins.setdefault(text, [0, 0])
+            count[row[switch] == "true"] += 1
+    swept = [_column(axis, place) for axis, place in zip(plan.axes, places, strict=True)]
+    numbers = _numbers(["" if text == FAILED else text for text in texts])
+    if numbers is not None:
+        return Found(swept, shown, numbers, [], frozenset())
+    good = frozenset(word for word, (lost, won) in wins.items() if won > lost)
+    return Found(swept, shown, None, [text or "none" for text in texts], good)
+
+
+def _chained(first: Mapping[str, str], rest: Iterable[Mapping[str, str]]) -> Iterable[Mapping[str, str]]:
+    if first:
+        yield first
+    yield from rest
+
+
+def _column(axis: Axis, texts: Sequence[str]) -> np.ndarray:
+    if _has_numbers(axis):
+        return np.array([float(text) for text in texts])
+    assert isinstance(axis, Values)  # a span has numbers
+    order = {cell(value): place for place, value in enumerate(axis.values)}
+    return np.array([float(order[text]) for text in texts])
+
+
+def _numbers(texts: Sequence[str]) -> np.ndarray | None:
+    """The texts as numbers, NaN for an empty one; None if one is no number, or all are empty."""
+    if not any(texts):
+        return None
+    try:
+        return np.array([float(text) if text else np.nan for text in texts])
+    except ValueError:
+        return None
+
+
+def _label(scene: Scene, key: str) -> str:
+    plain = key.partition("[")[0]
+    unit = next((found.unit for found in declared.walk(scene.parameters) if found.key == plain), None)
+    return f"{key} ({unit})" if unit else key
+
+
+def _about(plan: Plan) -> str:
+    spread = f"{plan.samples:,} shots at random" if plan.samples else f"{plan.size:,} shots"
+    return f"{spread}; all else as in the scene file"
+
+
+def _own(plan: Plan) -> list[float] | None:
+    """The scene's own values along the axes, if they are numbers inside them."""
+    own = [at(plan.scene.parameters, path_of("over", key)) for key in plan.keys]
+    for axis, value in zip(plan.axes, own, strict=True):
+        ends = axis.values if isinstance(axis, Values) else (axis.low, axis.high)
+        if not isinstance(value, float) or not min(ends) <= value <= max(ends):
+            return None
+    return own
+
+
+# ---------------------------------------------------------------------------------------------------------------------
+# Drawing
+# ---------------------------------------------------------------------------------------------------------------------
+
+
+def _map(axes: Any, plan: Plan, found: Found, colours: Mapping[str, Any]) -> None:
+    """Cells over two axes, coloured by a word, or by a number with lines of equal height."""
+    from matplotlib.colors import ListedColormap
+
+    places = [_positions(axis) for axis in plan.axes]
+    orders = [np.argsort(place) for place in places]
+    across, up = (place[order] for place, order in zip(places, orders, strict=True))
+    corners = _edges(across), _edges(up)
+    if found.words:
+        chosen, codes = _coded(found, colours)
+        cells = codes.reshape(plan.shape)[np.ix_(*orders)].T
+        axes.pcolormesh(*corners, cells, cmap=ListedColormap(list(chosen.values())), vmin=-0.5, vmax=len(chosen) - 0.5)
+        _outline(axes, across, up, cells, colours)
+        _legend(axes, found, chosen, colours)
+        return
+    assert found.numbers is not None
+    heights = np.ma.masked_invalid(found.numbers.reshape(plan.shape)[np.ix_(*orders)].T)
+    _key(axes, axes.pcolormesh(*corners, heights, cmap=_HEIGHTS), found, colours)
+    if min(heights.shape) >= _FEWEST_FOR_LINES and heights.count() > 1:
+        lines = axes.contour(across, up, heights, levels=8, colors="white", linewidths=0.7, alpha=0.8)
+        axes.clabel(lines, fontsize=8.5, fmt=significant)
+
+
+def _outline(axes: Any, across: np.ndarray, up: np.ndarray, cells: np.ndarray, colours: Mapping[str, Any]) -> None:
+    """A fine dark line where one word borders on another."""
+    x, y = _edges(across), _edges(up)
+    lines = [((x[i + 1], y[j]), (x[i + 1], y[j + 1])) for j, i in np.argwhere(cells[:, 1:] != cells[:, :-1])]
+    lines += [((x[i], y[j + 1]), (x[i + 1], y[j + 1])) for j, i in np.argwhere(cells[1:] != cells[:-1])]
+    if lines and cells.size <= _MOST_OUTLINED:
+        from matplotlib.collections import LineCollection
+
+        axes.add_collection(LineCollection(lines, colors=colours["card"]["ink"], linewidths=0.5, alpha=0.5))
+
+
+def _cloud(axes: Any, found: Found, colours: Mapping[str, Any]) -> None:
+    """A dot for each random shot."""
+    size = float(np.clip(20_000 / max(len(found.axes[0]), 1), 2.0, 40.0))
+    if found.numbers is not None:
+        dots = axes.scatter(*found.axes, c=found.numbers, s=size, cmap=_HEIGHTS, linewidths=0)
+        _key(axes, dots, found, colours)
+        return
+    chosen, codes = _coded(found, colours)
+    for code, colour in reversed(list(enumerate(chosen.values()))):  # success on top
+        here = codes == code
+        axes.scatter(found.axes[0][here], found.axes[1][here], s=size, color=colour, linewidths=0)
+    _legend(axes, found, chosen, colours)
+
+
+def _line(axes: Any, plan: Plan, found: Found, colours: Mapping[str, Any]) -> None:
+    """A curve over one axis, or a strip of colours."""
+    places = found.axes[0]
+    order = np.argsort(places)
+    places = places[order]
+    if found.numbers is not None:
+        marker = "o" if len(places) <= _MOST_DOTS else ""
+        trace = colours["trace"]["colours"][0]
+        axes.plot(places, found.numbers[order], color=trace, linewidth=1.8, marker=marker, markersize=3.5)
+        axes.grid(axis="y", color=colours["card"]["quiet"], linewidth=0.5, alpha=0.4)
+        return
+    chosen, codes = _coded(found, colours)
+    edges = _edges(places)
+    for code, left, right in zip(codes[order], edges, edges[1:], strict=False):
+        axes.axvspan(left, right, color=list(chosen.values())[code], linewidth=0)
+    axes.set_yticks([])
+    axes.set_xlim(edges[0], edges[-1])
+    _legend(axes, found, chosen, colours)
+
+
+def _mark_own(axes: Any, plan: Plan, colours: Mapping[str, Any]) -> None:
+    """A ring where the scene file's own shot is, or a line."""
+    own = _own(plan)
+    if own is None:
+        return
+    ink = colours["card"]["ink"]
+    if len(own) == 1:
+        axes.axvline(own[0], color=ink, linewidth=1.0, linestyle=(0, (4, 3)))
+        place, offset = (own[0], 1.0), (5, -6)
+        beside: dict[str, Any] = {"xycoords": ("data", "axes fraction"), "va": "top"}
+    else:
+        axes.plot(*own, marker="o", markersize=11, markerfacecolor="none", markeredgecolor="white", markeredgewidth=3.5)
+        axes.plot(*own, marker="o", markersize=11, markerfacecolor="none", markeredgecolor=ink, markeredgewidth=1.6)
+        place, offset, beside = (own[0], own[1]), (10, 0), {"va": "center"}
+    beside |= {"xytext": offset, "textcoords": "offset points", "fontsize": 9.5, "color": ink}
+    text = axes.annotate("scene file", place, **beside)
+    text.set_bbox({"facecolor": "white", "edgecolor": "none", "alpha": 0.75, "pad": 1.5})
+
+
+def _coded(found: Found, colours: Mapping[str, Any]) -> tuple[dict[str, str], np.ndarray]:
+    """A colour for each word, success vivid and the commonest first, and the number of each point's colour."""
+    counts = Counter(found.words)
+    failures = counts.pop(FAILED, 0)
+    ordered = sorted(counts, key=lambda word: (word not in found.good, -counts[word], word))
+    if len(ordered) > _MOST_WORDS:
+        rare = set(sorted(counts, key=lambda word: counts[word])[: len(ordered) - _MOST_WORDS + 1])
+        ordered = [word for word in ordered if word not in rare]
+    vivid, quiet = iter(colours["sweep"]["good"]), iter(colours["sweep"]["other"])
+    chosen = {word: next(vivid) if word in found.good or not found.good else next(quiet) for word in ordered}
+    if len(ordered) < len(counts):
+        chosen[_OTHERS] = colours["sweep"]["rest"]
+    if failures:
+        chosen[FAILED] = colours["sweep"]["failed"]
+    places = {word: place for place, word in enumerate(chosen)}
+    return chosen, np.array([places.get(word, places.get(_OTHERS, 0)) for word in found.words])
+
+
+def _legend(axes: Any, found: Found, chosen: Mapping[str, str], colours: Mapping[str, Any]) -> None:
+    """What the colours mean, and the share of each."""
+    from matplotlib.patches import Patch
+
+    counts = Counter(word if word in chosen else _OTHERS for word in found.words)
+    edge = {"edgecolor": colours["card"]["quiet"], "linewidth": 0.5}
+    patches = [
+        Patch(facecolor=colour, label=_share(word, counts[word], found), **edge) for word, colour in chosen.items()
+    ]
+    axes.legend(
+        handles=patches,
+        loc="upper left",
+        bbox_to_anchor=(1.01, 1.0),
+        borderaxespad=0.0,
+        frameon=False,
+        fontsize=10.5,
+        labelcolor=colours["card"]["ink"],
+    )
+
+
+def _share(word: str, count: int, found: Found) -> str:
+    percent = 100.0 * count / len(found.words)
+    return f"{word}  {percent:.1f} %" if percent >= 0.1 else f"{word}  {count}"
+
+
+def _key(axes: Any, drawn: Any, found: Found, colours: Mapping[str, Any]) -> None:
+    """The scale of heights."""
+    bar = axes.figure.colorbar(drawn, ax=axes, aspect=30, pad=0.02)
+    bar.outline.set_visible(False)
+    bar.ax.tick_params(colors=colours["card"]["ink_quiet"], labelsize=9.5, length=0)
+    bar.set_label(found.name.replace("_", " "), color=colours["card"]["ink_quiet"])
+
+
+def _positions(axis: Axis) -> np.ndarray:
+    """Where an axis' values stand: numbers at themselves, words one beside another."""
+    assert isinstance(axis, Values)  # a grid has no spans
+    return np.array(axis.values) if _has_numbers(axis) else np.arange(float(len(axis.values)))
+
+
+def _has_numbers(axis: Axis) -> bool:
+    return not isinstance(axis, Values) or all(isinstance(value, float) for value in axis.values)
+
+
+def _tick_words(axes: Any, plan: Plan) -> None:
+    for axis, ticks in zip(plan.axes, (axes.set_xticks, axes.set_yticks), strict=False):
+        if isinstance(axis, Values) and not _has_numbers(axis):
+            ticks(range(len(axis.values)), [cell(value) for value in axis.values])
+
+
+def _edges(places: np.ndarray) -> np.ndarray:
+    """The borders of cells around sorted places."""
+    middles = 0.5 * (places[1:] + places[:-1])
+    return np.concatenate([[1.5 * places[0] - 0.5 * places[1]], middles, [1.5 * places[-1] - 0.5 * places[-2]]])

@@ -1,0 +1,174 @@
+"""A sweep laid out: which points there are, and what a run at each of them says."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import asdict, dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+import sandbox
+from sandbox.errors import RequestError, SandboxError
+from sandbox.lab.axes import MOST_POINTS, Axis, Span, Values
+from sandbox.lab.runs import runs
+from sandbox.scene import Scene, compare
+
+if TYPE_CHECKING:
+    from sandbox.engine.run import Run
+
+#: What a run cost, in the rows of a sweep: whether it went smoothly, not how long it took.
+FLAGS = ("impacts", "steps", "refined_steps")
+
+#: The column of a checked sweep that names the results which a finer run changes.
+HANGS = "hangs_on_accuracy"
+
+#: Random points are drawn in blocks of so many, each from a seed of its own, so that any of them is found at once.
+_BLOCK = 1024
+
+#: One run as a row: swept parameters, results, flags, and ``error``, which is empty where the run came to its end.
+Record = dict[str, Any]
+
+
+@dataclass(frozen=True)
+class Plan:
+    """All points of a sweep: the grid of the axes' values, the last axis fastest, or ``samples`` points at random."""
+
+    scene: Scene
+    axes: tuple[Axis, ...]
+    samples: int = 0  # 0 for a grid
+    seed: int = 0
+    check: bool = False  # whether each run is repeated at a finer accuracy
+
+    def __post_init__(self) -> None:
+        if not self.axes:
+            raise RequestError("nothing to sweep over: name at least one parameter")
+        keys = [axis.key for axis in self.axes]
+        for key in keys:
+            if keys.count(key) > 1:
+                raise RequestError(f"{key} is swept over twice")
+        for axis in self.axes:
+            if isinstance(axis, Span) and not self.samples:
+                raise RequestError(
+                    f"{axis.key}: a grid needs a number of points, {axis.key}={axis.low:g}:{axis.high:g}:N; "
+                    "or say how many random samples to take"
+                )
+        if self.size > MOST_POINTS:
+            raise RequestError(f"{self.size:,} points are too many; the most is {MOST_POINTS:,}")
+
+    @property
+    def keys(self) -> list[str]:
+        """The swept parameters."""
+        return [axis.key for axis in self.axes]
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """How many values each axis has; one length for random samples."""
+        if self.samples:
+            return (self.samples,)
+        return tuple(len(axis.values) for axis in self.axes if isinstance(axis, Values))
+
+    @property
+    def size(self) -> int:
+        """How many points there are."""
+        return math.prod(self.shape)
+
+    def points(self, start: int, stop: int) -> Iterator[tuple[Any, ...]]:
+        """The swept values of the points from ``start`` up to ``stop``."""
+        if self.samples:
+            return self._random(start, stop)
+        return (tuple(self._on_grid(number)) for number in range(start, stop))
+
+    def _on_grid(self, number: int) -> list[Any]:
+        values = []
+        for axis in reversed(self.axes):
+            assert isinstance(axis, Values)  # a grid has no spans
+            number, place = divmod(number, len(axis.values))
+            values.append(axis.values[place])
+        return values[::-1]
+
+    def _random(self, start: int, stop: int) -> Iterator[tuple[Any, ...]]:
+        for block in range(start // _BLOCK, -(-stop // _BLOCK)):
+            shares = np.random.default_rng((self.seed, block)).random((_BLOCK, len(self.axes)))
+            first = block * _BLOCK
+            for row in shares[max(start - first, 0) : stop - first].tolist():
+                yield tuple(_drawn(axis, share) for axis, share in zip(self.axes, row, strict=True))
+
+    @cached_property
+    def fingerprint(self) -> str:
+        """Two sweeps with one fingerprint have the same rows: the same scene, code and all, at the same points."""
+        sources = sorted(self.scene.folder.glob("*.py"))
+        told = {
+            "version": sandbox.__version__,
+            "scene": self.scene.name,
+            "sources": [hashlib.sha256(path.read_bytes()).hexdigest() for path in sources],
+            "parameters": self.scene.parameters.model_dump(),
+            "axes": [asdict(axis) for axis in self.axes],
+            "samples": self.samples,
+            "seed": self.seed,
+            "check": self.check,
+        }
+        return hashlib.sha256(json.dumps(told, sort_keys=True, default=str).encode()).hexdigest()
+
+
+def _drawn(axis: Axis, share: float) -> Any:
+    if isinstance(axis, Span):
+        return axis.low + share * (axis.high - axis.low)
+    return axis.values[int(share * len(axis.values))]
+
+
+# ---------------------------------------------------------------------------------------------------------------------
+# Rows
+# ---------------------------------------------------------------------------------------------------------------------
+
+
+def records(plan: Plan, start: int, stop: int) -> list[Record]:
+    """The rows of the points from ``start`` up to ``stop``. A point that fails is a row with its error."""
+    points = list(plan.points(start, stop))
+    outcomes = runs(plan.scene, plan.keys, points)
+    if not plan.check:
+        return [_record(plan.keys, values, run) for values, run in zip(points, outcomes, strict=True)]
+    finer = runs(plan.scene, plan.keys, points, finer=True)
+    rows = []
+    for values, run, other in zip(points, outcomes, finer, strict=True):
+        row = _record(plan.keys, values, run)
+        error = row.pop("error")
+        rows.append(row | _trust(run, other) | {"error": error})
+    return rows
+
+
+def failed(plan: Plan, start: int, stop: int, why: str) -> list[Record]:
+    """Rows of points that could not be run at all."""
+    return [dict(zip(plan.keys, values, strict=True)) | {"error": why} for values in plan.points(start, stop)]
+
+
+def _record(keys: Sequence[str], values: Sequence[Any], run: Run | Exception) -> Record:
+    row: Record = dict(zip(keys, values, strict=True))
+    if isinstance(run, Exception):
+        return row | {"error": _in_a_line(run)}
+    row.update(run.result)
+    row.setdefault("ended", run.ended)
+    for flag in FLAGS:
+        row[flag] = getattr(run.numerics, flag)
+    row["error"] = ""
+    return row
+
+
+def _trust(run: Run | Exception, finer: Run | Exception) -> Record:
+    """The estimated error of each number, and which other results hang on the accuracy."""
+    if isinstance(run, Exception):
+        return {}
+    if isinstance(finer, Exception):
+        return {HANGS: f"a finer run fails: {_in_a_line(finer)}"}
+    outcome = compare(run, finer)
+    numbers = [name for name, value in run.result.items() if name in outcome.errors or value is None]
+    return {f"{name}_error": outcome.errors.get(name) for name in numbers} | {HANGS: " ".join(outcome.changed)}
+
+
+def _in_a_line(error: Exception) -> str:
+    text = " ".join(str(error).split())
+    return text if isinstance(error, SandboxError) else f"{type(error).__name__}: {text}"
