@@ -1,0 +1,302 @@
+"""Billiards from above: pool, snooker and carom on cloth, with draw, follow and english.
+
+Models: sliding, rolling and spinning on cloth in closed form; the cue tip's offset, which gives follow, draw, stun and
+english; impacts of balls with restitution and friction, so that cuts and english throw the object ball and spin passes
+on; cushions with restitution and friction; jaws as real shapes, and pockets that take a ball whose centre is over the
+hole.
+Leaves out: the elevated cue (swerve, masse, jump) and squirt: the ball leaves along the cue; hops: what friction does
+to a ball's height; the nose's height over the ball's centre, which changes how much of its roll a cushion takes; the
+cushions' give; the nap of the cloth; the pockets' depth, out of which a fast ball may rattle.
+"""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from itertools import combinations
+from math import cos, hypot, pi, radians, sin, sqrt
+from typing import Any, Literal
+
+from pydantic import Field
+
+from sandbox.engine.run import Run
+from sandbox.engine.setup import Ball, Bounce, Setup, Vector
+from sandbox.engine.touch import Obstacle
+from sandbox.errors import RequestError
+from sandbox.parameters import Accuracy, Group, choice, either, group, groups, quantity
+from sandbox.physics.cloth import Cloth
+from sandbox.physics.throw import friction_by_speed
+
+from .table import Carom, EightFoot, NineFoot, SevenFoot, Snooker, catches, check, cushions
+
+# --------------------------------------------------------------------------------------------------------- parameters
+
+
+class Spot(Group):
+    """A ball and where it lies; the table's centre is the origin, x runs along its length."""
+
+    name: str = Field(description="name of the ball", min_length=1, max_length=40)
+    x: float = quantity(0.0, "m", -10, 10, "along the table")
+    y: float = quantity(0.0, "m", -10, 10, "across the table")
+
+
+class Cue(Group):
+    """The stroke, with a level cue."""
+
+    ball: str = Field(default="cue", description="name of the ball that is struck", min_length=1, max_length=40)
+    speed: float = quantity(8.0, "m/s", 0, 30, "speed of the ball after the stroke")
+    angle: float = quantity(0.0, "deg", -360, 360, "direction, from +x counter-clockwise")
+    follow: float = quantity(0.0, "", -0.5, 0.5, "height of the tip over the ball's centre in radii; 0.4 rolls at once")
+    english: float = quantity(0.0, "", -0.5, 0.5, "tip to the right of the ball's centre in radii")
+
+
+class BallParameters(Group):
+    """All balls alike, solid spheres."""
+
+    mass: float = quantity("6 oz", "kg", 0.001, 10, "mass")
+    radius: float = quantity("1.125 in", "m", 0.002, 0.2, "radius")
+    restitution: float = quantity(0.95, "", 0, 1, "of ball and ball")
+    friction: float = quantity(0.05, "", 0, 10, "of ball and ball")
+    friction_law: Literal["constant", "speed"] = choice(
+        "constant", "constant: as given by friction; speed: less the faster the surfaces rub, by Alciatore"
+    )
+
+
+class ClothParameters(Group):
+    """The cloth."""
+
+    sliding_friction: float = quantity(0.2, "", 0, 2, "deceleration of a sliding ball over gravity")
+    rolling_friction: float = quantity(0.01, "", 0, 1, "deceleration of a rolling ball over gravity")
+    spinning_friction: float = quantity(0.0127, "", 0, 1, "torque on a ball spinning upright, over m g r")
+
+
+class Cushion(Group):
+    """The cushions, jaws included."""
+
+    restitution: float = quantity(0.85, "", 0, 1, "of ball and cushion")
+    friction: float = quantity(0.2, "", 0, 10, "of ball and cushion")
+
+
+class Parameters(Group):
+    """All numbers of a shot."""
+
+    rack: Literal["nine-ball", "eight-ball", "none"] | None = choice(
+        None, "balls on the foot spot; where left out, nine-ball if no balls are listed and none else"
+    )
+    rack_gap: float = quantity("0.01 mm", "m", 1e-7, 0.01, "between neighbours in the rack")
+    rack_scatter: float = quantity(0.0, "m", 0, 0.01, "how far a racked ball may lie from its place, at random")
+    rack_seed: float = quantity(1.0, "", 0, 1e9, "which of the random racks")
+    balls: list[Spot] = groups([], "balls laid out one by one, beside the rack")
+    cue: Cue = group(Cue(), "the stroke")
+    table: NineFoot | EightFoot | SevenFoot | Snooker | Carom = either(NineFoot(), "the table", by="kind")
+    ball: BallParameters = group(BallParameters(), "the balls")
+    cloth: ClothParameters = group(ClothParameters(), "the cloth")
+    cushion: Cushion = group(Cushion(), "the cushions")
+    gravity: float = quantity(9.81, "m/s^2", 0, 30, "gravity")
+    accuracy: Accuracy = group(Accuracy(), "speed against accuracy")
+
+
+# -------------------------------------------------------------------------------------------------------------- build
+
+#: A shot still under way after this time in s is ended.
+LONGEST = 300.0
+
+#: Distance of the tip from the ball's centre, in radii, beyond which a chalked tip slips off: a miscue (Alciatore).
+MISCUE = 0.5
+
+#: Overlap in m that is rounding of the numbers in a file; the balls are moved apart by it.
+ROUNDING = 1e-5
+
+#: Rows from the foot spot on, each from right to left as seen from the head.
+RACKS = {
+    "nine-ball": (("1",), ("2", "3"), ("4", "9", "5"), ("6", "7"), ("8",)),
+    "eight-ball": (("1",), ("9", "2"), ("3", "8", "10"), ("11", "4", "12", "5"), ("6", "13", "7", "14", "15")),
+    "none": (),
+}
+
+
+def build(parameters: Parameters) -> Setup:
+    """Table, balls and the stroke. Raises RequestError for balls that do not fit, and for a miscue."""
+    check(parameters.table, parameters.ball.radius)
+    spots = laid_out(parameters)
+    surfaces = cushions(parameters.table, parameters.cushion.restitution, parameters.cushion.friction)
+    holes = catches(parameters.table)
+    _check_spots(spots, parameters, [Obstacle(surface, parameters.ball.radius) for surface in surfaces])
+    velocity, spin, rolling_spin = struck(parameters)
+    ball, cloth = parameters.ball, parameters.cloth
+    balls = []
+    for name, position in spots.items():
+        motion = (velocity, spin, rolling_spin) if name == parameters.cue.ball else ((0.0, 0.0), 0.0, (0.0, 0.0))
+        balls.append(
+            Ball(name, ball.mass, ball.radius, position, velocity=motion[0], spin=motion[1], rolling_spin=motion[2])
+        )
+    return Setup(
+        balls,
+        surfaces,
+        duration=LONGEST,
+        between_balls=_between_balls(ball),
+        cloth=Cloth(cloth.sliding_friction, cloth.rolling_friction, cloth.spinning_friction, parameters.gravity),
+        catches=holes,
+    )
+
+
+def laid_out(parameters: Parameters) -> dict[str, Vector]:
+    """Where each ball lies at the start, in m: those listed, those racked, and with a rack a cue ball on the head spot.
+
+    Raises RequestError for a name given twice and for a struck ball that is not there.
+    """
+    spots: dict[str, Vector] = {}
+    for spot in parameters.balls:
+        if spot.name in spots:
+            raise RequestError(f'balls: two are named "{spot.name}"')
+        spots[spot.name] = (spot.x, spot.y)
+    for name, position in _racked(parameters):
+        if name in spots:
+            raise RequestError(f'balls: "{name}" is in the rack already; rename it, or set rack = "none"')
+        spots[name] = position
+    if _rack(parameters) != "none" and "cue" not in spots:
+        spots["cue"] = (-0.25 * parameters.table.length, 0.0)
+    if parameters.cue.ball not in spots:
+        there = ", ".join(spots) or "none"
+        raise RequestError(f'cue.ball = "{parameters.cue.ball}": there is no such ball on the table; there are {there}')
+    return spots
+
+
+def _rack(parameters: Parameters) -> str:
+    return parameters.rack or ("none" if parameters.balls else "nine-ball")
+
+
+def _racked(parameters: Parameters) -> Iterator[tuple[str, Vector]]:
+    """The balls of the rack, its foremost on the foot spot.
+
+    Neighbours lie ``rack_gap`` apart: balls that touch would be one rigid lump to the solver, while with any gap from
+    0.001 to 0.1 mm the blow runs from ball to ball and the break comes out alike.
+    """
+    scatter = parameters.rack_scatter
+    pitch = 2.0 * parameters.ball.radius + parameters.rack_gap + 2.0 * scatter
+    chance = random.Random(int(parameters.rack_seed))
+    for row, names in enumerate(RACKS[_rack(parameters)]):
+        for place, name in enumerate(names):
+            x = 0.25 * parameters.table.length + 0.5 * sqrt(3.0) * pitch * row
+            y = pitch * (place - 0.5 * (len(names) - 1))
+            if scatter > 0.0:
+                away, angle = scatter * sqrt(chance.random()), 2.0 * pi * chance.random()
+                x, y = x + away * cos(angle), y + away * sin(angle)
+            yield name, (x, y)
+
+
+def _check_spots(spots: Mapping[str, Vector], parameters: Parameters, obstacles: Sequence[Obstacle]) -> None:
+    radius = parameters.ball.radius
+    x_most, y_most = 0.5 * parameters.table.length, 0.5 * parameters.table.width
+    for name, (x, y) in spots.items():
+        where = f'ball "{name}" at ({x:g}, {y:g}) m'
+        if max(abs(x) - x_most, abs(y) - y_most) > 0.0:
+            raise RequestError(
+                f"{where} is off the table, whose noses are at x = +-{x_most:g} m and y = +-{y_most:g} m"
+            )
+        gap, cushion = min((obstacle.near(x, y).gap, obstacle.surface.name) for obstacle in obstacles)
+        if gap < -ROUNDING:
+            raise RequestError(f"{where} overlaps the {cushion} by {-1000.0 * gap:.3g} mm: its radius is {radius:g} m")
+        for hole in catches(parameters.table):
+            if hypot(x - hole.center[0], y - hole.center[1]) < hole.radius:
+                raise RequestError(f"{where} is over the hole of the {hole.name}")
+    for (name, a), (other, b) in combinations(spots.items(), 2):
+        overlap = 2.0 * radius - hypot(a[0] - b[0], a[1] - b[1])
+        if overlap > ROUNDING:
+            raise RequestError(
+                f'balls "{name}" at ({a[0]:g}, {a[1]:g}) m and "{other}" at ({b[0]:g}, {b[1]:g}) m overlap by '
+                f"{1000.0 * overlap:.3g} mm: their centres must be {2.0 * radius:g} m apart"
+            )
+
+
+def struck(parameters: Parameters) -> tuple[Vector, float, Vector]:
+    """Velocity (m/s), spin about the vertical and about x and y (rad/s) of the struck ball. RequestError for a miscue.
+
+    The cue's impulse m v acts at the tip: ``(english, follow)`` radii to the right of and above the ball's centre, as
+    seen along the cue. Its moment over 2/5 m r^2 is the spin, ``(5/2) v/r`` times the offset: for a tip above the
+    centre about the level axis that points to the left of the way, where 2/5 rolls at once; for a tip to the right
+    about the vertical, counter-clockwise from above.
+    """
+    cue = parameters.cue
+    offset = hypot(cue.follow, cue.english)
+    if offset > MISCUE + 1e-12:
+        raise RequestError(
+            f"cue.follow = {cue.follow:g}, cue.english = {cue.english:g}: the tip is {offset:.3g} radii off the ball's "
+            f"centre, and beyond {MISCUE:g} it slips off"
+        )
+    along, across = cos(radians(cue.angle)), sin(radians(cue.angle))
+    spin = 2.5 * cue.speed / parameters.ball.radius
+    roll = spin * cue.follow
+    return (cue.speed * along, cue.speed * across), spin * cue.english, (-roll * across, roll * along)
+
+
+def _between_balls(ball: BallParameters) -> Callable[[float, float], Bounce]:
+    if ball.friction_law == "speed":
+        return lambda normal_speed, slip_speed: Bounce(ball.restitution, friction_by_speed(slip_speed))
+    always = Bounce(ball.restitution, ball.friction)
+    return lambda normal_speed, slip_speed: always
+
+
+# ------------------------------------------------------------------------------------------------------------- result
+
+
+def result(run: Run, parameters: Parameters) -> dict[str, Any]:
+    """What the shot came to; lengths in m, times in s.
+
+    ``rails`` counts the impacts of all balls on the cushions' noses; those on the pockets' jaws stand in the events
+    alone. ``touches`` is what the struck ball met, in order, with jaws and pocket. ``rest_time`` is None where the shot
+    did not come to rest.
+    """
+    cue = parameters.cue.ball
+    caught = {event.ball: event.partner for event in run.events if event.kind == "caught"}
+    touches = list(_touches(run, cue))
+    balls = [ball.name for ball in run.setup.balls]
+    return {
+        "potted": list(caught),
+        "scratch": cue in caught,
+        "first_contact": next((name for name in touches if name in balls), None),
+        "rails": sum(event.kind == "impact" and event.partner.endswith(" cushion") for event in run.events),
+        "rest_time": run.duration if run.ended == "rest" else None,
+        "positions": {name: list(run.state(name, run.duration)[:2]) for name in balls if name not in caught},
+        "touches": touches,
+        "pockets": caught,
+        "ended": run.ended,
+    }
+
+
+def _touches(run: Run, ball: str) -> Iterator[str]:
+    """Names of what a ball met: other balls, cushions and jaws, and the pocket it fell into."""
+    for event in run.events:
+        if event.kind in ("impact", "caught") and ball in (event.ball, event.partner):
+            yield event.partner if event.ball == ball else event.ball
+
+
+def card(result: dict[str, Any], parameters: Parameters) -> list[tuple[str, str]]:
+    """The result for people."""
+    cue, pockets = parameters.cue, result["pockets"]
+    potted = [name for name in result["potted"] if name != cue.ball]
+    lines = [("stroke", f"{cue.speed:.2f} m/s ({cue.speed * 3.6:.0f} km/h) at {cue.angle:.1f}°, {_tip(cue)}")]
+    lines.append(("first contact", _called(result["first_contact"]) if result["first_contact"] else "none"))
+    lines.append(("potted", "; ".join(f"{_called(name)} ({pockets[name]})" for name in potted) or "none"))
+    lines.append(("rails", f"{result['rails']} cushion contacts"))
+    at_rest = "still moving when time ran out" if result["rest_time"] is None else f"after {result['rest_time']:.1f} s"
+    lines.append(("at rest", at_rest))
+    verdict = f"scratch ({pockets[cue.ball]})" if result["scratch"] else "potted" if potted else "nothing potted"
+    if result["first_contact"] is None and not result["scratch"]:
+        verdict = "hit no ball"
+    lines.append(("verdict", verdict))
+    return lines
+
+
+def _called(name: str) -> str:
+    return f"the {name}" if name.isdecimal() else name
+
+
+def _tip(cue: Cue) -> str:
+    """Where the tip meets the ball, in words."""
+    parts = []
+    if cue.follow:
+        parts.append(f"{abs(cue.follow):g} radii {'follow' if cue.follow > 0 else 'draw'}")
+    if cue.english:
+        parts.append(f"{abs(cue.english):g} radii {'right' if cue.english > 0 else 'left'} english")
+    return ", ".join(parts) or "centre ball"
