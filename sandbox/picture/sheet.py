@@ -23,11 +23,15 @@ ROWS_FOR_YARDS = 480
 
 
 class Sheet:
-    """A surface of ``size`` px with its painter and lettering; ``unit`` is what 1 px is on a picture of 720 rows."""
+    """A surface of ``size`` px with its painter and lettering; ``unit`` is what 1 px is on a picture of 720 rows.
 
-    def __init__(self, size: tuple[int, int]):
+    ``ink`` and ``quiet_ink`` are the colours of what is written straight on the picture, whose ground may be dark.
+    """
+
+    def __init__(self, size: tuple[int, int], on_dark: bool = False):
         width, height = size
         self.size, self.unit = size, height / 720
+        self.ink, self.quiet_ink = (CARD["text"], CARD["quiet"]) if on_dark else (CARD["ink"], CARD["ink_quiet"])
         self.gap = max(3, round(6 * self.unit))
         self.surface = blank(size)
         self.painter = Painter(self.surface)
@@ -62,8 +66,8 @@ class Sheet:
     def headline(self, text: str, notes: Sequence[str], room: float) -> None:
         """What happened, large, at the top left, and a line of notes below it; ``room`` px wide at most."""
         size = "large" if self.lettering.width(text, "large", bold=True) <= room else "medium"
-        rect = self.write(text, size, self.frame.topleft, CARD["ink"], bold=True)
-        self.write("   ·   ".join(notes), "small", (rect.left, rect.bottom + self.gap), CARD["ink_quiet"])
+        rect = self.write(text, size, self.frame.topleft, self.ink, bold=True)
+        self.write("   ·   ".join(notes), "small", (rect.left, rect.bottom + self.gap), self.quiet_ink)
 
     def columns(self, top: float, entries: Sequence[tuple[str, str]]) -> None:
         """A card along the bottom with a number in each column, the first in the accent's colour.
@@ -158,7 +162,7 @@ class Sheet:
             (middle[0] + half * along, middle[1] - half * up),
         )
         self.painter.arrow(tail, head, 3.6 * self.unit, CARD["wind"])
-        self.write(text, "small", rect.midbottom, CARD["ink"], "midbottom", bold=True)
+        self.write(text, "small", rect.midbottom, self.ink, "midbottom", bold=True)
         return rect
 
 
