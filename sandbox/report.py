@@ -73,7 +73,7 @@ def write_trajectory(run: Run, path: Path) -> None:
 
 def card(scene: Scene, run: Run, check: Check | None = None) -> list[str]:
     """Lines for the terminal: what was played, what came out, what happened on the way, what it cost."""
-    rows = scene.module.card(run.result, scene.parameters)
+    rows = scene.card(run.result)
     if check is not None:
         rows = [(label, _with_error(text, check.errors.get(label.replace(" ", "_")))) for label, text in rows]
     width = max((len(label) for label, _ in rows), default=0)

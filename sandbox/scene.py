@@ -11,6 +11,7 @@ import ast
 import hashlib
 import importlib
 import importlib.util
+import inspect
 import math
 import os
 import re
@@ -23,17 +24,25 @@ from typing import TYPE_CHECKING, Any
 
 from sandbox import parameters as declared
 from sandbox import resources
-from sandbox.errors import RequestError
+from sandbox.errors import RequestError, RunError
 from sandbox.files import reason
 
 if TYPE_CHECKING:
     from sandbox.engine.accuracy import Accuracy
     from sandbox.engine.run import Run
+    from sandbox.engine.setup import Setup
 
 #: Scene folders are imported as packages below this name, which nothing else can have taken.
 NAMESPACE = "sandbox_scenes"
 ENTRY_POINTS = "sandbox.scenes"
 OFFERS = ("Parameters", "build", "result", "card")
+#: What the functions of a scene, and its picture, are given.
+ARGUMENTS = {
+    "build": ("parameters",),
+    "result": ("run", "parameters"),
+    "card": ("result", "parameters"),
+    "Picture": ("run", "parameters", "size"),
+}
 
 
 @dataclass(frozen=True)
@@ -62,16 +71,42 @@ class Scene:
         if not (self.folder / "picture.py").is_file():
             raise RequestError(f"{self.name} has no picture: {self.folder / 'picture.py'} is missing")
         os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")  # its greeting on stdout, which belongs to --json
-        return _module(self.folder, "picture")
+        module = _module(self.folder, "picture")
+        _check_arguments(self.folder / "picture.py", "Picture", getattr(module, "Picture", None))
+        return module
 
     def picture(self, run: Run, size: tuple[int, int] | None = None) -> Any:
         """The scene's picture of a run, with ``poster()`` and ``frame(t)``; ``size`` in px, or what the scene likes."""
         picture = self.picture_module().Picture
         return picture(run, self.parameters) if size is None else picture(run, self.parameters, size)
 
-    def build(self) -> Any:
+    def build(self) -> Setup:
         """The setup that the engine simulates."""
-        return self.module.build(self.parameters)
+        from sandbox.engine.setup import Setup
+
+        setup = self.module.build(self.parameters)
+        if not isinstance(setup, Setup):
+            raise self._wrong("build", "a Setup", setup)
+        return setup
+
+    def result(self, run: Run) -> dict[str, Any]:
+        """The numbers and the verdict that the scene reads from a run."""
+        result = self.module.result(run, self.parameters)
+        if not isinstance(result, dict):
+            raise self._wrong("result", "a dict", result)
+        return result
+
+    def card(self, result: dict[str, Any]) -> list[tuple[str, str]]:
+        """The result for people: labels and texts."""
+        rows = self.module.card(result, self.parameters)
+        if not isinstance(rows, list) or not all(isinstance(row, tuple) and len(row) == 2 for row in rows):
+            raise self._wrong("card", "a list of pairs of label and text", rows)
+        return rows
+
+    def _wrong(self, function: str, expected: str, value: Any) -> RunError:
+        """A scene's function handed back something else: mostly a forgotten return."""
+        file = _shown(self.folder / "scene.py")
+        return RunError(f"{file}: {function} must return {expected}, and returned {_shortened(repr(value))}")
 
     def __reduce__(self) -> tuple[Any, ...]:
         # By value, so that a process that never imported this scene's module can read it.
@@ -98,7 +133,7 @@ def _simulate_at(scene: Scene, accuracy: Accuracy) -> Run:
     from sandbox.engine import simulate as run_setup
 
     run = run_setup(scene.build(), accuracy)
-    run.result = scene.module.result(run, scene.parameters)
+    run.result = scene.result(run)
     return run
 
 
@@ -356,6 +391,8 @@ def _parameters_class(folder: Path) -> type[declared.Group]:
     missing = [name for name in OFFERS if not callable(getattr(module, name, None))]
     if missing:
         raise RequestError(f"{folder / 'scene.py'}: a scene offers {', '.join(OFFERS)}; {missing[0]} is missing")
+    for name in OFFERS[1:]:
+        _check_arguments(folder / "scene.py", name, getattr(module, name))
     parameters = module.Parameters
     if not (isinstance(parameters, type) and issubclass(parameters, declared.Group)):
         raise RequestError(f"{folder / 'scene.py'}: Parameters must be a sandbox.parameters.Group")
@@ -365,6 +402,17 @@ def _parameters_class(folder: Path) -> type[declared.Group]:
             f'{folder / "scene.py"}: Parameters needs a line accuracy: Accuracy = group(Accuracy(), "...")'
         )
     return parameters
+
+
+def _check_arguments(file: Path, name: str, function: Any) -> None:
+    """Raise RequestError unless the function can be called as the sandbox is going to."""
+    call = f"{name}({', '.join(ARGUMENTS[name])})"
+    if not callable(function):
+        raise RequestError(f"{file}: {call} is missing")
+    try:
+        inspect.signature(function).bind(*ARGUMENTS[name])
+    except TypeError as error:
+        raise RequestError(f"{file}: {name} is called as {call}: {error}") from None
 
 
 def _module(folder: Path, name: str) -> ModuleType:

@@ -16,7 +16,7 @@ def of_user_code(error: Exception) -> str | None:
     blamed = isinstance(error, SyntaxError) and error.filename is not None and not _is_ours(error.filename)
     if first is None and not blamed:
         return None
-    shown = [frame for frame in frames[first:] if not _is_sandbox(frame.filename)] if first is not None else []
+    shown = [frame for frame in frames[first:] if not _is_machinery(frame.filename)] if first is not None else []
     head = ["your scene failed\n", "Traceback (most recent call last):\n"] if shown else ["your scene failed\n"]
     return "".join([*head, *traceback.format_list(shown), *traceback.format_exception_only(error)])
 
@@ -25,6 +25,13 @@ def _is_ours(filename: str) -> bool:
     """Whether a file came with the sandbox, Python or an installed package."""
     libraries = {sysconfig.get_path(name) for name in ("stdlib", "purelib", "platlib")}
     return filename.startswith("<") or _is_sandbox(filename) or any(_inside(filename, library) for library in libraries)
+
+
+def _is_machinery(filename: str) -> bool:
+    """Whether a file is ours, or of the library that the scene's groups of parameters are made with."""
+    import pydantic
+
+    return _is_sandbox(filename) or _inside(filename, Path(pydantic.__file__).parent)
 
 
 def _is_sandbox(filename: str) -> bool:
