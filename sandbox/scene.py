@@ -36,12 +36,12 @@ if TYPE_CHECKING:
 NAMESPACE = "sandbox_scenes"
 ENTRY_POINTS = "sandbox.scenes"
 OFFERS = ("Parameters", "build", "result", "card")
-#: What the functions of a scene, and its picture, are given.
-ARGUMENTS = {
-    "build": ("parameters",),
-    "result": ("run", "parameters"),
-    "card": ("result", "parameters"),
-    "Picture": ("run", "parameters", "size"),
+#: How the functions of a scene, and its picture, are called.
+CALLS = {
+    "build": (("parameters",),),
+    "result": (("run", "parameters"),),
+    "card": (("result", "parameters"),),
+    "Picture": (("run", "parameters", "size"), ("run", "parameters")),
 }
 
 
@@ -72,7 +72,7 @@ class Scene:
             raise RequestError(f"{self.name} has no picture: {self.folder / 'picture.py'} is missing")
         os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")  # its greeting on stdout, which belongs to --json
         module = _module(self.folder, "picture")
-        _check_arguments(self.folder / "picture.py", "Picture", getattr(module, "Picture", None))
+        _check_calls(self.folder / "picture.py", "Picture", getattr(module, "Picture", None))
         return module
 
     def picture(self, run: Run, size: tuple[int, int] | None = None) -> Any:
@@ -392,7 +392,7 @@ def _parameters_class(folder: Path) -> type[declared.Group]:
     if missing:
         raise RequestError(f"{folder / 'scene.py'}: a scene offers {', '.join(OFFERS)}; {missing[0]} is missing")
     for name in OFFERS[1:]:
-        _check_arguments(folder / "scene.py", name, getattr(module, name))
+        _check_calls(folder / "scene.py", name, getattr(module, name))
     parameters = module.Parameters
     if not (isinstance(parameters, type) and issubclass(parameters, declared.Group)):
         raise RequestError(f"{folder / 'scene.py'}: Parameters must be a sandbox.parameters.Group")
@@ -404,15 +404,16 @@ def _parameters_class(folder: Path) -> type[declared.Group]:
     return parameters
 
 
-def _check_arguments(file: Path, name: str, function: Any) -> None:
+def _check_calls(file: Path, name: str, function: Any) -> None:
     """Raise RequestError unless the function can be called as the sandbox is going to."""
-    call = f"{name}({', '.join(ARGUMENTS[name])})"
-    if not callable(function):
-        raise RequestError(f"{file}: {call} is missing")
-    try:
-        inspect.signature(function).bind(*ARGUMENTS[name])
-    except TypeError as error:
-        raise RequestError(f"{file}: {name} is called as {call}: {error}") from None
+    for arguments in CALLS[name]:
+        call = f"{name}({', '.join(arguments)})"
+        if not callable(function):
+            raise RequestError(f"{file}: {call} is missing")
+        try:
+            inspect.signature(function).bind(*arguments)
+        except TypeError as error:
+            raise RequestError(f"{file}: {name} is called as {call}: {error}") from None
 
 
 def _module(folder: Path, name: str) -> ModuleType:
