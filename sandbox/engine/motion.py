@@ -268,7 +268,9 @@ def _crossing(arc: Arc, value: Callable[[float, State], float]) -> float:
     for _ in range(60):  # regula falsi with the Illinois weights
         t = low + (high - low) * at_low / (at_low - at_high)
         if not low < t < high:
-            break
+            t = 0.5 * (low + high)
+            if not low < t < high:
+                break
         here = value(t, arc.state(t))
         if here == 0.0:
             return t

@@ -5,13 +5,19 @@ from __future__ import annotations
 from sandbox.engine.arc import Arc, still
 from sandbox.engine.run import Numerics
 from sandbox.engine.setup import Ball
+from sandbox.engine.touch import Hop
 from sandbox.physics.cloth import Cloth
 from sandbox.physics.integrators import State
 
-#: Friction of the cloth can press a ball against another or against a cushion for as long as it slides. Bounces below
-#: this height (m) are taken as elastic, so that such a push is a run of even hops and not an endless series of ever
-#: smaller ones.
-LOWEST_HOP = 1e-7
+#: Lowest bounce in m that is followed where the cloth presses a ball against another or a cushion, as it can while the
+#: ball slides. Lower ones are elastic, so that such a push is a run of even hops.
+_LOWEST_HOP = 1e-7
+
+
+def lowest_hop(cloth: Cloth, settle: float) -> Hop:
+    """Height and speed of the lowest bounce that is followed, for an accuracy with the given ``settle`` (m)."""
+    depth = max(_LOWEST_HOP, settle)
+    return Hop(depth, (2.0 * cloth.sliding * cloth.gravity * depth) ** 0.5)
 
 
 class OnCloth:

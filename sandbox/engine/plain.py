@@ -4,7 +4,8 @@ of balls.
 Chipmunk moves first, then finds contacts, then changes velocities, then exchanges impulses: so a contact is found up
 to one step late, at whatever depth that step brought, and forces are integrated to first order. Nothing here improves
 on that, except that errors are not lost: cffi prints and swallows what a callback raises, so it is kept and raised
-after the step.
+after the step. On cloth its friction acts in ``velocity_func`` too; what balls and cushions do to spin about horizontal
+axes is left out.
 """
 
 from __future__ import annotations
@@ -19,6 +20,7 @@ from sandbox.engine.arc import Arc
 from sandbox.engine.motion import Diverged
 from sandbox.engine.run import Event, Numerics, Run
 from sandbox.engine.setup import Ball, Bounce, Circle, Setup, Surface
+from sandbox.physics.cloth import ClothState
 from sandbox.physics.integrators import State
 
 #: Depth in m that Chipmunk leaves to overlapping shapes; its own default of 0.1 is for pixels.
@@ -44,30 +46,33 @@ _BALL, _SURFACE = 1, 2
 class _Tracked:
     """A ball's body, what was recorded of it, and what it touched."""
 
-    def __init__(self, ball: Ball, body: pymunk.Body) -> None:
+    def __init__(self, ball: Ball, body: pymunk.Body, on_cloth: bool) -> None:
         self.ball = ball
+        self.rolling_spin: tuple[float, ...] = ball.rolling_spin if on_cloth else ()  # rad/s
         self.body = body
         self.path: list[Arc] = []
         self.since = 0.0  # s, start of the arc under way
-        self.start: State = (*ball.position, *ball.velocity, ball.spin)
+        self.start: State = (*ball.position, *ball.velocity, ball.spin, *self.rolling_spin)
         self.acceleration = (0.0, 0.0)
         self.before = (0.0, 0.0)  # velocity ahead of the last step's forces
         self.pressed = 0.0  # N, normal force of the last step
         self.resistance = 0.0  # rolling resistance of what it touches
         self.touched = -2  # number of the last step in which it touched something
         self.presses = False  # lasting contact, not an impact
+        self.lowest = 0.0  # m/s, a bounce no faster than this is swallowed
+        self.caught = False
         self.turned = 0.0  # rad, by which its velocity is turned while a tilted surface is met
         self.still_since: float | None = None
 
     def state(self) -> State:
         body = self.body
-        return (*body.position, *body.velocity, body.angular_velocity)
+        return (*body.position, *body.velocity, body.angular_velocity, *self.rolling_spin)
 
     def record(self, t: float) -> None:
         if t > self.since or not self.path:
-            x0, y0, vx0, vy0, w0 = self.start
-            x1, y1, vx1, vy1, w1 = after = self.state()
-            self.path.append(Arc(self.since, t, self.start, (x0, x1), (y0, y1), (vx0, vx1), (vy0, vy1), (w0, w1)))
+            after = self.state()
+            x, y, vx, vy, spin, *rolling_spin = zip(self.start, after, strict=True)
+            self.path.append(Arc(self.since, t, self.start, x, y, vx, vy, spin, None, tuple(rolling_spin), after))
             self.start = after
             self.since = t
 
@@ -100,7 +105,7 @@ class PlainSimulation:
             disc = pymunk.Circle(body, ball.radius)
             disc.collision_type = _BALL
             disc.elasticity = disc.friction = 1.0
-            tracked = _Tracked(ball, body)
+            tracked = _Tracked(ball, body, setup.cloth is not None)
             body.velocity_func = self._apply_forces(tracked)
             self._tracked[body] = tracked
             self._space.add(body, disc)
@@ -114,7 +119,8 @@ class PlainSimulation:
         started = perf_counter()
         ended = self._loop()
         for tracked in self._tracked.values():
-            tracked.record(self._t)
+            if not tracked.caught:
+                tracked.record(self._t)
         self._numerics.wall_s = perf_counter() - started
         arcs = {tracked.ball.name: tracked.path for tracked in self._tracked.values()}
         return Run(self._setup, self._accuracy, arcs, self._events, self._numerics, self._t, ended)
@@ -146,10 +152,28 @@ class PlainSimulation:
         """Record where everything is, and check it; whether all balls rest."""
         rest = True
         for tracked in self._tracked.values():
-            tracked.record(self._t)
-            self._check(tracked)
-            rest = self._rests(tracked) and rest
+            if not tracked.caught:
+                tracked.record(self._t)
+                self._check(tracked)
+                self._catch(tracked)
+                rest = self._rests(tracked) and rest
         return rest
+
+    def _catch(self, tracked: _Tracked) -> None:
+        """Take a ball from the table that is in a pocket; seen at the next look, late like everything here."""
+        x, y = tracked.body.position
+        for catch in self._setup.catches:
+            if (x - catch.center[0]) ** 2 + (y - catch.center[1]) ** 2 <= catch.radius**2:
+                tracked.caught = True
+                self._space.remove(tracked.body, *tracked.body.shapes)
+                speed = tracked.body.velocity.length
+                self._note(Event(self._t, "caught", tracked.ball.name, catch.name, speed, x, y))
+                return
+
+    def _note(self, event: Event) -> None:
+        self._events.append(event)
+        if self._setup.until is not None and self._setup.until(event):
+            self._over = True
 
     # ------------------------------------------------------------------ callbacks
 
@@ -166,7 +190,7 @@ class PlainSimulation:
         return call
 
     def _apply_forces(self, tracked: _Tracked) -> Any:
-        ball = tracked.ball
+        ball, cloth = tracked.ball, self._setup.cloth
 
         def update(body: pymunk.Body, gravity: Any, damping: float, h: float) -> None:
             if self._raised is not None:
@@ -188,6 +212,12 @@ class PlainSimulation:
                     self._refuse_reversal(tracked, ax, ay, velocity, h)
                 tracked.acceleration, tracked.before = (ax, ay), velocity
                 vx, vy = vx + h * ax, vy + h * ay
+                if cloth is not None:
+                    wx, wy = tracked.rolling_spin
+                    before: ClothState = (x, y, vx, vy, spin, wx, wy)
+                    phase = cloth.phase(before, ball.radius)
+                    _, _, vx, vy, spin, wx, wy = cloth.after(before, phase, min(h, phase.duration))
+                    tracked.rolling_spin = (wx, wy)
                 spin += h * torque / ball.inertia
                 if tracked.pressed > 0.0:
                     speed = (vx * vx + vy * vy) ** 0.5
@@ -229,10 +259,7 @@ class PlainSimulation:
             tracked.record(self._t)
             self._hit.append(tracked)
             x, y = _body(first).position
-            event = Event(self._t, "impact", tracked.ball.name, partner, approach, x, y)
-            self._events.append(event)
-            if self._setup.until is not None and self._setup.until(event):
-                self._over = True
+            self._note(Event(self._t, "impact", tracked.ball.name, partner, approach, x, y))
 
     def _meet_surface(self, arbiter: pymunk.Arbiter) -> None:
         first, second = arbiter.shapes
@@ -247,9 +274,8 @@ class PlainSimulation:
         )
         press = max(0.0, ax * normal.x + ay * normal.y)  # m/s^2
         tracked = self._tracked[_body(first)]
-        resting_speed = 2.0 * press * self._accuracy.step  # what weight alone gathers in a step or two
-        lowest = (2.0 * press * surface.lowest_bounce) ** 0.5
-        tracked.presses = approach <= resting_speed or bounce.restitution * approach <= lowest
+        tracked.lowest = (2.0 * press * surface.lowest_bounce) ** 0.5
+        tracked.presses = approach <= 2.0 * press * self._accuracy.step  # what weight alone gathers in a step or two
         if tracked.presses:
             arbiter.restitution = 0.0
             return
@@ -276,10 +302,13 @@ class PlainSimulation:
         if tracked.turned != 0.0:
             _body(first).velocity = _body(first).velocity.rotated(tracked.turned)
             tracked.turned = 0.0
+        nx, ny = arbiter.normal
+        leaving = -(_body(first).velocity[0] * nx + _body(first).velocity[1] * ny)
+        if 0.0 < leaving <= tracked.lowest:  # a bounce that the surface swallows
+            _body(first).velocity += (leaving * nx, leaving * ny)
         slip = abs(_closing(arbiter)[2] + tracked.ball.radius * _body(first).angular_velocity)
         speed = _body(first).velocity.length
         if surface.rolling_resistance > 0.0 and tracked.presses and slip <= _GRIP * speed:
-            nx, ny = arbiter.normal
             jx, jy = arbiter.total_impulse
             tracked.pressed = abs(jx * nx + jy * ny) / self._accuracy.step
             tracked.resistance = surface.rolling_resistance
@@ -293,7 +322,7 @@ class PlainSimulation:
             raise self._diverged(tracked, state)
 
     def _diverged(self, tracked: _Tracked, state: State) -> Diverged:
-        x, y, vx, vy, spin = state
+        x, y, vx, vy, spin = state[:5]
         return Diverged(
             f"t = {self._t:.6g} s, ball {tracked.ball.name!r}: position ({x:.6g}, {y:.6g}) m, velocity "
             f"({vx:.6g}, {vy:.6g}) m/s, spin {spin:.6g} rad/s is not finite or out of the world; "
@@ -301,9 +330,10 @@ class PlainSimulation:
         )
 
     def _rests(self, tracked: _Tracked) -> bool:
-        _, _, vx, vy, spin = tracked.state()
+        _, _, vx, vy, spin = tracked.state()[:5]
         slow = (vx * vx + vy * vy) ** 0.5 + tracked.ball.radius * abs(spin) < _REST_SPEED
-        if not slow or self._steps - tracked.touched > 1:
+        held = self._setup.cloth is not None or self._steps - tracked.touched <= 1
+        if not (slow and held):
             tracked.still_since = None
             return False
         if tracked.still_since is None:

@@ -262,3 +262,15 @@ def test_rolls_over_the_end_of_a_ledge_and_falls():
     x, y, vx, vy, _ = run.state("ball", 1.0)
     assert (x, vx) == pytest.approx((1.0, 2.0), abs=1e-7)
     assert (y, vy) == pytest.approx((0.05 - 0.5 * G * 0.25, -0.5 * G), abs=1e-6)
+
+
+@pytest.mark.parametrize("speed", [0.1, 0.5, 1.0, 1.83, 2.0, 3.3, 7.0])
+@pytest.mark.parametrize("resistance", [0.01, 0.0560, 0.3])
+@pytest.mark.parametrize("level", ["fast", "balanced", "precise"])
+def test_a_roll_ends_where_it_should_at_any_speed(speed, resistance, level):
+    """v^2 / (2 c g), whatever the length of the last arc."""
+    floor = Surface("floor", Segment((-1.0, 0.0), (900.0, 0.0)), 0.3, 0.9, resistance)
+    ball = Ball("ball", 0.3, 0.02, (0.0, 0.02), (speed, 0.0), spin=-speed / 0.02, forces=[Gravity(0.3, G)])
+    run = fly(ball, 200.0, [floor], level)
+    assert run.ended == "rest"
+    assert run.state("ball", 200.0)[0] == pytest.approx(speed**2 / (2 * resistance * G), rel=1e-9)

@@ -8,7 +8,7 @@ import pytest
 from sandbox.engine import simulate
 from sandbox.engine.accuracy import resolve
 from sandbox.engine.ledger import ledger
-from sandbox.engine.setup import Ball, Segment, Setup, Surface
+from sandbox.engine.setup import Ball, Bounce, Segment, Setup, Surface
 from sandbox.physics.coefficients import constant
 from sandbox.physics.forces import Drag, Gravity, Magnus, SpinDecay
 from tests.engine import shots
@@ -126,3 +126,21 @@ def test_a_turn_is_two_pi():
     ball = Ball("ball", 0.2, 0.05, (0.0, 0.0), spin=2 * pi)
     run = simulate(Setup([ball], duration=3.0), resolve())
     assert run.angle("ball", 1.5) == pytest.approx(3 * pi, abs=1e-12)
+
+
+def test_plain_converges_to_exact_on_turf_that_gives_way_and_swallows_low_bounces():
+    """A tilted bounce turns forward speed upward; what counts as too low is the rebound, in both methods."""
+
+    def law(normal, tangential):
+        return Bounce(0.4, 0.4, 0.05 * tangential / (1.0 + tangential))
+
+    turf = Surface("turf", Segment((-9.0, 0.0), (99.0, 0.0)), 0.4, 0.4, 0.1, 0.005, law)
+    ball = Ball("ball", 0.05, 0.02, (0.0, 0.5), (6.0, 0.0), forces=[Gravity(0.05, G)])
+    setup = Setup([ball], [turf], duration=2.5)
+    exact = simulate(setup, resolve("precise"))
+    errors = [
+        abs(simulate(setup, resolve(method="plain", step=step)).state("ball", 2.5)[0] - exact.state("ball", 2.5)[0])
+        for step in (1 / 1000, 1 / 16000)
+    ]
+    assert errors[1] < 2e-3
+    assert errors[1] < 0.2 * errors[0]

@@ -1,0 +1,128 @@
+"""Balls on cloth in the engine: impacts in three dimensions of spin, pockets, pushes, and both methods."""
+
+from math import pi
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from sandbox.engine import simulate
+from sandbox.engine.accuracy import LEVELS, resolve
+from sandbox.engine.ledger import ledger
+from sandbox.engine.setup import Ball, Bounce, Catch, Segment, Setup, Surface
+from sandbox.physics.cloth import Cloth
+
+R, M = 0.028575, 0.170097
+CLOTH = Cloth()
+
+
+def ball(name, position, velocity=(0.0, 0.0), spin=0.0, rolling_spin=(0.0, 0.0)):
+    return Ball(name, M, R, position, velocity, spin, rolling_spin)
+
+
+def rolling(name, position, velocity):
+    return ball(name, position, velocity, 0.0, (-velocity[1] / R, velocity[0] / R))
+
+
+def of(restitution, friction):
+    return lambda normal, slip: Bounce(restitution, friction)
+
+
+def test_a_rolling_ball_keeps_its_roll_through_a_smooth_head_on_hit():
+    """e = 1, no friction: the cue ball stops, keeps its spin and follows at 2/7 v; the object ball ends at 5/7 v."""
+    balls = [rolling("cue", (-0.5, 0.0), (2.0, 0.0)), ball("1", (0.0, 0.0))]
+    run = simulate(Setup(balls, cloth=Cloth(rolling=0.0), duration=3.0, between_balls=of(1.0, 0.0)), resolve())
+    assert run.state("cue", 3.0)[2] == pytest.approx(2 / 7 * 2.0, rel=1e-9)
+    assert run.state("1", 3.0)[2] == pytest.approx(5 / 7 * 2.0, rel=1e-9)
+
+
+def test_friction_between_balls_acts_against_the_whole_slip():
+    """A rolling ball hits head-on with slip r w: friction mu J turns the object ball backward, and the cue ball too."""
+    mu, v = 0.05, 2.0
+    balls = [rolling("cue", (-2 * R - 1e-9, 0.0), (v, 0.0)), ball("1", (0.0, 0.0))]
+    run = simulate(Setup(balls, cloth=CLOTH, duration=1e-6, between_balls=of(1.0, mu)), resolve())
+    turn = 2.5 * mu * v / R  # r mu J / I with J = m v
+    assert run.rolling_spin("1", 1e-7)[1] == pytest.approx(-turn, rel=1e-4)
+    assert run.rolling_spin("cue", 1e-7)[1] == pytest.approx(v / R - turn, rel=1e-4)
+
+
+@settings(deadline=None, max_examples=60)
+@given(
+    st.floats(-0.9, 0.9),
+    st.floats(0.3, 9.0),
+    st.floats(-100.0, 100.0),
+    st.floats(-100.0, 100.0),
+    st.floats(0.0, 0.3),
+    st.floats(0.5, 1.0),
+)
+def test_an_impact_conserves_momentum_and_never_gains_energy(cut, speed, side, draw, friction, restitution):
+    y = cut * 2 * R
+    x = -((4 * R * R - y * y) ** 0.5) - 1e-4
+    balls = [ball("cue", (x, y), (speed, 0.0), side, (0.0, draw)), ball("1", (0.0, 0.0))]
+    run = simulate(Setup(balls, cloth=CLOTH, duration=1e-3, between_balls=of(restitution, friction)), resolve())
+    event = next(event for event in run.events if event.kind == "impact")
+    before = np.array([run.before(name, event.t)[2:4] for name in ("cue", "1")])
+    after = np.array([run.state(name, event.t)[2:4] for name in ("cue", "1")])
+    assert after.sum(axis=0) == pytest.approx(before.sum(axis=0), abs=1e-9)
+    assert sum(ledger(run).impacts.values()) <= 1e-9
+
+
+def test_a_steady_push_is_a_run_of_even_hops_and_ends():
+    """Topspin drives a ball into another that leans on a cushion: it slides until the spin is used up."""
+    wall = Surface("cushion", Segment((R, -1.0), (R, 1.0)), 0.85, 0.2)
+    balls = [ball("a", (-2 * R - 1e-6, 0.0), (0.0, 0.0), 0.0, (0.0, 40.0)), ball("b", (-1e-6, 0.0))]
+    for level in LEVELS:
+        run = simulate(Setup(balls, [wall], cloth=CLOTH, duration=30.0, between_balls=of(0.95, 0.05)), resolve(level))
+        assert run.ended == "rest"
+        deepest = 2 * max(1e-7, resolve(level).settle)
+        assert run.state("b", run.duration)[0] <= deepest
+        assert run.state("b", run.duration)[0] - run.state("a", run.duration)[0] >= 2 * R - deepest
+
+
+def test_two_touching_balls_that_barely_close_do_not_stall():
+    two = ball("2", (0.6893302035592077, 0.07289367542804442), (-0.0009600413070669939, 0.024262999307600855), 0.0,
+               (-0.8490988384112285, -0.03359724609158334))  # fmt: skip
+    ten = ball("10", (0.7464355178687772, 0.07515322744563493))
+    run = simulate(Setup([two, ten], cloth=CLOTH, between_balls=of(0.95, 0.05)), resolve())
+    assert run.ended == "rest"
+
+
+def test_a_pocket_takes_a_ball_and_the_run_ends_when_the_rest_are_still():
+    setup = Setup([rolling("cue", (0.0, 0.0), (1.0, 0.0))], cloth=CLOTH, catches=[Catch("pocket", (0.5, 0.0), 0.06)])
+    run = simulate(setup, resolve())
+    (event,) = [event for event in run.events if event.kind == "caught"]
+    assert (event.partner, event.x) == ("pocket", pytest.approx(0.44, abs=1e-9))
+    assert run.caught_at("cue") == event.t == run.duration
+    assert run.ended == "rest"
+
+
+def test_plain_slides_rolls_and_catches_too():
+    """First order: the same within a millimetre at 10,000 steps a second."""
+    balls = [ball("cue", (0.0, 0.0), (2.0, 0.0)), ball("1", (0.4, 0.01))]
+    setup = Setup(balls, cloth=CLOTH, catches=[Catch("pocket", (0.9, 0.09), 0.06)], between_balls=of(0.95, 0.0))
+    exact = simulate(setup, resolve())
+    plain = simulate(setup, resolve(method="plain", step=1e-4))
+    assert [event.ball for event in plain.events if event.kind == "caught"] == ["1"]
+    assert exact.caught_at("1") == pytest.approx(plain.caught_at("1"), abs=0.01)
+    assert plain.ended == "rest"
+    assert plain.state("cue", 99.0)[:2] == pytest.approx(exact.state("cue", 99.0)[:2], abs=5e-3)
+    assert len(plain.rolling_spin("cue", 0.1)) == 2
+
+
+def test_a_rack_with_even_gaps_breaks_in_mirror_image():
+    gap, rows = 2 * R + 1e-5, (1, 2, 3)
+    balls = [ball("cue", (-0.6, 0.0), (8.0, 0.0))]
+    balls += [
+        ball(f"{row}{k}", (row * gap * 3**0.5 / 2, (k - (many - 1) / 2) * gap))
+        for row, many in enumerate(rows)
+        for k in range(many)
+    ]
+    run = simulate(Setup(balls, cloth=CLOTH, duration=20.0, between_balls=of(0.95, 0.05)), resolve())
+    for row, many in enumerate(rows):
+        for k in range(many):
+            x, y = run.state(f"{row}{k}", 1.0)[:2]
+            u, v = run.state(f"{row}{many - 1 - k}", 1.0)[:2]
+            assert (x, y) == pytest.approx((u, -v), abs=1e-9)
+    assert run.state("cue", 20.0)[1] == pytest.approx(0.0, abs=1e-9)
+    assert run.angle("cue", 1.0) == pytest.approx(0.0, abs=2 * pi * 1e-6)
