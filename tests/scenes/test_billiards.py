@@ -449,9 +449,9 @@ def test_the_mirror_image_of_a_break_is_the_break_of_the_mirror_image(rack: str)
         runs.append(shot(*balls, cue__speed=8.0, cue__angle=side * -8.8, cue__english=side * 0.1))
     one, other = runs
     assert one.result["potted"] == other.result["potted"]
-    assert one.duration == pytest.approx(other.duration, abs=1e-6)
+    assert one.duration == pytest.approx(other.duration, abs=1e-9)
     for name, (x, y) in one.result["positions"].items():
-        assert other.result["positions"][name] == pytest.approx((x, -y), abs=1e-6)
+        assert other.result["positions"][name] == pytest.approx((x, -y), abs=1e-9)
 
 
 @pytest.mark.parametrize("gap", ["0.001 mm", "0.1 mm"])
