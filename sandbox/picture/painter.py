@@ -130,6 +130,16 @@ class Painter:
 
         self._shape(points, width, colour, opacity, draw)
 
+    def lines(self, lines: Sequence[Sequence[Point]], width: float, colour: Colour, opacity: float = 1.0) -> None:
+        """Many thin lines at once, such as the mesh of a net; where they cross they are no denser."""
+        ends = np.cumsum([len(line) for line in lines])
+
+        def draw(mask: pygame.Surface, drawn: np.ndarray, larger: int) -> None:
+            for line in np.split(drawn, ends[:-1]):
+                pygame.draw.lines(mask, colour, False, line, max(1, round(width * larger)))
+
+        self._shape([point for line in lines for point in line], width, colour, opacity, draw)
+
     def trace(self, points: Sequence[Point], width: float, colour: Colour, rim: Colour, rim_width: float) -> None:
         """A line with a thin edge of another colour, so that it stands out on any ground."""
         self.line(points, width + 2 * rim_width, rim, 0.55)

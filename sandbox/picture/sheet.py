@@ -18,6 +18,8 @@ CARD = palette("card")
 #: Nearest that anything important comes to an edge, as a share of the picture's width and height.
 MARGIN = 0.05
 YARD = 0.9144  # m
+#: What a ruler's second row may count, in m.
+UNITS = {"yd": YARD, "ft": YARD / 3}
 #: Under so many rows a ruler has no second row of figures.
 ROWS_FOR_YARDS = 480
 
@@ -102,14 +104,14 @@ class Sheet:
         figures = self.lettering.height("small") + round(8 * self.unit)
         return figures, figures if self.size[1] >= ROWS_FOR_YARDS else 0
 
-    def ruler(self, camera: Camera, row: float) -> None:
-        """A ruler along x over the frame's width, in metres and, where there is room, in yards below."""
+    def ruler(self, camera: Camera, row: float, below: str = "yd") -> None:
+        """A ruler along x over the frame's width, in metres and, where there is room, in another unit below."""
         thin = max(1, round(self.unit))
         y = round(row)
         self.surface.fill(CARD["rule"], (self.frame.left, y, self.frame.width, thin))
         self._scale(camera, y, thin, "m", 1.0, upward=True)
         if self.size[1] >= ROWS_FOR_YARDS:
-            self._scale(camera, y, thin, "yd", YARD, upward=False)
+            self._scale(camera, y, thin, below, UNITS[below], upward=False)
 
     def _scale(self, camera: Camera, row: int, thin: int, unit: str, metre: float, upward: bool) -> None:
         room = max(self.lettering.width("−000.0 ", "small"), 104 * self.unit)

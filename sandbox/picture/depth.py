@@ -1,0 +1,43 @@
+"""Depth for side views: what lies behind the plane of play is drawn smaller, towards the point that the eye looks at."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from sandbox.picture.camera import Camera
+
+
+@dataclass(frozen=True)
+class Eye:
+    """Sees the plane of play as the camera shows it, and what is ``z`` m behind it smaller, in central perspective.
+
+    It looks at the column ``centre`` (px) and stands as high as the row ``level`` (px), ``distance`` m before the plane.
+    """
+
+    camera: Camera
+    centre: float
+    level: float
+    distance: float
+
+    def share(self, z: float) -> float:
+        """How large things are z m behind the plane of play, against those in it."""
+        return self.distance / (self.distance + z)
+
+    def depth(self, share: float) -> float:
+        """How far behind the plane of play, in m, things look so much smaller."""
+        return self.distance * (1 / share - 1)
+
+    def point(self, x: float, y: float, z: float = 0.0) -> tuple[float, float]:
+        """World point in m to picture point in px."""
+        px, py = self.camera.pixel(x, y)
+        share = self.share(z)
+        return self.centre + (px - self.centre) * share, self.level + (py - self.level) * share
+
+    def points(self, points: np.ndarray) -> np.ndarray:
+        """World points in m, shape (n, 3), to picture points in px, shape (n, 2)."""
+        points = np.asarray(points, dtype=float)
+        share = self.distance / (self.distance + points[:, 2:])
+        middle = np.array([self.centre, self.level])
+        return middle + (self.camera.pixels(points) - middle) * share
