@@ -18,6 +18,7 @@ FLOORS = {
     "units": 3,
     "files": 3,
     "resources": 3,
+    "controls": 3,
     "parameters": 3,
     "aerodynamics": 3,
     "scene": 3,

@@ -26,6 +26,7 @@ from sandbox.aerodynamics import (
     SpinRatioLift,
     aerodynamic_forces,
 )
+from sandbox.controls import Controls, Spin
 from sandbox.engine.run import Event, Run
 from sandbox.engine.setup import HOLLOW_SPHERE, Ball, Circle, Segment, Setup, Surface, Vector
 from sandbox.errors import RequestError
@@ -112,6 +113,12 @@ class Parameters(Group):
     floor: Floor = group(Floor(), "the floor")
     accuracy: Accuracy = group(Accuracy(), "speed against accuracy")
 
+
+CONTROLS = Controls(
+    strongest=16.0,
+    spins=(Spin("launch.spin", 20.0),),
+    sliders=("launch.speed", "launch.angle", "launch.spin", "release.height", "hoop.distance", "air.wind", "gravity"),
+)
 
 # -------------------------------------------------------------------------------------------------------------- build
 

@@ -19,6 +19,7 @@ from typing import Any, Literal
 
 from pydantic import Field
 
+from sandbox.controls import Controls, Spin
 from sandbox.engine.run import Run
 from sandbox.engine.setup import Ball, Bounce, Setup, Vector
 from sandbox.engine.touch import Obstacle
@@ -95,6 +96,15 @@ class Parameters(Group):
     gravity: float = quantity(9.81, "m/s^2", 0, 30, "gravity")
     accuracy: Accuracy = group(Accuracy(), "speed against accuracy")
 
+
+CONTROLS = Controls(
+    speed="cue.speed",
+    angle="cue.angle",
+    strongest=12.0,
+    spins=(Spin("cue.follow", 0.05), Spin("cue.english", 0.05)),
+    ball="cue.ball",
+    sliders=("cue.speed", "cue.angle", "cue.follow", "cue.english", "rack", "cloth.rolling_friction", "ball.friction"),
+)
 
 # -------------------------------------------------------------------------------------------------------------- build
 

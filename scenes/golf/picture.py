@@ -12,6 +12,7 @@ import numpy as np
 import pygame
 
 from sandbox.picture.camera import Area, Box, Camera, Follow
+from sandbox.picture.painter import Painter
 from sandbox.picture.palette import Colour, palette
 from sandbox.picture.sheet import Sheet, metres, nice, signed, yards
 
@@ -104,12 +105,34 @@ class Picture:
             return Camera.fit(box, area, stretch=2.0)
         return camera
 
+    def stage(self) -> pygame.Surface:
+        """The place alone, as the poster's camera sees it."""
+        sheet = Sheet(self.size)
+        self._place(sheet)
+        return sheet.surface
+
+    def _place(self, sheet: Sheet) -> pygame.Rect | None:
+        """Draw the course; returns where its flag is."""
+        self.poster_course.draw(sheet.painter, self.camera, nice(70 * self.unit / self.camera.scale))
+        return self.poster_course.hole(sheet.painter, self.camera, 0.4, self.wind[0])
+
+    def draw_balls(self, painter: Painter, camera: Camera, t: float) -> None:
+        """The ball at time t in s, on the stage that the camera sees."""
+        true = self.radius * camera.scale
+        radius = max(true, self._smallest)
+        at = self._spot(self.poster_course, camera, *self.run.state(self.name, t)[:2], radius)
+        painter.shadow((at[0] + 2 * self.unit, at[1] + radius), 1.5 * radius, 0.4 * radius, CARD["shadow"], 0.4)
+        self.poster_course.ball(painter, at, radius, self.run.angle(self.name, t), ring=radius > true)
+
+    def view(self, t: float) -> Camera:
+        """The camera of ``frame(t)``."""
+        return self.follow.camera(t)
+
     def poster(self) -> pygame.Surface:
         """The whole run in one picture."""
         sheet = self.sheet = Sheet(self.size)
         camera, course = self.camera, self.poster_course
-        course.draw(sheet.painter, camera, nice(70 * self.unit / camera.scale))
-        flag = course.hole(sheet.painter, camera, 0.4, self.wind[0])
+        flag = self._place(sheet)
         if flag:
             sheet.labels.take(flag.inflate(0, 2 * sheet.gap))
         path = self._lifted(course, camera, self.path[:, 1:3])
@@ -133,7 +156,7 @@ class Picture:
         if (factor := self._enlarged(camera)) > 1:
             notes.append(f"ball drawn {factor:.{0 if factor >= 10 else 1}f} times its size")
         sheet.headline(self.verdict(), notes, right - sheet.frame.left - 2 * sheet.gap)
-        sheet.columns(self.card_row, self._numbers())
+        sheet.columns(self.card_row, self.numbers())
         return sheet.surface
 
     @property
@@ -203,7 +226,8 @@ class Picture:
                 text = f"{name} {metres(value)}   {yards(value)}"
                 sheet.dimension(text, row, start, camera.pixel(value, 0)[0], colour)
 
-    def _numbers(self) -> list[tuple[str, str]]:
+    def numbers(self) -> list[tuple[str, str]]:
+        """What the poster's card says."""
         result = self.run.result
         ball = self.run.setup.balls[0]  # before it touches anything, which it may do at once
         vx, vy = ball.velocity

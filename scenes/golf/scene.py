@@ -19,6 +19,7 @@ from typing import Any, Literal
 
 from sandbox.aerodynamics import Air as EvenAir
 from sandbox.aerodynamics import ConstantLift, NoDrag, NoLift, SpinRatioLift
+from sandbox.controls import Controls, Spin
 from sandbox.engine.run import Event, Run
 from sandbox.engine.setup import SOLID_SPHERE, Ball, Bounce, Bounds, Force, Segment, Setup, Surface, Torque
 from sandbox.errors import RequestError
@@ -160,6 +161,13 @@ class Parameters(Group):
     pin: Pin = group(Pin(), "the flag and its cup")
     accuracy: Accuracy = group(Accuracy(), "speed against accuracy")
 
+
+CONTROLS = Controls(
+    strongest=100.0,
+    spins=(Spin("launch.spin", 100.0),),
+    also={"start": "launch"},
+    sliders=("launch.speed", "launch.angle", "launch.spin", "air.wind", "gravity", "pin.distance"),
+)
 
 # ---------------------------------------------------------------------------------------------------------------- build
 

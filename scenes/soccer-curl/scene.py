@@ -25,6 +25,7 @@ from sandbox.aerodynamics import (
     SpinRatioLift,
     aerodynamic_forces,
 )
+from sandbox.controls import Controls, Spin
 from sandbox.engine.run import Event, Run
 from sandbox.engine.setup import HOLLOW_SPHERE, Ball, Bounce, Circle, Segment, Setup, Surface, Vector
 from sandbox.errors import RequestError
@@ -119,6 +120,12 @@ class Parameters(Group):
     goal: Goal = group(Goal(), "the goal")
     accuracy: Accuracy = group(Accuracy(), "speed against accuracy")
 
+
+CONTROLS = Controls(
+    strongest=45.0,
+    spins=(Spin("launch.spin", 50.0),),
+    sliders=("launch.speed", "launch.angle", "launch.spin", "launch.tilt", "goal.distance", "air.wind"),
+)
 
 # -------------------------------------------------------------------------------------------------------------- build
 

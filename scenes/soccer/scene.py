@@ -24,6 +24,7 @@ from sandbox.aerodynamics import (
     SpinRatioLift,
     aerodynamic_forces,
 )
+from sandbox.controls import Controls, Spin
 from sandbox.engine.run import Event, Run
 from sandbox.engine.setup import HOLLOW_SPHERE, Ball, Circle, Segment, Setup, Surface
 from sandbox.errors import RequestError
@@ -111,6 +112,12 @@ class Parameters(Group):
     ground: Ground = group(Ground(), "the grass")
     accuracy: Accuracy = group(Accuracy(), "speed against accuracy")
 
+
+CONTROLS = Controls(
+    strongest=45.0,
+    spins=(Spin("launch.spin", 50.0),),
+    sliders=("launch.speed", "launch.angle", "launch.spin", "goal.distance", "wall.present", "wall.height", "air.wind"),
+)
 
 # -------------------------------------------------------------------------------------------------------------- build
 

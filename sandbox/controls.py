@@ -1,0 +1,39 @@
+"""Controls: which parameters a pull of the mouse sets, and which are worth a slider.
+
+A scene offers them beside its parameters::
+
+    CONTROLS = Controls(strongest=90.0, spins=(Spin("launch.spin", 100.0),), sliders=("launch.speed", "air.wind"))
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+
+@dataclass(frozen=True)
+class Spin:
+    """A parameter that the wheel turns, by ``step`` a notch, in its unit."""
+
+    key: str
+    step: float
+
+
+@dataclass(frozen=True)
+class Controls:
+    """How a player plays: every name is the key of a parameter."""
+
+    speed: str = "launch.speed"
+    angle: str = "launch.angle"  # deg, counter-clockwise from +x
+    strongest: float = 30.0  # speed of a full pull, in the speed's unit
+    spins: tuple[Spin, ...] = ()  # the wheel's, and the wheel's with Shift
+    ball: str = "ball"  # the ball that is pulled: its name, or the key that holds its name
+    also: Mapping[str, Any] = field(default_factory=dict)  # what else a pull sets, such as how the shot begins
+    sliders: tuple[str, ...] = ()  # shown first
+
+
+def controls_of(module: Any) -> Controls:
+    """The controls of a scene's module; those of a plain launch where it has none."""
+    found = getattr(module, "CONTROLS", None)
+    return found if isinstance(found, Controls) else Controls()
