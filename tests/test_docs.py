@@ -1,0 +1,107 @@
+"""The pages for people keep step with the code: every model has its section, and what a page says is computed again."""
+
+from __future__ import annotations
+
+import importlib
+import inspect
+import math
+import pkgutil
+import re
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import sandbox.physics
+from sandbox.physics.coefficients import GOLF_DRAG, GOLF_LIFT, SOCCER_DRAG, SOCCER_LIFT
+from sandbox.physics.integrators import INTEGRATORS
+
+ROOT = Path(__file__).resolve().parent.parent
+PHYSICS = (ROOT / "docs" / "physics.md").read_text("utf-8")
+
+#: Arithmetic for floats and arrays alike: nothing physical.
+NOT_MODELS = {"elementwise"}
+
+
+# Physics ------------------------------------------------------------------------------------------------------------
+
+
+def modules() -> Iterator[Any]:
+    for info in pkgutil.iter_modules(sandbox.physics.__path__):
+        if info.name not in NOT_MODELS:
+            yield importlib.import_module(f"sandbox.physics.{info.name}")
+
+
+def models(module: Any) -> list[str]:
+    """Public functions and classes of a module that compute something; a NamedTuple only holds it."""
+    found = [
+        name
+        for name, thing in vars(module).items()
+        if (inspect.isfunction(thing) or inspect.isclass(thing))
+        and not name.startswith("_")
+        and thing.__module__ == module.__name__
+        and not (inspect.isclass(thing) and issubclass(thing, tuple))
+    ]
+    return found or ["INTEGRATORS"]
+
+
+MODELS = [(module.__name__, name) for module in modules() for name in models(module)]
+HEADINGS = re.findall(r"^### .*$", PHYSICS, re.MULTILINE)
+
+
+def test_models_are_found():
+    assert len(MODELS) > 25
+    assert ("sandbox.physics.forces", "Drag") in MODELS
+    assert ("sandbox.physics.integrators", "INTEGRATORS") in MODELS
+
+
+@pytest.mark.parametrize("name", [name for _, name in MODELS])
+def test_every_model_has_a_section(name: str):
+    assert [heading for heading in HEADINGS if f"`{name}`" in heading], f"docs/physics.md has no section for {name}"
+
+
+@pytest.mark.parametrize("name", {**GOLF_DRAG, **GOLF_LIFT, **SOCCER_DRAG, **SOCCER_LIFT})
+def test_every_coefficient_of_a_scene_file_is_named(name: str):
+    assert f"`{name}`" in PHYSICS
+
+
+@pytest.mark.parametrize("name", INTEGRATORS)
+def test_the_integrators_are_listed_as_they_are(name: str):
+    integrator = INTEGRATORS[name]
+    assert f"| `{name}` | {integrator.order} | {integrator.evaluations} |" in PHYSICS
+
+
+CHECKS = re.findall(r"^\*\*Check\*\* `(.+)` is (\S+)$", PHYSICS, re.MULTILINE)
+
+
+def test_checks_are_found():
+    assert len(CHECKS) == PHYSICS.count("\n**Check**") > 20
+
+
+@pytest.mark.parametrize(("expression", "stated"), CHECKS)
+def test_what_the_page_states_is_computed_again(expression: str, stated: str):
+    names = {name: thing for module in modules() for name, thing in vars(module).items()}
+    value = eval(expression, {**names, "degrees": math.degrees, "radians": math.radians})
+    digits = len(stated.partition("e")[0].replace(".", "").lstrip("0"))
+    assert f"{value:.{digits}g}" == f"{float(stated):.{digits}g}"
+
+
+def test_every_section_says_what_it_stands_on():
+    """A source, or whose choice it is, in every section of a model that stands for something measured."""
+    for section in re.split(r"^### ", PHYSICS.partition("# The engine")[0], flags=re.MULTILINE)[1:]:
+        title = section.partition("\n")[0]
+        if not re.search(r"`(Gravity|UniformWind|constant)`", title):
+            assert re.search(r"Source|\*[Oo]urs\*|\(\d{4}|\b(19|20)\d\d\b", section), title
+
+
+# Links --------------------------------------------------------------------------------------------------------------
+
+PAGES = sorted([*ROOT.glob("*.md"), *(ROOT / "docs").glob("*.md"), ROOT / "assets" / "README.md"])
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_links_lead_somewhere(page: Path):
+    links = re.findall(r"\]\(([^)#]+)(?:#[^)]*)?\)", page.read_text("utf-8"))
+    missing = [link for link in links if "://" not in link and not (page.parent / link).exists()]
+    assert missing == []
