@@ -12,21 +12,38 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from sandbox.errors import RequestError, RunError, SandboxError
+    from sandbox.lab.sweep import Sweep, sweep
     from sandbox.scene import Check, Scene, check, load, simulate
 
 __version__ = "0.1.0"
 
-__all__ = ["Check", "RequestError", "RunError", "SandboxError", "Scene", "check", "load", "simulate"]
+#: Where each name is; imported on first use, as ``sandbox --help`` needs none of it.
+_HOMES = {
+    **dict.fromkeys(("RequestError", "RunError", "SandboxError"), "sandbox.errors"),
+    **dict.fromkeys(("Check", "Scene", "check", "load", "simulate"), "sandbox.scene"),
+    **dict.fromkeys(("Sweep", "sweep"), "sandbox.lab.sweep"),
+}
+
+__all__ = [
+    "Check",
+    "RequestError",
+    "RunError",
+    "SandboxError",
+    "Scene",
+    "Sweep",
+    "check",
+    "load",
+    "simulate",
+    "sweep",
+]
 
 
 def __getattr__(name: str) -> Any:
-    """Import on first use: ``sandbox --help`` needs none of it."""
-    if name not in __all__:
+    if name not in _HOMES:
         raise AttributeError(f"module 'sandbox' has no attribute {name!r}")
     from importlib import import_module
 
-    home = "sandbox.errors" if name.endswith("Error") else "sandbox.scene"
-    return getattr(import_module(home), name)
+    return getattr(import_module(_HOMES[name]), name)
 
 
 def __dir__() -> list[str]:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-import sandbox
+from sandbox import resources
 from sandbox.errors import RequestError, SandboxError
 from sandbox.lab.axes import MOST_POINTS, Axis, Span, Values
 from sandbox.lab.runs import runs
@@ -100,10 +100,10 @@ class Plan:
 
     @cached_property
     def fingerprint(self) -> str:
-        """Two sweeps with one fingerprint have the same rows: the same scene, code and all, at the same points."""
-        sources = sorted(self.scene.folder.glob("*.py"))
+        """Two sweeps with one fingerprint have the same rows: the same scene at the same points, by the same code."""
+        folders = (self.scene.folder, resources.PACKAGE / "physics", resources.PACKAGE / "engine")
+        sources = [path for folder in folders for path in sorted(folder.glob("*.py"))]
         told = {
-            "version": sandbox.__version__,
             "scene": self.scene.name,
             "sources": [hashlib.sha256(path.read_bytes()).hexdigest() for path in sources],
             "parameters": self.scene.parameters.model_dump(),

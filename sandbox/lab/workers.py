@@ -5,6 +5,7 @@ from __future__ import annotations
 import multiprocessing
 import os
 import signal
+import socket
 from collections.abc import Callable, Iterator
 from concurrent.futures import Future, ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
@@ -128,6 +129,9 @@ class Cluster:
                 "--scheduler needs Dask, which is not installed: pip install 'sports-sandbox[cluster]'"
             ) from None
         try:
+            # first by hand: a Client that finds nobody takes half a minute to give up
+            host, port = distributed.comm.parse_host_port(distributed.comm.parse_address(address)[1])
+            socket.create_connection((host, port), timeout=_ANSWER).close()
             self._client = distributed.Client(address, timeout=_ANSWER, set_as_default=False)
         except (OSError, ValueError) as error:
             why = " ".join(str(error).split()) or "no answer"

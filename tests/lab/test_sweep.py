@@ -1,0 +1,474 @@
+"""Sweeps: every point once, in order, whatever happens to the process, the disk or a worker on the way."""
+
+from __future__ import annotations
+
+import csv
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from PIL import Image
+
+import sandbox
+from sandbox.cli import main
+from sandbox.errors import RequestError, RunError
+from sandbox.lab.axes import Span, Values, as_axis, parse_axis
+from sandbox.lab.plan import HANGS, Plan, records
+from sandbox.lab.row_file import RowFile, cell
+from sandbox.lab.sweep import sweep_to_file, swept, workers
+from sandbox.scene import Scene, load, simulate
+
+DROP = Path(__file__).parents[1] / "scenes" / "drop"
+COMMAND = [sys.executable, "-c", "import sys; from sandbox.cli import main; sys.exit(main())"]
+
+#: In scene.py of drop, where a test puts code of its own.
+BUILD = "def build(parameters: Parameters) -> Setup:\n"
+
+
+@pytest.fixture
+def drop() -> Scene:
+    return load(DROP)
+
+
+def own_scene(folder: Path, in_build: str) -> Path:
+    """A copy of drop that does something more in ``build``."""
+    scene = Path(shutil.copytree(DROP, folder / "drop", ignore=shutil.ignore_patterns("__pycache__")))
+    source = (scene / "scene.py").read_text("utf-8")
+    assert BUILD in source
+    (scene / "scene.py").write_text(source.replace(BUILD, BUILD + in_build), "utf-8")
+    return scene
+
+
+def grid(scene: Scene, *texts: str, **more: Any) -> Plan:
+    return Plan(scene, tuple(parse_axis(scene, "--over", text) for text in texts), **more)
+
+
+def table(path: Path) -> list[dict[str, str]]:
+    with path.open(encoding="utf-8", newline="") as file:
+        return list(csv.DictReader(file))
+
+
+# What is swept over --------------------------------------------------------------------------------------------------
+
+
+def test_axes_are_read(drop):
+    assert parse_axis(drop, "--over", "launch.height=1:2:3") == Values("launch.height", (1.0, 1.5, 2.0))
+    assert parse_axis(drop, "--over", "launch.height = 10 cm:2 ft:2") == Values("launch.height", (0.1, 0.6096))
+    assert parse_axis(drop, "--over", "launch.height=1:2") == Span("launch.height", 1.0, 2.0)
+    assert parse_axis(drop, "--over", "launch.height=3,1,2 m") == Values("launch.height", (3.0, 1.0, 2.0))
+    assert parse_axis(drop, "--over", "floor.present=true,false") == Values("floor.present", (True, False))
+    assert parse_axis(drop, "--over", "ball.drag.model=none,constant") == Values(
+        "ball.drag.model", ("none", "constant")
+    )
+    assert parse_axis(drop, "--over", "air.wind[0]=-1:1:2") == Values("air.wind[0]", (-1.0, 1.0))
+    assert parse_axis(drop, "--over", "air.wind=[1,2],[3,4]") == Values("air.wind", ((1.0, 2.0), (3.0, 4.0)))
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        ("launch.height", "write it as KEY=LO:HI:N"),
+        ("launch.hight=1:2:3", "did you mean launch.height?"),
+        ("launch.height=1:200:3", "must be from"),
+        ("launch.height=1 kg:2:3", "kg is a unit of mass"),
+        ("launch.height=2:1:3:4", "a range has two or three"),
+        ("launch.height=1:2:none", "not a number of points"),
+        ("launch.height=1:2:0", "not a number of points"),
+        ("launch.height=2:1", "write the lower end first"),
+        ("floor.present=false:true:2", "only numbers have a range"),
+        ("launch=1:2:3", "group of keys"),
+        ("air.wind[7]=1:2:3", "there is no [7]; the list has 2"),
+        ("launch.height[0]=1:2:3", "is not a list"),
+        ("air..wind=1:2:3", "a key is written like"),
+    ],
+)
+def test_what_cannot_be_swept_over_is_told(drop, text, told):
+    with pytest.raises(RequestError) as refused:
+        parse_axis(drop, "--over", text)
+    assert told in str(refused.value)
+    assert str(refused.value).startswith("--over ")
+
+
+def test_axes_from_python(drop):
+    assert as_axis(drop, "launch.height", np.array([1.0, 2.0, 3.0])) == Values("launch.height", (1.0, 2.0, 3.0))
+    assert as_axis(drop, "launch.height", (1.0, "2 m")) == Span("launch.height", 1.0, 2.0)
+    assert as_axis(drop, "floor.present", (True, False)) == Values("floor.present", (True, False))
+    with pytest.raises(RequestError, match="must be from"):
+        as_axis(drop, "launch.height", [1.0, 2.0, -3.0])
+
+
+def test_a_grid_runs_through_its_last_axis_first(drop):
+    plan = grid(drop, "launch.height=1:2:2", "launch.speed=3,4,5")
+    assert list(plan.points(0, 6)) == [(1.0, 3.0), (1.0, 4.0), (1.0, 5.0), (2.0, 3.0), (2.0, 4.0), (2.0, 5.0)]
+    assert list(plan.points(2, 4)) == [(1.0, 5.0), (2.0, 3.0)]
+
+
+def test_random_points_are_the_same_however_they_are_taken(drop):
+    axes = (Span("launch.height", 1.0, 2.0), Values("floor.present", (True, False)))
+    plan = Plan(drop, axes, samples=3000, seed=7)
+    points = list(plan.points(0, 3000))
+    assert [*plan.points(0, 1000), *plan.points(1000, 1025), *plan.points(1025, 3000)] == points
+    assert list(Plan(drop, axes, samples=3000, seed=8).points(0, 9)) != points[:9]
+    heights = np.array([height for height, _ in points])
+    assert heights.min() >= 1.0
+    assert heights.max() <= 2.0
+    assert np.histogram(heights, 4, (1.0, 2.0))[0] == pytest.approx(750, abs=100)
+    assert sum(present for _, present in points) == pytest.approx(1500, abs=150)
+
+
+@pytest.mark.parametrize(
+    ("texts", "more", "told"),
+    [
+        ((), {}, "nothing to sweep over"),
+        (("launch.height=1:2",), {}, "a grid needs a number of points"),
+        (("launch.height=1:2:2", "launch.height=3,4"), {}, "swept over twice"),
+        (("launch.height=1:2:1000000", "launch.speed=1:2:1000000"), {}, "too many"),
+    ],
+)
+def test_plans_that_make_no_sense_are_told(drop, texts, more, told):
+    with pytest.raises(RequestError) as refused:
+        grid(drop, *texts, **more)
+    assert told in str(refused.value)
+
+
+# Rows ----------------------------------------------------------------------------------------------------------------
+
+
+def test_rows_are_those_of_single_runs(drop):
+    plan = grid(drop, "launch.height=0.5:2:4", "floor.restitution=0.5,0.9", "ball.drag.model=none,constant")
+    for row in records(plan, 0, plan.size):
+        overrides = {key: row[key] for key in plan.keys}
+        run = simulate(load(DROP, overrides))
+        assert row == {
+            **overrides,
+            **run.result,
+            "ended": run.ended,
+            "impacts": run.numerics.impacts,
+            "steps": run.numerics.steps,
+            "refined_steps": run.numerics.refined_steps,
+            "error": "",
+        }
+
+
+def test_elements_of_lists_can_be_swept_over():
+    scene = load(DROP, {"marks": [{"x": 1.0}, {"x": 2.0}]})
+    plan = grid(scene, "marks[1].x=3,4", "air.wind[1]=5,6")
+    from sandbox.lab.axes import Varied
+
+    parameters = Varied(scene, plan.keys).parameters((4.0, 6.0))
+    assert [mark.x for mark in parameters.marks] == [1.0, 4.0]
+    assert parameters.air.wind == (0.0, 6.0)
+
+
+def test_a_point_that_fails_is_a_row_with_its_error(tmp_path):
+    failing = "    if parameters.launch.height == 1.0:\n        raise ZeroDivisionError('no\\nway')\n"
+    plan = grid(load(own_scene(tmp_path, failing)), "launch.height=0.5,1,1.5")
+    rows = records(plan, 0, 3)
+    assert [row["error"] for row in rows] == ["", "ZeroDivisionError: no way", ""]
+    assert "final_height" not in rows[1]
+
+
+def test_python_gets_arrays_and_records():
+    found = sandbox.sweep(DROP, {"launch.height": [0.5, 1.0, 50.0], "launch.speed": np.linspace(0.0, 2.0, 4)})
+    assert found["final_height"].shape == (3, 4)
+    assert found["bounced"].dtype == bool
+    assert np.isnan(found["first_touch"][2]).all()  # it never came down
+    assert found["first_touch"][1, 0] == pytest.approx((2 * (1.0 - 0.05) / 9.81) ** 0.5, abs=1e-9)
+    assert found.records[4]["launch.height"] == 1.0
+    assert set(found.columns) == set(found.records[0])
+    assert {len(column) for column in found.columns.values()} == {12}
+    assert found.axes["launch.speed"] == pytest.approx([0.0, 2 / 3, 4 / 3, 2.0])
+    with pytest.raises(KeyError):
+        found["carry"]
+
+
+def test_a_checked_sweep_tells_errors_and_what_hangs_on_the_accuracy():
+    # at the edge of the ring: in or out is decided by less than the error
+    found = sandbox.sweep("basketball", {"launch.speed": [7.0, 7.465]}, check=True)
+    for row in found.records:
+        run = simulate(load("basketball", {"launch.speed": row["launch.speed"]}))
+        check = sandbox.check(load("basketball", {"launch.speed": row["launch.speed"]}), run)
+        assert row["apex_error"] == pytest.approx(check.errors["apex"], rel=1e-3, abs=1e-12)
+        assert row[HANGS] == " ".join(check.changed)
+
+
+def test_cells():
+    values = [
+        None,
+        float("nan"),
+        True,
+        1.0,
+        0.1 + 0.2,
+        3,
+        "a\nb",
+        ["x", 1.5],
+        {"a": [1]},
+        np.float64(2.5),
+        np.bool_(False),
+    ]
+    assert [cell(value) for value in values] == [
+        "", "", "true", "1.0", "0.30000000000000004", "3", "a b", '["x", 1.5]', '{"a": [1]}', "2.5", "false",
+    ]  # fmt: skip
+
+
+# The file ------------------------------------------------------------------------------------------------------------
+
+
+def whole(plan: Plan, path: Path) -> bytes:
+    with workers(1) as staff:
+        sweep_to_file(plan, path, staff)
+    assert not path.with_name(path.name + ".resume").exists()
+    return path.read_bytes()
+
+
+def test_two_processes_write_the_same_file_as_one(drop, tmp_path):
+    plan = grid(drop, "launch.height=0.5:2:31", "launch.speed=0:2:7")
+    expected = whole(plan, tmp_path / "one.csv")
+    with workers(2) as staff:
+        done = sweep_to_file(plan, tmp_path / "two.csv", staff)
+    assert (tmp_path / "two.csv").read_bytes() == expected
+    assert len(table(tmp_path / "two.csv")) == done.points == plan.size
+
+
+@pytest.mark.parametrize("kept", [0.05, 0.3, 0.61, 0.98])
+def test_a_file_cut_off_anywhere_is_gone_on_with(drop, tmp_path, kept):
+    plan, path = grid(drop, "launch.height=0.5:2:40"), tmp_path / "rows.csv"
+    expected = whole(plan, path)
+    path.write_bytes(expected[: int(kept * len(expected))])
+    path.with_name("rows.csv.resume").write_text(plan.fingerprint + "\n")
+    with workers(1) as staff:
+        done = sweep_to_file(plan, path, staff)
+    assert path.read_bytes() == expected
+    assert done.resumed == max(0, expected[: int(kept * len(expected))].count(b"\n") - 1)
+
+
+def test_another_sweep_begins_anew(drop, tmp_path):
+    path = tmp_path / "rows.csv"
+    with RowFile(path, grid(drop, "launch.height=0.5:2:40").fingerprint) as file:
+        file.append([{"launch.height": 9.0, "error": ""}])
+    other = grid(drop, "launch.height=0.5:2:3")
+    assert whole(other, path) == whole(other, tmp_path / "fresh.csv")
+    changed = Plan(load(DROP, {"gravity": 1.0}), other.axes)
+    assert changed.fingerprint != other.fingerprint
+
+
+def test_a_changed_scene_begins_anew(tmp_path):
+    folder = own_scene(tmp_path, "")
+    before = grid(load(folder), "launch.height=0.5:2:3").fingerprint
+    (folder / "scene.py").write_text((folder / "scene.py").read_text("utf-8") + "\n# another scene\n", "utf-8")
+    assert grid(load(folder), "launch.height=0.5:2:3").fingerprint != before
+
+
+def test_columns_that_come_later_are_blank_before(tmp_path):
+    path = tmp_path / "rows.csv"
+    with RowFile(path, "1") as file:
+        file.append([{"x": 1.0, "error": "no way"}])
+        file.append([{"x": 2.0, "carry": 3.0, "error": ""}])
+    with RowFile(path, "1") as file:
+        assert file.done == 2
+        file.append([{"x": 3.0, "made": True, "error": ""}])
+    assert path.read_text() == "x,carry,made,error\n1.0,,,no way\n2.0,3.0,,\n3.0,,true,\n"
+
+
+def test_a_full_disk_is_told(drop):
+    if not Path("/dev/full").is_char_device():
+        pytest.skip("needs /dev/full")
+    with workers(1) as staff, pytest.raises(RunError, match="--out /dev/full: cannot be written: no space left"):
+        sweep_to_file(grid(drop, "launch.height=0.5:2:3"), Path("/dev/full"), staff)
+
+
+def started(*args: object) -> subprocess.Popen[str]:
+    """The program in a session of its own, as a terminal has it."""
+    return subprocess.Popen(
+        [*COMMAND, *map(str, args)], text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE, start_new_session=True
+    )
+
+
+def everybody_gone(group: int) -> bool:
+    for _ in range(100):
+        try:
+            os.killpg(group, 0)
+        except ProcessLookupError:
+            return True
+        time.sleep(0.05)
+    return False
+
+
+@pytest.mark.parametrize("jobs", [1, 2])
+def test_ctrl_c_keeps_what_is_done_and_the_same_command_resumes(tmp_path, jobs):
+    scene = own_scene(tmp_path, "    import time\n    time.sleep(0.02)\n")
+    path = tmp_path / "rows.csv"
+    command = ["sweep", scene, "--over", "launch.height=0.5:2:100", "--jobs", jobs, "--out", path]
+    process = started(*command)
+    deadline = time.monotonic() + 60
+    while not (path.exists() and path.read_bytes().count(b"\n") > 10):
+        assert time.monotonic() < deadline, process.poll()
+        time.sleep(0.02)
+    os.killpg(process.pid, signal.SIGINT)  # a terminal tells all processes
+    out, err = process.communicate(timeout=30)
+    assert (process.returncode, out) == (130, "")
+    kept = len(table(path))
+    assert 10 <= kept < 100
+    assert err == f"error: stopped: {kept} of 100 points are kept in {path}; the same command goes on from there\n"
+    assert everybody_gone(process.pid)
+
+    finished = subprocess.run([*COMMAND, *map(str, command)], capture_output=True, text=True, check=True)
+    assert f"100 points, {kept} of them before" in finished.stdout
+    assert path.read_bytes() == whole(grid(load(scene), "launch.height=0.5:2:100"), tmp_path / "again.csv")
+
+
+# Workers that go away -------------------------------------------------------------------------------------------------
+
+
+def test_a_killed_process_loses_nothing(tmp_path):
+    once = (
+        "    import os, pathlib, signal\n"
+        f"    mark = pathlib.Path({str(tmp_path / 'mark')!r})\n"
+        "    if parameters.launch.height > 1.0 and not mark.exists():\n"
+        "        mark.touch()\n"
+        "        os.kill(os.getpid(), signal.SIGKILL)\n"
+    )
+    plan = grid(load(own_scene(tmp_path, once)), "launch.height=0.5:2:60")
+    with workers(2) as staff:
+        rows = [row for some in swept(plan, staff) for row in some]
+    assert (tmp_path / "mark").exists()
+    assert [row["launch.height"] for row in rows] == [height for (height,) in plan.points(0, 60)]
+    assert not any(row["error"] for row in rows)
+
+
+def test_a_point_that_kills_its_process_is_a_row(tmp_path):
+    deadly = (
+        "    import os, signal\n    if parameters.launch.height == 1.0:\n        os.kill(os.getpid(), signal.SIGKILL)\n"
+    )
+    plan = grid(load(own_scene(tmp_path, deadly)), "launch.height=0.5,0.75,1.0,1.25,1.5")
+    with workers(2) as staff:
+        rows = [row for some in swept(plan, staff) for row in some]
+    assert ["killed" in row["error"] for row in rows] == [False, False, True, False, False]
+    assert all("final_height" in row for row in rows if not row["error"])
+
+
+def test_a_cluster_that_loses_a_worker_loses_nothing():
+    distributed = pytest.importorskip("distributed")
+    plan = grid(load("basketball"), "launch.speed=6:9:13", "launch.angle=40:60:5")
+    with workers(1) as staff:
+        expected = [row for some in swept(plan, staff) for row in some]
+    killed: list[int] = []
+    # everything on loopback: nothing here may be reached from outside
+    with distributed.LocalCluster(
+        n_workers=2, threads_per_worker=1, host="127.0.0.1", dashboard_address=None, silence_logs=50
+    ) as cluster:
+
+        def kill_one(done: int, total: int) -> None:
+            if done > 5 and not killed:
+                killed.append(next(iter(cluster.workers.values())).pid)
+                os.kill(killed[0], signal.SIGKILL)
+
+        with workers(1, cluster.scheduler_address) as staff:
+            rows = [row for some in swept(plan, staff, progress=kill_one) for row in some]
+    assert killed
+    assert rows == expected
+
+
+def test_a_scheduler_that_is_not_there_is_told():
+    pytest.importorskip("distributed")
+    for address in ("tcp://127.0.0.1:1", "no address"):
+        with pytest.raises(RequestError, match=f"--scheduler {address}: no Dask scheduler there"), workers(1, address):
+            pass
+
+
+# The command ---------------------------------------------------------------------------------------------------------
+
+
+def test_the_command(tmp_path, capsys):
+    out, plot = tmp_path / "rows.csv", tmp_path / "map.png"
+    over = ["--over", "launch.speed=7:8:4", "--over", "launch.angle=45:60:3"]
+    assert main(["sweep", "basketball", *over, "--jobs", "1", "--out", str(out), "--plot", str(plot)]) == 0
+    told = capsys.readouterr()
+    assert told.out.startswith("12 points; 12 in ")
+    assert told.out.endswith(f"wrote {out}\nwrote {plot}\n")
+    assert told.err == ""
+    rows = table(out)
+    assert list(rows[0])[:4] == ["launch.speed", "launch.angle", "made", "verdict"]
+    assert list(rows[0])[-1] == "error"
+    assert [(row["launch.speed"], row["launch.angle"]) for row in rows][:4] == [
+        ("7.0", "45.0"), ("7.0", "52.5"), ("7.0", "60.0"), ("7.333333333333333", "45.0"),
+    ]  # fmt: skip
+    assert {row["made"] for row in rows} <= {"true", "false"}
+    with Image.open(plot) as picture:
+        assert picture.size[0] > 900
+
+
+def test_rows_on_stdout(tmp_path):
+    command = [*COMMAND, "sweep", str(DROP), "--over", "launch.height=1:2:3", "--jobs", "1", "--out", "/dev/stdout"]
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    assert len(done.stdout.splitlines()) == 4
+    assert done.stdout.startswith("launch.height,bounces,")
+
+
+@pytest.mark.parametrize(
+    ("args", "told"),
+    [
+        (["--over", "launch.speed=1:2:3", "--out", "x.txt"], "must end in .csv"),
+        (["--over", "launch.speed=1:2:3", "--out", "no/x.csv"], "there is no folder"),
+        (["--over", "launch.speed=1:2:3", "--out", "x.csv", "--of", "carry"], "goes with --plot"),
+        (["--over", "launch.speed=1:2:3", "--out", "x.csv", "--plot", "x.jpg"], "must end in .png"),
+        (["--over", "launch.speed=1:2:3", "--out", "x.csv", "--plot", "x.png", "--of", "aped"], "did you mean apex?"),
+        (["--over", "launch.speed=1:2:1", "--out", "x.csv", "--plot", "x.png"], "two values or more"),
+        (["--over", "launch.speed=1:2:3", "--out", "x.csv", "--samples", "0"], "--samples"),
+        (["--out", "x.csv"], "--over"),
+        (["--over", "launch.speed=1:2:3"], "--out"),
+    ],
+)
+def test_wrong_requests_are_told_before_any_work(tmp_path, monkeypatch, capsys, args, told):
+    monkeypatch.chdir(tmp_path)
+    assert main(["sweep", "basketball", *args]) == 2
+    assert told in capsys.readouterr().err
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_sweep_in_which_all_points_fail_says_so(tmp_path, capsys):
+    scene = own_scene(tmp_path, "    raise ValueError('never')\n")
+    out = tmp_path / "x.csv"
+    assert main(["sweep", str(scene), "--over", "launch.height=1:2:3", "--jobs", "1", "--out", str(out)]) == 1
+    assert capsys.readouterr().err == "error: every point failed, first with: ValueError: never\n"
+    assert [row["error"] for row in table(out)] == ["ValueError: never"] * 3
+
+
+@pytest.mark.parametrize(
+    ("over", "more"),
+    [
+        (["launch.height=0.5:2:9"], []),
+        (["launch.height=0.5:2:9"], ["--of", "bounced"]),
+        (["launch.height=0.5:2:9", "launch.speed=0:2:8"], ["--of", "final_height"]),
+        (["launch.height=2,1,0.5", "floor.present=true,false"], ["--of", "bounced"]),
+        (["launch.height=0.5:2", "launch.speed=0:2"], ["--samples", "30", "--of", "bounced"]),
+        (["launch.height=0.5:2", "launch.speed=0:2"], ["--samples", "30"]),
+    ],
+)
+def test_pictures(tmp_path, over, more):
+    plot = tmp_path / "x.png"
+    options = [text for axis in over for text in ("--over", axis)]
+    out = tmp_path / "x.csv"
+    assert main(["sweep", str(DROP), *options, *more, "--jobs", "1", "--out", str(out), "--plot", str(plot)]) == 0
+    with Image.open(plot) as picture:
+        assert len(picture.convert("RGB").getcolors(1 << 24)) > 20
+
+
+def test_parquet_has_the_same_rows(tmp_path):
+    parquet = pytest.importorskip("pyarrow.parquet")
+    out, copy = tmp_path / "x.csv", tmp_path / "x.parquet"
+    over = ["--over", "launch.height=0.5,1,50", "--over", "ball.drag.model=none,constant"]
+    assert main(["sweep", str(DROP), *over, "--jobs", "1", "--out", str(out), "--parquet", str(copy)]) == 0
+    rows = parquet.read_table(copy).to_pylist()
+    assert rows[0]["launch.height"] == 0.5
+    assert rows[0]["ball.drag.model"] == "none"
+    assert rows[0]["bounced"] is True
+    assert rows[4]["first_touch"] is None
+    assert [row["final_height"] for row in rows] == [float(row["final_height"]) for row in table(out)]
