@@ -27,11 +27,11 @@ class Hit(NamedTuple):
 class Impacts:
     """Resolves impacts among the balls of a run."""
 
-    def __init__(self, setup: Setup, tracks: Sequence[Track], contacts: Contacts, lowest_hop_speed: float) -> None:
+    def __init__(self, setup: Setup, tracks: Sequence[Track], contacts: Contacts, slowest_hop: float) -> None:
         self._setup = setup
         self._tracks = tracks
         self._contacts = contacts
-        self._lowest_hop_speed = lowest_hop_speed  # m/s, below which balls on cloth bounce elastically
+        self._slowest_hop = slowest_hop  # m/s, at which balls on cloth part at least
 
     def exchange(self, t: float, seeds: Sequence[int]) -> tuple[dict[int, State], list[Hit]]:
         """The states after the impact at t of all balls that touch those of ``seeds``, directly or through others."""
@@ -154,8 +154,8 @@ class Impacts:
         flat, upward = slip
         if upward != 0.0:
             bounce = bounce._replace(friction=bounce.friction * abs(flat) / (flat * flat + upward * upward) ** 0.5)
-        if 0.0 < approach < self._lowest_hop_speed:
-            bounce = bounce._replace(restitution=1.0)
+        if 0.0 < bounce.restitution * approach < self._slowest_hop:
+            bounce = bounce._replace(restitution=self._slowest_hop / approach)
         return bounce
 
     def _rub(

@@ -5,19 +5,21 @@ from __future__ import annotations
 from sandbox.engine.arc import Arc, still
 from sandbox.engine.run import Numerics
 from sandbox.engine.setup import Ball
-from sandbox.engine.touch import Hop
 from sandbox.physics.cloth import Cloth
 from sandbox.physics.integrators import State
 
 #: Lowest bounce in m that is followed where the cloth presses a ball against another or a cushion, as it can while the
-#: ball slides. Lower ones are elastic, so that such a push is a run of even hops.
+#: ball slides.
 _LOWEST_HOP = 1e-7
 
 
-def lowest_hop(cloth: Cloth, settle: float) -> Hop:
-    """Height and speed of the lowest bounce that is followed, for an accuracy with the given ``settle`` (m)."""
-    depth = max(_LOWEST_HOP, settle)
-    return Hop(depth, (2.0 * cloth.sliding * cloth.gravity * depth) ** 0.5)
+def slowest_hop(cloth: Cloth, settle: float) -> float:
+    """Speed in m/s with which what the cloth presses together parts at least, for an accuracy's ``settle`` (m).
+
+    A steady push is then a run of even hops, and not an endless series of ever smaller ones. The energy that the first
+    hop of such a run may add is half the reduced mass times this squared: 2e-7 J for pool balls at "balanced".
+    """
+    return float((2.0 * cloth.sliding * cloth.gravity * max(_LOWEST_HOP, settle)) ** 0.5)
 
 
 class OnCloth:

@@ -17,10 +17,10 @@ from sandbox.engine.contacts import Contacts
 from sandbox.engine.impacts import Impacts
 from sandbox.engine.lasting import conclude, settle
 from sandbox.engine.motion import RESTING, Contact, Mover
-from sandbox.engine.on_cloth import OnCloth, lowest_hop
+from sandbox.engine.on_cloth import OnCloth, slowest_hop
 from sandbox.engine.run import Event, Numerics, Run
 from sandbox.engine.setup import Ball, Circle, Setup, Surface
-from sandbox.engine.touch import CONTACT, EVERY_BOUNCE, Obstacle, balls_touch, box
+from sandbox.engine.touch import CONTACT, Obstacle, balls_touch, box
 from sandbox.engine.track import Track
 from sandbox.errors import RequestError, RunError
 from sandbox.physics.integrators import State
@@ -51,10 +51,10 @@ class Simulation:
         self._queue: list[tuple[float, int, str, int, int, int, int]] = []
         self._order = count()
         self._over = False
-        self._hop = EVERY_BOUNCE if setup.cloth is None else lowest_hop(setup.cloth, accuracy.settle)
         self._tracks = self._laid_out()
         self._separate_balls()
-        self._impacts = Impacts(setup, self._tracks, Contacts(setup.balls, self._numerics), self._hop.speed)
+        slowest = 0.0 if setup.cloth is None else slowest_hop(setup.cloth, accuracy.settle)
+        self._impacts = Impacts(setup, self._tracks, Contacts(setup.balls, self._numerics), slowest)
 
     def _laid_out(self) -> list[Track]:
         setup = self._setup
@@ -63,7 +63,7 @@ class Simulation:
         tracks = []
         for ball in setup.balls:
             if ball.radius not in obstacles:
-                obstacles[ball.radius] = [Obstacle(surface, ball.radius, self._hop) for surface in setup.surfaces]
+                obstacles[ball.radius] = [Obstacle(surface, ball.radius) for surface in setup.surfaces]
             x, y = _clear_of(ball, obstacles[ball.radius])
             mover: Mover | OnCloth
             state: State = (x, y, *ball.velocity, ball.spin)
@@ -215,7 +215,7 @@ class Simulation:
             a, b, c, d = box(neighbour.arc)
             if left <= c + reach and right >= a - reach and bottom <= d + reach and top >= b - reach:
                 self._numerics.queries += 1
-                pair_at = balls_touch(arc, neighbour.arc, reach, t, self._hop)
+                pair_at = balls_touch(arc, neighbour.arc, reach, t)
                 if pair_at is not None and pair_at <= at:
                     self._push(pair_at, "touch", index, other)
 

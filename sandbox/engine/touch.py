@@ -36,22 +36,6 @@ Point = tuple[float, float]
 SIDE, CORNER_A, CORNER_B, WHOLE = range(4)
 
 
-class Hop(NamedTuple):
-    """How low a bounce may get before it is no longer followed.
-
-    Two balls, or a ball and a cushion, that touch and part by less than ``speed`` are let sink in by ``depth`` before
-    they are said to touch again: a steady push is then a run of even hops of that height, and not an endless series
-    of ever smaller ones.
-    """
-
-    depth: float  # m
-    speed: float  # m/s
-
-
-#: Every bounce is followed: where a surface can hold a ball for good, nothing else is needed.
-EVERY_BOUNCE = Hop(0.0, 0.0)
-
-
 class Touching(NamedTuple):
     """A feature near a ball: the gap between them and the unit normal from the feature to the ball's centre."""
 
@@ -75,10 +59,9 @@ class Touching(NamedTuple):
 class Obstacle:
     """A surface, prepared for one ball radius."""
 
-    def __init__(self, surface: Surface, radius: float, hop: Hop = EVERY_BOUNCE) -> None:
+    def __init__(self, surface: Surface, radius: float) -> None:
         shape = surface.shape
         self.surface = surface
-        self._hop = hop
         self.reach = shape.radius + radius  # m, from the ball's centre to the shape's middle line when they touch
         self._a, b = (shape.center, shape.center) if isinstance(shape, Circle) else (shape.a, shape.b)
         self._b = b
@@ -150,14 +133,13 @@ class Obstacle:
 
     def first_touch(self, arc: Arc) -> float | None:
         """The first u in [0, 1] of the arc at which the ball comes to touch, or None."""
-        hop = Hop(self._hop.depth, self._hop.speed * (arc.t1 - arc.t0))
-        first = _round(arc.x, arc.y, self._a, self.reach, hop)
+        first = _round(arc.x, arc.y, self._a, self.reach)
         if self._round:
             return first
-        touches = (first, self._side(arc, hop), _round(arc.x, arc.y, self._b, self.reach, hop))
+        touches = (first, self._side(arc), _round(arc.x, arc.y, self._b, self.reach))
         return min((u for u in touches if u is not None), default=None)
 
-    def _side(self, arc: Arc, hop: Hop) -> float | None:
+    def _side(self, arc: Arc) -> float | None:
         ax, ay = self._a
         across = [(y - ay) * self._tx - (x - ax) * self._ty for x, y in zip(arc.x, arc.y, strict=True)]
         low, high = min(across), max(across)
@@ -168,7 +150,7 @@ class Obstacle:
             gap = [side * d - self.reach + SKIN for d in across]
             if max(gap) <= -_NOISE:
                 continue  # wholly beyond the line
-            for u in _closings(gap, side * across[0] > 0.0 and self._within(arc.x[0], arc.y[0], CONTACT), hop):
+            for u in _closings(gap, side * across[0] > 0.0 and self._within(arc.x[0], arc.y[0], CONTACT)):
                 if first is not None and u >= first:
                     break
                 if self._within(evaluate(arc.x, u), evaluate(arc.y, u)):
@@ -180,7 +162,7 @@ class Obstacle:
         return -margin <= self._along(x, y) <= self._length + margin
 
 
-def _round(xs: Sequence[float], ys: Sequence[float], center: Point, reach: float, hop: Hop) -> float | None:
+def _round(xs: Sequence[float], ys: Sequence[float], center: Point, reach: float) -> float | None:
     """First u at which a path comes within ``reach`` of a point."""
     radius = reach - SKIN
     cx, cy = center
@@ -195,10 +177,10 @@ def _round(xs: Sequence[float], ys: Sequence[float], center: Point, reach: float
     if length > radius and min([x * mx + y * my for x, y in zip(dx, dy, strict=True)]) > radius * length:
         return None
     gap = [(p + q - radius * radius) / (2.0 * radius) for p, q in zip(product(dx, dx), product(dy, dy), strict=True)]
-    return next(iter(_closings(gap, True, hop)), None)
+    return next(iter(_closings(gap, True)), None)
 
 
-def _closings(gap: list[float], starts_beside: bool, hop: Hop) -> Iterable[float]:
+def _closings(gap: list[float], starts_beside: bool) -> Iterable[float]:
     """Times u at which a gap closes. One that is closed at the start, within rounding, counts only if it closes
     further.
 
@@ -208,9 +190,9 @@ def _closings(gap: list[float], starts_beside: bool, hop: Hop) -> Iterable[float
         return ()  # nothing moves
     if starts_beside and gap[0] <= _NOISE:
         opening = without_root_at_start([g - gap[0] for g in gap])
-        if opening[0] < hop.speed - _NOISE:
+        if opening[0] < -_NOISE:
             # closing, but perhaps by no more than rounding, as where a ball that glides along a side passes its end
-            return downward_crossings([g - gap[0] + hop.depth + _NOISE for g in gap])
+            return downward_crossings([g - gap[0] + _NOISE for g in gap])
         return downward_crossings([g + _NOISE for g in opening])
     return downward_crossings(gap)
 
@@ -220,7 +202,7 @@ def box(arc: Arc) -> tuple[float, float, float, float]:
     return min(arc.x), min(arc.y), max(arc.x), max(arc.y)
 
 
-def balls_touch(first: Arc, second: Arc, reach: float, t: float, hop: Hop = EVERY_BOUNCE) -> float | None:
+def balls_touch(first: Arc, second: Arc, reach: float, t: float) -> float | None:
     """The first time from t on, while both arcs last, at which two centres come within ``reach`` of each other, or
     None.
     """
@@ -232,7 +214,7 @@ def balls_touch(first: Arc, second: Arc, reach: float, t: float, hop: Hop = EVER
     degree = max(len(xs), len(us)) - 1
     dx = [a - b for a, b in zip(elevate(xs, degree), elevate(us, degree), strict=True)]
     dy = [a - b for a, b in zip(elevate(ys, degree), elevate(vs, degree), strict=True)]
-    u = _round(dx, dy, (0.0, 0.0), reach, Hop(hop.depth, hop.speed * (until - t)))
+    u = _round(dx, dy, (0.0, 0.0), reach)
     return None if u is None else t + u * (until - t)
 
 
