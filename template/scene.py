@@ -10,6 +10,7 @@ from math import cos, hypot, pi, radians, sin
 from typing import Any
 
 from sandbox.aerodynamics import Air, ConstantDrag, ConstantLift, NoDrag, NoLift, SpinRatioLift, aerodynamic_forces
+from sandbox.controls import Controls, Spin
 from sandbox.engine.run import Run
 from sandbox.engine.setup import HOLLOW_SPHERE, Ball, Segment, Setup, Surface
 from sandbox.parameters import Accuracy, Group, either, group, quantity
@@ -67,6 +68,14 @@ class Parameters(Group):
     fan: FanParameters = group(FanParameters(), "the fan")
     floor: Floor = group(Floor(), "the floor")
     accuracy: Accuracy = group(Accuracy(), "speed against accuracy")
+
+
+#: What a pull of the mouse and the wheel set in the window, and which sliders come first.
+CONTROLS = Controls(
+    strongest=20.0,
+    spins=(Spin("launch.spin", 20.0),),
+    sliders=("launch.height", "fan.place", "fan.push", "air.wind", "floor.restitution"),
+)
 
 
 # -------------------------------------------------------------------------------------------------------------- build
