@@ -4,11 +4,16 @@ PYTHON ?= python3
 BIN := .venv/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check install --quiet --constraint constraints.txt
 
-.PHONY: run test lint format clean
+SCENES := $(patsubst scenes/%/scene.py,%,$(wildcard scenes/*/scene.py))
+
+.PHONY: run play test lint format schemas wheel clean
 
 run: .venv/ready
 	@mkdir -p out
 	$(BIN)/sandbox run golf --poster out/golf.png
+
+play: .venv/ready
+	$(BIN)/sandbox play golf
 
 test: .venv/ready-dev
 	$(BIN)/python -m pytest --numprocesses=auto
@@ -21,6 +26,14 @@ lint: .venv/ready-dev
 format: .venv/ready-dev
 	$(BIN)/ruff check --fix .
 	$(BIN)/ruff format .
+
+# What editors complete and check scene files by.
+schemas: .venv/ready
+	@set -e; for scene in $(SCENES); do $(BIN)/sandbox schema $$scene > scenes/$$scene/$$scene.schema.json; done
+
+wheel: .venv/ready-dev
+	$(BIN)/python -m pip --disable-pip-version-check wheel --quiet --no-deps --no-build-isolation --wheel-dir dist .
+	@ls dist/*.whl
 
 clean:
 	rm -rf .venv out build dist .pytest_cache .mypy_cache .ruff_cache .hypothesis

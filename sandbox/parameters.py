@@ -275,17 +275,23 @@ def json_schema(schema: type[Group], scene: str) -> dict[str, Any]:
     """JSON schema of the scene file of ``scene``; numbers may be strings with a unit."""
     body = _relaxed(schema.model_json_schema())
     properties = {"scene": {"const": scene, "description": "the scene that this file is for"}, **body["properties"]}
-    head = {"$schema": "https://json-schema.org/draft/2020-12/schema", "title": f"{scene} scene file"}
-    return {**head, **body, "title": head["title"], "properties": properties}
+    # The draft that editors' TOML extensions know.
+    head = {"$schema": "http://json-schema.org/draft-07/schema#", "title": f"{scene} scene file"}
+    return {**head, **body, "properties": properties}
 
 
 def _relaxed(node: Any) -> Any:
-    """The same schema for a file that may leave the word of a choice out: ``anyOf`` in place of ``oneOf``."""
+    """The same schema for a file that may leave the word of a choice out: ``anyOf`` in place of ``oneOf``; no titles,
+    which only say the key again."""
     if isinstance(node, list):
         return [_relaxed(item) for item in node]
     if not isinstance(node, dict):
         return node
-    renamed = {"anyOf" if key == "oneOf" else key: _relaxed(item) for key, item in node.items()}
+    renamed = {
+        "anyOf" if key == "oneOf" else key: _relaxed(item)
+        for key, item in node.items()
+        if key != "title" or not isinstance(item, str)
+    }
     if "mapping" in renamed.get("discriminator", {}):
         del renamed["discriminator"]
     return renamed
