@@ -154,16 +154,14 @@ def run(
     _check_outputs(outputs, fps)
     done = simulate(chosen)
     checked = check_scene(chosen, done) if check else None
+    said = report.as_json(chosen, done, checked) if as_json else "\n".join(report.card(chosen, done, checked))
     if trajectory is not None:
         with _writing("--trajectory", trajectory):
             report.write_trajectory(done, trajectory)
     if poster is not None or frames is not None or gif is not None:
         _draw(chosen, done, poster, frames, gif, fps)
-    if as_json:
-        _say(report.as_json(chosen, done, checked))
-        return
-    written = [f"wrote {path}" for path in outputs.values() if path is not None]
-    _say("\n".join([*report.card(chosen, done, checked), *written]))
+    written = [f"wrote {path}" for path in outputs.values() if path is not None and not as_json]
+    _say("\n".join([said, *written]))
 
 
 def _load(source: str, settings: list[str] | None, accuracy: str | None) -> Scene:

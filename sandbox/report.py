@@ -10,6 +10,7 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from sandbox.errors import RunError
 from sandbox.files import written_whole
 
 if TYPE_CHECKING:
@@ -36,7 +37,10 @@ def as_json(scene: Scene, run: Run, check: Check | None = None) -> str:
     if check is not None:
         report["errors"] = check.errors
         report["changed"] = {name: list(pair) for name, pair in check.changed.items()}
-    return json.dumps(_plain(report), allow_nan=False, ensure_ascii=False)
+    try:
+        return json.dumps(_plain(report), allow_nan=False, ensure_ascii=False)
+    except TypeError as error:  # what a scene's result holds beside numbers, words and lists of them
+        raise RunError(f"{scene.name}: its result cannot be written as JSON: {error}") from None
 
 
 def _event(event: Event) -> dict[str, Any]:
