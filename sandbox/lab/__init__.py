@@ -1,0 +1,1 @@
+"""The lab: what accuracy costs, what the extremes do, how the numbers compare with published ones."""

@@ -1,0 +1,309 @@
+"""What each part of a scene's model is worth: left out it shifts the ball by so much, and so does what is put in."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from math import hypot, isclose
+from statistics import median
+from time import perf_counter
+from typing import Any, NamedTuple
+
+from sandbox import parameters as declared
+from sandbox.engine import simulate
+from sandbox.engine.accuracy import LEVELS
+from sandbox.engine.run import Run
+from sandbox.engine.setup import Ball, Bounce, Setup, Surface
+from sandbox.errors import SandboxError
+from sandbox.lab.reference import Reference, apart, looked_at, places, until
+from sandbox.lab.tables import length, significant, table
+from sandbox.lab.verdicts import verdict
+from sandbox.physics.forces import Drag, Magnus, SpinDecay
+from sandbox.scene import Scene
+
+#: Shifts below this, in m, are nothing to a player.
+NOTHING = 1e-4
+
+#: Spin decay of a golf ball by radar, put in where a scene has none.
+_DECAY = 6e-5
+
+#: Speeds in m/s at which a surface is asked whether it gives way.
+_BOUNCE = (10.0, 10.0)
+
+#: Repeats for the time that a part costs.
+_REPEATS = 7
+
+#: Numbers of a result shown beside a part, and the relative change below which one is the same.
+_SHOWN, _SAME = 2, 1e-6
+
+
+class Variant(NamedTuple):
+    """The scene with one part of its model changed."""
+
+    part: str
+    change: str
+    scene: Callable[[], Scene]
+    setup: Callable[[Scene], Setup] = lambda scene: scene.build()
+
+
+@dataclass(frozen=True)
+class Ablated:
+    """What one change does. The shifts are None where the run could not be completed; ``problem`` says why."""
+
+    part: str
+    change: str
+    shift_m: float | None  # by the scene's measure
+    flight_m: float | None  # at the moment when the unchanged scene first touches anything
+    verdict: tuple[str, str]  # with the part, and without
+    saves: float | None  # share of the time that the scene takes at the level "balanced"
+    results: dict[str, tuple[float, float]]  # numbers of the result, with the part and without
+    problem: str = ""
+
+    @property
+    def is_nothing(self) -> bool:
+        """Whether leaving it out could be seen by nobody."""
+        return self.shift_m is not None and self.shift_m < NOTHING and self.verdict[0] == self.verdict[1]
+
+    def as_dict(self) -> dict[str, Any]:
+        return {
+            "part": self.part,
+            "change": self.change,
+            "shift_m": self.shift_m,
+            "flight_m": self.flight_m,
+            "nothing": self.is_nothing,
+            "verdict": list(self.verdict),
+            "saves": self.saves,
+            "results": {name: list(pair) for name, pair in self.results.items()},
+            "problem": self.problem,
+        }
+
+    def cells(self) -> tuple[str, ...]:
+        """A row for people."""
+        saves = "" if self.saves is None else f"{100.0 * self.saves:.0f} %"
+        if self.problem:
+            return self.part, self.change, "", "", saves, f"cannot be run: {self.problem}"
+        shifts = length(self.flight_m), length(self.shift_m)
+        if self.is_nothing:
+            return self.part, self.change, *shifts, saves, "nothing"
+        shown = [
+            f"{name} {significant(a, 4)} -> {significant(b, 4)}" for name, (a, b) in list(self.results.items())[:_SHOWN]
+        ]
+        if self.verdict[0] != self.verdict[1]:
+            shown.append(f"{self.verdict[0]} -> {self.verdict[1]}")
+        return self.part, self.change, *shifts, saves, ", ".join(shown)
+
+
+def as_text(rows: list[Ablated]) -> list[str]:
+    """A table for people."""
+    headings = ("part", "", "shift at first touch", "shift at the end", "saves", "")
+    return ["what each part of the model is worth", *table(headings, [row.cells() for row in rows], "llrrrl")]
+
+
+def ablation(reference: Reference) -> list[Ablated]:
+    """Every part of the scene's model changed in turn."""
+    scene = reference.scene
+    names = [ball.name for ball in scene.build().balls]
+    whole = _run(scene, scene.build())
+    changes = list(variants(scene))
+    own_cost, *costs = _costs([Variant("", "", lambda: scene), *changes], reference.time)
+    rows = []
+    for change, cost in zip(changes, costs, strict=True):
+        before = verdict(whole.result)
+        saves = None if cost is None or own_cost is None else 1.0 - cost / own_cost
+        try:
+            other = change.scene()
+            run = _run(other, change.setup(other))
+        except SandboxError as error:
+            rows.append(Ablated(change.part, change.change, None, None, (before, ""), saves, {}, str(error)))
+            continue
+        shift = apart(looked_at(scene, whole, reference.time), looked_at(other, run, reference.time))
+        flight = apart(places(whole, names, reference.first_touch), places(run, names, reference.first_touch))
+        turned = before, verdict(run.result)
+        rows.append(Ablated(change.part, change.change, shift, flight, turned, saves, _differences(whole, run)))
+    return rows
+
+
+def variants(scene: Scene) -> Iterator[Variant]:
+    """Each part of the model left out, simplified, or put in where the scene leaves it out."""
+    setup = scene.build()
+
+    def changed(part: str, change: str, apply: Callable[[Setup], Setup]) -> Variant:
+        return Variant(part, change, lambda: scene, lambda same: apply(same.build()))
+
+    for name in _terms(setup):
+        yield changed(name, "left out", lambda setup, name=name: _without(setup, name))  # type: ignore[misc]
+    yield from _by_parameters(scene, setup)
+    if any(surface.law is not None for surface in setup.surfaces):
+        yield changed("law of the bounce", "as for a slow one", lambda s: _on_surfaces(s, _without_law))
+    if any(surface.law is not None and surface.law(*_BOUNCE).tilt != 0.0 for surface in setup.surfaces):
+        yield changed("give of the ground", "left out", lambda s: _on_surfaces(s, _without_tilt))
+    for field, part in (
+        ("friction", "friction of surfaces"),
+        ("rolling_resistance", "rolling resistance"),
+        ("lowest_bounce", "loss of low bounces"),
+    ):
+        if any(getattr(surface, field) > 0.0 for surface in setup.surfaces):
+            yield changed(part, "left out", lambda s, field=field: _on_surfaces(s, _without_field(field)))  # type: ignore[misc]
+    if len(setup.balls) > 1 and setup.between_balls(1.0, 1.0).friction > 0.0:
+        yield changed("friction of balls (throw)", "left out", _without_throw)
+    if setup.cloth is not None:
+        for field in ("sliding", "rolling", "spinning"):
+            if getattr(setup.cloth, field) > 0.0:
+                yield changed(f"{field} friction of the cloth", "left out", lambda s, f=field: _on_cloth(s, f))  # type: ignore[misc]
+    spins = any(ball.spin != 0.0 and any(isinstance(force, Magnus) for force in ball.forces) for ball in setup.balls)
+    if spins and not any(ball.torques for ball in setup.balls):
+        yield changed("spin decay", "put in, as a golf ball's", _with_decay)
+
+
+def with_changes(scene: Scene, changes: dict[str, Any]) -> Scene:
+    """The scene with some of its parameters changed, by dotted key. Raises RequestError for a value out of bounds."""
+    parameters = declared.validate(type(scene.parameters), scene.parameters.model_dump(), scene.name, changes)
+    return replace(scene, parameters=parameters)
+
+
+# ------------------------------------------------------------------------------------------------------ by parameters
+
+
+def _by_parameters(scene: Scene, setup: Setup) -> Iterator[Variant]:
+    values = {parameter.key: parameter.value for parameter in declared.walk(scene.parameters)}
+
+    def changed(part: str, change: str, changes: dict[str, Any]) -> Variant:
+        return Variant(part, change, lambda: with_changes(scene, changes))
+
+    for key, force, part in (("drag", Drag, "drag coefficient"), ("lift", Magnus, "lift coefficient")):
+        if values.get(f"ball.{key}.model") in (None, "constant", "none"):
+            continue
+        steady = with_changes(scene, {f"ball.{key}.model": "constant", f"ball.{key}.coefficient": 1.0}).build()
+        pull, unit = _at_launch(setup, force), _at_launch(steady, force)
+        if pull > 0.0 and unit > 0.0:
+            changes = {f"ball.{key}.model": "constant", f"ball.{key}.coefficient": pull / unit}
+            yield changed(part, f"{pull / unit:.3f} as at the start", changes)
+    if values.get("air.density", 0.0) > 0.0:
+        if values["air.wind"] == (0.0, 0.0):
+            yield changed("wind", "put in, 1 m/s against", {"air.wind": (-1.0, 0.0)})
+        else:
+            yield changed("wind", "left out", {"air.wind": (0.0, 0.0)})
+        if values.get("ball.lift.model") == "none":
+            yield changed("lift", "put in, as large as the spin ratio", {"ball.lift.model": "spin-ratio"})
+
+
+def _at_launch(setup: Setup, kind: type) -> float:
+    """Size in N of the first force of a kind at the start, 0 where there is none."""
+    for ball in setup.balls:
+        for force in ball.forces:
+            if isinstance(force, kind):
+                return hypot(*force(0.0, ball.position, ball.velocity, ball.spin))
+    return 0.0
+
+
+# ---------------------------------------------------------------------------------------------------------- by setup
+
+
+def _terms(setup: Setup) -> list[str]:
+    """Names of all forces and torques, each once."""
+    return list(dict.fromkeys(_name(term) for ball in setup.balls for term in (*ball.forces, *ball.torques)))
+
+
+def _name(term: object) -> str:
+    """``SpinDecay`` is "spin decay", ``Magnus`` "lift"; a function goes by its own name."""
+    if isinstance(term, Magnus):
+        return "lift"
+    name = str(getattr(term, "__name__", type(term).__name__))
+    return "".join(f" {c.lower()}" if c.isupper() else c for c in name).strip().replace("_", " ")
+
+
+def _without(setup: Setup, name: str) -> Setup:
+    return replace(setup, balls=[_without_term(ball, name) for ball in setup.balls])
+
+
+def _without_term(ball: Ball, name: str) -> Ball:
+    return replace(
+        ball,
+        forces=[force for force in ball.forces if _name(force) != name],
+        torques=[torque for torque in ball.torques if _name(torque) != name],
+    )
+
+
+def _on_surfaces(setup: Setup, change: Callable[[Surface], Surface]) -> Setup:
+    return replace(setup, surfaces=[change(surface) for surface in setup.surfaces])
+
+
+def _without_field(field: str) -> Callable[[Surface], Surface]:
+    def change(surface: Surface) -> Surface:
+        law = surface.law
+        if field != "friction" or law is None:
+            return replace(surface, **{field: 0.0})  # type: ignore[arg-type]
+        return replace(surface, friction=0.0, law=lambda normal, along: law(normal, along)._replace(friction=0.0))
+
+    return change
+
+
+def _without_law(surface: Surface) -> Surface:
+    return replace(surface, law=None)
+
+
+def _without_tilt(surface: Surface) -> Surface:
+    law = surface.law
+    if law is None:
+        return surface
+    return replace(surface, law=lambda normal, along: law(normal, along)._replace(tilt=0.0))
+
+
+def _without_throw(setup: Setup) -> Setup:
+    law = setup.between_balls
+
+    def smooth(normal_speed: float, slip_speed: float) -> Bounce:
+        return law(normal_speed, slip_speed)._replace(friction=0.0)
+
+    return replace(setup, between_balls=smooth)
+
+
+def _on_cloth(setup: Setup, field: str) -> Setup:
+    assert setup.cloth is not None
+    return replace(setup, cloth=replace(setup.cloth, **{field: 0.0}))
+
+
+def _with_decay(setup: Setup) -> Setup:
+    balls = [replace(ball, torques=[SpinDecay(ball.inertia, ball.radius, _DECAY)]) for ball in setup.balls]
+    return replace(setup, balls=balls)
+
+
+# ------------------------------------------------------------------------------------------------------------ running
+
+
+def _run(scene: Scene, setup: Setup) -> Run:
+    run = simulate(setup, LEVELS["precise"])
+    run.result = scene.module.result(run, scene.parameters)
+    return run
+
+
+def _costs(changes: list[Variant], time: float) -> list[float | None]:
+    """Seconds for each until ``time`` at "balanced", measured in turns; None where it cannot be completed."""
+    walls: list[list[float]] = [[] for _ in changes]
+    failed = [False] * len(changes)
+    for _ in range(_REPEATS):
+        for index, change in enumerate(changes):
+            if failed[index]:
+                continue
+            try:
+                setup = until(change.setup(change.scene()), time)
+                started = perf_counter()
+                simulate(setup, LEVELS["balanced"])
+                walls[index].append(perf_counter() - started)
+            except SandboxError:
+                failed[index] = True
+    return [None if bad else median(taken) for taken, bad in zip(walls, failed, strict=True)]
+
+
+def _differences(a: Run, b: Run) -> dict[str, tuple[float, float]]:
+    """The numbers of the result that are not the same, in the scene's own order."""
+    numbers = {name: float(value) for name, value in b.result.items() if _is_number(value)}
+    return {
+        name: (float(value), numbers[name])
+        for name, value in a.result.items()
+        if name in numbers and _is_number(value) and not isclose(value, numbers[name], rel_tol=_SAME)
+    }
+
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool)

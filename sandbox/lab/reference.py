@@ -1,0 +1,160 @@
+"""Where a run is looked at, and the answer that it is compared with.
+
+The measure is the place of every ball at one time: the end of the run, or, where the scene is chaotic, the last moment
+before that shows. A scene may offer its own, ``measure(run, parameters) -> (x, y)`` in m, or a list of such points.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from math import hypot
+
+from sandbox.engine import simulate
+from sandbox.engine.accuracy import LEVELS, Accuracy
+from sandbox.engine.run import Run
+from sandbox.engine.setup import Ball, Setup
+from sandbox.engine.touch import SKIN
+from sandbox.physics.forces import Gravity
+from sandbox.scene import Scene
+
+#: A thousand times finer than the finest level.
+REFERENCE = replace(LEVELS["precise"], level="reference", tolerance=1e-3 * LEVELS["precise"].tolerance, settle=1e-12)
+
+#: Steps in s, and most of them, of the second reference, which another integrator computes.
+_CHECK_STEP, _CHECK_STEPS = 1 / 2000, 60_000
+
+#: The nudge: a change of speed and of direction (rad) at the start.
+NUDGE = 1e-9
+
+#: A nudge that has grown to this, in m, says that the scene has become chaotic: a growth of 1e6.
+DIVERGED = 1e-3
+
+#: A run that an event ends is looked at a little earlier, where that event does not matter.
+_BEFORE_THE_END = 0.98
+
+#: Times at which two runs are compared, beside those of the events.
+_LOOKS = 240
+
+Point = tuple[float, float]
+
+
+@dataclass(frozen=True)
+class Reference:
+    """The converged answer of a scene."""
+
+    scene: Scene
+    time: float  # s, at which the balls are looked at
+    points: list[Point]  # m
+    error: float  # m, estimated
+    first_touch: float  # s, when a ball first touches something; ``time`` if none does
+    size: float  # m, how far the farthest ball gets from its start
+    growth: float  # of a nudge until then, in m per unit
+    diverges_at: float | None  # s, when a nudge of 1e-9 has grown to 1 mm; None if it never does
+    closed_form: bool  # whether the motion is known in closed form, so that only touching is found by computing
+    exact_error: float | None  # m, against the parabola, where only gravity acts before the first touch
+
+    def setup(self) -> Setup:
+        """The scene built afresh, to be run until ``time``."""
+        return until(self.scene.build(), self.time)
+
+    def error_of(self, run: Run) -> float:
+        """How far the worst ball of a run is from where it belongs, in m."""
+        return apart(self.points, looked_at(self.scene, run, self.time))
+
+
+def converge(scene: Scene) -> Reference:
+    """Compute the reference, and a second one to check it by. Raises RunError where the scene cannot be run."""
+    setup = scene.build()
+    first = simulate(setup, REFERENCE)
+    whole = _BEFORE_THE_END * first.duration if first.ended == "until" else first.duration
+    first = simulate(until(scene.build(), whole), REFERENCE)
+    nudged = simulate(until(_nudged(scene.build()), whole), REFERENCE)
+    time, diverges_at = whole, None
+    names = [ball.name for ball in setup.balls]
+    for t in _looks(first, whole):
+        if apart(places(first, names, t), places(nudged, names, t)) > DIVERGED:
+            diverges_at = t
+            break
+        time = t
+    check = simulate(until(scene.build(), time), _check(time))
+    growth = apart(places(first, names, time), places(nudged, names, time)) / NUDGE
+    points = looked_at(scene, first, time)
+    return Reference(
+        scene,
+        time,
+        points,
+        # touching is found to within SKIN, and that error grows as a nudge does
+        max(apart(points, looked_at(scene, check, time)), SKIN * max(growth, 1.0)),
+        min([time, *(event.t for event in first.events)]),
+        _size(first, time),
+        growth,
+        diverges_at,
+        setup.cloth is not None,
+        _exact_error(setup, first, time),
+    )
+
+
+def looked_at(scene: Scene, run: Run, time: float) -> list[Point]:
+    """The scene's measure of a run: points in m."""
+    own = getattr(scene.module, "measure", None)
+    if own is None:
+        return places(run, [ball.name for ball in run.setup.balls], time)
+    found = own(run, scene.parameters)
+    return [found] if isinstance(found[0], int | float) else list(found)
+
+
+def apart(a: Sequence[Point], b: Sequence[Point]) -> float:
+    """The largest distance between points of the same place in both lists, in m."""
+    return max((hypot(p[0] - q[0], p[1] - q[1]) for p, q in zip(a, b, strict=True)), default=0.0)
+
+
+def places(run: Run, names: Sequence[str], t: float) -> list[Point]:
+    """Where the balls are at time t, in m."""
+    return [(state[0], state[1]) for state in (run.state(name, t) for name in names)]
+
+
+def _looks(run: Run, whole: float) -> Iterator[float]:
+    times = {whole * k / _LOOKS for k in range(_LOOKS + 1)} | {event.t for event in run.events if event.t <= whole}
+    yield from sorted(times)
+
+
+def until(setup: Setup, time: float) -> Setup:
+    """The same setup, which ends at ``time`` (s) and by nothing else."""
+    return replace(setup, duration=time, until=None)
+
+
+def _nudged(setup: Setup) -> Setup:
+    return replace(setup, balls=[_nudged_ball(ball) for ball in setup.balls])
+
+
+def _nudged_ball(ball: Ball) -> Ball:
+    vx, vy = ball.velocity
+    return replace(ball, velocity=(vx + NUDGE * (vx - vy), vy + NUDGE * (vy + vx)))
+
+
+def _check(time: float) -> Accuracy:
+    step = max(_CHECK_STEP, time / _CHECK_STEPS)
+    return replace(REFERENCE, level="check", integrator="rk4", step=step)
+
+
+def _size(run: Run, time: float) -> float:
+    farthest = 0.0
+    for ball in run.setup.balls:
+        x0, y0 = run.state(ball.name, 0.0)[:2]
+        for arc in run.arcs[ball.name]:
+            x, y = run.state(ball.name, min(arc.t1, time))[:2]
+            farthest = max(farthest, hypot(x - x0, y - y0))
+    return farthest
+
+
+def _exact_error(setup: Setup, run: Run, time: float) -> float | None:
+    """How far a lone ball under gravity alone is from its parabola when it first touches something."""
+    ball = setup.balls[0]
+    if len(setup.balls) > 1 or setup.cloth is not None or not all(isinstance(f, Gravity) for f in ball.forces):
+        return None
+    t = min([time, *(event.t for event in run.events)])
+    fy = sum(force(0.0, ball.position, ball.velocity, ball.spin)[1] for force in ball.forces)
+    x0, y0 = run.state(ball.name, 0.0)[:2]
+    parabola = x0 + t * ball.velocity[0], y0 + t * ball.velocity[1] + 0.5 * t * t * fy / ball.mass
+    return apart([parabola], places(run, [ball.name], t))

@@ -1,0 +1,315 @@
+"""The extremes, and what happened at each: held, refused with a clear error, or failed.
+
+What is promised of the exact method: no number that is none (NaN), nothing passes through anything, no energy from
+nowhere beyond the bound below, no endless loop; where that cannot be had, an error that names time, ball and quantity.
+The plain method promises an end and no NaN; its other columns show what it does.
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import asdict, dataclass, replace
+from itertools import pairwise
+from math import isfinite
+from time import perf_counter
+from typing import TYPE_CHECKING, Any
+
+from sandbox.engine import simulate
+from sandbox.engine.accuracy import LEVELS, Accuracy
+from sandbox.engine.ledger import kinetic, ledger
+from sandbox.engine.run import Run
+from sandbox.engine.setup import Circle, Surface
+from sandbox.errors import RequestError, SandboxError
+from sandbox.lab.extremes import ALL, ERROR_CONTROL, EXACT, FIXED_STEP, PLAIN, Extreme, bare, of_scene
+from sandbox.lab.tables import length, table
+from sandbox.physics.integrators import INTEGRATORS
+from sandbox.scene import Scene
+
+if TYPE_CHECKING:
+    import numpy as np
+
+#: Energy from nowhere that the exact method may show, as a share of the largest energy of the run: with an integrator
+#: that controls its error, and with one that keeps its step.
+ENERGY, ENERGY_FIXED_STEP = 1e-3, 3e-2
+
+#: Overlap in m that the exact method may show.
+OVERLAP = 1e-6
+
+#: A run of an extreme that takes longer than this, in s, counts as one without end.
+ENDLESS = 20.0
+
+#: Step in s of the integrators without error control, and of the plain method, where the row does not say.
+_STEP, _PLAIN_STEP = 1 / 60, 1 / 240
+
+#: Samples on each piece of an exact path.
+_SAMPLES = 6
+
+#: Balls up to which pairs are looked at along the whole path.
+_FEW = 40
+
+HELD, REFUSED, FAILED = "held", "refused", "failed"
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What one method did at one extreme."""
+
+    scene: str  # "" for a bare setup
+    extreme: str
+    method: str
+    outcome: str  # "held", "refused" or "failed"
+    message: str = ""
+    energy_gained: float | None = None  # from nowhere, as a share of the largest energy of the run
+    penetration_m: float | None = None
+    left: bool = False  # whether anything passed through a surface, or left the world
+    wall_s: float = 0.0
+
+
+def methods(level: str = "balanced") -> dict[str, Accuracy]:
+    """Every method by name, as the extremes run it."""
+    base = LEVELS[level]
+    exact = {
+        name: replace(base, integrator=name)
+        if integrator.controls_error
+        else replace(base, integrator=name, step=_STEP)
+        for name, integrator in INTEGRATORS.items()
+    }
+    return {**exact, "plain": replace(base, method="plain", step=_PLAIN_STEP)}
+
+
+def stress(
+    scenes: Sequence[Scene],
+    level: str = "balanced",
+    with_bare: bool = True,
+    progress: Callable[[int, int], None] = lambda done, total: None,
+) -> list[Outcome]:
+    """Run every extreme of the scenes, and the bare ones, by every method."""
+    rows = [("", extreme) for extreme in bare()] if with_bare else []
+    for scene in scenes:
+        name = f"{scene.name}/{scene.preset}" if scene.preset else scene.name
+        rows += [(name, extreme) for extreme in of_scene(scene)]
+    outcomes = []
+    for done, (name, extreme) in enumerate(rows):
+        progress(done, len(rows))
+        outcomes += list(tried(name, extreme, level))
+    return outcomes
+
+
+def tried(scene: str, extreme: Extreme, level: str = "balanced") -> Iterator[Outcome]:
+    """One extreme by every method that it is meant for."""
+    for method, accuracy in methods(level).items():
+        if not _meant_for(extreme.methods, accuracy):
+            continue
+        if extreme.step is not None:
+            accuracy = replace(accuracy, step=extreme.step)
+        yield _tried(scene, extreme, method, accuracy)
+
+
+def _meant_for(which: str, accuracy: Accuracy) -> bool:
+    exact = accuracy.method == "exact"
+    controls_error = exact and INTEGRATORS[accuracy.integrator].controls_error
+    meant = {ALL: True, EXACT: exact, ERROR_CONTROL: controls_error, PLAIN: not exact, FIXED_STEP: not controls_error}
+    return meant[which]
+
+
+def _tried(scene: str, extreme: Extreme, method: str, accuracy: Accuracy) -> Outcome:
+    started = perf_counter()
+    try:
+        run = simulate(extreme.build(), accuracy)
+    except SandboxError as error:
+        wall = perf_counter() - started
+        what = REFUSED if wall < ENDLESS else FAILED
+        kind = "" if isinstance(error, RequestError) else f"{type(error).__name__}: "
+        return Outcome(scene, extreme.name, method, what, f"{kind}{error}", wall_s=wall)
+    except Exception as error:  # whatever else comes out is what is looked for
+        wall = perf_counter() - started
+        return Outcome(scene, extreme.name, method, FAILED, f"{type(error).__name__}: {error}", wall_s=wall)
+    wall = perf_counter() - started
+    problems = []
+    finite = all(isfinite(value) for arcs in run.arcs.values() for arc in arcs for value in arc.state(arc.t1))
+    gained, overlap, through = _energy_gained(run), *_overlap(run)
+    if not finite:
+        problems.append("a number that is none")
+    bound = ENERGY if INTEGRATORS[accuracy.integrator].controls_error else ENERGY_FIXED_STEP
+    if accuracy.method == "exact" and gained > bound:
+        problems.append(f"energy from nowhere, {100.0 * gained:.2g} %")
+    if accuracy.method == "exact" and overlap > OVERLAP:
+        problems.append(f"overlap of {length(overlap)}")
+    if through:
+        problems.append(f"passed through {through}")
+    if wall > ENDLESS:
+        problems.append(f"took {wall:.0f} s")
+    what = FAILED if problems else HELD
+    return Outcome(scene, extreme.name, method, what, "; ".join(problems), gained, overlap, bool(through), wall)
+
+
+# ------------------------------------------------------------------------------------------------------------ looking
+
+
+def _energy_gained(run: Run) -> float:
+    """Energy that no force accounts for, over the largest that there was.
+
+    Of the exact method what its pieces of path gain beyond the forces' work, and what any instant of impact adds; of
+    the plain one, whose impacts are spread over steps, what there is at the end beyond the start and the work.
+    """
+    if len(run.setup.balls) > _FEW:
+        return 0.0  # the ledger of a heap takes longer than the heap
+    book = ledger(run)
+    work = sum(book.work.values())
+    jumps: dict[float, float] = defaultdict(float)
+    largest = max(1e-30, book.start, *(abs(part) for part in book.work.values()))
+    for ball in run.setup.balls:
+        for before, after in pairwise(run.arcs[ball.name]):
+            energy = kinetic(ball, after.start)
+            jumps[after.t0] += energy - kinetic(ball, before.state(before.t1))
+            largest = max(largest, energy)
+    if run.accuracy.method == "plain":
+        return max(0.0, book.end - book.start - work) / largest
+    return (max(0.0, book.residue) + sum(jump for jump in jumps.values() if jump > 0.0)) / largest
+
+
+def _overlap(run: Run) -> tuple[float, str]:
+    """The deepest overlap in m of any ball with anything, and what a ball passed through, if so."""
+    deepest, through = 0.0, ""
+    for ball in run.setup.balls:
+        path = _path(run, ball.name)
+        for surface in run.setup.surfaces:
+            deepest = max(deepest, ball.radius - float(_clearance(path, surface).min()))
+            if not through and _crosses(path, surface):
+                through = surface.name
+    return max(deepest, _overlap_of_balls(run)), through
+
+
+def _path(run: Run, ball: str) -> np.ndarray:
+    """Places of a ball along its path, shape (n, 2), in m."""
+    import numpy as np
+
+    places = []
+    for arc in run.arcs[ball]:
+        samples = _SAMPLES if len(arc.x) > 2 else 1
+        span = arc.t1 - arc.t0
+        places += [arc.position(arc.t0 + span * k / samples) for k in range(samples)]
+    last = run.arcs[ball][-1]
+    return np.array([*places, last.position(last.t1)])
+
+
+def _clearance(path: np.ndarray, surface: Surface) -> np.ndarray:
+    """Distance in m from each place to the surface itself."""
+    import numpy as np
+
+    shape = surface.shape
+    if isinstance(shape, Circle):
+        return np.hypot(path[:, 0] - shape.center[0], path[:, 1] - shape.center[1]) - shape.radius
+    a, d = np.array(shape.a), np.array(shape.b) - np.array(shape.a)
+    along = np.clip((path - a) @ d / max(float(d @ d), 1e-300), 0.0, 1.0)
+    nearest = a + along[:, None] * d
+    return np.hypot(*(path - nearest).T) - shape.radius
+
+
+def _crosses(path: np.ndarray, surface: Surface) -> bool:
+    """Whether a path goes from one side of a surface's middle to the other, through it."""
+    import numpy as np
+
+    shape = surface.shape
+    if isinstance(shape, Circle):
+        return False  # the overlap tells
+    (ax, ay), (bx, by) = shape.a, shape.b
+    start, end = path[:-1], path[1:]
+    before = (start[:, 0] - ax) * (by - ay) - (start[:, 1] - ay) * (bx - ax)
+    after = (end[:, 0] - ax) * (by - ay) - (end[:, 1] - ay) * (bx - ax)
+    step = end - start
+    side_a = step[:, 0] * (ay - start[:, 1]) - step[:, 1] * (ax - start[:, 0])
+    side_b = step[:, 0] * (by - start[:, 1]) - step[:, 1] * (bx - start[:, 0])
+    return bool(np.any((before * after < 0.0) & (side_a * side_b < 0.0)))
+
+
+def _overlap_of_balls(run: Run) -> float:
+    """Deepest overlap in m of two balls, at the ends of their arcs; of a heap, at the end of the run."""
+    import numpy as np
+
+    balls = run.setup.balls
+    if len(balls) < 2:
+        return 0.0
+    times = [run.duration]
+    if len(balls) <= _FEW:
+        times = sorted({arc.t1 for arcs in run.arcs.values() for arc in arcs})
+    caught = {ball.name: run.caught_at(ball.name) for ball in balls}
+    deepest = 0.0
+    for t in times:
+        there = [ball for ball in balls if caught[ball.name] is None or t < (caught[ball.name] or 0.0)]
+        places = np.array([run.state(ball.name, t)[:2] for ball in there])
+        radii = np.array([ball.radius for ball in there])
+        gaps = np.hypot(*(places[:, None] - places[None]).transpose(2, 0, 1)) - radii[:, None] - radii[None]
+        deepest = max(deepest, -float(gaps[np.triu_indices(len(there), 1)].min(initial=0.0)))
+    return deepest
+
+
+# -------------------------------------------------------------------------------------------------------------- report
+
+
+def as_dicts(outcomes: Sequence[Outcome]) -> list[dict[str, Any]]:
+    """For JSON."""
+    return [asdict(outcome) for outcome in outcomes]
+
+
+def as_text(outcomes: Sequence[Outcome]) -> list[str]:
+    """A table for each scene, with what was refused and what failed below it; then the sum."""
+    lines: list[str] = []
+    for scene in dict.fromkeys(outcome.scene for outcome in outcomes):
+        own = [outcome for outcome in outcomes if outcome.scene == scene]
+        lines += [scene or "bare setups, no scene", *_table(own), *_remarks(own), ""]
+    return [*lines, *_sum(outcomes)]
+
+
+def _table(outcomes: Sequence[Outcome]) -> list[str]:
+    names = list(dict.fromkeys(outcome.method for outcome in outcomes))
+    rows = []
+    for extreme in dict.fromkeys(outcome.extreme for outcome in outcomes):
+        own = {outcome.method: outcome for outcome in outcomes if outcome.extreme == extreme}
+        exact = [outcome for name, outcome in own.items() if name != "plain"]
+        energy = max((o.energy_gained for o in exact if o.energy_gained is not None), default=None)
+        deepest = max((o.penetration_m for o in exact if o.penetration_m is not None), default=None)
+        gained = "" if energy is None else "none" if energy < 1e-12 else f"{100.0 * energy:.1g} %"
+        words = [own[name].outcome if name in own else "" for name in names]
+        rows.append((extreme, *(word.upper() if word == FAILED else word for word in words), gained, length(deepest)))
+    return table(("extreme", *names, "energy", "overlap"), rows, "l" + "l" * len(names) + "rr")
+
+
+def _remarks(outcomes: Sequence[Outcome]) -> Iterator[str]:
+    """Each message once, with the methods that gave it."""
+    by_message: dict[tuple[str, str, str], list[str]] = defaultdict(list)
+    for o in outcomes:
+        if o.outcome != HELD:
+            by_message[o.outcome, o.extreme, o.message.partition("\n")[0]].append(o.method)
+    everybody = len({outcome.method for outcome in outcomes})
+    for (outcome, extreme, message), names in by_message.items():
+        who = "" if len(names) == everybody else f" ({', '.join(names)})"
+        yield f"    {outcome}, {extreme}{who}: {message}"
+
+
+def _sum(outcomes: Sequence[Outcome]) -> Iterator[str]:
+    """How often each method held, and how far its overlap and its energy from nowhere went."""
+    rows = []
+    for method in dict.fromkeys(outcome.method for outcome in outcomes):
+        own = [outcome for outcome in outcomes if outcome.method == method]
+        counts = [str(sum(outcome.outcome == word for outcome in own)) for word in (HELD, REFUSED, FAILED)]
+        energy = max((o.energy_gained for o in own if o.energy_gained is not None), default=0.0)
+        deepest = max((o.penetration_m for o in own if o.penetration_m is not None), default=0.0)
+        steps = [o for o in own if o.extreme.startswith("step ")]
+        rows.append((method, *counts, f"{100.0 * energy:.1g} %", length(deepest), _longest_step(steps)))
+    headings = ("method", "held", "refused", "failed", "most energy", "deepest overlap", "holds up to")
+    yield from ["all together", *table(headings, rows, "lrrrrrr")]
+
+
+def _longest_step(outcomes: Sequence[Outcome]) -> str:
+    """The longest step at which a method held in every scene."""
+    steps = {outcome.extreme: True for outcome in outcomes}
+    for outcome in outcomes:
+        steps[outcome.extreme] &= outcome.outcome == HELD
+    longest = ""
+    for name, held in steps.items():
+        if not held:
+            break
+        longest = name
+    return longest
