@@ -22,9 +22,15 @@ def of_user_code(error: Exception) -> str | None:
 
 
 def _is_ours(filename: str) -> bool:
-    """Whether a file came with the sandbox, Python or an installed package."""
+    """Whether a file came with the sandbox, Python or an installed package, be that in this environment or another."""
+    installed = not {"site-packages", "dist-packages"}.isdisjoint(Path(filename).parts)
     libraries = {sysconfig.get_path(name) for name in ("stdlib", "purelib", "platlib")}
-    return filename.startswith("<") or _is_sandbox(filename) or any(_inside(filename, library) for library in libraries)
+    return (
+        filename.startswith("<")
+        or installed
+        or _is_sandbox(filename)
+        or any(_inside(filename, library) for library in libraries)
+    )
 
 
 def _is_machinery(filename: str) -> bool:
