@@ -399,10 +399,7 @@ def result(run: Run, parameters: Parameters) -> dict[str, Any]:
 
 def _landing(run: Run, launch_height: float) -> tuple[float, tuple[float, ...]] | None:
     """Time and state at which the ball is back at launch height, or comes down on higher ground before that."""
-    ball = run.setup.balls[0]
     touched = next((event.t for event in run.events if event.kind in ("impact", "contact", "rest")), inf)
-    if touched == 0.0:
-        return 0.0, (*ball.position, *ball.velocity, ball.spin)  # into the ground, or along it
     back = next(iter(run.crossings("ball", (0.0, launch_height), (0.0, 1.0))), None)
     if touched < (inf if back is None else back[0]):
         return touched, run.before("ball", touched)

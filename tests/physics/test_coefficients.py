@@ -74,6 +74,14 @@ def test_coefficients_have_no_jumps(name: str):
     assert np.abs(np.diff(GOLF_DRAG[name](speeds, np.full_like(speeds, 0.1)))).max() < 2e-3
 
 
+@pytest.mark.parametrize(("model", "edge"), [(quadratic_lift, 0.06628), (usga_lift, 0.0860 - 0.0122)])
+def test_lift_that_would_start_with_a_jump_rises_over_the_first_spin(model, edge: float):
+    """Both formulas have lift without spin; it is spread evenly over S = 0 to 0.02."""
+    for s in (0.004, 0.01, 0.016):
+        assert model(1e5, s) == pytest.approx(50.0 * s * edge, rel=0.5)
+    assert model(1e5, 0.02) == pytest.approx(edge, rel=0.5)
+
+
 def test_simple_models():
     assert constant(0.25)(1e5, 0.3) == 0.25
     assert spin_ratio_lift(1e5, 0.3) == 0.3

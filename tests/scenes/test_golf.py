@@ -125,6 +125,14 @@ def test_flight_without_air(angle: float):
     assert found["landing_spin"] == pytest.approx(2545.0)
 
 
+def test_the_apex_is_that_of_the_flight_even_where_a_bounce_goes_higher():
+    """H = (v sin a)^2 / (2 g)."""
+    run = play(air__density=0.0, launch__speed=60.0, launch__angle=3.0, ground__fairway__bounce=2.0)
+    flight = (60.0 * sin(radians(3.0))) ** 2 / (2 * G)
+    assert run.result["apex"] == pytest.approx(flight, abs=1e-9)
+    assert run.highest("ball")[1][1] > 1.1 * flight
+
+
 @pytest.mark.parametrize("wind", [(0.0, 0.0), (-7.0, 2.0)])
 def test_the_golf_game_is_the_books_equations(wind: tuple[float, float]):
     """m v' = -m g - 1/2 rho Cd A |u| u + 1/2 rho A r w (-vy, vx) with u = v - wind, as r w / |v| |v|^2 = r w |v|."""
