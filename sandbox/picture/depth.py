@@ -1,4 +1,4 @@
-"""Depth for side views: what lies behind the plane of play is drawn smaller, towards the point that the eye looks at."""
+"""Depth for side views: what lies behind the plane of play is drawn smaller, in central perspective."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from sandbox.picture.camera import Camera
 class Eye:
     """Sees the plane of play as the camera shows it, and what is ``z`` m behind it smaller, in central perspective.
 
-    It looks at the column ``centre`` (px) and stands as high as the row ``level`` (px), ``distance`` m before the plane.
+    It looks at the point in column ``centre`` and row ``level`` (px), from ``distance`` m before the plane of play.
     """
 
     camera: Camera

@@ -7,7 +7,7 @@ larger and scaled down.
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 from functools import lru_cache
 from itertools import pairwise
 from math import ceil, degrees, floor, hypot
@@ -18,6 +18,7 @@ import pygame
 from sandbox.picture.palette import Colour
 
 Point = tuple[float, float]
+Points = Sequence[Point] | np.ndarray  # an array has shape (n, 2)
 
 #: How many times larger a shape is drawn before it is scaled down. 4 gives 16 levels along an edge; 2 shows steps.
 OVERSAMPLING = 4
@@ -92,6 +93,16 @@ def _panel(size: tuple[int, int], colour: Colour, corner: float) -> pygame.Surfa
     return from_coverage(corner - outside + 0.5, colour)
 
 
+def around_corners(surface: pygame.Surface, rect: pygame.Rect, corner: float) -> pygame.Surface:
+    """What of a surface's rectangle lies outside its round corners: to be put back when the rectangle is filled."""
+    kept = blank(rect.size, transparent=True)
+    kept.blit(surface, (0, 0), rect)
+    alpha = pygame.surfarray.pixels_alpha(kept)
+    alpha[...] = 255 - pygame.surfarray.array_alpha(_panel(rect.size, (0, 0, 0), corner))
+    del alpha  # unlocks the surface
+    return kept
+
+
 class Painter:
     """Draws on one surface."""
 
@@ -115,10 +126,10 @@ class Painter:
         left, top = centre[0] - sprite.get_width() / 2, centre[1] - sprite.get_height() / 2
         self._blit(sprite, (round(left), round(top)), opacity)
 
-    def polygon(self, points: Sequence[Point], colour: Colour, opacity: float = 1.0) -> None:
+    def polygon(self, points: Points, colour: Colour, opacity: float = 1.0) -> None:
         self._shape(points, 0, colour, opacity, lambda mask, drawn, _: pygame.draw.polygon(mask, colour, drawn))
 
-    def line(self, points: Sequence[Point], width: float, colour: Colour, opacity: float = 1.0) -> None:
+    def line(self, points: Points, width: float, colour: Colour, opacity: float = 1.0) -> None:
         """A line through the points with round ends and joints."""
 
         def draw(mask: pygame.Surface, drawn: np.ndarray, larger: int) -> None:
@@ -140,19 +151,19 @@ class Painter:
 
         self._shape([point for line in lines for point in line], width, colour, opacity, draw)
 
-    def trace(self, points: Sequence[Point], width: float, colour: Colour, rim: Colour, rim_width: float) -> None:
+    def trace(self, points: Points, width: float, colour: Colour, rim: Colour, rim_width: float) -> None:
         """A line with a thin edge of another colour, so that it stands out on any ground."""
         self.line(points, width + 2 * rim_width, rim, 0.55)
         self.line(points, width, colour)
 
     def dashes(
-        self, points: Sequence[Point], width: float, colour: Colour, dash: float, gap: float, opacity: float = 1.0
+        self, points: Points, width: float, colour: Colour, dash: float, gap: float, opacity: float = 1.0
     ) -> None:
         """A dashed line along the points; ``dash`` and ``gap`` in px."""
         for piece in _dashed(points, dash, gap):
             self.line(piece, width, colour, opacity)
 
-    def fading(self, points: Sequence[Point], width: float, colour: Colour, opacity: float) -> None:
+    def fading(self, points: Points, width: float, colour: Colour, opacity: float) -> None:
         """A line that grows from nothing at its first point to full width and opacity at its last."""
         array = np.asarray(points, dtype=float)
         if len(array) < 2:
@@ -210,7 +221,7 @@ class Painter:
 
     def _shape(
         self,
-        points: Iterable[Point],
+        points: Points,
         width: float,
         colour: Colour,
         opacity: float,
@@ -241,7 +252,7 @@ def _quad(a: np.ndarray, b: np.ndarray, radius: float) -> list[Point]:
     return [tuple(a + across), tuple(b + across), tuple(b - across), tuple(a - across)]
 
 
-def _dashed(points: Sequence[Point], dash: float, gap: float) -> list[list[Point]]:
+def _dashed(points: Points, dash: float, gap: float) -> list[list[Point]]:
     """The pieces of a line that a dashed pen leaves."""
     array = np.asarray(points, dtype=float)
     along = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(array, axis=0).T))])

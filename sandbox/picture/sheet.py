@@ -27,13 +27,15 @@ ROWS_FOR_YARDS = 480
 class Sheet:
     """A surface of ``size`` px with its painter and lettering; ``unit`` is what 1 px is on a picture of 720 rows.
 
-    ``ink`` and ``quiet_ink`` are the colours of what is written straight on the picture, whose ground may be dark.
+    ``ink``, ``quiet_ink`` and ``wind_ink`` are the colours of what stands straight on the picture, whose ground may be
+    dark.
     """
 
     def __init__(self, size: tuple[int, int], on_dark: bool = False):
         width, height = size
         self.size, self.unit = size, height / 720
         self.ink, self.quiet_ink = (CARD["text"], CARD["quiet"]) if on_dark else (CARD["ink"], CARD["ink_quiet"])
+        self.wind_ink = palette("force")["wind"] if on_dark else CARD["wind"]
         self.gap = max(3, round(6 * self.unit))
         self.surface = blank(size)
         self.painter = Painter(self.surface)
@@ -163,9 +165,21 @@ class Sheet:
             (middle[0] - half * along, middle[1] + half * up),
             (middle[0] + half * along, middle[1] - half * up),
         )
-        self.painter.arrow(tail, head, 3.6 * self.unit, CARD["wind"])
+        self.painter.arrow(tail, head, 3.6 * self.unit, self.wind_ink)
         self.write(text, "small", rect.midbottom, self.ink, "midbottom", bold=True)
         return rect
+
+    def scale_bar(self, camera: Camera, left: float, bottom: float, room: float) -> None:
+        """A bar of a round length, which stands over it, from a point in px to the right, at most ``room`` px long."""
+        length = nice(0.35 * room / camera.scale)
+        wide, thin, tall = round(length * camera.scale), max(1, round(1.5 * self.unit)), round(7 * self.unit)
+        row, start = round(bottom) - tall // 2 - 1, round(left)
+        self.surface.fill(self.quiet_ink, (start, row, wide, thin))
+        for x in (start, start + wide - thin):
+            self.surface.fill(self.quiet_ink, (x, row - tall // 2, thin, tall + thin - 1))
+        text = f"{length:g} m" if length >= 0.995 else f"{100 * length:g} cm"
+        middle = start + max(wide, self.lettering.width(text, "small")) / 2
+        self.write(text, "small", (middle, row - tall / 2), self.quiet_ink, "midbottom")
 
 
 def nice(least: float) -> float:
@@ -186,6 +200,16 @@ def metres(value: float, digits: int | None = None) -> str:
     if digits is None:
         digits = 2 if abs(value) < 10 else 1
     return signed(f"{value:.{digits}f}") + " m"
+
+
+def roughly(value: float) -> str:
+    """A length of 0 or more as one says it: 0.14 m, 2.9 m, 252 m."""
+    return metres(value, 0 if value >= 9.95 else 1 if value >= 0.995 else 2)
+
+
+def times(factor: float) -> str:
+    """How many times as large: 1.4 times, 86 times."""
+    return f"{factor:.{0 if factor >= 9.95 else 1}f} times"
 
 
 def yards(value: float) -> str:

@@ -118,6 +118,7 @@ CONTROLS = Controls(
     strongest=16.0,
     spins=(Spin("launch.spin", 20.0),),
     sliders=("launch.speed", "launch.angle", "launch.spin", "release.height", "hoop.distance", "air.wind", "gravity"),
+    scores="made",
 )
 
 # -------------------------------------------------------------------------------------------------------------- build

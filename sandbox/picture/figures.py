@@ -1,0 +1,64 @@
+"""Plain people: flat, without faces, made of a few rounded strokes."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import NamedTuple
+
+from sandbox.picture.painter import Painter, Point
+from sandbox.picture.palette import Colour
+
+
+class Stroke(NamedTuple):
+    """A part of a body, seen from the side: a line in units of its height, ahead and up from between the feet."""
+
+    part: str  # names its colour: "body", "shirt", "shorts", "far" (what is behind)
+    points: Sequence[Point]
+    width: float
+
+
+#: Poses, seen from the side and looking ahead; what is farther away is drawn first.
+SHOOTING = (
+    Stroke("far", [(-0.005, 0.50), (0.015, 0.27), (-0.05, 0.03), (0.03, 0.014)], 0.055),
+    Stroke("far", [(0.01, 0.80), (0.12, 0.84), (0.15, 0.98)], 0.046),
+    Stroke("body", [(0.0, 0.50), (0.045, 0.27), (0.0, 0.03), (0.085, 0.014)], 0.062),
+    Stroke("shorts", [(0.0, 0.52), (0.025, 0.38)], 0.105),
+    Stroke("shirt", [(0.0, 0.54), (0.005, 0.66), (0.0, 0.78)], 0.125),
+    Stroke("body", [(0.005, 0.84), (0.022, 0.885)], 0.05),
+    Stroke("body", [(0.025, 0.925), (0.028, 0.945)], 0.108),
+    Stroke("body", [(0.0, 0.795), (0.105, 0.83), (0.135, 0.965), (0.15, 1.0)], 0.05),
+)
+REACHING = (
+    Stroke("far", [(-0.01, 0.50), (0.0, 0.27), (-0.09, 0.07), (-0.04, 0.02)], 0.055),
+    Stroke("far", [(0.01, 0.80), (0.12, 0.78), (0.17, 0.90)], 0.046),
+    Stroke("body", [(0.0, 0.50), (0.03, 0.27), (-0.03, 0.04), (0.045, 0.0)], 0.062),
+    Stroke("shorts", [(0.0, 0.52), (0.015, 0.38)], 0.105),
+    Stroke("shirt", [(0.0, 0.54), (0.01, 0.66), (0.015, 0.78)], 0.125),
+    Stroke("body", [(0.02, 0.84), (0.035, 0.885)], 0.05),
+    Stroke("body", [(0.04, 0.925), (0.045, 0.945)], 0.108),
+    Stroke("body", [(0.015, 0.80), (0.09, 0.98), (0.14, 1.14), (0.165, 1.20)], 0.05),
+)
+STANDING = (
+    Stroke("far", [(0.0, 0.50), (-0.025, 0.27), (-0.045, 0.03), (0.02, 0.014)], 0.055),
+    Stroke("body", [(0.0, 0.50), (0.02, 0.27), (0.0, 0.03), (0.07, 0.014)], 0.062),
+    Stroke("shorts", [(0.0, 0.52), (0.012, 0.38)], 0.110),
+    Stroke("shirt", [(0.0, 0.54), (0.0, 0.66), (-0.005, 0.78)], 0.130),
+    Stroke("body", [(0.0, 0.84), (0.012, 0.885)], 0.05),
+    Stroke("body", [(0.014, 0.925), (0.016, 0.945)], 0.108),
+    Stroke("shirt", [(-0.01, 0.79), (-0.005, 0.69)], 0.058),
+    Stroke("body", [(-0.005, 0.66), (0.03, 0.58), (0.085, 0.52)], 0.044),
+)
+
+
+def draw_figure(
+    painter: Painter,
+    foot: Point,
+    height: float,
+    pose: Sequence[Stroke],
+    colours: Mapping[str, Colour],
+    facing: int = 1,
+) -> None:
+    """A person ``height`` px tall who stands at a point and looks to the right (1) or to the left (-1)."""
+    for part, points, width in pose:
+        drawn = [(foot[0] + facing * ahead * height, foot[1] - up * height) for ahead, up in points]
+        painter.line(drawn, width * height, colours[part])

@@ -1,0 +1,174 @@
+"""The path of a ball as pictures show it: its trace, the ball at even times, where it struck something."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass
+from math import cos, floor, hypot, pi, sin
+from typing import Any
+
+import numpy as np
+import pygame
+
+from sandbox.picture.camera import Camera
+from sandbox.picture.palette import Colour, palette
+from sandbox.picture.sheet import Sheet, nice
+
+CARD, TRACE = palette("card"), palette("trace")
+
+#: The path is sampled this often in s; of a long run, in so many pieces.
+SAMPLING, MOST_SAMPLES = 1 / 120, 5000
+#: Points of a trace are this far apart, in px.
+FINEST = 1.5
+#: At most so many balls are drawn along a path.
+BALLS = 20
+#: Impacts at less than this, in m/s, are not marked.
+LEAST_IMPACT = 0.3
+
+
+@dataclass(frozen=True)
+class Mark:
+    """One impact of a ball: where it was touched, in m, which way from its middle, and how fast it came, in m/s."""
+
+    t: float
+    partner: str
+    at: tuple[float, float]
+    towards: tuple[float, float]
+    speed: float
+
+
+class Path:
+    """The path of one ball of a run from its start to the time ``until`` in s."""
+
+    def __init__(self, run: Any, name: str = "ball", until: float | None = None):
+        self.run, self.name = run, name
+        self.radius: float = next(ball.radius for ball in run.setup.balls if ball.name == name)
+        self.until = run.duration if until is None else until
+        samples = run.trajectory(name, every=max(SAMPLING, run.duration / MOST_SAMPLES))
+        end = (self.until, *run.state(name, self.until))
+        self.samples = np.array([*samples[samples[:, 0] < self.until], end])  # t, x, y, vx, vy, spin
+        self.points = self.samples[:, 1:3]
+
+    def traced(self, camera: Camera) -> np.ndarray:
+        """The path in px, shape (n, 2), in as many points as can be told apart."""
+        points = camera.pixels(self.points)
+        return points[apart(points, FINEST)]
+
+    def even_times(self, camera: Camera, radius: float) -> tuple[float, list[float]]:
+        """The time between balls drawn with ``radius`` px along the path, and the times that have room for one.
+
+        In s; before the end, which has a ball of its own.
+        """
+        every = nice(max(self.until, 0.01) / BALLS)
+        ends = [camera.pixel(*self.run.state(self.name, t)[:2]) for t in (self.until, 0.0)]
+        times, last = [], ends[1]
+        for i in range(floor(self.until / every) + 1):
+            at = camera.pixel(*self.run.state(self.name, i * every)[:2])
+            far = hypot(at[0] - last[0], at[1] - last[1]), hypot(at[0] - ends[0][0], at[1] - ends[0][1])
+            if (i == 0 or far[0] > 2.3 * radius) and far[1] > 3 * radius:
+                times.append(i * every)
+                last = at
+        return every, times
+
+    def marks(self) -> Iterator[Mark]:
+        """The impacts along the path."""
+        for event in self.run.events:
+            if event.kind == "impact" and self.name in (event.ball, event.partner) and event.t <= self.until + 1e-9:
+                other = event.partner if event.ball == self.name else event.ball
+                mark = self._mark(event, other)
+                if mark.speed >= LEAST_IMPACT:
+                    yield mark
+
+    def _mark(self, event: Any, other: str) -> Mark:
+        x, y, *_ = self.run.state(self.name, event.t)
+        near = min(self._nearest_points(x, y, other, event.t), key=lambda point: hypot(point[0] - x, point[1] - y))
+        away = hypot(near[0] - x, near[1] - y) or 1.0
+        towards = (near[0] - x) / away, (near[1] - y) / away
+        at = x + towards[0] * self.radius, y + towards[1] * self.radius
+        return Mark(event.t, other, at, towards, event.speed)
+
+    def _nearest_points(self, x: float, y: float, other: str, t: float) -> Iterator[tuple[float, float]]:
+        """Of each thing with that name, the point nearest to (x, y), in m; a ball's or circle's is its middle."""
+        for surface in self.run.setup.surfaces:
+            if surface.name == other:
+                shape = surface.shape
+                if hasattr(shape, "center"):
+                    yield shape.center
+                    continue
+                (ax, ay), (bx, by) = shape.a, shape.b
+                length = shape.length**2 or 1.0
+                share = min(1.0, max(0.0, ((x - ax) * (bx - ax) + (y - ay) * (by - ay)) / length))
+                yield ax + share * (bx - ax), ay + share * (by - ay)
+        for ball in self.run.setup.balls:
+            if ball.name == other:
+                yield self.run.state(other, t)[:2]
+
+
+def apart(points: np.ndarray, least: float) -> list[int]:
+    """Indices of the points that are ``least`` px from each other, and of the last."""
+    kept = [0]
+    for i in range(1, len(points) - 1):
+        if hypot(*(points[i] - points[kept[-1]])) >= least:
+            kept.append(i)
+    return [*kept, len(points) - 1]
+
+
+def draw_trace(sheet: Sheet, points: np.ndarray, colour: Colour) -> None:
+    """The path as a thick line with a thin dark rim; no label will be placed on it."""
+    sheet.labels.take_path(points, 4 * sheet.unit)
+    width = max(2.5, 4.5 * sheet.unit)
+    sheet.painter.trace(points, width, colour, TRACE["rim"], max(0.75, sheet.unit))
+
+
+def draw_mark(sheet: Sheet, at: tuple[float, float]) -> None:
+    """Where a ball struck something."""
+    radius = max(2.5, 4.2 * sheet.unit)
+    sheet.painter.disc(at, radius + max(0.8, 1.2 * sheet.unit), TRACE["rim"], 0.8)
+    sheet.painter.disc(at, radius, CARD["accent"])
+    sheet.painter.disc(at, 0.4 * radius, CARD["background"])
+
+
+def mark_impacts(sheet: Sheet, camera: Camera, marks: Iterable[Mark], labelled: Callable[[Mark], bool]) -> None:
+    """Impacts as marks with their speed; those at one place share a label, the first first."""
+    places: list[tuple[tuple[float, float], list[Mark]]] = []
+    for mark in marks:
+        at = camera.pixel(*mark.at)
+        draw_mark(sheet, at)
+        near = (found for place, found in places if hypot(place[0] - at[0], place[1] - at[1]) < 9 * sheet.unit)
+        same = next(near, None)
+        if same is None:
+            places.append((at, [mark]))
+        else:
+            same.append(mark)
+    for at, _ in places:
+        sheet.labels.take_path([at], 4 * sheet.unit)
+    for at, found in places:
+        if labelled(found[0]):
+            speeds = ", ".join(f"{mark.speed:.1f}" for mark in found)
+            for text in (f"{speeds} m/s", speeds):
+                if label_mark(sheet, at, found[0].towards, text):
+                    break
+
+
+def label_mark(sheet: Sheet, at: tuple[float, float], towards: tuple[float, float], text: str) -> bool:
+    """A text on a dark chip beside a mark, rather on the side of what was struck (``towards``); False: no room."""
+    unit = sheet.unit
+    width, height = sheet.lettering.width(text, "small", bold=True), sheet.lettering.height("small")
+    chip = pygame.Rect(0, 0, width + round(12 * unit), height + round(4 * unit))
+    chips = []
+    for far in (9, 16, 25, 36, 50):
+        for turn in (0.0, 0.6, -0.6, 1.2, -1.2, 1.9, -1.9, pi):
+            across = cos(turn) * towards[0] - sin(turn) * towards[1]
+            down = -sin(turn) * towards[0] - cos(turn) * towards[1]
+            # The chip touches the end of the way, with the side or corner that is nearest.
+            chip.center = (
+                round(at[0] + across * far * unit + chip.width / 2 * max(-1.0, min(1.0, 1.6 * across))),
+                round(at[1] + down * far * unit + chip.height / 2 * max(-1.0, min(1.0, 1.6 * down))),
+            )
+            chips.append(chip.clamp(sheet.labels.frame))
+    placed = sheet.labels.place(chips)
+    if placed:
+        sheet.painter.panel(placed, CARD["background"], CARD["opacity"], 0.5 * placed.height)
+        rect = sheet.lettering.write(sheet.surface, text, "small", placed.center, CARD["text"], "center", bold=True)
+        sheet.written.append((text, rect))
+    return placed is not None

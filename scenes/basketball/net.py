@@ -1,0 +1,73 @@
+"""The net as it is drawn: it hangs, gives way to the ball that passes through, and swings out. No part of the physics."""
+
+from __future__ import annotations
+
+from math import cos, exp, pi, sin, tau
+from typing import Any
+
+import numpy as np
+
+from sandbox.picture.depth import Eye
+from sandbox.picture.painter import Painter
+from sandbox.picture.palette import palette
+
+from .scene import rims
+
+COURT = palette("basketball")
+
+#: Strands around the ring, knots down each, and how wide the net is at its end against the ring.
+STRANDS, KNOTS, NARROW = 11, 9, 0.56
+#: After the ball is out the net swings this fast (rad/s) and settles this fast (1/s).
+SWING, SETTLE = 11.0, 3.0
+
+
+class Net:
+    """The net of one shot, at any time of it."""
+
+    def __init__(self, run: Any, parameters: Any):
+        self.run = run
+        (front, self.top), (back, _) = rims(parameters)
+        self.middle, self.wide = (front + back) / 2, (back - front) / 2
+        self.length, self.radius = parameters.net.length, parameters.ball.radius
+        self.entered, self.left = self._passage() if run.result["made"] else (np.inf, np.inf)
+
+    def _passage(self) -> tuple[float, float]:
+        """When the ball goes into the net for good, and when it is out below, in s."""
+        floor = next((event.t for event in self.run.events if event.partner == "floor"), self.run.duration)
+        into = [t for t, _ in self.run.crossings("ball", (0.0, self.top), (0.0, 1.0)) if t <= floor]
+        end = self.top - self.length - 0.5 * self.radius
+        out = (t for t, _ in self.run.crossings("ball", (0.0, end), (0.0, 1.0)) if t > into[-1])
+        return into[-1], next(out, floor)
+
+    def draw(self, painter: Painter, eye: Eye, unit: float, behind: bool, t: float) -> None:
+        """The half behind the ball or that before it, as it hangs at time t in s."""
+        down = np.linspace(0, 1, KNOTS)
+        aside, wide = self._shape(down, t)
+        lines = []
+        for i in range(STRANDS * 2):
+            turn = (i // 2) / STRANDS * tau + (-1) ** i * down * (KNOTS - 1) * pi / STRANDS
+            x, z = self.middle + aside + wide * np.cos(turn), wide * np.sin(turn)
+            points = eye.points(np.column_stack([x, self.top - self.length * down, z]))
+            seen = (np.sin(turn) >= 0) == behind
+            lines += [points[k : k + 2] for k in range(KNOTS - 1) if seen[k] or seen[k + 1]]
+        painter.lines(lines, max(0.9 * unit, 0.012 * eye.camera.scale), COURT["net"], 0.3 if behind else 0.75)
+
+    def _shape(self, down: np.ndarray, t: float) -> tuple[np.ndarray, np.ndarray]:
+        """How far aside the net is and how wide, in m, at shares of its length down from the ring."""
+        wide = self.wide * (1 - (1 - NARROW) * down**0.7)
+        if t <= self.entered:
+            return 0.0 * down, wide
+        x, y, *_ = self.run.state("ball", min(t, self.left))
+        depth = max(0.05, (self.top - y) / self.length)
+        pushed = 0.7 * (x - self.middle) * np.where(down < depth, down / depth, 1 - 0.5 * (down - depth))
+        if t <= self.left:
+            around = np.sqrt(np.maximum(0.0, self.radius**2 - ((down - depth) * self.length) ** 2))
+            return pushed, np.maximum(wide, around * np.minimum(1.0, 6 * down))
+        after = t - self.left
+        swing = exp(-SETTLE * after)
+        return pushed * swing * cos(SWING * after), wide * (1 + 0.3 * down * swing * sin(1.7 * SWING * after))
+
+    @property
+    def fullest(self) -> float:
+        """A time in s at which the ball is well inside the net, or one at which the net is at rest."""
+        return self.entered + 0.4 * (self.left - self.entered) if self.left < np.inf else 0.0
