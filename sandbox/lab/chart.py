@@ -39,7 +39,7 @@ def draw_trade(found: Trade, path: Path) -> None:
     """Error against speed: one curve for each method, the best corner at the top right, levels marked."""
     reference = found.reference
     name = f"{reference.scene.name}/{reference.scene.preset}" if reference.scene.preset else reference.scene.name
-    with _chart(path, f"{name}: error against speed", _measure(found)) as (axes, colours):
+    with chart(path, f"{name}: error against speed", _measure(found)) as (axes, colours):
         floor = max(_LEAST, reference.error)
         methods = list(dict.fromkeys(point.method for point in found.points))
         for method, colour in zip(methods, _colours(methods, colours), strict=True):
@@ -113,7 +113,7 @@ def _level(axes: Any, name: str, point: Point, floor: float, colours: dict[str, 
 
 
 @contextmanager
-def _chart(path: Path, title: str, about: str) -> Iterator[tuple[Any, dict[str, Any]]]:
+def chart(path: Path, title: str, about: str) -> Iterator[tuple[Any, dict[str, Any]]]:
     """Axes to draw into, and the palette; what was drawn is written at the end."""
     import matplotlib
     from matplotlib import font_manager

@@ -13,8 +13,7 @@ import numpy as np
 from sandbox import parameters as declared
 from sandbox.errors import RequestError
 from sandbox.lab.axes import Axis, Values, at, path_of
-from sandbox.lab.chart import _chart as chart
-from sandbox.lab.chart import check_installed
+from sandbox.lab.chart import chart, check_installed
 from sandbox.lab.plan import FLAGS, HANGS, Plan, records
 from sandbox.lab.row_file import cell, rows
 from sandbox.lab.tables import significant
