@@ -6,6 +6,7 @@ from collections.abc import Iterable
 from functools import cache, lru_cache
 from math import ceil
 
+import numpy as np
 import pygame
 
 from sandbox.picture.painter import scratch
@@ -36,6 +37,13 @@ def _rendered(text: str, pixels: int, bold: bool, colour: Colour) -> pygame.Surf
     whole = scratch((width * FINER, height * FINER), colour)
     whole.blit(drawn, (0, 0))
     return pygame.transform.smoothscale(whole, (width, height))
+
+
+def stamp(text: str) -> np.ndarray:
+    """A text in bold as coverage (0 to 1, shape (width, height)), cut to its edges: to be put on what is no picture."""
+    alpha = pygame.surfarray.array_alpha(_font(16, True).render(text, True, (255, 255, 255))) / 255.0
+    columns, rows = (np.flatnonzero(alpha.max(axis=axis) > 0) for axis in (1, 0))
+    return alpha[columns[0] : columns[-1] + 1, rows[0] : rows[-1] + 1]
 
 
 class Lettering:

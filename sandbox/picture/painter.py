@@ -141,7 +141,7 @@ class Painter:
 
         self._shape(points, width, colour, opacity, draw)
 
-    def lines(self, lines: Sequence[Sequence[Point]], width: float, colour: Colour, opacity: float = 1.0) -> None:
+    def lines(self, lines: Sequence[Points], width: float, colour: Colour, opacity: float = 1.0) -> None:
         """Many thin lines at once, such as the mesh of a net; where they cross they are no denser."""
         ends = np.cumsum([len(line) for line in lines])
 

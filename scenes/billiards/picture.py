@@ -1,0 +1,378 @@
+"""Billiards from above: the table under its lamp, the way of each ball, and what was struck where."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from math import floor, hypot, pi
+from typing import Any
+
+import numpy as np
+import pygame
+
+from sandbox.picture import sphere
+from sandbox.picture.camera import Camera
+from sandbox.picture.painter import Painter
+from sandbox.picture.palette import Colour, palette
+from sandbox.picture.path import Path, apart, draw_mark, label_mark
+from sandbox.picture.sheet import Sheet, metres, nice, signed
+
+from . import balls
+from .backdrop import backdrop, outside
+
+CARD, TRACE, BILLIARDS = palette("card"), palette("trace"), palette("billiards")
+
+#: A smaller ball is drawn this large, in px across.
+SMALLEST_BALL = 7.0
+#: s of path that the trails behind the balls show.
+TRAIL = 0.5
+#: The path is sampled this often in s; of a long run, in so many pieces.
+SAMPLING, MOST_SAMPLES = 1 / 60, 3000
+#: A ball that goes no further than this, in radii, has no trace of its own.
+LEAST_WAY = 0.3
+#: Width of traces, px on 720 rows: of the struck ball, of the others.
+LOUD, QUIET = 4.2, 2.4
+#: Balls are lit from the left above, so their shadows lie to the right below; in radii.
+SHADOW = (0.34, 0.42)
+
+
+class Picture:
+    """Draws one run of billiards at ``size`` px: as a poster, or as it is at a time t."""
+
+    def __init__(self, run: Any, parameters: Any, size: tuple[int, int] = (1280, 720)):
+        self.run, self.parameters, self.size = run, parameters, size
+        self.struck = parameters.cue.ball
+        self.radius = run.setup.balls[0].radius
+        self.names = [ball.name for ball in run.setup.balls]
+        sheet = self.sheet = Sheet(size, on_dark=True)
+        self.unit = sheet.unit
+        self.card_row = sheet.frame.bottom - sheet.card_height()
+        self.head_row = sheet.frame.top + sheet.lettering.height("large") + sheet.lettering.height("small") + sheet.gap
+
+    @cached_property
+    def camera(self) -> Camera:
+        """The whole table between headline and card, in their middle."""
+        table = outside(self.run.setup, self.parameters.table)
+        frame, gap = self.sheet.frame, 2 * self.sheet.gap
+        width, height = frame.width, self.card_row - self.head_row - 2 * gap
+        scale = min(width / (table.right - table.left), height / (table.top - table.bottom))
+        return Camera((0.0, 0.0), (self.size[0] / 2, (self.head_row + self.card_row) / 2), scale)
+
+    def view(self, t: float) -> Camera:
+        """The camera of the frame at time t: the table stands still."""
+        return self.camera
+
+    def stage(self) -> pygame.Surface:
+        """Room and table, without balls and text."""
+        return self._backdrop.copy()
+
+    @property
+    def _backdrop(self) -> pygame.Surface:
+        return backdrop(self.run.setup, self.parameters.table, self.camera, self.size)
+
+    # Balls
+
+    def _radius(self, camera: Camera) -> float:
+        """Of a ball as it is drawn, in px."""
+        return max(self.radius * camera.scale, SMALLEST_BALL / 2)
+
+    @cached_property
+    def _turnings(self) -> dict[str, sphere.Turning]:
+        return {name: balls.turning(self.run, name) for name in self.names}
+
+    def _on_table(self, t: float) -> list[str]:
+        caught = {name: self.run.caught_at(name) for name in self.names}
+        return [name for name, at in caught.items() if at is None or t < at]
+
+    def draw_balls(self, painter: Painter, camera: Camera, t: float) -> None:
+        """The balls that are on the table at time t, turned as they are."""
+        radius = self._radius(camera)
+        present = [(name, camera.pixel(*self.run.state(name, t)[:2])) for name in self._on_table(t)]
+        for _, (x, y) in present:
+            at = x + SHADOW[0] * radius, y + SHADOW[1] * radius
+            painter.shadow(at, 1.02 * radius, 0.98 * radius, BILLIARDS["room_shadow"], 0.62)
+        for name, at in present:
+            self._ball(painter, at, radius, name, self._turnings[name].at(t))
+
+    @staticmethod
+    def _ball(painter: Painter, at: tuple[float, float], radius: float, name: str, matrix: np.ndarray) -> None:
+        painter.disc(at, radius + 0.4, BILLIARDS["rim"], 0.5)
+        sphere.draw(painter, at, radius, balls.skin(name), matrix)
+
+    # Paths
+
+    @cached_property
+    def paths(self) -> dict[str, np.ndarray]:
+        """Of each ball that moved, t, x and y (s and m) until it rests or is caught."""
+        return {name: path for name in self.names if len(path := self._path(name)) > 1}
+
+    def _path(self, name: str) -> np.ndarray:
+        """Until it rests; straight pieces have no points between."""
+        run = self.run
+        every = max(SAMPLING, run.duration / MOST_SAMPLES)
+        times = [0.0]
+        for arc in run.arcs[name]:
+            if hypot(*arc.state(arc.t0)[2:4]) > 0 or hypot(*arc.state(arc.t1)[2:4]) > 0:
+                pieces = 1 + floor((arc.t1 - arc.t0) / every)
+                times += [arc.t0 + (arc.t1 - arc.t0) * (i + 1) / pieces for i in range(pieces)]
+        points = np.array([(t, *run.state(name, t)[:2]) for t in times])
+        return points if np.hypot(*np.ptp(points[:, 1:], axis=0)) > LEAST_WAY * self.radius else points[:1]
+
+    @cached_property
+    def colours(self) -> dict[str, Colour]:
+        """Of each trace: the struck ball's the loudest, the others' in the order in which they set off."""
+        first, *others = BILLIARDS["traces"]
+        movers = sorted(
+            (path[min(1, len(path) - 1), 0], name) for name, path in self.paths.items() if name != self.struck
+        )
+        return {self.struck: first} | {name: others[i % len(others)] for i, (_, name) in enumerate(movers)}
+
+    # The poster
+
+    def poster(self) -> pygame.Surface:
+        """The whole run in one picture."""
+        sheet = self.sheet = Sheet(self.size, on_dark=True)
+        sheet.surface.blit(self._backdrop, (0, 0))
+        painter, camera, unit = sheet.painter, self.camera, self.unit
+        radius = self._radius(camera)
+        for name in self.paths:
+            at = camera.pixel(*self.run.state(name, 0.0)[:2])
+            painter.ring(at, radius - 0.5 * unit, max(1.0, 1.1 * unit), BILLIARDS["start"], 0.75)
+        for name, path in self.paths.items():
+            if name != self.struck:
+                self._trace(painter, path, QUIET * unit, self.colours[name])
+        every = 0.0
+        if self.struck in self.paths:
+            self._trace(painter, self.paths[self.struck], LOUD * unit, self.colours[self.struck])
+            every = self._marks(painter)
+        self.draw_balls(painter, camera, self.run.duration)
+        self._impacts(sheet, radius)
+        self._scale(sheet)
+        right = self._head(sheet, self.run.duration)
+        notes = [f"a dot every {every:g} s"] if every else []
+        sheet.headline(self.verdict(), [*notes, *self._notes()], right - sheet.frame.left - 3 * sheet.gap)
+        sheet.columns(self.card_row, self.numbers())
+        return sheet.surface
+
+    def _notes(self) -> list[str]:
+        factor = self._radius(self.camera) / (self.radius * self.camera.scale)
+        return [f"balls drawn {factor:.1f} times their size"] if factor > 1.001 else []
+
+    def _trace(self, painter: Painter, path: np.ndarray, width: float, colour: Colour) -> None:
+        points = self.camera.pixels(path[:, 1:])
+        painter.trace(points[apart(points, 1.0)], max(1.2, width), colour, BILLIARDS["rim"], max(0.6, 0.9 * self.unit))
+
+    def _marks(self, painter: Painter) -> float:
+        """Dots on the struck ball's trace at even times; returns the time between in s."""
+        path = self.paths[self.struck]
+        every = nice(path[-1, 0] / 16)
+        last = (-1e9, 0.0)
+        for i in range(1, floor(path[-1, 0] / every) + 1):
+            at = self.camera.pixel(*self.run.state(self.struck, i * every)[:2])
+            if hypot(at[0] - last[0], at[1] - last[1]) > 7 * self.unit:
+                painter.disc(at, max(1.4, 2.3 * self.unit), BILLIARDS["rim"])
+                painter.disc(at, max(0.9, 1.5 * self.unit), BILLIARDS["ivory"])
+                last = at
+        return every
+
+    def _impacts(self, sheet: Sheet, radius: float) -> None:
+        """What the struck ball met, and how hard."""
+        camera = self.camera
+        for path in self.paths.values():
+            points = camera.pixels(path[:, 1:])
+            sheet.labels.take_path(_evenly(points, 5 * self.unit), 2 * self.unit)
+        for name in self._on_table(self.run.duration):
+            x, y = camera.pixel(*self.run.state(name, self.run.duration)[:2])
+            sheet.labels.take(pygame.Rect(x - radius, y - radius, 2 * radius, 2 * radius))
+        marked: list[tuple[float, float]] = []
+        for mark in sorted(Path(self.run, self.struck).marks(), key=lambda mark: -mark.speed):
+            at = camera.pixel(*mark.at)
+            if all(hypot(at[0] - x, at[1] - y) > 2 * radius for x, y in marked):  # of several the hardest
+                marked.append(at)
+                draw_mark(sheet, at)
+                label_mark(sheet, at, mark.towards, f"{mark.speed:.1f} m/s")
+
+    def _scale(self, sheet: Sheet) -> None:
+        """A scale bar on the floor beside the table, where there is room."""
+        table = outside(self.run.setup, self.parameters.table)
+        right, bottom = self.camera.pixel(table.left, table.bottom)
+        room = right - sheet.frame.left - 4 * sheet.gap
+        if room > 5 * sheet.lettering.height("small"):
+            sheet.scale_bar(self.camera, sheet.frame.left, bottom, room)
+
+    def _head(self, sheet: Sheet, t: float) -> float:
+        """At the top right where the tip meets the ball, and what is potted; returns where it begins, in px."""
+        painter, unit, frame = sheet.painter, self.unit, sheet.frame
+        label = frame.top + sheet.lettering.height("small")
+        radius = (self.head_row - label - sheet.gap) / 2
+        centre = frame.right - radius, self.head_row - radius
+        self._tip(painter, centre, radius)
+        sheet.write("tip", "small", (centre[0], label), CARD["quiet"], "midbottom")
+        left = centre[0] - radius
+        potted = [name for name in self.run.result["potted"] if self.run.caught_at(name) <= t]
+        if not potted:
+            return left
+        size = max(5.0, 12 * unit)
+        wide = (2.25 * len(potted) + 0.75) * size
+        rect = pygame.Rect(0, 0, round(max(wide, sheet.lettering.width("potted", "small"))), round(3 * size))
+        rect.midright = round(left - 4 * sheet.gap), round(centre[1])
+        painter.panel(rect, CARD["background"], CARD["opacity"], rect.height / 2)
+        sheet.write("potted", "small", (rect.centerx, label), CARD["quiet"], "midbottom")
+        for i, name in enumerate(potted):
+            at = rect.centerx + (i - (len(potted) - 1) / 2) * 2.25 * size, rect.centery
+            self._ball(painter, at, size, name, balls.NUMBER_UP)
+        return rect.left
+
+    def _tip(self, painter: Painter, centre: tuple[float, float], radius: float) -> None:
+        """The struck ball from behind, with a dot where the tip meets it."""
+        x, y = centre
+        painter.disc(centre, radius, BILLIARDS["ivory"])
+        painter.ring(centre, radius / 2, max(1.0, self.unit), BILLIARDS["numeral"], 0.2)
+        for dx, dy in ((radius, 0.0), (0.0, radius)):
+            ends = [(x - 0.8 * dx, y - 0.8 * dy), (x + 0.8 * dx, y + 0.8 * dy)]
+            painter.line(ends, max(1.0, self.unit), BILLIARDS["numeral"], 0.25)
+        cue = self.parameters.cue
+        painter.disc((x + cue.english * radius, y - cue.follow * radius), max(2.0, 0.2 * radius), BILLIARDS["chalk"])
+
+    def verdict(self) -> str:
+        """What happened, in one line."""
+        run, result = self.run, self.run.result
+        others = [name for name in result["potted"] if name != self.struck]
+        where = result["pockets"]
+        if result["scratch"]:
+            also = f", with {_named(others)}" if others else ""
+            return f"Scratch in the {where[self.struck]}{also}"
+        if len(others) == 1:
+            return f"{_called(others[0])[0].upper() + _called(others[0])[1:]} into the {where[others[0]]}"
+        if others:
+            return f"Potted {_named(others)}"
+        if result["first_contact"] is None:
+            return "Hits no ball"
+        if result["ended"] == "duration":
+            return f"Still rolling after {run.duration:.0f} s"
+        if not run.setup.catches:
+            return self._point()
+        if len(self.names) > 6:
+            return f"Break at {self.parameters.cue.speed:.1f} m/s, nothing potted"
+        return "Nothing potted"
+
+    def _point(self) -> str:
+        """On a table without pockets: whether the struck ball met all others, after how many cushions."""
+        met: list[str] = []
+        cushions = 0
+        for touched in self.run.result["touches"]:
+            if touched in self.names and touched not in met:
+                met.append(touched)
+            elif touched.endswith("cushion"):
+                cushions += 1
+            if len(met) == len(self.names) - 1:
+                return f"Point, after {cushions} cushion{'' if cushions == 1 else 's'}"
+        return f"No point: meets {_named(met)} alone"
+
+    def numbers(self) -> list[tuple[str, str]]:
+        """The card's labels and values."""
+        run, result, cue = self.run, self.run.result, self.parameters.cue
+        others = [name for name in result["potted"] if name != self.struck]
+        way = np.hypot(*np.diff(self.paths[self.struck][:, 1:], axis=0).T).sum() if self.struck in self.paths else 0.0
+        first = result["first_contact"]
+        hit = self._first_contact
+        entries = [("potted", ", ".join(others) or "–")] if run.setup.catches else [("first contact", first or "–")]
+        entries += [("stroke", f"{cue.speed:.1f} m/s"), ("tip", _tip(cue)), ("cushions", str(result["rails"]))]
+        entries.append(("contact", f"{hit.speed:.1f} m/s" if hit else "–"))
+        entries.append(("path", metres(way)))
+        entries.append(("at rest after", "–" if result["rest_time"] is None else f"{result['rest_time']:.1f} s"))
+        return entries
+
+    # Frames
+
+    def frame(self, t: float) -> pygame.Surface:
+        """The table at time t in s."""
+        t = min(max(t, 0.0), self.run.duration)
+        sheet = self.sheet = Sheet(self.size, on_dark=True)
+        sheet.surface.blit(self._backdrop, (0, 0))
+        painter, camera = sheet.painter, self.camera
+        radius = self._radius(camera)
+        for name in self.paths:
+            self._trail(painter, name, t, radius)
+        self.draw_balls(painter, camera, t)
+        right = self._head(sheet, t)
+        headline = self.verdict() if t >= self.run.duration else self._story(t)
+        sheet.headline(headline, self._notes(), right - sheet.frame.left - 3 * sheet.gap)
+        sheet.columns(self.card_row, self._live(t))
+        return sheet.surface
+
+    def _trail(self, painter: Painter, name: str, t: float, radius: float) -> None:
+        path = self.paths[name]
+        end = min(t, path[-1, 0])
+        if t - end >= TRAIL or end <= 0:
+            return
+        start = max(0.0, t - TRAIL)
+        inside = (path[:, 0] > start) & (path[:, 0] < end)
+        times = np.array([start, *path[inside, 0], end])
+        points = self.camera.pixels(np.column_stack([np.interp(times, path[:, 0], path[:, i]) for i in (1, 2)]))
+        kept = points[apart(points, 1.5)]
+        if np.hypot(*np.diff(kept, axis=0).T).sum() > 2:
+            painter.fading(kept, 1.1 * radius, self.colours[name], 0.85)
+
+    def _story(self, t: float) -> str:
+        """The last thing that is worth telling."""
+        said = f"Struck at {self.parameters.cue.speed:.1f} m/s"
+        first = self._first_contact
+        for event in self.run.events:
+            if event.t > t:
+                break
+            if event.kind == "caught":
+                said = f"{_called(event.ball)} into the {event.partner}"
+            elif event is first:
+                said = f"Meets {_called(self.run.result['first_contact'])} at {event.speed:.1f} m/s"
+        return said[0].upper() + said[1:]
+
+    @property
+    def _first_contact(self) -> Any:
+        """The first impact of the struck ball on another, or None."""
+        pair = {self.struck, self.run.result["first_contact"]}
+        return next((e for e in self.run.events if e.kind == "impact" and {e.ball, e.partner} == pair), None)
+
+    def _live(self, t: float) -> list[tuple[str, str]]:
+        run = self.run
+        present = self._on_table(t)
+        speeds = {name: hypot(*run.state(name, t)[2:4]) for name in present}
+        entries = [("time", f"{t:.2f} s")]
+        spin = run.state(self.struck, t)[4]
+        if self.struck in present:
+            entries += [
+                ("speed", f"{speeds[self.struck]:.2f} m/s"),
+                ("side spin", signed(f"{-spin * 30 / pi:.0f}") + " rpm"),
+            ]
+        else:
+            entries += [("speed", "–"), ("side spin", "–")]
+        entries.append(("moving", str(sum(speed > 0 for speed in speeds.values()))))
+        rails = sum(e.kind == "impact" and e.partner.endswith(" cushion") and e.t <= t for e in run.events)
+        entries.append(("cushions", str(rails)))
+        return entries
+
+
+def _evenly(points: np.ndarray, step: float) -> np.ndarray:
+    """Points every ``step`` px along a line."""
+    along = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(points, axis=0).T))])
+    at = np.arange(0.0, along[-1] + step, step)
+    return np.column_stack([np.interp(at, along, points[:, axis]) for axis in (0, 1)])
+
+
+def _called(name: str) -> str:
+    return f"the {name}"
+
+
+def _named(names: list[str]) -> str:
+    """The 1, the 3 and the 7."""
+    called = [_called(name) for name in names]
+    return " and ".join([", ".join(called[:-1]), called[-1]] if len(called) > 1 else called)
+
+
+def _tip(cue: Any) -> str:
+    """Where the tip meets the ball, in radii."""
+    parts = []
+    if cue.follow:
+        parts.append(f"{abs(cue.follow):.2g} {'follow' if cue.follow > 0 else 'draw'}")
+    if cue.english:
+        parts.append(f"{abs(cue.english):.2g} {'right' if cue.english > 0 else 'left'}")
+    return ", ".join(parts) or "centre"

@@ -1,0 +1,169 @@
+"""Billiards pictures of very different shots: composed, legible, the balls in sight and turning as they roll."""
+
+from functools import cache
+from math import hypot, pi
+
+import numpy as np
+import pytest
+
+import sandbox
+
+SIZES = [(640, 360), (1280, 720), (1920, 1080), (960, 672), (640, 400)]
+ONE_BALL = {"rack": "none", "balls": [{"name": "cue", "x": -0.5, "y": 0.0}]}
+SHOTS = {
+    "break": ("billiards", {}),
+    "bank": ("billiards/bank", {}),
+    "draw": ("billiards/draw", {}),
+    "snooker": ("billiards/snooker-break", {}),
+    "carom": ("billiards/three-rail-carom", {}),
+    "one ball": ("billiards", {**ONE_BALL, "cue.english": 0.4}),
+    "not struck": ("billiards", {**ONE_BALL, "cue.speed": 0.0}),
+    "straight in": ("billiards", {**ONE_BALL, "balls": [{"name": "cue"}], "cue.angle": 90.0, "cue.speed": 2.0}),
+    "small and square": (
+        "billiards",
+        {**ONE_BALL, "balls": [{"name": "cue"}], "table.length": 1.0, "table.width": 1.0, "cue.angle": 20.0},
+    ),
+    "odd names": (
+        "billiards",
+        {
+            "rack": "none",
+            "balls": [{"name": name, "x": 0.2 * i, "y": 0.0} for i, name in enumerate(("cue", "zoë", "99"))],
+        },
+    ),
+}
+
+
+@cache
+def run_of(name: str):
+    scene = sandbox.load(*SHOTS[name])
+    return scene, sandbox.simulate(scene)
+
+
+def picture_of(name: str, size=(640, 360)):
+    scene, run = run_of(name)
+    return scene.picture(run, size)
+
+
+def assert_legible(picture) -> None:
+    sheet = picture.sheet
+    assert sheet.written
+    for i, (text, rect) in enumerate(sheet.written):
+        assert sheet.frame.contains(rect), f"{text} leaves the frame"
+        for other_text, other in sheet.written[:i]:
+            assert not rect.colliderect(other), f"{text} overlaps {other_text}"
+
+
+@pytest.mark.parametrize("size", SIZES, ids=str)
+@pytest.mark.parametrize("name", SHOTS)
+class TestEveryShot:
+    def test_poster_and_frames_are_legible(self, name, size):
+        picture = picture_of(name, size)
+        assert picture.poster().get_size() == size
+        assert_legible(picture)
+        for share in (0.0, 0.1, 1.0):
+            assert picture.frame(share * picture.run.duration).get_size() == size
+            assert_legible(picture)
+
+    def test_the_table_is_whole_and_clear_of_the_text(self, name, size):
+        picture = picture_of(name, size)
+        x, y = 0.5 * picture.parameters.table.length, 0.5 * picture.parameters.table.width
+        left, top = picture.camera.pixel(-x, y)
+        right, bottom = picture.camera.pixel(x, -y)
+        assert 0.04 * size[0] < left < right < 0.96 * size[0]
+        assert picture.head_row < top < bottom < picture.card_row
+
+    def test_balls_are_large_enough_to_be_seen(self, name, size):
+        picture = picture_of(name, size)
+        drawn = picture._radius(picture.camera)
+        assert 2 * drawn >= 7
+        picture.poster()
+        said = any("times their size" in text for text, _ in picture.sheet.written)
+        assert said == (drawn > 1.001 * picture.radius * picture.camera.scale)
+
+
+@pytest.mark.parametrize(
+    ("name", "words"),
+    [
+        ("bank", "The 1 into the side left pocket"),
+        ("carom", "Point, after 3 cushions"),
+        ("snooker", "nothing potted"),
+        ("one ball", "Hits no ball"),
+        ("straight in", "Scratch in the"),
+    ],
+)
+def test_the_verdict_says_what_happened(name, words):
+    assert words in picture_of(name).verdict()
+
+
+def test_a_caught_ball_leaves_the_table_and_lies_in_the_row():
+    picture = picture_of("bank")
+    at = picture.run.caught_at("1")
+    assert "1" in picture._on_table(at - 0.01)
+    assert "1" not in picture._on_table(at)
+    picture.frame(at - 0.01)
+    assert "potted" not in [text for text, _ in picture.sheet.written]
+    picture.frame(at)
+    assert "potted" in [text for text, _ in picture.sheet.written]
+
+
+def test_a_ball_turns_by_its_way_over_its_radius():
+    """Rolling without english, its own axes turn about the axis across its way, by way / radius."""
+    picture = picture_of("bank")
+    run, turning = picture.run, picture._turnings["cue"]
+    t0, t1 = 4.0, 4.03  # s, rolling by now
+    (x0, y0, *_, spin), (x1, y1, *_) = run.state("cue", t0), run.state("cue", t1)
+    assert abs(spin) < 1e-9
+    turn = turning.at(t1) @ turning.at(t0).T
+    angle = np.arccos((np.trace(turn) - 1) / 2)
+    way = hypot(x1 - x0, y1 - y0) / picture.radius
+    assert 0.1 < way < pi
+    assert angle == pytest.approx(way, rel=1e-6)
+    axis = np.array([turn[2, 1] - turn[1, 2], turn[0, 2] - turn[2, 0]])
+    assert axis / np.hypot(*axis) == pytest.approx(np.array([y0 - y1, x1 - x0]) / (way * picture.radius), abs=1e-6)
+
+
+def test_the_marks_move_with_the_ball():
+    """A ball's top goes the way the ball goes."""
+    picture = picture_of("bank")
+    run, turning = picture.run, picture._turnings["cue"]
+    t = run.duration - 1.0
+    x, y, vx, vy, _ = run.state("cue", t)
+    before, after = turning.at(t), turning.at(t + 0.001)
+    top = before.T @ (0, 0, 1)  # in the ball's own axes
+    assert (after @ top)[:2] == pytest.approx(np.array([vx, vy]) * 0.001 / picture.radius, rel=1e-2)
+
+
+def test_frames_can_be_drawn_in_any_order():
+    picture = picture_of("break")
+    first = picture.frame(0.4).get_buffer().raw
+    picture.frame(2.0)
+    picture.poster()
+    assert picture.frame(0.4).get_buffer().raw == first
+
+
+def test_what_a_window_asks_for():
+    picture = picture_of("bank", (960, 672))
+    stage = picture.stage()
+    assert stage.get_size() == (960, 672)
+    before = stage.get_buffer().raw
+    from sandbox.picture.painter import Painter
+
+    picture.draw_balls(Painter(stage), picture.camera, 1.0)
+    assert stage.get_buffer().raw != before
+    assert picture.stage().get_buffer().raw == before  # the window's own copy
+    assert picture.view(1.0) == picture.camera
+
+
+class TestGolden:
+    size = (512, 288)  # less than 60 kB
+
+    @pytest.mark.parametrize("name", ["bank", "carom"])
+    def test_poster(self, golden, name):
+        golden.check(f"billiards-{name}", picture_of(name, self.size).poster())
+
+    def test_frame(self, golden):
+        """Before the rack runs apart."""
+        golden.check("billiards-frame", picture_of("break", self.size).frame(0.2))
+
+    def test_snooker(self, golden):
+        golden.check("billiards-snooker", picture_of("snooker", self.size).frame(0.3))
