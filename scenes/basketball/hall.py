@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from functools import lru_cache
+from itertools import pairwise
 from math import asin, ceil, cos, floor, pi, sin, tau
 from typing import Any
 
@@ -65,45 +66,50 @@ class Hall:
         surface = painter.surface
         surface.blit(_wall(self.size, self.foot), (0, 0))
         surface.blit(self._floor(eye), (0, self.foot))
-        self._lines(painter, eye)
         surface.blit(_ground((self.size[0], self.size[1] - self.base)), (0, self.base))
         surface.fill(COURT["edge"][1], (0, self.base, self.size[0], max(3, round(7 * self.unit))))
         surface.fill(COURT["edge"][0], (0, self.base, self.size[0], max(1, round(2 * self.unit))))
 
     def _floor(self, eye: Eye) -> pygame.Surface:
-        """Boards that run along the court, each in a tone of its own."""
-        width, rows = self.size[0], self.base - self.foot
-        drawn = blank((width * FLOOR_OVERSAMPLING, rows * FLOOR_OVERSAMPLING))
-        plank, length = eye.distance * 0.04, eye.distance * 0.30
-        deepest = eye.depth(FAR)
-        far, near = COURT["floor"]
-        for i in range(ceil(deepest / plank) - 1, -1, -1):
-            z0, z1 = i * plank, min(deepest, (i + 1) * plank)
-            colour = mix(far, near, (eye.share(z0) - FAR) / (1 - FAR))
-            low, high = (eye.camera.world(eye.centre + (x - eye.centre) / eye.share(z1), 0)[0] for x in (0, width))
-            shift = i * 0.618 % 1
-            for j in range(floor(low / length - shift), ceil(high / length - shift)):
-                x0, x1 = (j + shift) * length, (j + 1 + shift) * length
-                corners = np.array([(x0, 0, z0), (x1, 0, z0), (x1, 0, z1), (x0, 0, z1)])
-                tone = (i * 0.7549 + j * 0.5698) % 1
-                points = (eye.points(corners) - (0, self.foot)) * FLOOR_OVERSAMPLING
-                pygame.draw.polygon(drawn, mix(colour, COURT["board"], tone), points)
-        return pygame.transform.smoothscale(drawn, (width, rows))
-
-    def _lines(self, painter: Painter, eye: Eye) -> None:
-        """Key, free-throw circle, three-point line, side line and end line, as far as they lie behind the play."""
-        end = self.face + END_LINE
-        throw = self.face - KEY_LENGTH
+        """The floor behind the plane of play: boards, each in a tone of its own, and on them what lines there are."""
+        larger, width, rows = FLOOR_OVERSAMPLING, self.size[0], self.base - self.foot
+        drawn = blank((width * larger, rows * larger))
+        self._boards(drawn, eye)
+        end, throw = self.face + END_LINE, self.face - KEY_LENGTH
         key = [(throw, 0.0), (end, 0.0), (end, KEY_HALF_WIDTH), (throw, KEY_HALF_WIDTH)]
-        painter.polygon(_on_floor(eye, key), COURT["key"], 0.8)
         circle = [(throw + CIRCLE * cos(turn), CIRCLE * sin(turn)) for turn in np.linspace(pi / 2, pi, 25)]
         turns = np.linspace(pi, pi - asin(CORNER / ARC), 40)
         arc = [(self.hoop[0] + ARC * cos(turn), ARC * sin(turn)) for turn in turns]
         side = [(end, 0.0), (end, HALF_WIDTH), (end - LENGTH, HALF_WIDTH)]
-        for line in ([*key[:1], *key[:1:-1]], circle, [*arc, (end, CORNER)], side):
+        pygame.draw.polygon(drawn, COURT["key"], self._on_floor(eye, key))
+        for line in ([key[0], *key[:1:-1]], circle, [*arc, (end, CORNER)], side):
             share = sum(eye.share(z) for _, z in line) / len(line)
-            width = max(1.1 * self.unit, 0.5 * LINE * eye.camera.scale * share)
-            painter.lines([_on_floor(eye, line)], width, COURT["line"], 0.85)
+            thick = max(1.1 * self.unit, 0.5 * LINE * eye.camera.scale * share) * larger
+            pygame.draw.lines(drawn, COURT["line"], False, self._on_floor(eye, line), max(2, round(thick)))
+        return pygame.transform.smoothscale(drawn, (width, rows))
+
+    def _on_floor(self, eye: Eye, points: list[tuple[float, float]]) -> np.ndarray:
+        """Points (x, z) of the floor in m as points of the floor as it is drawn, in px."""
+        seen = eye.points(np.array([(x, 0.0, z) for x, z in points]))
+        return (seen - (0, self.foot)) * FLOOR_OVERSAMPLING
+
+    def _boards(self, drawn: pygame.Surface, eye: Eye) -> None:
+        """Boards that run along the court, so low on the picture that their slanting ends may stand upright."""
+        width, larger = self.size[0], FLOOR_OVERSAMPLING
+        plank, length = eye.distance * 0.04, eye.distance * 0.30
+        far, near = COURT["floor"]
+        for i in range(ceil(eye.depth(FAR) / plank)):
+            shares = eye.share(i * plank), eye.share((i + 1) * plank)
+            low, top = (round((self.level - self.foot + LEVEL * self.unit * share) * larger) for share in shares)
+            middle, shift = sum(shares) / 2, i * 0.618 % 1
+            colour = mix(far, near, (middle - FAR) / (1 - FAR))
+            ends = (eye.camera.world(eye.centre + (px - eye.centre) / middle, 0)[0] for px in (0, width))
+            first, last = (floor(end / length - shift) for end in ends)
+            edges = [(eye.point((j + shift) * length, 0.0)[0], j) for j in range(first, last + 2)]
+            for (a, j), (b, _) in pairwise(edges):
+                left, right = (round((eye.centre + (px - eye.centre) * middle) * larger) for px in (a, b))
+                tone = (i * 0.7549 + j * 0.5698) % 1
+                drawn.fill(mix(colour, COURT["board"], tone), (left, top, right - left, low - top))
 
     def stand(self, painter: Painter, eye: Eye) -> None:
         """What carries the board."""
@@ -176,11 +182,6 @@ class Hall:
     def enlarged(self, camera: Camera) -> float:
         """How many times their size board, ring and stand are drawn."""
         return max(1.0, LEAST_HEIGHT * self.unit / (max(self.hoop[1], self.top) * camera.scale))
-
-
-def _on_floor(eye: Eye, points: list[tuple[float, float]]) -> np.ndarray:
-    """Points (x, z) of the floor in m as points of the picture in px."""
-    return eye.points(np.array([(x, 0.0, z) for x, z in points]))
 
 
 @lru_cache(maxsize=4)

@@ -1,4 +1,4 @@
-"""The net as it is drawn: it hangs, gives way to the ball that passes through, and swings out. No part of the physics."""
+"""The net as it is drawn, which is no part of the physics: it gives way to the ball and swings when that is out."""
 
 from __future__ import annotations
 
@@ -43,13 +43,17 @@ class Net:
         """The half behind the ball or that before it, as it hangs at time t in s."""
         down = np.linspace(0, 1, KNOTS)
         aside, wide = self._shape(down, t)
-        lines = []
-        for i in range(STRANDS * 2):
-            turn = (i // 2) / STRANDS * tau + (-1) ** i * down * (KNOTS - 1) * pi / STRANDS
-            x, z = self.middle + aside + wide * np.cos(turn), wide * np.sin(turn)
-            points = eye.points(np.column_stack([x, self.top - self.length * down, z]))
-            seen = (np.sin(turn) >= 0) == behind
-            lines += [points[k : k + 2] for k in range(KNOTS - 1) if seen[k] or seen[k + 1]]
+        strand = np.arange(2 * STRANDS)[:, None]
+        turn = strand // 2 / STRANDS * tau + (-1) ** strand * down * (KNOTS - 1) * pi / STRANDS
+        x, y, z = (
+            self.middle + aside + wide * np.cos(turn),
+            self.top - self.length * down + 0 * turn,
+            wide * np.sin(turn),
+        )
+        points = eye.points(np.stack([x, y, z], axis=-1).reshape(-1, 3)).reshape(*turn.shape, 2)
+        seen = (np.sin(turn) >= 0) == behind
+        shown = seen[:, :-1] | seen[:, 1:]
+        lines = list(np.stack([points[:, :-1], points[:, 1:]], axis=2)[shown])
         painter.lines(lines, max(0.9 * unit, 0.012 * eye.camera.scale), COURT["net"], 0.3 if behind else 0.75)
 
     def _shape(self, down: np.ndarray, t: float) -> tuple[np.ndarray, np.ndarray]:

@@ -16,8 +16,8 @@ from sandbox.picture.depth import Eye
 from sandbox.picture.figures import REACHING, SHOOTING, draw_figure
 from sandbox.picture.lettering import Labels
 from sandbox.picture.painter import around_corners
-from sandbox.picture.palette import palette
-from sandbox.picture.path import Path, draw_trace, mark_impacts
+from sandbox.picture.palette import mix, palette
+from sandbox.picture.path import MOST_SAMPLES, Path, apart, draw_trace, mark_impacts
 from sandbox.picture.sheet import Sheet, metres, roughly, signed, times
 
 from .hall import BALL, Hall
@@ -58,6 +58,7 @@ class Picture:
         self.top_row = sheet.frame.top + sheet.lettering.height("large") + small + 2 * sheet.gap
         self.hall, self.net = Hall(parameters, size, base), Net(run, parameters)
         side = round(LENS * self.unit)
+        self._kept: tuple[Camera, pygame.Surface] | None = None
         self.lens = pygame.Rect(sheet.frame.right - side, sheet.frame.top, side, side)
 
     # Composition
@@ -126,7 +127,8 @@ class Picture:
         camera, hall, painter = self.camera, self.hall, sheet.painter
         eye = hall.eye(camera)
         hall.draw(painter, eye)
-        self._behind(sheet, eye, self.net.fullest)
+        self._behind(sheet, eye)
+        self.net.draw(painter, hall.hoop_eye(eye), self.unit, True, self.net.fullest)
         self.trace = self.path.traced(camera)
         self._bounce(sheet, camera)
         draw_trace(sheet, self.trace, COURT["trace"])
@@ -156,8 +158,8 @@ class Picture:
         """How many times its size the ball is drawn."""
         return max(1.0, self._smallest / (self.radius * camera.scale))
 
-    def _behind(self, sheet: Sheet, eye: Eye, t: float) -> None:
-        """What is behind the ball: thrower, stand, board, the far half of ring and net."""
+    def _behind(self, sheet: Sheet, eye: Eye) -> None:
+        """What stands still behind the ball: thrower, stand, board, the far half of the ring."""
         painter = sheet.painter
         near = self.hall.hoop_eye(eye)
         self.hall.stand(painter, near)
@@ -168,7 +170,6 @@ class Picture:
             painter.shadow((foot[0], eye.point(0, 0)[1]), width, 0.16 * width, CARD["shadow"], 0.45)
             draw_figure(painter, foot, tall * eye.camera.scale, pose, FIGURE)
         self.hall.board(painter, near)
-        self.net.draw(painter, near, self.unit, True, t)
 
     def _before(self, sheet: Sheet, eye: Eye, t: float) -> None:
         """What is before the ball: the near half of net and ring."""
@@ -208,9 +209,10 @@ class Picture:
             )
             sheet.labels.take(line)
 
-    def _in_lens(self, point: tuple[float, float]) -> bool:
+    def _in_lens(self, point: tuple[float, float], beyond: float = 0.0) -> bool:
+        """Whether a place in m is seen in the lens, or no more than ``beyond`` m outside it."""
         x, y = point
-        return max(abs(x - self.hall.hoop[0]), abs(y - self.hall.hoop[1])) < LENS_VIEW / 2
+        return max(abs(x - self.hall.hoop[0]), abs(y - self.hall.hoop[1])) < LENS_VIEW / 2 + beyond
 
     def _draw_lens(self, sheet: Sheet, eye: Eye) -> None:
         """The ring from near by: how the ball came, what it touched, how fast."""
@@ -224,9 +226,8 @@ class Picture:
         hall.board(painter, eye)
         self.net.draw(painter, eye, self.unit, True, self.net.fullest)
         points = camera.pixels(self.path.points)
-        inside = [self.lens.inflate(60, 60).collidepoint(*point) for point in points]
-        first, last = inside.index(True), len(inside) - inside[::-1].index(True)
-        draw_trace(sheet, points[first:last], COURT["trace"])
+        seen = np.flatnonzero(np.abs(points - self.lens.center).max(axis=1) < self.lens.width)
+        draw_trace(sheet, points[seen[0] : seen[-1] + 1], COURT["trace"])
         self._entry(sheet, camera)
         self.net.draw(painter, eye, self.unit, False, self.net.fullest)
         hall.near_ring(painter, eye)
@@ -266,6 +267,21 @@ class Picture:
         BALL.draw(sheet.painter, (px, py), radius, self.run.angle("ball", t), unit)
         sheet.labels.take(pygame.Rect(round(px - radius), round(py - radius), round(2 * radius), round(2 * radius)))
 
+    def _numbers(self) -> list[tuple[str, str]]:
+        result, launch = self.run.result, self.parameters.launch
+        entered = result["entry_angle"] is not None
+        offset = result["entry_offset"]
+        return [
+            ("entry angle", signed(f"{result['entry_angle']:.1f}") + "°" if entered else "–"),
+            ("entry speed", f"{result['entry_speed']:.1f} m/s" if entered else "–"),
+            ("short of centre" if entered and offset < 0 else "beyond centre", _short(abs(offset)) if entered else "–"),
+            ("apex", metres(result["apex"] + self.parameters.release.height)),
+            ("flight time", f"{result['flight_time']:.2f} s" if entered else "–"),
+            ("ball speed", f"{launch.speed:.2f} m/s"),
+            ("launch", signed(f"{launch.angle:.1f}") + "°"),
+            ("backspin", signed(f"{launch.spin:.0f}") + " rpm"),
+        ]
+
     def verdict(self) -> str:
         """What happened, in one line."""
         result = self.run.result
@@ -281,20 +297,128 @@ class Picture:
             return f"Air ball, {roughly(abs(offset))} {'short' if offset < 0 else 'too far'}"
         return "Air ball, never as high as the ring" if "floor" in result["touches"] else "Did not come down"
 
-    def _numbers(self) -> list[tuple[str, str]]:
-        result, launch = self.run.result, self.parameters.launch
-        entered = result["entry_angle"] is not None
-        offset = result["entry_offset"]
-        return [
-            ("entry angle", signed(f"{result['entry_angle']:.1f}") + "°" if entered else "–"),
-            ("entry speed", f"{result['entry_speed']:.1f} m/s" if entered else "–"),
-            ("short of centre" if entered and offset < 0 else "beyond centre", _short(abs(offset)) if entered else "–"),
-            ("apex", metres(result["apex"] + self.parameters.release.height)),
-            ("flight time", f"{result['flight_time']:.2f} s" if entered else "–"),
-            ("ball speed", f"{launch.speed:.2f} m/s"),
-            ("launch", signed(f"{launch.angle:.1f}") + "°"),
-            ("backspin", signed(f"{launch.spin:.0f}") + " rpm"),
-        ]
+    # Frames
+
+    @cached_property
+    def decided(self) -> float:
+        """When it is clear how the shot ends, in s."""
+        return self.net.left if self.run.result["made"] else self.path.until
+
+    @cached_property
+    def _view(self) -> tuple[float, float]:
+        """Columns in px between which the ball stays on frames."""
+        return 0.1 * self.size[0], self.lens.left - 40 * self.unit if self.composed[1] else 0.9 * self.size[0]
+
+    @cached_property
+    def follow(self) -> Follow:
+        """The camera of the frames: it shows thrower and ring, and goes along when the ball leaves them."""
+        hall, poster = self.hall, self.camera
+        low, high = self._view
+        box = Box(-THROWER, 0.0, hall.back + STAND, 1.25 * hall.top)
+        home = Camera.fit(box, Area(low, self.top_row, high, hall.base))
+        if poster.scale >= home.scale:
+            home = poster
+        times = np.linspace(0.0, self.run.duration, max(2, min(MOST_SAMPLES, round(self.run.duration * 60))))
+        states = np.array([self.run.state("ball", t) for t in times])
+        room = hall.base - self.top_row
+        scales = np.minimum(home.scale, 0.9 * room / np.maximum(states[:, 1] + self.radius, 1e-9))
+        bounds = [states[:, 0] - (edge - home.anchor[0]) / scales for edge in (high, low)]
+        at = np.clip(home.at[0], *bounds)
+        fastest = max(float(np.hypot(states[:, 2], states[:, 3]).max()), 1e-9)
+        settle = min(0.25, 0.05 * self.size[0] / home.scale / fastest)
+        return Follow(times, np.column_stack([at, 0.0 * at]), scales, home.anchor, settle)
+
+    def _frame_camera(self, t: float) -> Camera:
+        """The camera at time t in s, on whole px, and with the ball in sight in any case."""
+        smooth = self.follow.camera(t)
+        x, y, *_ = self.run.state("ball", t)
+        room = self.hall.base - self.top_row
+        scale = float(f"{min(smooth.scale, room / max(y + self.radius, 1e-9)):.4g}")
+        low, high = (x - (edge - smooth.anchor[0]) / scale for edge in reversed(self._view))
+        at = min(max(smooth.at[0], low), high)
+        return Camera((round(at * scale) / scale, 0.0), smooth.anchor, scale)
+
+    def frame(self, t: float) -> pygame.Surface:
+        """The scene at time t in s, seen by a camera that follows the ball."""
+        t = min(max(t, 0.0), self.run.duration)
+        sheet = self.sheet = Sheet(self.size, on_dark=True)
+        painter, unit, camera = sheet.painter, self.unit, self._frame_camera(t)
+        eye = self.hall.eye(camera)
+        sheet.surface.blit(self._backdrop(camera), (0, 0))
+        x, y, vx, vy, spin = self.run.state("ball", t)
+        self.net.draw(painter, self.hall.hoop_eye(eye), unit, True, t)
+        true = self.radius * camera.scale
+        radius = max(true, 1.3 * self._smallest)
+        at = camera.pixel(x, y)
+        near = 1 / (1 + (y - self.radius) * camera.scale / (80 * unit))
+        below = at[0], self.hall.base + unit
+        painter.shadow(below, radius * (2.2 - near), 0.35 * radius, CARD["shadow"], 0.15 + 0.45 * near)
+        self._trail(sheet, camera, t, 0.7 * radius)
+        BALL.draw(painter, at, radius, self.run.angle("ball", t), unit, radius > true)
+        self._before(sheet, eye, t)
+        sheet.ruler(camera, self.ruler_row, "ft")
+        right = sheet.frame.right
+        if self.composed[1]:
+            self._frame_lens(sheet, eye, t)
+            right = self.lens.left - 2 * sheet.gap
+        if any(self.wind):
+            right = sheet.wind(*self.wind, right, sheet.frame.top).left
+        notes = ["ball drawn larger than it is"] if radius > true else []
+        if t >= self.decided:
+            sheet.headline(self.verdict(), notes, right - sheet.frame.left - 2 * sheet.gap)
+        else:
+            sheet.headline(metres(y), ["above the floor", *notes], self.size[0])
+        speed = hypot(vx, vy)
+        sheet.columns(
+            self.card_row,
+            [
+                ("time", f"{t:.2f} s"),
+                ("to the ring", metres(self.hall.hoop[0] - x)),
+                ("speed", f"{speed:.1f} m/s"),
+                ("direction", signed(f"{degrees(atan2(vy, vx)):.0f}") + "°" if speed > 0.01 else "–"),
+                ("backspin", signed(f"{spin * 30 / pi:.0f}") + " rpm"),
+            ],
+        )
+        return sheet.surface
+
+    def _backdrop(self, camera: Camera) -> pygame.Surface:
+        """What stands still behind the ball; kept while the camera does."""
+        if self._kept is None or self._kept[0] != camera:
+            sheet, eye = Sheet(self.size), self.hall.eye(camera)
+            self.hall.draw(sheet.painter, eye)
+            self._behind(sheet, eye)
+            self._kept = camera, sheet.surface
+        return self._kept[1]
+
+    def _trail(self, sheet: Sheet, camera: Camera, t: float, width: float) -> None:
+        """Where the ball has been: a thin line, and a thick one of late."""
+        x, y, *_ = self.run.state("ball", t)
+        earlier = camera.pixels(np.array([*self.path.points[self.path.samples[:, 0] < t], (x, y)]))
+        if t <= self.path.until and len(earlier) > 1:
+            faint = mix(COURT["trace"], COURT["wall"][1], 0.45)
+            pygame.draw.aalines(sheet.surface, faint, False, earlier[apart(earlier, 3.0)])
+        times = np.linspace(max(0.0, t - TRAIL), t, 25)
+        points = camera.pixels(np.array([self.run.state("ball", s)[:2] for s in times]))
+        if np.ptp(points, axis=0).max() > 2:
+            sheet.painter.fading(points[apart(points, 2.0)], width, COURT["trace"], 0.9)
+
+    def _frame_lens(self, sheet: Sheet, eye: Eye, t: float) -> None:
+        """The ring from near by, at time t in s."""
+        corners = around_corners(sheet.surface, self.lens, 10 * self.unit)
+        near = self._lens_eye(eye)
+        camera, painter = near.camera, sheet.painter
+        sheet.surface.fill(COURT["lens"], self.lens)
+        sheet.surface.set_clip(self.lens)
+        self.hall.board(painter, near)
+        self.net.draw(painter, near, self.unit, True, t)
+        x, y, *_ = self.run.state("ball", t)
+        if self._in_lens((x, y), self.radius):
+            self._trail(sheet, camera, t, 8 * self.unit)
+            BALL.draw(painter, camera.pixel(x, y), self.radius * camera.scale, self.run.angle("ball", t), self.unit)
+        self.net.draw(painter, near, self.unit, False, t)
+        self.hall.near_ring(painter, near)
+        sheet.surface.set_clip(None)
+        sheet.surface.blit(corners, self.lens)
 
 
 def _short(length: float) -> str:
