@@ -32,7 +32,8 @@ class Picture:
     def __init__(self, run: Any, parameters: Any, size: tuple[int, int] = (1280, 720)):
         self.run, self.parameters, self.size = run, parameters, size
         self.unit = size[1] / 720  # what 1 px is on a picture of 720 rows
-        points, floor = Path(run).points, parameters.floor
+        self.path, floor = Path(run), parameters.floor
+        points = self.path.points  # m
         left, right = min(-0.5, points[:, 0].min()), max(points[:, 0].max(), floor.mat + floor.mat_length)
         area = Area(0.06 * size[0], 150 * self.unit, 0.94 * size[0], size[1] - 178 * self.unit)
         self.camera = Camera.fit(Box(left, 0.0, right, points[:, 1].max()), area)
@@ -43,11 +44,11 @@ class Picture:
 
     def frame(self, t: float) -> pygame.Surface:
         """The scene at time t in s, with the path behind the ball."""
-        sheet, path, over = Sheet(self.size), Path(self.run, until=t), t >= self.run.duration
+        sheet, path, over = Sheet(self.size), self.path, t >= self.run.duration
         sheet.surface.blit(self.standing, (0, 0))
-        draw_trace(sheet, path.traced(self.camera), TRACE)
+        draw_trace(sheet, self.camera.pixels(path.points[path.samples[:, 0] <= t]), TRACE)
         every, times = path.even_times(self.camera, self._radius(self.camera))
-        for s in times:
+        for s in (time for time in times if time < t):
             self._ball(sheet.painter, self.camera, s, 0.75)
         self.draw_balls(sheet.painter, self.camera, t)
         sheet.ruler(self.camera, self.size[1] - 132 * self.unit)
