@@ -76,6 +76,8 @@ def _hits(run: Run) -> dict[tuple[str, float], str]:
     for event in run.events:
         if event.kind == "impact" and event.partner in balls:
             both = " and ".join(sorted((event.ball, event.partner)))
+            for ball in balls:  # others that touch these take part, without an approach of their own
+                hits.setdefault((ball, event.t), both)
             hits[event.ball, event.t] = hits[event.partner, event.t] = both
         elif event.kind == "impact":
             hits[event.ball, event.t] = event.partner

@@ -21,8 +21,8 @@ from sandbox.errors import RunError
 from sandbox.physics.integrators import INTEGRATORS, Acceleration, Law, State
 
 #: Local error of a step over the error aimed at in the end. Each impact on a round shape multiplies an error by ten
-#: or more, so the flight has to be much better than the promise; 1e-3 keeps it on shots with several rim contacts.
-_LOCAL_SHARE = 1e-3
+#: or more, so the flight has to be much better than the promise; this keeps it on shots with several rim contacts.
+_LOCAL_SHARE = 3e-4
 
 #: What error in spin counts as error in m: a spin's error moves the ball only through lift and the next bounce.
 _SPIN_WEIGHT = 0.1  # s
@@ -89,12 +89,16 @@ class Mover:
         position = (x, y)
         velocity = (vx, vy)
         fx = fy = torque = 0.0
-        for force in self.ball.forces:
-            px, py = force(t, position, velocity, spin)
-            fx += px
-            fy += py
-        for moment in self.ball.torques:
-            torque += moment(t, position, velocity, spin)
+        cause: object = None
+        try:
+            for cause in self.ball.forces:
+                px, py = cause(t, position, velocity, spin)
+                fx += px
+                fy += py
+            for cause in self.ball.torques:
+                torque += cause(t, position, velocity, spin)
+        except (TypeError, ValueError) as error:
+            raise misused(cause, error) from None
         return fx, fy, torque
 
     def _in_flight(self, t: float, state: State) -> Acceleration:
@@ -232,6 +236,20 @@ class Mover:
         if contact.mode == SLIDING:
             speed += self.ball.radius * state[4]
         return contact.direction * speed
+
+
+def misused(cause: object, error: Exception) -> Exception:
+    """What to raise where calling a force or torque, or taking in what it returned, failed: an error from inside it
+    as it is, else one that says how it is called.
+    """
+    inside = error.__traceback__ is not None and error.__traceback__.tb_next is not None
+    if inside:
+        return error
+    name = getattr(cause, "__name__", type(cause).__name__)
+    return RunError(
+        f"{name} is called with (t, position, velocity, spin) and must return (fx, fy) in N, a torque one number in "
+        f"N m: {error}"
+    )
 
 
 def rolling(

@@ -17,7 +17,7 @@ import pymunk
 
 from sandbox.engine.accuracy import Accuracy
 from sandbox.engine.arc import Arc
-from sandbox.engine.motion import Diverged
+from sandbox.engine.motion import Diverged, misused
 from sandbox.engine.run import Event, Numerics, Run
 from sandbox.engine.setup import Ball, Bounce, Circle, Setup, Surface
 from sandbox.physics.cloth import ClothState
@@ -201,12 +201,16 @@ class PlainSimulation:
                 vx, vy = body.velocity
                 velocity, spin = (vx, vy), body.angular_velocity
                 fx = fy = torque = 0.0
-                for force in ball.forces:
-                    px, py = force(self._t, position, velocity, spin)
-                    fx += px
-                    fy += py
-                for moment in ball.torques:
-                    torque += moment(self._t, position, velocity, spin)
+                cause: object = None
+                try:
+                    for cause in ball.forces:
+                        px, py = cause(self._t, position, velocity, spin)
+                        fx += px
+                        fy += py
+                    for cause in ball.torques:
+                        torque += cause(self._t, position, velocity, spin)
+                except (TypeError, ValueError) as error:
+                    raise misused(cause, error) from None
                 ax, ay = fx / ball.mass, fy / ball.mass
                 if tracked.touched != self._steps:
                     self._refuse_reversal(tracked, ax, ay, velocity, h)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from math import hypot, inf
+from math import hypot, inf, isfinite
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 if TYPE_CHECKING:
@@ -47,6 +47,21 @@ class Ball:
     forces: Sequence[Force] = ()
     torques: Sequence[Torque] = ()
 
+    def __post_init__(self) -> None:
+        for what, value in (("mass", self.mass), ("radius", self.radius), ("inertia_factor", self.inertia_factor)):
+            if not (isfinite(value) and value > 0.0):
+                raise ValueError(f"ball {self.name!r}: {what} = {value} must be positive")
+        for what, values in (("position", self.position), ("velocity", self.velocity), ("spin", (self.spin,))):
+            if not all(map(isfinite, values)):
+                raise ValueError(f"ball {self.name!r}: {what} = {values} must be finite")
+        for force in (*self.forces, *self.torques):
+            if isinstance(force, type) or not callable(force):
+                name = getattr(force, "__name__", force)
+                raise ValueError(
+                    f"ball {self.name!r}: {name!r} is no force: list something that can be called with "
+                    "(t, position, velocity, spin), such as an object of the class and not the class"
+                )
+
     @property
     def inertia(self) -> float:
         """Moment of inertia in kg m^2."""
@@ -61,6 +76,10 @@ class Segment:
     b: Vector  # m
     radius: float = 0.0  # m
 
+    def __post_init__(self) -> None:
+        if not all(map(isfinite, (*self.a, *self.b, self.radius))) or self.radius < 0.0:
+            raise ValueError(f"{self}: points must be finite, and the radius no less than 0")
+
     @property
     def length(self) -> float:
         return hypot(self.b[0] - self.a[0], self.b[1] - self.a[1])
@@ -72,6 +91,10 @@ class Circle:
 
     center: Vector  # m
     radius: float  # m
+
+    def __post_init__(self) -> None:
+        if not all(map(isfinite, (*self.center, self.radius))) or self.radius < 0.0:
+            raise ValueError(f"{self}: the centre must be finite, and the radius no less than 0")
 
 
 class Bounce(NamedTuple):
@@ -99,6 +122,13 @@ class Surface:
     rolling_resistance: float = 0.0
     lowest_bounce: float = 0.0  # m
     law: Callable[[float, float], Bounce] | None = None
+
+    def __post_init__(self) -> None:
+        if not 0.0 <= self.restitution <= 1.0:
+            raise ValueError(f"surface {self.name!r}: restitution = {self.restitution} must be from 0 to 1")
+        for what in ("friction", "rolling_resistance", "lowest_bounce"):
+            if not 0.0 <= getattr(self, what) < inf:
+                raise ValueError(f"surface {self.name!r}: {what} = {getattr(self, what)} must be no less than 0")
 
 
 @dataclass(frozen=True)
@@ -140,3 +170,13 @@ class Setup:
     catches: Sequence[Catch] = ()
     bounds: Bounds = Bounds()
     longest_step: float = inf  # s; shorter where forces change quickly in time or space
+
+    def __post_init__(self) -> None:
+        names = [ball.name for ball in self.balls]
+        if not names:
+            raise ValueError("a setup needs at least one ball")
+        for name in names:
+            if names.count(name) > 1:
+                raise ValueError(f"two balls are named {name!r}: each needs a name of its own")
+        if not self.duration > 0.0:
+            raise ValueError(f"duration = {self.duration} s must be positive")

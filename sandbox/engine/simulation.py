@@ -16,7 +16,7 @@ from sandbox.engine.arc import still
 from sandbox.engine.contacts import Contacts
 from sandbox.engine.impacts import Impacts
 from sandbox.engine.lasting import conclude, settle
-from sandbox.engine.motion import RESTING, Contact, Mover
+from sandbox.engine.motion import RESTING, Contact, Diverged, Mover
 from sandbox.engine.on_cloth import OnCloth, slowest_hop
 from sandbox.engine.run import Event, Numerics, Run
 from sandbox.engine.setup import Ball, Circle, Setup, Surface
@@ -34,6 +34,10 @@ _MOST_IMPACTS = 200_000
 
 #: Deepest overlap at the start that is pushed apart, as a share of the radius; deeper is an error in the scene.
 _SLIGHT = 0.02
+
+
+#: Steps in one run beyond which its forces are declared too stiff: some 20 s of computing.
+_MOST_STEPS = 300_000
 
 
 class Stalled(RunError):
@@ -105,6 +109,11 @@ class Simulation:
             at_once += 1
             if at_once > _MOST_AT_ONCE or self._numerics.impacts > _MOST_IMPACTS:
                 raise self._stalled(t, i)
+            if self._numerics.steps > _MOST_STEPS:
+                raise Diverged(
+                    f"t = {t:.6g} s, ball {track.ball.name!r}: {_MOST_STEPS:,} steps and no end in sight; its forces "
+                    "are very stiff: raise accuracy.tolerance, or shorten the duration"
+                )
             if kind == "touch":
                 self._collide(t, [i] if j < 0 else [i, j])
             elif kind == "catch":
@@ -242,13 +251,15 @@ class Simulation:
                         x, y, *rest = track.state
                         track.state = (x + sign * dx, y + sign * dy, *rest)
 
-    def _stalled(self, t: float, index: int) -> Stalled:
+    def _stalled(self, t: float, index: int) -> RunError:
         track = self._tracks[index]
         x, y = track.arc.state(t)[:2]
-        last = next((e.partner for e in reversed(self._events) if e.ball == track.ball.name), "nothing")
+        where = f"t = {t:.6g} s, ball {track.ball.name!r} at ({x:.4g}, {y:.4g}) m"
+        last = next((event for event in reversed(self._events) if event.ball == track.ball.name), None)
+        if last is None or last.t < t - _STANDSTILL:
+            return Diverged(f"{where}: the velocity changes too fast for any step; look for a force that is not smooth")
         return Stalled(
-            f"t = {t:.6g} s, ball {track.ball.name!r} at ({x:.4g}, {y:.4g}) m: events without end, last with {last!r}; "
-            'a heap of balls needs accuracy.method = "plain"'
+            f'{where}: events without end, last with {last.partner!r}; a heap of balls needs accuracy.method = "plain"'
         )
 
 

@@ -12,7 +12,7 @@ from sandbox.engine.accuracy import LEVELS, resolve
 from sandbox.engine.ledger import ledger
 from sandbox.engine.motion import Diverged
 from sandbox.engine.setup import Ball, Bounds, Segment, Setup, Surface
-from sandbox.errors import RequestError
+from sandbox.errors import RequestError, RunError
 from sandbox.physics.coefficients import constant
 from sandbox.physics.forces import Drag, Gravity
 from sandbox.physics.integrators import INTEGRATORS
@@ -141,3 +141,42 @@ def test_no_energy_from_nowhere(restitution, friction, level):
     book = ledger(run)
     assert abs(book.residue) <= 1e-6 * book.start
     assert all(change <= 1e-9 for change in book.impacts.values())
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ({"mass": -1.0}, "ball 'cue': mass = -1.0 must be positive"),
+        ({"radius": 0.0}, "ball 'cue': radius = 0.0 must be positive"),
+        ({"inertia_factor": nan}, "ball 'cue': inertia_factor = nan must be positive"),
+        ({"velocity": (inf, 0.0)}, "ball 'cue': velocity"),
+        ({"forces": [Gravity]}, "ball 'cue': 'Gravity' is no force"),
+    ],
+)
+def test_a_ball_that_cannot_be_is_refused_in_plain_words(change, words):
+    with pytest.raises(ValueError, match=words):
+        Ball(**{"name": "cue", "mass": 1.0, "radius": 0.1, "position": (0.0, 0.0)} | change)
+
+
+def test_a_setup_or_surface_that_cannot_be_is_refused_in_plain_words():
+    with pytest.raises(ValueError, match="two balls are named 'cue'"):
+        Setup([shot(), shot()])
+    with pytest.raises(ValueError, match="at least one ball"):
+        Setup([])
+    with pytest.raises(ValueError, match="surface 'wall': restitution = 1.2"):
+        Surface("wall", Segment((0.0, 0.0), (1.0, 0.0)), 1.2, 0.5)
+    with pytest.raises(ValueError, match="points must be finite"):
+        Segment((0.0, nan), (1.0, 0.0))
+
+
+@pytest.mark.parametrize("accuracy", [resolve(), PLAIN], ids=["exact", "plain"])
+@pytest.mark.parametrize("force", [lambda t, p, v, s: None, lambda t, p, v, s: 1.0, lambda t, p: (0.0, 0.0)])
+def test_a_force_of_the_wrong_form_is_said_in_plain_words(accuracy, force):
+    with pytest.raises(RunError, match=r"<lambda> is called with .* and must return \(fx, fy\) in N"):
+        simulate(Setup([shot(force)], duration=1.0), accuracy)
+
+
+def test_a_force_with_a_pole_is_a_named_error():
+    pole = lambda t, p, v, s: (0.0, -1.0 / p[1] ** 3)  # noqa: E731
+    with pytest.raises(Diverged, match="the velocity changes too fast for any step|is not finite|is outside the world"):
+        simulate(Setup([shot(pole, velocity=(0.0, 0.0))], duration=5.0), resolve())

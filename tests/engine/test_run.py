@@ -144,3 +144,12 @@ def test_plain_converges_to_exact_on_turf_that_gives_way_and_swallows_low_bounce
     ]
     assert errors[1] < 2e-3
     assert errors[1] < 0.2 * errors[0]
+
+
+def test_balls_that_touch_the_struck_one_are_booked_under_its_impact():
+    """Of three balls in touch only the first has an approach of its own; the energy of the others is no residue."""
+    balls = [Ball(f"{k}", 0.2, 0.05, (0.1 * k, 0.0)) for k in range(3)]
+    balls.append(Ball("cue", 0.2, 0.05, (-1.0, 0.0), (2.0, 0.0)))
+    book = ledger(simulate(Setup(balls, duration=1.0), resolve()))
+    assert abs(book.residue) < 1e-9
+    assert sum(book.impacts.values()) <= 1e-12
