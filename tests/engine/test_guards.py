@@ -163,7 +163,7 @@ def test_a_setup_or_surface_that_cannot_be_is_refused_in_plain_words():
         Setup([shot(), shot()])
     with pytest.raises(ValueError, match="at least one ball"):
         Setup([])
-    with pytest.raises(ValueError, match="surface 'wall': restitution = 1.2"):
+    with pytest.raises(ValueError, match=r"surface 'wall': restitution = 1\.2"):
         Surface("wall", Segment((0.0, 0.0), (1.0, 0.0)), 1.2, 0.5)
     with pytest.raises(ValueError, match="points must be finite"):
         Segment((0.0, nan), (1.0, 0.0))
@@ -178,5 +178,5 @@ def test_a_force_of_the_wrong_form_is_said_in_plain_words(accuracy, force):
 
 def test_a_force_with_a_pole_is_a_named_error():
     pole = lambda t, p, v, s: (0.0, -1.0 / p[1] ** 3)  # noqa: E731
-    with pytest.raises(Diverged, match="the velocity changes too fast for any step|is not finite|is outside the world"):
+    with pytest.raises(Diverged, match=r"the velocity changes too fast for any step|is not finite|is outside the world"):
         simulate(Setup([shot(pole, velocity=(0.0, 0.0))], duration=5.0), resolve())
