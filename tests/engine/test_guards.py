@@ -178,5 +178,5 @@ def test_a_force_of_the_wrong_form_is_said_in_plain_words(accuracy, force):
 
 def test_a_force_with_a_pole_is_a_named_error():
     pole = lambda t, p, v, s: (0.0, -1.0 / p[1] ** 3)  # noqa: E731
-    with pytest.raises(Diverged, match=r"the velocity changes too fast for any step|is not finite|is outside the world"):
+    with pytest.raises(Diverged, match=r"changes too fast for any step|is not finite|outside the world"):
         simulate(Setup([shot(pole, velocity=(0.0, 0.0))], duration=5.0), resolve())
