@@ -38,7 +38,7 @@ def as_json(scene: Scene, run: Run, check: Check | None = None) -> str:
         report["errors"] = check.errors
         report["changed"] = {name: list(pair) for name, pair in check.changed.items()}
     try:
-        return json.dumps(_plain(report), allow_nan=False, ensure_ascii=False)
+        return json.dumps(plain(report), allow_nan=False, ensure_ascii=False)
     except TypeError as error:  # what a scene's result holds beside numbers, words and lists of them
         raise RunError(f"{scene.name}: its result cannot be written as JSON: {error}") from None
 
@@ -55,14 +55,14 @@ def _event(event: Event) -> dict[str, Any]:
     }
 
 
-def _plain(value: Any) -> Any:
+def plain(value: Any) -> Any:
     """The same in what JSON knows."""
     if isinstance(value, Mapping):
-        return {str(key): _plain(item) for key, item in value.items()}
+        return {str(key): plain(item) for key, item in value.items()}
     if isinstance(value, list | tuple):
-        return [_plain(item) for item in value]
+        return [plain(item) for item in value]
     if hasattr(value, "tolist"):  # numpy's numbers and arrays
-        return _plain(value.tolist())
+        return plain(value.tolist())
     return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
@@ -144,4 +144,4 @@ def _verdict(check: Check) -> list[str]:
 
 
 def _word(value: Any) -> str:
-    return json.dumps(_plain(value), ensure_ascii=False, default=str)
+    return json.dumps(plain(value), ensure_ascii=False, default=str)

@@ -45,7 +45,7 @@ def tour_fit_drag(reynolds: Any, spin_ratio: Any) -> Any:
     have them), a smooth crisis between, and drag induced by lift. Cd lies between 0.20 and 0.62, falls with Re, rises
     with S.
 
-    Fitted here, with tour_fit_lift, to the 12 PGA Tour averages of tests/reference/golf_tour.csv (height, landing
+    Fitted here, with tour_fit_lift, to the 12 PGA Tour averages of lab/published/golf_tour.csv (height, landing
     angle and carry together, each in the unit of 2.9 yd, 3.0 deg, 3.5 yd): the crisis, the induced drag and the two
     numbers of the lift are free, the rest is held. Its rms errors are
 
@@ -115,7 +115,7 @@ def lyu_lift(reynolds: Any, spin_ratio: Any) -> Any:
 def quadratic_drag(reynolds: Any, spin_ratio: Any) -> Any:
     """Golf ball: ``Cd = 0.19710 + 0.54852 S - 0.52694 S^2 - 0.09160 (Re/1e5 - 1.5)``.
 
-    A fit, made elsewhere, to the 23 tour averages of tests/reference/golf_tour.csv, with a spin decay of 6e-5; S 0.05
+    A fit, made elsewhere, to the 23 tour averages of lab/published/golf_tour.csv, with a spin decay of 6e-5; S 0.05
     to 0.45, Re 0.5e5 to 2.3e5. S is held at most 0.52, the parabola's maximum, and Re inside 0.3e5 to 2.2e5.
     Source: the numbers from a public repository, the form that of McNally, Lambeth & Brekke 2023; second-hand.
     """
@@ -135,7 +135,7 @@ def quadratic_lift(reynolds: Any, spin_ratio: Any) -> Any:
 def power_law_golf_drag(reynolds: Any, spin_ratio: Any) -> Any:
     """Golf ball: ``Cd = 0.2333 + 0.3260 S``, whatever the speed; S held at most 1.
 
-    Fitted for this project to the PGA Tour averages of tests/reference/golf_tour.csv, S 0.07 to 0.9.
+    Fitted for this project to the PGA Tour averages of lab/published/golf_tour.csv, S 0.07 to 0.9.
     """
     return 0.2333 + 0.3260 * clip(spin_ratio, 0.0, 1.0)
 
@@ -166,7 +166,7 @@ def usga_lift(reynolds: Any, spin_ratio: Any) -> Any:
 
 
 #: Models of a golf ball, by name. Drag and lift of one name belong together: their rms errors on the PGA Tour averages
-#: of tests/reference/golf_tour.csv are (height in yd, landing angle in deg, carry in yd) 1.8/1.7/3.1 for tour-fit,
+#: of lab/published/golf_tour.csv are (height in yd, landing angle in deg, carry in yd) 1.8/1.7/3.1 for tour-fit,
 #: 3.2/2.8/3.7 for quadratic, 2.3/4.2/5.9 for power-law, 3.8/6.6/11.9 for smits-smith, 2.5/2.4/16.4 for usga, and
 #: 12.9/4.8/59.2 for lyu, which has no drag from spin.
 GOLF_DRAG: dict[str, Coefficient] = {

@@ -19,6 +19,7 @@ from sandbox.engine import simulate
 from sandbox.engine.accuracy import resolve
 from sandbox.engine.run import Run
 from sandbox.errors import RequestError
+from sandbox.lab.validate import PUBLISHED
 from sandbox.physics import coefficients
 from sandbox.physics.forces import Magnus
 from sandbox.physics.impulse import club_on_ball
@@ -50,7 +51,8 @@ def putt(speed: float, **changes: Any) -> Run:
 
 
 def table(name: str) -> list[dict[str, str]]:
-    with (REFERENCE / name).open(newline="", encoding="utf-8") as file:
+    folder = PUBLISHED if (PUBLISHED / name).is_file() else REFERENCE
+    with (folder / name).open(newline="", encoding="utf-8") as file:
         return list(csv.DictReader(file))
 
 

@@ -1,0 +1,179 @@
+"""Published numbers beside ours: the tables in published/, each row with its source.
+
+A table is ``NAME.csv`` with the columns scene, case, set, result, value, tolerance, unit, source, reason: ``set`` holds
+``key=value`` parted by ``;``, ``result`` is a key of the scene's result, with dots into lists and tables. A table in a
+form of its own has a ``NAME.toml`` beside it that says how its columns become such rows.
+"""
+
+from __future__ import annotations
+
+import csv
+import math
+import tomllib
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+from sandbox import units
+from sandbox.errors import RequestError
+from sandbox.lab.tables import significant, table
+from sandbox.parameters import parse_assignment
+from sandbox.scene import load, parameters_of, simulate
+
+PUBLISHED = Path(__file__).resolve().parent / "published"
+
+#: Results are in SI, but for these kinds of number.
+_OWN_UNITS = {"angle": "deg", "spin": "rpm"}
+
+
+@dataclass(frozen=True)
+class Case:
+    """One published number, or one published word."""
+
+    scene: str  # with its preset
+    set: str  # what is changed, as it stands in the table
+    name: str  # for people
+    result: str
+    value: str
+    tolerance: float | None  # in ``unit``; None for words
+    unit: str
+    source: str
+    reason: str  # why it does not hold, if it does not
+
+
+@dataclass(frozen=True)
+class Compared:
+    """A case and what is computed here, in the case's own unit."""
+
+    case: Case
+    computed: Any
+    difference: float | None  # None for words
+    holds: bool
+
+
+def cases() -> Iterator[Case]:
+    """Every published number."""
+    for path in sorted(PUBLISHED.glob("*.csv")):
+        with path.open(newline="", encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+        form = path.with_suffix(".toml")
+        if form.is_file():
+            yield from _by_form(rows, tomllib.loads(form.read_text("utf-8")))
+        else:
+            yield from (_case(row) for row in rows)
+
+
+def _case(row: Mapping[str, str]) -> Case:
+    given = dict(row)
+    name = given.pop("case")
+    tolerance = given.pop("tolerance")
+    return Case(name=name, tolerance=float(tolerance) if tolerance else None, **given)
+
+
+def _by_form(rows: Sequence[Mapping[str, str]], form: Mapping[str, Any]) -> Iterator[Case]:
+    """The cases of a table in a form of its own, where ``{column}`` stands for what a row has there.
+
+    ``scene``, ``name``, ``source``, ``set``; ``value``, ``unit`` and ``tolerance`` of each of ``results``; and
+    ``reasons`` by name and result.
+    """
+    for row in rows:
+        name = form["name"].format(**row)
+        settings = "; ".join(f"{key}={value.format(**row)}" for key, value in form["set"].items())
+        for result, how in form["results"].items():
+            reason = form.get("reasons", {}).get(f"{name} {result}", "")
+            value, source = how["value"].format(**row), form["source"].format(**row)
+            yield Case(form["scene"], settings, name, result, value, how["tolerance"], how["unit"], source, reason)
+
+
+def validate(
+    source: str | None = None,
+    changes: Mapping[str, Any] | None = None,
+    progress: Callable[[int, int], None] = lambda done, total: None,
+) -> list[Compared]:
+    """Compute the cases of one scene or preset, or all. ``changes`` lie over what the cases set."""
+    wanted = list(cases()) if source is None else _of(source)
+    found: dict[tuple[str, str], Mapping[str, Any]] = {}
+    compared = []
+    for done, case in enumerate(wanted):
+        progress(done, len(wanted))
+        key = case.scene, case.set
+        if key not in found:
+            settings = dict(parse_assignment(text) for text in case.set.split(";") if text.strip())
+            found[key] = simulate(load(case.scene, {**settings, **(changes or {})})).result
+        compared.append(_compare(case, _inside(found[key], case.result)))
+    return compared
+
+
+def _of(source: str) -> list[Case]:
+    name = source if source in {case.scene for case in cases()} else parameters_of(source)[0]
+    found = [case for case in cases() if name in (case.scene, case.scene.partition("/")[0])]
+    if not found:
+        raise RequestError(f"{source}: no published numbers are known; sandbox validate shows all there are")
+    return found
+
+
+def _inside(result: Any, key: str) -> Any:
+    for part in key.split("."):
+        result = result[int(part)] if isinstance(result, list) else result[part]
+    return result
+
+
+def _compare(case: Case, computed: Any) -> Compared:
+    if case.tolerance is None:
+        word = str(computed).lower() if isinstance(computed, bool) else str(computed)
+        return Compared(case, word, None, word == case.value)
+    if computed is None:
+        return Compared(case, None, None, False)
+    kind = units.KIND_OF[case.unit]
+    own = _OWN_UNITS.get(kind, next(iter(units.KINDS[kind])))
+    number = units.convert(float(computed), own, case.unit)
+    difference = number - float(case.value)
+    return Compared(case, number, difference, math.isfinite(difference) and abs(difference) <= case.tolerance)
+
+
+# ------------------------------------------------------------------------------------------------------------- report
+
+
+def as_dicts(rows: Sequence[Compared]) -> list[dict[str, Any]]:
+    """For JSON."""
+    return [
+        {**asdict(row.case), "computed": row.computed, "difference": row.difference, "holds": row.holds} for row in rows
+    ]
+
+
+def as_text(rows: Sequence[Compared]) -> list[str]:
+    """A table for each source."""
+    lines: list[str] = []
+    for scene, source in dict.fromkeys((row.case.scene.partition("/")[0], row.case.source) for row in rows):
+        own = [row for row in rows if (row.case.scene.partition("/")[0], row.case.source) == (scene, source)]
+        lines += [f"{scene}: {source}"]
+        headings = ("case", "result", "published", "computed", "difference", "tolerance", "")
+        lines += [*table(headings, [_cells(row) for row in own], "llrrrrl"), ""]
+    held = sum(row.holds for row in rows)
+    return [*lines, f"{held} of {len(rows)} hold"]
+
+
+def _cells(row: Compared) -> tuple[str, ...]:
+    case = row.case
+    verdict = "holds" if row.holds else f"does not hold: {case.reason or 'no reason known'}"
+    preset = case.scene.partition("/")[2]
+    name = f"{preset} {case.name}".strip() if preset else case.name
+    if row.difference is None:
+        return name, case.result, case.value, str(row.computed), "", "", verdict
+    digits = _digits(case)
+    return (
+        name,
+        case.result,
+        f"{case.value} {case.unit}".strip(),
+        f"{row.computed:.{digits}f}",
+        ("-" if row.difference < 0.0 else "+") + significant(abs(row.difference)),
+        significant(case.tolerance or 0.0),
+        verdict,
+    )
+
+
+def _digits(case: Case) -> int:
+    """Digits after the point: one more than the published number has, and enough to see the tolerance."""
+    given = len(case.value.partition(".")[2]) if "e" not in case.value else 0
+    return min(12, max(given + 1, 1 - math.floor(math.log10(case.tolerance or 1.0))))
