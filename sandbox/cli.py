@@ -32,6 +32,10 @@ SceneArgument = Annotated[
         metavar="SCENE", help="A scene (golf), a preset (golf/driver) or a scene file of your own.", show_default=False
     ),
 ]
+OptionalScene = Annotated[
+    str | None,
+    typer.Argument(metavar="[SCENE]", help="As above; all scenes where it is left out.", show_default=False),
+]
 Settings = Annotated[
     list[str] | None,
     typer.Option(
@@ -166,13 +170,19 @@ def run(
 
 def _load(source: str, settings: list[str] | None, accuracy: str | None) -> Scene:
     """The scene with ``--set`` and ``--accuracy`` over its file."""
-    from sandbox.parameters import parse_assignment
     from sandbox.scene import load
 
-    overrides = dict(parse_assignment(text) for text in settings or [])
+    return load(source, _changes(settings, accuracy), overrides_from="--set")
+
+
+def _changes(settings: list[str] | None, accuracy: str | None) -> dict[str, Any]:
+    """``--set`` and ``--accuracy`` as values by dotted key."""
+    from sandbox.parameters import parse_assignment
+
+    changes = dict(parse_assignment(text) for text in settings or [])
     if accuracy is not None:
-        overrides["accuracy.level"] = accuracy
-    return load(source, overrides, overrides_from="--set")
+        changes["accuracy.level"] = accuracy
+    return changes
 
 
 def _check_outputs(outputs: dict[str, Path | None], fps: int | None) -> None:
@@ -299,6 +309,107 @@ def sweep(
         _say("\n".join([done.as_text(), *written]))
     if done.failures == done.points - done.resumed > 0:
         raise RunError(f"every point failed, first with: {done.first_error}")
+
+
+@app.command()
+def trade(
+    scene: SceneArgument,
+    set_: Settings = None,
+    accuracy: Level = None,
+    as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object in place of the tables.")] = False,
+    plot: Annotated[
+        Path | None, typer.Option(metavar="F.png", help="Draw error against speed, a curve for each method.")
+    ] = None,
+) -> None:
+    """Measure speed against accuracy for a scene: every method, the levels, and what each part of the model is worth.
+
+    Takes half a minute, on a machine that does nothing else.
+
+    \b
+    Examples:
+      sandbox trade golf
+      sandbox trade basketball/rattle --plot rattle.png
+      sandbox trade my-shot.toml --set air.wind=[-8,0] --json
+    """
+    from sandbox.files import check_file
+    from sandbox.lab import chart
+    from sandbox.lab import trade as lab
+    from sandbox.progress import bar
+
+    chosen = _load(scene, set_, accuracy)
+    if plot is not None:
+        check_file("--plot", plot, ".png")
+        chart.check_installed("--plot")
+    with bar("trade") as progress:
+        found = lab.trade(chosen, progress)
+    if plot is not None:
+        with _writing("--plot", plot):
+            chart.draw_trade(found, plot)
+    _say(_json(lab.as_dict(found)) if as_json else "\n".join(lab.as_text(found)))
+
+
+@app.command()
+def stress(
+    scene: OptionalScene = None,
+    set_: Settings = None,
+    accuracy: Level = None,
+    as_json: Annotated[bool, typer.Option("--json", help="Print one JSON list in place of the tables.")] = False,
+) -> None:
+    """Run a scene, or all of them, at the extremes by every method, and tell what happened at each.
+
+    \b
+    Examples:
+      sandbox stress             # all scenes, and setups of no scene
+      sandbox stress golf
+      sandbox stress golf/driver --accuracy fast --json
+    """
+    from sandbox.lab import stress as lab
+    from sandbox.progress import bar
+
+    scenes = _loaded(scene, set_, accuracy)
+    with bar("stress") as progress:
+        outcomes = lab.stress(scenes, accuracy or "balanced", with_bare=scene is None, progress=progress)
+    _say(_json(lab.as_dicts(outcomes)) if as_json else "\n".join(lab.as_text(outcomes)))
+
+
+@app.command()
+def validate(
+    scene: OptionalScene = None,
+    set_: Settings = None,
+    accuracy: Level = None,
+    as_json: Annotated[bool, typer.Option("--json", help="Print one JSON list in place of the tables.")] = False,
+) -> None:
+    """Show published numbers beside ours, with their sources, for a scene or for all of them.
+
+    \b
+    Examples:
+      sandbox validate
+      sandbox validate golf --set ball.drag.model=usga --set ball.lift.model=usga
+    """
+    from sandbox.lab import validate as lab
+    from sandbox.progress import bar
+
+    changes = _changes(set_, accuracy)
+    with bar("validate") as progress:
+        rows = lab.validate(scene, changes, progress)
+    _say(_json(lab.as_dicts(rows)) if as_json else "\n".join(lab.as_text(rows)))
+
+
+def _loaded(source: str | None, settings: list[str] | None, accuracy: str | None) -> list[Scene]:
+    """One scene, or all that come with the sandbox."""
+    from sandbox.scene import listings
+
+    sources = [source] if source is not None else [found.name for found in listings() if "/" not in found.name]
+    return [_load(name, settings, accuracy) for name in sources]
+
+
+def _json(value: Any) -> str:
+    """JSON of plain values; what is not finite is null."""
+    import json
+
+    from sandbox.report import plain
+
+    return json.dumps(plain(value), allow_nan=False, ensure_ascii=False)
 
 
 # ---------------------------------------------------------------------------------------------------------------------
