@@ -133,6 +133,7 @@ def _simulate_at(scene: Scene, accuracy: Accuracy) -> Run:
     from sandbox.engine import simulate as run_setup
 
     run = run_setup(scene.build(), accuracy)
+    run.scene = scene
     run.result = scene.result(run)
     return run
 

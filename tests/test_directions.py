@@ -24,6 +24,7 @@ FLOORS = {
     "scene": 3,
     "picture": 4,
     "lab": 4,
+    "record": 4,
     "golden": 5,
     "window": 5,
     "tracebacks": 6,

@@ -60,6 +60,7 @@ class Run:
     duration: float  # s
     ended: str  # "rest", "until" or "duration"
     result: dict[str, Any] = field(default_factory=dict)
+    scene: Any = field(default=None, repr=False, compare=False)  # what it is a run of, where that is a scene
 
     def state(self, ball: str, t: float) -> State:
         """(x, y, vx, vy, spin) of a ball at time t, held at its last state beyond the end; m, m/s, rad/s.

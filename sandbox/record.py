@@ -1,0 +1,194 @@
+"""What a golden test keeps of a run, and what has changed since: events, results, and states sampled along the way."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
+from math import isfinite
+from typing import Any
+
+#: Two numbers are the same when they differ by no more than this, in s, m, m/s or rad/s, or by this share of
+#: themselves. Rounding on another processor stays below 1e-9, unless the scene is chaotic; a force that is wrong by one
+#: part in ten thousand moves a ball by millimetres.
+TOLERANCE, RELATIVE_TOLERANCE = 1e-6, 1e-6
+#: Numbers are kept to this many digits, so that files differ only where the tolerances see it.
+DIGITS = 9
+#: States along the run: so many for each ball, of many balls fewer.
+SAMPLES, MOST_STATES = 24, 240
+#: A run is chaotic where balls that begin this far aside, in m, end beyond the tolerances. It is a hundred times what
+#: rounding does.
+NUDGE = 1e-12
+
+COLUMNS = ("t", "x", "y", "vx", "vy", "spin")
+UNITS = {"t": "s", "x": "m", "y": "m", "vx": "m/s", "vy": "m/s", "spin": "rad/s", "speed": "m/s"}
+
+Record = dict[str, Any]
+
+
+def record(run: Any, until: float | None = None, times: Sequence[float] | None = None) -> Record:
+    """What happened, in what JSON knows: up to ``until`` s, or to the end and with its results.
+
+    ``times`` are those of the states, in s; without them they are spread evenly.
+    """
+    end = run.duration if until is None else min(until, run.duration)
+    if times is None:
+        count = max(6, min(SAMPLES, MOST_STATES // len(run.setup.balls)))
+        times = [end * i / (count - 1) for i in range(count)]
+    kept: Record = {} if until is None else {"until": until}
+    if until is None:
+        kept |= {"ended": run.ended, "duration": run.duration, "result": _plain(run.result)}
+    kept["events"] = [
+        [event.t, event.kind, event.ball, event.partner, event.speed] for event in run.events if event.t <= end
+    ]
+    kept["states"] = {
+        ball.name: [[t, *(float(value) for value in run.state(ball.name, t))] for t in times]
+        for ball in run.setup.balls
+    }
+    return _rounded(kept)
+
+
+def times_of(kept: Record) -> list[float]:
+    """The times of a record's states, in s."""
+    return [row[0] for row in next(iter(kept["states"].values()), [])]
+
+
+def as_text(kept: Record) -> str:
+    """JSON with a row to a line, so that a change of one number is a change of one line."""
+    parts = []
+    for key, value in kept.items():
+        if key == "events":
+            text = _lines("[", (json.dumps(row, ensure_ascii=False) for row in value), "]")
+        elif key == "states":
+            balls = (
+                f"{json.dumps(name)}: {_lines('[', map(json.dumps, rows), ']', 2)}" for name, rows in value.items()
+            )
+            text = _lines("{", balls, "}")
+        elif isinstance(value, Mapping):
+            text = _lines("{", (f"{json.dumps(k)}: {json.dumps(v, ensure_ascii=False)}" for k, v in value.items()), "}")
+        else:
+            text = json.dumps(value)
+        parts.append(f"{json.dumps(key)}: {text}")
+    return "{\n" + ",\n".join(f" {part}" for part in parts) + "\n}\n"
+
+
+def _lines(opening: str, rows: Iterator[str], closing: str, deep: int = 1) -> str:
+    inner = ",\n".join(" " * (deep + 1) + row for row in rows)
+    return f"{opening}\n{inner}\n{' ' * deep}{closing}" if inner else opening + closing
+
+
+def first_change(expected: Record, actual: Record) -> tuple[float, str] | None:
+    """Time in s and description of the first difference in how the balls moved; None where there is none."""
+    return min([*_changed_states(expected, actual), *_changed_events(expected, actual)], default=None)
+
+
+def changed_results(expected: Record, actual: Record) -> list[str]:
+    """What else differs, each in words: results, how the run ended."""
+    found = []
+    before, after = ({**kept.get("result", {}), "ended": kept.get("ended")} for kept in (expected, actual))
+    for name in [*before, *(name for name in after if name not in before)]:
+        if name not in after or name not in before:
+            found.append(f"{name} is {'new' if name in after else 'gone'}")
+        elif not _same(before[name], after[name]):
+            found.append(f"{name} is {_word(after[name])}, was {_word(before[name])}")
+    return found
+
+
+def diverges(run: Any, until: float | None = None) -> float | None:
+    """The time in s from which a run hangs on rounding: of two that begin ``NUDGE`` apart. None where it does not."""
+    from sandbox.engine import simulate
+
+    balls = [
+        replace(ball, position=(ball.position[0] + (-1) ** i * NUDGE, ball.position[1] + NUDGE))
+        for i, ball in enumerate(run.setup.balls)
+    ]
+    kept = record(run, until)
+    other = record(simulate(replace(run.setup, balls=balls), run.accuracy), until, times_of(kept))
+    change = first_change(kept, other)
+    return None if change is None else change[0]
+
+
+def _changed_states(expected: Record, actual: Record) -> Iterator[tuple[float, str]]:
+    """For each ball the first number that is another."""
+    for ball, rows in expected["states"].items():
+        others = actual["states"].get(ball)
+        if others is None:
+            yield 0.0, f"t = 0 s, {ball} is gone"
+            continue
+        for row, other in zip(rows, others, strict=True):
+            column = next((i for i in range(1, len(row)) if not _same(row[i], other[i])), None)
+            if column is not None:
+                name = COLUMNS[column]
+                yield (
+                    row[0],
+                    f"t = {row[0]:.3g} s, {ball}, {name} is {_amounts(other[column], row[column], UNITS[name])}",
+                )
+                break
+    yield from ((0.0, f"t = 0 s, {ball} is new") for ball in actual["states"] if ball not in expected["states"])
+
+
+def _changed_events(expected: Record, actual: Record) -> Iterator[tuple[float, str]]:
+    """The first event that is another, is missing or is new."""
+    before, after = expected["events"], actual["events"]
+    for old, new in zip(before, after, strict=False):
+        if old[1:4] != new[1:4]:
+            t = min(old[0], new[0])
+            yield t, f"t = {t:.3g} s: {_event(new)}, was {_event(old)}"
+            return
+        for column, name in ((0, "t"), (4, "speed")):
+            if not _same(old[column], new[column]):
+                yield (
+                    min(old[0], new[0]),
+                    f"t = {old[0]:.3g} s, {_event(old)}, {name} is {_amounts(new[column], old[column], UNITS[name])}",
+                )
+                return
+    if len(before) != len(after):
+        extra = (before if len(before) > len(after) else after)[min(len(before), len(after))]
+        yield extra[0], f"t = {extra[0]:.3g} s: {_event(extra)} is {'gone' if len(before) > len(after) else 'new'}"
+
+
+def _event(row: Sequence[Any]) -> str:
+    _, kind, ball, partner, _ = row
+    return f"{ball} {kind} {partner}".rstrip()
+
+
+def _amounts(now: float, then: float, unit: str) -> str:
+    """Both with as many digits as tell them apart."""
+    digits = next((n for n in range(4, DIGITS) if f"{now:.{n}g}" != f"{then:.{n}g}"), DIGITS)
+    return f"{now:.{digits}g} {unit}, was {then:.{digits}g} {unit}"
+
+
+def _same(a: Any, b: Any) -> bool:
+    numbers = [isinstance(value, int | float) and not isinstance(value, bool) for value in (a, b)]
+    if all(numbers):
+        return abs(a - b) <= TOLERANCE + RELATIVE_TOLERANCE * max(abs(a), abs(b))
+    if isinstance(a, list) and isinstance(b, list):
+        return len(a) == len(b) and all(map(_same, a, b))
+    if isinstance(a, dict) and isinstance(b, dict):
+        return a.keys() == b.keys() and all(_same(a[key], b[key]) for key in a)
+    return type(a) is type(b) and a == b
+
+
+def _plain(value: Any) -> Any:
+    """The same in what JSON knows; what is not finite is null."""
+    if isinstance(value, Mapping):
+        return {str(key): _plain(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [_plain(item) for item in value]
+    if hasattr(value, "tolist"):  # numpy's numbers and arrays
+        return _plain(value.tolist())
+    return None if isinstance(value, float) and not isfinite(value) else value
+
+
+def _rounded(value: Any) -> Any:
+    if isinstance(value, float):
+        return float(f"{value:.{DIGITS}g}") + 0.0  # no negative zero
+    if isinstance(value, list):
+        return [_rounded(item) for item in value]
+    if isinstance(value, dict):
+        return {key: _rounded(item) for key, item in value.items()}
+    return value
+
+
+def _word(value: Any) -> str:
+    return f"{value:.{DIGITS}g}" if isinstance(value, float) else json.dumps(value, ensure_ascii=False)
