@@ -1,11 +1,15 @@
-"""A pytest plugin that compares pictures with golden ones kept beside the tests.
+"""A pytest plugin that compares runs and pictures with golden ones kept beside the tests.
 
     def test_my_scene(golden):
-        golden.check("my_scene", picture.poster())
+        golden.check("my_scene", sandbox.simulate(sandbox.load("my_scene.toml")))
 
-The golden picture is ``golden/my_scene.png`` in the folder of the test or the nearest one above it.
-``pytest --golden-update`` makes and rewrites golden pictures and lists them for review; on CI, where the variable CI is
-set, nothing is ever written.
+The golden picture is ``golden/my_scene.png`` in the folder of the test or the nearest one above it. Beside it
+``my_scene.json`` keeps what happened in the run, so that a failure can say whether the physics changed or the drawing.
+A picture (a pygame surface or a Pillow image) may be checked alone, too. ``pytest --golden-update`` makes and rewrites
+golden files and lists them for review; on CI, where the variable CI is set, nothing is ever written.
+
+Of a chaotic run only the beginning is the same on another processor: ``golden.check("break", run, until=0.3)`` shows it
+at that time in s and keeps what happened until then.
 
 The comparison is our own. Pixelmatch was tried: it forgives what it takes for anti-aliasing, and that is where a small
 white ball on a pale sky differs when it is larger by a pixel all around (it counts 0 pixels, this counts 44); and it
@@ -14,13 +18,17 @@ takes 0.8 s for 640x360.
 
 from __future__ import annotations
 
+import io
+import json
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NoReturn
 
 import pytest
+
+from sandbox import record
 
 if TYPE_CHECKING:
     import numpy as np
@@ -36,6 +44,13 @@ NEIGHBOURHOOD = 9
 #: Share of all pixels that may have changed, strays all over the picture.
 STRAY_SHARE = 0.0005
 
+#: Of a run the picture is drawn this large, in px: its PNG takes less than 60 kB.
+SIZE = (512, 288)
+#: So many changes of a run are told.
+MOST_TOLD = 5
+
+NEW = "new"
+HOW_TO_ACCEPT = "if the change is meant: pytest --golden-update"
 FOLDER = "golden"
 REPORT = Path("out", "golden")
 
@@ -108,46 +123,76 @@ def side_by_side(expected: Image.Image, actual: Image.Image) -> Image.Image:
 
 
 class Golden:
-    """The fixture: compares pictures with the golden ones of one test."""
+    """The fixture: compares runs and pictures with the golden ones of one test."""
 
     def __init__(self, folder: Path, report: Path, update: bool, tell: Callable[[str], None]):
         self.folder, self.report, self.update, self.tell = folder, report, update, tell
 
-    def check(self, name: str, picture: Any) -> None:
-        """Fail unless the picture (a pygame surface or a Pillow image) is like the golden one of that name."""
-        from PIL import Image
+    def check(self, name: str, subject: Any, until: float | None = None) -> None:
+        """Fail unless the subject is like the golden one of that name.
 
-        actual = _as_image(picture)
-        path = self.folder / f"{name}.png"
-        expected = None
-        if path.exists():
-            with Image.open(path) as file:
-                expected = file.convert("RGB")
-        problem = _problem(expected, actual)
-        if problem is None:
+        The subject is a run of a scene, of which the poster is drawn, or with ``until`` the frame at that time in s; or
+        it is a picture.
+        """
+        run = subject if hasattr(subject, "setup") else None
+        image = _as_image(subject, until)
+        png, text = self.folder / f"{name}.png", self.folder / f"{name}.json"
+        expected = _read(png)
+        drawing = _changed_drawing(expected, image)
+        physics = None if run is None else _changed_physics(text, run, until)
+        if drawing is None and physics is None:
             return
         if self.update:
+            if physics is not None:
+                self._write_run(name, text, run, until, physics)
+            if drawing is not None:
+                self._write(png, _png(image), drawing)
+        elif expected is None or physics == NEW:
+            what, path = ("picture", png) if expected is None else ("run", text)
+            _fail(f"{name} has no golden {what} at {path}; make it with pytest --golden-update")
+        else:
+            _fail(*_told(name, run, physics, drawing), *self._shown(name, expected, image, drawing), HOW_TO_ACCEPT)
+
+    def _write_run(self, name: str, path: Path, run: Any, until: float | None, change: str) -> None:
+        chaos = record.diverges(run, until)
+        if chaos is not None:
+            _fail(
+                f"{name} hangs on rounding from t = {chaos:.3g} s on, another processor would not get the same; "
+                f"keep what is before that: golden.check({name!r}, run, until={0.8 * chaos:.2g})"
+            )
+        self._write(path, record.as_text(record.record(run, until)).encode(), change)
+
+    def _write(self, path: Path, data: bytes, change: str) -> None:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        _save(path, data)
+        self.tell(f"{path}: {change}")
+
+    def _shown(self, name: str, expected: Image.Image, actual: Image.Image, drawing: str | None) -> Iterator[str]:
+        if drawing is not None:
+            path = self.report / f"{name}.png"
             path.parent.mkdir(parents=True, exist_ok=True)
-            _save(actual, path)
-            self.tell(f"{path}: {problem}")
-            return
-        if expected is None:
-            pytest.fail(f"{name} has no golden picture at {path}; make it with pytest --golden-update", pytrace=False)
-        self.report.mkdir(parents=True, exist_ok=True)
-        shown = self.report / f"{name}.png"
-        _save(side_by_side(expected, actual), shown)
-        pytest.fail(
-            f"{name} is not like its golden picture: {problem}\n"
-            f"expected, actual and difference, side by side: {shown}\n"
-            f"if the change is meant: pytest --golden-update",
-            pytrace=False,
-        )
+            _save(path, _png(side_by_side(expected, actual)))
+            yield f"expected, actual and difference, side by side: {path}"
 
 
-def _problem(expected: Image.Image | None, actual: Image.Image) -> str | None:
-    """What is wrong with the actual picture, in words; None where it will do."""
+def _told(name: str, run: Any, physics: str | None, drawing: str | None) -> Iterator[str]:
+    """What kind of change it is, a line each."""
+    if physics is not None:
+        yield f"{name} is not like its golden run: {physics}"
+        if drawing is not None:
+            yield f"the drawing: {drawing}"
+    else:
+        yield f"{name} is not like its golden picture: {'same physics, the drawing changed: ' if run else ''}{drawing}"
+
+
+def _fail(*lines: str) -> NoReturn:
+    pytest.fail("\n".join(lines), pytrace=False)
+
+
+def _changed_drawing(expected: Image.Image | None, actual: Image.Image) -> str | None:
+    """How the picture differs from the golden one, in words; None where it will do."""
     if expected is None:
-        return "new"
+        return NEW
     try:
         difference = compare(expected, actual)
     except ValueError as error:
@@ -155,20 +200,57 @@ def _problem(expected: Image.Image | None, actual: Image.Image) -> str | None:
     return str(difference) if difference.matters else None
 
 
-def _as_image(picture: Any) -> Image.Image:
+def _changed_physics(path: Path, run: Any, until: float | None) -> str | None:
+    """How the run differs from the golden one, in words; None where it is the same."""
+    if not path.exists():
+        return NEW
+    expected = json.loads(path.read_text("utf-8"))
+    if expected.get("until") != until:
+        return f"kept until {expected.get('until', 'its end')} and checked until {until or 'its end'}"
+    actual = record.record(run, until, record.times_of(expected))
+    first, results = record.first_change(expected, actual), record.changed_results(expected, actual)
+    if first is None and not results:
+        return None
+    found = ["same motion, another result" if first is None else f"the physics changed: first at {first[1]}", *results]
+    shown = found if len(found) <= MOST_TOLD else [*found[: MOST_TOLD - 1], f"{len(found) - MOST_TOLD + 1} more"]
+    return "; ".join(shown)
+
+
+def _as_image(subject: Any, until: float | None) -> Image.Image:
     from PIL import Image
 
-    if isinstance(picture, Image.Image):
-        return picture.convert("RGB")
+    if isinstance(subject, Image.Image):
+        return subject.convert("RGB")
     from sandbox.picture.frames import to_image
 
-    return to_image(picture)
+    if not hasattr(subject, "setup"):
+        return to_image(subject)
+    if subject.scene is None:
+        raise TypeError("only a run of a scene has a picture: check what sandbox.simulate(scene) returns")
+    picture = subject.scene.picture(subject, SIZE)
+    return to_image(picture.poster() if until is None else picture.frame(until))
 
 
-def _save(image: Image.Image, path: Path) -> None:
-    part = path.with_suffix(f".{os.getpid()}.part")
+def _read(path: Path) -> Image.Image | None:
+    from PIL import Image
+
+    if not path.exists():
+        return None
+    with Image.open(path) as file:
+        return file.convert("RGB")
+
+
+def _png(image: Image.Image) -> bytes:
+    data = io.BytesIO()
+    image.save(data, "PNG", optimize=True)
+    return data.getvalue()
+
+
+def _save(path: Path, data: bytes) -> None:
+    """Whole or not at all."""
+    part = path.with_suffix(f"{path.suffix}.{os.getpid()}.part")
     try:
-        image.save(part, "PNG", optimize=True)
+        part.write_bytes(data)
         part.replace(path)
     finally:
         part.unlink(missing_ok=True)
@@ -185,17 +267,17 @@ def _folder_for(test: Path, root: Path) -> Path:
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
-    parser.addoption("--golden-update", action="store_true", help="make and rewrite golden pictures, and list them")
+    parser.addoption("--golden-update", action="store_true", help="make and rewrite golden files, and list them")
 
 
 def pytest_configure(config: pytest.Config) -> None:
     if config.getoption("--golden-update") and os.environ.get("CI", "").lower() not in ("", "0", "false"):
-        raise pytest.UsageError("--golden-update: golden pictures are never written on CI, and the variable CI is set")
+        raise pytest.UsageError("--golden-update: golden files are never written on CI, and the variable CI is set")
 
 
 @pytest.fixture
 def golden(request: pytest.FixtureRequest) -> Golden:
-    """Compares pictures with golden ones: ``golden.check("name", picture)``."""
+    """Compares runs and pictures with golden ones: ``golden.check("name", run)``."""
 
     def tell(line: str) -> None:
         # Kept with the test's report, which is how it gets home from another process.
@@ -210,6 +292,6 @@ def pytest_terminal_summary(terminalreporter: Any) -> None:
     reports = [report for kind in ("passed", "failed") for report in terminalreporter.stats.get(kind, [])]
     lines = sorted({line for r in reports for key, line in getattr(r, "user_properties", ()) if key == "golden"})
     if lines:
-        terminalreporter.section("golden pictures written, to be looked at")
+        terminalreporter.section("golden files written, to be looked at")
         for line in lines:
             terminalreporter.line(line)
