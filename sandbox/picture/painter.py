@@ -93,12 +93,22 @@ def _panel(size: tuple[int, int], colour: Colour, corner: float) -> pygame.Surfa
     return from_coverage(corner - outside + 0.5, colour)
 
 
+def rounded(surface: pygame.Surface, rect: pygame.Rect, corner: float) -> pygame.Surface:
+    """A copy of a surface's rectangle with round corners."""
+    return _under(surface, rect, pygame.surfarray.array_alpha(_panel(rect.size, (0, 0, 0), corner)))
+
+
 def around_corners(surface: pygame.Surface, rect: pygame.Rect, corner: float) -> pygame.Surface:
     """What of a surface's rectangle lies outside its round corners: to be put back when the rectangle is filled."""
+    return _under(surface, rect, 255 - pygame.surfarray.array_alpha(_panel(rect.size, (0, 0, 0), corner)))
+
+
+def _under(surface: pygame.Surface, rect: pygame.Rect, opacity: np.ndarray) -> pygame.Surface:
+    """A copy of a surface's rectangle, as opaque as the array says (0 to 255)."""
     kept = blank(rect.size, transparent=True)
     kept.blit(surface, (0, 0), rect)
     alpha = pygame.surfarray.pixels_alpha(kept)
-    alpha[...] = 255 - pygame.surfarray.array_alpha(_panel(rect.size, (0, 0, 0), corner))
+    alpha[...] = opacity
     del alpha  # unlocks the surface
     return kept
 

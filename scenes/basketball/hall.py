@@ -61,10 +61,13 @@ class Hall:
 
     # What stands still
 
-    def draw(self, painter: Painter, eye: Eye) -> None:
-        """Wall, floor, and what lies under it."""
-        surface = painter.surface
+    def draw(self, painter: Painter, eye: Eye, moved: float = 0.0) -> None:
+        """Wall, floor, and what lies under it, as seen by an eye that has moved ``moved`` px to the right."""
+        surface, width = painter.surface, self.size[0]
         surface.blit(_wall(self.size, self.foot), (0, 0))
+        left = -(round(moved * FAR) % width)
+        for x in (left, left + width):
+            surface.blit(_crowd(self.size, self.foot), (x, 0))
         surface.blit(self._floor(eye), (0, self.foot))
         surface.blit(_ground((self.size[0], self.size[1] - self.base)), (0, self.base))
         surface.fill(COURT["edge"][1], (0, self.base, self.size[0], max(3, round(7 * self.unit))))
@@ -122,7 +125,7 @@ class Hall:
         def line(a: tuple[float, float], b: tuple[float, float], width: float, colour: Colour) -> None:
             painter.line([eye.point(*a), eye.point(*b)], width * scale, colour)
 
-        painter.shadow(eye.point(foot + 0.1, 0.0), 1.0 * scale, 0.07 * scale, CARD["shadow"], 0.4)
+        painter.shadow(eye.point(foot + 0.1, 0.0), 0.9 * scale, 0.07 * scale, CARD["shadow"], 0.4)
         line((foot + 0.75, 0.25), (head + 0.02, top), 0.08, shaded)
         for share in (0.15, 0.55):
             line((self.back, self.bottom + share * height), (head, top - 0.06), 0.06, lit)
@@ -186,38 +189,47 @@ class Hall:
 
 @lru_cache(maxsize=4)
 def _wall(size: tuple[int, int], foot: int) -> pygame.Surface:
-    """Wall and stands down to row ``foot``, lit from above on the right."""
-    width, unit = size[0], size[1] / 720
+    """The wall down to row ``foot``, lit from above on the right."""
+    width = size[0]
     top, low = (np.array(colour, float) for colour in COURT["wall"])
     wall = np.broadcast_to(top + (low - top) * np.linspace(0, 1, foot)[None, :, None] ** 1.2, (width, foot, 3))
     across = (np.arange(width)[:, None] - 0.62 * width) / (0.42 * width)
     down = (np.arange(foot)[None, :] - 0.30 * foot) / (0.75 * foot)
     glow = np.exp(-(across**2) - down**2)[:, :, None] * 0.55
-    surface = from_colours(wall + (np.array(COURT["light"], float) - wall) * glow)
-    tall = round(50 * unit)
-    _stands(surface, foot - tall)
-    surface.fill(COURT["padding"], (0, foot - tall, width, tall))
-    surface.fill(mix(COURT["padding"], (255, 255, 255), 0.14), (0, foot - tall, width, max(1, round(2 * unit))))
-    for x in np.arange(0, width, 118 * unit):
-        surface.fill(mix(COURT["padding"], CARD["shadow"], 0.16), (round(x), foot - tall, max(1, round(unit)), tall))
-    return surface
+    return from_colours(wall + (np.array(COURT["light"], float) - wall) * glow)
 
 
-def _stands(surface: pygame.Surface, row: int) -> None:
-    """Rows of people who watch, hardly told from the wall and less the farther they are, down to a row of px."""
-    width, unit = surface.get_width(), surface.get_height() / 448
-    painter, random = Painter(surface), np.random.default_rng(3)
+@lru_cache(maxsize=4)
+def _crowd(size: tuple[int, int], foot: int) -> pygame.Surface:
+    """Rows of people who watch, the less told from the wall the farther they are, and boards before them.
+
+    As wide as the picture, down to row ``foot``; the ends join.
+    """
+    width, unit = size[0], size[1] / 720
+    crowd = blank((width, foot), transparent=True)
+    painter, random = Painter(crowd), np.random.default_rng(3)
+    tall, apart = round(50 * unit), 24 * unit
+    count = round(width / apart)
     for i in reversed(range(ROWS_OF_PEOPLE)):
         share = i / (ROWS_OF_PEOPLE - 1)
-        top = row - (i + 1) * 17 * unit
+        row = foot - tall - (i + 1) * 27 * unit
         opacity = 0.8 * (1 - share) ** 1.1
-        for x in np.arange(-10, width + 10, 15 * unit) + random.uniform(-4, 4) * unit:
-            if random.uniform() < 0.9 - 0.25 * share:
-                colour = COURT["crowd"][random.integers(len(COURT["crowd"]))]
-                at = x + random.uniform(-2, 2) * unit, top + random.uniform(-1.5, 1.5) * unit
-                painter.disc(at, 3.6 * unit, colour, opacity)
-                painter.shadow((at[0], at[1] + 10 * unit), 5.5 * unit, 6 * unit, colour, opacity)
-        surface.fill(mix(COURT["wall"][1], CARD["shadow"], 0.15), (0, round(top + 14 * unit), width, 1))
+        for seat in range(count):
+            if random.uniform() > 0.9 - 0.25 * share:
+                continue
+            colour = COURT["crowd"][random.integers(len(COURT["crowd"]))]
+            aside, up = random.uniform(-3, 3, 2) * unit
+            x, y = (seat + i % 2 / 2) * width / count + aside, row + 0.7 * up
+            for turn in (-width, 0, width):
+                painter.disc((x + turn, y), 5.8 * unit, colour, opacity)
+                painter.shadow((x + turn, y + 16 * unit), 9 * unit, 9.5 * unit, colour, opacity)
+        crowd.fill((*CARD["shadow"], round(40 * opacity)), (0, round(row + 22 * unit), width, max(1, round(unit))))
+    thin = max(1, round(2 * unit))
+    crowd.fill(COURT["padding"], (0, foot - tall, width, tall))
+    crowd.fill(mix(COURT["padding"], (255, 255, 255), 0.14), (0, foot - tall, width, thin))
+    for x in np.linspace(0, width, 12)[:-1]:
+        crowd.fill(mix(COURT["padding"], CARD["shadow"], 0.16), (round(x), foot - tall, max(1, thin // 2), tall))
+    return crowd
 
 
 @lru_cache(maxsize=4)

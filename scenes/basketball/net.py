@@ -19,6 +19,8 @@ COURT = palette("basketball")
 STRANDS, KNOTS, NARROW = 11, 9, 0.56
 #: After the ball is out the net swings this fast (rad/s) and settles this fast (1/s).
 SWING, SETTLE = 11.0, 3.0
+#: It rests when it swings by less than exp(-SETTLED) of what it did.
+SETTLED = 5.0
 
 
 class Net:
@@ -59,7 +61,7 @@ class Net:
     def _shape(self, down: np.ndarray, t: float) -> tuple[np.ndarray, np.ndarray]:
         """How far aside the net is and how wide, in m, at shares of its length down from the ring."""
         wide = self.wide * (1 - (1 - NARROW) * down**0.7)
-        if t <= self.entered:
+        if self.rests(t):
             return 0.0 * down, wide
         x, y, *_ = self.run.state("ball", min(t, self.left))
         depth = max(0.05, (self.top - y) / self.length)
@@ -70,6 +72,10 @@ class Net:
         after = t - self.left
         swing = exp(-SETTLE * after)
         return pushed * swing * cos(SWING * after), wide * (1 + 0.3 * down * swing * sin(1.7 * SWING * after))
+
+    def rests(self, t: float) -> bool:
+        """Whether it hangs still at time t in s."""
+        return t <= self.entered or t > self.left + SETTLED / SETTLE
 
     @property
     def fullest(self) -> float:

@@ -11,13 +11,15 @@ import numpy as np
 import pygame
 
 from sandbox.picture.ball import least_radius
-from sandbox.picture.camera import Area, Box, Camera, Follow
+from sandbox.picture.camera import Area, Box, Camera
+from sandbox.picture.chase import Chase
 from sandbox.picture.depth import Eye
 from sandbox.picture.figures import REACHING, SHOOTING, draw_figure
+from sandbox.picture.kept import Kept
 from sandbox.picture.lettering import Labels
-from sandbox.picture.painter import around_corners
+from sandbox.picture.painter import Painter, around_corners, rounded
 from sandbox.picture.palette import mix, palette
-from sandbox.picture.path import MOST_SAMPLES, Path, apart, draw_trace, mark_impacts
+from sandbox.picture.path import Path, apart, draw_trace, mark_impacts
 from sandbox.picture.sheet import Sheet, metres, roughly, signed, times
 
 from .hall import BALL, Hall
@@ -58,7 +60,8 @@ class Picture:
         self.top_row = sheet.frame.top + sheet.lettering.height("large") + small + 2 * sheet.gap
         self.hall, self.net = Hall(parameters, size, base), Net(run, parameters)
         side = round(LENS * self.unit)
-        self._kept: tuple[Camera, pygame.Surface] | None = None
+        self.kept = Kept()
+        self._standing: tuple[Camera, pygame.Surface] | None = None
         self.lens = pygame.Rect(sheet.frame.right - side, sheet.frame.top, side, side)
 
     # Composition
@@ -160,16 +163,22 @@ class Picture:
 
     def _behind(self, sheet: Sheet, eye: Eye) -> None:
         """What stands still behind the ball: thrower, stand, board, the far half of the ring."""
-        painter = sheet.painter
-        near = self.hall.hoop_eye(eye)
-        self.hall.stand(painter, near)
+        near, hall = self.hall.hoop_eye(eye), self.hall
+        box = Box(hall.back - 0.2, -0.2, hall.back + STAND + 0.5, hall.top)
+        self.kept.draw(
+            sheet.surface, "stand", near.camera, box, lambda painter, camera: hall.stand(painter, hall.eye(camera))
+        )
         if self._figure:
-            pose, tall, feet = self._figure
-            foot = eye.point(*feet)
-            width = 0.3 * tall * eye.camera.scale
-            painter.shadow((foot[0], eye.point(0, 0)[1]), width, 0.16 * width, CARD["shadow"], 0.45)
-            draw_figure(painter, foot, tall * eye.camera.scale, pose, FIGURE)
-        self.hall.board(painter, near)
+            pose, tall, (x, y) = self._figure
+
+            def thrower(painter: Painter, camera: Camera) -> None:
+                width = 0.3 * tall * camera.scale
+                painter.shadow(camera.pixel(x, 0.0), width, 0.16 * width, CARD["shadow"], 0.45)
+                draw_figure(painter, camera.pixel(x, y), tall * camera.scale, pose, FIGURE)
+
+            box = Box(x - 0.5 * tall, -0.2, x + 0.5 * tall, y + 1.3 * tall)
+            self.kept.draw(sheet.surface, "thrower", eye.camera, box, thrower)
+        hall.board(sheet.painter, near)
 
     def _before(self, sheet: Sheet, eye: Eye, t: float) -> None:
         """What is before the ball: the near half of net and ring."""
@@ -305,44 +314,19 @@ class Picture:
         return self.net.left if self.run.result["made"] else self.path.until
 
     @cached_property
-    def _view(self) -> tuple[float, float]:
-        """Columns in px between which the ball stays on frames."""
-        return 0.1 * self.size[0], self.lens.left - 40 * self.unit if self.composed[1] else 0.9 * self.size[0]
-
-    @cached_property
-    def follow(self) -> Follow:
+    def chase(self) -> Chase:
         """The camera of the frames: it shows thrower and ring, and goes along when the ball leaves them."""
-        hall, poster = self.hall, self.camera
-        low, high = self._view
+        hall, home = self.hall, self.camera
+        columns = 0.1 * self.size[0], self.lens.left - 40 * self.unit if self.composed[1] else 0.9 * self.size[0]
         box = Box(-THROWER, 0.0, hall.back + STAND, 1.25 * hall.top)
-        home = Camera.fit(box, Area(low, self.top_row, high, hall.base))
-        if poster.scale >= home.scale:
-            home = poster
-        times = np.linspace(0.0, self.run.duration, max(2, min(MOST_SAMPLES, round(self.run.duration * 60))))
-        states = np.array([self.run.state("ball", t) for t in times])
-        room = hall.base - self.top_row
-        scales = np.minimum(home.scale, 0.9 * room / np.maximum(states[:, 1] + self.radius, 1e-9))
-        bounds = [states[:, 0] - (edge - home.anchor[0]) / scales for edge in (high, low)]
-        at = np.clip(home.at[0], *bounds)
-        fastest = max(float(np.hypot(states[:, 2], states[:, 3]).max()), 1e-9)
-        settle = min(0.25, 0.05 * self.size[0] / home.scale / fastest)
-        return Follow(times, np.column_stack([at, 0.0 * at]), scales, home.anchor, settle)
-
-    def _frame_camera(self, t: float) -> Camera:
-        """The camera at time t in s, on whole px, and with the ball in sight in any case."""
-        smooth = self.follow.camera(t)
-        x, y, *_ = self.run.state("ball", t)
-        room = self.hall.base - self.top_row
-        scale = float(f"{min(smooth.scale, room / max(y + self.radius, 1e-9)):.4g}")
-        low, high = (x - (edge - smooth.anchor[0]) / scale for edge in reversed(self._view))
-        at = min(max(smooth.at[0], low), high)
-        return Camera((round(at * scale) / scale, 0.0), smooth.anchor, scale)
+        near = Camera.fit(box, Area(columns[0], self.top_row, columns[1], hall.base))
+        return Chase(self.run, "ball", near if near.scale > home.scale else home, columns, self.top_row)
 
     def frame(self, t: float) -> pygame.Surface:
         """The scene at time t in s, seen by a camera that follows the ball."""
         t = min(max(t, 0.0), self.run.duration)
         sheet = self.sheet = Sheet(self.size, on_dark=True)
-        painter, unit, camera = sheet.painter, self.unit, self._frame_camera(t)
+        painter, unit, camera = sheet.painter, self.unit, self.chase.camera(t)
         eye = self.hall.eye(camera)
         sheet.surface.blit(self._backdrop(camera), (0, 0))
         x, y, vx, vy, spin = self.run.state("ball", t)
@@ -359,7 +343,7 @@ class Picture:
         sheet.ruler(camera, self.ruler_row, "ft")
         right = sheet.frame.right
         if self.composed[1]:
-            self._frame_lens(sheet, eye, t)
+            self._frame_lens(sheet, t)
             right = self.lens.left - 2 * sheet.gap
         if any(self.wind):
             right = sheet.wind(*self.wind, right, sheet.frame.top).left
@@ -383,12 +367,12 @@ class Picture:
 
     def _backdrop(self, camera: Camera) -> pygame.Surface:
         """What stands still behind the ball; kept while the camera does."""
-        if self._kept is None or self._kept[0] != camera:
+        if self._standing is None or self._standing[0] != camera:
             sheet, eye = Sheet(self.size), self.hall.eye(camera)
-            self.hall.draw(sheet.painter, eye)
+            self.hall.draw(sheet.painter, eye, camera.at[0] * self.chase.home.scale)
             self._behind(sheet, eye)
-            self._kept = camera, sheet.surface
-        return self._kept[1]
+            self._standing = camera, sheet.surface
+        return self._standing[1]
 
     def _trail(self, sheet: Sheet, camera: Camera, t: float, width: float) -> None:
         """Where the ball has been: a thin line, and a thick one of late."""
@@ -402,23 +386,45 @@ class Picture:
         if np.ptp(points, axis=0).max() > 2:
             sheet.painter.fading(points[apart(points, 2.0)], width, COURT["trace"], 0.9)
 
-    def _frame_lens(self, sheet: Sheet, eye: Eye, t: float) -> None:
+    def _frame_lens(self, sheet: Sheet, t: float) -> None:
         """The ring from near by, at time t in s."""
-        corners = around_corners(sheet.surface, self.lens, 10 * self.unit)
-        near = self._lens_eye(eye)
-        camera, painter = near.camera, sheet.painter
-        sheet.surface.fill(COURT["lens"], self.lens)
-        sheet.surface.set_clip(self.lens)
-        self.hall.board(painter, near)
-        self.net.draw(painter, near, self.unit, True, t)
         x, y, *_ = self.run.state("ball", t)
-        if self._in_lens((x, y), self.radius):
+        inside = self._in_lens((x, y), self.radius)
+        if not inside and self.net.rests(t):
+            sheet.surface.blit(self._empty_lens, self.lens)
+            return
+        eye = self._lens_eye(self.hall.eye(self.camera))
+        camera, painter = eye.camera, sheet.painter
+        corners = around_corners(sheet.surface, self.lens, 10 * self.unit)
+        sheet.surface.set_clip(self.lens)
+        sheet.surface.blit(self._lens_backdrop, self.lens)
+        self.net.draw(painter, eye, self.unit, True, t)
+        if inside:
             self._trail(sheet, camera, t, 8 * self.unit)
             BALL.draw(painter, camera.pixel(x, y), self.radius * camera.scale, self.run.angle("ball", t), self.unit)
-        self.net.draw(painter, near, self.unit, False, t)
-        self.hall.near_ring(painter, near)
+        self.net.draw(painter, eye, self.unit, False, t)
+        self.hall.near_ring(painter, eye)
         sheet.surface.set_clip(None)
         sheet.surface.blit(corners, self.lens)
+
+    @cached_property
+    def _lens_backdrop(self) -> pygame.Surface:
+        """What stands still in the lens behind the ball."""
+        sheet = Sheet(self.size)
+        sheet.surface.fill(COURT["lens"], self.lens)
+        self.hall.board(sheet.painter, self._lens_eye(self.hall.eye(self.camera)))
+        return sheet.surface.subsurface(self.lens)
+
+    @cached_property
+    def _empty_lens(self) -> pygame.Surface:
+        """The lens while nothing moves in it, with round corners."""
+        sheet = Sheet(self.size)
+        eye = self._lens_eye(self.hall.eye(self.camera))
+        sheet.surface.blit(self._lens_backdrop, self.lens)
+        for behind in (True, False):
+            self.net.draw(sheet.painter, eye, self.unit, behind, 0.0)
+        self.hall.near_ring(sheet.painter, eye)
+        return rounded(sheet.surface, self.lens, 10 * self.unit)
 
 
 def _short(length: float) -> str:
