@@ -168,6 +168,20 @@ def run(
     _say("\n".join([said, *written]))
 
 
+@app.command()
+def play(scene: SceneArgument, set_: Settings = None, accuracy: Level = None) -> None:
+    """Open the window: pull back from the ball, let go, and see. H lists the keys.
+
+    \b
+    Examples:
+      sandbox play golf
+      sandbox play basketball/free-throw
+    """
+    from sandbox.window.app import play as play_in_window
+
+    play_in_window(scene, _changes(set_, accuracy))
+
+
 def _load(source: str, settings: list[str] | None, accuracy: str | None) -> Scene:
     """The scene with ``--set`` and ``--accuracy`` over its file."""
     from sandbox.scene import load
@@ -228,6 +242,59 @@ def _draw(scene: Scene, done: Any, poster: Path | None, frames: Path | None, gif
     if gif is not None:
         with _writing("--gif", gif), bar("gif") as progress:
             save_gif(picture, done, gif, fps or 25, progress)
+
+
+@app.command()
+def aim(
+    scene: SceneArgument,
+    vary: Annotated[
+        list[str], typer.Option(metavar="KEY=LO:HI", help="A number and its range; once or twice.", show_default=False)
+    ],
+    target: Annotated[
+        list[str],
+        typer.Option(metavar="NAME=VALUE", help="A result and what it shall be; once or twice.", show_default=False),
+    ],
+    set_: Settings = None,
+    accuracy: Level = None,
+    as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object in place of the card.")] = False,
+    show: Annotated[Path | None, typer.Option(metavar="F.png", help="Write a picture of the tries.")] = None,
+) -> None:
+    """Find the values that give a result: all of them in the range, each with its numerical error.
+
+    A target that is true or false, or a word, has intervals: the widest first, with the middle, which forgives most.
+    That there is no solution is an answer too: it is said, with how near it got, and the exit code is 0.
+
+    \b
+    Examples:
+      sandbox aim golf --vary launch.angle=2:75 --target carry=200
+      sandbox aim basketball --vary launch.speed=6:10 --target made=true --show tries.png
+      sandbox aim golf --vary launch.angle=2:60 --vary launch.speed=40:90 --target carry="219 yd" --target apex=30
+    """
+    from sandbox.files import check_file
+    from sandbox.lab.aim import parse_target, search
+    from sandbox.lab.axes import parse_span
+    from sandbox.progress import bar
+
+    chosen = _load(scene, set_, accuracy)
+    spans = [parse_span(chosen, "--vary", text) for text in vary]
+    targets = [parse_target(text) for text in target]
+    if show is not None:
+        from sandbox.lab.chart import check_installed
+
+        check_file("--show", show, ".png")
+        check_installed("--show")
+    with bar("aim") as progress:
+        found = search(chosen, spans, targets, progress)
+    from sandbox.lab import aim_report
+
+    if show is not None:
+        with _writing("--show", show):
+            aim_report.draw(found, show)
+    if as_json:
+        _say(aim_report.as_json(found))
+    else:
+        written = [] if show is None else [f"wrote {show}"]
+        _say("\n".join([*aim_report.as_text(found), *written]))
 
 
 @app.command()

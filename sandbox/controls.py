@@ -31,6 +31,7 @@ class Controls:
     ball: str = "ball"  # the ball that is pulled: its name, or the key that holds its name
     also: Mapping[str, Any] = field(default_factory=dict)  # what else a pull sets, such as how the shot begins
     sliders: tuple[str, ...] = ()  # shown first
+    scores: str = ""  # the entry of the result that is true, or not empty, when the shot scored
 
 
 def controls_of(module: Any) -> Controls:

@@ -104,6 +104,7 @@ CONTROLS = Controls(
     spins=(Spin("cue.follow", 0.05), Spin("cue.english", 0.05)),
     ball="cue.ball",
     sliders=("cue.speed", "cue.angle", "cue.follow", "cue.english", "rack", "cloth.rolling_friction", "ball.friction"),
+    scores="potted",
 )
 
 # -------------------------------------------------------------------------------------------------------------- build

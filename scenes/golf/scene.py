@@ -167,6 +167,7 @@ CONTROLS = Controls(
     spins=(Spin("launch.spin", 100.0),),
     also={"start": "launch"},
     sliders=("launch.speed", "launch.angle", "launch.spin", "air.wind", "gravity", "pin.distance"),
+    scores="holed",
 )
 
 # ---------------------------------------------------------------------------------------------------------------- build

@@ -125,6 +125,7 @@ CONTROLS = Controls(
     strongest=45.0,
     spins=(Spin("launch.spin", 50.0),),
     sliders=("launch.speed", "launch.angle", "launch.spin", "launch.tilt", "goal.distance", "air.wind"),
+    scores="goal",
 )
 
 # -------------------------------------------------------------------------------------------------------------- build

@@ -117,6 +117,7 @@ CONTROLS = Controls(
     strongest=45.0,
     spins=(Spin("launch.spin", 50.0),),
     sliders=("launch.speed", "launch.angle", "launch.spin", "goal.distance", "wall.present", "wall.height", "air.wind"),
+    scores="goal",
 )
 
 # -------------------------------------------------------------------------------------------------------------- build

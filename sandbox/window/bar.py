@@ -1,0 +1,196 @@
+"""The bar along the bottom: the scene's name, the buttons of a player, the time line, and what may be opened."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache
+
+import pygame
+
+from sandbox.picture.lettering import Lettering
+from sandbox.picture.painter import OVERSAMPLING, Painter, scratch
+from sandbox.picture.palette import Colour, mix, palette
+
+CARD, TRACE = palette("card"), palette("trace")
+HEIGHT = 48  # px on 720 rows
+RAISED = mix(CARD["background"], CARD["quiet"], 0.22)
+GROOVE = mix(CARD["background"], CARD["quiet"], 0.35)
+
+_RIGHT = [(0.22, 0.1), (0.86, 0.5), (0.22, 0.9)]
+_LEFT = [(1 - x, y) for x, y in _RIGHT]
+
+
+def _block(left: float, right: float) -> list[tuple[float, float]]:
+    return [(left, 0.1), (right, 0.1), (right, 0.9), (left, 0.9)]
+
+
+def _slim(points: list[tuple[float, float]], left: float, width: float) -> list[tuple[float, float]]:
+    return [(left + x * width, y) for x, y in points]
+
+
+#: Polygons in a square of 1 by 1.
+ICONS = {
+    "play": [_RIGHT],
+    "pause": [_block(0.2, 0.42), _block(0.58, 0.8)],
+    "step": [_block(0.08, 0.24), _slim(_RIGHT, 0.26, 0.74)],
+    "step_back": [_block(0.76, 0.92), _slim(_LEFT, 0.0, 0.74)],
+    "restart": [_block(0.08, 0.22), _slim(_LEFT, 0.2, 0.8)],
+    "previous_shot": [_slim(_LEFT, 0.0, 0.5), _slim(_LEFT, 0.45, 0.5)],
+    "next_shot": [_slim(_RIGHT, 0.05, 0.5), _slim(_RIGHT, 0.5, 0.5)],
+    "slower": [[(0.15, 0.42), (0.85, 0.42), (0.85, 0.58), (0.15, 0.58)]],
+    "faster": [[(0.15, 0.42), (0.85, 0.42), (0.85, 0.58), (0.15, 0.58)], _block(0.42, 0.58)],
+}
+
+HINTS = {
+    "menu": "scenes and presets (M)",
+    "go": "shoot, pause (Space)",
+    "step": "one step on (.)",
+    "step_back": "one step back (,)",
+    "restart": "from the start (R)",
+    "previous_shot": "previous shot (P)",
+    "next_shot": "next shot (N)",
+    "slower": "slower (-)",
+    "faster": "faster (+)",
+    "view": "whole path, or near the ball (V)",
+    "panel": "parameters (Tab)",
+    "help": "all keys (H)",
+}
+
+
+@lru_cache(maxsize=64)
+def _icon(name: str, side: int, colour: Colour) -> pygame.Surface:
+    large = side * OVERSAMPLING
+    mask = scratch((large, large), colour)
+    for polygon in ICONS[name]:
+        pygame.draw.polygon(mask, colour, [(x * large, y * large) for x, y in polygon])
+    return pygame.transform.smoothscale(mask, (side, side))
+
+
+@dataclass(frozen=True)
+class Shown:
+    """What the bar tells."""
+
+    title: str
+    playing: bool
+    t: float | None  # s; None while aiming
+    duration: float  # s
+    ticks: tuple[float, ...]  # s, of impacts
+    rate: float
+    view: str
+    texts: tuple[str, ...]  # commands that are words, on the right
+    on: frozenset[str] = frozenset()  # those of them that are open
+
+
+class Bar:
+    """Lies in ``rect`` of a window with letters for ``height`` rows."""
+
+    def __init__(self, rect: pygame.Rect, height: int) -> None:
+        self.rect, self.unit = rect, height / 720
+        self.lettering = Lettering(height)
+        self.buttons: dict[str, pygame.Rect] = {}
+        self.line = pygame.Rect(0, 0, 0, 0)
+
+    def command_at(self, position: tuple[int, int]) -> str | None:
+        return next((name for name, rect in self.buttons.items() if rect.collidepoint(position)), None)
+
+    def share_at(self, position: tuple[int, int]) -> float | None:
+        """Where on the time line a point is, 0 to 1; None off it."""
+        if not self.line.inflate(16, self.rect.height - 12).collidepoint(position):
+            return None
+        return self.share(position)
+
+    def share(self, position: tuple[int, int]) -> float:
+        return min(1.0, max(0.0, (position[0] - self.line.left) / max(1, self.line.width)))
+
+    def draw(self, surface: pygame.Surface, shown: Shown, mouse: tuple[int, int]) -> None:
+        surface.fill(CARD["background"], self.rect)
+        self.buttons.clear()
+        gap, side = round(8 * self.unit), round(30 * self.unit)
+        left = self._word(surface, "menu", shown.title, self.rect.left + 2 * gap, mouse, bold=True).right + gap
+        for name in ("previous_shot", "restart", "step_back", "go", "step", "next_shot"):
+            rect = pygame.Rect(left, self.rect.centery - side // 2, side, side)
+            icon = ("pause" if shown.playing else "play") if name == "go" else name
+            self._picture(surface, name, icon, rect, mouse, CARD["accent"] if name == "go" else CARD["text"])
+            left = rect.right + gap // 4
+        right = self.rect.right - 2 * gap
+        for name in reversed(shown.texts):
+            text = shown.view if name == "view" else name.replace("_", " ")
+            width = self.lettering.width(text, "small") + 2 * gap
+            right = self._word(surface, name, text, right - width, mouse, on=name in shown.on).left - gap // 2
+        right -= gap
+        rate = f"×{shown.rate:g}" if shown.rate >= 1 else f"×1/{round(1 / shown.rate)}"
+        for name in ("faster", "", "slower"):
+            wide = side if name else round(44 * self.unit)
+            rect = pygame.Rect(right - wide, self.rect.centery - side // 2, wide, side)
+            if name:
+                self._picture(surface, name, name, rect, mouse, CARD["text"])
+            else:
+                self.lettering.write(surface, rate, "small", rect.center, CARD["text"], "center")
+            right = rect.left
+        self._time(surface, shown, left + gap, right - 2 * gap)
+        hovered = self.command_at(mouse)
+        if hovered in HINTS:
+            self._hint(surface, HINTS[hovered], self.buttons[hovered])
+
+    def _hint(self, surface: pygame.Surface, text: str, button: pygame.Rect) -> None:
+        rect = self.lettering.rect(text, "small", (button.centerx, self.rect.top - 8 * self.unit), "midbottom")
+        rect = rect.inflate(round(16 * self.unit), round(8 * self.unit))
+        rect.bottom = self.rect.top - round(6 * self.unit)
+        rect.clamp_ip(surface.get_rect())
+        Painter(surface).panel(rect, CARD["background"], 0.92, 6 * self.unit)
+        self.lettering.write(surface, text, "small", rect.center, CARD["text"], "center")
+
+    def _picture(
+        self,
+        surface: pygame.Surface,
+        name: str,
+        icon: str,
+        rect: pygame.Rect,
+        mouse: tuple[int, int],
+        colour: Colour,
+    ) -> None:
+        self.buttons[name] = rect
+        if rect.collidepoint(mouse):
+            Painter(surface).panel(rect, RAISED, 1.0, 6 * self.unit)
+        image = _icon(icon, round(0.5 * rect.height), colour)
+        surface.blit(image, image.get_rect(center=rect.center))
+
+    def _word(
+        self,
+        surface: pygame.Surface,
+        name: str,
+        text: str,
+        left: int,
+        mouse: tuple[int, int],
+        bold: bool = False,
+        on: bool = False,
+    ) -> pygame.Rect:
+        inset = round(8 * self.unit)
+        rect = pygame.Rect(left, 0, self.lettering.width(text, "small", bold) + 2 * inset, round(30 * self.unit))
+        rect.centery = self.rect.centery
+        self.buttons[name] = rect
+        if on or bold or rect.collidepoint(mouse):
+            Painter(surface).panel(rect, RAISED, 1.0, 6 * self.unit)
+        colour = CARD["accent"] if on else CARD["text"]
+        self.lettering.write(surface, text, "small", rect.center, colour, "center", bold)
+        return rect
+
+    def _time(self, surface: pygame.Surface, shown: Shown, left: int, right: int) -> None:
+        text = f"{shown.duration:.2f} s" if shown.t is None else f"{shown.t:.2f} / {shown.duration:.2f} s"
+        room = self.lettering.width("00.00 / 00.00 s", "small")
+        self.lettering.write(surface, text, "small", (right, self.rect.centery), CARD["quiet"], "midright")
+        thick = max(3, round(4 * self.unit))
+        self.line = pygame.Rect(left, self.rect.centery - thick // 2, max(0, right - room - left - 12), thick)
+        if self.line.width < 20:
+            return
+        surface.fill(GROOVE, self.line)
+
+        def column(t: float) -> int:
+            return self.line.left + round(self.line.width * t / max(shown.duration, 1e-9))
+
+        for tick in shown.ticks:
+            surface.fill(CARD["accent"], (column(tick) - 1, self.line.top - thick, 2, 3 * thick))
+        if shown.t is not None:
+            at = column(shown.t)
+            surface.fill(TRACE["colours"][0], (self.line.left, self.line.top, at - self.line.left, thick))
+            Painter(surface).disc((at, self.rect.centery), 7 * self.unit, CARD["text"])

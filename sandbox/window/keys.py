@@ -1,0 +1,65 @@
+"""Every key of the window, in one table: what it does is read by the window, and the help from the same."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import pygame
+
+SHIFT, CTRL = pygame.KMOD_SHIFT, pygame.KMOD_CTRL
+
+
+class Binding(NamedTuple):
+    """A key with its command; ``shown`` is how the help names it, and "" where another line says it."""
+
+    key: int
+    command: str
+    shown: str
+    meaning: str
+    group: str
+    modifier: int = 0
+
+
+BINDINGS = (
+    Binding(pygame.K_SPACE, "go", "Space", "shoot; pause and go on", "Play"),
+    Binding(pygame.K_RETURN, "again", "Enter", "aim again", "Play"),
+    Binding(pygame.K_LEFT, "turn_left", "left right", "turn the shot (Shift: finely)", "Play"),
+    Binding(pygame.K_RIGHT, "turn_right", "", "", "Play"),
+    Binding(pygame.K_UP, "stronger", "up down", "stronger, weaker (Shift: finely)", "Play"),
+    Binding(pygame.K_DOWN, "weaker", "", "", "Play"),
+    Binding(pygame.K_e, "spin_up", "E D, wheel", "spin", "Play"),
+    Binding(pygame.K_d, "spin_down", "", "", "Play"),
+    Binding(pygame.K_x, "other_up", "X Z, Shift wheel", "second spin, where there is one", "Play"),
+    Binding(pygame.K_z, "other_down", "", "", "Play"),
+    Binding(pygame.K_r, "restart", "R", "from the start", "Watch"),
+    Binding(pygame.K_PERIOD, "step", ". ,", "one step on, one step back", "Watch"),
+    Binding(pygame.K_COMMA, "step_back", "", "", "Watch"),
+    Binding(pygame.K_MINUS, "slower", "- +", "slower to 1/16, faster to 8", "Watch"),
+    Binding(pygame.K_EQUALS, "faster", "", "", "Watch"),
+    Binding(pygame.K_PLUS, "faster", "", "", "Watch"),
+    Binding(pygame.K_KP_MINUS, "slower", "", "", "Watch"),
+    Binding(pygame.K_KP_PLUS, "faster", "", "", "Watch"),
+    Binding(pygame.K_p, "previous_shot", "P N", "previous, next shot", "Watch"),
+    Binding(pygame.K_n, "next_shot", "", "", "Watch"),
+    Binding(pygame.K_v, "view", "V", "the whole path, or near the ball", "See"),
+    Binding(pygame.K_g, "ghosts", "G", "earlier shots", "See"),
+    Binding(pygame.K_m, "menu", "M", "all scenes and presets", "Scene"),
+    Binding(pygame.K_PAGEDOWN, "next_preset", "PgDn PgUp", "next, previous preset", "Scene"),
+    Binding(pygame.K_PAGEUP, "previous_preset", "", "", "Scene"),
+    Binding(pygame.K_BACKSPACE, "reset", "Backspace", "all parameters as in the file", "Scene"),
+    Binding(pygame.K_F3, "cost", "F3", "what a frame costs", "Window"),
+    Binding(pygame.K_F11, "fullscreen", "F11", "full screen", "Window"),
+    Binding(pygame.K_h, "help", "H, F1", "this list", "Window"),
+    Binding(pygame.K_F1, "help", "", "", "Window"),
+    Binding(pygame.K_ESCAPE, "back", "Esc", "close what is open; aim again", "Window"),
+    Binding(pygame.K_q, "quit", "Ctrl Q", "leave", "Window", CTRL),
+)
+
+
+def command_for(key: int, modifiers: int) -> str | None:
+    """The command of a key that was pressed; with Ctrl only those that ask for it."""
+    held = modifiers & CTRL
+    for binding in BINDINGS:
+        if binding.key == key and bool(held) == bool(binding.modifier & CTRL):
+            return binding.command
+    return None

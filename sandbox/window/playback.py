@@ -1,0 +1,48 @@
+"""The clock of a shot that is being watched."""
+
+from __future__ import annotations
+
+RATES = (1 / 16, 1 / 8, 1 / 4, 1 / 2, 1.0, 2.0, 4.0, 8.0)
+STEP = 1 / 60  # s of the shot, for one step by hand
+#: Longest time in s that one frame moves the clock at rate 1: a late frame slows the shot, and nothing is skipped.
+LONGEST_FRAME = 1 / 30
+
+
+class Playback:
+    """Where in a shot of ``duration`` s we are."""
+
+    def __init__(self, duration: float, rate: float = 1.0) -> None:
+        self.duration, self.rate = duration, rate
+        self.t = 0.0
+        self.playing = True
+
+    @property
+    def over(self) -> bool:
+        return self.t >= self.duration
+
+    def advance(self, dt: float) -> None:
+        """``dt`` s of the wall's clock have passed."""
+        if self.playing:
+            self.seek(self.t + min(dt, LONGEST_FRAME) * self.rate)
+            self.playing = not self.over
+
+    def toggle(self) -> None:
+        """Pause, go on, or begin again at the end."""
+        if self.over:
+            self.restart()
+        else:
+            self.playing = not self.playing
+
+    def step(self, steps: int) -> None:
+        self.playing = False
+        self.seek(self.t + steps * STEP)
+
+    def restart(self) -> None:
+        self.t, self.playing = 0.0, True
+
+    def seek(self, t: float) -> None:
+        self.t = min(max(t, 0.0), self.duration)
+
+    def change_rate(self, by: int) -> None:
+        index = RATES.index(self.rate) + by
+        self.rate = RATES[min(max(index, 0), len(RATES) - 1)]

@@ -1,0 +1,159 @@
+"""The standing view: the place seen whole, with the path of the shot, its contacts, earlier shots and the balls."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from math import hypot
+from typing import Any
+
+import numpy as np
+import pygame
+
+from sandbox.picture.camera import Camera
+from sandbox.picture.painter import blank
+from sandbox.picture.palette import Colour, palette
+from sandbox.picture.sheet import Sheet
+from sandbox.window.path import apart, moves, points
+from sandbox.window.session import Shot
+
+CARD, TRACE = palette("card"), palette("trace")
+
+#: So much of the stage, on every side, a path may use before the view is composed anew.
+EDGE = 0.02
+#: Contacts nearer to each other than this, in px, are marked once; and at most so many.
+NEAR, MOST_CONTACTS = 14, 24
+
+
+class Stage:
+    """Shows shots of ``size`` px from where the picture of one of them, the composed one, stands."""
+
+    def __init__(self, shot: Shot, size: tuple[int, int]) -> None:
+        self.shot, self.size = shot, size
+        self.picture: Any = shot.scene.picture(shot.run, size)
+        #: None for a scene whose picture offers no stage: then its poster is shown, and nothing over it.
+        self.camera: Camera | None = None
+        if all(hasattr(self.picture, name) for name in ("stage", "camera", "draw_balls")):
+            self.camera = self.picture.camera
+            self.backdrop: pygame.Surface = self.picture.stage()
+        else:
+            self.backdrop = self.picture.poster()
+        self._ghosts: tuple[Any, pygame.Surface] | None = None
+
+    def holds(self, shot: Shot) -> bool:
+        """Whether the path of another shot stays in sight."""
+        if self.camera is None:
+            return shot is self.shot
+        pixels = self.camera.pixels(points(shot.run, shot.ball)[:, 1:])
+        low, high = pixels.min(axis=0), pixels.max(axis=0)
+        width, height = self.size
+        return bool(
+            low[0] >= EDGE * width
+            and low[1] >= EDGE * height
+            and high[0] <= (1 - EDGE) * width
+            and high[1] <= (1 - EDGE) * height
+        )
+
+    def ball_at(self, shot: Shot, t: float = 0.0) -> tuple[float, float]:
+        """Where the ball that is played is, in px."""
+        if self.camera is None:
+            return self.size[0] / 2, self.size[1] / 2
+        return self.camera.pixel(*shot.run.state(shot.ball, t)[:2])
+
+    def sheet(self) -> Sheet:
+        """A sheet with the place on it."""
+        sheet = Sheet(self.size)
+        sheet.surface.blit(self.backdrop, (0, 0))
+        return sheet
+
+    def draw_ghosts(self, sheet: Sheet, ghosts: list[Shot]) -> None:
+        """Earlier shots, faintly; the last five."""
+        if self.camera is None or not ghosts:
+            return
+        shown = ghosts[-5:]
+        kept = tuple(id(shot) for shot in shown)
+        if self._ghosts is None or self._ghosts[0] != kept:
+            layer = blank(self.size, transparent=True)
+            for index, shot in enumerate(shown):
+                self._line(layer, shot, shot.ball, 2, TRACE["colours"][1 + index % (len(TRACE["colours"]) - 1)])
+            layer.set_alpha(round(255 * (TRACE["earlier"] + 0.15)))
+            self._ghosts = kept, layer
+        sheet.surface.blit(self._ghosts[1], (0, 0))
+
+    def draw_path(self, sheet: Sheet, shot: Shot, until: float | None = None) -> None:
+        """The path of every ball that moves, that of the played one last and strongest, and where they touch."""
+        if self.camera is None:
+            return
+        thin = max(1, round(1.4 * sheet.unit))
+        for ball in shot.run.setup.balls:
+            if ball.name != shot.ball and moves(shot.run, ball.name):
+                self._line(sheet.surface, shot, ball.name, thin, CARD["text"], until)
+        width = max(3, round(3.6 * sheet.unit))
+        self._line(sheet.surface, shot, shot.ball, width + 2, TRACE["rim"], until)
+        self._line(sheet.surface, shot, shot.ball, width, TRACE["colours"][0], until)
+        self._contacts(sheet, shot, until)
+
+    def draw_balls(self, sheet: Sheet, t: float, picture: Any = None) -> None:
+        """The balls at time t in s, by the ``picture`` of another shot or by the composed one's."""
+        if self.camera is not None:
+            (picture or self.picture).draw_balls(sheet.painter, self.camera, t)
+
+    def _line(
+        self, surface: pygame.Surface, shot: Shot, ball: str, width: int, colour: Colour, until: float | None = None
+    ) -> None:
+        assert self.camera is not None
+        track = points(shot.run, ball)
+        if until is not None:
+            track = track[track[:, 0] <= until]
+            track = np.vstack([track, (until, *shot.run.state(ball, until)[:2])])
+        pixels = self.camera.pixels(track[:, 1:])
+        pixels = np.clip(pixels, -4000, 8000)
+        for a, b in pairwise(pixels[apart(pixels, 3.0)]):
+            pygame.draw.aaline(surface, colour, a, b, width)
+
+    def _contacts(self, sheet: Sheet, shot: Shot, until: float | None) -> None:
+        assert self.camera is not None
+        marked: list[tuple[float, float]] = []
+        for event in shot.run.events:
+            if event.kind != "impact" or event.ball != shot.ball or (until is not None and event.t > until):
+                continue
+            at = self.camera.pixel(event.x, event.y)
+            if all(hypot(at[0] - x, at[1] - y) >= NEAR * sheet.unit for x, y in marked):
+                marked.append(at)
+        for at in marked[:MOST_CONTACTS]:
+            sheet.painter.disc(at, 5.0 * sheet.unit, TRACE["rim"], 0.7)
+            sheet.painter.disc(at, 3.6 * sheet.unit, CARD["accent"])
+
+    def draw_pull(self, sheet: Sheet, ball: tuple[float, float], pull: tuple[float, float], text: str) -> None:
+        """The rubber band from the ball to the hand, and what it will do."""
+        hand = ball[0] + pull[0], ball[1] + pull[1]
+        length = hypot(*pull)
+        if length < 1:
+            return
+        across = -pull[1] / length * 6 * sheet.unit, pull[0] / length * 6 * sheet.unit
+        for side in (-1, 1):
+            start = ball[0] + side * across[0], ball[1] + side * across[1]
+            pygame.draw.aaline(sheet.surface, CARD["shadow"], start, hand, max(3, round(4.5 * sheet.unit)))
+            pygame.draw.aaline(sheet.surface, CARD["accent"], start, hand, max(2, round(2.5 * sheet.unit)))
+        sheet.painter.disc(hand, 8.5 * sheet.unit, CARD["shadow"], 0.8)
+        sheet.painter.disc(hand, 6.5 * sheet.unit, CARD["accent"])
+        below = pull[1] >= 0
+        rect = sheet.lettering.rect(
+            text, "small", (hand[0], hand[1] + (20 if below else -20) * sheet.unit), "midtop" if below else "midbottom"
+        )
+        rect = rect.inflate(4 * sheet.gap, 2 * sheet.gap).clamp(sheet.frame)
+        sheet.painter.panel(rect, CARD["background"], 0.85, 6 * sheet.unit)
+        sheet.lettering.write(sheet.surface, text, "small", rect.center, CARD["text"], "center")
+
+
+def headline(sheet: Sheet, text: str, note: str, colour: Colour) -> None:
+    """What happens, large on a dark card at the top left, and a line below it."""
+    room = round(0.66 * sheet.size[0])
+    size = "large" if sheet.lettering.width(text, "large", bold=True) <= room else "medium"
+    inset = 2 * sheet.gap
+    width = max(sheet.lettering.width(text, size, bold=True), sheet.lettering.width(note, "small"))
+    height = sheet.lettering.height(size) + (sheet.lettering.height("small") + sheet.gap if note else 0)
+    rect = pygame.Rect(sheet.frame.left, sheet.frame.top, width + 2 * inset, height + 2 * inset)
+    sheet.painter.panel(rect, CARD["background"], CARD["opacity"], 10 * sheet.unit)
+    at = sheet.write(text, size, (rect.left + inset, rect.top + inset), colour, bold=True)
+    if note:
+        sheet.write(note, "small", (at.left, at.bottom + sheet.gap), CARD["quiet"])

@@ -1,0 +1,71 @@
+"""A window without a display: SDL's dummy driver, real events."""
+
+from __future__ import annotations
+
+import os
+
+os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
+os.environ.setdefault("SDL_AUDIODRIVER", "dummy")
+
+import pygame
+import pytest
+
+from sandbox.window.app import App
+from sandbox.window.session import Session
+
+FRAME = 1 / 60  # s
+
+
+class Player:
+    """Does with a window what a person would: every call is one event, and one frame."""
+
+    def __init__(self, source: str, size: tuple[int, int] = (1280, 720)) -> None:
+        pygame.display.init()
+        self.screen = pygame.display.set_mode(size, pygame.RESIZABLE)
+        pygame.event.clear()
+        self.app = App(Session(source), self.screen)
+        self.frames(1)
+
+    def frames(self, count: int = 1, dt: float = FRAME) -> None:
+        for _ in range(count):
+            self.app.tick(dt)
+
+    def send(self, kind: int, **values: object) -> None:
+        pygame.event.post(pygame.event.Event(kind, **values))
+        self.frames()
+
+    def key(self, key: int, modifiers: int = 0) -> None:
+        self.send(pygame.KEYDOWN, key=key, mod=modifiers, unicode="", scancode=0)
+        self.send(pygame.KEYUP, key=key, mod=modifiers, unicode="", scancode=0)
+
+    def move(self, at: tuple[int, int]) -> None:
+        self.send(pygame.MOUSEMOTION, pos=at, rel=(0, 0), buttons=(0, 0, 0), touch=False)
+
+    def press(self, at: tuple[int, int]) -> None:
+        self.send(pygame.MOUSEBUTTONDOWN, pos=at, button=1, touch=False)
+
+    def release(self, at: tuple[int, int]) -> None:
+        self.send(pygame.MOUSEBUTTONUP, pos=at, button=1, touch=False)
+
+    def click(self, at: tuple[int, int]) -> None:
+        self.move(at)
+        self.press(at)
+        self.release(at)
+
+    def pull(self, by: tuple[int, int], let_go: bool = True) -> None:
+        """Pull the ball back by so many px."""
+        x, y = (round(value) for value in self.app.stage.ball_at(self.app.shot))
+        self.press((x, y))
+        for part in (0.3, 0.6, 1.0):
+            self.move((round(x + part * by[0]), round(y + part * by[1])))
+        if let_go:
+            self.release((x + by[0], y + by[1]))
+
+    def button(self, command: str) -> None:
+        self.click(self.app.bar.buttons[command].center)
+
+
+@pytest.fixture
+def player():
+    yield Player
+    pygame.display.quit()

@@ -1,0 +1,219 @@
+"""Aiming, shooting and watching, through real events."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+
+import numpy as np
+import pygame
+import pytest
+
+import sandbox
+from sandbox.window.keys import BINDINGS
+from sandbox.window.playback import LONGEST_FRAME, STEP
+
+
+def picture(player) -> np.ndarray:
+    return pygame.surfarray.array3d(player.screen)
+
+
+def test_a_pull_aims_opposite_and_shows_the_path_before_letting_go(player):
+    player = player("golf")
+    before = player.app.shot
+    player.pull((-150, 60), let_go=False)
+    assert player.app.playback is None
+    assert player.app.shot is not before
+    angle = player.app.session.value("launch.angle")
+    stretch = player.app.stage.camera.stretch
+    assert angle == pytest.approx(np.degrees(np.arctan2(60 / stretch, 150)), abs=0.5)
+    assert player.app.shot.run.setup.balls[0].velocity[0] > 0
+
+
+def test_letting_go_shoots_what_was_shown(player):
+    player = player("golf")
+    player.pull((-150, 60))
+    shot = player.app.session.shots[-1]
+    assert player.app.playback.playing
+    again = sandbox.simulate(shot.scene)
+    assert again.result == shot.run.result
+
+
+def test_a_longer_pull_is_stronger_and_escape_leaves_it(player):
+    player = player("golf")
+    speeds = []
+    for length in (40, 120, 240):
+        player.pull((-length, 0), let_go=False)
+        speeds.append(player.app.session.value("launch.speed"))
+        player.key(pygame.K_ESCAPE)
+    assert speeds == sorted(set(speeds))
+    assert not player.app.session.shots
+    player.release((5, 5))
+    assert not player.app.session.shots
+
+
+def test_a_click_is_no_shot(player):
+    player = player("golf")
+    player.click((400, 300))
+    assert not player.app.session.shots
+
+
+def test_wheel_and_keys_turn_push_and_spin(player):
+    player = player("golf")
+    value = player.app.session.value
+    for key, parameter, by in (
+        (pygame.K_LEFT, "launch.angle", 1),
+        (pygame.K_RIGHT, "launch.angle", -1),
+        (pygame.K_UP, "launch.speed", 1),
+        (pygame.K_DOWN, "launch.speed", -1),
+        (pygame.K_e, "launch.spin", 1),
+        (pygame.K_d, "launch.spin", -1),
+    ):
+        before = value(parameter)
+        player.key(key)
+        assert np.sign(value(parameter) - before) == by
+    before = value("launch.spin")
+    player.send(pygame.MOUSEWHEEL, x=0, y=2, flipped=False)
+    assert value("launch.spin") == pytest.approx(before + 200)
+
+
+class TestWatching:
+    def test_space_pauses_and_goes_on(self, player):
+        player = player("golf")
+        player.key(pygame.K_SPACE)
+        player.frames(10)
+        player.key(pygame.K_SPACE)
+        t = player.app.playback.t
+        assert t > 0
+        player.frames(5)
+        assert player.app.playback.t == t
+
+    def test_steps_go_there_and_back(self, player):
+        player = player("golf")
+        player.key(pygame.K_SPACE)
+        player.frames(5)
+        player.key(pygame.K_PERIOD)
+        t = player.app.playback.t
+        player.key(pygame.K_PERIOD)
+        assert player.app.playback.t == pytest.approx(t + STEP)
+        player.key(pygame.K_COMMA)
+        assert player.app.playback.t == pytest.approx(t)
+        player.key(pygame.K_r)
+        assert player.app.playback.t < t
+
+    def test_slow_motion_goes_to_a_sixteenth_and_fast_to_eight(self, player):
+        player = player("golf")
+        player.key(pygame.K_SPACE)
+        for _ in range(12):
+            player.key(pygame.K_MINUS)
+        assert player.app.playback.rate == 1 / 16
+        for _ in range(12):
+            player.key(pygame.K_EQUALS)
+        assert player.app.playback.rate == 8
+
+    def test_a_late_frame_slows_the_shot_and_skips_nothing(self, player):
+        player = player("golf")
+        player.key(pygame.K_SPACE)
+        t = player.app.playback.t
+        player.frames(1, dt=2.0)
+        assert player.app.playback.t == pytest.approx(t + LONGEST_FRAME)
+
+    def test_the_time_line_can_be_dragged(self, player):
+        player = player("golf")
+        player.key(pygame.K_SPACE)
+        line = player.app.bar.line
+        player.press(line.center)
+        assert player.app.playback.t == pytest.approx(player.app.playback.duration / 2, rel=0.02)
+        player.move((line.right, line.centery))
+        assert player.app.playback.over
+        player.release((line.right, line.centery))
+
+    def test_earlier_shots_can_be_seen_again(self, player):
+        player = player("golf")
+        for length in (-100, -160):
+            player.pull((length, 40))
+            player.key(pygame.K_RETURN)
+        first, second = player.app.session.shots
+        player.key(pygame.K_p)
+        assert player.app.shot is second
+        player.key(pygame.K_p)
+        assert player.app.shot is first
+        player.key(pygame.K_n)
+        assert player.app.shot is second
+
+
+class TestScenes:
+    def test_presets_follow_each_other(self, player):
+        player = player("golf")
+        player.key(pygame.K_PAGEDOWN)
+        assert player.app.session.title.startswith("golf/")
+        player.key(pygame.K_PAGEUP)
+        assert player.app.session.title == "golf"
+
+    def test_the_menu_opens_another_scene_by_mouse(self, player):
+        player = player("golf")
+        player.button("menu")
+        rect = next(rect for rect, name in player.app.menu.places if name == "golf/putt")
+        player.click(rect.center)
+        assert player.app.session.title == "golf/putt"
+        assert player.app.menu is None
+
+
+def test_what_cannot_be_is_said_and_the_last_good_parameters_stay(player):
+    player = player("golf")
+    before = player.app.session.scene
+    assert not player.app.change({"launch.speed": -3.0})
+    text, bad, _ = player.app.message
+    assert bad
+    assert "launch.speed = -3.0: must be from 0 to 340 m/s" in text
+    assert player.app.session.scene is before
+    player.frames(3)
+
+
+@pytest.mark.parametrize("size", [(640, 400), (1920, 1080), (500, 300)])
+def test_any_size_is_drawn(player, size):
+    player = player("golf")
+    player.screen = pygame.display.set_mode(size, pygame.RESIZABLE)
+    player.send(pygame.VIDEORESIZE, size=size, w=size[0], h=size[1])
+    assert picture(player).std() > 10
+    player.pull((-60, 20))
+    player.frames(3)
+    player.key(pygame.K_h)
+    player.key(pygame.K_m)
+
+
+def test_every_key_does_something_harmless_in_every_state(player):
+    player = player("golf")
+    for state in ("aiming", "playing", "over"):
+        for binding in BINDINGS:
+            if binding.command in ("quit", "next_preset", "previous_preset", "fullscreen"):
+                continue
+            if state != "aiming" and player.app.playback is None:
+                player.app.shoot()
+            if state == "over":
+                player.app.playback.seek(1e9)
+            player.key(binding.key, binding.modifier)
+            assert player.app.running
+        for _ in range(3):
+            player.key(pygame.K_ESCAPE)
+
+
+def test_closing_in_mid_flight_ends_it(player):
+    player = player("golf")
+    player.key(pygame.K_SPACE)
+    pygame.event.post(pygame.event.Event(pygame.QUIT))
+    player.app.run()
+    assert not player.app.running
+
+
+def test_without_a_display_it_says_so(tmp_path):
+    hidden = ("DISPLAY", "WAYLAND_DISPLAY", "SDL_VIDEODRIVER", "XDG_RUNTIME_DIR")
+    environment = {key: value for key, value in os.environ.items() if key not in hidden}
+    code = "import sys; from sandbox.cli import main; sys.exit(main(['play', 'golf']))"
+    command = [sys.executable, "-c", code]
+    done = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=60, check=False)
+    assert done.returncode == 2
+    assert done.stdout == ""
+    assert "no display" in done.stderr
+    assert "sandbox run" in done.stderr
