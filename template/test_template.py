@@ -1,4 +1,4 @@
-"""Tests of the scene; ``pytest --golden-update`` makes the golden picture, or makes it anew."""
+"""Tests of the scene; ``pytest --golden-update`` makes the golden files, or makes them anew."""
 
 from __future__ import annotations
 
@@ -12,9 +12,8 @@ import sandbox
 SCENE = Path(__file__).parent
 
 
-def test_picture(golden):
-    scene = sandbox.load(SCENE)
-    golden.check("template", scene.picture(sandbox.simulate(scene), (640, 360)).poster())
+def test_toss(golden):
+    golden.check("template", sandbox.simulate(sandbox.load(SCENE)))
 
 
 def test_apex_without_air_and_fan():

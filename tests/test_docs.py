@@ -2,16 +2,21 @@
 
 from __future__ import annotations
 
+import doctest
 import importlib
 import inspect
 import math
+import os
 import pkgutil
 import re
+import subprocess
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import pytest
+from PIL import Image
 
 import sandbox.physics
 from sandbox.physics.coefficients import GOLF_DRAG, GOLF_LIFT, SOCCER_DRAG, SOCCER_LIFT
@@ -93,6 +98,49 @@ def test_every_section_says_what_it_stands_on():
         title = section.partition("\n")[0]
         if not re.search(r"`(Gravity|UniformWind|constant)`", title):
             assert re.search(r"Source|\*[Oo]urs\*|\(\d{4}|\b(19|20)\d\d\b", section), title
+
+
+# Your own scene -----------------------------------------------------------------------------------------------------
+
+WALK = (ROOT / "docs" / "your-own-scene.md").read_text("utf-8")
+LIKE = doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE
+
+
+def blocks(page: str) -> Iterator[tuple[str, str]]:
+    """Language and text of each fenced block."""
+    yield from re.findall(r"^```(\w+)\n(.*?)^```$", page, re.MULTILINE | re.DOTALL)
+
+
+def steps(console: str) -> Iterator[tuple[str, str]]:
+    """Each command of a console block, and what the page says that it prints."""
+    for part in re.split(r"^\$ ", console, flags=re.MULTILINE)[1:]:
+        command, _, output = part.partition("\n")
+        yield command, output
+
+
+def test_the_walk_through_works_as_it_stands(golden, tmp_path: Path):
+    """Every file is written and every command run, in order, in an empty folder; and it prints what the page says."""
+    here = {key: value for key, value in os.environ.items() if key not in ("CI", "PYTEST_XDIST_WORKER", "COLUMNS")}
+    here["PATH"] = os.pathsep.join([str(Path(sys.executable).parent), here["PATH"]])
+    written: set[Path] = set()
+    for language, text in blocks(WALK):
+        if language == "console":
+            for command, expected in steps(text):
+                done = subprocess.run(command, shell=True, cwd=tmp_path, env=here, capture_output=True, text=True)
+                said = done.stdout + done.stderr
+                assert doctest.OutputChecker().check_output(expected, said, LIKE), f"$ {command}\n{said}"
+                assert done.returncode == (2 if expected.startswith("error") else 0), command
+            continue
+        first, _, rest = text.partition("\n")
+        file = tmp_path / first.removeprefix("# ")
+        with file.open("a" if file in written else "w", encoding="utf-8") as opened:
+            opened.write(rest)
+        written.add(file)
+    with Image.open(tmp_path / "volleyball" / "golden" / "volleyball.png") as image:
+        golden.check("volleyball", image)
+    for how in (["check", "--ignore=I001"], ["format", "--check"]):  # here the sandbox is a library like others
+        command = [sys.executable, "-m", "ruff", *how, "--config", str(ROOT / "pyproject.toml"), "volleyball"]
+        assert subprocess.run(command, cwd=tmp_path, capture_output=True).returncode == 0
 
 
 # Links --------------------------------------------------------------------------------------------------------------

@@ -241,22 +241,24 @@ def test_a_result_that_json_does_not_know(call, scene: Path):
 
 
 def test_its_golden_test(scene: Path):
-    """Fails until the picture is made, then passes, then sees that the ball has grown."""
+    """Fails until the files are made, then passes, then sees what has changed: the physics, or the drawing."""
     first = pytest_in(scene.parent, NAME)
     assert first.returncode == 1
     assert "make it with pytest --golden-update" in first.stdout
     made = pytest_in(scene.parent, NAME, "--golden-update")
     assert made.returncode == 0
     golden = scene / "golden" / f"{NAME}.png"
-    assert str(golden) in made.stdout
+    assert f"{golden}: new" in made.stdout
     assert 3_000 < golden.stat().st_size < 60_000
     again = pytest_in(scene.parent, NAME)
     assert (again.returncode, "3 passed" in again.stdout) == (0, True)
-    change(scene / "scene.py", 'radius: float = quantity(0.105, "m"', 'radius: float = quantity(0.2, "m"')
-    change(scene / f"{NAME}.toml", "radius = 0.105", "radius = 0.2")
-    changed = pytest_in(scene.parent, NAME, "-k", "picture")
+    change(scene / f"{NAME}.toml", "push = 4.0", "push = 3.9")
+    assert "the physics changed" in pytest_in(scene.parent, NAME, "-k", "toss").stdout
+    change(scene / f"{NAME}.toml", "push = 3.9", "push = 4.0")
+    change(scene / "picture.py", "MAT, AIR, SHADOW = (255, 250, 236), (38,", "MAT, AIR, SHADOW = (255, 250, 236), (98,")
+    changed = pytest_in(scene.parent, NAME, "-k", "toss")
     assert changed.returncode == 1
-    assert "is not like its golden picture" in changed.stdout
+    assert "same physics" in changed.stdout
 
 
 # Mistakes in it -------------------------------------------------------------------------------------------------------
