@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from sandbox.errors import RequestError, RunError, SandboxError
+    from sandbox.lab.aim import Aim, aim
     from sandbox.lab.sweep import Sweep, sweep
     from sandbox.scene import Check, Scene, check, load, simulate
 
@@ -21,16 +22,19 @@ __version__ = "0.1.0"
 _HOMES = {
     **dict.fromkeys(("RequestError", "RunError", "SandboxError"), "sandbox.errors"),
     **dict.fromkeys(("Check", "Scene", "check", "load", "simulate"), "sandbox.scene"),
+    **dict.fromkeys(("Aim", "aim"), "sandbox.lab.aim"),
     **dict.fromkeys(("Sweep", "sweep"), "sandbox.lab.sweep"),
 }
 
 __all__ = [
+    "Aim",
     "Check",
     "RequestError",
     "RunError",
     "SandboxError",
     "Scene",
     "Sweep",
+    "aim",
     "check",
     "load",
     "simulate",

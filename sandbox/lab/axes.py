@@ -69,6 +69,15 @@ def parse_axis(scene: Scene, option: str, text: str) -> Axis:
     return Values(key, tuple(np.linspace(low, high, count).tolist()) if count > 1 else (low,))
 
 
+def parse_span(scene: Scene, option: str, text: str) -> Span:
+    """``KEY=LO:HI``. Raises RequestError."""
+    if text.count(":") != 1:
+        raise RequestError(f"{option} {text}: write it as KEY=LO:HI, for example {option} launch.angle=5:75")
+    axis = parse_axis(scene, option, text)
+    assert isinstance(axis, Span)  # of two parts
+    return axis
+
+
 def as_axis(scene: Scene, key: str, given: Any, option: str = "over") -> Axis:
     """An axis from Python: a pair as a tuple is a span, any other sequence or array its values."""
     if isinstance(given, tuple) and len(given) == 2 and not isinstance(given[0], bool):
@@ -151,6 +160,18 @@ def at(node: Any, path: Path) -> Any:
     for step in path:
         node = node[step] if isinstance(step, int) else getattr(node, step)
     return node
+
+
+def unit_of(scene: Scene, key: str) -> str:
+    """The declared unit of a parameter; empty where it has none."""
+    plain = key.partition("[")[0]
+    return next((found.unit or "" for found in declared.walk(scene.parameters) if found.key == plain), "")
+
+
+def label(scene: Scene, key: str) -> str:
+    """A parameter with its unit, for charts and tables: ``"launch.speed (m/s)"``."""
+    unit = unit_of(scene, key)
+    return f"{key} ({unit})" if unit else key
 
 
 def _placed(node: Any, path: Path, value: Any, option: str, key: str) -> Any:

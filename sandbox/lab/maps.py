@@ -12,12 +12,11 @@ import numpy as np
 
 from sandbox import parameters as declared
 from sandbox.errors import RequestError
-from sandbox.lab.axes import Axis, Values, at, path_of
+from sandbox.lab.axes import Axis, Values, at, label, path_of
 from sandbox.lab.chart import chart, check_installed
 from sandbox.lab.plan import FLAGS, HANGS, Plan, records
 from sandbox.lab.row_file import cell, rows
 from sandbox.lab.tables import significant
-from sandbox.scene import Scene
 
 #: Words that a legend has room for; rarer ones go together.
 _MOST_WORDS, _OTHERS = 8, "others"
@@ -77,7 +76,7 @@ def draw_sweep(plan: Plan, file: Path, path: Path, of: str | None = None) -> Non
             _map(axes, plan, found, colours)
         _tick_words(axes, plan)
         _mark_own(axes, plan, colours)
-        labels = [_label(plan.scene, axis.key) for axis in plan.axes]
+        labels = [label(plan.scene, axis.key) for axis in plan.axes]
         axes.set_xlabel(labels[0])
         axes.set_ylabel(labels[1] if len(labels) == 2 else found.name.replace("_", " ") if not found.words else "")
 
@@ -139,12 +138,6 @@ def _numbers(texts: Sequence[str]) -> np.ndarray | None:
         return np.array([float(text) if text else np.nan for text in texts])
     except ValueError:
         return None
-
-
-def _label(scene: Scene, key: str) -> str:
-    plain = key.partition("[")[0]
-    unit = next((found.unit for found in declared.walk(scene.parameters) if found.key == plain), None)
-    return f"{key} ({unit})" if unit else key
 
 
 def _about(plan: Plan) -> str:

@@ -1,0 +1,267 @@
+"""What a search says: to people as a card, to programs as JSON, to the eye as a picture of its tries."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Mapping
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from sandbox.lab.aim import Aim, Solution, Target
+from sandbox.lab.axes import label, unit_of
+from sandbox.lab.chart import chart
+from sandbox.lab.tables import significant, table
+
+#: Solutions on a card; a map of narrow bands has dozens.
+_SHOWN = 12
+
+
+# ---------------------------------------------------------------------------------------------------------------------
+# For programs
+# ---------------------------------------------------------------------------------------------------------------------
+
+
+def as_json(aim: Aim) -> str:
+    """One JSON object; what is not known (a numerical error) is null."""
+    nearest = aim.nearest
+    told: dict[str, Any] = {
+        "scene": aim.scene.name,
+        "preset": aim.scene.preset,
+        "vary": {span.key: [span.low, span.high] for span in aim.spans},
+        "target": {target.name: target.value for target in aim.targets},
+        "solutions": [_solution(solution) for solution in aim.solutions],
+        "nearest": None
+        if nearest is None
+        else {"parameters": _named(aim, nearest.values), "result": _found(aim, nearest.found), "misses": aim.misses},
+        "jumps": [
+            [{"parameters": _named(aim, side.values), "result": _found(aim, side.found)} for side in jump]
+            for jump in aim.jumps
+        ],
+        "tries": len(aim.tries),
+        "failures": aim.failures,
+    }
+    return json.dumps(_plain(told), allow_nan=False, ensure_ascii=False)
+
+
+def _solution(solution: Solution) -> dict[str, Any]:
+    told: dict[str, Any] = {
+        "parameters": solution.values,
+        "errors": solution.errors,
+        "result": solution.result,
+        "result_errors": solution.result_errors,
+    }
+    if solution.interval is not None:
+        told["interval"] = asdict(solution.interval) | {"width": solution.interval.width}
+    return told
+
+
+def _named(aim: Aim, values: tuple[float, ...]) -> dict[str, float]:
+    return {span.key: value for span, value in zip(aim.spans, values, strict=True)}
+
+
+def _found(aim: Aim, found: tuple[Any, ...]) -> dict[str, Any]:
+    return {target.name: value for target, value in zip(aim.targets, found, strict=True)}
+
+
+def _plain(value: Any) -> Any:
+    """The same in what JSON knows."""
+    if isinstance(value, Mapping):
+        return {str(key): _plain(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [_plain(item) for item in value]
+    if hasattr(value, "tolist"):
+        return _plain(value.tolist())
+    return None if isinstance(value, float) and not math.isfinite(value) else value
+
+
+# ---------------------------------------------------------------------------------------------------------------------
+# For people
+# ---------------------------------------------------------------------------------------------------------------------
+
+
+def as_text(aim: Aim) -> list[str]:
+    """Lines for the terminal: what was asked, and every solution with its numerical error, or how near it got."""
+    lines = [_question(aim), ""]
+    if not aim.solutions:
+        lines += _no_solution(aim)
+    elif aim.solutions[0].interval is not None:
+        lines += _interval_lines(aim)
+    else:
+        lines += _root_lines(aim)
+    for one, other in aim.jumps:
+        places = " and ".join(f"{side.values[0]:.10g}" for side in (one, other))
+        lines.append(
+            f"  between {aim.spans[0].key} = {places} {aim.targets[0].name} jumps from {one.found[0]:.6g} to "
+            f"{other.found[0]:.6g}, over the target"
+        )
+    failures = f", {aim.failures} of which failed" if aim.failures else ""
+    return [*lines, "", f"  {len(aim.tries):,} runs{failures}"]
+
+
+def _question(aim: Aim) -> str:
+    name = f"{aim.scene.name}/{aim.scene.preset}" if aim.scene.preset else aim.scene.name
+    wanted = " and ".join(f"{target.name} = {_value(target)}" for target in aim.targets)
+    ranges = " and ".join(_range(aim, span.key, span.low, span.high) for span in aim.spans)
+    return f"{name}: {wanted} by {ranges}"
+
+
+def _range(aim: Aim, key: str, low: float, high: float) -> str:
+    return f"{key} from {low:g} to {high:g} {unit_of(aim.scene, key)}".rstrip()
+
+
+def _value(target: Target) -> str:
+    if isinstance(target.value, bool):
+        return "true" if target.value else "false"
+    return f"{target.value:g}" if target.is_number else str(target.value)
+
+
+def _root_lines(aim: Aim) -> list[str]:
+    keys, names = [span.key for span in aim.spans], [target.name for target in aim.targets]
+    headings = [part for key in keys for part in (label(aim.scene, key), "±")]
+    rows = []
+    for solution in aim.solutions[:_SHOWN]:
+        row = [part for key in keys for part in (f"{solution.values[key]:.8g}", _error(solution.errors[key]))]
+        for name in names:
+            row += [f"{solution.result[name]:.8g}", _error(solution.result_errors.get(name))]
+        rows.append(row)
+    headings += [part for name in names for part in (name, "±")]
+    return [*table(headings, rows, "r" * len(headings)), *_more(aim)]
+
+
+def _interval_lines(aim: Aim) -> list[str]:
+    key = aim.spans[0].key
+    rows = []
+    for solution in aim.solutions[:_SHOWN]:
+        interval = solution.interval
+        assert interval is not None  # this target has intervals
+        low, high = f"{interval.low:.7g}", f"{interval.high:.7g}"
+        error = max((e for e in (interval.low_error, interval.high_error) if e is not None), default=None)
+        unsure = "" if None not in (interval.low_error, interval.high_error) else "an end hangs on the accuracy"
+        cut = "goes on beyond the range" if interval.open_low or interval.open_high else ""
+        middle = f"{solution.values[key]:.7g}"
+        rows.append(
+            [middle, significant(interval.width, 3), low, high, _error(error), "; ".join(filter(None, (cut, unsure)))]
+        )
+    headings = [f"middle, {unit_of(aim.scene, key)}".rstrip(", "), "width", "from", "to", "±", ""]
+    best = aim.solutions[0]
+    half = 0.5 * best.interval.width if best.interval is not None else 0.0
+    room = f"{significant(half)} {unit_of(aim.scene, key)}".rstrip()
+    forgiving = f"  most forgiving: {key} = {best.values[key]:.6g}, with {room} of room to either side"
+    return [*table(headings, rows, "rrrrrl"), *_more(aim), "", forgiving]
+
+
+def _more(aim: Aim) -> list[str]:
+    left = len(aim.solutions) - _SHOWN
+    return [f"  ... {left} more; --json has them all"] if left > 0 else []
+
+
+def _error(error: float | None) -> str:
+    if error is None:
+        return "?"
+    return significant(error, 1) if error > 0.0 else "0"
+
+
+def _no_solution(aim: Aim) -> list[str]:
+    lines = ["  no solution in this range"]
+    if aim.nearest is not None:
+        place = ", ".join(f"{key} = {value:.6g}" for key, value in _named(aim, aim.nearest.values).items())
+        got = ", ".join(
+            f"{name} = {aim.nearest.found[index]:.6g} ({miss:+.3g})"
+            for index, (name, miss) in enumerate(aim.misses.items())
+        )
+        lines.append(f"  nearest: {got} at {place}")
+    return lines
+
+
+# ---------------------------------------------------------------------------------------------------------------------
+# For the eye
+# ---------------------------------------------------------------------------------------------------------------------
+
+
+def draw(aim: Aim, path: Path) -> None:
+    """A picture of the tries: those of the scan quiet, those of the solvers loud, and the solutions."""
+    title = _question(aim).partition(" by ")[0]
+    what = "interval" if aim.solutions and aim.solutions[0].interval is not None else "solution"
+    found = f"{len(aim.solutions)} {what}{'' if len(aim.solutions) == 1 else 's'}" if aim.solutions else "no solution"
+    with chart(path, title, f"{found}; {len(aim.tries):,} runs") as (axes, colours):
+        if len(aim.spans) == 2:
+            _draw_two(axes, aim, colours)
+        elif aim.targets[0].is_number:
+            _draw_one(axes, aim, colours)
+        else:
+            _draw_intervals(axes, aim, colours)
+        axes.set_xlabel(label(aim.scene, aim.spans[0].key))
+
+
+def _draw_one(axes: Any, aim: Aim, colours: Mapping[str, Any]) -> None:
+    card, target = colours["card"], aim.targets[0]
+    for solving, colour, size in ((False, card["quiet"], 14.0), (True, colours["trace"]["colours"][0], 22.0)):
+        tries = [each for each in aim.tries if each.phase.startswith("solve") == solving and each.found[0] is not None]
+        places, found = [each.values[0] for each in tries], [each.found[0] for each in tries]
+        axes.scatter(
+            places, found, s=size, color=colour, linewidths=0, zorder=2 + solving, label=("scan", "solver")[solving]
+        )
+    axes.axhline(target.value, color=card["ink"], linewidth=1.0, linestyle=(0, (4, 3)), zorder=1, label="target")
+    for solution in aim.solutions:
+        _mark(axes, (solution.values[aim.spans[0].key], target.value), f"{solution.values[aim.spans[0].key]:.6g}", card)
+    axes.set_xlim(aim.spans[0].low, aim.spans[0].high)
+    axes.set_ylabel(target.name.replace("_", " "))
+    _legend(axes, card)
+
+
+def _draw_two(axes: Any, aim: Aim, colours: Mapping[str, Any]) -> None:
+    card, traces = colours["card"], colours["trace"]["colours"]
+    scan = [each for each in aim.tries if each.phase == "scan"]
+    places = [sorted({each.values[axis] for each in scan}) for axis in range(2)]
+    for index, target in enumerate(aim.targets):
+        heights = np.full((len(places[1]), len(places[0])), np.nan)
+        for each in scan:
+            if each.found[index] is not None:
+                heights[places[1].index(each.values[1]), places[0].index(each.values[0])] = each.found[index]
+        colour = traces[1 + index]
+        if np.nanmin(heights) <= target.value <= np.nanmax(heights):
+            axes.contour(*places, np.ma.masked_invalid(heights), levels=[target.value], colors=[colour], linewidths=1.8)
+        axes.plot([], [], color=colour, linewidth=1.8, label=f"{target.name} = {target.value:g}")
+    axes.scatter(
+        *zip(*(each.values for each in scan), strict=True), s=5, color=card["quiet"], linewidths=0, label="scan"
+    )
+    for number, phase in enumerate(dict.fromkeys(each.phase for each in aim.tries if each.phase.startswith("solve "))):
+        steps = [each.values for each in aim.tries if each.phase == phase]
+        axes.plot(*zip(*steps, strict=True), color=traces[0], linewidth=0.8, marker="o", markersize=3.5,
+                  label="solver" if number == 0 else None)  # fmt: skip
+    for solution in aim.solutions:
+        place = tuple(solution.values.values())
+        _mark(axes, place, ", ".join(f"{value:.5g}" for value in place), card)
+    axes.set_ylabel(label(aim.scene, aim.spans[1].key))
+    _legend(axes, card)
+
+
+def _draw_intervals(axes: Any, aim: Aim, colours: Mapping[str, Any]) -> None:
+    card, key = colours["card"], aim.spans[0].key
+    for solution in aim.solutions:
+        assert solution.interval is not None  # this target has intervals
+        axes.axvspan(solution.interval.low, solution.interval.high, color=card["good"], alpha=0.35, linewidth=0)
+    for met, colour, name in ((False, card["quiet"], "not met"), (True, card["good"], "met")):
+        places = [each.values[0] for each in aim.tries if aim.targets[0].met(each.found[0]) == met]
+        axes.scatter(places, [float(met)] * len(places), s=14, color=colour, linewidths=0, label=name, zorder=3)
+    for solution in aim.solutions[:1]:
+        _mark(axes, (solution.values[key], 0.5), f"most forgiving: {solution.values[key]:.6g}", card)
+    axes.set_yticks([0.0, 1.0], ["not met", "met"])
+    axes.set_ylim(-0.3, 1.3)
+    axes.set_xlim(aim.spans[0].low, aim.spans[0].high)
+
+
+def _mark(axes: Any, place: tuple[float, ...], text: str, card: Mapping[str, str]) -> None:
+    axes.plot(*place, marker="D", markersize=9, markerfacecolor=card["accent"], markeredgecolor=card["ink"], zorder=5)
+    note = axes.annotate(text, place, xytext=(0, 11), textcoords="offset points", ha="center", va="bottom", zorder=6,
+                         fontsize=10.5, fontweight="bold", color=card["ink"])  # fmt: skip
+    note.set_bbox({"facecolor": "white", "edgecolor": "none", "alpha": 0.75, "pad": 1.5})
+
+
+def _legend(axes: Any, card: Mapping[str, str]) -> None:
+    axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1.0), borderaxespad=0.0, frameon=False, fontsize=10.5,
+                labelcolor=card["ink"])  # fmt: skip

@@ -1,0 +1,229 @@
+"""Aim: all roots, none invented, each with an error that is true; where there are none, how near it got."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from math import asin, atan, degrees, radians, sin, sqrt
+from pathlib import Path
+
+import pytest
+from PIL import Image
+
+import sandbox
+from sandbox.cli import main
+from sandbox.errors import RequestError, RunError
+from sandbox.lab.aim import Target, aim, as_target, parse_target
+from sandbox.scene import load, simulate
+
+DROP = Path(__file__).parents[1] / "scenes" / "drop"
+
+#: Golf without air: range v^2 sin(2 a) / g and apex v^2 sin^2(a) / 2 g, back at launch height.
+SPEED, GRAVITY = 40.0, 9.81
+
+
+@pytest.fixture(scope="module")
+def vacuum():
+    return load("golf", {"air.density": 0.0, "launch.speed": SPEED, "gravity": GRAVITY, "pin.distance": 1000.0})
+
+
+def test_both_angles_of_a_throw_in_vacuum(vacuum):
+    found = aim(vacuum, {"launch.angle": (5, 85)}, {"carry": 120.0})
+    low = 0.5 * degrees(asin(120.0 * GRAVITY / SPEED**2))
+    assert [solution.values["launch.angle"] for solution in found.solutions] == pytest.approx([low, 90 - low], abs=1e-9)
+    assert found.nearest is None
+    assert found.jumps == []
+    for solution in found.solutions:
+        assert solution.result["carry"] == pytest.approx(120.0, abs=1e-8)
+        assert solution.errors["launch.angle"] < 1e-7
+
+
+def test_two_roots_that_lie_close_together(vacuum):
+    """At 45 deg the range is greatest; a hair below it there are two roots, a hair above none."""
+    most = SPEED**2 / GRAVITY
+    found = aim(vacuum, {"launch.angle": (7, 82)}, {"carry": most * (1 - 1e-9)})
+    away = 0.5 * degrees(sqrt(2e-9))
+    roots = [solution.values["launch.angle"] for solution in found.solutions]
+    assert roots == pytest.approx([45 - away, 45 + away], abs=1e-4)
+    found = aim(vacuum, {"launch.angle": (7, 82)}, {"carry": most + 1.0})
+    assert found.solutions == []
+    assert found.nearest.values[0] == pytest.approx(45.0, abs=1e-3)
+    assert found.misses["carry"] == pytest.approx(-1.0, abs=1e-6)
+
+
+def test_the_error_is_that_of_a_far_finer_run():
+    """At a coarse tolerance the root is off by about what it says."""
+    coarse = load("golf", {"accuracy.tolerance": 1.0})
+    fine = load("golf", {"accuracy.tolerance": 1e-6})
+    here, there = (aim(scene, {"launch.angle": (20, 40)}, {"carry": 220}).solutions for scene in (coarse, fine))
+    assert len(here) == len(there) == 1
+    off = abs(here[0].values["launch.angle"] - there[0].values["launch.angle"])
+    assert off > 1e-10
+    assert off / 3 < here[0].errors["launch.angle"] < 3 * off
+    assert there[0].errors["launch.angle"] < 1e-3 * off
+
+
+def test_a_result_that_jumps_over_the_target_is_no_solution():
+    found = aim(DROP, {"launch.height": (0.1, 3.0)}, {"bounces": 2.5})
+    assert found.solutions == []
+    assert found.jumps
+    for one, other in found.jumps:
+        assert {one.found[0], other.found[0]} == {2, 3}
+        assert 0 < other.values[0] - one.values[0] < 1e-10
+
+
+def test_a_result_that_is_there_in_part_of_the_range_only():
+    """From too high up the ball does not come down in time: there is no first touch."""
+    found = aim(DROP, {"launch.height": (0.1, 50.0)}, {"first_touch": 0.5})
+    heights = [solution.values["launch.height"] for solution in found.solutions]
+    assert heights == pytest.approx([0.05 + 0.5 * 9.81 * 0.5**2], abs=1e-9)
+
+
+def test_two_numbers_with_two_targets(vacuum):
+    carry, apex = 120.0, 25.0
+    found = aim(vacuum, {"launch.angle": (5, 80), "launch.speed": (20, 70)}, {"carry": carry, "apex": apex})
+    angle = atan(4 * apex / carry)
+    speed = sqrt(2 * GRAVITY * apex) / sin(angle)
+    (solution,) = found.solutions
+    assert solution.values == pytest.approx({"launch.angle": degrees(angle), "launch.speed": speed}, abs=1e-6)
+    assert solution.result["apex"] == pytest.approx(apex, abs=1e-6)
+    assert max(solution.errors.values()) < 1e-6
+
+
+def test_two_numbers_have_several_solutions(vacuum):
+    """A carry at one flight time... and its mirror image: thrown forwards or backwards."""
+    scene = replace(vacuum)
+    found = aim(scene, {"launch.angle": (10, 170), "gravity": (5, 20)}, {"apex": 30.0, "flight_time": 5.0})
+    # v sin a = g T / 2, apex = g T^2 / 8
+    gravity = 8 * 30.0 / 25.0
+    angle = degrees(asin(0.5 * gravity * 5.0 / SPEED))
+    values = [(s.values["launch.angle"], s.values["gravity"]) for s in found.solutions]
+    assert values == [pytest.approx((a, gravity), abs=1e-6) for a in (angle, 180 - angle)]
+
+
+def test_two_numbers_without_a_solution(vacuum):
+    found = aim(vacuum, {"launch.angle": (5, 40), "launch.speed": (20, 40)}, {"carry": 120.0, "apex": 500.0})
+    assert found.solutions == []
+    assert found.nearest is not None
+    assert found.nearest.values[0] == pytest.approx(40.0, abs=0.1)
+
+
+def test_what_holds_or_not_has_intervals():
+    """A dropped ball of 5 cm bounces within its second if it starts low enough."""
+    found = aim(DROP, {"launch.height": (0.1, 20.0)}, {"bounced": True})
+    (solution,) = found.solutions
+    interval = solution.interval
+    assert interval.open_low
+    assert not interval.open_high
+    assert interval.high == pytest.approx(0.05 + 0.5 * 9.81, abs=1e-5)
+    assert solution.values["launch.height"] == pytest.approx(0.5 * (0.1 + interval.high))
+    assert solution.result["bounced"] is True
+
+
+def test_intervals_come_widest_first_and_end_where_they_say():
+    found = sandbox.aim("basketball", {"launch.speed": (7.3, 7.6)}, {"made": True})
+    assert len(found.solutions) > 1
+    widths = [solution.interval.width for solution in found.solutions]
+    assert widths == sorted(widths, reverse=True)
+    for solution in found.solutions[:3]:
+        interval = solution.interval
+        step = 1e-5
+        inside = (interval.low + step, solution.values["launch.speed"], interval.high - step)
+        outside = (interval.low - step, interval.high + step)
+        made = [simulate(load("basketball", {"launch.speed": v})).result["made"] for v in (*inside, *outside)]
+        assert made == [True] * 3 + [False] * 2
+        assert interval.low_error < 1e-5
+        assert interval.high_error < 1e-5
+
+
+def test_a_word_is_aimed_at():
+    found = aim("basketball", {"launch.speed": (7.3, 7.6)}, {"verdict": "swish"})
+    assert [solution.result["verdict"] for solution in found.solutions] == ["swish"]
+    assert aim("basketball", {"launch.speed": (1.0, 2.0)}, {"verdict": "swish"}).solutions == []
+
+
+def test_targets_have_units():
+    assert parse_target("carry=200") == Target("carry", 200.0)
+    assert parse_target("carry = '200 m'") == Target("carry", 200.0)
+    assert parse_target("carry=100 yd") == Target("carry", 91.44)
+    assert parse_target("landing_angle=0.5 rad") == Target("landing_angle", pytest.approx(degrees(0.5)))
+    assert parse_target("landing_spin=2 rev/s") == Target("landing_spin", 120.0)
+    assert parse_target("landing_speed=36 km/h") == Target("landing_speed", 10.0)
+    assert parse_target("made=true") == as_target("made", True) == Target("made", True)
+    assert parse_target("verdict=swish") == Target("verdict", "swish")
+
+
+@pytest.mark.parametrize(
+    ("vary", "target", "told"),
+    [
+        ({"launch.hight": (1, 2)}, {"bounced": True}, "did you mean launch.height?"),
+        ({"launch.height": (2, 1)}, {"bounced": True}, "lower end first"),
+        ({"floor.present": (False, True)}, {"bounced": True}, "only numbers have a range"),
+        ({"launch.height": (1, 2)}, {"bounces": True}, "is a number, such as bounces="),
+        ({"launch.height": (1, 2)}, {"bounced": 1.0}, "is true or false; write bounced=true"),
+        ({"launch.height": (1, 2)}, {"bouncd": True}, "did you mean bounced?"),
+        ({"launch.height": (1, 2)}, {"bounced": True, "bounces": 2.0}, "one goes with one, or two with two"),
+        ({"launch.height": (1, 2)}, {"final_height": float("nan")}, "cannot be aimed at"),
+        ({"launch.height": (1, 2)}, {}, "one goes with one, or two with two"),
+    ],
+)
+def test_requests_that_make_no_sense_are_told(vary, target, told):
+    with pytest.raises(RequestError) as refused:
+        aim(DROP, vary, target)
+    assert told in str(refused.value)
+
+
+def test_a_range_in_which_nothing_runs_is_an_error():
+    with pytest.raises(RunError, match=r"not one run in the range came to its end, first: .*release\.height"):
+        aim("basketball", {"release.height": (0.0, 0.1)}, {"apex": 3.0})
+
+
+def test_the_command(vacuum, tmp_path, capsys):
+    fixed = ["--set", "air.density=0", "--set", f"launch.speed={SPEED}", "--set", "pin.distance=1000"]
+    command = ["aim", "golf", *fixed, "--vary", "launch.angle=5:85", "--target", "carry=120 m"]
+    assert main([*command, "--json", "--show", str(tmp_path / "tries.png")]) == 0
+    out, err = capsys.readouterr()
+    assert err == ""
+    told = json.loads(out)
+    low = 0.5 * degrees(asin(120.0 * GRAVITY / SPEED**2))
+    assert [s["parameters"]["launch.angle"] for s in told["solutions"]] == pytest.approx([low, 90 - low])
+    assert told["target"] == {"carry": 120.0}
+    assert told["nearest"] is None
+    with Image.open(tmp_path / "tries.png") as picture:
+        assert len(picture.convert("RGB").getcolors(1 << 24)) > 20
+
+    assert main(command) == 0
+    assert f"{low:.8g}"[:8] in capsys.readouterr().out
+
+    assert main(["aim", "golf", *fixed, "--vary", "launch.angle=5:85", "--target", "carry=500"]) == 0
+    out, err = capsys.readouterr()
+    assert "no solution in this range" in out
+    assert "nearest: carry = 163.099 (-337) at launch.angle = 45" in out
+    assert f"{SPEED**2 / GRAVITY:.6g}" == "163.099"
+    assert sin(radians(90.0)) == 1.0
+
+    assert main(["aim", "golf", "--vary", "launch.angle", "--target", "carry=1"]) == 2
+    assert "write it as KEY=LO:HI" in capsys.readouterr().err
+    assert main(["aim", "golf", "--vary", "launch.angle=1:2", "--target", "carry"]) == 2
+    assert "write it as NAME=VALUE" in capsys.readouterr().err
+
+
+def test_intervals_and_pairs_are_told_and_drawn(tmp_path, capsys):
+    made = ["aim", str(DROP), "--vary", "launch.height=0.1:20", "--target", "bounced=true"]
+    assert main([*made, "--show", str(tmp_path / "a.png")]) == 0
+    out = capsys.readouterr().out
+    assert "most forgiving: launch.height = 2.5275, with 2.4 m of room to either side" in out
+    assert "goes on beyond the range" in out
+    pair = [
+        "--vary",
+        "launch.angle=5:80",
+        "--vary",
+        "launch.speed=20:70",
+        "--target",
+        "carry=120",
+        "--target",
+        "apex=25",
+    ]
+    assert main(["aim", "golf", "--set", "air.density=0", *pair, "--show", str(tmp_path / "b.png")]) == 0
+    assert "39.80557" in capsys.readouterr().out  # atan(4 25 / 120)
+    assert {path.name for path in tmp_path.iterdir()} == {"a.png", "b.png"}
