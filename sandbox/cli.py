@@ -74,7 +74,7 @@ def _program(
 
 @app.command("list")
 def list_scenes() -> None:
-    """Show the scenes and their presets, a line each; those whose folders stand here, too."""
+    """Show the scenes and presets there are, those in this folder too."""
     from sandbox.scene import listings, listings_in
 
     found = [*listings(), *listings_in(Path())]
@@ -104,7 +104,7 @@ def schema(scene: SceneArgument) -> None:
 def new_scene(
     name: Annotated[Path, typer.Argument(metavar="NAME", help="The folder to make: its name is the scene's.")],
 ) -> None:
-    """Write a scene of your own: a folder with one that works, to change as you like.
+    """Write a scene of your own: one that works, to change.
 
     \b
     Example:

@@ -143,6 +143,15 @@ def test_the_walk_through_works_as_it_stands(golden, tmp_path: Path):
         assert subprocess.run(command, cwd=tmp_path, capture_output=True).returncode == 0
 
 
+# Contributing -------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("path", sorted((ROOT / "sandbox").glob("[a-z]*")), ids=lambda path: path.name)
+def test_every_room_is_in_the_house(path: Path):
+    house = (ROOT / "CONTRIBUTING.md").read_text("utf-8")
+    assert path.name == "py.typed" or f"`{path.name}`" in house or f"`sandbox/{path.name}`" in house
+
+
 # Links --------------------------------------------------------------------------------------------------------------
 
 PAGES = sorted([*ROOT.glob("*.md"), *(ROOT / "docs").glob("*.md"), ROOT / "assets" / "README.md"])
