@@ -22,6 +22,8 @@ Points = Sequence[Point] | np.ndarray  # an array has shape (n, 2)
 
 #: How many times larger a shape is drawn before it is scaled down. 4 gives 16 levels along an edge; 2 shows steps.
 OVERSAMPLING = 4
+#: Half the width of an arrow's head over its length.
+ARROW = 0.62
 #: Discs are kept for centres this far apart (px) and radii half as far: finer than the eye, coarse enough to be reused.
 PHASE = 1 / 8
 
@@ -191,23 +193,40 @@ class Painter:
 
         self._shape(array, width, colour, opacity, draw, larger=3)
 
-    def arrow(self, a: Point, b: Point, width: float, colour: Colour, opacity: float = 1.0) -> None:
-        """From a to b, with a head three line widths long on either side."""
+    def arrow(
+        self,
+        a: Point,
+        b: Point,
+        width: float,
+        colour: Colour,
+        opacity: float = 1.0,
+        rim: tuple[Colour, float] | None = None,
+    ) -> None:
+        """From a to b, with a head 3.5 line widths long; ``rim`` is the colour and width of a thin edge."""
+        if rim is not None:
+            self._arrow(a, b, width, rim[1], rim[0], 0.6 * opacity)
+        self._arrow(a, b, width, 0.0, colour, opacity)
+
+    def _arrow(self, a: Point, b: Point, width: float, wider: float, colour: Colour, opacity: float) -> None:
+        """An arrow that is ``wider`` px larger all around."""
         length = hypot(b[0] - a[0], b[1] - a[1])
         if length == 0:
             return
         along = (b[0] - a[0]) / length, (b[1] - a[1]) / length
         head = min(3.5 * width, length)
-        neck = b[0] - along[0] * head, b[1] - along[1] * head
-        across = -along[1] * head * 0.62, along[0] * head * 0.62
+        beyond = wider * hypot(1, ARROW) / ARROW  # by which the tip of a head whose sides move out moves on
+        tip = b[0] + along[0] * beyond, b[1] + along[1] * beyond
+        neck = b[0] - along[0] * (head + wider), b[1] - along[1] * (head + wider)
+        half = ARROW * (head + wider + beyond)
 
         def draw(mask: pygame.Surface, drawn: np.ndarray, larger: int) -> None:
-            pygame.draw.polygon(mask, colour, _quad(drawn[0], drawn[1], width * larger / 2))
-            pygame.draw.circle(mask, colour, drawn[0], width * larger / 2)
+            pygame.draw.polygon(mask, colour, _quad(drawn[0], drawn[1], (width / 2 + wider) * larger))
+            pygame.draw.circle(mask, colour, drawn[0], (width / 2 + wider) * larger)
             pygame.draw.polygon(mask, colour, drawn[2:])
 
-        sides = [(neck[0] + across[0], neck[1] + across[1]), b, (neck[0] - across[0], neck[1] - across[1])]
-        self._shape([a, neck, *sides], width, colour, opacity, draw)
+        across = -along[1] * half, along[0] * half
+        sides = [(neck[0] + across[0], neck[1] + across[1]), tip, (neck[0] - across[0], neck[1] - across[1])]
+        self._shape([a, neck, *sides], width + 2 * wider, colour, opacity, draw)
 
     def panel(self, rect: pygame.Rect, colour: Colour, opacity: float, corner: float) -> None:
         """A rectangle with round corners."""

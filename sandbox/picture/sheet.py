@@ -15,6 +15,9 @@ from sandbox.picture.palette import Colour, palette
 
 CARD = palette("card")
 
+#: A number on the card: label, value, and its colour if it has one of its own.
+Entry = tuple[str, str] | tuple[str, str, Colour]
+
 #: Nearest that anything important comes to an edge, as a share of the picture's width and height.
 MARGIN = 0.05
 YARD = 0.9144  # m
@@ -73,7 +76,7 @@ class Sheet:
         rect = self.write(text, size, self.frame.topleft, self.ink, bold=True)
         self.write("   ·   ".join(notes), "small", (rect.left, rect.bottom + self.gap), self.quiet_ink)
 
-    def columns(self, top: float, entries: Sequence[tuple[str, str]]) -> None:
+    def columns(self, top: float, entries: Sequence[Entry]) -> None:
         """A card along the bottom with a number in each column, the first in the accent's colour.
 
         Where there is no room for all, the last are left out.
@@ -83,7 +86,7 @@ class Sheet:
         inset = round(2.6 * self.gap)
         widths = [
             max(self.lettering.width(label, "small"), self.lettering.width(value, "medium", bold=True))
-            for label, value in entries
+            for label, value, *_ in entries
         ]
         room = rect.width - 2 * inset
         while sum(widths) + 2 * self.gap * (len(widths) - 1) > room:
@@ -93,9 +96,10 @@ class Sheet:
         if np.any(np.diff([*columns, room + self.gap]) < np.array(widths) + 2.5 * self.gap):  # too narrow to be even
             between = (room - sum(widths)) / max(1, len(entries) - 1)
             columns = np.cumsum([0, *(width + between for width in widths[:-1])])
-        for i, ((label, value), x) in enumerate(zip(entries, rect.left + inset + columns, strict=True)):
+        for i, ((label, value, *own), x) in enumerate(zip(entries, rect.left + inset + columns, strict=True)):
+            colour = own[0] if own else CARD["text"] if i else CARD["accent"]
             self.write(label, "small", (x, rect.centery - 0.2 * self.gap), CARD["quiet"], "bottomleft")
-            self.write(value, "medium", (x, rect.centery), CARD["text"] if i else CARD["accent"], "topleft", bold=True)
+            self.write(value, "medium", (x, rect.centery), colour, "topleft", bold=True)
 
     def card_height(self) -> int:
         """Height of the card that ``columns`` draws, in px."""

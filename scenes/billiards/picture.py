@@ -14,7 +14,8 @@ from sandbox.picture.camera import Camera
 from sandbox.picture.painter import Painter
 from sandbox.picture.palette import Colour, palette
 from sandbox.picture.path import Path, apart, draw_mark, label_mark
-from sandbox.picture.sheet import Sheet, metres, nice, signed
+from sandbox.picture.sheet import Entry, Sheet, metres, nice, signed
+from sandbox.picture.vectors import Vectors
 
 from . import balls
 from .backdrop import backdrop, outside
@@ -284,6 +285,11 @@ class Picture:
 
     # Frames
 
+    @cached_property
+    def vectors(self) -> Vectors:
+        """Of the struck ball."""
+        return Vectors(self.run, self.struck)
+
     def frame(self, t: float) -> pygame.Surface:
         """The table at time t in s."""
         t = min(max(t, 0.0), self.run.duration)
@@ -293,6 +299,8 @@ class Picture:
         radius = self._radius(camera)
         for name in self.paths:
             self._trail(painter, name, t, radius)
+        if self.struck in self._on_table(t):
+            self.vectors.draw(sheet, camera.pixel(*self.run.state(self.struck, t)[:2]), radius, t)
         self.draw_balls(painter, camera, t)
         right = self._head(sheet, t)
         headline = self.verdict() if t >= self.run.duration else self._story(t)
@@ -332,11 +340,11 @@ class Picture:
         pair = {self.struck, self.run.result["first_contact"]}
         return next((e for e in self.run.events if e.kind == "impact" and {e.ball, e.partner} == pair), None)
 
-    def _live(self, t: float) -> list[tuple[str, str]]:
+    def _live(self, t: float) -> list[Entry]:
         run = self.run
         present = self._on_table(t)
         speeds = {name: hypot(*run.state(name, t)[2:4]) for name in present}
-        entries = [("time", f"{t:.2f} s")]
+        entries: list[Entry] = [("time", f"{t:.2f} s")]
         spin = run.state(self.struck, t)[4]
         if self.struck in present:
             entries += [
@@ -348,7 +356,7 @@ class Picture:
         entries.append(("moving", str(sum(speed > 0 for speed in speeds.values()))))
         rails = sum(e.kind == "impact" and e.partner.endswith(" cushion") and e.t <= t for e in run.events)
         entries.append(("cushions", str(rails)))
-        return entries
+        return entries + (self.vectors.entries(t) if self.struck in present else [("cloth", "–")])
 
 
 def _evenly(points: np.ndarray, step: float) -> np.ndarray:

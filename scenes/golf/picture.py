@@ -15,6 +15,7 @@ from sandbox.picture.camera import Area, Box, Camera, Follow
 from sandbox.picture.painter import Painter
 from sandbox.picture.palette import Colour, palette
 from sandbox.picture.sheet import Sheet, metres, nice, signed, yards
+from sandbox.picture.vectors import Vectors
 
 from .course import Course
 
@@ -270,6 +271,10 @@ class Picture:
     # Frames
 
     @cached_property
+    def vectors(self) -> Vectors:
+        return Vectors(self.run, self.name)
+
+    @cached_property
     def nearest(self) -> float:
         """The nearest that the camera of the frames goes, in px/m."""
         span = float(np.ptp(self.path[:, 1]))
@@ -311,6 +316,7 @@ class Picture:
             below = at[0], camera.pixel(x, course.height(x))[1] + 1
             painter.shadow(below, radius * (2.2 - near), 0.35 * radius, CARD["shadow"], 0.15 + 0.45 * near)
         self._trail(sheet, camera, t, radius)
+        self.vectors.draw(sheet, at, radius, t)
         course.ball(painter, at, radius, self.run.angle(self.name, t), ring=radius > true)
         above, below = sheet.ruler_heights()
         if lowest > self.ruler_row - above:  # the ruler would stand on bright turf
@@ -335,6 +341,7 @@ class Picture:
                 ("speed", f"{speed:.1f} m/s"),
                 ("direction", signed(f"{degrees(atan2(vy, vx)):.0f}") + "°" if speed > 0.01 else "–"),
                 ("backspin", signed(f"{spin * 30 / pi:.0f}") + " rpm"),
+                *self.vectors.entries(t),
             ],
         )
         return sheet.surface

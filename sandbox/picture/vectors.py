@@ -1,0 +1,106 @@
+"""Arrows at a ball: how fast it goes and what acts on it, by cause."""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from functools import cached_property
+from math import hypot
+from typing import Any
+
+import numpy as np
+
+from sandbox.picture.palette import Colour, palette
+from sandbox.picture.sheet import CARD, Entry, Sheet
+
+FORCE = palette("force")
+
+#: Length of the longest arrow of a run, px on 720 rows: of a force, of the velocity; and the shortest that is drawn.
+LONGEST_FORCE, LONGEST_VELOCITY, SHORTEST = 64.0, 100.0, 5.0
+#: Widths of the arrows, px on 720 rows.
+FORCE_WIDTH, VELOCITY_WIDTH = 4.2, 3.4
+#: The longest arrows are found at so many times.
+SAMPLES = 60
+#: s over which the change of velocity is taken for what a surface does.
+STEP = 1e-4
+
+#: Words for causes whose class is named for its physics.
+CALLED = {"magnus": "lift"}
+
+
+def cause(force: object) -> str:
+    """``Drag`` is "drag"; a function goes by its own name."""
+    name = str(getattr(force, "__name__", type(force).__name__)).lower().replace("_", " ")
+    return CALLED.get(name, name)
+
+
+def colour_of(name: str) -> Colour:
+    """Of the arrows for a cause; causes of a user's own share out what is left."""
+    own = FORCE["own"]
+    return FORCE[name] if name in FORCE and name != "own" else own[sum(name.encode()) % len(own)]
+
+
+class Vectors:
+    """The velocity of one ball and the forces on it, at any time of a run."""
+
+    def __init__(self, run: Any, name: str):
+        self.run, self.name = run, name
+        self.ball = next(ball for ball in run.setup.balls if ball.name == name)
+        self.arcs = run.arcs[name]
+
+    def forces(self, t: float) -> dict[str, tuple[float, float]]:
+        """What acts on the ball at time t (s) by cause, in N; "contact" or "cloth" is what it lies on."""
+        x, y, vx, vy, spin = self.run.state(self.name, t)
+        found: dict[str, tuple[float, float]] = {}
+        for force in self.ball.forces:
+            fx, fy = force(t, (x, y), (vx, vy), spin)
+            before = found.get(cause(force), (0.0, 0.0))
+            found[cause(force)] = before[0] + float(fx), before[1] + float(fy)
+        arc = self.arcs[max(0, bisect_right(self.arcs, t, key=lambda arc: arc.t0) - 1)]
+        surface = "cloth" if self.run.setup.cloth is not None else "contact" if arc.contact is not None else None
+        if surface is not None and t < arc.t1:
+            start, end = max(arc.t0, t - STEP), min(arc.t1, t + STEP)
+            (*_, ax, ay, _), (*_, bx, by, _) = arc.state(start)[:5], arc.state(end)[:5]
+            mass = self.ball.mass / (end - start)
+            others = [sum(axis) for axis in zip((0.0, 0.0), *found.values(), strict=True)]
+            found[surface] = (bx - ax) * mass - others[0], (by - ay) * mass - others[1]
+        return found
+
+    @cached_property
+    def _longest(self) -> tuple[float, float]:
+        """The largest speed in m/s and the largest force in N of the run; those of surfaces set no scale."""
+        speed = force = 0.0
+        for t in np.linspace(0.0, self.run.duration, SAMPLES):
+            speed = max(speed, hypot(*self.run.state(self.name, t)[2:4]))
+            acting = (size for name, size in self.forces(t).items() if name != "contact")
+            force = max([force, *(hypot(*size) for size in acting)])
+        return speed, force
+
+    def draw(self, sheet: Sheet, at: tuple[float, float], radius: float, t: float) -> None:
+        """The arrows at time t, from the edge of a ball of ``radius`` px; what is too short to see is left out."""
+        unit = sheet.unit
+        speed, force = self._longest
+
+        def arrow(vector: tuple[float, float], longest: float, length: float, width: float, colour: Colour) -> None:
+            size = hypot(*vector)
+            shown = min(1.5, size / longest if longest > 0 else 0.0) * length * unit
+            if shown >= SHORTEST * unit:
+                width = min(width, shown / unit / 4.2)
+                along, down = vector[0] / size, -vector[1] / size
+                tail = at[0] + along * radius, at[1] + down * radius
+                tip = tail[0] + along * shown, tail[1] + down * shown
+                sheet.painter.arrow(tail, tip, width * unit, colour, rim=(CARD["shadow"], max(0.7, unit)))
+
+        arrow(self.run.state(self.name, t)[2:4], speed, LONGEST_VELOCITY, VELOCITY_WIDTH, CARD["text"])
+        for name, vector in self.forces(t).items():
+            arrow(vector, force, LONGEST_FORCE, FORCE_WIDTH, colour_of(name))
+
+    def entries(self, t: float) -> list[Entry]:
+        """For the card: each force in N, in the colour of its arrow."""
+        return [(name, newtons(hypot(*vector)), colour_of(name)) for name, vector in self.forces(t).items()]
+
+
+def newtons(force: float) -> str:
+    """A force as people write it: 0.45 N, 12.3 N, 4.2 kN; and 12 mN."""
+    if force < 0.0995:
+        return f"{1000 * force:.0f} mN"
+    return f"{force:.2f} N" if force < 9.995 else f"{force:.1f} N" if force < 9995 else f"{force / 1000:.1f} kN"
