@@ -20,7 +20,7 @@ CARD, TRACE = palette("card"), palette("trace")
 SAMPLING, MOST_SAMPLES = 1 / 120, 5000
 #: Points of a trace are this far apart, in px.
 FINEST = 1.5
-#: At most so many balls are drawn along a path.
+#: At most so many balls are drawn along a path, or along that part of it that matters.
 BALLS = 20
 #: Impacts at less than this, in m/s, are not marked.
 LEAST_IMPACT = 0.3
@@ -54,12 +54,12 @@ class Path:
         points = camera.pixels(self.points)
         return points[apart(points, FINEST)]
 
-    def even_times(self, camera: Camera, radius: float) -> tuple[float, list[float]]:
+    def even_times(self, camera: Camera, radius: float, span: float | None = None) -> tuple[float, list[float]]:
         """The time between balls drawn with ``radius`` px along the path, and the times that have room for one.
 
-        In s; before the end, which has a ball of its own.
+        In s; before the end, which has a ball of its own. Over ``span`` s, or the whole path, there are BALLS at most.
         """
-        every = nice(max(self.until, 0.01) / BALLS)
+        every = nice(max(self.until if span is None else span, 0.01) / BALLS)
         ends = [camera.pixel(*self.run.state(self.name, t)[:2]) for t in (self.until, 0.0)]
         times, last = [], ends[1]
         for i in range(floor(self.until / every) + 1):
@@ -152,23 +152,33 @@ def mark_impacts(sheet: Sheet, camera: Camera, marks: Iterable[Mark], labelled: 
 
 def label_mark(sheet: Sheet, at: tuple[float, float], towards: tuple[float, float], text: str) -> bool:
     """A text on a dark chip beside a mark, rather on the side of what was struck (``towards``); False: no room."""
-    unit = sheet.unit
-    width, height = sheet.lettering.width(text, "small", bold=True), sheet.lettering.height("small")
-    chip = pygame.Rect(0, 0, width + round(12 * unit), height + round(4 * unit))
-    chips = []
+    spots = []
     for far in (9, 16, 25, 36, 50):
         for turn in (0.0, 0.6, -0.6, 1.2, -1.2, 1.9, -1.9, pi):
             across = cos(turn) * towards[0] - sin(turn) * towards[1]
             down = -sin(turn) * towards[0] - cos(turn) * towards[1]
-            # The chip touches the end of the way, with the side or corner that is nearest.
-            chip.center = (
-                round(at[0] + across * far * unit + chip.width / 2 * max(-1.0, min(1.0, 1.6 * across))),
-                round(at[1] + down * far * unit + chip.height / 2 * max(-1.0, min(1.0, 1.6 * down))),
-            )
-            chips.append(chip.clamp(sheet.labels.frame))
+            spots.append((at[0] + across * far * sheet.unit, at[1] + down * far * sheet.unit, across, down))
+    return chip(sheet, text, spots)
+
+
+def chip(
+    sheet: Sheet, text: str, spots: Iterable[tuple[float, float, float, float]], colour: Colour = CARD["text"]
+) -> bool:
+    """A text on a dark chip at the first spot with room; False: there is none.
+
+    A spot is a point in px and the direction, across and down, in which the chip lies beyond it.
+    """
+    unit = sheet.unit
+    width, height = sheet.lettering.width(text, "small", bold=True), sheet.lettering.height("small")
+    rect = pygame.Rect(0, 0, width + round(12 * unit), height + round(4 * unit))
+    chips = []
+    for x, y, across, down in spots:
+        aside, under = (max(-1.0, min(1.0, 1.6 * share)) / 2 for share in (across, down))
+        rect.center = round(x + aside * rect.width), round(y + under * rect.height)
+        chips.append(rect.clamp(sheet.labels.frame))
     placed = sheet.labels.place(chips)
     if placed:
         sheet.painter.panel(placed, CARD["background"], CARD["opacity"], 0.5 * placed.height)
-        rect = sheet.lettering.write(sheet.surface, text, "small", placed.center, CARD["text"], "center", bold=True)
+        rect = sheet.lettering.write(sheet.surface, text, "small", placed.center, colour, "center", bold=True)
         sheet.written.append((text, rect))
     return placed is not None

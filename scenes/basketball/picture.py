@@ -20,7 +20,8 @@ from sandbox.picture.lettering import Labels
 from sandbox.picture.painter import Painter, around_corners, rounded
 from sandbox.picture.palette import mix, palette
 from sandbox.picture.path import Path, apart, draw_trace, mark_impacts
-from sandbox.picture.sheet import Sheet, metres, roughly, signed, times
+from sandbox.picture.sheet import Entry, Sheet, metres, roughly, signed, times
+from sandbox.picture.vectors import Vectors
 
 from .hall import BALL, Hall
 from .net import Net
@@ -276,7 +277,7 @@ class Picture:
         BALL.draw(sheet.painter, (px, py), radius, self.run.angle("ball", t), unit)
         sheet.labels.take(pygame.Rect(round(px - radius), round(py - radius), round(2 * radius), round(2 * radius)))
 
-    def _numbers(self) -> list[tuple[str, str]]:
+    def _numbers(self) -> list[Entry]:
         result, launch = self.run.result, self.parameters.launch
         entered = result["entry_angle"] is not None
         offset = result["entry_offset"]
@@ -309,6 +310,10 @@ class Picture:
     # Frames
 
     @cached_property
+    def vectors(self) -> Vectors:
+        return Vectors(self.run, "ball")
+
+    @cached_property
     def decided(self) -> float:
         """When it is clear how the shot ends, in s."""
         return self.net.left if self.run.result["made"] else self.path.until
@@ -338,6 +343,7 @@ class Picture:
         below = at[0], self.hall.base + unit
         painter.shadow(below, radius * (2.2 - near), 0.35 * radius, CARD["shadow"], 0.15 + 0.45 * near)
         self._trail(sheet, camera, t, 0.7 * radius)
+        self.vectors.draw(sheet, at, radius, t)
         BALL.draw(painter, at, radius, self.run.angle("ball", t), unit, radius > true)
         self._before(sheet, eye, t)
         sheet.ruler(camera, self.ruler_row, "ft")
@@ -361,6 +367,7 @@ class Picture:
                 ("speed", f"{speed:.1f} m/s"),
                 ("direction", signed(f"{degrees(atan2(vy, vx)):.0f}") + "°" if speed > 0.01 else "–"),
                 ("backspin", signed(f"{spin * 30 / pi:.0f}") + " rpm"),
+                *self.vectors.entries(t),
             ],
         )
         return sheet.surface
@@ -369,7 +376,7 @@ class Picture:
         """What stands still behind the ball; kept while the camera does."""
         if self._standing is None or self._standing[0] != camera:
             sheet, eye = Sheet(self.size), self.hall.eye(camera)
-            self.hall.draw(sheet.painter, eye, camera.at[0] * self.chase.home.scale)
+            self.hall.draw(sheet.painter, eye, (camera.at[0] - self.chase.home.at[0]) * self.chase.home.scale)
             self._behind(sheet, eye)
             self._standing = camera, sheet.surface
         return self._standing[1]
