@@ -5,20 +5,25 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from math import hypot
 from time import perf_counter
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import pygame
 
+from sandbox.engine.accuracy import LEVELS
 from sandbox.errors import SandboxError
 from sandbox.picture.palette import palette
 from sandbox.picture.sheet import Sheet, signed
-from sandbox.scene import listings
+from sandbox.scene import check, listings
 from sandbox.window import aim, overlay
 from sandbox.window.bar import HEIGHT, Bar, Shown
 from sandbox.window.keys import command_for
 from sandbox.window.playback import Playback
 from sandbox.window.session import Session, Shot
 from sandbox.window.stage import Stage, headline
+from sandbox.window.watch import Watch
+
+if TYPE_CHECKING:
+    from sandbox.window.panel import Panel
 
 CARD = palette("card")
 
@@ -53,6 +58,10 @@ class App:
         self.cost = 0.0  # s, of the last run
         self.frame_cost = 0.0  # s, smoothed
         self.mouse = (-1, -1)
+        self.panel: Panel | None = None
+        self.has_panel = False
+        self.watched = Watch(session.file)
+        self.before: Shot | None = None  # the shot as it was before the scene file was saved
         self.chosen = -1  # of the shots so far, the one that is watched
         self._layout()
 
@@ -78,8 +87,12 @@ class App:
         if self.message is not None:
             text, bad, left = self.message
             self.message = (text, bad, left - dt) if left > dt else None
+        if self.watched.saved(dt):
+            self._reload()
         if self.stale:
             self._predict()
+        if self.panel is not None:
+            self.panel.update(dt)
         if self.playback is not None:
             self.playback.advance(dt)
 
@@ -104,7 +117,15 @@ class App:
         self.canvas = pygame.Surface((width, height)) if (width, height) != self.screen.get_size() else self.screen
         tall = round(HEIGHT * height / 720)
         self.bar = Bar(pygame.Rect(0, height - tall, width, tall), height)
-        self.area = pygame.Rect(0, 0, width, height - tall)
+        wide = 0
+        if self.has_panel:
+            from sandbox.window.panel import FAVOURITES, WIDTH, Panel  # it brings pygame_gui, which takes its time
+
+            wide = min(round(WIDTH * height / 720), width // 2)
+            rect = pygame.Rect(width - wide, 0, wide, height - tall)
+            group = self.panel.group if self.panel is not None else FAVOURITES
+            self.panel = Panel((width, height), rect, self.session, self.change, self.reset, group)
+        self.area = pygame.Rect(0, 0, width - wide, height - tall)
         self.stage, self.near = None, None
 
     # ------------------------------------------------------------------------------------------------------- the shot
@@ -156,17 +177,36 @@ class App:
         rate = self.playback.rate if self.playback is not None else 1.0
         self.playback, self.near = Playback(self.shot.run.duration, rate), None
 
+    def reset(self, key: str | None = None) -> None:
+        """Take back what was changed in the window: one parameter, or all of them."""
+        if self.trying(lambda: self.session.reset(key)):
+            self.back_to_aiming()
+            self.stage, self.stale = None, True
+
+    def _reload(self) -> None:
+        """The scene file was saved: aim by it, with the path as it was still drawn."""
+        before = self.shot
+        if self.trying(self.session.reload):
+            self.back_to_aiming()
+            self.before, self.stage, self.stale = before, None, True
+            self.tell(f"read {self.watched.file} again")
+        elif self.message is not None:
+            self.message = (self.message[0], True, 1e9)  # until it is mended
+
     def open(self, source: str) -> None:
         """Play another scene or preset."""
         if self.trying(lambda: self.session.open(source)):
             self.back_to_aiming()
             self.shot, self.stage, self.near, self.stale, self.menu = None, None, None, True, None
-            self.cost = 0.0
+            self.cost, self.before = 0.0, None
+            self.watched = Watch(self.session.file)
 
     # ---------------------------------------------------------------------------------------------------------- input
 
     def handle(self, event: pygame.event.Event) -> None:
         """One event of the window, the mouse or the keyboard."""
+        if self.panel is not None and self._for_panel(self.panel, event):
+            return
         match event.type:
             case pygame.QUIT:
                 self.running = False
@@ -187,6 +227,19 @@ class App:
             case pygame.MOUSEWHEEL:
                 other = bool(pygame.key.get_mods() & pygame.KMOD_SHIFT) or event.x != 0
                 self.change(aim.spun(self.session, int(other), event.y or event.x))
+
+    def _for_panel(self, panel: Panel, event: pygame.event.Event) -> bool:
+        """Let the panel take an event; whether it is for nobody else."""
+        typing = panel.typing
+        used = panel.handle(event)
+        if event.type == pygame.KEYDOWN:
+            return typing and event.key not in (pygame.K_ESCAPE, pygame.K_TAB)
+        if event.type == pygame.MOUSEWHEEL:
+            return panel.rect.collidepoint(self.mouse)
+        if event.type == pygame.MOUSEMOTION and panel.rect.collidepoint(event.pos):
+            self.mouse = event.pos
+            return self.pull is None and not self.scrubbing
+        return used or (event.type == pygame.MOUSEBUTTONDOWN and panel.rect.collidepoint(event.pos))
 
     def _resized(self) -> None:
         screen = pygame.display.get_surface()
@@ -271,9 +324,12 @@ class App:
             case "next_preset" | "previous_preset":
                 self._other_preset(1 if command == "next_preset" else -1)
             case "reset":
-                if self.trying(self.session.reset):
-                    self.back_to_aiming()
-                    self.stage, self.stale = None, True
+                self.reset()
+            case "panel":
+                self.panel, self.has_panel = None, not self.has_panel
+                self._layout()
+            case "accuracy":
+                self._next_accuracy()
             case "cost":
                 self.costs = not self.costs
             case "fullscreen":
@@ -296,6 +352,21 @@ class App:
             self.pull = self.pressed = None
         else:
             self.back_to_aiming()
+
+    def _next_accuracy(self) -> None:
+        """The next level, with what it costs and how far its result is off."""
+        levels = list(LEVELS)
+        level = levels[(levels.index(self.session.value("accuracy.level")) + 1) % len(levels)]
+        if not self.change({"accuracy.level": level}):
+            return
+        self._predict()
+        if self.shot is None:
+            return
+        checked = check(self.shot.scene, self.shot.run)
+        errors = [f"{name} ± {error:.1g}" for name, error in checked.errors.items() if error > 0][:4]
+        changed = [f"{name} would be {finer}" for name, (_, finer) in checked.changed.items()]
+        told = ", ".join(changed or errors) or "no difference to a finer run"
+        self.tell(f"accuracy {level}: {1e3 * self.shot.run.numerics.wall_s:.1f} ms a run; {told}")
 
     def _other_shot(self, by: int) -> None:
         shots = self.session.shots
@@ -333,9 +404,11 @@ class App:
             ticks,
             playback.rate if playback is not None else 1.0,
             view,
-            ("view", "help"),
-            frozenset({"help"} if self.helps else ()),
+            ("view", "panel", "help"),
+            frozenset(name for name, on in (("help", self.helps), ("panel", self.panel is not None)) if on),
         )
+        if self.panel is not None:
+            self.panel.draw(self.canvas)
         self.bar.draw(self.canvas, shown, self.mouse)
         if self.canvas is not self.screen:
             self.screen.blit(self.canvas, (0, 0))
@@ -377,7 +450,8 @@ class App:
         if stage.camera is None:
             return sheet
         if self.ghosts:
-            stage.draw_ghosts(sheet, self.session.shots)
+            earlier = [*self.session.shots, *([self.before] if self.before is not None else [])]
+            stage.draw_ghosts(sheet, earlier)
         stage.draw_path(sheet, shot)
         stage.draw_balls(sheet, 0.0)
         colour = CARD["good"] if shot.scored else CARD["text"]

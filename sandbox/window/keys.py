@@ -47,6 +47,8 @@ BINDINGS = (
     Binding(pygame.K_PAGEDOWN, "next_preset", "PgDn PgUp", "next, previous preset", "Scene"),
     Binding(pygame.K_PAGEUP, "previous_preset", "", "", "Scene"),
     Binding(pygame.K_BACKSPACE, "reset", "Backspace", "all parameters as in the file", "Scene"),
+    Binding(pygame.K_TAB, "panel", "Tab", "the panel of parameters", "Scene"),
+    Binding(pygame.K_a, "accuracy", "A", "fast, balanced, precise", "Scene"),
     Binding(pygame.K_F3, "cost", "F3", "what a frame costs", "Window"),
     Binding(pygame.K_F11, "fullscreen", "F11", "full screen", "Window"),
     Binding(pygame.K_h, "help", "H, F1", "this list", "Window"),

@@ -108,7 +108,7 @@ def draw_message(sheet: Sheet, text: str, bad: bool) -> None:
     row = letters.height("small") + gap // 2
     width = max(letters.width(line, "small") for line in lines)
     rect = pygame.Rect(0, 0, width + 6 * gap, row * len(lines) + 3 * gap)
-    rect.midbottom = sheet.size[0] // 2, sheet.size[1] - 2 * gap
+    rect.midbottom = sheet.size[0] // 2, sheet.frame.bottom - sheet.card_height() - 2 * gap
     sheet.painter.panel(rect, CARD["background"], 0.95, 8 * sheet.unit)
     stripe = pygame.Rect(rect.left, rect.top + gap, max(3, gap // 2), rect.height - 2 * gap)
     sheet.surface.fill(CARD["bad"] if bad else CARD["good"], stripe)

@@ -39,6 +39,7 @@ class Player:
         self.send(pygame.KEYUP, key=key, mod=modifiers, unicode="", scancode=0)
 
     def move(self, at: tuple[int, int]) -> None:
+        pygame.mouse.set_pos(at)  # pygame_gui asks for it
         self.send(pygame.MOUSEMOTION, pos=at, rel=(0, 0), buttons=(0, 0, 0), touch=False)
 
     def press(self, at: tuple[int, int]) -> None:

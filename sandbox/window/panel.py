@@ -1,0 +1,297 @@
+"""The panel: a slider, a choice or a switch for every parameter, made from its declaration."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import pygame
+import pygame_gui
+from pygame_gui.elements import (
+    UIButton,
+    UIDropDownMenu,
+    UIHorizontalSlider,
+    UILabel,
+    UIPanel,
+    UIScrollingContainer,
+    UITextEntryLine,
+)
+
+from sandbox.parameters import Parameter, walk
+from sandbox.window.session import Session
+from sandbox.window.theme import NAMED, theme
+
+WIDTH = 320  # px on 720 rows
+#: A slider reaches this many times its value in the file to either side, and at least this share of the bounds.
+REACH, LEAST_REACH = 1.5, 0.02
+FAVOURITES, UNSET = "this shot", "as the level says"
+
+
+@dataclass
+class Row:
+    """The elements of one number, word or switch."""
+
+    parameter: Parameter
+    index: int | None  # within a vector
+    entry: UITextEntryLine | None = None
+    slider: UIHorizontalSlider | None = None
+    choice: UIDropDownMenu | None = None
+    switch: UIButton | None = None
+    reset: UIButton | None = None
+    shown: Any = None
+
+    def part(self, value: Any) -> Any:
+        return value if self.index is None or value is None else value[self.index]
+
+    def whole(self, session: Session, part: Any) -> Any:
+        """The parameter's value with this row's part replaced."""
+        if self.index is None:
+            return part
+        values = list(session.value(self.parameter.key))
+        values[self.index] = part
+        return values
+
+
+class Panel:
+    """Lies in ``rect`` of a window of ``size``; tells ``change`` what was changed, ``reset`` what to take back."""
+
+    def __init__(
+        self,
+        size: tuple[int, int],
+        rect: pygame.Rect,
+        session: Session,
+        change: Callable[[Mapping[str, Any]], bool],
+        reset: Callable[[str | None], object],
+        group: str = FAVOURITES,
+    ) -> None:
+        self.session, self.change, self.reset, self.rect = session, change, reset, rect
+        self.unit = size[1] / 720
+        self.manager = pygame_gui.UIManager(size, theme(max(11, round(14 * self.unit))))
+        self.group = group
+        self._build()
+
+    # The elements
+
+    def _build(self) -> None:
+        """All elements, for the group that is shown."""
+        self.manager.clear_and_reset()
+        self.scene = self.session.scene
+        unit, rect = self.unit, self.rect
+        self.row, gap = round(26 * unit), round(10 * unit)
+        self.panel = UIPanel(rect, manager=self.manager, margins=dict.fromkeys(("left", "right", "top", "bottom"), 0))
+        inner = rect.width - 2 * gap
+        groups = self._groups()
+        if self.group not in groups:
+            self.group = FAVOURITES
+        half = (inner - gap) * 6 // 10
+        self.chooser = UIDropDownMenu(
+            list(groups), self.group, pygame.Rect(gap, gap, half, self.row), self.manager, container=self.panel
+        )
+        self.reset_all = UIButton(
+            pygame.Rect(2 * gap + half, gap, inner - half - gap, self.row),
+            "reset all",
+            self.manager,
+            container=self.panel,
+            tool_tip_text="every parameter as in the scene file (Backspace)",
+        )
+        top = 2 * gap + self.row
+        self.container = UIScrollingContainer(
+            pygame.Rect(gap, top, rect.width - gap, rect.height - top),
+            self.manager,
+            container=self.panel,
+            allow_scroll_x=False,
+        )
+        self.rows: list[Row] = []
+        self.wide, y = inner - gap, 0
+        for parameter in groups[self.group]:
+            for row in self._rows_of(parameter):
+                y = self._place(row, y) + gap
+                self.rows.append(row)
+        self.container.set_scrollable_area_dimensions((self.wide, y))
+
+    def _groups(self) -> dict[str, list[Parameter]]:
+        """Parameters by heading, what is worth a slider first."""
+        groups: dict[str, list[Parameter]] = {FAVOURITES: []}
+        by_key = {p.key: p for p in walk(self.scene.parameters)}
+        groups[FAVOURITES] = [by_key[key] for key in self.session.controls.sliders if key in by_key]
+        for parameter in by_key.values():
+            if any(True for _ in self._rows_of(parameter)):
+                groups.setdefault(parameter.key.rpartition(".")[0] or self.scene.name, []).append(parameter)
+        if not groups[FAVOURITES]:
+            groups[FAVOURITES] = groups.get("launch", [])
+        return groups
+
+    def _rows_of(self, parameter: Parameter) -> Iterator[Row]:
+        """One row for a number, a word or a switch, several for a vector, none for what a row cannot show."""
+        value = parameter.value
+        if isinstance(value, tuple) and parameter.unit is not None:
+            yield from (Row(parameter, index) for index in range(len(value)))
+        elif (
+            parameter.choices or isinstance(value, bool) or (parameter.unit is not None and not isinstance(value, list))
+        ):
+            yield Row(parameter, None)
+
+    def _place(self, row: Row, top: int) -> int:
+        """Make the elements of a row; returns where they end."""
+        parameter, height, unit = row.parameter, self.row, self.unit
+        name = parameter.key if self.group == FAVOURITES else parameter.key.rpartition(".")[2]
+        name = name.replace("_", " ") + ("" if row.index is None else f" {'xyz'[row.index]}")
+        label = f"{name}  [{parameter.unit}]" if parameter.unit else name
+        tip = parameter.meaning
+        if parameter.low is not None and parameter.high is not None:
+            tip += f"; from {parameter.low:g} to {parameter.high:g} {parameter.unit}".rstrip()
+        small, field = round(24 * unit), round(84 * unit)
+        place: dict[str, Any] = {"manager": self.manager, "container": self.container}
+        left = self.wide - field - small - 4
+        UILabel(pygame.Rect(0, top, left, height), label, **place).set_tooltip(tip)
+        row.reset = UIButton(
+            pygame.Rect(self.wide - small, top, small, height), "×", tool_tip_text="as in the scene file", **place
+        )
+        value = row.part(parameter.value)
+        if parameter.choices:
+            words: list[Any] = [str(word) for word in parameter.choices]
+            words = [UNSET, *words] if value is None or self._optional(parameter) else words
+            chosen = UNSET if value is None else str(value)
+            rect = pygame.Rect(0, top + height, self.wide, height)
+            row.choice = UIDropDownMenu(words, chosen, rect, expansion_height_limit=200, **place)
+            end = top + 2 * height
+        elif isinstance(value, bool):
+            rect = pygame.Rect(left, top, field, height)
+            row.switch = UIButton(rect, "on" if value else "off", tool_tip_text=tip, **place)
+            end = top + height
+        else:
+            row.entry = UITextEntryLine(pygame.Rect(left, top, field, height), **place)
+            row.entry.set_text(_written(value))
+            end = top + height
+            if value is not None:
+                span = self._span(row)
+                slim = round(16 * unit)
+                rect = pygame.Rect(0, end + 3, self.wide, slim)
+                row.slider = UIHorizontalSlider(
+                    rect, min(max(value, span[0]), span[1]), span, click_increment=(span[1] - span[0]) / 100, **place
+                )
+                end += slim + 3
+        row.shown = value
+        return int(end)
+
+    def _optional(self, parameter: Parameter) -> bool:
+        """Whether a word may be left out."""
+        node: Any = type(self.scene.parameters)
+        values: Any = self.scene.parameters
+        *path, last = parameter.key.split(".")
+        for part in path:
+            values = getattr(values, part)
+            node = type(values)
+        return node.model_fields[last].default is None
+
+    def _span(self, row: Row) -> tuple[float, float]:
+        """The ends of a slider: around the value of the file, within the bounds."""
+        parameter = row.parameter
+        low, high = parameter.low or 0.0, parameter.high if parameter.high is not None else 1.0
+        base: Any = self.session.base.parameters
+        for part in parameter.key.split("."):
+            base = getattr(base, part, None)
+        value = row.part(base) if base is not None else row.part(parameter.value)
+        if value is None:
+            value = row.part(parameter.value)
+        reach = max(REACH * abs(value), LEAST_REACH * (high - low))
+        if high - low <= 4 * reach:
+            return float(low), float(high)
+        return float(max(low, value - reach)), float(min(high, value + reach))
+
+    # What happens
+
+    @property
+    def typing(self) -> bool:
+        """Whether keys go into a field."""
+        return any(row.entry is not None and row.entry.is_focused for row in self.rows)
+
+    def handle(self, event: pygame.event.Event) -> bool:
+        """Take in an event; whether it was the panel's."""
+        used = self.manager.process_events(event)
+        match event.type:
+            case pygame_gui.UI_BUTTON_PRESSED:
+                self._clicked(event.ui_element)
+            case pygame_gui.UI_HORIZONTAL_SLIDER_MOVED:
+                row = self._row("slider", event.ui_element)
+                if row is not None:
+                    self._set(row, float(f"{event.value:.4g}"))
+            case pygame_gui.UI_TEXT_ENTRY_FINISHED:
+                row = self._row("entry", event.ui_element)
+                if row is not None:
+                    self._typed(row, event.text.strip())
+            case pygame_gui.UI_DROP_DOWN_MENU_CHANGED:
+                if event.ui_element is self.chooser:
+                    self.group = event.text
+                    self._build()
+                else:
+                    row = self._row("choice", event.ui_element)
+                    if row is not None:
+                        word = next((w for w in row.parameter.choices if str(w) == event.text), None)
+                        self._set(row, word)
+                        self._build()
+        return bool(used)
+
+    def _row(self, part: str, element: Any) -> Row | None:
+        return next((row for row in self.rows if getattr(row, part) is element), None)
+
+    def _clicked(self, element: Any) -> None:
+        if element is self.reset_all:
+            self.reset(None)
+            self._build()
+        elif (row := self._row("reset", element)) is not None:
+            self.reset(row.parameter.key)
+            self._build()
+        elif (row := self._row("switch", element)) is not None:
+            self._set(row, not row.shown)
+
+    def _set(self, row: Row, value: Any) -> None:
+        self.change({row.parameter.key: row.whole(self.session, value)})
+        self.refresh()
+
+    def _typed(self, row: Row, text: str) -> None:
+        """A number, or a text with a unit of its own; nothing leaves an optional number out."""
+        value: Any = text
+        try:
+            value = float(text)
+        except ValueError:
+            value = None if not text and row.part(row.parameter.value) is None else text
+        self._set(row, value)
+        if row.entry is not None:
+            row.entry.unfocus()
+        self.refresh(everything=True)
+
+    def refresh(self, everything: bool = False) -> None:
+        """Show the parameters as they are now."""
+        if self.session.scene is self.scene and not everything:
+            return
+        if self.session.base.folder != self.scene.folder:
+            self._build()
+            return
+        self.scene = self.session.scene
+        for row in self.rows:
+            value = self.session.value(row.parameter.key)
+            value = row.part(value)
+            if value == row.shown and not everything:
+                continue
+            row.shown = value
+            if row.entry is not None and not (row.entry.is_focused and not everything):
+                row.entry.set_text(_written(value))
+            if row.slider is not None and value is not None and not row.slider.has_moved_recently:
+                low, high = row.slider.value_range
+                row.slider.set_current_value(min(max(value, low), high))
+            if row.switch is not None:
+                row.switch.set_text("on" if value else "off")
+
+    def update(self, dt: float) -> None:
+        self.refresh()
+        self.manager.update(dt)
+
+    def draw(self, surface: pygame.Surface) -> None:
+        surface.fill(NAMED["background"], self.rect)
+        self.manager.draw_ui(surface)
+
+
+def _written(value: Any) -> str:
+    return "" if value is None else f"{value:.6g}"

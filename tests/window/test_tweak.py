@@ -1,0 +1,129 @@
+"""The panel, and a scene file that is saved while the window is open."""
+
+from __future__ import annotations
+
+import pygame
+import pytest
+
+SCENE = """# A putt of mine.
+scene = "golf"
+
+[launch]
+speed = 60.0   # m/s
+angle = 12.0
+"""
+
+
+@pytest.fixture
+def file(tmp_path):
+    path = tmp_path / "mine.toml"
+    path.write_text(SCENE, encoding="utf-8")
+    return path
+
+
+def row(player, key: str):
+    return next(row for row in player.app.panel.rows if row.parameter.key == key)
+
+
+def drag(player, element, by: int) -> None:
+    x, y = element.sliding_button.rect.center
+    player.move((x, y))
+    player.press((x, y))
+    for part in (by // 2, by):
+        player.move((x + part, y))
+        player.frames(2)
+    player.release((x + by, y))
+    player.frames(2)
+
+
+class TestThePanel:
+    def test_a_slider_changes_the_shot_at_once(self, player):
+        player = player("golf")
+        player.key(pygame.K_TAB)
+        before = player.app.shot.run.result["carry"]
+        drag(player, row(player, "launch.speed").slider, 40)
+        assert player.app.session.value("launch.speed") > 80
+        assert player.app.shot.run.result["carry"] > before + 5
+        assert not player.app.session.shots
+
+    def test_one_reset_takes_back_one_parameter_and_the_other_all(self, player):
+        player = player("golf")
+        player.key(pygame.K_TAB)
+        player.app.change({"launch.speed": 50.0, "launch.angle": 20.0})
+        player.frames(2)
+        player.click(row(player, "launch.speed").reset.rect.center)
+        player.frames(2)
+        assert player.app.session.changes == {"launch.angle": 20.0}
+        player.click(player.app.panel.reset_all.rect.center)
+        player.frames(2)
+        assert player.app.session.changes == {}
+        assert player.app.session.value("launch.angle") == pytest.approx(10.4)
+
+    def test_a_field_takes_units_and_says_what_is_wrong(self, player):
+        player = player("golf")
+        player.key(pygame.K_TAB)
+        panel = player.app.panel
+        panel._typed(row(player, "launch.speed"), "100 mph")
+        assert player.app.session.value("launch.speed") == pytest.approx(44.704)
+        panel._typed(row(player, "launch.speed"), "9000")
+        assert player.app.session.value("launch.speed") == pytest.approx(44.704)
+        assert "from 0 to 340 m/s" in player.app.message[0]
+        assert row(player, "launch.speed").entry.get_text() == "44.704"
+
+    def test_every_group_of_every_kind_of_parameter_can_be_shown(self, player):
+        player = player("golf")
+        player.key(pygame.K_TAB)
+        panel = player.app.panel
+        groups = panel._groups()
+        assert {"launch", "air", "ball.drag", "ground.green", "accuracy"} <= set(groups)
+        for group in ("air", "ball.drag", "accuracy", "golf"):
+            panel.group = group
+            panel._build()
+            player.frames(1)
+            assert panel.rows
+
+    def test_keys_typed_into_a_field_are_no_commands(self, player):
+        player = player("golf")
+        player.key(pygame.K_TAB)
+        player.click(row(player, "launch.speed").entry.rect.center)
+        assert player.app.panel.typing
+        player.key(pygame.K_SPACE)
+        assert player.app.playback is None
+
+
+class TestSaving:
+    def wait(self, player) -> None:
+        player.frames(3, dt=0.11)
+
+    def test_a_saved_file_is_read_and_the_old_path_stays(self, player, file):
+        player = player(str(file))
+        before = player.app.shot
+        file.write_text(SCENE.replace("60.0", "70.0"), encoding="utf-8")
+        self.wait(player)
+        assert player.app.session.value("launch.speed") == 70.0
+        assert player.app.before is before
+        assert player.app.shot.run.result["carry"] > before.run.result["carry"]
+
+    @pytest.mark.parametrize("broken", ["scene = [", SCENE.replace("60.0", "-1.0"), SCENE + "spin_up = 3\n"])
+    def test_a_broken_file_shows_its_error_and_the_window_goes_on(self, player, file, broken):
+        player = player(str(file))
+        before = player.app.session.scene
+        file.write_text(broken, encoding="utf-8")
+        self.wait(player)
+        assert player.app.session.scene is before
+        assert player.app.message[1]
+        assert "mine.toml" in player.app.message[0]
+        player.frames(5, dt=10)
+        assert player.app.message is not None
+        file.write_text(SCENE.replace("60.0", "71.0"), encoding="utf-8")
+        self.wait(player)
+        assert player.app.session.value("launch.speed") == 71.0
+        assert not player.app.message[1]
+
+    def test_what_was_changed_in_the_window_stays_changed(self, player, file):
+        player = player(str(file))
+        player.app.change({"launch.angle": 33.0})
+        file.write_text(SCENE.replace("60.0", "70.0"), encoding="utf-8")
+        self.wait(player)
+        assert player.app.session.value("launch.angle") == 33.0
+        assert player.app.session.value("launch.speed") == 70.0
