@@ -71,21 +71,36 @@ class Sheet:
         return rect
 
     def headline(self, text: str, notes: Sequence[str], room: float) -> None:
-        """What happened, large, at the top left, and a line of notes below it; ``room`` px wide at most."""
+        """What happened, large, at the top left, and a line of notes below it; ``room`` px wide at most.
+
+        Notes for which there is no room are left out, the last first.
+        """
         size = "large" if self.lettering.width(text, "large", bold=True) <= room else "medium"
         rect = self.write(text, size, self.frame.topleft, self.ink, bold=True)
-        self.write("   ·   ".join(notes), "small", (rect.left, rect.bottom + self.gap), self.quiet_ink)
+        lines = ["   ·   ".join(notes[:count]) for count in range(len(notes), 0, -1)]
+        line = next((line for line in lines if self.lettering.width(line, "small") <= room), "")
+        self.write(line, "small", (rect.left, rect.bottom + self.gap), self.quiet_ink)
 
-    def columns(self, top: float, entries: Sequence[Entry]) -> None:
+    def columns(
+        self, top: float, entries: Sequence[Entry], others: Sequence[tuple[Colour, Sequence[Entry]]] = ()
+    ) -> None:
         """A card along the bottom with a number in each column, the first in the accent's colour.
 
-        Where there is no room for all, the last are left out.
+        Below them stand the values that ``others`` have for the same labels, each in its colour. Where there is no room
+        for all, the last are left out.
         """
         rect = pygame.Rect(self.frame.left, top, self.frame.width, self.frame.bottom - top)
         self.painter.panel(rect, CARD["background"], CARD["opacity"], 10 * self.unit)
-        inset = round(2.6 * self.gap)
+        inset, tall = round(2.6 * self.gap), self.lettering.height("medium")
+        rows = [(colour, {label: value for label, value, *_ in row}) for colour, row in others]
         widths = [
-            max(self.lettering.width(label, "small"), self.lettering.width(value, "medium", bold=True))
+            max(
+                self.lettering.width(label, "small"),
+                *(
+                    self.lettering.width(text, "medium", bold=True)
+                    for text in (value, *(row.get(label, "") for _, row in rows))
+                ),
+            )
             for label, value, *_ in entries
         ]
         room = rect.width - 2 * inset
@@ -96,14 +111,17 @@ class Sheet:
         if np.any(np.diff([*columns, room + self.gap]) < np.array(widths) + 2.5 * self.gap):  # too narrow to be even
             between = (room - sum(widths)) / max(1, len(entries) - 1)
             columns = np.cumsum([0, *(width + between for width in widths[:-1])])
+        middle = rect.centery - len(rows) * tall / 2
         for i, ((label, value, *own), x) in enumerate(zip(entries, rect.left + inset + columns, strict=True)):
             colour = own[0] if own else CARD["text"] if i else CARD["accent"]
-            self.write(label, "small", (x, rect.centery - 0.2 * self.gap), CARD["quiet"], "bottomleft")
-            self.write(value, "medium", (x, rect.centery), colour, "topleft", bold=True)
+            self.write(label, "small", (x, middle - 0.2 * self.gap), CARD["quiet"], "bottomleft")
+            self.write(value, "medium", (x, middle), colour, "topleft", bold=True)
+            for down, (colour, row) in enumerate(rows, 1):
+                self.write(row.get(label, "–"), "medium", (x, middle + down * tall), colour, "topleft", bold=True)
 
-    def card_height(self) -> int:
-        """Height of the card that ``columns`` draws, in px."""
-        return self.lettering.height("small") + self.lettering.height("medium") + 4 * self.gap
+    def card_height(self, others: int = 0) -> int:
+        """Height of the card that ``columns`` draws, in px, with so many rows of other values."""
+        return self.lettering.height("small") + (1 + others) * self.lettering.height("medium") + 4 * self.gap
 
     def ruler_heights(self) -> tuple[int, int]:
         """What the ruler takes above and below its line, in px."""

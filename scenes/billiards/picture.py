@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from functools import cached_property
 from math import floor, hypot, pi
 from typing import Any
@@ -11,6 +12,7 @@ import pygame
 
 from sandbox.picture import sphere
 from sandbox.picture.camera import Camera
+from sandbox.picture.ghosts import draw_ghost, ghosts_of
 from sandbox.picture.painter import Painter
 from sandbox.picture.palette import Colour, palette
 from sandbox.picture.path import Path, apart, draw_mark, label_mark
@@ -39,14 +41,17 @@ SHADOW = (0.34, 0.42)
 class Picture:
     """Draws one run of billiards at ``size`` px: as a poster, or as it is at a time t."""
 
-    def __init__(self, run: Any, parameters: Any, size: tuple[int, int] = (1280, 720)):
+    def __init__(
+        self, run: Any, parameters: Any, size: tuple[int, int] = (1280, 720), ghosts: Mapping[str, Any] | None = None
+    ):
         self.run, self.parameters, self.size = run, parameters, size
+        self.ghosts = ghosts_of(Picture, ghosts or {}, size)
         self.struck = parameters.cue.ball
         self.radius = run.setup.balls[0].radius
         self.names = [ball.name for ball in run.setup.balls]
         sheet = self.sheet = Sheet(size, on_dark=True)
         self.unit = sheet.unit
-        self.card_row = sheet.frame.bottom - sheet.card_height()
+        self.card_row = sheet.frame.bottom - sheet.card_height(len(self.ghosts))
         self.head_row = sheet.frame.top + sheet.lettering.height("large") + sheet.lettering.height("small") + sheet.gap
 
     @cached_property
@@ -142,6 +147,11 @@ class Picture:
             if name != self.struck:
                 self._trace(painter, path, QUIET * unit, self.colours[name])
         every = 0.0
+        for ghost in self.ghosts:
+            if ghost.picture.struck in ghost.picture.paths:
+                own = self.paths.get(self.struck, np.zeros((1, 3)))[:, 1:]
+                points = ghost.picture.paths[ghost.picture.struck][:, 1:]
+                draw_ghost(sheet, ghost, camera.pixels(points), camera.pixels(own))
         if self.struck in self.paths:
             self._trace(painter, self.paths[self.struck], LOUD * unit, self.colours[self.struck])
             every = self._marks(painter)
@@ -149,9 +159,10 @@ class Picture:
         self._impacts(sheet, radius)
         self._scale(sheet)
         right = self._head(sheet, self.run.duration)
-        notes = [f"a dot every {every:g} s"] if every else []
+        notes = [ghost.note for ghost in self.ghosts]
+        notes += [f"a dot every {every:g} s"] if every else []
         sheet.headline(self.verdict(), [*notes, *self._notes()], right - sheet.frame.left - 3 * sheet.gap)
-        sheet.columns(self.card_row, self.numbers())
+        sheet.columns(self.card_row, self.numbers(), [ghost.row for ghost in self.ghosts])
         return sheet.surface
 
     def _notes(self) -> list[str]:

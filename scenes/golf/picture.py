@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from functools import cached_property
 from itertools import pairwise
 from math import atan2, degrees, floor, hypot, pi
@@ -12,8 +12,10 @@ import numpy as np
 import pygame
 
 from sandbox.picture.camera import Area, Box, Camera, Follow
+from sandbox.picture.ghosts import draw_ghost, ghosts_of
 from sandbox.picture.painter import Painter
 from sandbox.picture.palette import Colour, palette
+from sandbox.picture.path import Mark, Path, mark_impacts
 from sandbox.picture.sheet import Sheet, metres, nice, signed, yards
 from sandbox.picture.vectors import Vectors
 
@@ -29,6 +31,8 @@ MARK = 0.62
 LEAST_PATH = 0.2
 #: A flight that rises at least this much (px on 720 rows) and leaves most of the sky empty is drawn twice as high.
 LEAST_RISE = 24
+#: Impacts at less than this, in m/s, and at less than this share of the hardest are not marked.
+LEAST_IMPACT, SOFT = 1.0, 0.25
 #: Frames show at most this much of the world's length in m, until the ball flies too high for it.
 WIDEST_VIEW = 64.0
 #: Frames are so wide that the ball takes this long, in s, over the middle of them.
@@ -42,8 +46,11 @@ SAMPLING, MOST_SAMPLES = 1 / 120, 5000
 class Picture:
     """Draws one run of golf at ``size`` px: as a poster, or as it is at a time t."""
 
-    def __init__(self, run: Any, parameters: Any, size: tuple[int, int] = (1280, 720)):
+    def __init__(
+        self, run: Any, parameters: Any, size: tuple[int, int] = (1280, 720), ghosts: Mapping[str, Any] | None = None
+    ):
         self.run, self.size = run, size
+        self.ghosts = ghosts_of(Picture, ghosts or {}, size)
         ball = run.setup.balls[0]
         self.name, self.radius = ball.name, ball.radius
         self.path = run.trajectory(self.name, every=max(SAMPLING, run.duration / MOST_SAMPLES))
@@ -54,7 +61,7 @@ class Picture:
         # Rows in px, from the bottom up: the card, the ruler, the distances; and where the sky is free.
         small = sheet.lettering.height("small")
         above, below = sheet.ruler_heights()
-        self.card_row = sheet.frame.bottom - sheet.card_height()
+        self.card_row = sheet.frame.bottom - sheet.card_height(len(self.ghosts))
         self.ruler_row = self.card_row - 2.2 * sheet.gap - below
         self.total_row = self.ruler_row - above - 0.8 * sheet.gap - small / 2
         self.carry_row = self.total_row - small - 0.7 * sheet.gap
@@ -88,7 +95,7 @@ class Picture:
 
     def _composed(self, course: Course) -> Camera:
         """Shows the whole path, and the pin unless that would make the path too small to see."""
-        x, y = self.path[:, 1], self.path[:, 2]
+        x, y = np.concatenate([self.path, *(ghost.picture.path for ghost in self.ghosts)])[:, 1:3].T
         left, right, top = float(x.min()), float(x.max()), float(y.max())
         least = 60 * self.radius
         if right - left < least:
@@ -139,6 +146,9 @@ class Picture:
         path = self._lifted(course, camera, self.path[:, 1:3])
         self.trace = path[_apart(path, 1.5)]
         sheet.labels.take_path(self.trace, 4 * self.unit)
+        sheet.labels.take(pygame.Rect(0, course.base, self.size[0], self.size[1]))  # distances and ruler
+        for ghost in self.ghosts:
+            draw_ghost(sheet, ghost, self._lifted(course, camera, ghost.picture.path[:, 1:3]), self.trace)
         self._apex(sheet, camera)
         if flag:
             above = [(flag.centerx, flag.top - lift * self.unit, "midbottom") for lift in (8, 14)]
@@ -147,6 +157,7 @@ class Picture:
         sheet.painter.trace(self.trace, width, TRACE["colours"][0], TRACE["rim"], max(0.75, self.unit))
         every = self._balls_at_even_times(sheet, camera)
         self._distances(sheet, camera)
+        mark_impacts(sheet, camera, self._hard_impacts(camera), lambda mark: True)
         sheet.ruler(camera, self.ruler_row)
         right = sheet.frame.right
         if any(self.wind):
@@ -156,8 +167,9 @@ class Picture:
             notes.append(f"heights drawn {camera.stretch:g} times as large as lengths")
         if (factor := self._enlarged(camera)) > 1:
             notes.append(f"ball drawn {factor:.{0 if factor >= 10 else 1}f} times its size")
+        notes = [ghost.note for ghost in self.ghosts] + notes
         sheet.headline(self.verdict(), notes, right - sheet.frame.left - 2 * sheet.gap)
-        sheet.columns(self.card_row, self.numbers())
+        sheet.columns(self.card_row, self.numbers(), [ghost.row for ghost in self.ghosts])
         return sheet.surface
 
     @property
@@ -217,6 +229,17 @@ class Picture:
         )
         course.ball(sheet.painter, end, largest, run.angle(self.name, run.duration), ring=largest > true)
         return every
+
+    def _hard_impacts(self, camera: Camera) -> list[Mark]:
+        """Where the ball came down hard, against its hardest, and not beside another such place."""
+        marks = list(Path(self.run, self.name).marks())
+        least = max([LEAST_IMPACT, *(SOFT * mark.speed for mark in marks)])
+        kept: list[Mark] = []
+        for mark in marks:
+            apart = abs(mark.at[0] - kept[-1].at[0]) * camera.scale if kept else self.size[0]
+            if mark.speed >= least and apart > 30 * self.unit:
+                kept.append(mark)
+        return kept
 
     def _distances(self, sheet: Sheet, camera: Camera) -> None:
         """Carry and total, measured along the ground."""
