@@ -28,7 +28,7 @@ from sandbox.parameters import Accuracy, Group, choice, either, group, groups, q
 from sandbox.physics.cloth import Cloth
 from sandbox.physics.throw import friction_by_speed
 
-from .table import Carom, EightFoot, NineFoot, SevenFoot, Snooker, catches, check, cushions
+from .table import Carom, EightFoot, NineFoot, SevenFoot, Snooker, catches, check, cushions, on_bed
 
 # --------------------------------------------------------------------------------------------------------- parameters
 
@@ -201,7 +201,7 @@ def _check_spots(spots: Mapping[str, Vector], parameters: Parameters, obstacles:
     x_most, y_most = 0.5 * parameters.table.length, 0.5 * parameters.table.width
     for name, (x, y) in spots.items():
         where = f'ball "{name}" at ({x:g}, {y:g}) m'
-        if max(abs(x) - x_most, abs(y) - y_most) > 0.0:
+        if not on_bed(parameters.table, x, y):
             raise RequestError(
                 f"{where} is off the table, whose noses are at x = +-{x_most:g} m and y = +-{y_most:g} m"
             )

@@ -180,6 +180,20 @@ def check(table: Table, ball_radius: float) -> None:
             )
 
 
+def on_bed(table: Table, x: float, y: float) -> bool:
+    """Whether a point (m) lies inside the noses or in the mouth of a pocket, up to the middle of its hole."""
+    x, y = abs(x) - 0.5 * table.length, abs(y) - 0.5 * table.width  # beyond the noses
+    if max(x, y) <= 0.0:
+        return True
+    if not table.pockets:
+        return False
+    corner, side = _mouths(table)
+    deep, aside = (x + y + corner.mouth / sqrt(2.0)) / sqrt(2.0), (x - y) / sqrt(2.0)
+    in_corner = 0.0 <= deep <= corner.shelf + corner.hole_radius and abs(aside) < 0.5 * corner.mouth
+    in_side = 0.0 <= y <= side.shelf + side.hole_radius and x + 0.5 * table.length < 0.5 * side.mouth
+    return in_corner or in_side
+
+
 def cushions(table: Table, restitution: float, friction: float) -> list[Surface]:
     """Noses and jaws. Head is at negative x, foot at positive x; left, seen from the head, is at positive y."""
     x, y = 0.5 * table.length, 0.5 * table.width

@@ -345,6 +345,14 @@ def test_a_ball_that_comes_straight_drops_even_off_the_middle(pocket: str, towar
     assert run.result["touches"] == [pocket]
 
 
+def test_a_ball_may_hang_in_the_jaws_and_be_laid_out_there_again():
+    """Its centre beyond the noses, and not yet over the hole."""
+    first = shot(spot("cue", 0.0, 0.0), spot("9", 1.247, 0.612), spot("3", 0.0, 0.637), cue__speed=0.0)
+    assert list(first.result["positions"]) == ["cue", "9", "3"]
+    potted = shot(spot("cue", 0.6, 0.0), spot("9", 1.247, 0.612), cue__speed=3.0, cue__angle=43.0).result["potted"]
+    assert potted[:1] == ["9"]
+
+
 def test_a_ball_that_meets_a_point_of_a_pocket_is_thrown_back():
     run = shot(spot("cue", 0.0635, 0.0), cue__speed=3.0, cue__angle=90.0)
     assert run.result["touches"][0] in ("left cushion", "side left jaw")
@@ -589,6 +597,9 @@ def test_any_ball_may_be_the_cue_ball():
         ([spot("cue", 0, 0), spot("1", 0.05, 0)], {}, '"cue" at (0, 0) m and "1" at (0.05, 0) m overlap by 7.15 mm'),
         ([spot("cue", 0, 0), spot("1", 1.5, 0)], {}, 'ball "1" at (1.5, 0) m is off the table'),
         ([spot("cue", 0.05, 0.62)], {}, "overlaps the side left jaw"),
+        ([spot("cue", 0.9, 0.68)], {}, 'ball "cue" at (0.9, 0.68) m is off the table'),
+        ([spot("cue", 1.20, 0.70)], {}, 'ball "cue" at (1.2, 0.7) m is off the table'),
+        ([spot("cue", 0.0, 0.68)], {}, "is over the hole of the side left pocket"),
         ([spot("cue", 0.5, 0.62)], {}, "overlaps the left cushion by 13.6 mm"),
         ([spot("cue", 1.265, 0.63)], {}, "is over the hole of the foot left pocket"),
         ([spot("cue", 0, 0), spot("cue", 0.5, 0)], {}, 'balls: two are named "cue"'),
