@@ -6,7 +6,7 @@ PIP := $(BIN)/python -m pip --disable-pip-version-check install --quiet --constr
 
 SCENES := $(patsubst scenes/%/scene.py,%,$(wildcard scenes/*/scene.py))
 
-.PHONY: run play test lint format schemas wheel clean
+.PHONY: run play test lint format schemas pictures wheel clean
 
 run: .venv/ready
 	@mkdir -p out
@@ -30,6 +30,9 @@ format: .venv/ready-dev
 # What editors complete and check scene files by.
 schemas: .venv/ready
 	@set -e; for scene in $(SCENES); do $(BIN)/sandbox schema $$scene > scenes/$$scene/$$scene.schema.json; done
+
+pictures: .venv/ready-dev
+	$(BIN)/python docs/pictures/make.py
 
 wheel: .venv/ready-dev
 	$(BIN)/python -m pip --disable-pip-version-check wheel --quiet --no-deps --no-build-isolation --wheel-dir dist .

@@ -227,8 +227,10 @@ def listings() -> Iterator[Listing]:
 
 def listings_in(place: Path) -> Iterator[Listing]:
     """The scenes whose folders stand in ``place``, each followed by its presets; named as found from there."""
-    for file in sorted(place.glob("*/scene.py")):
-        yield from _listed(f"./{file.parent.name}", file.parent)
+    ours = (resources.PACKAGE, resources.folder("template"))  # in a checkout
+    for folder in sorted(file.parent for file in place.glob("*/scene.py")):
+        if folder.resolve() not in ours:
+            yield from _listed(f"./{folder.name}", folder)
 
 
 def _listed(name: str, folder: Path) -> Iterator[Listing]:

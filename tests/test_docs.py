@@ -9,16 +9,21 @@ import math
 import os
 import pkgutil
 import re
+import shlex
 import subprocess
 import sys
+import textwrap
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import pytest
 from PIL import Image
+from typer.testing import CliRunner
 
 import sandbox.physics
+from sandbox.cli import app
+from sandbox.parameters import walk
 from sandbox.physics.coefficients import GOLF_DRAG, GOLF_LIFT, SOCCER_DRAG, SOCCER_LIFT
 from sandbox.physics.integrators import INTEGRATORS
 
@@ -141,6 +146,52 @@ def test_the_walk_through_works_as_it_stands(golden, tmp_path: Path):
     for how in (["check", "--ignore=I001"], ["format", "--check"]):  # here the sandbox is a library like others
         command = [sys.executable, "-m", "ruff", *how, "--config", str(ROOT / "pyproject.toml"), "volleyball"]
         assert subprocess.run(command, cwd=tmp_path, capture_output=True).returncode == 0
+
+
+# README -------------------------------------------------------------------------------------------------------------
+
+README = (ROOT / "README.md").read_text("utf-8")
+#: Commands as the page writes them, indented or in a table; what is installed or made is not run here.
+COMMANDS = sorted(set(re.findall(r"(?:^    |`)sandbox ((?!COMMAND)[a-z].*?)(?:`|$)", README, re.MULTILINE)))
+
+
+def test_the_readme_has_commands():
+    assert {"run", "play", "aim", "sweep", "trade", "stress", "validate", "new", "list"} == {
+        c.split()[0] for c in COMMANDS
+    }
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_commands_of_the_readme_can_be_given(command: str):
+    """The command and its options exist, and so do the scene and the keys that it names."""
+    name, *args = shlex.split(command)
+    shown = CliRunner().invoke(app, [name, "--help"], env={"COLUMNS": "200"}).output
+    assert [arg for arg in args if arg.startswith("--") and arg not in shown] == []
+    scene = args[0] if args and not args[0].startswith("--") else None
+    if scene is None or name == "new" or scene in ("./volleyball", "my-shot.toml"):
+        return
+    known = {parameter.key for parameter in walk(sandbox.load(scene).parameters)}
+    settings = [args[i + 1] for i, arg in enumerate(args) if arg in ("--set", "--vary", "--over")]
+    assert [text for text in settings if text.partition("=")[0] not in known] == []
+
+
+def test_code_of_the_readme_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.chdir(tmp_path)
+    (shot,) = re.findall(r"^    # my-shot.toml\n((?:    .*\n|\n)+?)\n    sandbox run", README, re.MULTILINE)
+    Path("my-shot.toml").write_text(textwrap.dedent("    # my-shot.toml\n" + shot))
+    assert sandbox.simulate(sandbox.load("my-shot.toml")).result["carry"] > 100
+    names: dict[str, Any] = {}
+    for language, text in blocks(README):
+        if language == "python":
+            exec(text, names)
+    assert names["run"].result["carry"] > 200
+    assert names["Fan"]()(0.0, (6.0, 1.0), (0.0, 0.0), 0.0) == (0.0, 4.0)
+
+
+@pytest.mark.parametrize("picture", sorted((ROOT / "docs" / "pictures").glob("*.[jp]*g")), ids=lambda path: path.name)
+def test_pictures_of_the_readme_are_shown_and_small(picture: Path):
+    assert f"docs/pictures/{picture.name}" in README
+    assert picture.stat().st_size < 300_000
 
 
 # Contributing -------------------------------------------------------------------------------------------------------
