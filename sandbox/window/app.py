@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from math import hypot
+from pathlib import Path
+from threading import Thread
 from time import perf_counter
 from typing import TYPE_CHECKING, Any
 
@@ -14,11 +16,12 @@ from sandbox.errors import SandboxError
 from sandbox.picture.palette import palette
 from sandbox.picture.sheet import Sheet, signed
 from sandbox.scene import check, listings
-from sandbox.window import aim, overlay
+from sandbox.window import aim, keep, overlay, replay
 from sandbox.window.bar import HEIGHT, Bar, Shown
 from sandbox.window.keys import command_for
 from sandbox.window.playback import Playback
 from sandbox.window.session import Session, Shot
+from sandbox.window.sound import Sound
 from sandbox.window.stage import Stage, headline
 from sandbox.window.watch import Watch
 
@@ -40,8 +43,9 @@ MESSAGE = 6.0
 class App:
     """One window on a session. ``tick`` makes one frame; ``run`` makes them until the window is closed."""
 
-    def __init__(self, session: Session, screen: pygame.Surface) -> None:
-        self.session, self.screen = session, screen
+    def __init__(self, session: Session, screen: pygame.Surface, sound: Sound | None = None) -> None:
+        self.session, self.screen, self.sound = session, screen, sound
+        self.writer: Thread | None = None  # of an animation, which takes seconds
         self.running = True
         self.shot: Shot | None = None  # as aimed, and as played
         self.stage: Stage | None = None
@@ -94,7 +98,18 @@ class App:
         if self.panel is not None:
             self.panel.update(dt)
         if self.playback is not None:
+            before = self.playback.t
             self.playback.advance(dt)
+            self._sound(before, self.playback.t)
+
+    def _sound(self, start: float, end: float) -> None:
+        """The impacts of this frame."""
+        if self.sound is None or self.shot is None or end <= start:
+            return
+        balls = {ball.name for ball in self.shot.run.setup.balls}
+        impacts = [e for e in self.shot.run.events if e.kind == "impact" and start <= e.t < end]
+        for event in sorted(impacts, key=lambda e: -e.speed)[:3]:
+            self.sound.impact(event.speed, event.partner in balls)
 
     def tell(self, text: str, bad: bool = False) -> None:
         self.message = (text, bad, MESSAGE)
@@ -194,12 +209,23 @@ class App:
             self.message = (self.message[0], True, 1e9)  # until it is mended
 
     def open(self, source: str) -> None:
-        """Play another scene or preset."""
-        if self.trying(lambda: self.session.open(source)):
+        """Play another scene or preset, or see a replay."""
+        if source.endswith(replay.SUFFIX):
+            self.trying(lambda: self._open_replay(Path(source)))
+        elif self.trying(lambda: self.session.open(source)):
             self.back_to_aiming()
             self.shot, self.stage, self.near, self.stale, self.menu = None, None, None, True, None
             self.cost, self.before = 0.0, None
             self.watched = Watch(self.session.file)
+
+    def _open_replay(self, path: Path) -> None:
+        self.session, _ = replay.read(path)
+        self.stage, self.menu, self.stale, self.before = None, None, False, None
+        self.watched = Watch(self.session.file)
+        if self.has_panel:
+            self._layout()
+        self.watch(0)
+        self.tell(f"{path}: as it was recorded; F6 simulates it again")
 
     # ---------------------------------------------------------------------------------------------------------- input
 
@@ -212,6 +238,8 @@ class App:
                 self.running = False
             case pygame.VIDEORESIZE | pygame.WINDOWSIZECHANGED:
                 self._resized()
+            case pygame.DROPFILE:
+                self.open(event.file)
             case pygame.KEYDOWN:
                 command = command_for(event.key, event.mod)
                 if command is not None:
@@ -332,6 +360,21 @@ class App:
                 self._next_accuracy()
             case "cost":
                 self.costs = not self.costs
+            case "save_scene":
+                self._keep(lambda: keep.scene_file(self.session))
+            case "copy":
+                self._copy()
+            case "screenshot":
+                self._keep(lambda: keep.screenshot(self.canvas, self.session.title))
+            case "animation":
+                self._with_shot(self._animate)
+            case "save_replay":
+                self._with_shot(lambda shot: self._keep(lambda: self._save_replay(shot)))
+            case "compare":
+                self._with_shot(lambda shot: self.tell(replay.compared(shot)))
+            case "sound" if self.sound is not None:
+                self.sound.on = not self.sound.on
+                self.tell("sound on" if self.sound.on else "sound off")
             case "fullscreen":
                 pygame.display.toggle_fullscreen()
                 self._resized()
@@ -352,6 +395,44 @@ class App:
             self.pull = self.pressed = None
         else:
             self.back_to_aiming()
+
+    def _keep(self, write: Callable[[], Path]) -> None:
+        """Write a file, and say where it is."""
+        self.trying(lambda: self.tell(f"wrote {write()}"))
+
+    def _with_shot(self, action: Callable[[Shot], object]) -> None:
+        """Do something with the shot that is watched, or the last."""
+        shots = self.session.shots
+        if shots:
+            self.trying(lambda: action(shots[self.chosen]))
+        else:
+            self.tell("no shots yet: pull back from the ball and let go")
+
+    def _save_replay(self, shot: Shot) -> Path:
+        path = keep.free(self.session.title, replay.SUFFIX)
+        replay.save(shot, self.session.source, path)
+        return path
+
+    def _animate(self, shot: Shot) -> None:
+        if self.writer is not None and self.writer.is_alive():
+            self.tell("the animation before is still being written")
+            return
+        self.tell("writing the animation ...")
+
+        def write() -> None:
+            self._keep(lambda: keep.animation(shot, self.session.title))
+
+        self.writer = Thread(target=write, daemon=True)
+        self.writer.start()
+
+    def _copy(self) -> None:
+        command = self.session.command()
+        try:
+            pygame.scrap.put_text(command)
+        except pygame.error:  # there is no clipboard
+            self.tell(command)
+        else:
+            self.tell(f"copied: {command}")
 
     def _next_accuracy(self) -> None:
         """The next level, with what it costs and how far its result is off."""
@@ -507,6 +588,10 @@ def play(source: str, changes: Mapping[str, Any] | None = None) -> None:
     """Open the window on a scene, until it is closed. Raises RequestError where there is no display."""
     from sandbox.window.display import opened
 
-    session = Session(source, changes)
+    recorded = source.endswith(replay.SUFFIX)
+    session = replay.read(Path(source))[0] if recorded else Session(source, changes)
     with opened(SIZE, f"Sports sandbox: {session.title}") as screen:
-        App(session, screen).run()
+        app = App(session, screen, Sound())
+        if recorded:
+            app.watch(0)
+        app.run()

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -23,6 +23,7 @@ class Shot:
 
     scene: Scene
     run: Run
+    changes: dict[str, Any] = field(default_factory=dict)  # over the scene file
 
     @cached_property
     def ball(self) -> str:
@@ -147,7 +148,7 @@ class Session:
         scene = self.scene
         if quick:
             scene = self.changed({"accuracy.level": "fast"})
-        return Shot(replace(scene, parameters=self.scene.parameters), simulate(scene))
+        return Shot(self.scene, simulate(scene), dict(self.changes))
 
     def command(self) -> str:
         """The command line that plays this."""

@@ -1,0 +1,94 @@
+"""What the window writes: a picture of itself, an animation of a shot, a scene file with what was changed."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import pygame
+
+from sandbox.errors import RunError
+from sandbox.files import reason, written_whole
+from sandbox.picture.frames import save_gif, save_png
+from sandbox.window.session import Session, Shot
+
+FOLDER = Path("out")
+FPS = 25
+GIF_SIZE = (640, 360)  # px
+
+
+def free(stem: str, suffix: str) -> Path:
+    """The first name in the folder of outputs that is not taken; the folder is made."""
+    try:
+        FOLDER.mkdir(exist_ok=True)
+    except OSError as error:
+        raise RunError(f"{FOLDER}: cannot be made: {reason(error)}") from None
+    stem = stem.replace("/", "-")
+    number = 1
+    while (path := FOLDER / f"{stem}-{number}{suffix}").exists():
+        number += 1
+    return path
+
+
+def screenshot(surface: pygame.Surface, stem: str) -> Path:
+    """The window as it is, as a PNG file."""
+    path = free(stem, ".png")
+    try:
+        save_png(surface, path)
+    except OSError as error:
+        raise RunError(f"{path}: cannot be written: {reason(error)}") from None
+    return path
+
+
+def animation(shot: Shot, stem: str) -> Path:
+    """A shot as an animated GIF."""
+    path = free(stem, ".gif")
+    try:
+        save_gif(shot.scene.picture(shot.run, GIF_SIZE), shot.run, path, FPS)
+    except OSError as error:
+        raise RunError(f"{path}: cannot be written: {reason(error)}") from None
+    return path
+
+
+def scene_file(session: Session) -> Path:
+    """A new scene file: that of the scene, its comments kept, with what was changed."""
+    import tomlkit
+
+    path = free(session.title, ".toml")
+    try:
+        text = session.file.read_text("utf-8-sig") if session.file is not None else ""
+    except OSError as error:
+        raise RunError(f"{session.file}: cannot be read: {reason(error)}") from None
+    if not re.search(r"(?m)^\s*scene\s*=", text):  # a preset, whose folder says what it is for
+        text = f'scene = "{session.base.name}"\n\n{text}'
+    document = tomlkit.parse(text)
+    for key, value in session.changes.items():
+        _put(document, key.split("."), value)
+    try:
+        with written_whole(path) as file:
+            file.write(tomlkit.dumps(document))
+    except OSError as error:
+        raise RunError(f"{path}: cannot be written: {reason(error)}") from None
+    return path
+
+
+def _put(table: Any, path: list[str], value: Any) -> None:
+    """Set a dotted key; a comment on its line stays there."""
+    import tomlkit
+
+    *groups, last = path
+    for name in groups:
+        if not isinstance(table.get(name), Mapping):
+            table[name] = tomlkit.table()
+        table = table[name]
+    if value is None:
+        table.pop(last, None)
+        return
+    item = tomlkit.item(list(value) if isinstance(value, tuple) else value)
+    old = table.get(last)
+    if old is not None and hasattr(old, "trivia"):
+        item.trivia.comment_ws, item.trivia.comment = old.trivia.comment_ws, old.trivia.comment
+        item.trivia.trail = old.trivia.trail
+    table[last] = item

@@ -1,0 +1,47 @@
+"""Sound made by the program: a short knock at every impact, louder with speed. Without a device there is silence."""
+
+from __future__ import annotations
+
+import numpy as np
+import pygame
+
+RATE = 44100  # samples per second
+LONGEST = 0.16  # s
+#: Speed in m/s of the loudest knock, and one so slow that it is not heard.
+LOUD, QUIET = 20.0, 0.15
+#: Pitch in Hz of a knock against a fixed thing, and against a ball.
+DULL, BRIGHT = 210.0, 1250.0
+
+
+def knock(pitch: float) -> np.ndarray:
+    """A struck body: two partials that die away under a click of noise; 16 bit, shape (samples, 2)."""
+    t = np.arange(round(RATE * LONGEST)) / RATE
+    noise = np.random.default_rng(1).standard_normal(len(t))
+    wave = np.sin(2 * np.pi * pitch * t) * np.exp(-t * 38) + 0.5 * np.sin(2 * np.pi * 2.76 * pitch * t) * np.exp(
+        -t * 70
+    )
+    wave += 0.35 * noise * np.exp(-t * 260)
+    wave *= 1 - np.exp(-t * 4000)  # no click of the loudspeaker's own
+    samples = np.round(wave / np.abs(wave).max() * 0.7 * 32767).astype(np.int16)
+    return np.ascontiguousarray(np.column_stack([samples, samples]))
+
+
+class Sound:
+    """The loudspeaker, if there is one."""
+
+    def __init__(self) -> None:
+        self.on = True
+        self.knocks: list[pygame.mixer.Sound] = []
+        try:
+            pygame.mixer.init(RATE, -16, 2, 512)
+            self.knocks = [pygame.sndarray.make_sound(knock(pitch)) for pitch in (DULL, BRIGHT)]
+        except (pygame.error, NotImplementedError, ImportError):
+            self.on = False
+
+    def impact(self, speed: float, of_balls: bool) -> None:
+        """An impact at a normal speed in m/s."""
+        if not self.on or not self.knocks or speed < QUIET:
+            return
+        knock = self.knocks[of_balls]
+        knock.set_volume(min(1.0, (speed / LOUD) ** 0.7))
+        knock.play()

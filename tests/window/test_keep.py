@@ -1,0 +1,155 @@
+"""What the window writes: replays, scene files, pictures, command lines; and the sound."""
+
+from __future__ import annotations
+
+import json
+import shlex
+import tomllib
+
+import numpy as np
+import pygame
+import pytest
+from PIL import Image
+
+import sandbox
+from sandbox.errors import RequestError
+from sandbox.window import keep, replay, sound
+from sandbox.window.session import Session
+
+
+@pytest.fixture(autouse=True)
+def elsewhere(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+@pytest.fixture
+def recorded(tmp_path):
+    session = Session("golf/putt", {"launch.speed": 2.5})
+    shot = session.predict()
+    path = tmp_path / f"putt{replay.SUFFIX}"
+    replay.save(shot, "golf/putt", path)
+    return shot, path
+
+
+class TestReplays:
+    def test_it_plays_back_exactly_what_was_recorded(self, recorded):
+        shot, path = recorded
+        session, again = replay.read(path)
+        for t in np.linspace(0, shot.run.duration, 97):
+            assert again.run.state("ball", t) == shot.run.state("ball", t)
+        assert again.run.events == shot.run.events
+        assert again.run.result == shot.run.result
+        assert again.scene.parameters == shot.scene.parameters
+        assert session.changes == {"launch.speed": 2.5}
+
+    def test_simulated_again_it_is_the_same(self, recorded):
+        assert "the same to the last bit" in replay.compared(replay.read(recorded[1])[1])
+
+    def test_another_shot_is_told_from_it(self, recorded):
+        _, shot = replay.read(recorded[1])
+        shot.run.arcs["ball"] = Session("golf/putt", {"launch.speed": 2.4}).predict().run.arcs["ball"]
+        assert "m away" in replay.compared(shot)
+
+    @pytest.mark.parametrize(
+        ("damage", "told"),
+        [
+            (lambda text: text[: len(text) // 2], "not JSON to its end"),
+            (lambda text: text.replace('"launch.speed": 2.5', '"launch.speed": 2.6'), "not those that were written"),
+            (lambda text: text.replace('"version": 1', '"version": 99'), "version 99"),
+            (lambda text: "[1, 2]", "not a replay"),
+            (lambda text: "\x80\x81", "damaged"),
+        ],
+    )
+    def test_a_damaged_one_says_so(self, recorded, damage, told):
+        path = recorded[1]
+        path.write_text(damage(path.read_text("utf-8")), encoding="utf-8")
+        with pytest.raises(RequestError, match=told) as error:
+            replay.read(path)
+        assert str(path) in str(error.value)
+
+    def test_one_that_was_written_with_other_contents_says_so(self, recorded):
+        path = recorded[1]
+        record = json.loads(path.read_text("utf-8"))
+        del record["body"]["arcs"]
+        record["check"] = replay._sum(record["body"])
+        path.write_text(json.dumps(record), encoding="utf-8")
+        with pytest.raises(RequestError, match="damaged"):
+            replay.read(path)
+
+    def test_dropped_on_the_window_it_plays(self, player, recorded):
+        player = player("golf")
+        player.send(pygame.DROPFILE, file=str(recorded[1]))
+        assert player.app.playback.playing
+        assert player.app.session.title == "golf/putt"
+        player.frames(5)
+
+    def test_a_key_writes_one(self, player, elsewhere):
+        player = player("golf/putt")
+        player.key(pygame.K_F5)
+        assert not list(elsewhere.glob("out/*"))
+        player.key(pygame.K_SPACE)
+        player.key(pygame.K_F5)
+        assert replay.read(elsewhere / "out" / f"golf-putt-1{replay.SUFFIX}")[1].run.duration > 0
+
+
+def test_a_scene_file_keeps_its_comments(elsewhere):
+    session = Session("golf/putt")
+    session.change({"launch.speed": 2.25, "air.wind": [1.0, 0.0], "accuracy.level": "fast"})
+    path = keep.scene_file(session)
+    text = path.read_text("utf-8")
+    original = session.file.read_text("utf-8")
+    for line in original.splitlines():
+        if line.startswith("#"):
+            assert line in text
+    again = sandbox.load(path)
+    assert again.parameters == session.scene.parameters
+    assert tomllib.loads(text)["launch"]["speed"] == 2.25
+
+
+def test_the_command_line_gives_the_same_shot():
+    session = Session("golf", {"launch.speed": 61.25, "air.wind": [-3.0, 0.0], "ball.drag.model": "lyu"})
+    _, _, source, *settings = shlex.split(session.command())
+    from sandbox.parameters import parse_assignment
+
+    again = sandbox.load(source, dict(parse_assignment(text) for text in settings[1::2]))
+    assert again.parameters == session.scene.parameters
+
+
+def test_pictures_and_animations(player, elsewhere):
+    player = player("golf/putt")
+    player.key(pygame.K_F12)
+    with Image.open(elsewhere / "out" / "golf-putt-1.png") as image:
+        assert image.size == (1280, 720)
+    player.key(pygame.K_SPACE)
+    player.key(pygame.K_F9)
+    player.app.writer.join(60)
+    with Image.open(elsewhere / "out" / "golf-putt-1.gif") as image:
+        assert image.n_frames > 10
+
+
+class TestSound:
+    def test_a_knock_begins_and_ends_in_silence(self):
+        samples = sound.knock(sound.DULL)
+        assert samples.shape[1] == 2
+        assert abs(samples[0]).max() == 0
+        assert abs(samples[-1]).max() < 400
+        assert abs(samples).max() > 15000
+
+    def test_faster_is_louder(self, player):
+        player = player("golf")
+        speaker = sound.Sound()
+        assert speaker.knocks
+        heard = []
+        for speed in (1.0, 5.0, 15.0):
+            speaker.impact(speed, of_balls=False)
+            heard.append(speaker.knocks[0].get_volume())
+        assert heard == sorted(set(heard))
+        pygame.mixer.quit()
+
+    def test_without_a_device_there_is_silence(self, monkeypatch):
+        pygame.mixer.quit()
+        monkeypatch.setenv("SDL_AUDIODRIVER", "none such")
+        speaker = sound.Sound()
+        assert not speaker.on
+        speaker.impact(10.0, of_balls=True)
