@@ -8,7 +8,7 @@ from sandbox.engine.bernstein import evaluate, piece
 from sandbox.physics.integrators import Acceleration, State
 
 #: Step in s below which the mean velocity (x1 - x0) / h is mostly rounding (1e-14 m at 100 m) and is not used.
-_SHORT = 1e-3
+SHORT = 1e-3
 
 
 class Arc:
@@ -113,7 +113,7 @@ def through(
     q = 0.05 * h * h
     quarter = 0.25 * h
     third = h / 3.0
-    if h > _SHORT:
+    if h > SHORT:
         mx = 5.0 * (x1 - x0) / h - 2.0 * (vx0 + vx1) + quarter * (ax1 - ax0)
         my = 5.0 * (y1 - y0) / h - 2.0 * (vy0 + vy1) + quarter * (ay1 - ay0)
     else:

@@ -19,7 +19,8 @@ _DEEPEST = 40
 
 
 @lru_cache
-def _binomials(n: int) -> list[int]:
+def binomials(n: int) -> list[int]:
+    """C(n, 0) to C(n, n)."""
     return [comb(n, k) for k in range(n + 1)]
 
 
@@ -30,11 +31,11 @@ def evaluate(b: Sequence[float], u: float) -> float:
     value = 0.0
     if u <= w:
         ratio = u / w
-        for binomial, coefficient in zip(_binomials(n), reversed(b), strict=True):
+        for binomial, coefficient in zip(binomials(n), reversed(b), strict=True):
             value = value * ratio + binomial * coefficient
         return value * w**n
     ratio = w / u
-    for binomial, coefficient in zip(_binomials(n), b, strict=True):
+    for binomial, coefficient in zip(binomials(n), b, strict=True):
         value = value * ratio + binomial * coefficient
     return value * u**n
 

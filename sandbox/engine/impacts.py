@@ -13,7 +13,7 @@ from sandbox.engine.track import Track
 from sandbox.physics.integrators import State
 
 #: Approach speed in m/s that is rounding, not an impact.
-_STILL = 1e-9
+STILL = 1e-9
 
 
 class Hit(NamedTuple):
@@ -46,7 +46,7 @@ class Impacts:
         for place in range(len(members)):
             for later in range(place + 1, len(members)):
                 self._meet_ball(place, later, members, states, found, partners, slips)
-        if not any(contact.approach > _STILL for contact in found):
+        if not any(contact.approach > STILL for contact in found):
             return states, []
         self._contacts.exchange(cluster, found)
         after = {
@@ -58,7 +58,7 @@ class Impacts:
         hits = [
             Hit(index, partner, contact.approach)
             for contact, (index, partner) in zip(found, partners, strict=True)
-            if contact.approach > _STILL
+            if contact.approach > STILL
         ]
         return after, hits
 

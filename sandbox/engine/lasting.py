@@ -12,6 +12,9 @@ from sandbox.physics.integrators import State
 #: Speed in m/s, and acceleration in m/s^2, that is rounding.
 _STILL = 1e-10
 
+#: Share of the applied force below which a normal force is rounding, as where a ball has just come off a round top.
+_PRESSING = 1e-9
+
 #: Normals nearer than this (sine of the angle) are one: two surfaces laid flush.
 _FLUSH = 1e-7
 
@@ -97,7 +100,7 @@ def _way_of_moving(
     tx, ty = ny, -nx
     speed = vx * tx + vy * ty
     normal = -(fx * nx + fy * ny) - ball.mass * touching.curvature * speed * speed
-    if normal <= 0.0:
+    if normal <= _PRESSING * (abs(fx) + abs(fy)):
         return None
     slip = speed + ball.radius * spin
     if abs(slip) > _STILL * (1.0 + abs(speed)):

@@ -22,16 +22,16 @@ from sandbox.physics.integrators import INTEGRATORS, Acceleration, Law, State
 
 #: Local error of a step over the error aimed at in the end. Each impact on a round shape multiplies an error by ten
 #: or more, so the flight has to be much better than the promise; this keeps it on shots with several rim contacts.
-_LOCAL_SHARE = 3e-4
+LOCAL_SHARE = 3e-4
 
 #: What error in spin counts as error in m: a spin's error moves the ball only through lift and the next bounce.
-_SPIN_WEIGHT = 0.1  # s
+SPIN_WEIGHT = 0.1  # s
 
 #: First step tried under error control; it shrinks by 5 until the error fits.
-_FIRST_STEP = 0.05  # s
+FIRST_STEP = 0.05  # s
 
 #: Longest step, so that forces which change along the way are met several times a second.
-_LONGEST = 0.5  # s
+LONGEST = 0.5  # s
 
 #: Longest turn in rad that one arc makes around a round feature.
 _LONGEST_TURN = 0.3
@@ -39,10 +39,10 @@ _LONGEST_TURN = 0.3
 #: Largest product of a fixed step and the forces' rate of change with velocity (1/s). Explicit steps are smooth below
 #: 1 and unstable above 2, where drag reverses the motion; the drag of water on a bullet is the case that needs the
 #: limit.
-_STIFFEST = 0.5
+STIFFEST = 0.5
 
 #: Changes of velocity below this share of the speed are no sign of stiffness: a force may jump.
-_JUMP = 0.01
+JUMP = 0.01
 
 #: A ball that needs all the grip there is still rolls.
 _WITHIN_ROUNDING = 1.0 + 1e-9
@@ -73,12 +73,16 @@ class Mover:
         self.ball = ball
         self._inertia = ball.inertia
         self._bounds = bounds
-        self._longest = min(longest_step, _LONGEST)
+        self._longest = min(longest_step, LONGEST)
         self._numerics = numerics
         self._integrator = INTEGRATORS[accuracy.integrator]
         self._step = accuracy.step  # s
-        self._local_error = accuracy.tolerance * _LOCAL_SHARE  # m
-        self._suggested = _FIRST_STEP if self._integrator.controls_error else accuracy.step  # s
+        self._local_error = accuracy.tolerance * LOCAL_SHARE  # m
+        self._suggested = FIRST_STEP if self._integrator.controls_error else accuracy.step  # s
+
+    def suggest(self, step: float) -> None:
+        """Try this step in s next."""
+        self._suggested = step
 
     # ------------------------------------------------------------------ forces
 
@@ -187,7 +191,7 @@ class Mover:
     def _size(self, error: State) -> float:
         """Local error in m: that of the position, and what that of the velocity makes of it in a second."""
         ex, ey, evx, evy, spin = error
-        off = abs(ex) + abs(ey) + abs(evx) + abs(evy) + _SPIN_WEIGHT * self.ball.radius * abs(spin)
+        off = abs(ex) + abs(ey) + abs(evx) + abs(evy) + SPIN_WEIGHT * self.ball.radius * abs(spin)
         return off if isfinite(off) else float("inf")
 
     def _check(self, t: float, state: State) -> None:
@@ -308,4 +312,4 @@ def _stiff(before: State, after: State, acceleration: Acceleration, following: A
     change = h * (abs(following[0] - acceleration[0]) + abs(following[1] - acceleration[1]))
     gain = abs(after[2] - before[2]) + abs(after[3] - before[3])
     speed = max(abs(before[2]) + abs(before[3]), abs(after[2]) + abs(after[3]))
-    return not (change <= _STIFFEST * gain or change <= _JUMP * speed)
+    return not (change <= STIFFEST * gain or change <= JUMP * speed)

@@ -12,7 +12,7 @@ from itertools import count
 from time import perf_counter
 
 from sandbox.engine.accuracy import Accuracy
-from sandbox.engine.arc import still
+from sandbox.engine.arc import Arc, still
 from sandbox.engine.contacts import Contacts
 from sandbox.engine.impacts import Impacts
 from sandbox.engine.lasting import conclude, settle
@@ -85,6 +85,10 @@ class Simulation:
         for index, track in enumerate(self._tracks):
             if track.version == 0:
                 self._collide(0.0, [index])  # whatever it touches at the start comes first
+        return self._finished(started)
+
+    def _finished(self, started: float) -> Run:
+        """The run, to its end; ``started`` is when, by the clock."""
         t, ended = self._loop()
         for track in self._tracks:
             if not track.caught:
@@ -92,6 +96,27 @@ class Simulation:
         self._numerics.wall_s = perf_counter() - started
         arcs = {track.ball.name: track.path for track in self._tracks}
         return Run(self._setup, self._accuracy, arcs, self._events, self._numerics, t, ended)
+
+    def take_over(self, t: float, state: State, arcs: list[Arc], events: list[Event], step: float, how: str) -> Run:
+        """Finish a run of one ball that came as far as ``t`` (s) elsewhere, by way of ``arcs`` and ``events``.
+
+        ``state`` is then in flight (``how`` "flight"), or touches something, just before the impact ("before") or
+        after it ("after"). ``step`` is the step in s that the integrator would try next.
+        """
+        started = perf_counter()
+        track = self._tracks[0]
+        track.arc, track.state, track.path = still(t, t, state), state, arcs
+        if isinstance(track.mover, Mover):
+            track.mover.suggest(step)
+        self._events = events
+        self._over = self._setup.until is not None and any(map(self._setup.until, events))
+        if how == "flight":
+            self._plan(0, t)
+        elif how == "before":
+            self._collide(t, [0])
+        else:
+            self._resume(0, t)
+        return self._finished(started)
 
     def _loop(self) -> tuple[float, str]:
         duration = self._setup.duration
@@ -178,7 +203,10 @@ class Simulation:
             near = track.near(track.state[0], track.state[1])
             track.state, track.contact = settle(track.mover, t, track.state, near, self._accuracy.settle)
             self._note_contact(track, t, before)
-        self._plan(index, t)
+        if self._over:
+            track.arc = still(t, t, track.state)  # nothing more to plan
+        else:
+            self._plan(index, t)
 
     def _note_contact(self, track: Track, t: float, before: Contact | None) -> None:
         after = track.contact

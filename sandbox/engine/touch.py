@@ -28,7 +28,7 @@ CONTACT = 1e-10
 _SEAM = 1e-11
 
 #: Rounding in m that is not motion: a path nearer than this to parallel neither closes nor opens a gap.
-_NOISE = 1e-13
+NOISE = 1e-13
 
 
 Point = tuple[float, float]
@@ -148,7 +148,7 @@ class Obstacle:
         first = None
         for side in (1.0, -1.0):
             gap = [side * d - self.reach + SKIN for d in across]
-            if max(gap) <= -_NOISE:
+            if max(gap) <= -NOISE:
                 continue  # wholly beyond the line
             for u in _closings(gap, side * across[0] > 0.0 and self._within(arc.x[0], arc.y[0], CONTACT)):
                 if first is not None and u >= first:
@@ -188,12 +188,12 @@ def _closings(gap: list[float], starts_beside: bool) -> Iterable[float]:
     """
     if len(gap) == 1:
         return ()  # nothing moves
-    if starts_beside and gap[0] <= _NOISE:
+    if starts_beside and gap[0] <= NOISE:
         opening = without_root_at_start([g - gap[0] for g in gap])
-        if opening[0] < -_NOISE:
+        if opening[0] < -NOISE:
             # closing, but perhaps by no more than rounding, as where a ball that glides along a side passes its end
-            return downward_crossings([g - gap[0] + _NOISE for g in gap])
-        return downward_crossings([g + _NOISE for g in opening])
+            return downward_crossings([g - gap[0] + NOISE for g in gap])
+        return downward_crossings([g + NOISE for g in opening])
     return downward_crossings(gap)
 
 

@@ -274,3 +274,15 @@ def test_a_roll_ends_where_it_should_at_any_speed(speed, resistance, level):
     run = fly(ball, 200.0, [floor], level)
     assert run.ended == "rest"
     assert run.state("ball", 200.0)[0] == pytest.approx(speed**2 / (2 * resistance * G), rel=1e-9)
+
+
+@pytest.mark.parametrize("speed", np.linspace(0.05, 3.0, 24))
+@pytest.mark.parametrize("friction", [0.0, 0.4])
+def test_coming_off_a_round_top_never_stalls(speed, friction):
+    """Wherever the normal force ends, the ball flies on from there."""
+    top = Surface("top", Segment((0.0, -2.0), (0.0, 0.0), 0.01), 0.3, friction, 0.02)
+    ball = Ball(
+        "ball", 0.28, 0.105, (-0.01, 0.1145), (speed, 0.0), inertia_factor=HOLLOW_SPHERE, forces=[Gravity(0.28, G)]
+    )
+    run = fly(ball, 0.8, [top], "balanced")
+    assert run.state("ball", 0.8)[1] < 0.2
