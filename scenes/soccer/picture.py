@@ -93,13 +93,13 @@ class Picture:
         stadium.behind(painter, eye)
         self.trace = self.path.traced(camera)
         draw_trace(sheet, self.trace, GROUND["trace"])
-        every = self._balls(sheet, camera)
         stadium.before(painter, eye)
         self._distances(sheet, camera)
         sheet.ruler(camera, self.ruler_row)
         self._clearances(sheet, camera)
         labelled = [mark for mark in self.path.marks() if mark.speed >= LEAST_LABELLED]
         mark_impacts(sheet, camera, labelled, lambda mark: True)
+        every = self._balls(sheet, camera)
         right = sheet.frame.right
         if any(self.wind):
             right = sheet.wind(*self.wind, right, sheet.frame.top).left
