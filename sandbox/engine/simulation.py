@@ -70,12 +70,12 @@ class Simulation:
                 obstacles[ball.radius] = [Obstacle(surface, ball.radius) for surface in setup.surfaces]
             x, y = _clear_of(ball, obstacles[ball.radius])
             mover: Mover | OnCloth
-            state: State = (x, y, *ball.velocity, ball.spin)
+            state: State = (x, y, *map(float, (*ball.velocity, ball.spin)))
             if setup.cloth is None:
                 mover = Mover(ball, self._accuracy, setup.bounds, setup.longest_step, self._numerics)
             else:
                 mover = OnCloth(ball, setup.cloth, self._numerics)
-                state = (*state, *ball.rolling_spin)
+                state = (*state, *map(float, ball.rolling_spin))
             tracks.append(Track(mover, obstacles[ball.radius], catches, state))
         return tracks
 
@@ -293,7 +293,7 @@ class Simulation:
 
 def _clear_of(ball: Ball, obstacles: Sequence[Obstacle]) -> tuple[float, float]:
     """Where the ball starts: pushed out of a slight overlap. Raises RequestError for a deep one, naming both."""
-    x, y = ball.position
+    x, y = map(float, ball.position)
     for _ in range(20):
         deepest = min(
             ((obstacle.near(x, y), obstacle) for obstacle in obstacles), key=lambda near: near[0].gap, default=None
