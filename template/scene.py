@@ -75,6 +75,7 @@ CONTROLS = Controls(
     strongest=20.0,
     spins=(Spin("launch.spin", 20.0),),
     sliders=("launch.height", "fan.place", "fan.push", "air.wind", "floor.restitution"),
+    scores="hit",
 )
 
 
