@@ -134,9 +134,14 @@ class App:
         self.bar = Bar(pygame.Rect(0, height - tall, width, tall), height)
         wide = 0
         if self.has_panel:
-            from sandbox.window.panel import FAVOURITES, WIDTH, Panel  # it brings pygame_gui, which takes its time
+            from sandbox.window.panel import (  # it brings pygame_gui, which takes its time
+                FAVOURITES,
+                NARROWEST,
+                WIDTH,
+                Panel,
+            )
 
-            wide = min(round(WIDTH * height / 720), width // 2)
+            wide = min(max(NARROWEST, round(WIDTH * height / 720)), width // 2)
             rect = pygame.Rect(width - wide, 0, wide, height - tall)
             group = self.panel.group if self.panel is not None else FAVOURITES
             self.panel = Panel((width, height), rect, self.session, self.change, self.reset, group)

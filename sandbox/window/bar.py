@@ -13,6 +13,7 @@ from sandbox.picture.palette import Colour, mix, palette
 
 CARD, TRACE = palette("card"), palette("trace")
 HEIGHT = 48  # px on 720 rows
+APART = 8  # px, at least, between two marks on the time line
 RAISED = mix(CARD["background"], CARD["quiet"], 0.22)
 GROOVE = mix(CARD["background"], CARD["quiet"], 0.35)
 
@@ -188,8 +189,11 @@ class Bar:
         def column(t: float) -> int:
             return self.line.left + round(self.line.width * t / max(shown.duration, 1e-9))
 
-        for tick in shown.ticks:
-            surface.fill(CARD["accent"], (column(tick) - 1, self.line.top - thick, 2, 3 * thick))
+        last = -APART
+        for tick in map(column, shown.ticks):
+            if tick - last >= APART:
+                surface.fill(CARD["accent"], (tick - 1, self.line.top - thick, 2, 3 * thick))
+                last = tick
         if shown.t is not None:
             at = column(shown.t)
             surface.fill(TRACE["colours"][0], (self.line.left, self.line.top, at - self.line.left, thick))

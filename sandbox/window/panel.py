@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -19,10 +20,13 @@ from pygame_gui.elements import (
 )
 
 from sandbox.parameters import Parameter, walk
+from sandbox.picture.lettering import Lettering
 from sandbox.window.session import Session
 from sandbox.window.theme import NAMED, theme
 
-WIDTH = 320  # px on 720 rows
+WIDTH, NARROWEST = 320, 280  # px on 720 rows; px
+#: In a small window rows stay this high, for letters that can still be read.
+LEAST_UNIT = 0.8
 #: A slider reaches this many times its value in the file to either side, and at least this share of the bounds.
 REACH, LEAST_REACH = 1.5, 0.02
 FAVOURITES, UNSET = "this shot", "as the level says"
@@ -66,7 +70,7 @@ class Panel:
         group: str = FAVOURITES,
     ) -> None:
         self.session, self.change, self.reset, self.rect = session, change, reset, rect
-        self.unit = size[1] / 720
+        self.unit, self.lettering = max(LEAST_UNIT, size[1] / 720), Lettering(size[1])
         self.manager = pygame_gui.UIManager(size, theme(max(11, round(14 * self.unit))))
         self.group = group
         self._build()
@@ -104,10 +108,12 @@ class Panel:
         )
         self.rows: list[Row] = []
         self.wide, y = inner - gap, 0
-        for parameter in groups[self.group]:
-            for row in self._rows_of(parameter):
-                y = self._place(row, y) + gap
-                self.rows.append(row)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", UserWarning)  # a long name is cut off, and its tooltip tells the rest
+            for parameter in groups[self.group]:
+                for row in self._rows_of(parameter):
+                    y = self._place(row, y) + gap
+                    self.rows.append(row)
         self.container.set_scrollable_area_dimensions((self.wide, y))
 
     def _groups(self) -> dict[str, list[Parameter]]:
@@ -135,15 +141,13 @@ class Panel:
     def _place(self, row: Row, top: int) -> int:
         """Make the elements of a row; returns where they end."""
         parameter, height, unit = row.parameter, self.row, self.unit
-        name = parameter.key if self.group == FAVOURITES else parameter.key.rpartition(".")[2]
-        name = name.replace("_", " ") + ("" if row.index is None else f" {'xyz'[row.index]}")
-        label = f"{name}  [{parameter.unit}]" if parameter.unit else name
         tip = parameter.meaning
         if parameter.low is not None and parameter.high is not None:
             tip += f"; from {parameter.low:g} to {parameter.high:g} {parameter.unit}".rstrip()
         small, field = round(24 * unit), round(84 * unit)
         place: dict[str, Any] = {"manager": self.manager, "container": self.container}
         left = self.wide - field - small - 4
+        label = self._label(row, left)
         UILabel(pygame.Rect(0, top, left, height), label, **place).set_tooltip(tip)
         row.reset = UIButton(
             pygame.Rect(self.wide - small, top, small, height), "×", tool_tip_text="as in the scene file", **place
@@ -174,6 +178,16 @@ class Panel:
                 end += slim + 3
         row.shown = value
         return int(end)
+
+    def _label(self, row: Row, room: int) -> str:
+        """The name of a row with its unit, as much of it as there is room for."""
+        key, unit = row.parameter.key, row.parameter.unit
+        part = "" if row.index is None else f" {'xyz'[row.index]}"
+        ending = f"  [{unit}]" if unit else ""
+        short = key.rpartition(".")[2]
+        texts = [f"{name.replace('_', ' ')}{part}" for name in ([key] if self.group == FAVOURITES else []) + [short]]
+        texts = [*(text + ending for text in texts), texts[-1]]
+        return next((text for text in texts if self.lettering.width(text, "small") <= room - 6), texts[-1])
 
     def _optional(self, parameter: Parameter) -> bool:
         """Whether a word may be left out."""
