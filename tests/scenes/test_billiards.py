@@ -304,6 +304,18 @@ def test_any_table_can_do_without_pockets():
     assert run.result["rails"] > 4
 
 
+def test_holes_begin_where_the_shelf_ends():
+    """From the middle of the mouth outwards: 1 to 2.25 in at the corners, 0 to 0.375 in at the sides (WPA)."""
+    inch = 0.0254
+    holes = {catch.name: catch for catch in sandbox.load("billiards").build().catches}
+    side, corner = holes["side left pocket"], holes["foot right pocket"]
+    assert side.center[0] == 0.0
+    assert side.center[1] - 0.635 - side.radius == pytest.approx(0.1875 * inch)
+    assert corner.center[0] - 1.27 == pytest.approx(-corner.center[1] - 0.635)
+    beyond_crossing = sqrt(2.0) * (corner.center[0] - 1.27)
+    assert 0.5 * 4.5625 * inch + beyond_crossing - corner.radius == pytest.approx(1.625 * inch)
+
+
 @pytest.mark.parametrize("kind", ["9-ft", "7-ft", "snooker"])
 def test_a_ball_in_the_mouth_of_a_pocket_drops_and_none_leaves_the_table(kind: str):
     """From the middle of the table at every whole degree, fast: each shot ends in a pocket or on the bed."""
@@ -575,12 +587,22 @@ def test_the_result_of_a_shot_that_meets_nothing():
     assert result["rest_time"] == pytest.approx(0.3 * 2.0 / (7.0 * SLIDING * G) + 0.3 * 5.0 / 7.0 / (ROLLING * G))
 
 
-def test_a_scratch_and_the_order_of_potting():
-    result = shot(spot("cue", 0.0, 0.2), spot("5", 0.0, 0.5), cue__speed=2.0, cue__angle=90.0, cue__follow=0.4).result
-    assert result["potted"] == ["5", "cue"]
+@pytest.mark.parametrize(("struck", "other"), [("cue", "5"), ("a", "b")])
+def test_a_scratch_and_the_order_of_potting(struck: str, other: str):
+    balls = spot(struck, 0.0, 0.2), spot(other, 0.0, 0.5)
+    result = shot(*balls, cue__ball=struck, cue__speed=2.0, cue__angle=90.0, cue__follow=0.4).result
+    assert result["potted"] == [other, struck]
     assert result["scratch"] is True
-    assert "cue" not in result["positions"]
+    assert result["positions"] == {}
     assert result["rest_time"] is not None
+
+
+def test_rails_are_impacts_on_noses_and_jaws_stand_among_the_touches():
+    result = shot(spot("cue", 0.9, 0.56), cue__speed=1.0, cue__angle=10.0).result
+    assert result["touches"] == ["left cushion", "foot left jaw", "foot left pocket"]
+    assert result["rails"] == 1
+    result = shot(spot("cue", 0.0, 0.2), spot("4", 0.5, 0.2), cue__speed=2.0, cue__follow=-0.2).result
+    assert (set(result["touches"]), result["rails"]) == ({"4"}, 1)  # its rail is the object ball's
 
 
 def test_any_ball_may_be_the_cue_ball():
