@@ -1,8 +1,8 @@
 """Error against time: a free throw that clips the rim, and a golf flight, ours beside plain pymunk, in one process.
 
 Run ``python benchmarks/engine.py [--json F]``. The error is that of the ball's position at the end, against "precise"
-at a thousandth of its tolerance; the time is the median of repeats, taken in turn over all methods so that a slow moment
-of the machine hits all.
+at a thousandth of its tolerance; the time is the median of repeats, taken in turn over all methods so that a slow
+moment of the machine hits all.
 """
 
 from __future__ import annotations
