@@ -316,7 +316,6 @@ def test_a_failure_shows_the_users_lines_and_nothing_of_ours(
         ),
         ("scene.py", "return 0.0, self.fan.push", "0.0, self.fan.push", "must return"),
         ("scene.py", "return 0.0, self.fan.push", "return self.fan.push", "must return"),
-        pytest.param("scene.py", "Fan(parameters.fan),", "Fan,", "Fan", marks=NOT_YET),
         ("scene.py", "velocity: Any, spin: Any)", "velocity: Any)", "is called with"),
     ],
 )

@@ -2,20 +2,27 @@
 
 from __future__ import annotations
 
+import os
 import tempfile
 from pathlib import Path
 
+os.environ |= {"SDL_VIDEODRIVER": "dummy", "SDL_AUDIODRIVER": "dummy"}
+
+import pygame
 from PIL import Image
 
 import sandbox
 from sandbox.cli import main as program
 from sandbox.picture.frames import to_image
+from sandbox.window.app import App
+from sandbox.window.session import Session
 
 HERE = Path(__file__).resolve().parent
 
 #: What is shown of the sports, in rows of two.
 SPORTS = ("golf", "basketball/bank-shot", "billiards/nine-ball-break", "soccer/dipping-free-kick")
 SIZE, GAP = (720, 405), 6  # px
+WINDOW, FRAME = (1280, 720), 1 / 60  # px, s
 QUALITY = 88  # of JPEG: the smallest at which letters stay clean
 
 SWEEP = ("sweep", "basketball", "--over", "launch.speed=6.8:8.6:73", "--over", "launch.angle=40:70:61")
@@ -46,6 +53,33 @@ def free_throws() -> None:
             image.convert("RGB").quantize(64, dither=Image.Dither.NONE).save(HERE / "free-throws.png", optimize=True)
 
 
+def window() -> None:
+    """The window while a drive is aimed, after another and with the panel open: by events, without a display."""
+    pygame.display.init()
+    app = App(Session("golf"), pygame.display.set_mode(WINDOW))
+    app.tick(FRAME)
+    for pull in ((-215, 40), (-225, 72)):
+        x, y = (round(value) for value in app.stage.ball_at(app.shot))
+        places = [(round(x + share * pull[0]), round(y + share * pull[1])) for share in (0.0, 0.5, 1.0)]
+        post(app, pygame.MOUSEBUTTONDOWN, pos=places[0], button=1)
+        for place in places:
+            post(app, pygame.MOUSEMOTION, pos=place, rel=(0, 0), buttons=(1, 0, 0))
+        if pull[1] == 40:
+            post(app, pygame.MOUSEBUTTONUP, pos=places[-1], button=1)
+            for _ in range(900):
+                app.tick(FRAME)
+            post(app, pygame.KEYDOWN, key=pygame.K_TAB, mod=0, unicode="", scancode=0)
+            post(app, pygame.KEYDOWN, key=pygame.K_RETURN, mod=0, unicode="", scancode=0)
+    to_image(app.screen).save(HERE / "window.jpg", quality=QUALITY, subsampling=0, optimize=True, progressive=True)
+
+
+def post(app: App, kind: int, **values: object) -> None:
+    """One event, and one frame."""
+    pygame.event.post(pygame.event.Event(kind, values))
+    app.tick(FRAME)
+
+
 if __name__ == "__main__":
     sports()
     free_throws()
+    window()
