@@ -15,6 +15,7 @@ import sandbox
 from sandbox.errors import RequestError, RunError, SandboxError
 
 if TYPE_CHECKING:
+    from sandbox.engine.run import Run
     from sandbox.scene import Scene
 
 app = typer.Typer(
@@ -134,9 +135,23 @@ def run(
         Path | None, typer.Option(metavar="DIR", help="Write the run as PNG frames; the folder is made if missing.")
     ] = None,
     gif: Annotated[Path | None, typer.Option(metavar="F.gif", help="Write the run as an animation.")] = None,
+    webp: Annotated[
+        Path | None, typer.Option(metavar="F.webp", help="The same in all colours, and in fewer bytes.")
+    ] = None,
+    strip: Annotated[Path | None, typer.Option(metavar="F.png", help="Write five frames side by side.")] = None,
+    compare: Annotated[
+        str | None,
+        typer.Option(metavar="SCENE", help="Another preset or scene file: its numbers and its path beside this one's."),
+    ] = None,
     fps: Annotated[
         int | None,
-        typer.Option(min=1, max=240, help="Frames per second of the run.  [default: 60 for --frames, 25 for --gif]"),
+        typer.Option(min=1, max=240, help="Frames per second of the run.  [default: 60 for --frames, else 25]"),
+    ] = None,
+    size: Annotated[
+        str | None,
+        typer.Option(
+            metavar="WxH", help="Size of pictures in px; the frames of a strip are half of it.  [default: 1280x720]"
+        ),
     ] = None,
 ) -> None:
     """Run a scene once, without a window, to its end, and print its result card.
@@ -146,7 +161,8 @@ def run(
       sandbox run golf
       sandbox run golf --set launch.speed="171 mph" --set air.wind=[-3,0]
       sandbox run golf --poster golf.png --trajectory golf.csv
-      sandbox run golf --frames frames --fps 30
+      sandbox run golf --frames frames --fps 30 --size 1920x1080
+      sandbox run golf --compare golf/headwind --poster both.png
       sandbox run my-shot.toml --accuracy precise --check --json
     """
     from sandbox import report
@@ -154,16 +170,31 @@ def run(
     from sandbox.scene import simulate
 
     chosen = _load(scene, set_, accuracy)
-    outputs = {"--trajectory": trajectory, "--poster": poster, "--gif": gif, "--frames": frames}
+    outputs = {
+        "--trajectory": trajectory,
+        "--poster": poster,
+        "--strip": strip,
+        "--gif": gif,
+        "--webp": webp,
+        "--frames": frames,
+    }
     _check_outputs(outputs, fps)
+    pixels = None if size is None else _parse_size(size)
     done = simulate(chosen)
     checked = check_scene(chosen, done) if check else None
-    said = report.as_json(chosen, done, checked) if as_json else "\n".join(report.card(chosen, done, checked))
+    other = None if compare is None else simulate(_comparable(chosen, compare, accuracy))
+    if as_json:
+        said = report.as_json(chosen, done, checked, other)
+    else:
+        beside = None if compare is None or other is None else (compare, other)
+        said = "\n".join(report.card(chosen, done, checked, beside))
     if trajectory is not None:
         with _writing("--trajectory", trajectory):
             report.write_trajectory(done, trajectory)
-    if poster is not None or frames is not None or gif is not None:
-        _draw(chosen, done, poster, frames, gif, fps)
+    pictures = {name: path for name, path in outputs.items() if path is not None and name != "--trajectory"}
+    if pictures:
+        ghosts = {} if compare is None or other is None else {compare.removesuffix(".toml").split("/")[-1]: other}
+        _draw(done, pictures, fps, pixels, ghosts)
     written = [f"wrote {path}" for path in outputs.values() if path is not None and not as_json]
     _say("\n".join([said, *written]))
 
@@ -199,19 +230,40 @@ def _changes(settings: list[str] | None, accuracy: str | None) -> dict[str, Any]
     return changes
 
 
+def _comparable(scene: Scene, source: str, accuracy: str | None) -> Scene:
+    """The scene to compare with, which must be one of the same sport; ``--set`` is for the other alone."""
+    other = _load(source, None, accuracy)
+    if other.folder.resolve() != scene.folder.resolve():
+        raise RequestError(
+            f"--compare {source}: is {other.name}, and only {scene.name} can be compared with {scene.name}"
+        )
+    return other
+
+
 def _check_outputs(outputs: dict[str, Path | None], fps: int | None) -> None:
     """Refuse what could not be written before any work is done."""
     from sandbox.files import check_file, check_folder
 
-    suffixes = {"--trajectory": ".csv", "--poster": ".png", "--gif": ".gif"}
-    for option, suffix in suffixes.items():
-        path = outputs[option]
-        if path is not None:
-            check_file(option, path, suffix)
-    if outputs["--frames"] is not None:
-        check_folder("--frames", outputs["--frames"])
-    if fps is not None and outputs["--frames"] is None and outputs["--gif"] is None:
-        raise RequestError(f"--fps {fps}: goes with --frames or --gif")
+    suffixes = {"--trajectory": ".csv", "--gif": ".gif", "--webp": ".webp"}
+    for option, path in outputs.items():
+        if option == "--frames" and path is not None:
+            check_folder(option, path)
+        elif path is not None:
+            check_file(option, path, suffixes.get(option, ".png"))
+    if fps is not None and all(outputs[option] is None for option in ("--frames", "--gif", "--webp")):
+        raise RequestError(f"--fps {fps}: goes with --frames, --gif or --webp")
+
+
+def _parse_size(text: str) -> tuple[int, int]:
+    """``"1280x720"``."""
+    low, high = (320, 180), (7680, 4320)
+    sides = text.lower().split("x")
+    if len(sides) != 2 or not all(side.isdecimal() and len(side) < 6 for side in sides):
+        raise RequestError(f"--size {text}: must be width and height in px, such as 1280x720")
+    width, height = int(sides[0]), int(sides[1])
+    if not (low[0] <= width <= high[0] and low[1] <= height <= high[1]):
+        raise RequestError(f"--size {text}: must be between {low[0]}x{low[1]} and {high[0]}x{high[1]} px")
+    return width, height
 
 
 @contextmanager
@@ -228,20 +280,28 @@ def _writing(option: str, path: Path) -> Iterator[None]:
         raise RunError(f"{option} {path}: cannot be written: {reason(error)}") from None
 
 
-def _draw(scene: Scene, done: Any, poster: Path | None, frames: Path | None, gif: Path | None, fps: int | None) -> None:
-    from sandbox.picture.frames import save_frames, save_gif, save_poster
+def _draw(
+    done: Run, outputs: dict[str, Path], fps: int | None, size: tuple[int, int] | None, ghosts: dict[str, Run]
+) -> None:
+    """Write the pictures of a run that were asked for, by their options."""
+    from sandbox.picture import frames
     from sandbox.progress import bar
 
-    picture = scene.picture(done)
-    if poster is not None:
-        with _writing("--poster", poster):
-            save_poster(picture, poster)
-    if frames is not None:
-        with _writing("--frames", frames), bar("frames") as progress:
-            save_frames(picture, done, frames, fps or 60, progress)
-    if gif is not None:
-        with _writing("--gif", gif), bar("gif") as progress:
-            save_gif(picture, done, gif, fps or 25, progress)
+    scene = done.scene
+    picture = scene.picture(done, size, ghosts)
+    width, height = size or (1280, 720)
+    for option, path in outputs.items():
+        with _writing(option, path):
+            if option == "--poster":
+                frames.save_poster(picture, path)
+            elif option == "--strip":
+                from sandbox.picture.strip import film_strip
+
+                frames.save_png(film_strip(scene.picture(done, (width // 2, height // 2)), done), path)
+            else:
+                save = {"--frames": frames.save_frames, "--gif": frames.save_gif, "--webp": frames.save_webp}[option]
+                with bar(option.removeprefix("--")) as progress:
+                    save(picture, done, path, fps or (60 if option == "--frames" else 25), progress)
 
 
 @app.command()

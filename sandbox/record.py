@@ -20,6 +20,9 @@ SAMPLES, MOST_STATES = 24, 240
 #: rounding does.
 NUDGE = 1e-12
 
+#: A result is told in so many characters.
+LONGEST_WORD = 48
+
 COLUMNS = ("t", "x", "y", "vx", "vy", "spin")
 UNITS = {"t": "s", "x": "m", "y": "m", "vx": "m/s", "vy": "m/s", "spin": "rad/s", "speed": "m/s"}
 
@@ -191,4 +194,5 @@ def _rounded(value: Any) -> Any:
 
 
 def _word(value: Any) -> str:
-    return f"{value:.{DIGITS}g}" if isinstance(value, float) else json.dumps(value, ensure_ascii=False)
+    text = f"{value:.{DIGITS}g}" if isinstance(value, float) else json.dumps(value, ensure_ascii=False)
+    return text if len(text) <= LONGEST_WORD else f"{text[: LONGEST_WORD - 4]} ..."

@@ -21,8 +21,8 @@ if TYPE_CHECKING:
 EVENTS_SHOWN = 6
 
 
-def as_json(scene: Scene, run: Run, check: Check | None = None) -> str:
-    """One JSON object; what is not a number (NaN) or has no bound is null."""
+def as_json(scene: Scene, run: Run, check: Check | None = None, other: Run | None = None) -> str:
+    """One JSON object; what is not a number (NaN) or has no bound is null. ``other`` is a run to compare with."""
     report = {
         "scene": scene.name,
         "preset": scene.preset,
@@ -34,6 +34,15 @@ def as_json(scene: Scene, run: Run, check: Check | None = None) -> str:
         "events": [_event(event) for event in run.events],
         "numerics": asdict(run.numerics),
     }
+    if other is not None:
+        report["compared"] = {
+            "scene": other.scene.name,
+            "preset": other.scene.preset,
+            "parameters": other.scene.parameters.model_dump(mode="json"),
+            "result": other.result,
+            "ended": other.ended,
+            "duration": other.duration,
+        }
     if check is not None:
         report["errors"] = check.errors
         report["changed"] = {name: list(pair) for name, pair in check.changed.items()}
@@ -75,15 +84,19 @@ def write_trajectory(run: Run, path: Path) -> None:
                 file.write(f"{t!r},{ball.name},{','.join(map(repr, state))}\n")
 
 
-def card(scene: Scene, run: Run, check: Check | None = None) -> list[str]:
-    """Lines for the terminal: what was played, what came out, what happened on the way, what it cost."""
+def card(scene: Scene, run: Run, check: Check | None = None, other: tuple[str, Run] | None = None) -> list[str]:
+    """Lines for the terminal: what was played, what came out, what happened on the way, what it cost.
+
+    ``other`` is a run to compare with and what it is called: its values stand beside ours.
+    """
     rows = scene.card(run.result)
     if check is not None:
         rows = [(label, _with_error(text, check.errors.get(label.replace(" ", "_")))) for label, text in rows]
     width = max((len(label) for label, _ in rows), default=0)
-    title = f"{scene.name}/{scene.preset}" if scene.preset else scene.name
+    if other is not None:
+        rows = _beside(rows, scene.title, *other)
     return [
-        f"{title}: {scene.about}" if scene.about else title,
+        f"{scene.title}: {scene.about}" if scene.about else scene.title,
         "",
         *(f"  {label:{width}}  {text}".rstrip() for label, text in rows),
         "",
@@ -92,6 +105,15 @@ def card(scene: Scene, run: Run, check: Check | None = None) -> list[str]:
         f"  {_numerics(run)}",
         *([] if check is None else _verdict(check)),
     ]
+
+
+def _beside(rows: list[tuple[str, str]], title: str, called: str, other: Run) -> list[tuple[str, str]]:
+    """Rows with two columns, each below its name."""
+    values = dict(other.scene.card(other.result))
+    rows = [("", title), *rows]
+    values[""] = called
+    width = max(len(text) for _, text in rows)
+    return [(label, f"{text:{width}}   {values.get(label, '')}") for label, text in rows]
 
 
 def _events(run: Run) -> list[str]:

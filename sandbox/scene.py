@@ -75,10 +75,19 @@ class Scene:
         _check_calls(self.folder / "picture.py", "Picture", getattr(module, "Picture", None))
         return module
 
-    def picture(self, run: Run, size: tuple[int, int] | None = None) -> Any:
-        """The scene's picture of a run, with ``poster()`` and ``frame(t)``; ``size`` in px, or what the scene likes."""
+    def picture(self, run: Run, size: tuple[int, int] | None = None, ghosts: Mapping[str, Run] | None = None) -> Any:
+        """The scene's picture of a run, with ``poster()`` and ``frame(t)``; ``size`` in px, or what the scene likes.
+
+        ``ghosts`` are other runs of the scene by what they are called, to be drawn pale behind this one. Raises
+        RequestError where the scene's picture shows none.
+        """
         picture = self.picture_module().Picture
-        return picture(run, self.parameters) if size is None else picture(run, self.parameters, size)
+        chosen: dict[str, Any] = {} if size is None else {"size": size}
+        if ghosts:
+            if "ghosts" not in inspect.signature(picture).parameters:
+                raise RequestError(f"{self.name} shows one run alone: its Picture has no parameter ghosts")
+            chosen["ghosts"] = ghosts
+        return picture(run, self.parameters, **chosen)
 
     def build(self) -> Setup:
         """The setup that the engine simulates."""
@@ -107,6 +116,11 @@ class Scene:
         """A scene's function handed back something else: mostly a forgotten return."""
         file = _shown(self.folder / "scene.py")
         return RunError(f"{file}: {function} must return {expected}, and returned {_shortened(repr(value))}")
+
+    @property
+    def title(self) -> str:
+        """``golf`` or ``golf/driver``."""
+        return f"{self.name}/{self.preset}" if self.preset else self.name
 
     def __reduce__(self) -> tuple[Any, ...]:
         # By value, so that a process that never imported this scene's module can read it.

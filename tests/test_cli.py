@@ -194,6 +194,34 @@ def test_pictures(call, tmp_path: Path):
     assert sorted(path.name for path in frames.iterdir()) == [f"frame_{number:05d}.png" for number in range(11)]
 
 
+def test_more_pictures(call, tmp_path: Path):
+    strip, webp = tmp_path / "strip.png", tmp_path / "drop.webp"
+    args = ["--strip", strip, "--webp", webp, "--fps", 10, "--size", "640x360"]
+    code, out, err = call("run", DROP, *args)
+    assert (code, err) == (0, "")
+    assert out.splitlines()[-2:] == [f"wrote {strip}", f"wrote {webp}"]
+    sizes = {}
+    for path in (strip, webp):
+        with Image.open(path) as image:
+            sizes[path.name] = image.size
+    assert sizes["drop.webp"] == (640, 360)
+    assert sizes["strip.png"][0] > 5 * 320
+
+
+def test_two_runs_over_each_other(call, tmp_path: Path):
+    poster = tmp_path / "both.png"
+    code, out, err = call("run", "golf", "--compare", "golf/headwind", "--poster", poster, "--size", "640x360")
+    assert (code, err) == (0, "")
+    row = next(line for line in out.splitlines() if line.startswith("  carry"))
+    assert row.count("yd") == 2
+    assert "golf/headwind" in out
+    with Image.open(poster) as image:
+        assert image.size == (640, 360)
+    report = json.loads(call("run", "golf", "--compare", "golf/headwind", "--json").out)
+    assert report["compared"]["preset"] == "headwind"
+    assert report["compared"]["result"]["carry"] < report["result"]["carry"]
+
+
 def test_pictures_leave_json_alone(tmp_path: Path):
     """pygame greets on stdout when it is imported."""
     process = subprocess.run(
@@ -252,8 +280,12 @@ def test_settings_and_accuracy_stand_over_the_file(call, tmp_path: Path):
         (["run", "golf", "--set", "ball.drag.model=ideal"], "ball.drag"),
         (["run", "golf", "--accuracy", "best"], "'best' is not one of 'fast', 'balanced', 'precise'"),
         (["run", "golf", "--set", "accuracy.level=best"], 'must be "fast", "balanced" or "precise"'),
-        (["run", "golf", "--fps", "30"], "--fps 30: goes with --frames or --gif"),
+        (["run", "golf", "--fps", "30"], "--fps 30: goes with --frames, --gif or --webp"),
         (["run", "golf", "--frames", "frames", "--fps", "0"], "--fps"),
+        (["run", "golf", "--size", "720p"], "--size 720p: must be width and height in px, such as 1280x720"),
+        (["run", "golf", "--size", "16x9"], "--size 16x9: must be between 320x180 and 7680x4320 px"),
+        (["run", "golf", "--compare", "golff"], "unknown scene golff; did you mean golf?"),
+        (["run", "golf", "--compare", "soccer"], "--compare soccer: is soccer, and only golf can"),
         (["run", "golf", "--bogus"], "No such option: --bogus"),
         (["run"], "Missing argument 'SCENE'"),
         (["bogus"], "No such command 'bogus'"),
@@ -305,6 +337,7 @@ def test_an_unreadable_file_is_refused(call, tmp_path: Path):
         (["--poster", "missing/shot.png"], "--poster: there is no folder missing"),
         (["--poster", "shot.jpg"], "--poster shot.jpg: its name must end in .png"),
         (["--gif", "shot.png"], "--gif shot.png: its name must end in .gif"),
+        (["--webp", "shot.gif"], "--webp shot.gif: its name must end in .webp"),
         (["--frames", "file"], "--frames file: is a file, and a folder is needed"),
         (["--frames", "file/frames"], "--frames: there is no folder"),
         (["--frames", "/proc/some/frames"], "--frames: cannot write into /proc"),

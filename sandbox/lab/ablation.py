@@ -93,9 +93,9 @@ class Ablated:
         return self.part, self.change, *shifts, saves, ", ".join(shown)
 
 
-def as_text(rows: list[Ablated]) -> list[str]:
-    """A table for people."""
-    headings = ("part", "", "shift at first touch", "shift at the end", "saves", "")
+def as_text(rows: list[Ablated], time: float) -> list[str]:
+    """A table for people; ``time`` (s) is that of the measure."""
+    headings = ("part", "", "shift at first touch", f"after {time:.4g} s", "saves", "")
     return ["what each part of the model is worth", *table(headings, [row.cells() for row in rows], "llrrrl")]
 
 
@@ -140,10 +140,11 @@ def variants(scene: Scene) -> Iterator[Variant]:
     for field, part in (
         ("friction", "friction of surfaces"),
         ("rolling_resistance", "rolling resistance"),
-        ("lowest_bounce", "loss of low bounces"),
     ):
         if any(getattr(surface, field) > 0.0 for surface in setup.surfaces):
             yield changed(part, "left out", lambda s, field=field: _on_surfaces(s, _without_field(field)))  # type: ignore[misc]
+    if any(surface.lowest_bounce > 0.0 for surface in setup.surfaces):
+        yield changed("loss of low bounces", "only a tenth as high", lambda s: _on_surfaces(s, _with_lower_bounces))
     if len(setup.balls) > 1 and setup.between_balls(1.0, 1.0).friction > 0.0:
         yield changed("friction of balls (throw)", "left out", _without_throw)
     if setup.cloth is not None:
@@ -236,6 +237,10 @@ def _without_field(field: str) -> Callable[[Surface], Surface]:
         return replace(surface, friction=0.0, law=lambda normal, along: law(normal, along)._replace(friction=0.0))
 
     return change
+
+
+def _with_lower_bounces(surface: Surface) -> Surface:
+    return replace(surface, lowest_bounce=0.1 * surface.lowest_bounce)
 
 
 def _without_law(surface: Surface) -> Surface:

@@ -20,7 +20,7 @@ from sandbox.scene import Scene
 STEPS = (1e-5, 1e-4, 1e-3, 1 / 60, 0.1, 0.5)
 
 #: A run at a short step is ended after so many of them.
-_MOST_STEPS = 5_000
+_MOST_STEPS = 1_500
 
 #: Simulated time in s after which a run of the extremes is ended; the hour is one of them.
 _LONGEST, HOUR = 10.0, 3600.0

@@ -15,6 +15,7 @@ from sandbox.engine.accuracy import LEVELS, Accuracy
 from sandbox.engine.run import Run
 from sandbox.engine.setup import Ball, Setup
 from sandbox.engine.touch import SKIN
+from sandbox.errors import RequestError
 from sandbox.physics.forces import Gravity
 from sandbox.scene import Scene
 
@@ -64,9 +65,14 @@ class Reference:
 
 
 def converge(scene: Scene) -> Reference:
-    """Compute the reference, and a second one to check it by. Raises RunError where the scene cannot be run."""
+    """Compute the reference, and a second one to check it by.
+
+    Raises RunError where the scene cannot be run, RequestError where it is over at once.
+    """
     setup = scene.build()
     first = simulate(setup, REFERENCE)
+    if first.duration == 0.0:
+        raise RequestError(f"{scene.name}: the run is over as it begins; there is nothing to measure")
     whole = _BEFORE_THE_END * first.duration if first.ended == "until" else first.duration
     first = simulate(until(scene.build(), whole), REFERENCE)
     nudged = simulate(until(_nudged(scene.build()), whole), REFERENCE)
@@ -129,7 +135,10 @@ def _nudged(setup: Setup) -> Setup:
 
 
 def _nudged_ball(ball: Ball) -> Ball:
+    """A little faster, and turned a little to the left; one that waits for a force gets a push."""
     vx, vy = ball.velocity
+    if vx == vy == 0.0 and ball.forces:
+        return replace(ball, velocity=(NUDGE, NUDGE))
     return replace(ball, velocity=(vx + NUDGE * (vx - vy), vy + NUDGE * (vy + vx)))
 
 

@@ -42,8 +42,8 @@ ENDLESS = 20.0
 #: Step in s of the integrators without error control, and of the plain method, where the row does not say.
 _STEP, _PLAIN_STEP = 1 / 60, 1 / 240
 
-#: Samples on each piece of an exact path.
-_SAMPLES = 6
+#: Samples on each piece of a path, at most, and of a whole path, about; times at which pairs of balls are looked at.
+_SAMPLES, _ALL_SAMPLES, _LOOKS = 6, 6_000, 300
 
 #: Balls up to which pairs are looked at along the whole path.
 _FEW = 40
@@ -66,7 +66,7 @@ class Outcome:
     wall_s: float = 0.0
 
 
-def methods(level: str = "balanced") -> dict[str, Accuracy]:
+def every_method(level: str = "balanced") -> dict[str, Accuracy]:
     """Every method by name, as the extremes run it."""
     base = LEVELS[level]
     exact = {
@@ -96,10 +96,12 @@ def stress(
     return outcomes
 
 
-def tried(scene: str, extreme: Extreme, level: str = "balanced") -> Iterator[Outcome]:
-    """One extreme by every method that it is meant for."""
-    for method, accuracy in methods(level).items():
-        if not _meant_for(extreme.methods, accuracy):
+def tried(
+    scene: str, extreme: Extreme, level: str = "balanced", methods: Sequence[str] | None = None
+) -> Iterator[Outcome]:
+    """One extreme by every method that it is meant for, or by those named."""
+    for method, accuracy in every_method(level).items():
+        if not _meant_for(extreme.methods, accuracy) or (methods is not None and method not in methods):
             continue
         if extreme.step is not None:
             accuracy = replace(accuracy, step=extreme.step)
@@ -127,9 +129,8 @@ def _tried(scene: str, extreme: Extreme, method: str, accuracy: Accuracy) -> Out
         return Outcome(scene, extreme.name, method, FAILED, f"{type(error).__name__}: {error}", wall_s=wall)
     wall = perf_counter() - started
     problems = []
-    finite = all(isfinite(value) for arcs in run.arcs.values() for arc in arcs for value in arc.state(arc.t1))
     gained, overlap, through = _energy_gained(run), *_overlap(run)
-    if not finite:
+    if not _is_finite(run):
         problems.append("a number that is none")
     bound = ENERGY if INTEGRATORS[accuracy.integrator].controls_error else ENERGY_FIXED_STEP
     if accuracy.method == "exact" and gained > bound:
@@ -145,6 +146,10 @@ def _tried(scene: str, extreme: Extreme, method: str, accuracy: Accuracy) -> Out
 
 
 # ------------------------------------------------------------------------------------------------------------ looking
+
+
+def _is_finite(run: Run) -> bool:
+    return all(isfinite(value) for arcs in run.arcs.values() for arc in arcs for value in arc.state(arc.t1))
 
 
 def _energy_gained(run: Run) -> float:
@@ -186,8 +191,9 @@ def _path(run: Run, ball: str) -> np.ndarray:
     import numpy as np
 
     places = []
+    most = max(1, min(_SAMPLES, _ALL_SAMPLES // len(run.arcs[ball])))
     for arc in run.arcs[ball]:
-        samples = _SAMPLES if len(arc.x) > 2 else 1
+        samples = most if len(arc.x) > 2 else 1
         span = arc.t1 - arc.t0
         places += [arc.position(arc.t0 + span * k / samples) for k in range(samples)]
     last = run.arcs[ball][-1]
@@ -234,6 +240,7 @@ def _overlap_of_balls(run: Run) -> float:
     times = [run.duration]
     if len(balls) <= _FEW:
         times = sorted({arc.t1 for arcs in run.arcs.values() for arc in arcs})
+        times = times[:: max(1, len(times) // _LOOKS)]
     caught = {ball.name: run.caught_at(ball.name) for ball in balls}
     deepest = 0.0
     for t in times:
@@ -259,7 +266,8 @@ def as_text(outcomes: Sequence[Outcome]) -> list[str]:
     for scene in dict.fromkeys(outcome.scene for outcome in outcomes):
         own = [outcome for outcome in outcomes if outcome.scene == scene]
         lines += [scene or "bare setups, no scene", *_table(own), *_remarks(own), ""]
-    return [*lines, *_sum(outcomes)]
+    headings, rows = summary(outcomes)
+    return [*lines, "all together", *table(headings, rows, "l" + "r" * (len(headings) - 1))]
 
 
 def _table(outcomes: Sequence[Outcome]) -> list[str]:
@@ -288,8 +296,8 @@ def _remarks(outcomes: Sequence[Outcome]) -> Iterator[str]:
         yield f"    {outcome}, {extreme}{who}: {message}"
 
 
-def _sum(outcomes: Sequence[Outcome]) -> Iterator[str]:
-    """How often each method held, and how far its overlap and its energy from nowhere went."""
+def summary(outcomes: Sequence[Outcome]) -> tuple[list[str], list[list[str]]]:
+    """Headings and rows: how often each method held, and how far its overlap and its energy from nowhere went."""
     rows = []
     for method in dict.fromkeys(outcome.method for outcome in outcomes):
         own = [outcome for outcome in outcomes if outcome.method == method]
@@ -297,9 +305,8 @@ def _sum(outcomes: Sequence[Outcome]) -> Iterator[str]:
         energy = max((o.energy_gained for o in own if o.energy_gained is not None), default=0.0)
         deepest = max((o.penetration_m for o in own if o.penetration_m is not None), default=0.0)
         steps = [o for o in own if o.extreme.startswith("step ")]
-        rows.append((method, *counts, f"{100.0 * energy:.1g} %", length(deepest), _longest_step(steps)))
-    headings = ("method", "held", "refused", "failed", "most energy", "deepest overlap", "holds up to")
-    yield from ["all together", *table(headings, rows, "lrrrrrr")]
+        rows.append([method, *counts, f"{100.0 * energy:.1g} %", length(deepest), _longest_step(steps)])
+    return ["method", "held", "refused", "failed", "most energy", "deepest overlap", "holds up to"], rows
 
 
 def _longest_step(outcomes: Sequence[Outcome]) -> str:

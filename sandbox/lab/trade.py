@@ -254,7 +254,7 @@ def as_text(found: Trade) -> list[str]:
     ]
     lines += table(("for", "method", "error", "time"), cells, "llrr")
     if found.ablation:
-        lines += ["", *ablation_text(found.ablation)]
+        lines += ["", *ablation_text(found.ablation, found.reference.time)]
     if found.verdicts is not None:
         lines += ["", *found.verdicts.as_text()]
     return lines

@@ -149,12 +149,13 @@ def as_text(rows: Sequence[Compared]) -> list[str]:
         own = [row for row in rows if (row.case.scene.partition("/")[0], row.case.source) == (scene, source)]
         lines += [f"{scene}: {source}"]
         headings = ("case", "result", "published", "computed", "difference", "tolerance", "")
-        lines += [*table(headings, [_cells(row) for row in own], "llrrrrl"), ""]
+        lines += [*table(headings, [cells(row) for row in own], "llrrrrl"), ""]
     held = sum(row.holds for row in rows)
     return [*lines, f"{held} of {len(rows)} hold"]
 
 
-def _cells(row: Compared) -> tuple[str, ...]:
+def cells(row: Compared) -> tuple[str, ...]:
+    """A row for people."""
     case = row.case
     verdict = "holds" if row.holds else f"does not hold: {case.reason or 'no reason known'}"
     preset = case.scene.partition("/")[2]

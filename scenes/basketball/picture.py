@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 from functools import cached_property
 from math import atan2, cos, degrees, hypot, pi, sin
@@ -15,6 +16,7 @@ from sandbox.picture.camera import Area, Box, Camera
 from sandbox.picture.chase import Chase
 from sandbox.picture.depth import Eye
 from sandbox.picture.figures import REACHING, SHOOTING, draw_figure
+from sandbox.picture.ghosts import draw_ghost, ghosts_of
 from sandbox.picture.kept import Kept
 from sandbox.picture.lettering import Labels
 from sandbox.picture.painter import Painter, around_corners, rounded
@@ -44,17 +46,20 @@ TRAIL = 0.5
 class Picture:
     """Draws one shot at ``size`` px: as a poster, or as it is at a time t."""
 
-    def __init__(self, run: Any, parameters: Any, size: tuple[int, int] = (1280, 720)):
+    def __init__(
+        self, run: Any, parameters: Any, size: tuple[int, int] = (1280, 720), ghosts: Mapping[str, Any] | None = None
+    ):
         self.run, self.parameters, self.size = run, parameters, size
+        self.ghosts = ghosts_of(Picture, ghosts or {}, size, COURT["trace"])
         floor = next((event.t for event in run.events if event.partner == "floor"), run.duration)
         self.path = Path(run, "ball", floor)
         self.radius = self.path.radius
-        self.wind = parameters.air.wind
+        self.wind: tuple[float, float] = parameters.air.wind
         sheet = Sheet(size)
         self.unit = sheet.unit
         small = sheet.lettering.height("small")
         above, below = sheet.ruler_heights()
-        self.card_row = sheet.frame.bottom - sheet.card_height()
+        self.card_row = sheet.frame.bottom - sheet.card_height(len(self.ghosts))
         self.ruler_row = self.card_row - 2.2 * sheet.gap - below
         self.distance_row = self.ruler_row - above - 0.8 * sheet.gap - small / 2
         base = round(self.distance_row - small / 2 - 2.4 * sheet.gap)
@@ -70,7 +75,7 @@ class Picture:
     @cached_property
     def composed(self) -> tuple[Camera, bool]:
         """The poster's camera, and whether there is a lens beside what it shows."""
-        x, y = self.path.points.T
+        x, y = np.concatenate([self.path.points, *(ghost.picture.path.points for ghost in self.ghosts)]).T
         hall, side = self.hall, 0.085 * self.size[0]
         left, right = min(float(x.min()), -THROWER if self._figure else 0.0), float(x.max())
         top = float(y.max()) + self.radius
@@ -123,18 +128,38 @@ class Picture:
         tall = min(2.05, height / 1.27)
         return REACHING, tall, (-0.20 * tall, height - 1.27 * tall)
 
+    # For the window
+
+    def stage(self) -> pygame.Surface:
+        """The place alone, as the poster's camera sees it."""
+        sheet, eye = Sheet(self.size), self.hall.eye(self.camera)
+        self._place(sheet, eye, 0.0)
+        self._before(sheet, eye, 0.0)
+        return sheet.surface
+
+    def view(self, t: float) -> Camera:
+        """The camera of ``frame(t)``."""
+        return self.chase.camera(t)
+
+    def draw_balls(self, painter: Painter, camera: Camera, t: float) -> None:
+        """The ball at time t in s, on the stage that the camera sees."""
+        true = self.radius * camera.scale
+        radius = max(true, self._smallest)
+        x, y, *_ = self.run.state("ball", t)
+        BALL.draw(painter, camera.pixel(x, y), radius, self.run.angle("ball", t), self.unit, radius > true)
+
     # The poster
 
     def poster(self) -> pygame.Surface:
         """The whole shot in one picture."""
         sheet = self.sheet = Sheet(self.size, on_dark=True)
-        camera, hall, painter = self.camera, self.hall, sheet.painter
+        camera, hall = self.camera, self.hall
         eye = hall.eye(camera)
-        hall.draw(painter, eye)
-        self._behind(sheet, eye)
-        self.net.draw(painter, hall.hoop_eye(eye), self.unit, True, self.net.fullest)
+        self._place(sheet, eye, self.net.fullest)
         self.trace = self.path.traced(camera)
         self._bounce(sheet, camera)
+        for ghost in self.ghosts:
+            draw_ghost(sheet, ghost, camera.pixels(ghost.picture.path.points), self.trace)
         draw_trace(sheet, self.trace, COURT["trace"])
         every = self._balls(sheet, camera)
         self._before(sheet, eye, self.net.fullest)
@@ -147,7 +172,7 @@ class Picture:
             right = self.lens.left
         if any(self.wind):
             right = sheet.wind(*self.wind, right - 2 * sheet.gap, sheet.frame.top).left
-        notes = [f"a ball every {every:g} s"]
+        notes = [*(ghost.note for ghost in self.ghosts), f"a ball every {every:g} s"]
         if not 0 < camera.pixel(hall.hoop[0], 0)[0] < self.size[0]:
             notes.append(f"the ring is {roughly(hall.hoop[0])} away")
         elif (factor := hall.enlarged(camera)) > 1:
@@ -155,12 +180,18 @@ class Picture:
         if (factor := self._enlarged(camera)) > 1:
             notes.append(f"ball drawn {times(factor)} its size")
         sheet.headline(self.verdict(), notes, right - sheet.frame.left - 2 * sheet.gap)
-        sheet.columns(self.card_row, self._numbers())
+        sheet.columns(self.card_row, self.numbers(), [ghost.row for ghost in self.ghosts])
         return sheet.surface
 
     def _enlarged(self, camera: Camera) -> float:
         """How many times its size the ball is drawn."""
         return max(1.0, self._smallest / (self.radius * camera.scale))
+
+    def _place(self, sheet: Sheet, eye: Eye, t: float) -> None:
+        """Everything behind the ball, the net as it hangs at time t in s."""
+        self.hall.draw(sheet.painter, eye)
+        self._behind(sheet, eye)
+        self.net.draw(sheet.painter, self.hall.hoop_eye(eye), self.unit, True, t)
 
     def _behind(self, sheet: Sheet, eye: Eye) -> None:
         """What stands still behind the ball: thrower, stand, board, the far half of the ring."""
@@ -277,14 +308,15 @@ class Picture:
         BALL.draw(sheet.painter, (px, py), radius, self.run.angle("ball", t), unit)
         sheet.labels.take(pygame.Rect(round(px - radius), round(py - radius), round(2 * radius), round(2 * radius)))
 
-    def _numbers(self) -> list[Entry]:
+    def numbers(self) -> list[Entry]:
+        """The result for the card."""
         result, launch = self.run.result, self.parameters.launch
         entered = result["entry_angle"] is not None
         offset = result["entry_offset"]
         return [
             ("entry angle", signed(f"{result['entry_angle']:.1f}") + "°" if entered else "–"),
             ("entry speed", f"{result['entry_speed']:.1f} m/s" if entered else "–"),
-            ("short of centre" if entered and offset < 0 else "beyond centre", _short(abs(offset)) if entered else "–"),
+            ("from centre", _from_centre(offset) if entered else "–"),
             ("apex", metres(result["apex"] + self.parameters.release.height)),
             ("flight time", f"{result['flight_time']:.2f} s" if entered else "–"),
             ("ball speed", f"{launch.speed:.2f} m/s"),
@@ -331,7 +363,7 @@ class Picture:
         """The scene at time t in s, seen by a camera that follows the ball."""
         t = min(max(t, 0.0), self.run.duration)
         sheet = self.sheet = Sheet(self.size, on_dark=True)
-        painter, unit, camera = sheet.painter, self.unit, self.chase.camera(t)
+        painter, unit, camera = sheet.painter, self.unit, self.view(t)
         eye = self.hall.eye(camera)
         sheet.surface.blit(self._backdrop(camera), (0, 0))
         x, y, vx, vy, spin = self.run.state("ball", t)
@@ -434,6 +466,6 @@ class Picture:
         return rounded(sheet.surface, self.lens, 10 * self.unit)
 
 
-def _short(length: float) -> str:
-    """A length of 0 or more as one says it near a ring."""
-    return f"{100 * length:.1f} cm" if length < 0.995 else metres(length)
+def _from_centre(length: float) -> str:
+    """How far beyond the middle of the ring, with its sign, as one says it near a ring."""
+    return signed(f"{100 * length:+.1f}") + " cm" if abs(length) < 0.995 else signed(f"{length:+.1f}") + " m"

@@ -55,7 +55,7 @@ class Picture:
         self.name, self.radius = ball.name, ball.radius
         self.path = run.trajectory(self.name, every=max(SAMPLING, run.duration / MOST_SAMPLES))
         self.pin = parameters.pin.distance
-        self.wind = parameters.air.wind
+        self.wind: tuple[float, float] = parameters.air.wind
         sheet = Sheet(size)
         self.unit = sheet.unit
         # Rows in px, from the bottom up: the card, the ruler, the distances; and where the sky is free.
@@ -128,7 +128,8 @@ class Picture:
         """The ball at time t in s, on the stage that the camera sees."""
         true = self.radius * camera.scale
         radius = max(true, self._smallest)
-        at = self._spot(self.poster_course, camera, *self.run.state(self.name, t)[:2], radius)
+        x, y = self.run.state(self.name, t)[:2]
+        at = self._spot(self.poster_course, camera, x, y, radius)
         painter.shadow((at[0] + 2 * self.unit, at[1] + radius), 1.5 * radius, 0.4 * radius, CARD["shadow"], 0.4)
         self.poster_course.ball(painter, at, radius, self.run.angle(self.name, t), ring=radius > true)
 
@@ -216,10 +217,12 @@ class Picture:
         every = nice(max(flight if flight and seen else run.duration, 0.01) / 14)
         true = self.radius * camera.scale
         radius, largest = max(true, MARK * self._smallest), max(true, self._smallest)
-        end = self._spot(course, camera, *run.state(self.name, run.duration)[:2], largest)
+        x, y = run.state(self.name, run.duration)[:2]
+        end = self._spot(course, camera, x, y, largest)
         last = (-1e9, 0.0)
         for i in range(floor(run.duration / every) + 1):
-            at = self._spot(course, camera, *run.state(self.name, i * every)[:2], radius)
+            x, y = run.state(self.name, i * every)[:2]
+            at = self._spot(course, camera, x, y, radius)
             apart = hypot(at[0] - last[0], at[1] - last[1])
             if apart > 2.6 * radius and hypot(at[0] - end[0], at[1] - end[1]) > largest + 2 * radius:
                 course.ball(sheet.painter, at, radius, run.angle(self.name, i * every), ring=False)
@@ -341,9 +344,9 @@ class Picture:
         self._trail(sheet, camera, t, radius)
         self.vectors.draw(sheet, at, radius, t)
         course.ball(painter, at, radius, self.run.angle(self.name, t), ring=radius > true)
-        above, below = sheet.ruler_heights()
-        if lowest > self.ruler_row - above:  # the ruler would stand on bright turf
-            backing = pygame.Rect(sheet.frame.left, self.ruler_row - above, sheet.frame.width, above + below)
+        over, under = sheet.ruler_heights()
+        if lowest > self.ruler_row - over:  # the ruler would stand on bright turf
+            backing = pygame.Rect(sheet.frame.left, self.ruler_row - over, sheet.frame.width, over + under)
             painter.panel(backing, CARD["background"], 0.5, 10 * unit)
         sheet.ruler(camera, self.ruler_row)
         corner = self._map(sheet, t)

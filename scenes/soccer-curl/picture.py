@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 from functools import cached_property
 from math import atan2, cos, degrees, hypot, pi, radians, sin, tan
@@ -12,6 +13,8 @@ import pygame
 
 from sandbox.picture.ball import least_radius
 from sandbox.picture.camera import Camera, Follow
+from sandbox.picture.ghosts import draw_ghost, ghosts_of
+from sandbox.picture.painter import Painter
 from sandbox.picture.palette import mix, palette
 from sandbox.picture.path import MOST_SAMPLES, Path, apart, chip, draw_trace, mark_impacts
 from sandbox.picture.sheet import Entry, Sheet, metres, roughly, times
@@ -38,24 +41,27 @@ TRAIL = 0.4
 class Picture:
     """Draws one kick at ``size`` px: as a poster, or as it is at a time t."""
 
-    def __init__(self, run: Any, parameters: Any, size: tuple[int, int] = (1280, 720)):
+    def __init__(
+        self, run: Any, parameters: Any, size: tuple[int, int] = (1280, 720), ghosts: Mapping[str, Any] | None = None
+    ):
         self.run, self.parameters, self.size = run, parameters, size
+        self.ghosts = ghosts_of(Picture, ghosts or {}, size, PITCH["trace"])
         touched = next((e.t for e in run.events if "ball" in (e.ball, e.partner)), run.duration)
         until = run.duration if run.result["goal"] else min(run.duration, touched + AFTERMATH)
         self.path = Path(run, "ball", until)
         self.radius = self.path.radius
-        self.wind = parameters.air.wind
+        self.wind: tuple[float, float] = parameters.air.wind
         self.pitch = Pitch(parameters, size)
         sheet = Sheet(size)
         self.unit = sheet.unit
-        self.card_row = sheet.frame.bottom - sheet.card_height()
+        self.card_row = sheet.frame.bottom - sheet.card_height(len(self.ghosts))
         self.bar_row = self.card_row - 2.0 * sheet.gap
         self.top_row = (
             sheet.frame.top + sheet.lettering.height("large") + sheet.lettering.height("small") + 2 * sheet.gap
         )
         self._standing: tuple[Camera, pygame.Surface] | None = None
 
-    # The poster
+    # Composition
 
     @cached_property
     def straight(self) -> tuple[float, float] | None:
@@ -70,12 +76,37 @@ class Picture:
         """Shows the whole path, its straight line, the kicker and the goal."""
         goal = self.parameters.goal
         half = goal.width / 2 + 0.4
-        points = [*self.path.points, (-KICKER, 0.0), (goal.distance + goal.depth, goal.offset - half)]
+        points = [
+            *self.path.points,
+            (-KICKER, 0.0),
+            *(point for ghost in self.ghosts for point in ghost.picture.path.points),
+            (goal.distance + goal.depth, goal.offset - half),
+        ]
         points += [(goal.distance, goal.offset + half)] + ([self.straight] if self.straight else [])
         (left, bottom), (right, top) = np.min(points, axis=0), np.max(points, axis=0)
         side, low, high = 0.085 * self.size[0], self.top_row + 16 * self.unit, self.bar_row - 26 * self.unit
         scale = min((self.size[0] - 2 * side) / (right - left), (high - low) / (top - bottom))
         return Camera(((left + right) / 2, (bottom + top) / 2), (self.size[0] / 2, (low + high) / 2), scale)
+
+    # For the window
+
+    def stage(self) -> pygame.Surface:
+        """The place alone, as the poster's camera sees it, without the keeper."""
+        surface = Sheet(self.size).surface
+        self.pitch.draw(surface, self.camera)
+        self.pitch.people(surface, self.camera)
+        return surface
+
+    def draw_balls(self, painter: Painter, camera: Camera, t: float) -> None:
+        """Ball and keeper at time t in s, on the stage that the camera sees."""
+        if self.parameters.keeper.present:
+            self.pitch.draw_keeper(painter, camera, self.run.state("keeper", t)[:2])
+        true = self.radius * camera.scale
+        radius = max(true, self._smallest)
+        x, y, *_ = self.run.state("ball", t)
+        BALL.draw(painter, camera.pixel(x, y), radius, self.run.angle("ball", t), self.unit, radius > true)
+
+    # The poster
 
     def poster(self) -> pygame.Surface:
         """The whole kick in one picture."""
@@ -88,6 +119,8 @@ class Picture:
         self.trace = self.path.traced(camera)
         sheet.labels.take_path(self.trace, 4 * self.unit)
         self._straight_line(sheet, camera)
+        for ghost in self.ghosts:
+            draw_ghost(sheet, ghost, camera.pixels(ghost.picture.path.points), self.trace)
         draw_trace(sheet, self.trace, PITCH["trace"])
         sheet.scale_bar(camera, sheet.frame.left, self.bar_row, 0.3 * sheet.frame.width)
         sheet.labels.take(pygame.Rect(0, self.card_row, *self.size))
@@ -97,13 +130,13 @@ class Picture:
         right = sheet.frame.right
         if any(self.wind):
             right = sheet.wind(*self.wind, right, sheet.frame.top).left
-        notes = [f"a ball every {every:g} s"]
+        notes = [*(ghost.note for ghost in self.ghosts), f"a ball every {every:g} s"]
         if (factor := pitch.enlarged(camera)) > 1:
             notes.append(f"players drawn {times(factor)} their size")
         if (factor := self._enlarged(camera)) > 1:
             notes.append(f"ball drawn {times(factor)} its size")
         sheet.headline(self.verdict(), notes, right - sheet.frame.left - 2 * sheet.gap)
-        sheet.columns(self.card_row, self._numbers())
+        sheet.columns(self.card_row, self.numbers(), [ghost.row for ghost in self.ghosts])
         return sheet.surface
 
     @property
@@ -164,9 +197,9 @@ class Picture:
         if end is None:
             far = float(np.hypot(*self.path.points.T).max())
             end = far * cos(angle), far * sin(angle)
-        points = [camera.pixel(0.0, 0.0), camera.pixel(*end)]
+        points = camera.pixels(np.array([(0.0, 0.0), end]))
         sheet.painter.dashes(points, 1.5 * self.unit, PITCH["straight"], 7 * self.unit, 6 * self.unit, 0.6)
-        self.line = np.linspace(*points, 80)
+        self.line = np.linspace(points[0], points[1], 80)
         sheet.labels.take_path(self.line, 2 * self.unit)
 
     def _balls(self, sheet: Sheet, camera: Camera) -> float:
@@ -195,21 +228,22 @@ class Picture:
             sheet.painter.arrow(start, end, 2.6 * unit, accent)
         sheet.painter.line([(start[0] - 6 * unit, start[1]), (start[0] + 6 * unit, start[1])], 2.0 * unit, accent)
         sheet.labels.take_path(np.linspace(start, end, 30), 3 * unit)
-        way = 1 if end[1] < start[1] else -1
+        way = 1.0 if end[1] < start[1] else -1.0
         spots = [(start[0], start[1] + way * far * unit, 0.0, way) for far in (12, 20)]
         spots += [
             (start[0] + side * far * unit, start[1] + (end[1] - start[1]) * share, side, 0.0)
             for far in (14, 24, 40)
             for share in (0.0, 0.25, 0.5, 0.75)
-            for side in (1, -1)
+            for side in (1.0, -1.0)
         ]
         chip(sheet, f"{metres(abs(deviation))} to the {_side(deviation)}", spots, accent)
-        spots = [
-            (*self.line[round(79 * share)] + (0, way * far * unit), "midtop" if way > 0 else "midbottom")
+        beside = [
+            (self.line[round(79 * share), 0], self.line[round(79 * share), 1] + way * far * unit)
             for share in (0.62, 0.5, 0.75, 0.38)
             for far in (10, 16, 24)
         ]
-        sheet.label("without spin", "small", spots, sheet.ink)
+        anchor = "midtop" if way > 0 else "midbottom"
+        sheet.label("without spin", "small", [(*spot, anchor) for spot in beside], sheet.ink)
 
     def verdict(self) -> str:
         """What happened, in one line."""
@@ -234,7 +268,8 @@ class Picture:
             "short": "Never at the goal line",
         }[result["verdict"]]
 
-    def _numbers(self) -> list[Entry]:
+    def numbers(self) -> list[Entry]:
+        """The result for the card."""
         result, launch = self.run.result, self.parameters.launch
         numbers: list[Entry] = []
         if (deviation := result["deviation"]) is not None:
@@ -242,7 +277,7 @@ class Picture:
         if (offset := result["offset_at_goal"]) is not None:
             inside = self.parameters.goal.width / 2 - abs(offset) - self.radius
             where = "inside" if inside >= 0 else "outside"
-            numbers.append((f"{where} the {_side(offset)} post", metres(abs(inside))))
+            numbers.append(("nearer post", f"{metres(abs(inside))} {where}"))
         if result["speed_at_goal"] is not None:
             numbers.append(("speed at goal", f"{result['speed_at_goal']:.1f} m/s"))
         if result["flight_time"] is not None:
@@ -277,8 +312,8 @@ class Picture:
         fastest = max(float(np.hypot(states[:, 2], states[:, 3]).max()), 1e-9)
         return Follow(moments, at, np.full(len(moments), scale), anchor, min(0.25, 0.05 * width / scale / fastest))
 
-    def _frame_camera(self, t: float) -> Camera:
-        """The camera at time t in s, on whole px."""
+    def view(self, t: float) -> Camera:
+        """The camera of ``frame(t)``, on whole px."""
         camera = self.follow.camera(t)
         at = round(camera.at[0] * camera.scale) / camera.scale, round(camera.at[1] * camera.scale) / camera.scale
         return replace(camera, at=at)
@@ -287,7 +322,7 @@ class Picture:
         """The scene at time t in s, seen by a camera that follows the ball."""
         t = min(max(t, 0.0), self.run.duration)
         sheet = self.sheet = Sheet(self.size, on_dark=True)
-        painter, unit, camera = sheet.painter, self.unit, self._frame_camera(t)
+        painter, unit, camera = sheet.painter, self.unit, self.view(t)
         if self._standing is None or self._standing[0] != camera:
             self._standing = camera, Sheet(self.size).surface
             self.pitch.draw(self._standing[1], camera)
@@ -336,7 +371,7 @@ class Picture:
         far = hypot(x, y)
         if far * camera.scale > 20 * self.unit:
             ends = [camera.pixel(0.0, 0.0), camera.pixel(far * cos(angle), far * sin(angle))]
-            pygame.draw.aaline(sheet.surface, mix(PITCH["straight"], PITCH["grass"][0], 0.5), *ends)
+            pygame.draw.aalines(sheet.surface, mix(PITCH["straight"], PITCH["grass"][0], 0.5), False, ends)
         earlier = camera.pixels(np.array([*self.path.points[self.path.samples[:, 0] < t], (x, y)]))
         if len(earlier) > 1:
             faint = mix(PITCH["trace"], PITCH["grass"][0], 0.3)

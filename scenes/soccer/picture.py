@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from functools import cached_property
 from math import atan2, degrees, hypot, pi
 from typing import Any
@@ -12,6 +13,8 @@ import pygame
 from sandbox.picture.ball import least_radius
 from sandbox.picture.camera import Area, Box, Camera
 from sandbox.picture.chase import Chase
+from sandbox.picture.ghosts import draw_ghost, ghosts_of
+from sandbox.picture.painter import Painter
 from sandbox.picture.palette import mix, palette
 from sandbox.picture.path import Path, apart, chip, draw_trace, mark_impacts
 from sandbox.picture.sheet import Entry, Sheet, metres, roughly, signed, times
@@ -40,16 +43,19 @@ LEAST_LABELLED = 1.5
 class Picture:
     """Draws one kick at ``size`` px: as a poster, or as it is at a time t."""
 
-    def __init__(self, run: Any, parameters: Any, size: tuple[int, int] = (1280, 720)):
+    def __init__(
+        self, run: Any, parameters: Any, size: tuple[int, int] = (1280, 720), ghosts: Mapping[str, Any] | None = None
+    ):
         self.run, self.parameters, self.size = run, parameters, size
+        self.ghosts = ghosts_of(Picture, ghosts or {}, size, GROUND["trace"])
         self.path = Path(run, "ball", self._settled(run))
         self.radius = self.path.radius
-        self.wind = parameters.air.wind
+        self.wind: tuple[float, float] = parameters.air.wind
         sheet = Sheet(size)
         self.unit = sheet.unit
         small = sheet.lettering.height("small")
         above, below = sheet.ruler_heights()
-        self.card_row = sheet.frame.bottom - sheet.card_height()
+        self.card_row = sheet.frame.bottom - sheet.card_height(len(self.ghosts))
         self.ruler_row = self.card_row - 2.2 * sheet.gap - below
         self.goal_row = self.ruler_row - above - 0.8 * sheet.gap - small / 2
         self.wall_row = self.goal_row - small - 0.7 * sheet.gap
@@ -68,12 +74,12 @@ class Picture:
         )
         return float(next(down, run.duration))
 
-    # The poster
+    # Composition
 
     @cached_property
     def camera(self) -> Camera:
         """Shows the whole path, the kicker and the goal, unless that would make the path too small to see."""
-        x, y = self.path.points.T
+        x, y = np.concatenate([self.path.points, *(ghost.picture.path.points for ghost in self.ghosts)]).T
         goal, side = self.parameters.goal, 0.085 * self.size[0]
         left, right = min(float(x.min()), -KICKER), float(x.max())
         top = max(float(y.max()) + self.radius, LEAST_TOP)
@@ -84,6 +90,30 @@ class Picture:
         area = Area(side, self.top_row + 24 * self.unit, self.size[0] - side, self.stadium.base)
         return Camera.fit(Box(left, 0.0, right, top), area)
 
+    # For the window
+
+    def stage(self) -> pygame.Surface:
+        """The place alone, as the poster's camera sees it."""
+        sheet, eye = Sheet(self.size), self.stadium.eye(self.camera)
+        self.stadium.draw(sheet.painter, eye)
+        self.stadium.behind(sheet.painter, eye)
+        self.stadium.before(sheet.painter, eye)
+        return sheet.surface
+
+    def view(self, t: float) -> Camera:
+        """The camera of ``frame(t)``."""
+        return self.chase.camera(t)
+
+    def draw_balls(self, painter: Painter, camera: Camera, t: float) -> None:
+        """The ball at time t in s, on the stage that the camera sees."""
+        true = self.radius * camera.scale
+        radius = max(true, self._smallest)
+        x, y, *_ = self.run.state("ball", t)
+        at = self._spot(camera, x, y, radius)
+        BALL.draw(painter, at, radius, self.run.angle("ball", t), self.unit, radius > true)
+
+    # The poster
+
     def poster(self) -> pygame.Surface:
         """The whole kick in one picture."""
         sheet = self.sheet = Sheet(self.size, on_dark=True)
@@ -92,6 +122,8 @@ class Picture:
         stadium.draw(painter, eye)
         stadium.behind(painter, eye)
         self.trace = self.path.traced(camera)
+        for ghost in self.ghosts:
+            draw_ghost(sheet, ghost, camera.pixels(ghost.picture.path.points), self.trace)
         draw_trace(sheet, self.trace, GROUND["trace"])
         stadium.before(painter, eye)
         self._distances(sheet, camera)
@@ -103,7 +135,7 @@ class Picture:
         right = sheet.frame.right
         if any(self.wind):
             right = sheet.wind(*self.wind, right, sheet.frame.top).left
-        notes = [f"a ball every {every:g} s"]
+        notes = [*(ghost.note for ghost in self.ghosts), f"a ball every {every:g} s"]
         if not self._in_sight(camera, self.parameters.goal.distance):
             notes.append(f"the goal is {roughly(self.parameters.goal.distance)} away")
         elif (factor := stadium.enlarged(camera)) > 1:
@@ -111,7 +143,7 @@ class Picture:
         if (factor := self._enlarged(camera)) > 1:
             notes.append(f"ball drawn {times(factor)} its size")
         sheet.headline(self.verdict(), notes, right - sheet.frame.left - 2 * sheet.gap)
-        sheet.columns(self.card_row, self._numbers())
+        sheet.columns(self.card_row, self.numbers(), [ghost.row for ghost in self.ghosts])
         return sheet.surface
 
     def _in_sight(self, camera: Camera, x: float) -> bool:
@@ -212,7 +244,8 @@ class Picture:
         away = goal.distance - x
         return f"Short, {roughly(away)} from the goal" if away > 0 else "Short of the goal"
 
-    def _numbers(self) -> list[Entry]:
+    def numbers(self) -> list[Entry]:
+        """The result for the card."""
         result, launch = self.run.result, self.parameters.launch
         at_wall, at_goal = result["height_at_wall"], result["height_at_goal"]
         numbers = []
@@ -228,7 +261,7 @@ class Picture:
             ("flight time", "–" if result["flight_time"] is None else f"{result['flight_time']:.2f} s"),
             ("ball speed", f"{launch.speed:.1f} m/s"),
             ("launch", signed(f"{launch.angle:.1f}") + "°"),
-            ("topspin" if launch.spin < 0 else "backspin", f"{abs(launch.spin):.0f} rpm"),
+            ("spin", _spin(launch.spin)),
         ]
 
     # Frames
@@ -252,7 +285,7 @@ class Picture:
         """The scene at time t in s, seen by a camera that follows the ball."""
         t = min(max(t, 0.0), self.run.duration)
         sheet = self.sheet = Sheet(self.size, on_dark=True)
-        painter, unit, camera = sheet.painter, self.unit, self.chase.camera(t)
+        painter, unit, camera = sheet.painter, self.unit, self.view(t)
         sheet.surface.blit(self._backdrop(camera), (0, 0))
         x, y, vx, vy, spin = self.run.state("ball", t)
         true = self.radius * camera.scale
@@ -283,7 +316,7 @@ class Picture:
                 ("height", metres(max(0.0, y - self.radius))),
                 ("speed", f"{speed:.1f} m/s"),
                 ("direction", signed(f"{degrees(atan2(vy, vx)):.0f}") + "°" if speed > 0.01 else "–"),
-                ("topspin" if spin < 0 else "backspin", f"{abs(spin) * 30 / pi:.0f} rpm"),
+                ("spin", _spin(spin * 30 / pi)),
                 *self.vectors.entries(t),
             ],
         )
@@ -306,6 +339,12 @@ class Picture:
             faint = mix(GROUND["trace"], GROUND["grass"][0], 0.4)
             pygame.draw.aalines(sheet.surface, faint, False, earlier[apart(earlier, 3.0)])
         moments = np.linspace(max(0.0, t - TRAIL), t, 25)
-        points = np.array([self._spot(camera, *self.run.state("ball", s)[:2], 0.4 * width) for s in moments])
+        places = [self.run.state("ball", s)[:2] for s in moments]
+        points = np.array([self._spot(camera, x, y, 0.4 * width) for x, y in places])
         if np.ptp(points, axis=0).max() > 2:
             sheet.painter.fading(points[apart(points, 2.0)], width, GROUND["trace"], 0.9)
+
+
+def _spin(rpm: float) -> str:
+    """Backspin is positive."""
+    return f"{abs(rpm):.0f} rpm {'top' if rpm < 0 else 'back'}" if abs(rpm) >= 0.5 else "none"

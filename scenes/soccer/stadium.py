@@ -146,7 +146,7 @@ class Stadium:
             share = eye.share(min(a[1], b[1]))
             along = abs(b[0] - a[0]) > abs(b[1] - a[1])
             thick = LINE * scale * share * (0.3 if along else 0.6)
-            pygame.draw.line(drawn, GROUND["line"], *self._on_pitch(eye, [a, b]), max(2, round(thick)))
+            pygame.draw.lines(drawn, GROUND["line"], False, self._on_pitch(eye, [a, b]), max(2, round(thick)))
 
     def _on_pitch(self, eye: Eye, points: list[tuple[float, float]]) -> np.ndarray:
         """Points (x, z) of the ground in m as points of the pitch as it is drawn, in px."""

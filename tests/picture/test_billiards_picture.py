@@ -152,18 +152,3 @@ def test_what_a_window_asks_for():
     assert stage.get_buffer().raw != before
     assert picture.stage().get_buffer().raw == before  # the window's own copy
     assert picture.view(1.0) == picture.camera
-
-
-class TestGolden:
-    size = (512, 288)  # less than 60 kB
-
-    @pytest.mark.parametrize("name", ["bank", "carom"])
-    def test_poster(self, golden, name):
-        golden.check(f"billiards-{name}", picture_of(name, self.size).poster())
-
-    def test_frame(self, golden):
-        """Before the rack runs apart."""
-        golden.check("billiards-frame", picture_of("break", self.size).frame(0.2))
-
-    def test_snooker(self, golden):
-        golden.check("billiards-snooker", picture_of("snooker", self.size).frame(0.3))

@@ -7,12 +7,13 @@ from PIL import Image
 
 from sandbox.picture.frames import (
     FASTEST_GIF,
-    GIF_PAUSE,
+    PAUSE,
     frame_times,
     save_frames,
     save_gif,
     save_png,
     save_poster,
+    save_webp,
     to_image,
 )
 from sandbox.picture.painter import Painter, blank
@@ -173,7 +174,7 @@ class TestGif:
         frames, durations = self.read(tmp_path / "run.gif")
         assert len(frames) == count == 2 * fps + 1
         assert sum(durations[:-1]) == 2000  # ms, though 1/24 s and 1/30 s are no multiples of 10 ms
-        assert durations[-1] == 1000 * GIF_PAUSE
+        assert durations[-1] == 1000 * PAUSE
         for i in (0, fps, 2 * fps):
             assert ball_at(frames[i]) == pytest.approx(10 + 35 * i / fps, abs=0.4)
 
@@ -191,4 +192,40 @@ class TestGif:
         run = Run(1.0)
         with pytest.raises(ZeroDivisionError):
             save_gif(Picture(run, fails_at=0.5), run, tmp_path / "run.gif", 10)
+        assert list(tmp_path.iterdir()) == []
+
+
+class TestWebp:
+    @pytest.mark.parametrize("fps", [10, 60])
+    def test_frames_and_how_long_they_stay(self, tmp_path, fps):
+        run = Run(1.0)
+        count = save_webp(Picture(run), run, tmp_path / "run.webp", fps)
+        with Image.open(tmp_path / "run.webp") as image:
+            assert (image.format, image.n_frames, image.size, image.info["loop"]) == ("WEBP", count, (96, 54), 0)
+            stays = []
+            for i in range(count):
+                image.seek(i)
+                image.load()
+                stays.append(image.info["duration"])
+                # Only the part that changed is kept, and what was there before stays.
+                assert ball_at(image.convert("RGB")) == pytest.approx(10 + 70 * i / fps, abs=0.6)
+        assert count == fps + 1
+        assert (sum(stays[:-1]), stays[-1]) == (1000, 1000 * PAUSE)
+
+    def test_frames_that_are_alike(self, tmp_path):
+        run = Run(1.0)
+
+        class Still(Picture):
+            def frame(self, t):
+                return super().frame(0.0)
+
+        assert save_webp(Still(run), run, tmp_path / "run.webp", 5) == 6
+        with Image.open(tmp_path / "run.webp") as image:
+            image.seek(5)
+            assert ball_at(image.convert("RGB")) == pytest.approx(10, abs=0.6)
+
+    def test_all_or_nothing(self, tmp_path):
+        run = Run(1.0)
+        with pytest.raises(ZeroDivisionError):
+            save_webp(Picture(run, fails_at=0.5), run, tmp_path / "run.webp", 10)
         assert list(tmp_path.iterdir()) == []

@@ -1,14 +1,27 @@
 """Golden pictures: what passes, what fails, what is written when."""
 
+import copy
+import json
+import shutil
 from pathlib import Path
 
 import numpy as np
 import pytest
 from PIL import Image
 
-from sandbox.golden import NEIGHBOURHOOD, ROUNDING_LEVELS, compare
+import sandbox
+from sandbox.golden import NEIGHBOURHOOD, ROUNDING_LEVELS, _coarser, compare
 from sandbox.picture.frames import to_image
 from sandbox.picture.painter import Painter, blank
+from sandbox.record import (
+    RELATIVE_TOLERANCE,
+    SAMPLES,
+    TOLERANCE,
+    as_text,
+    changed_results,
+    first_change,
+    record,
+)
 
 pytest_plugins = ["pytester"]
 
@@ -53,6 +66,13 @@ def test_rounding_of_every_pixel_passes():
     assert not compare(ball(), other).matters
 
 
+def test_what_a_golden_picture_keeps_of_the_colours_is_no_change():
+    noise = np.random.default_rng(2).integers(0, 256, (90, 160, 3), np.uint8)
+    other = _coarser(Image.fromarray(noise))
+    difference = compare(Image.fromarray(noise), other)
+    assert (difference.largest, difference.share) == (2, 0.0)
+
+
 def test_many_single_pixels_fail_together():
     other = ball()
     for x in range(NEIGHBOURHOOD, 160, 2 * NEIGHBOURHOOD):
@@ -87,6 +107,168 @@ def run(project, *options: str):
     return project.runpytest("-p", "sandbox.golden", "-p", "no:cacheprovider", *options)
 
 
+@pytest.fixture
+def scene_project(pytester, monkeypatch):
+    """A project with a golden test of a run, whose numbers and colours the environment chooses."""
+    monkeypatch.delenv("CI", raising=False)
+    drop = Path(__file__).parents[1] / "scenes" / "drop"
+    shutil.copytree(drop, pytester.path / "drop", ignore=shutil.ignore_patterns("__pycache__"))
+    pytester.makepyfile(
+        test_it="""
+        import json, os
+        import sandbox
+
+        def test_it(golden):
+            golden.check("it", sandbox.simulate(sandbox.load("drop", json.loads(os.environ.get("CHANGES", "{}")))))
+        """
+    )
+    return pytester
+
+
+def apart(project, *options: str):
+    """In a process of its own, which imports the scene afresh."""
+    return project.runpytest_subprocess("-p", "no:cacheprovider", *options)
+
+
+class TestRuns:
+    def changed(self, project, monkeypatch, changes: str = "{}"):
+        apart(project, "--golden-update").assert_outcomes(passed=1)
+        monkeypatch.setenv("CHANGES", changes)
+        return apart(project)
+
+    def test_update_keeps_what_happened_beside_the_picture(self, scene_project):
+        result = apart(scene_project, "--golden-update")
+        result.stdout.fnmatch_lines(["*golden files written*", "*it.json: new", "*it.png: new"])
+        kept = json.loads((scene_project.path / "golden" / "it.json").read_text())
+        assert kept["result"]["bounces"] == len(kept["events"])
+        assert len(kept["states"]["ball"]) == SAMPLES
+        apart(scene_project).assert_outcomes(passed=1)
+
+    def test_a_missing_one_fails_and_says_how_to_make_it(self, scene_project):
+        apart(scene_project).stdout.fnmatch_lines(["*it has no golden picture*pytest --golden-update*"])
+        apart(scene_project, "--golden-update")
+        (scene_project.path / "golden" / "it.json").unlink()
+        apart(scene_project).stdout.fnmatch_lines(["*it has no golden run*it.json*pytest --golden-update*"])
+
+    def test_says_that_the_physics_changed_and_where_first(self, scene_project, monkeypatch):
+        result = self.changed(scene_project, monkeypatch, '{"floor.restitution": 0.79}')
+        result.assert_outcomes(failed=1)
+        result.stdout.fnmatch_lines(
+            ["*it is not like its golden run: the physics changed: first at t = 0.652 s, ball, *"]
+        )
+        assert "final_height is" in result.stdout.str()
+
+    def test_a_small_change_of_a_force_is_seen(self, scene_project, monkeypatch):
+        result = self.changed(scene_project, monkeypatch, '{"gravity": 9.8101}')
+        result.stdout.fnmatch_lines(["*the physics changed: first at t = 0.0435 s, ball, vy is*"])
+
+    def test_a_change_within_the_tolerance_passes(self, scene_project, monkeypatch):
+        self.changed(scene_project, monkeypatch, '{"gravity": 9.8100000001}').assert_outcomes(passed=1)
+
+    def test_says_that_only_the_drawing_changed(self, scene_project, monkeypatch):
+        apart(scene_project, "--golden-update")
+        picture = scene_project.path / "drop" / "picture.py"
+        picture.write_text(picture.read_text().replace("set_at((16,", "set_at((17,"))
+        lines = picture.read_text().replace("return surface", "surface.fill((9, 90, 9), (2, 2, 9, 9)); return surface")
+        picture.write_text(lines)
+        result = apart(scene_project)
+        result.stdout.fnmatch_lines(
+            [
+                "*it is not like its golden picture: same physics, the drawing changed: *of the pixels changed*",
+                "expected, actual and difference, side by side: *it.png",
+                "if the change is meant: pytest --golden-update",
+            ]
+        )
+
+    def test_says_that_only_a_result_changed(self, scene_project, monkeypatch):
+        apart(scene_project, "--golden-update")
+        scene = scene_project.path / "drop" / "scene.py"
+        scene.write_text(scene.read_text().replace('"bounces": len(impacts)', '"bounces": 99'))
+        apart(scene_project).stdout.fnmatch_lines(["*same motion, another result; bounces is 99, was *"])
+
+    def test_a_run_of_no_scene_is_refused(self, pytester):
+        pytester.makepyfile(
+            """
+            from sandbox.engine import simulate
+            from sandbox.engine.accuracy import resolve
+            from sandbox.engine.setup import Ball, Setup
+
+            def test_it(golden):
+                golden.check("it", simulate(Setup([Ball("ball", 1.0, 0.1, (0.0, 0.0))], duration=1.0), resolve()))
+            """
+        )
+        apart(pytester).stdout.fnmatch_lines(["*only a run of a scene has a picture*"])
+
+
+def test_a_chaotic_run_is_kept_until_it_diverges(pytester, monkeypatch):
+    monkeypatch.delenv("CI", raising=False)
+    pytester.makepyfile(
+        """
+        import os
+        import sandbox
+
+        def test_it(golden):
+            until = float(os.environ["UNTIL"]) if "UNTIL" in os.environ else None
+            golden.check("it", sandbox.simulate(sandbox.load("billiards")), until)  # the middle of a rack
+        """
+    )
+    result = apart(pytester, "--golden-update")
+    result.assert_outcomes(failed=1)
+    result.stdout.fnmatch_lines(["*it hangs on rounding from t = 0.1* s on*golden.check('it', run, until=0.1*"])
+    monkeypatch.setenv("UNTIL", "0.12")
+    apart(pytester, "--golden-update").assert_outcomes(passed=1)
+    apart(pytester).assert_outcomes(passed=1)
+    monkeypatch.setenv("UNTIL", "0.13")
+    apart(pytester).stdout.fnmatch_lines(["*kept until 0.12 and checked until 0.13*"])
+
+
+class TestRecords:
+    """The tolerances of what is compared, each at its edge."""
+
+    def records(self, **changes):
+        scene = sandbox.load("golf", changes)
+        return record(sandbox.simulate(scene))
+
+    def test_rounding_is_no_change(self):
+        kept = self.records()
+        other = copy.deepcopy(kept)
+        for row in other["states"]["ball"]:
+            row[1:] = [value * (1 + 0.5 * RELATIVE_TOLERANCE) for value in row[1:]]
+        assert first_change(kept, other) is None
+
+    @pytest.mark.parametrize(("column", "name"), [(1, "x"), (2, "y"), (3, "vx"), (4, "vy"), (5, "spin")])
+    def test_a_state_beyond_the_tolerance_is_named(self, column, name):
+        kept = self.records()
+        other = copy.deepcopy(kept)
+        row = other["states"]["ball"][7]
+        row[column] += 3 * (TOLERANCE + RELATIVE_TOLERANCE * abs(row[column]))
+        t, told = first_change(kept, other)
+        assert t == row[0]
+        assert f"ball, {name} is" in told
+
+    def test_an_event_that_is_gone_new_or_another(self):
+        kept = self.records()
+        gone, new, other = (copy.deepcopy(kept) for _ in range(3))
+        del gone["events"][-1]
+        new["events"].append([99.0, "impact", "ball", "pin", 1.0])
+        other["events"][0][3] = "bunker"
+        assert first_change(kept, gone)[1].endswith("ball rest green is gone")
+        assert first_change(kept, new)[1].endswith("ball impact pin is new")
+        assert "ball impact bunker, was ball impact fairway" in first_change(kept, other)[1]
+
+    def test_results(self):
+        kept = self.records()
+        other = copy.deepcopy(kept)
+        other["result"] = {**kept["result"], "holed": True, "carry": kept["result"]["carry"] + 0.001, "extra": 1}
+        del other["result"]["apex"]
+        told = changed_results(kept, other)
+        assert [line.split()[0] for line in told] == ["carry", "apex", "holed", "extra"]
+
+    def test_text_reads_back(self):
+        kept = self.records()
+        assert json.loads(as_text(kept)) == kept
+
+
 class TestThePlugin:
     def test_a_missing_picture_fails_and_says_how_to_make_it(self, project):
         result = run(project)
@@ -97,7 +279,7 @@ class TestThePlugin:
     def test_update_makes_it_and_says_so(self, project):
         result = run(project, "--golden-update")
         result.assert_outcomes(passed=1)
-        result.stdout.fnmatch_lines(["*golden pictures written*", "*it.png: new"])
+        result.stdout.fnmatch_lines(["*golden files written*", "*it.png: new"])
         run(project).assert_outcomes(passed=1)
 
     def test_a_change_fails_and_shows_both_and_the_difference(self, project, monkeypatch):
@@ -105,7 +287,7 @@ class TestThePlugin:
         monkeypatch.setenv("COLOUR", "red")
         result = run(project)
         result.assert_outcomes(failed=1)
-        result.stdout.fnmatch_lines(["*100.00% of the pixels changed, the most by 255 of 255 levels*"])
+        result.stdout.fnmatch_lines(["*100.00% of the pixels changed, the most by 254 of 255 levels*"])
         with Image.open(project.path / "out" / "golden" / "it.png") as shown:
             assert shown.size == (3 * 40 + 2 * 8, 30)
             assert shown.convert("RGB").getpixel((60, 15)) == (255, 0, 0)
@@ -114,7 +296,7 @@ class TestThePlugin:
         run(project, "--golden-update")
         before = (project.path / "golden" / "it.png").stat().st_mtime_ns
         result = run(project, "--golden-update")
-        result.stdout.no_fnmatch_line("*golden pictures written*")
+        result.stdout.no_fnmatch_line("*golden files written*")
         assert (project.path / "golden" / "it.png").stat().st_mtime_ns == before
 
     def test_update_lists_what_other_processes_wrote(self, project):
@@ -135,6 +317,6 @@ class TestThePlugin:
 
 
 def test_golden_pictures_are_small():
-    pictures = list((Path(__file__).parents[1] / "golden").glob("*.png"))
-    assert pictures
-    assert all(picture.stat().st_size < 60_000 for picture in pictures)
+    files = [file for kind in ("png", "json") for file in (Path(__file__).parents[1] / "golden").glob(f"*.{kind}")]
+    assert files
+    assert [file.name for file in files if file.stat().st_size >= 60_000] == []

@@ -1,0 +1,140 @@
+"""Measures the tables and pictures of accuracy.md again: ``python docs/measure_accuracy.py``. Some minutes; leave the
+machine alone meanwhile."""
+
+from __future__ import annotations
+
+import os
+import platform
+import re
+from collections.abc import Callable, Iterable, Sequence
+from pathlib import Path
+
+import pymunk
+
+from sandbox.lab import chart
+from sandbox.lab.stress import FAILED, Outcome, stress, summary
+from sandbox.lab.tables import length, significant, time
+from sandbox.lab.trade import TARGETS, Trade, trade
+from sandbox.lab.validate import Compared, cells, validate
+from sandbox.scene import load
+
+DOCS = Path(__file__).resolve().parent
+PAGE = DOCS / "accuracy.md"
+
+SCENES = ("golf", "soccer", "soccer-curl", "basketball", "basketball/rattle", "billiards")
+PICTURES = ("golf", "basketball/rattle", "soccer")
+DEFAULTS = ("golf", "soccer", "soccer-curl", "basketball", "billiards")
+
+
+def main() -> None:
+    found = {name: trade(load(name)) for name in SCENES}
+    for name in PICTURES:
+        chart.draw_trade(found[name], DOCS / "images" / f"trade-{name.replace('/', '-')}.png")
+    outcomes = stress([load(name) for name in DEFAULTS])
+    rows = validate()
+    page = PAGE.read_text("utf-8")
+    page = filled(page, "levels", [*levels(found), "", machine()])
+    page = filled(page, "cheapest", cheapest(found))
+    page = filled(page, "verdicts", verdicts(found))
+    page = filled(page, "parts", parts(found))
+    page = filled(page, "stress", extremes(outcomes))
+    page = filled(page, "failed", failed(outcomes))
+    page = filled(page, "published", published(rows))
+    page = filled(page, "not held", not_held(rows))
+    PAGE.write_text(page, "utf-8")
+
+
+def filled(page: str, name: str, lines: Iterable[str]) -> str:
+    """The page with new lines between the marks of a block."""
+    block = "\n".join([f"<!-- {name} -->", *lines, "<!-- end -->"])
+    page, count = re.subn(rf"<!-- {name} -->\n.*?<!-- end -->", lambda match: block, page, flags=re.DOTALL)
+    assert count == 1, name
+    return page
+
+
+def markdown(headings: Sequence[str], rows: Iterable[Sequence[str]], left: int = 1) -> list[str]:
+    rule = ["---" if column < left else "--:" for column in range(len(headings))]
+    return ["| " + " | ".join(row) + " |" for row in (headings, rule, *rows)]
+
+
+def machine() -> str:
+    python = platform.python_version()
+    return f"Python {python}, pymunk {pymunk.version}, {platform.machine()}, {os.cpu_count()} cores; one core is used."
+
+
+def levels(found: dict[str, Trade]) -> list[str]:
+    rows = []
+    for name, one in found.items():
+        cells = [f"{length(p.error_m)} in {time(p.wall_s)}" for p in one.levels.values()]
+        speed = significant(one.levels["balanced"].times_real_time)
+        rows.append([f"`{name}`", f"{one.reference.time:.3g} s", *cells, f"{speed} x"])
+    aims = [f"{name}, aims at {length(p.accuracy.tolerance)}" for name, p in found["golf"].levels.items()]
+    return markdown(["scene", "looked at after", *aims, "balanced over real time"], rows)
+
+
+def cheapest(found: dict[str, Trade]) -> list[str]:
+    rows = []
+    for name, one in found.items():
+        best = [one.best(target) for target in TARGETS]
+        cells = ["" if b is None else f"{b.method} {b.setting}, {time(b.wall_s)}" for b in best]
+        rows.append([f"`{name}`", *cells])
+    return markdown(["scene", *map(length, TARGETS)], rows, left=1 + len(TARGETS))
+
+
+def verdicts(found: dict[str, Trade]) -> list[str]:
+    maps = {name: one.verdicts for name, one in found.items() if one.verdicts is not None}
+    methods = list(dict.fromkeys(method for one in maps.values() for method in one.changed))
+    rows = [
+        [f"`{name}`", str(one.shots), *(_share(one.changed.get(method)) for method in methods)]
+        for name, one in maps.items()
+    ]
+    return markdown(["scene", "shots", *methods], rows)
+
+
+def _share(share: float | None) -> str:
+    return "too slow" if share is None else f"{100.0 * share:.1f} %"
+
+
+def parts(found: dict[str, Trade]) -> list[str]:
+    lines: list[str] = []
+    for name in DEFAULTS:
+        rows = [row.cells() for row in found[name].ablation]
+        after = f"after {found[name].reference.time:.3g} s"
+        body = [[part, change, first, end, what] for part, change, first, end, _, what in rows]
+        lines += [f"`{name}`", "", *markdown(["part", "", "first touch", after, "and so"], body, left=2), ""]
+    return lines[:-1]
+
+
+def extremes(outcomes: list[Outcome]) -> list[str]:
+    headings, rows = summary(outcomes)
+    return markdown(headings, rows)
+
+
+def failed(outcomes: list[Outcome]) -> list[str]:
+    own = [o for o in outcomes if o.outcome == FAILED and o.method == "dormand-prince"]
+    if not own:
+        return ["With the integrator of the levels no row failed."]
+    rows = [[o.scene or "bare", o.extreme, o.message] for o in own]
+    return ["Failed with the integrator of the levels:", "", *markdown(["scene", "extreme", "what"], rows, left=3)]
+
+
+def published(rows: list[Compared]) -> list[str]:
+    def row(name: str, own: list[Compared]) -> list[str]:
+        return [name, str(len(own)), str(sum(compared.holds for compared in own))]
+
+    exact: Callable[[Compared], bool] = lambda compared: compared.case.source.startswith("exact")  # noqa: E731
+    groups = {"exact cases": [compared for compared in rows if exact(compared)]}
+    for compared in rows:
+        if not exact(compared):
+            groups.setdefault(compared.case.source, []).append(compared)
+    return markdown(["source", "numbers", "hold"], [row(name, own) for name, own in groups.items()])
+
+
+def not_held(rows: list[Compared]) -> list[str]:
+    own = [compared for compared in rows if not compared.holds]
+    body = [[*cells(compared)[:6], compared.case.reason] for compared in own]
+    return markdown(["case", "result", "published", "computed", "difference", "tolerance", "why"], body, left=2)
+
+
+if __name__ == "__main__":
+    main()

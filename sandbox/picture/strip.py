@@ -1,0 +1,54 @@
+"""A film strip: a few frames of a run side by side, from its first to its last."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pygame
+
+from sandbox.picture.frames import Picture
+from sandbox.picture.painter import Painter, blank
+from sandbox.picture.palette import palette
+
+FILM = palette("film")
+
+#: Frames on a strip, and samples by which they are spread.
+FRAMES, SAMPLES = 5, 400
+#: Heights over a frame's: of the margin with the holes, of a hole; and the gap between frames.
+MARGIN, HOLE, GAP = 0.11, 0.05, 0.022
+#: Holes along each frame.
+HOLES = 8
+
+
+def strip_times(run: Any, count: int = FRAMES) -> list[float]:
+    """Times in s, the first and the last among them, between which all balls together go equally far."""
+    times = np.linspace(0.0, run.duration, SAMPLES)
+    way = np.zeros(SAMPLES)
+    for ball in run.setup.balls:
+        places = np.array([run.state(ball.name, float(t))[:2] for t in times])
+        way[1:] += np.cumsum(np.hypot(*np.diff(places, axis=0).T))
+    if way[-1] == 0.0:
+        return [float(t) for t in np.linspace(0.0, run.duration, count)]
+    shares = np.linspace(0.0, way[-1], count)
+    inner = [float(np.interp(share, way, times)) for share in shares[1:-1]]
+    return [0.0, *inner, run.duration]
+
+
+def film_strip(picture: Picture, run: Any) -> pygame.Surface:
+    """The strip; each of its frames is as large as the picture's."""
+    frames = [picture.frame(t) for t in strip_times(run)]
+    width, height = frames[0].get_size()
+    margin, gap = round(MARGIN * height), round(GAP * height)
+    strip = blank((len(frames) * (width + gap) + gap, height + 2 * margin))
+    strip.fill(FILM["base"])
+    for i, frame in enumerate(frames):
+        strip.blit(frame, (gap + i * (width + gap), margin))
+    painter, tall = Painter(strip), round(HOLE * height)
+    pitch = (width + gap) / HOLES
+    for row in (margin // 2, strip.get_height() - margin // 2):
+        for i in range(round(strip.get_width() / pitch) + 1):
+            hole = pygame.Rect(0, 0, round(1.25 * tall), tall)
+            hole.center = round((i + 0.5) * pitch), row
+            painter.panel(hole, FILM["hole"], 1.0, 0.25 * tall)
+    return strip

@@ -1,0 +1,165 @@
+"""The extremes: what is promised of the exact method is kept, and what is broken is seen."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from math import nan
+
+import numpy as np
+import pytest
+
+from sandbox.cli import main
+from sandbox.engine import simulate
+from sandbox.engine.accuracy import LEVELS, resolve
+from sandbox.engine.setup import Ball, Circle, Segment, Setup, Surface
+from sandbox.lab import stress as lab
+from sandbox.lab.extremes import ERROR_CONTROL, Extreme, bare, of_scene
+from sandbox.lab.stress import FAILED, HELD, REFUSED, Outcome, tried
+from sandbox.physics.forces import Gravity
+from sandbox.scene import load
+
+#: Rows that take seconds, left to the command itself.
+SLOW = {"1,000 balls in a heap", "mass ratio 1e+06", "an hour in a box, no loss"}
+
+LEVEL_METHOD = "dormand-prince"  # of the three levels
+
+
+def one(extreme: Extreme, method: str) -> Outcome:
+    return next(outcome for outcome in tried("", extreme, methods=[method]))
+
+
+BARE = {extreme.name: extreme for extreme in bare()}
+
+
+# What is promised ----------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", [name for name in BARE if name not in SLOW])
+def test_the_levels_method_keeps_what_is_promised(name: str):
+    outcome = one(BARE[name], LEVEL_METHOD)
+    assert outcome.outcome in (HELD, REFUSED), outcome
+
+
+@pytest.mark.parametrize("scene", ["golf", "soccer", "soccer-curl", "basketball"])
+def test_scenes_hold_at_their_extremes(scene: str):
+    outcomes = [
+        outcome
+        for extreme in of_scene(load(scene))
+        if extreme.step is None and extreme.methods != ERROR_CONTROL
+        for outcome in tried(scene, extreme, methods=[LEVEL_METHOD])
+    ]
+    assert len(outcomes) > 20
+    assert [outcome for outcome in outcomes if outcome.outcome == FAILED] == []
+    assert sum(outcome.outcome == HELD for outcome in outcomes) > 0.7 * len(outcomes)
+
+
+def test_every_integrator_keeps_a_thin_wall_and_the_plain_method_does_not():
+    outcomes = {outcome.method: outcome for outcome in tried("", BARE["wall of 0.1 mm at 340 m/s"])}
+    assert outcomes.pop("plain").outcome == FAILED
+    assert {outcome.outcome for outcome in outcomes.values()} == {HELD}
+    assert max(outcome.penetration_m for outcome in outcomes.values()) < 1e-9
+
+
+def test_overlaps_at_the_start_are_refused_with_both_names():
+    outcome = one(BARE["start half inside a wall"], LEVEL_METHOD)
+    assert outcome.outcome == REFUSED
+    assert "'ball'" in outcome.message
+    assert "'floor'" in outcome.message
+
+
+def test_a_force_that_is_not_a_number_is_an_error_with_time_and_ball():
+    for outcome in tried("", BARE["a force that is not a number"]):
+        assert outcome.outcome == REFUSED
+        assert "t = " in outcome.message
+        assert "'ball'" in outcome.message
+
+
+def test_galperins_balls_count_pi():
+    run = simulate(BARE["mass ratio 10000"].build(), LEVELS["balanced"])
+    assert sum(event.kind == "impact" for event in run.events) == 314
+
+
+# What is broken is seen ----------------------------------------------------------------------------------------------
+
+
+def dropped(**changes: object) -> Setup:
+    ball = Ball("ball", 1.0, 0.1, (0.0, 1.0), forces=[Gravity(1.0, 9.81)])
+    floor = Surface("floor", Segment((-5.0, 0.0), (5.0, 0.0)), 0.8, 0.5)
+    return replace(Setup([ball], [floor], duration=1.0), **changes)
+
+
+def test_a_bounce_that_gains_energy_is_seen():
+    lively = Surface("floor", Segment((-5.0, 0.0), (5.0, 0.0)), 1.0, 0.5)
+    object.__setattr__(lively, "restitution", 1.2)
+    outcome = one(Extreme("lively", lambda: dropped(surfaces=[lively])), LEVEL_METHOD)
+    assert outcome.outcome == FAILED
+    assert "energy from nowhere" in outcome.message
+
+
+def test_an_exception_of_another_kind_is_a_failure():
+    def force(t: float, position: object, velocity: object, spin: object) -> tuple[float, float]:
+        raise ZeroDivisionError("somebody's bug")
+
+    ball = Ball("ball", 1.0, 0.1, (0.0, 1.0), forces=[force])
+    outcome = one(Extreme("bug", lambda: Setup([ball])), LEVEL_METHOD)
+    assert outcome.outcome == FAILED
+    assert outcome.message == "ZeroDivisionError: somebody's bug"
+
+
+def test_a_path_through_a_wall_is_seen():
+    wall = Surface("wall", Segment((0.0, -1.0), (0.0, 1.0)), 1.0, 0.0)
+    assert lab._crosses(np.array([[-1.0, 0.0], [1.0, 0.5]]), wall)
+    assert not lab._crosses(np.array([[-1.0, 0.0], [-0.1, 0.5], [-1.0, 1.0]]), wall)
+    assert not lab._crosses(np.array([[-1.0, 3.0], [1.0, 3.0]]), wall)  # over it
+
+
+def test_overlaps_are_measured():
+    post = Surface("post", Circle((0.0, 0.0), 0.1), 1.0, 0.0)
+    assert lab._clearance(np.array([[0.0, 0.3], [0.05, 0.0]]), post) == pytest.approx([0.2, -0.05])
+    wall = Surface("wall", Segment((0.0, -1.0), (0.0, 1.0), 0.05), 1.0, 0.0)
+    assert lab._clearance(np.array([[0.2, 0.0], [0.0, 1.5]]), wall) == pytest.approx([0.15, 0.45])
+
+
+def test_a_state_that_is_no_number_is_seen():
+    run = simulate(dropped(), resolve())
+    arc = run.arcs["ball"][-1]
+    arc.end = (nan, 0.0, 0.0, 0.0, 0.0)
+    assert not lab._is_finite(run)
+
+
+def test_two_balls_in_each_other_are_seen():
+    balls = [Ball("one", 1.0, 0.1, (0.0, 0.0)), Ball("other", 1.0, 0.1, (0.15, 0.0))]
+    run = simulate(Setup(balls, duration=0.01), resolve(method="plain", step=1e-3))
+    assert lab._overlap(run)[0] > 0.01
+
+
+# The command ---------------------------------------------------------------------------------------------------------
+
+
+def test_the_command_prints_json(capsys: pytest.CaptureFixture[str]):
+    assert main(["stress", "soccer-curl", "--json"]) == 0
+    rows = json.loads(capsys.readouterr().out)
+    assert {"scene", "extreme", "method", "outcome", "energy_gained", "penetration_m", "left", "message"} <= set(
+        rows[0]
+    )
+    assert {row["method"] for row in rows} == set(lab.every_method())
+    assert {row["scene"] for row in rows} == {"soccer-curl"}
+
+
+def test_the_command_prints_a_table_with_reasons():
+    outcomes = [
+        Outcome("golf", "wind", "rk4", HELD, "", 1e-5, 2e-11),
+        Outcome("golf", "wind", "plain", FAILED, "passed through fairway", 0.0, 0.1, True),
+        Outcome("golf", "step 0.1 s", "plain", HELD, "", 0.0, 0.1),
+        Outcome("golf", "ball of 1 m", "rk4", REFUSED, "ball.radius = 1: must be from 0.0005 to 0.5 m"),
+    ]
+    text = "\n".join(lab.as_text(outcomes))
+    assert "FAILED" in text
+    assert "failed, wind (plain): passed through fairway" in text
+    assert "refused, ball of 1 m (rk4): ball.radius = 1" in text
+
+
+def test_an_unknown_scene_is_refused(capsys: pytest.CaptureFixture[str]):
+    assert main(["stress", "gulf"]) == 2
+    assert "did you mean golf" in capsys.readouterr().err

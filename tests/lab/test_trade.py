@@ -1,0 +1,233 @@
+"""Error against cost: the reference is converged, the table says what is so, the parts of a model are found."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from PIL import Image
+
+from sandbox.cli import main
+from sandbox.engine import simulate
+from sandbox.engine.accuracy import LEVELS
+from sandbox.lab import trade as lab
+from sandbox.lab import verdicts
+from sandbox.lab.ablation import Ablated, ablation, variants, with_changes
+from sandbox.lab.reference import Reference, converge
+from sandbox.lab.verdicts import shot_map, verdict
+from sandbox.physics.forces import Drag
+from sandbox.scene import load
+
+DROP = Path(__file__).parents[1] / "scenes" / "drop"
+
+#: A free throw that rattles in the ring: every impact on the round tube multiplies errors.
+RATTLE = "basketball/rattle"
+
+
+@pytest.fixture(scope="module", autouse=True)
+def fewer_settings() -> Iterator[None]:
+    """A table of a few rows is enough to see whether they are right."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(lab, "RATES", (2, 60, 240))
+        patch.setattr(lab, "TOLERANCES", (1e-1, 1e-3, 1e-6))
+        patch.setattr(lab, "_REPEATS", 2)
+        patch.setattr(verdicts, "_PATIENCE", 0.01)
+        yield
+
+
+@pytest.fixture(scope="module")
+def rattle() -> Reference:
+    return converge(load(RATTLE))
+
+
+@pytest.fixture(scope="module")
+def basketball(fewer_settings: None) -> lab.Trade:
+    return lab.trade(load("basketball"))
+
+
+# The reference -------------------------------------------------------------------------------------------------------
+
+
+def test_the_reference_is_better_than_the_finest_level(rattle: Reference):
+    precise = rattle.error_of(simulate(rattle.setup(), LEVELS["precise"]))
+    assert rattle.error < 1e-5
+    assert precise < 1e-3
+
+
+def test_errors_grow_on_the_round_ring(rattle: Reference):
+    plain_flight = converge(load("basketball"))
+    assert plain_flight.growth < 100.0 < rattle.growth
+
+
+def test_without_air_the_reference_is_the_parabola():
+    scene = load("golf", {"air.density": 0.0})
+    exact = converge(scene).exact_error
+    assert exact is not None
+    assert exact < 1e-10
+    assert converge(load("golf")).exact_error is None  # drag has no such answer
+
+
+def test_a_break_is_looked_at_before_it_diverges():
+    reference = converge(load("billiards"))
+    assert reference.diverges_at is not None
+    assert 0.0 < reference.time < reference.diverges_at
+    assert reference.error < 1e-4
+
+
+def test_a_scene_may_have_a_measure_of_its_own(tmp_path: Path):
+    folder = Path(shutil.copytree(DROP, tmp_path / "drop", ignore=shutil.ignore_patterns("__pycache__")))
+    source = (folder / "scene.py").read_text("utf-8")
+    own = "\n\ndef measure(run, parameters):\n    return 0.0, run.events[0].t  # when it lands\n"
+    (folder / "scene.py").write_text(source + own, "utf-8")
+    (point,) = converge(load(folder)).points
+    assert point[1] == pytest.approx((2.0 * 1.95 / 9.81) ** 0.5)
+
+
+# The table -----------------------------------------------------------------------------------------------------------
+
+
+def test_every_method_has_its_points_and_finer_ones_are_better(basketball: lab.Trade):
+    assert {"plain", "rk4", "dormand-prince", "heun"} <= {point.method for point in basketball.points}
+    for method in ("plain", "heun", "rk4", "dormand-prince"):
+        errors = [point.error_m for point in basketball.points if point.method == method]
+        assert errors[-1] < 0.1 * errors[0]
+    fast, balanced, precise = (basketball.levels[name].error_m for name in ("fast", "balanced", "precise"))
+    assert fast > balanced > precise
+    assert set(basketball.levels) == set(LEVELS)
+
+
+def test_the_best_is_the_cheapest_that_is_good_enough(basketball: lab.Trade):
+    for target in lab.TARGETS:
+        best = basketball.best(target)
+        assert best is not None
+        good = [point for point in basketball.points if point.error_m is not None and point.error_m <= target]
+        assert best.wall_s == min(point.wall_s for point in good)
+    assert basketball.best(0.0) is None
+
+
+def test_a_step_of_half_a_second_is_called_unstable_in_the_plain_method(basketball: lab.Trade):
+    coarse = next(point for point in basketball.points if (point.method, point.setting) == ("plain", "1/2 s"))
+    assert not coarse.stable
+    assert coarse.problem
+
+
+def test_on_cloth_no_integrator_takes_part():
+    methods = {method for method, _, _ in lab.settings(converge(load("billiards")))}
+    assert methods == {"plain", "closed form", "level"}
+
+
+# What each part is worth ---------------------------------------------------------------------------------------------
+
+
+def parts(rows: list[Ablated]) -> dict[str, Ablated]:
+    return {row.part: row for row in rows}
+
+
+def test_the_parts_of_a_golf_shot():
+    rows = parts(ablation(converge(load("golf"))))
+    assert {"gravity", "drag", "lift", "spin decay", "drag coefficient", "give of the ground"} <= set(rows)
+    assert rows["drag"].flight_m > 50.0
+    assert rows["drag"].results["carry"][1] > 1.5 * rows["drag"].results["carry"][0]
+    assert rows["rolling resistance"].flight_m == 0.0  # it has not touched the ground yet
+    assert rows["rolling resistance"].shift_m > 1.0
+
+
+def test_a_part_that_does_nothing_is_said_to():
+    """Lift without spin, on a ball that touches nothing before the net."""
+    rows = parts(
+        ablation(converge(load("soccer-curl", {"launch.spin": 0.0, "launch.angle": 8.0, "wall.present": False})))
+    )
+    assert rows["lift"].is_nothing
+    assert not rows["drag"].is_nothing
+
+
+def test_what_a_scene_leaves_out_is_put_in():
+    rows = parts(ablation(converge(load("basketball"))))
+    assert rows["lift"].change.startswith("put in")
+    assert 0.0 < abs(rows["lift"].results["entry_offset"][1] - rows["lift"].results["entry_offset"][0]) < 0.3
+    assert rows["wind"].change == "put in, 1 m/s against"
+
+
+def test_a_coefficient_as_at_the_start_is_that_of_the_start():
+    scene = load("golf")
+    change = next(variant for variant in variants(scene) if variant.part == "drag coefficient")
+    ball, steady = scene.build().balls[0], change.setup(change.scene()).balls[0]
+    drag = next(force for force in ball.forces if isinstance(force, Drag))
+    same = next(force for force in steady.forces if isinstance(force, Drag))
+    start = (0.0, ball.position, ball.velocity, ball.spin)
+    assert same(*start) == pytest.approx(drag(*start))
+
+
+def test_throw_and_cloth_on_a_table():
+    names = {variant.part for variant in variants(load("billiards"))}
+    assert {"friction of balls (throw)", "rolling friction of the cloth"} <= names
+
+
+def test_changes_replace_a_model_whole():
+    scene = with_changes(load("golf"), {"ball.drag.model": "constant", "ball.drag.coefficient": 0.3})
+    assert scene.parameters.ball.drag.coefficient == 0.3
+
+
+# Verdicts ------------------------------------------------------------------------------------------------------------
+
+
+def test_levels_agree_on_nearly_every_verdict(basketball: lab.Trade):
+    found = basketball.verdicts
+    assert found is not None
+    assert shot_map(load(DROP)) is None  # without speed there is nothing to vary
+    assert found.keys == ("launch.speed", "launch.angle")
+    assert found.changed["precise"] == 0.0
+    assert found.changed["balanced"] <= found.changed["plain 1/60 s"]
+
+
+@pytest.mark.parametrize(
+    ("result", "said"),
+    [
+        ({"verdict": "swish", "made": True, "entry_angle": 43.0}, "swish"),
+        ({"holed": True, "ended": "cup", "carry": 3.0}, "holed, cup"),
+        ({"potted": ["3", "cue"], "scratch": True, "touches": ["1"], "positions": {}}, "potted 3 cue, scratch"),
+        ({"carry": 3.0}, ""),
+    ],
+)
+def test_a_result_in_words(result: dict[str, object], said: str):
+    assert verdict(result) == said
+
+
+# The command ---------------------------------------------------------------------------------------------------------
+
+
+def test_the_command_prints_json_and_draws(capsys: pytest.CaptureFixture[str], tmp_path: Path):
+    chart = tmp_path / "trade.png"
+    assert main(["trade", "soccer-curl", "--json", "--plot", str(chart)]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert {"points", "levels", "ablation", "verdicts", "best", "reference"} <= set(found)
+    assert set(found["levels"]) == {"fast", "balanced", "precise"}
+    point = found["points"][0]
+    assert {"method", "setting", "error_m", "wall_s", "force_evaluations", "times_real_time", "stable"} <= set(point)
+    with Image.open(chart) as picture:
+        assert min(picture.size) > 600
+
+
+def test_the_command_prints_tables(capsys: pytest.CaptureFixture[str]):
+    assert main(["trade", str(DROP), "--set", "launch.speed=3"]) == 0
+    out = capsys.readouterr().out
+    for heading in ("the levels", "the cheapest choice", "what each part of the model is worth", "dormand-prince"):
+        assert heading in out
+
+
+def test_a_picture_of_another_kind_is_refused_before_any_work(capsys: pytest.CaptureFixture[str]):
+    assert main(["trade", "golf", "--plot", "chart.jpg"]) == 2
+    assert "must end in .png" in capsys.readouterr().err
+
+
+def test_without_matplotlib_the_command_says_how_to_get_it(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+):
+    import sys
+
+    monkeypatch.setitem(sys.modules, "matplotlib", None)
+    assert main(["trade", "golf", "--plot", str(tmp_path / "chart.png")]) == 2
+    assert 'pip install "sports-sandbox[lab]"' in capsys.readouterr().err

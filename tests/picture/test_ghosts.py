@@ -1,0 +1,72 @@
+"""Two runs over each other in one poster."""
+
+from functools import cache
+
+import numpy as np
+import pytest
+
+import sandbox
+
+PAIRS = [
+    ("golf", "golf/headwind"),
+    ("golf/putt", "golf"),
+    ("billiards/bank", "billiards/cut"),
+    ("basketball", "basketball/hook"),
+    ("soccer", "soccer/dipping-free-kick"),
+    ("soccer-curl", "soccer-curl/beckham-2001"),
+]
+
+
+@cache
+def run_of(name: str):
+    return sandbox.simulate(sandbox.load(name))
+
+
+def compared(pair, size=(640, 360)):
+    run, other = map(run_of, pair)
+    return run.scene.picture(run, size, {"the other": other})
+
+
+@pytest.mark.parametrize("size", [(1280, 720), (1920, 1080)], ids=str)
+@pytest.mark.parametrize("pair", PAIRS, ids=str)
+def test_both_are_told_and_nothing_overlaps(pair, size):
+    picture = compared(pair, size)
+    assert picture.poster().get_size() == size
+    written = [text for text, _ in picture.sheet.written]
+    assert any(text.startswith("the other") for text in written)
+    (_, entries), own = picture.ghosts[0].row, picture.numbers()
+    assert [label for label, *_ in entries] == [label for label, *_ in own]
+    for label, value, *_ in own[:3]:
+        assert label in written
+        assert value in written
+    assert entries[0][1] in written
+    for i, (text, rect) in enumerate(picture.sheet.written):
+        assert picture.sheet.frame.contains(rect), f"{text} leaves the frame"
+        for other_text, other in picture.sheet.written[:i]:
+            assert not rect.colliderect(other), f"{text} overlaps {other_text}"
+
+
+@pytest.mark.parametrize("pair", PAIRS, ids=str)
+def test_the_camera_shows_both_paths(pair):
+    picture = compared(pair)
+    run = run_of(pair[1])
+    ball = picture.ghosts[0].picture.struck if hasattr(picture, "struck") else run.setup.balls[0].name
+    end = run.duration if run.caught_at(ball) is None else run.caught_at(ball)
+    points = np.array([picture.camera.pixel(*run.state(ball, t)[:2]) for t in np.linspace(0.0, 0.9 * end, 50)])
+    inside = (points >= 0).all(axis=1) & (points <= picture.size).all(axis=1)
+    assert inside.mean() > 0.9
+
+
+def test_without_ghosts_the_poster_is_as_ever():
+    run = run_of("golf")
+    alone = run.scene.picture(run, (640, 360)).poster().get_buffer().raw
+    assert run.scene.picture(run, (640, 360), {}).poster().get_buffer().raw == alone
+
+
+def test_a_picture_that_shows_one_run_alone_says_so():
+    from pathlib import Path
+
+    scene = sandbox.load(Path(__file__).parents[1] / "scenes" / "drop")
+    run = sandbox.simulate(scene)
+    with pytest.raises(sandbox.RequestError, match="drop shows one run alone"):
+        scene.picture(run, None, {"other": run})
