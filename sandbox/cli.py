@@ -139,6 +139,9 @@ def run(
         Path | None, typer.Option(metavar="F.webp", help="The same in all colours, and in fewer bytes.")
     ] = None,
     strip: Annotated[Path | None, typer.Option(metavar="F.png", help="Write five frames side by side.")] = None,
+    energy: Annotated[
+        Path | None, typer.Option(metavar="F.png", help="Write a chart of where the energy goes.")
+    ] = None,
     compare: Annotated[
         str | None,
         typer.Option(metavar="SCENE", help="Another preset or scene file: its numbers and its path beside this one's."),
@@ -174,6 +177,7 @@ def run(
         "--trajectory": trajectory,
         "--poster": poster,
         "--strip": strip,
+        "--energy": energy,
         "--gif": gif,
         "--webp": webp,
         "--frames": frames,
@@ -298,6 +302,10 @@ def _draw(
                 from sandbox.picture.strip import film_strip
 
                 frames.save_png(film_strip(scene.picture(done, (width // 2, height // 2)), done), path)
+            elif option == "--energy":
+                from sandbox.picture.energy import energy_chart
+
+                frames.save_png(energy_chart(done, (width, height)), path)
             else:
                 save = {"--frames": frames.save_frames, "--gif": frames.save_gif, "--webp": frames.save_webp}[option]
                 with bar(option.removeprefix("--")) as progress:

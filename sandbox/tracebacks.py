@@ -34,10 +34,10 @@ def _is_ours(filename: str) -> bool:
 
 
 def _is_machinery(filename: str) -> bool:
-    """Whether a file is ours, or of the library that the scene's groups of parameters are made with."""
+    """Whether a file is ours, made by a library, or of the one that the scene's groups of parameters are made with."""
     import pydantic
 
-    return _is_sandbox(filename) or _inside(filename, Path(pydantic.__file__).parent)
+    return filename.startswith("<") or _is_sandbox(filename) or _inside(filename, Path(pydantic.__file__).parent)
 
 
 def _is_sandbox(filename: str) -> bool:

@@ -195,16 +195,16 @@ def test_pictures(call, tmp_path: Path):
 
 
 def test_more_pictures(call, tmp_path: Path):
-    strip, webp = tmp_path / "strip.png", tmp_path / "drop.webp"
-    args = ["--strip", strip, "--webp", webp, "--fps", 10, "--size", "640x360"]
+    strip, energy, webp = tmp_path / "strip.png", tmp_path / "energy.png", tmp_path / "drop.webp"
+    args = ["--strip", strip, "--energy", energy, "--webp", webp, "--fps", 10, "--size", "640x360"]
     code, out, err = call("run", DROP, *args)
     assert (code, err) == (0, "")
-    assert out.splitlines()[-2:] == [f"wrote {strip}", f"wrote {webp}"]
+    assert out.splitlines()[-3:] == [f"wrote {strip}", f"wrote {energy}", f"wrote {webp}"]
     sizes = {}
-    for path in (strip, webp):
+    for path in (strip, energy, webp):
         with Image.open(path) as image:
             sizes[path.name] = image.size
-    assert sizes["drop.webp"] == (640, 360)
+    assert (sizes["energy.png"], sizes["drop.webp"]) == ((640, 360), (640, 360))
     assert sizes["strip.png"][0] > 5 * 320
 
 
@@ -338,6 +338,7 @@ def test_an_unreadable_file_is_refused(call, tmp_path: Path):
         (["--poster", "shot.jpg"], "--poster shot.jpg: its name must end in .png"),
         (["--gif", "shot.png"], "--gif shot.png: its name must end in .gif"),
         (["--webp", "shot.gif"], "--webp shot.gif: its name must end in .webp"),
+        (["--energy", "shot.gif"], "--energy shot.gif: its name must end in .png"),
         (["--frames", "file"], "--frames file: is a file, and a folder is needed"),
         (["--frames", "file/frames"], "--frames: there is no folder"),
         (["--frames", "/proc/some/frames"], "--frames: cannot write into /proc"),

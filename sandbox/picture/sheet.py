@@ -111,7 +111,7 @@ class Sheet:
         if np.any(np.diff([*columns, room + self.gap]) < np.array(widths) + 2.5 * self.gap):  # too narrow to be even
             between = (room - sum(widths)) / max(1, len(entries) - 1)
             columns = np.cumsum([0, *(width + between for width in widths[:-1])])
-        middle = rect.centery - len(rows) * tall / 2
+        middle = rect.centery - len(rows) * tall // 2
         for i, ((label, value, *own), x) in enumerate(zip(entries, rect.left + inset + columns, strict=True)):
             colour = own[0] if own else CARD["text"] if i else CARD["accent"]
             self.write(label, "small", (x, middle - 0.2 * self.gap), CARD["quiet"], "bottomleft")

@@ -1,0 +1,246 @@
+"""A strip chart of energy by cause: what the balls have along the run, and where the rest has gone."""
+
+from __future__ import annotations
+
+from collections import Counter, defaultdict
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from itertools import pairwise
+from math import inf
+from typing import Any
+
+import numpy as np
+import pygame
+
+from sandbox.engine.arc import Arc
+from sandbox.engine.bernstein import piece
+from sandbox.engine.ledger import Ledger, kinetic, ledger
+from sandbox.picture.palette import Colour, mix, palette
+from sandbox.picture.sheet import CARD, Entry, Sheet, nice
+from sandbox.picture.vectors import CALLED, colour_of
+
+ENERGY = palette("energy")
+
+#: The run is cut into so many pieces.
+PIECES = 160
+#: Causes that took less than this share of all energy are summed up as "other"; and at most so many are shown.
+LEAST_SHARE, MOST_CAUSES = 0.004, 6
+#: J; a run with less at the start has nothing to show.
+LEAST_ENERGY = 1e-3
+#: As many impacts are marked at most, those at less than this share of the hardest are not.
+HITS, HARD = 12, 0.15
+#: s before an impact at which the energy is taken, so that the loss is seen at once.
+BEFORE = 1e-9
+#: How dark what is lost is drawn.
+LOST = 0.42
+
+
+#: Name, values in J over time, colour.
+Band = tuple[str, np.ndarray, Colour]
+
+
+@dataclass(frozen=True)
+class Course:
+    """Energy in J over time: arrays of the shape of ``times``."""
+
+    times: np.ndarray  # s
+    has: dict[str, np.ndarray]  # "height", "speed" and "spin" of all balls
+    lost: dict[str, np.ndarray]  # to each cause until then; a cause that gives energy loses less than nothing
+
+    @property
+    def start(self) -> float:
+        """All there is at the start, in J."""
+        return float(sum(energy[0] for energy in self.has.values()))
+
+
+def course(run: Any) -> Course:
+    """The energy of a run over time; height counts from the lowest that the balls come to."""
+    called, hits = _names(run), [t for t in hard_impacts(run) if t > BEFORE]
+    even = np.linspace(0.0, run.duration, PIECES + 1)
+    times = np.union1d(even, [*hits, *(t - BEFORE for t in hits)])
+    gained: dict[str, np.ndarray] = defaultdict(lambda: np.zeros(len(times)))
+    for i, (a, b) in enumerate(pairwise([-inf, *times[1:]])):
+        part = _piece_of(run, a, float(b))
+        for kind in (part.work, part.impacts, part.contacts):
+            for name, energy in kind.items():
+                gained[called(name)][i + 1] += energy
+    has = {name: np.zeros(len(times)) for name in ("height", "speed", "spin")}
+    for ball in run.setup.balls:
+        caught = run.caught_at(ball.name)
+        for i, t in enumerate(times):
+            x, y, vx, vy, *spins = run.state(ball.name, float(t))
+            if run.setup.cloth is not None:
+                spins += run.rolling_spin(ball.name, float(t))
+            if caught is not None and t >= caught:
+                gained["pockets"][i] -= kinetic(ball, (x, y, vx, vy, *spins))
+                break
+            has["speed"][i] += 0.5 * ball.mass * (vx * vx + vy * vy)
+            has["spin"][i] += kinetic(ball, (x, y, 0.0, 0.0, *spins))
+    sums = {name: np.cumsum(energy) for name, energy in gained.items()}
+    fallen = sums.pop("gravity", np.zeros(len(times)))
+    has["height"] = fallen.max() - fallen
+    return Course(times, has, {name: -energy for name, energy in sums.items()})
+
+
+def hard_impacts(run: Any) -> list[float]:
+    """Times in s of the hardest impacts."""
+    hits = sorted(((event.speed, event.t) for event in run.events if event.kind == "impact"), reverse=True)
+    return sorted({t for speed, t in hits[:HITS] if speed >= HARD * hits[0][0]})
+
+
+def _names(run: Any) -> Callable[[str], str]:
+    """What causes are called here: two balls "balls", and surfaces by their kind where there are several of it."""
+    balls = {ball.name for ball in run.setup.balls}
+    surfaces = {surface.name for surface in run.setup.surfaces}
+    kinds = Counter(name.split()[-1] for name in surfaces)
+
+    def called(name: str) -> str:
+        kind = name.split()[-1]
+        if name in surfaces:
+            return f"{kind}s" if kinds[kind] > 1 else name
+        return "balls" if set(name.split(" and ")) <= balls else CALLED.get(name, name)
+
+    return called
+
+
+def _piece_of(run: Any, a: float, b: float) -> Ledger:
+    """The ledger of what happened after a and until b, in s."""
+    arcs = {
+        name: [_cut(arc, a, b) for arc in path if arc.t0 <= b and (arc.t1 > a or arc is path[-1])]
+        for name, path in run.arcs.items()
+    }
+    return ledger(replace(run, arcs=arcs))
+
+
+def _cut(arc: Arc, a: float, b: float) -> Arc:
+    """The part of an arc between two times; its first instant where it begins at b or ended before a."""
+    a, b = max(a, arc.t0), min(b, arc.t1)
+    if a == arc.t0 and b == arc.t1:
+        return arc
+    if b <= a:
+        return arc.until(arc.t0)
+    h = arc.t1 - arc.t0
+    u, v = (a - arc.t0) / h, (b - arc.t0) / h
+    x, y, vx, vy, spin, *spins = (
+        piece(curve, u, v) for curve in (arc.x, arc.y, arc.vx, arc.vy, arc.spin, *arc.rolling_spin)
+    )
+    return Arc(a, b, arc.state(a), x, y, vx, vy, spin, arc.contact, tuple(spins))
+
+
+def energy_chart(run: Any, size: tuple[int, int] = (1280, 720)) -> pygame.Surface:
+    """The course of a run's energy as bands over time: below what the balls have, above it what each cause took."""
+    sheet = Sheet(size, on_dark=True)
+    sheet.surface.fill(ENERGY["ground"])
+    energy = course(run)
+    bands = _bands(energy)
+    titles = [sheet.lettering.height(name) for name in ("large", "small")]
+    top, bottom = sheet.frame.top + sum(titles) + 4 * sheet.gap, sheet.frame.bottom - sheet.card_height()
+    names = (f"{name} {joules(values[-1])}" for name, values, _ in bands)
+    labels = max((sheet.lettering.width(name, "small", bold=True) for name in names), default=0) + 3 * sheet.gap
+    total = sum((values for _, values, _ in bands), np.zeros(len(energy.times)))
+    tall = bottom - top - sheet.lettering.height("small") - 3 * sheet.gap
+    scale = tall / max(float(total.max()), LEAST_ENERGY)
+    step = nice(60 * sheet.unit / scale)
+    levels = [i * step for i in range(1, int(tall / scale / step) + 1)]  # at the foot stands 0 s
+    ticks = max(sheet.lettering.width(joules(level), "small") for level in levels) + 2 * sheet.gap
+    plot = pygame.Rect(sheet.frame.left + ticks, top, sheet.frame.width - ticks - labels, tall)
+    _axes(sheet, plot, run.duration, {level: plot.bottom - level * scale for level in levels})
+    columns = plot.left + plot.width * energy.times / max(run.duration, 1e-9)
+    foot, spots = np.zeros(len(energy.times)), []
+    for _, values, colour in bands:
+        head = foot + values
+        edges = [plot.bottom - level * scale for level in (foot, head)]
+        outline = [*zip(columns, edges[1], strict=True), *zip(columns[::-1], edges[0][::-1], strict=True)]
+        sheet.painter.polygon(outline, colour)
+        sheet.painter.line(list(zip(columns, edges[1], strict=True)), max(1.0, 1.2 * sheet.unit), ENERGY["ground"], 0.8)
+        spots.append(np.column_stack([columns, (edges[0] + edges[1]) / 2, edges[0] - edges[1]]))
+        foot = head
+    _impacts(sheet, plot, run)
+    _name(sheet, plot, bands, spots)
+    sheet.headline("Where the energy goes", [f"{joules(energy.start)} at the start", _title(run)], sheet.frame.width)
+    entries: list[Entry] = [("at the start", joules(energy.start))]
+    for name, values, colour in bands:
+        share = 100 * values[-1] / max(float(total[-1]), 1e-12)
+        if share >= 0.05:
+            entries.append((name, f"{share:.1f} %", mix(colour, CARD["text"], 0.3)))
+    sheet.columns(bottom, entries)
+    return sheet.surface
+
+
+def _bands(energy: Course) -> list[Band]:
+    """What the balls have, and what the largest causes took, the largest first; a gain shows as a higher sum."""
+    least = LEAST_SHARE * max(energy.start, 1e-12)
+    bands = [(name, values, ENERGY[name]) for name, values in energy.has.items() if values.max() > least]
+    lost = {name: np.maximum(values, 0.0) for name, values in energy.lost.items()}
+    ordered = sorted(lost, key=lambda name: -lost[name].max())
+    shown = [name for name in ordered[:MOST_CAUSES] if lost[name].max() > least]
+    surfaces = iter(ENERGY["surfaces"])
+    for name in shown:
+        colour = colour_of(name) if name in ("drag", "lift") else next(surfaces)
+        bands.append((name, lost[name], mix(colour, ENERGY["ground"], LOST)))
+    rest = sum((lost[name] for name in ordered if name not in shown), np.zeros(len(energy.times)))
+    if rest.max() > least:
+        bands.append(("other", rest, ENERGY["other"]))
+    return bands
+
+
+def _axes(sheet: Sheet, plot: pygame.Rect, duration: float, levels: Mapping[float, float]) -> None:
+    """Lines at energies (J) in their rows, and round times below."""
+    thin = max(1, round(sheet.unit))
+    for level, row in levels.items():
+        sheet.surface.fill(ENERGY["rule"], (plot.left, round(row), plot.width, thin))
+        sheet.write(joules(level), "small", (plot.left - sheet.gap, row), sheet.quiet_ink, "midright")
+    wide = plot.width / max(duration, 1e-9)
+    step = nice(80 * sheet.unit / wide)
+    for i in range(int(duration / step + 1e-9) + 1):
+        column = round(plot.left + i * step * wide)
+        sheet.surface.fill(sheet.quiet_ink, (column, plot.bottom, thin, round(5 * sheet.unit)))
+        sheet.write(f"{i * step:g} s", "small", (column, plot.bottom + sheet.gap), sheet.quiet_ink, "midtop")
+
+
+def _impacts(sheet: Sheet, plot: pygame.Rect, run: Any) -> None:
+    """Dashed lines at the hardest impacts."""
+    for t in hard_impacts(run):
+        x = plot.left + plot.width * t / run.duration
+        ends = [(x, plot.top), (x, plot.bottom)]
+        sheet.painter.dashes(ends, max(1.0, sheet.unit), CARD["text"], 4 * sheet.unit, 4 * sheet.unit, 0.35)
+
+
+def _name(sheet: Sheet, plot: pygame.Rect, bands: Sequence[Band], spots: Sequence[np.ndarray]) -> None:
+    """Each band's name at its right end, moved apart where bands are thin; inside it where it has no right end."""
+    tall = sheet.lettering.height("small")
+    lasting = []
+    for (name, values, colour), spot in zip(bands, spots, strict=True):
+        if spot[-1, 2] >= 1.0:
+            lasting.append((f"{name} {joules(values[-1])}", colour, float(spot[-1, 1])))
+            continue
+        x, y, thick = spot[int(spot[:, 2].argmax())]
+        half = sheet.lettering.width(name, "small", bold=True) / 2 + sheet.gap
+        if thick > tall + sheet.gap:
+            x = min(max(x, plot.left + half), plot.right - half)
+            sheet.label(name, "small", [(x, y, "center")], ENERGY["ground"], bold=True)
+    rows = [round(min(row, plot.bottom - tall / 2 - sheet.gap)) for *_, row in lasting]
+    for i in range(1, len(rows)):  # from the lowest up
+        rows[i] = min(rows[i], rows[i - 1] - tall)
+    over = plot.top + tall // 2 - rows[-1] if rows else 0
+    if over > 0:
+        rows[-1] += over
+        for i in range(len(rows) - 2, -1, -1):
+            rows[i] = max(rows[i], rows[i + 1] + tall)
+    for (text, colour, end), row in zip(lasting, rows, strict=True):
+        near, far = plot.right + sheet.gap / 2, plot.right + 2 * sheet.gap
+        sheet.painter.line([(near, end), (far, row)], max(1.0, sheet.unit), colour)
+        sheet.write(text, "small", (far + sheet.gap / 2, row), mix(colour, CARD["text"], 0.45), "midleft", bold=True)
+
+
+def _title(run: Any) -> str:
+    """What it is a run of."""
+    scene = run.scene
+    return "" if scene is None else f"{scene.name}/{scene.preset}" if scene.preset else scene.name
+
+
+def joules(energy: float) -> str:
+    """An energy as people write it."""
+    if abs(energy) >= 999.5:
+        return f"{energy / 1000:.3g} kJ"
+    return f"{energy:.3g} J" if abs(energy) >= 0.0995 or energy == 0 else f"{1000 * energy:.3g} mJ"
