@@ -154,7 +154,7 @@ class Impacts:
         flat, upward = slip
         if upward != 0.0:
             bounce = bounce._replace(friction=bounce.friction * abs(flat) / (flat * flat + upward * upward) ** 0.5)
-        if 0.0 < bounce.restitution * approach < self._slowest_hop:
+        if approach > 0.0 and bounce.restitution * approach < self._slowest_hop:
             bounce = bounce._replace(restitution=self._slowest_hop / approach)
         return bounce
 
