@@ -32,12 +32,15 @@ _STANDSTILL = 1e-6
 #: Impacts in one run beyond which it is declared stalled; Galperin's billiard with mass ratio 1e8 needs 31,415.
 _MOST_IMPACTS = 200_000
 
+#: Impacts in a row, all slower than _FAINT m/s, beyond which a run is declared stalled: balls that lie on one another.
+_MOST_FAINT = 1_000
+_FAINT = 1e-4
+
 #: Deepest overlap at the start that is pushed apart, as a share of the radius; deeper is an error in the scene.
 _SLIGHT = 0.02
 
-
-#: Steps in one run beyond which its forces are declared too stiff: some 20 s of computing.
-_MOST_STEPS = 300_000
+#: Steps in one run beyond which its forces are declared too stiff: some 5 s of computing.
+_MOST_STEPS = 100_000
 
 
 class Stalled(RunError):
@@ -55,6 +58,7 @@ class Simulation:
         self._queue: list[tuple[float, int, str, int, int, int, int]] = []
         self._order = count()
         self._over = False
+        self._faint = 0  # impacts in a row that were faint
         self._tracks = self._laid_out()
         self._separate_balls()
         slowest = 0.0 if setup.cloth is None else slowest_hop(setup.cloth, accuracy.settle)
@@ -132,7 +136,7 @@ class Simulation:
             if t > moment + _STANDSTILL:
                 moment, at_once = t, 0
             at_once += 1
-            if at_once > _MOST_AT_ONCE or self._numerics.impacts > _MOST_IMPACTS:
+            if at_once > _MOST_AT_ONCE or self._numerics.impacts > _MOST_IMPACTS or self._faint > _MOST_FAINT:
                 raise self._stalled(t, i)
             if self._numerics.steps > _MOST_STEPS:
                 raise Diverged(
@@ -172,6 +176,7 @@ class Simulation:
             self._tracks[index].keep(t)
         for hit in hits:
             self._numerics.impacts += 1
+            self._faint = self._faint + 1 if hit.speed < _FAINT else 0
             x, y = states[hit.ball][:2]
             self._note(Event(t, "impact", self._tracks[hit.ball].ball.name, hit.partner, hit.speed, x, y))
         for index, state in states.items():
