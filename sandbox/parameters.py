@@ -234,20 +234,21 @@ def walk(parameters: Group, prefix: str = "") -> Iterator[Parameter]:
         unit, low, high = (
             (declared.unit, declared.low, declared.high) if isinstance(declared, Quantity) else (None,) * 3
         )
-        yield Parameter(key, value, unit, low, high, _words(field.annotation), field.description or "")
+        yield Parameter(key, value, unit, low, high, words_of(field.annotation), field.description or "")
 
 
-def _words(annotation: Any) -> tuple[Any, ...]:
+def words_of(annotation: Any) -> tuple[Any, ...]:
+    """The words that a field of this type may hold."""
     if get_origin(annotation) is Literal:
         return get_args(annotation)
-    return tuple(word for part in get_args(annotation) for word in _words(part))
+    return tuple(word for part in get_args(annotation) for word in words_of(part))
 
 
-def _groups(annotation: Any) -> tuple[type[Group], ...]:
+def groups_of(annotation: Any) -> tuple[type[Group], ...]:
     """The groups that a field of this type may hold: one, several to choose from, or those of a list."""
     if isinstance(annotation, type) and issubclass(annotation, Group):
         return (annotation,)
-    return tuple(found for part in get_args(annotation) for found in _groups(part))
+    return tuple(found for part in get_args(annotation) for found in groups_of(part))
 
 
 def known_keys(schema: type[Group], values: Any = None, prefix: str = "") -> list[str]:
@@ -256,7 +257,7 @@ def known_keys(schema: type[Group], values: Any = None, prefix: str = "") -> lis
     for name, field in schema.model_fields.items():
         keys[prefix + name] = None
         table = values.get(name) if isinstance(values, Mapping) else None
-        for inner in _groups(field.annotation):
+        for inner in groups_of(field.annotation):
             if _chosen(field, inner, table):
                 keys |= dict.fromkeys(known_keys(inner, table, f"{prefix}{name}."))
     return list(keys)
@@ -383,7 +384,7 @@ def _without_leftovers(schema: type[Group], tables: dict[str, Any], changes: Map
         table, change = kept.get(name), changes.get(name)
         if not isinstance(table, dict) or not isinstance(change, Mapping):
             continue
-        for inner in _groups(field.annotation):
+        for inner in groups_of(field.annotation):
             if field.discriminator is None:
                 kept[name] = _without_leftovers(inner, table, change)
             elif field.discriminator in change and _chosen(field, inner, change):
@@ -471,11 +472,11 @@ def _words_for(key: str, schema: type[Group]) -> Iterator[str]:
     *path, last = key.split(".")
     fields = [FieldInfo(annotation=schema)]
     for part in path:
-        inner = [g for field in fields for g in _groups(field.annotation) if part in g.model_fields]
+        inner = [g for field in fields for g in groups_of(field.annotation) if part in g.model_fields]
         fields = [g.model_fields[part] for g in inner]
     for field in fields:
         tag = field.discriminator
-        for g in _groups(field.annotation):
+        for g in groups_of(field.annotation):
             if isinstance(tag, str) and last in g.model_fields:
                 yield f"{tag} = {json.dumps(get_args(g.model_fields[tag].annotation)[0])}"
 
