@@ -47,7 +47,7 @@ def ledger(run: Run) -> Ledger:
     hits = _hits(run)
     for ball in run.setup.balls:
         arcs = run.arcs[ball.name]
-        mover = Mover(ball, run.accuracy, run.setup.bounds, run.setup.longest_step, Numerics())
+        mover = Mover(ball, run.accuracy, run.setup.bounds, run.setup.patches, Numerics())
         start += kinetic(ball, arcs[0].start)
         end += kinetic(ball, arcs[-1].state(arcs[-1].t1))
         for arc in arcs:

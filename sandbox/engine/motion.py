@@ -8,14 +8,14 @@ Both are the same integration with one more force, so a roll is as accurate as a
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from math import isfinite
 from typing import NamedTuple
 
 from sandbox.engine.accuracy import Accuracy
 from sandbox.engine.arc import Arc, still, through
 from sandbox.engine.run import Numerics
-from sandbox.engine.setup import Ball, Bounds, Surface
+from sandbox.engine.setup import Ball, Bounds, Patch, Surface
 from sandbox.engine.touch import Obstacle, Touching
 from sandbox.errors import RunError
 from sandbox.physics.integrators import INTEGRATORS, Acceleration, Law, State
@@ -69,11 +69,11 @@ class Contact(NamedTuple):
 class Mover:
     """One ball and everything that moves it."""
 
-    def __init__(self, ball: Ball, accuracy: Accuracy, bounds: Bounds, longest_step: float, numerics: Numerics) -> None:
+    def __init__(self, ball: Ball, accuracy: Accuracy, bounds: Bounds, patches: Sequence[Patch], numerics: Numerics) -> None:
         self.ball = ball
         self._inertia = ball.inertia
         self._bounds = bounds
-        self._longest = min(longest_step, LONGEST)
+        self._patches = patches
         self._numerics = numerics
         self._integrator = INTEGRATORS[accuracy.integrator]
         self._step = accuracy.step  # s
@@ -151,7 +151,9 @@ class Mover:
         acceleration = law(t, state)
         step = self._integrator.step
         wanted = self._suggested
-        h = min(wanted, self._longest, until - t)
+        h = min(wanted, LONGEST, until - t)
+        for patch in self._patches:
+            h = _halved_for(patch, h, state, acceleration)
         if contact is not None and contact.touching.center is not None:
             # around a round feature a quintic follows the circle to 1e-9 of its radius for an eighth of a turn or less
             h = min(h, _LONGEST_TURN / (contact.touching.curvature * (abs(state[2]) + abs(state[3])) + 1e-30))
@@ -305,6 +307,20 @@ def _crossing(arc: Arc, value: Callable[[float, State], float]) -> float:
         if high - low <= 1e-15 * (1.0 + high):
             break
     return high
+
+
+def _halved_for(patch: Patch, h: float, state: State, acceleration: Acceleration) -> float:
+    """A step that stops short of the patch, or is no longer than it asks for."""
+    x, y, vx, vy, _ = state
+    ax, ay, _ = acceleration
+    while h > patch.step:
+        half = 0.5 * h
+        xs = (x, x + half * vx, x + h * (vx + half * ax))  # control points of the parabola ahead
+        ys = (y, y + half * vy, y + h * (vy + half * ay))
+        if not patch.crossed(xs, ys):
+            return h
+        h = max(half, patch.step)
+    return h
 
 
 def _stiff(before: State, after: State, acceleration: Acceleration, following: Acceleration, h: float) -> bool:

@@ -140,6 +140,21 @@ class Catch:
     radius: float  # m
 
 
+class Patch(NamedTuple):
+    """A place where a force sets in and ends within a short way, as at a net: no step through it is longer than
+    ``step``, so that none leaps over it."""
+
+    left: float  # m
+    bottom: float  # m
+    right: float  # m
+    top: float  # m
+    step: float  # s
+
+    def crossed(self, x: tuple[float, ...], y: tuple[float, ...]) -> bool:
+        """Whether a path inside the hull of these points could pass through; coordinates in m."""
+        return min(x) <= self.right and max(x) >= self.left and min(y) <= self.top and max(y) >= self.bottom
+
+
 #: Elastic and frictionless: what two balls do where a scene says nothing.
 ELASTIC = Bounce(1.0, 0.0)
 
@@ -169,7 +184,7 @@ class Setup:
     cloth: Cloth | None = None
     catches: Sequence[Catch] = ()
     bounds: Bounds = Bounds()
-    longest_step: float = inf  # s; shorter where forces change quickly in time or space
+    patches: Sequence[Patch] = ()
 
     def __post_init__(self) -> None:
         names = [ball.name for ball in self.balls]

@@ -76,7 +76,7 @@ class Simulation:
             mover: Mover | OnCloth
             state: State = (x, y, *map(float, (*ball.velocity, ball.spin)))
             if setup.cloth is None:
-                mover = Mover(ball, self._accuracy, setup.bounds, setup.longest_step, self._numerics)
+                mover = Mover(ball, self._accuracy, setup.bounds, setup.patches, self._numerics)
             else:
                 mover = OnCloth(ball, setup.cloth, self._numerics)
                 state = (*state, *map(float, ball.rolling_spin))

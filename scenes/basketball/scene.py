@@ -26,9 +26,9 @@ from sandbox.aerodynamics import (
     SpinRatioLift,
     aerodynamic_forces,
 )
-from sandbox.controls import Controls, Spin
+from sandbox.controls import Controls, Spin, Spread
 from sandbox.engine.run import Event, Run
-from sandbox.engine.setup import HOLLOW_SPHERE, Ball, Circle, Segment, Setup, Surface, Vector
+from sandbox.engine.setup import HOLLOW_SPHERE, Ball, Circle, Patch, Segment, Setup, Surface, Vector
 from sandbox.errors import RequestError
 from sandbox.parameters import Accuracy, Group, either, group, quantity, switch
 from sandbox.physics.elementwise import clip
@@ -119,6 +119,7 @@ CONTROLS = Controls(
     spins=(Spin("launch.spin", 20.0),),
     sliders=("launch.speed", "launch.angle", "launch.spin", "release.height", "hoop.distance", "air.wind", "gravity"),
     scores="made",
+    spread=(Spread("launch.speed", 0.01), Spread("launch.angle", least=1.0), Spread("launch.spin", 0.2)),  # assumed
 )
 
 # -------------------------------------------------------------------------------------------------------------- build
@@ -155,6 +156,12 @@ class NetDrag:
         self._half_width = half_width
         self._length = length
 
+    @classmethod
+    def patch(cls, middle: Vector, half_width: float, length: float) -> Patch:
+        """Where it is: no step may leap over it."""
+        (x, y), aside = middle, half_width + cls.EDGE
+        return Patch(x - aside, y - length, x + aside, y, step=0.02)
+
     def __call__(self, t: float, position: Any, velocity: Any, spin: Any) -> tuple[Any, Any]:
         x, y = position
         depth = self._middle[1] - y
@@ -180,9 +187,9 @@ def build(parameters: Parameters) -> Setup:
     forces = aerodynamic_forces(parameters.air, ball.radius, ball.drag, ball.lift)
     if parameters.gravity > 0.0:
         forces.append(Gravity(ball.mass, parameters.gravity))
+    middle, half_width = (hoop.distance, hoop.height), 0.5 * hoop.inner_diameter
     if net.slows:
-        middle = (hoop.distance, hoop.height)
-        forces.append(NetDrag(ball.mass, net.damping, middle, 0.5 * hoop.inner_diameter, net.length))
+        forces.append(NetDrag(ball.mass, net.damping, middle, half_width, net.length))
     shot = Ball(
         "ball",
         ball.mass,
@@ -193,9 +200,8 @@ def build(parameters: Parameters) -> Setup:
         inertia_factor=HOLLOW_SPHERE,
         forces=forces,
     )
-    # a step must not leap over the net
-    longest_step = 0.02 if net.slows else float("inf")
-    return Setup([shot], _court(parameters), duration=LONGEST, until=_is_tired, longest_step=longest_step)
+    patches = [NetDrag.patch(middle, half_width, net.length)] if net.slows else []
+    return Setup([shot], _court(parameters), duration=LONGEST, until=_is_tired, patches=patches)
 
 
 def _is_tired(event: Event) -> bool:
