@@ -1,0 +1,102 @@
+"""Whatever parameters the bounds allow: a run ends, with finite numbers and soon, or says by name why it does not."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator
+from math import isfinite
+from typing import Any
+
+import pytest
+from hypothesis import HealthCheck, Phase, given, settings
+from hypothesis import strategies as st
+
+import sandbox
+from sandbox.errors import RequestError, RunError
+from sandbox.scene import listings, parameters_of
+from tests.lab.parameter_space import Overrides, everything, nearby, overrides
+
+SCENES = [listing.name for listing in listings() if "/" not in listing.name]
+
+#: Computing time in s of one run, on a slow machine.
+LONGEST = 15.0
+
+#: A failing example is shown as it is: shrinking it would run many more of its kind.
+quickly = settings(
+    deadline=None,
+    database=None,
+    derandomize=True,
+    phases=[Phase.generate],
+    suppress_health_check=list(HealthCheck),
+)
+
+
+def numbers(value: Any) -> Iterator[float]:
+    if isinstance(value, dict):
+        value = list(value.values())
+    if isinstance(value, list | tuple):
+        for item in value:
+            yield from numbers(item)
+    elif isinstance(value, float):
+        yield value
+
+
+def ran(scene: str, changes: Overrides) -> bool:
+    """Run, look at every number, and say whether it came to an end; a named error is an answer too."""
+    started = time.process_time()
+    try:
+        run = sandbox.simulate(sandbox.load(scene, changes))
+    except RequestError:
+        return False
+    except RunError as error:
+        says_when = "t = " in str(error)
+        assert says_when, (error, changes)
+        return False
+    finally:
+        assert time.process_time() - started < LONGEST, changes
+    assert all(map(isfinite, numbers(run.result))), changes
+    for ball, arcs in run.arcs.items():
+        assert all(isfinite(x) for arc in arcs for x in arc.state(arc.t1)), (ball, changes)
+    return True
+
+
+def share_that_ran(scene: str, space: st.SearchStrategy[Overrides], examples: int = 25) -> float:
+    ends = []
+
+    @settings(quickly, max_examples=examples)
+    @given(changes=space)
+    def runs(changes: Overrides) -> None:
+        ends.append(ran(scene, changes))
+
+    runs()
+    return sum(ends) / len(ends)
+
+
+@pytest.mark.parametrize("scene", SCENES)
+def test_a_few_changes(scene: str):
+    assert share_that_ran(scene, overrides(parameters_of(scene)[1])) > 0.5
+
+
+@pytest.mark.parametrize("scene", SCENES)
+def test_every_number_somewhat_changed(scene: str):
+    assert share_that_ran(scene, nearby(parameters_of(scene)[1])) > 0.5
+
+
+@pytest.mark.parametrize("scene", SCENES)
+def test_everything_changed(scene: str):
+    """Most of such scenes are refused, as what is in them overlaps; the others are odd, and may take seconds."""
+    share_that_ran(scene, everything(parameters_of(scene)[1]), examples=12)
+
+
+@pytest.mark.parametrize("scene", SCENES)
+def test_the_plain_method(scene: str):
+    """It may tunnel; it must not hang, crash or give NaN. Steps shorter than 10 ms only take long."""
+    space = overrides(parameters_of(scene)[1], most=3)
+    plain = st.fixed_dictionaries({"accuracy.method": st.just("plain"), "accuracy.step": st.floats(1e-2, 0.1)})
+
+    @settings(quickly, max_examples=5)
+    @given(changes=space, method=plain)
+    def runs(changes: Overrides, method: Overrides) -> None:
+        ran(scene, changes | method)
+
+    runs()
