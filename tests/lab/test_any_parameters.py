@@ -44,16 +44,17 @@ def numbers(value: Any) -> Iterator[float]:
 def ran(scene: str, changes: Overrides) -> bool:
     """Run, look at every number, and say whether it came to an end; a named error is an answer too."""
     started = time.process_time()
+    run, problem = None, "t = "
     try:
         run = sandbox.simulate(sandbox.load(scene, changes))
     except RequestError:
-        return False
+        pass
     except RunError as error:
-        says_when = "t = " in str(error)
-        assert says_when, (error, changes)
+        problem = str(error)
+    assert time.process_time() - started < LONGEST, changes
+    assert "t = " in problem, (problem, changes)
+    if run is None:
         return False
-    finally:
-        assert time.process_time() - started < LONGEST, changes
     assert all(map(isfinite, numbers(run.result))), changes
     for ball, arcs in run.arcs.items():
         assert all(isfinite(x) for arc in arcs for x in arc.state(arc.t1)), (ball, changes)
