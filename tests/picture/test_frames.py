@@ -1,5 +1,7 @@
 """Pictures to files: whole or not at all, as many as asked, as long as the run."""
 
+import io
+
 import numpy as np
 import pygame
 import pytest
@@ -9,6 +11,7 @@ from sandbox.picture.frames import (
     FASTEST_GIF,
     PAUSE,
     frame_times,
+    quick_png,
     save_frames,
     save_gif,
     save_png,
@@ -65,6 +68,16 @@ def test_an_image_does_not_change_with_its_surface():
     image = to_image(surface)
     surface.fill((255, 255, 255))
     assert image.getpixel((0, 0)) == (0, 0, 0)
+
+
+@pytest.mark.parametrize("size", [(96, 54), (7, 3), (1, 1)])
+def test_quick_packing_loses_nothing(size):
+    image = Image.fromarray(np.random.default_rng(4).integers(0, 256, (*size[::-1], 3), np.uint8))
+    with Image.open(io.BytesIO(quick_png(image))) as packed:
+        packed.verify()
+    with Image.open(io.BytesIO(quick_png(image))) as packed:
+        assert (packed.format, packed.mode, packed.size) == ("PNG", "RGB", size)
+        assert packed.tobytes() == image.tobytes()
 
 
 class TestPosters:

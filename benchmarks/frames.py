@@ -1,0 +1,189 @@
+"""Frames to PNG: what drawing adds to encoding, and how near the program comes to what the cores could encode.
+
+Run ``python benchmarks/frames.py [--json F] [--levels] [--scenes golf,soccer]``. Every scene at 1280x720 with
+everything on: trace, vectors, card. For each, in one process:
+
+- drawing: a frame, on one core;
+- Pillow: encoding the same pixels with Pillow alone at its quickest, on one core, in turn with the drawing;
+- packing: the same as the program does it, without filters, on one core;
+- limit: what the program's packing alone, of pictures that lie ready, does on all cores;
+- whole: the program's own way, ``sandbox run --frames``, from the run to the files in the folder, on all cores.
+
+What runs on one core is measured in time of that core, and "cpu" is what a frame takes of all cores: they do not depend
+on what else the machine does. Limit and whole, in frames per second of the clock, do, and are measured in turn.
+
+``--levels`` prints what each compress_level costs in time and bytes: FRAME_LEVEL was chosen by it.
+"""
+
+from __future__ import annotations
+
+import argparse
+import io
+import json
+import os
+import sys
+import tempfile
+import zlib
+from collections import defaultdict
+from collections.abc import Callable, Iterable
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+from statistics import mean, median
+from time import perf_counter, process_time, thread_time
+from typing import Any
+
+from PIL import Image
+
+import sandbox
+from sandbox.picture import frames
+from sandbox.scene import listings
+
+SIZE = (1280, 720)
+#: Frames of a scene: 60 for each second of the run, and of a long run so many, spread over it.
+MOST_FRAMES = 240
+#: So many pictures lie ready for what is measured without drawing.
+READY = 24
+#: Limit and whole are measured so often, in turn.
+ROUNDS = 3
+
+PILLOW: dict[str, dict[str, int]] = {
+    "level 1, RLE": {"compress_level": 1, "compress_type": zlib.Z_RLE},
+    "level 1": {"compress_level": 1},
+    "level 2": {"compress_level": 2},
+    "level 3": {"compress_level": 3},
+    "level 6, its own": {},
+    "level 9": {"compress_level": 9},
+}
+
+
+def by_pillow(image: Image.Image, level: str = "level 1, RLE") -> int:
+    """Bytes of the image as Pillow packs it."""
+    data = io.BytesIO()
+    image.save(data, "PNG", **PILLOW[level])
+    return data.tell()
+
+
+def by_us(image: Image.Image) -> int:
+    """Bytes of the image as a frame."""
+    return len(frames.quick_png(image))
+
+
+def timed(work: Callable[..., Any], *given: Any, clock: Callable[[], float] = thread_time) -> tuple[float, Any]:
+    """Seconds, and what came of it."""
+    started = clock()
+    done = work(*given)
+    return clock() - started, done
+
+
+class Film:
+    """The frames of one scene's default run."""
+
+    def __init__(self, name: str):
+        scene = sandbox.load(name)
+        self.name, self.run = name, sandbox.simulate(scene)
+        self.picture = scene.picture(self.run, SIZE)
+        self.fps = min(60.0, MOST_FRAMES / self.run.duration)
+        self.times = frames.frame_times(self.run.duration, self.fps)
+        self.every = max(1, len(self.times) // READY)
+        self.picture.frame(0.0)  # the standing backdrop, once
+
+    def ready(self) -> list[Image.Image]:
+        """A few frames, drawn."""
+        return [frames.to_image(self.picture.frame(t)).copy() for t in self.times[:: self.every]]
+
+
+def measure(film: Film) -> dict[str, Any]:
+    """One scene's row."""
+    drawing, pillow, packing = [], [], []
+    for i, t in enumerate(film.times):
+        seconds, surface = timed(film.picture.frame, t)
+        drawing.append(seconds)
+        if i % film.every == 0:
+            image = frames.to_image(surface)
+            pillow.append(timed(by_pillow, image)[0])
+            packing.append(timed(by_us, image)[0])
+    limits, wholes, cpu = [], [], []
+    ready, cores = 2 * film.ready(), os.cpu_count() or 1
+    for _ in range(ROUNDS):
+        with ThreadPoolExecutor(cores) as pool:
+            limits.append(len(ready) / timed(list, pool.map(by_us, ready), clock=perf_counter)[0])
+        with tempfile.TemporaryDirectory() as folder:
+            way, before = (film.picture, film.run, folder, film.fps), process_time()
+            seconds, count = timed(frames.save_frames, *way, clock=perf_counter)
+            wholes.append(count / seconds)
+            cpu.append((process_time() - before) / count)
+    return {
+        "scene": film.name,
+        "cores": cores,
+        "drawing_ms": 1e3 * mean(drawing),
+        "pillow_ms": 1e3 * mean(pillow),
+        "packing_ms": 1e3 * mean(packing),
+        "drawing_over_pillow": mean(drawing) / mean(pillow),
+        "cpu_ms": 1e3 * median(cpu),
+        "limit_frames_per_s": median(limits),
+        "whole_frames_per_s": median(wholes),
+        "whole_over_limit": median(wholes) / median(limits),
+    }
+
+
+def levels(films: Iterable[Film]) -> list[dict[str, Any]]:
+    """Time and size of a PNG at each level: the mean over all scenes."""
+    seconds, sizes = defaultdict(list), defaultdict(list)
+    for film in films:
+        for image in film.ready()[::4]:
+            for name in PILLOW:
+                spent, size = timed(by_pillow, image, name)
+                seconds[f"Pillow, {name}"].append(spent)
+                sizes[f"Pillow, {name}"].append(size)
+            spent, size = timed(by_us, image)
+            seconds["no filters, level 1"].append(spent)
+            sizes["no filters, level 1"].append(size)
+    return [{"packed": name, "ms": 1e3 * mean(seconds[name]), "kB": mean(sizes[name]) / 1e3} for name in seconds]
+
+
+#: Heading, unit, key and format of each column.
+COLUMNS = (
+    ("drawing", "ms", "drawing_ms", ".1f"),
+    ("Pillow", "ms", "pillow_ms", ".1f"),
+    ("ratio", "", "drawing_over_pillow", ".2f"),
+    ("packing", "ms", "packing_ms", ".1f"),
+    ("cpu", "ms", "cpu_ms", ".1f"),
+    ("limit", "frames/s", "limit_frames_per_s", ".0f"),
+    ("whole", "frames/s", "whole_frames_per_s", ".0f"),
+    ("of limit", "", "whole_over_limit", ".2f"),
+)
+
+
+def show(rows: list[dict[str, Any]]) -> None:
+    """The rows as a table."""
+    out = sys.stdout
+    cores = rows[0]["cores"]
+    out.write(f"\n{SIZE[0]}x{SIZE[1]}, {cores} cores: drawing, Pillow, packing on one; cpu, limit and whole on all\n")
+    for head in (0, 1):
+        out.write(f"  {'' if head else 'scene':<12}" + "".join(f"{column[head]:>10}" for column in COLUMNS) + "\n")
+    for row in rows:
+        cells = (f"{row[key]:>10{form}}" for _, _, key, form in COLUMNS)
+        out.write(f"  {row['scene']:<12}" + "".join(cells) + "\n")
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--json", type=Path, help="write the rows here")
+    parser.add_argument("--levels", action="store_true", help="what each compress_level costs")
+    parser.add_argument("--scenes", help="names with commas between; all where left out")
+    arguments = parser.parse_args()
+    names = [listing.name for listing in listings() if "/" not in listing.name]
+    films = [Film(name) for name in (arguments.scenes.split(",") if arguments.scenes else names)]
+    told: dict[str, Any] = {"frames": [measure(film) for film in films]}
+    show(told["frames"])
+    if arguments.levels:
+        told["levels"] = levels(films)
+        sys.stdout.write(f"\n  {'PNG':<24}{'ms':>8}{'kB':>8}\n")
+        for row in told["levels"]:
+            sys.stdout.write(f"  {row['packed']:<24}{row['ms']:>8.1f}{row['kB']:>8.0f}\n")
+    if arguments.json:
+        arguments.json.write_text(json.dumps(told, indent=1))
+
+
+if __name__ == "__main__":
+    main()
