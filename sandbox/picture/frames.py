@@ -80,7 +80,7 @@ def quick_png(image: Image.Image) -> bytes:
     lines[:, 1:] = np.asarray(image).reshape(height, 3 * width)
     parts = {
         b"IHDR": struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0),  # 8 bits of red, green and blue
-        b"IDAT": zlib.compress(lines, FRAME_LEVEL),
+        b"IDAT": zlib.compress(lines.data, FRAME_LEVEL),
         b"IEND": b"",
     }
     chunks = (
