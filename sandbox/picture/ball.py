@@ -16,6 +16,8 @@ CARD, TRACE = palette("card"), palette("trace")
 
 #: A smaller ball is drawn this large, in px across on 360 rows and in proportion on more.
 SMALLEST = 7.0
+#: The balls along a path are so much smaller than the one at its end, where they are all drawn too large.
+MARK = 0.62
 
 #: Marks on a ball that is smaller than this, px in radius, are fewer, or nothing would be left of its colour.
 FEWER = 8 * OVERSAMPLING
@@ -27,6 +29,11 @@ Marks = Callable[[pygame.Surface, float], None]
 def least_radius(rows: int) -> float:
     """Least radius of a ball in px on a picture of so many rows."""
     return SMALLEST / 2 * max(1.0, rows / 360)
+
+
+def mark_radius(rows: int) -> float:
+    """Least radius in px of the balls along a path."""
+    return max(SMALLEST / 2, MARK * least_radius(rows))
 
 
 class Look:

@@ -11,6 +11,7 @@ import numpy as np
 import pygame
 
 from sandbox.picture import sphere
+from sandbox.picture.ball import SMALLEST
 from sandbox.picture.camera import Camera
 from sandbox.picture.ghosts import draw_ghost, ghosts_of
 from sandbox.picture.painter import Painter
@@ -24,8 +25,6 @@ from .backdrop import backdrop, outside
 
 CARD, TRACE, BILLIARDS = palette("card"), palette("trace"), palette("billiards")
 
-#: A smaller ball is drawn this large, in px across.
-SMALLEST_BALL = 7.0
 #: s of path that the trails behind the balls show.
 TRAIL = 0.5
 #: The path is sampled this often in s; of a long run, in so many pieces.
@@ -79,7 +78,7 @@ class Picture:
 
     def _radius(self, camera: Camera) -> float:
         """Of a ball as it is drawn, in px."""
-        return max(self.radius * camera.scale, SMALLEST_BALL / 2)
+        return max(self.radius * camera.scale, SMALLEST / 2)
 
     @cached_property
     def _turnings(self) -> dict[str, sphere.Turning]:

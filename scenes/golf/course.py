@@ -9,12 +9,13 @@ from typing import Any
 import numpy as np
 import pygame
 
+from sandbox.picture.ball import Look
 from sandbox.picture.camera import Box, Camera
 from sandbox.picture.landscape import Landscape
-from sandbox.picture.painter import OVERSAMPLING, Painter, blank, from_coverage
+from sandbox.picture.painter import OVERSAMPLING, Painter, blank
 from sandbox.picture.palette import Colour, mix, palette
 
-GOLF, CARD, TRACE = palette("golf"), palette("card"), palette("trace")
+GOLF, CARD = palette("golf"), palette("card")
 
 FLAGSTICK = 2.13  # m
 #: How much smaller things look at the far side of the fairway than on the line of play.
@@ -209,17 +210,6 @@ class Course:
         painter.polygon([*zip(along, upper, strict=True), *zip(along[::-1], lower[::-1], strict=True)], GOLF["flag"])
         return pygame.Rect(round(x - cloth), round(ground - tall), round(2 * cloth), round(tall))
 
-    def ball(self, painter: Painter, centre: tuple[float, float], radius: float, angle: float, ring: bool) -> None:
-        """The ball with its marks turned by ``angle`` rad, and the ring that says that it is drawn too large."""
-        painter.disc(centre, radius + max(0.7, 0.8 * self.unit), TRACE["rim"], 0.65)
-        if radius < 6:
-            painter.disc(centre, radius, GOLF["ball"])
-        else:
-            painter.turned(_marked(radius), centre, angle)
-            painter.centred(_shade(radius), centre)
-        if ring:
-            painter.ring(centre, radius + 4.5 * self.unit, max(1.2, 1.7 * self.unit), CARD["accent"])
-
 
 @lru_cache(maxsize=4)
 def _landscape(size: tuple[int, int], horizon: int) -> Landscape:
@@ -243,30 +233,19 @@ def _bands(low: float, high: float, stripe: float) -> list[tuple[float, float]]:
     return [(max(low, i * stripe), min(high, (i + 1) * stripe)) for i in even]
 
 
-@lru_cache(maxsize=16)
-def _marked(radius: float) -> pygame.Surface:
-    """A golf ball's face with dimples and a stripe, larger by OVERSAMPLING."""
-    reach = round(radius * OVERSAMPLING)
-    face = blank((2 * reach + 1, 2 * reach + 1), transparent=True)
-    face.fill((*GOLF["ball"], 0))
-    pygame.draw.circle(face, GOLF["ball"], (reach, reach), reach)
-    apart = reach / 3.4
+def _dimples(face: pygame.Surface, radius: float) -> None:
+    """Dimples and a stripe, where there is room for them."""
+    if radius < 6 * OVERSAMPLING:
+        return
+    middle, apart = face.get_width() // 2, radius / 3.4
     for row in range(-4, 5):
         for place in range(-4, 5):
             x, y = (place + row % 2 / 2) * apart, row * apart * 0.87
-            if np.hypot(x, y) < reach * 0.93:
-                pygame.draw.circle(face, GOLF["dimple"], (reach + x, reach + y), apart * 0.30)
-    band = pygame.Rect(0, 0, round(1.36 * reach), round(0.26 * reach))
-    band.center = (reach, reach)
+            if np.hypot(x, y) < radius * 0.93:
+                pygame.draw.circle(face, GOLF["dimple"], (middle + x, middle + y), apart * 0.30)
+    band = pygame.Rect(0, 0, round(1.36 * radius), round(0.26 * radius))
+    band.center = (middle, middle)
     pygame.draw.rect(face, GOLF["ball_mark"], band, border_radius=band.height // 2)
-    return face
 
 
-@lru_cache(maxsize=16)
-def _shade(radius: float) -> pygame.Surface:
-    """Light from above the left shoulder: a soft shade over the ball's lower right."""
-    reach = ceil(radius) + 1
-    grid = np.arange(-reach, reach + 1)
-    inside = np.clip(radius - np.hypot(grid[:, None], grid[None, :]) + 0.5, 0, 1)
-    away = np.hypot(grid[:, None] / radius + 0.38, grid[None, :] / radius + 0.45) / 1.5
-    return from_coverage(inside * np.clip(away - 0.42, 0, 1) ** 1.3 * 0.85, GOLF["ball_shade"])
+BALL = Look(GOLF["ball"], GOLF["ball_shade"], _dimples)

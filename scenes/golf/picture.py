@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 import pygame
 
+from sandbox.picture.ball import least_radius, mark_radius
 from sandbox.picture.camera import Area, Box, Camera, Follow
 from sandbox.picture.ghosts import draw_ghost, ghosts_of
 from sandbox.picture.painter import Painter
@@ -19,14 +20,10 @@ from sandbox.picture.path import Mark, Path, mark_impacts
 from sandbox.picture.sheet import Sheet, metres, nice, signed, yards
 from sandbox.picture.vectors import Vectors
 
-from .course import Course
+from .course import BALL, Course
 
 CARD, TRACE, GOLF = palette("card"), palette("trace"), palette("golf")
 
-#: A smaller ball is drawn this large, in px across on 360 rows and in proportion on more, with a ring that says so.
-SMALLEST_BALL = 7.0
-#: The balls along the path are so much smaller than the one at its end, where they are all drawn too large.
-MARK = 0.62
 #: The pin is left out of the poster when the path would take up less than this share of the way to it.
 LEAST_PATH = 0.2
 #: A flight that rises at least this much (px on 720 rows) and leaves most of the sky empty is drawn twice as high.
@@ -131,7 +128,7 @@ class Picture:
         x, y = self.run.state(self.name, t)[:2]
         at = self._spot(self.poster_course, camera, x, y, radius)
         painter.shadow((at[0] + 2 * self.unit, at[1] + radius), 1.5 * radius, 0.4 * radius, CARD["shadow"], 0.4)
-        self.poster_course.ball(painter, at, radius, self.run.angle(self.name, t), ring=radius > true)
+        BALL.draw(painter, at, radius, self.run.angle(self.name, t), self.unit, radius > true)
 
     def view(self, t: float) -> Camera:
         """The camera of ``frame(t)``."""
@@ -176,7 +173,7 @@ class Picture:
     @property
     def _smallest(self) -> float:
         """Least radius of the ball in px."""
-        return SMALLEST_BALL / 2 * max(1.0, self.size[1] / 360)
+        return least_radius(self.size[1])
 
     def _enlarged(self, camera: Camera) -> float:
         """How many times its size the ball is drawn."""
@@ -200,7 +197,7 @@ class Picture:
         """Path in px for points in m, raised so that balls drawn too large along it lie on the ground and not in it."""
         path = camera.pixels(points)
         on_ground = points[:, 1] > np.interp(points[:, 0], *course.line.T)
-        path[:, 1] -= np.where(on_ground, max(0.0, MARK * self._smallest - self.radius * camera.scale), 0.0)
+        path[:, 1] -= np.where(on_ground, max(0.0, mark_radius(self.size[1]) - self.radius * camera.scale), 0.0)
         return path
 
     def _spot(self, course: Course, camera: Camera, x: float, y: float, radius: float) -> tuple[float, float]:
@@ -216,7 +213,7 @@ class Picture:
         seen = run.result["apex"] * camera.scale * camera.stretch > 60 * self.unit
         every = nice(max(flight if flight and seen else run.duration, 0.01) / 14)
         true = self.radius * camera.scale
-        radius, largest = max(true, MARK * self._smallest), max(true, self._smallest)
+        radius, largest = max(true, mark_radius(self.size[1])), max(true, self._smallest)
         x, y = run.state(self.name, run.duration)[:2]
         end = self._spot(course, camera, x, y, largest)
         last = (-1e9, 0.0)
@@ -225,12 +222,12 @@ class Picture:
             at = self._spot(course, camera, x, y, radius)
             apart = hypot(at[0] - last[0], at[1] - last[1])
             if apart > 2.6 * radius and hypot(at[0] - end[0], at[1] - end[1]) > largest + 2 * radius:
-                course.ball(sheet.painter, at, radius, run.angle(self.name, i * every), ring=False)
+                BALL.draw(sheet.painter, at, radius, run.angle(self.name, i * every), self.unit)
                 last = at
         sheet.painter.shadow(
             (end[0] + 2 * self.unit, end[1] + largest), 1.5 * largest, 0.4 * largest, CARD["shadow"], 0.5
         )
-        course.ball(sheet.painter, end, largest, run.angle(self.name, run.duration), ring=largest > true)
+        BALL.draw(sheet.painter, end, largest, run.angle(self.name, run.duration), self.unit, largest > true)
         return every
 
     def _hard_impacts(self, camera: Camera) -> list[Mark]:
@@ -343,7 +340,7 @@ class Picture:
             painter.shadow(below, radius * (2.2 - near), 0.35 * radius, CARD["shadow"], 0.15 + 0.45 * near)
         self._trail(sheet, camera, t, radius)
         self.vectors.draw(sheet, at, radius, t)
-        course.ball(painter, at, radius, self.run.angle(self.name, t), ring=radius > true)
+        BALL.draw(painter, at, radius, self.run.angle(self.name, t), self.unit, radius > true)
         over, under = sheet.ruler_heights()
         if lowest > self.ruler_row - over:  # the ruler would stand on bright turf
             backing = pygame.Rect(sheet.frame.left, self.ruler_row - over, sheet.frame.width, over + under)

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pygame
 
-from sandbox.picture.ball import least_radius
+from sandbox.picture.ball import least_radius, mark_radius
 from sandbox.picture.camera import Area, Box, Camera
 from sandbox.picture.chase import Chase
 from sandbox.picture.ghosts import draw_ghost, ghosts_of
@@ -28,8 +28,6 @@ CARD, GROUND = palette("card"), palette("soccer")
 KICKER, LEAST_TOP = 1.5, 2.7
 #: The goal is left out of the poster when the path would take up less than this share of the way to it.
 LEAST_PATH = 0.15
-#: Balls along the path are so much smaller than the one at its end, where they are all drawn too large.
-MARK = 0.62
 #: The time between balls is chosen for the flight, or for this share of the whole path.
 LEAST_SPAN = 0.25
 #: Frames show this much of the world's length in m, where the poster shows more.
@@ -167,7 +165,7 @@ class Picture:
         """The ball at even times, and at the end; returns the time between in s."""
         true = self.radius * camera.scale
         largest = max(true, self._smallest)
-        radius = max(true, MARK * largest)
+        radius = max(true, mark_radius(self.size[1]))
         span = max(self.run.result["flight_time"] or 0.0, LEAST_SPAN * self.path.until)
         every, moments = self.path.even_times(camera, radius, span)
         for t in [*moments, self.path.until]:

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import sandbox
+from sandbox.picture.ball import Look
 
 SIZES = [(640, 360), (1280, 720), (1920, 1080)]
 SHOTS = {
@@ -87,14 +88,15 @@ class TestEveryShot:
     def test_the_ball_can_always_be_seen(self, picture, monkeypatch):
         drawn = []
 
-        def note(self, painter, centre, radius, angle, ring):
-            drawn.append((centre, radius, ring))
+        def note(self, painter, centre, radius, angle, unit, enlarged=False):
+            drawn.append((centre, radius, enlarged))
 
-        monkeypatch.setattr(type(picture.frame_course), "ball", note)
+        monkeypatch.setattr(Look, "draw", note)
         picture.poster()
         for share in np.linspace(0, 1, 9):
             picture.frame(share * picture.run.duration)
-        (*_, rest), frames = drawn[:-9], drawn[-9:]
+        (*along, rest), frames = drawn[:-9], drawn[-9:]
+        assert all(2 * radius >= 7 for _, radius, _ in along)
         width, height = picture.size
         for (x, y), radius, _ in (rest, *frames):
             assert 2 * radius >= 7

@@ -1,0 +1,109 @@
+"""Pictures of kicks and throws of every kind: composed, legible, the ball always in sight and never too small."""
+
+from functools import cache
+
+import numpy as np
+import pytest
+
+import sandbox
+from sandbox.picture.ball import SMALLEST, Look
+
+SIZES = [(640, 360), (1280, 720), (1920, 1080)]
+SHOTS = {
+    "soccer": ("soccer", {}),
+    "soccer, dipping": ("soccer/dipping-free-kick", {}),
+    "soccer, in a gale": ("soccer/goal-kick-in-a-gale", {}),
+    "soccer, straight up": ("soccer", {"launch.speed": 20.0, "launch.angle": 90.0, "launch.spin": 0.0}),
+    "soccer, backwards": ("soccer", {"launch.angle": 140.0, "air.wind": [3.0, 0.0]}),
+    "soccer, along the ground": ("soccer", {"launch.speed": 12.0, "launch.angle": 0.0, "launch.spin": 0.0}),
+    "soccer, on the Moon": ("soccer", {"gravity": 1.62, "air.density": 0.0, "launch.angle": 45.0}),
+    "soccer, not struck": ("soccer", {"launch.speed": 0.0, "launch.spin": 0.0}),
+    "curl": ("soccer-curl", {}),
+    "curl, 1997": ("soccer-curl/roberto-carlos-1997", {}),
+    "curl, 2001": ("soccer-curl/beckham-2001", {}),
+    "curl, into the wall": ("soccer-curl", {"launch.angle": 0.0, "launch.spin": 0.0, "air.wind": [0.0, 4.0]}),
+    "curl, aside": ("soccer-curl", {"launch.angle": 85.0}),
+    "curl, not struck": ("soccer-curl", {"launch.speed": 0.0, "launch.spin": 0.0}),
+    "basketball": ("basketball", {}),
+    "basketball, bank": ("basketball/bank-shot", {}),
+    "basketball, brick": ("basketball/brick", {}),
+    "basketball, three": ("basketball/three-pointer", {"air.wind": [-2.0, 0.0]}),
+    "basketball, backwards": ("basketball", {"launch.angle": 120.0}),
+    "basketball, high": ("basketball", {"launch.speed": 20.0, "launch.angle": 80.0}),
+    "basketball, dropped": ("basketball", {"launch.speed": 0.0, "launch.spin": 0.0}),
+}
+
+
+@cache
+def run_of(name: str):
+    scene = sandbox.load(*SHOTS[name])
+    return scene, sandbox.simulate(scene)
+
+
+def picture_of(name: str, size=(640, 360)):
+    scene, run = run_of(name)
+    return scene.picture(run, size)
+
+
+def texts(picture) -> str:
+    return " ".join(text for text, _ in picture.sheet.written)
+
+
+def assert_legible(picture) -> None:
+    sheet = picture.sheet
+    assert sheet.written
+    for i, (text, rect) in enumerate(sheet.written):
+        assert sheet.frame.contains(rect), f"{text} leaves the frame"
+        for other_text, other in sheet.written[:i]:
+            assert not rect.colliderect(other), f"{text} overlaps {other_text}"
+
+
+@pytest.fixture
+def drawn(monkeypatch):
+    """Centre and radius in px, and whether a ring says that it is enlarged, of every ball drawn."""
+    balls: list[tuple[tuple[float, float], float, bool]] = []
+
+    def note(self, painter, centre, radius, angle, unit, enlarged=False):
+        balls.append((centre, radius, enlarged))
+
+    monkeypatch.setattr(Look, "draw", note)
+    return balls
+
+
+@pytest.mark.parametrize("size", SIZES, ids=str)
+@pytest.mark.parametrize("name", SHOTS)
+class TestEveryShot:
+    def test_the_poster_is_composed(self, name, size):
+        picture = picture_of(name, size)
+        assert picture.poster().get_size() == size
+        assert_legible(picture)
+        for text, rect in picture.sheet.written:
+            assert not any(rect.collidepoint(point) for point in picture.trace), f"{text} is on the trace"
+        (left, top), (right, bottom) = picture.trace.min(axis=0), picture.trace.max(axis=0)
+        assert 0.04 * size[0] <= left <= right <= 0.96 * size[0]
+        assert 0.04 * size[1] <= top <= bottom <= 0.96 * size[1]
+
+    def test_frames_are_legible(self, name, size):
+        picture = picture_of(name, size)
+        for share in (0.0, 0.3, 1.0):
+            assert picture.frame(share * picture.run.duration).get_size() == size
+            assert_legible(picture)
+
+    def test_the_ball_can_always_be_seen(self, name, size, drawn):
+        picture = picture_of(name, size)
+        picture.poster()
+        lens = getattr(picture, "lens", None)  # in which the ball is larger by a factor that is said there
+        poster = [ball for ball in drawn if lens is None or not lens.collidepoint(ball[0])]
+        said = "ball drawn" in texts(picture)
+        *along, (_, last, ring) = poster
+        assert 2 * last >= SMALLEST * max(1.0, size[1] / 360)
+        assert ring == said == (last > 1.001 * picture.radius * picture.camera.scale)
+        assert all(2 * radius >= SMALLEST for _, radius, _ in along)
+        for share in np.linspace(0, 1, 5):
+            drawn.clear()
+            picture.frame(share * picture.run.duration)
+            (x, y), radius, ring = drawn[0]
+            assert 2 * radius >= SMALLEST * max(1.0, size[1] / 360)
+            assert 0.04 * size[0] <= x <= 0.96 * size[0]
+            assert 0.04 * size[1] <= y <= 0.96 * size[1]
+            assert ring == ("ball drawn larger" in texts(picture))
