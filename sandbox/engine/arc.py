@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 from sandbox.engine.bernstein import evaluate, piece
+from sandbox.physics.elementwise import choose
 from sandbox.physics.integrators import Acceleration, State
 
 #: Step in s below which the mean velocity (x1 - x0) / h is mostly rounding (1e-14 m at 100 m) and is not used.
@@ -96,15 +98,15 @@ class Arc:
 
 
 def through(
-    t: float,
-    h: float,
+    t: Any,
+    h: Any,
     start: State,
     acceleration: Acceleration,
     end: State,
     end_acceleration: Acceleration,
     contact: object = None,
 ) -> Arc:
-    """The arc that meets both ends of a step of length h."""
+    """The arc that meets both ends of a step of length h. Arrays of shape (n,) in place of floats: n arcs in one."""
     x0, y0, vx0, vy0, w0 = start
     x1, y1, vx1, vy1, w1 = end
     ax0, ay0, al0 = acceleration
@@ -113,12 +115,11 @@ def through(
     q = 0.05 * h * h
     quarter = 0.25 * h
     third = h / 3.0
-    if h > SHORT:
-        mx = 5.0 * (x1 - x0) / h - 2.0 * (vx0 + vx1) + quarter * (ax1 - ax0)
-        my = 5.0 * (y1 - y0) / h - 2.0 * (vy0 + vy1) + quarter * (ay1 - ay0)
-    else:
-        mx = 0.5 * (vx0 + vx1 + third * (ax0 - ax1))
-        my = 0.5 * (vy0 + vy1 + third * (ay0 - ay1))
+    mx = 5.0 * (x1 - x0) / h - 2.0 * (vx0 + vx1) + quarter * (ax1 - ax0)
+    my = 5.0 * (y1 - y0) / h - 2.0 * (vy0 + vy1) + quarter * (ay1 - ay0)
+    if not isinstance(h, float) or h <= SHORT:
+        mx = choose(h > SHORT, mx, 0.5 * (vx0 + vx1 + third * (ax0 - ax1)))
+        my = choose(h > SHORT, my, 0.5 * (vy0 + vy1 + third * (ay0 - ay1)))
     return Arc(
         t,
         t + h,

@@ -152,9 +152,9 @@ def _single_root(b: list[float]) -> float:
             return u
         fall = evaluate(slope, u)
         following = u - value / fall if fall != 0.0 else low
+        if abs(following - u) <= 2e-16 * u or high - low <= 1e-16:
+            return min(max(following, low), high)
         if not low < following < high:
             following = 0.5 * (low + high)
-        if abs(following - u) <= 2e-16 * u or high - low <= 1e-16:
-            return following
         u = following
     return u

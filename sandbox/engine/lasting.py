@@ -36,7 +36,7 @@ def settle(mover: Mover, t: float, state: State, near: Sequence[Near], height: f
         along = vx * ny - vy * nx
         press = -(fx * nx + fy * ny) / mass - touching.curvature * along * along  # m/s^2
         lowest = max(height, obstacle.surface.lowest_bounce)
-        if vx * nx + vy * ny <= (2.0 * max(press, 0.0) * lowest) ** 0.5 + _STILL:
+        if vx * nx + vy * ny <= leaves_at(press, lowest):
             kept.append((obstacle, touching))
     if not kept:
         return state, None
@@ -68,6 +68,14 @@ def settle(mover: Mover, t: float, state: State, near: Sequence[Near], height: f
     if not held:
         return state, None
     return _wedged(mover, state, kept, held, fx, fy)
+
+
+def leaves_at(press: float, height: float) -> float:
+    """Speed in m/s away from a surface above which a ball flies off: it would rise higher than ``height`` (m).
+
+    ``press`` in m/s^2 is what drives it back, no matter how strongly if it is negative.
+    """
+    return (2.0 * max(press, 0.0) * height) ** 0.5 + _STILL
 
 
 def conclude(mover: Mover, state: State, contact: Contact | None, reason: str) -> State:

@@ -69,7 +69,9 @@ class Contact(NamedTuple):
 class Mover:
     """One ball and everything that moves it."""
 
-    def __init__(self, ball: Ball, accuracy: Accuracy, bounds: Bounds, patches: Sequence[Patch], numerics: Numerics) -> None:
+    def __init__(
+        self, ball: Ball, accuracy: Accuracy, bounds: Bounds, patches: Sequence[Patch], numerics: Numerics
+    ) -> None:
         self.ball = ball
         self._inertia = ball.inertia
         self._bounds = bounds

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from bisect import bisect_left, bisect_right
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     import numpy as np
 
     from sandbox.engine.accuracy import Accuracy
+    from sandbox.engine.arc_rows import ArcRows
     from sandbox.engine.setup import Setup, Vector
 
 
@@ -54,7 +55,7 @@ class Run:
 
     setup: Setup
     accuracy: Accuracy
-    arcs: dict[str, list[Arc]]  # by ball, in order of time, without gaps; at least one
+    arcs: Mapping[str, list[Arc] | ArcRows]  # by ball, in order of time, without gaps; at least one
     events: list[Event]
     numerics: Numerics
     duration: float  # s
@@ -118,7 +119,8 @@ class Run:
         """
         px, py = point
         nx, ny = normal
-        for arc in self.arcs[ball]:
+        path = self.arcs[ball]
+        for arc in path if isinstance(path, list) else path.passing(px, py, nx, ny):
             ahead = [(x - px) * nx + (y - py) * ny for x, y in zip(arc.x, arc.y, strict=True)]
             for u in downward_crossings(ahead):
                 t = arc.t0 + u * (arc.t1 - arc.t0)
@@ -128,7 +130,8 @@ class Run:
         """Time and state at which a ball's centre is highest."""
         first = self.state(ball, 0.0)
         best = (0.0, first)
-        for arc in self.arcs[ball]:
+        path = self.arcs[ball]
+        for arc in path if isinstance(path, list) else path.topmost():
             if max(arc.y) <= best[1][1]:
                 continue
             tops = [arc.t0 + u * (arc.t1 - arc.t0) for u in downward_crossings(arc.vy)]

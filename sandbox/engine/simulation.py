@@ -50,10 +50,11 @@ class Stalled(RunError):
 class Simulation:
     """One run of a setup. Raises RunError when it cannot be completed, with the time, the ball and the quantity."""
 
-    def __init__(self, setup: Setup, accuracy: Accuracy) -> None:
+    def __init__(self, setup: Setup, accuracy: Accuracy, spent: Numerics | None = None) -> None:
+        """``spent`` is what the run has cost so far, where it is taken over."""
         self._setup = setup
         self._accuracy = accuracy
-        self._numerics = Numerics()
+        self._numerics = Numerics() if spent is None else spent
         self._events: list[Event] = []
         self._queue: list[tuple[float, int, str, int, int, int, int]] = []
         self._order = count()
@@ -89,11 +90,11 @@ class Simulation:
         for index, track in enumerate(self._tracks):
             if track.version == 0:
                 self._collide(0.0, [index])  # whatever it touches at the start comes first
-        return self._finished(started)
+        return self._finished(0.0, started)
 
-    def _finished(self, started: float) -> Run:
-        """The run, to its end; ``started`` is when, by the clock."""
-        t, ended = self._loop()
+    def _finished(self, t: float, started: float) -> Run:
+        """The run, from t to its end; ``started`` is when, by the clock."""
+        t, ended = self._loop(t)
         for track in self._tracks:
             if not track.caught:
                 track.keep(t)
@@ -120,12 +121,11 @@ class Simulation:
             self._collide(t, [0])
         else:
             self._resume(0, t)
-        return self._finished(started)
+        return self._finished(t, started)
 
-    def _loop(self) -> tuple[float, str]:
+    def _loop(self, t: float) -> tuple[float, str]:
         duration = self._setup.duration
-        moment, at_once = 0.0, 0
-        t = 0.0
+        moment, at_once = t, 0
         while self._queue:
             if self._over or self._all_rest():
                 break

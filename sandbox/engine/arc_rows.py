@@ -1,0 +1,68 @@
+"""A path as rows of numbers, whose arcs are made when somebody asks for them: most of a sweep's are never looked at."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import overload
+
+import numpy as np
+
+from sandbox.engine.arc import Arc
+
+#: Where the parts of an arc stand in its row.
+TIMES, START, X, Y, VX, VY, SPIN, END = (
+    slice(0, 2),
+    slice(2, 7),
+    slice(7, 13),
+    slice(13, 19),
+    slice(19, 24),
+    slice(24, 29),
+    slice(29, 33),
+    slice(33, 38),
+)
+
+
+class ArcRows(Sequence[Arc]):
+    """Arcs of one ball in flight, from rows of shape (arcs, 38): t0, t1, start, coefficients, end."""
+
+    def __init__(self, rows: np.ndarray) -> None:
+        self._rows = rows
+
+    def __len__(self) -> int:
+        return len(self._rows)
+
+    @overload
+    def __getitem__(self, index: int) -> Arc: ...
+    @overload
+    def __getitem__(self, index: slice) -> list[Arc]: ...
+    def __getitem__(self, index: int | slice) -> Arc | list[Arc]:
+        if isinstance(index, slice):
+            return [_arc(row) for row in self._rows[index].tolist()]
+        return _arc(self._rows[index].tolist())
+
+    def __iter__(self) -> Iterator[Arc]:
+        return map(_arc, self._rows.tolist())
+
+    def passing(self, px: float, py: float, nx: float, ny: float) -> list[Arc]:
+        """Those that may pass the line through (px, py) with the normal (nx, ny)."""
+        ahead = (self._rows[:, X] - px) * nx + (self._rows[:, Y] - py) * ny
+        return [self[i] for i in np.flatnonzero((ahead.min(axis=1) <= 0.0) & (ahead.max(axis=1) > 0.0)).tolist()]
+
+    def topmost(self) -> list[Arc]:
+        """Those that may hold the path's highest point."""
+        y = self._rows[:, Y]
+        return [self[i] for i in np.flatnonzero(y.max(axis=1) >= max(y[:, 0].max(), y[:, -1].max())).tolist()]
+
+
+def _arc(row: list[float]) -> Arc:
+    return Arc(
+        row[0],
+        row[1],
+        tuple(row[START]),
+        row[X],
+        row[Y],
+        row[VX],
+        row[VY],
+        row[SPIN],
+        end=tuple(row[END]),
+    )

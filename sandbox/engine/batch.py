@@ -1,0 +1,398 @@
+"""Many shots at once: flights and distances in arrays over the shots, impacts by pymunk.
+
+The shots of a batch are alike: one ball, the same kinds of forces and surfaces, other numbers. Each keeps its own time
+and its own steps, and goes the way that simulation.py would lead it. What is rare there (lasting contact, two surfaces
+at once, a state that makes no sense) is left to it: it takes the shot over from where it is.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Hashable, Iterator, Sequence
+from math import cos, sin
+from time import perf_counter
+from typing import NamedTuple
+
+import numpy as np
+
+from sandbox.engine import simulate
+from sandbox.engine.accuracy import Accuracy
+from sandbox.engine.arc import Arc, through
+from sandbox.engine.arc_rows import ArcRows
+from sandbox.engine.bernstein_many import until
+from sandbox.engine.impacts import STILL
+from sandbox.engine.lanes import Lanes
+from sandbox.engine.lasting import leaves_at
+from sandbox.engine.motion import FIRST_STEP, LOCAL_SHARE, LONGEST, SPIN_WEIGHT
+from sandbox.engine.outlines import Outlines
+from sandbox.engine.run import Event, Numerics, Run
+from sandbox.engine.setup import Bounce, Setup
+from sandbox.engine.simulation import Simulation
+from sandbox.engine.stacking import Stack, structure
+from sandbox.physics.integrators import INTEGRATORS, State
+
+#: Fewer shots than this are quicker one at a time: a round of arrays costs as much as some thirty steps.
+_FEWEST = 24
+
+#: Rows of the counts.
+STEPS, REFINED, IMPACTS, QUERIES = range(4)
+
+#: Share of a force by which arrays and floats may differ, beyond which they are not the same force.
+_ROUNDING = 1e-12
+
+
+def simulate_many(setups: Sequence[Setup], accuracy: Accuracy) -> list[Run | Exception]:
+    """A run of each setup, or the exception that it ended in.
+
+    As ``simulate`` one by one, to rounding; much quicker for setups that are alike. Forces are called with arrays,
+    shape (n,), for time, position, velocity and spin; where one cannot take them, its shots run one at a time.
+    """
+    outcomes: dict[int, Run | Exception] = {}
+    groups: dict[Hashable, tuple[list[int], list[list[float]]]] = {}
+    for number, setup in enumerate(setups):
+        if _flies_in_batches(setup, accuracy):
+            floats: list[float] = []
+            members, numbers = groups.setdefault(_kind(setup, floats), ([], []))
+            members.append(number)
+            numbers.append(floats)
+    for members, numbers in groups.values():
+        if len(members) >= _FEWEST:
+            try:
+                found = _Batch([setups[member] for member in members], numbers, accuracy).run()
+            except Exception:
+                continue  # arrays are not for these forces; one at a time they say so themselves, or run
+            outcomes.update(zip(members, found, strict=True))
+    return [outcomes[n] if n in outcomes else _one(setup, accuracy) for n, setup in enumerate(setups)]
+
+
+def _one(setup: Setup, accuracy: Accuracy) -> Run | Exception:
+    try:
+        return simulate(setup, accuracy)
+    except Exception as error:
+        return error
+
+
+def _flies_in_batches(setup: Setup, accuracy: Accuracy) -> bool:
+    one_at_a_time = setup.cloth is not None or setup.catches or len(setup.balls) > 1 or not setup.surfaces
+    return accuracy.method == "exact" and INTEGRATORS[accuracy.integrator].controls_error and not one_at_a_time
+
+
+def _kind(setup: Setup, floats: list[float]) -> Hashable:
+    """Setups of one kind differ in numbers only; ``floats`` receives those of the forces."""
+    ball = setup.balls[0]
+    shapes = tuple((type(surface.shape), surface.name) for surface in setup.surfaces)
+    return ball.name, shapes, len(setup.patches), structure((tuple(ball.forces), tuple(ball.torques)), floats)
+
+
+class _Left(NamedTuple):
+    """How a shot left the batch: at its end (``how`` is "until" or "duration"), or to be taken over."""
+
+    t: float  # s
+    how: str
+    state: State
+    wanted: float  # s, the next step
+
+
+class _Batch:
+    """Shots that fly together. Arrays have one entry for each shot still in flight, or rows of them."""
+
+    def __init__(self, setups: Sequence[Setup], numbers: Sequence[Sequence[float]], accuracy: Accuracy) -> None:
+        self._setups = setups
+        self._accuracy = accuracy
+        self._local_error = accuracy.tolerance * LOCAL_SHARE
+        self._step = INTEGRATORS[accuracy.integrator].step
+        balls = [setup.balls[0] for setup in setups]
+        self._stack = Stack((tuple(balls[0].forces), tuple(balls[0].torques)), numbers)
+        self._outlines = Outlines(setups)
+        self._lanes = Lanes()
+        self._events: list[list[Event]] = [[] for _ in setups]
+        self._left: dict[int, _Left] = {}
+        self._paths: list[tuple[np.ndarray, np.ndarray]] = []  # of each round: shots, and columns of their arcs
+
+        # of all shots
+        self._mass = np.array([ball.mass for ball in balls])
+        self._radius = np.array([ball.radius for ball in balls])
+        self._factor = np.array([ball.inertia_factor for ball in balls])
+        self._duration = np.array([setup.duration for setup in setups])
+        self._bounds = np.array([setup.bounds for setup in setups]).T
+        patches = [[tuple(patch) for patch in setup.patches] for setup in setups]
+        self._patches = np.array(patches).reshape(len(setups), -1, 5).transpose(1, 2, 0)  # (patches, 5, shots)
+
+        self._counts = np.zeros((4, len(setups)), dtype=int)  # steps, refined steps, impacts, queries
+
+        # of those in flight
+        self._shot = np.arange(len(setups))
+        self._t = np.zeros(len(setups))
+        self._state = np.array([(*ball.position, *ball.velocity, ball.spin) for ball in balls]).T
+        self._wanted = np.full(len(setups), FIRST_STEP)  # s, the next step
+        self._again = np.zeros(len(setups), dtype=bool)  # a step that was too long is tried again
+        self._gather()
+
+    def run(self) -> list[Run | Exception]:
+        """All of them, to the end."""
+        started = perf_counter()
+        self._check_forces()
+        with np.errstate(all="ignore"):
+            self._begin()
+            while len(self._shot) >= _FEWEST:
+                self._round()
+        for lane in range(len(self._shot)):
+            self._leave(lane, "flight" if self._touched[lane] < 0 else "after")
+        each = (perf_counter() - started) / len(self._setups)
+        return [self._run(number, rows, each) for number, rows in enumerate(self._rows())]
+
+    # ------------------------------------------------------------------ forces
+
+    def _gather(self) -> None:
+        """What belongs to the shots in flight."""
+        self._forces, self._torques = self._stack.of(self._shot)
+        self._m = self._mass[self._shot]
+        self._inertia = self._factor[self._shot] * self._m * self._radius[self._shot] ** 2
+
+    def _acceleration(self, t: np.ndarray, state: Sequence[np.ndarray]) -> tuple[np.ndarray, ...]:
+        x, y, vx, vy, spin = state
+        fx = fy = torque = np.zeros(len(t))
+        for force in self._forces:
+            px, py = force(t, (x, y), (vx, vy), spin)
+            fx = fx + px
+            fy = fy + py
+        for turn in self._torques:
+            torque = torque + turn(t, (x, y), (vx, vy), spin)
+        return fx / self._m, fy / self._m, torque / self._inertia
+
+    def _check_forces(self) -> None:
+        """Whether arrays give what floats give. Raises ValueError otherwise."""
+        together = np.array(self._acceleration(self._t, self._state))
+        alone = []
+        for setup in self._setups:
+            ball = setup.balls[0]
+            now = (0.0, ball.position, ball.velocity, ball.spin)
+            forces = [force(*now) for force in ball.forces]
+            alone.append(
+                (
+                    sum(fx for fx, _ in forces) / ball.mass,
+                    sum(fy for _, fy in forces) / ball.mass,
+                    sum(torque(*now) for torque in ball.torques) / ball.inertia,
+                )
+            )
+        size = np.abs(together).max(axis=0)
+        if not (np.abs(together - np.array(alone).T) <= _ROUNDING * size).all():
+            raise ValueError("the forces are other with arrays than with floats")
+
+    # ------------------------------------------------------------------ a round: one step, or an impact, for each
+
+    def _begin(self) -> None:
+        near = self._outlines.near(self._shot, self._state[0], self._state[1])
+        away = self._state[2] * near.nx + self._state[3] * near.ny
+        plain = (near.touching == 0) | ((near.touching == 1) & (near.gap >= -1e-12) & (away >= -STILL))
+        self._touched = np.where(near.touching == 1, near.obstacle, -1)  # surface that was just left, or -1
+        self._normal = np.array((near.nx, near.ny, near.curvature))
+        self._go_on_with(plain)
+
+    def _round(self) -> None:
+        acceleration = self._acceleration(self._t, self._state)
+        flying = self._leaving(acceleration)
+        if not flying.all():
+            acceleration = tuple(part[flying] for part in acceleration)
+            self._go_on_with(flying)
+        h = np.minimum(np.minimum(self._wanted, LONGEST), self._duration[self._shot] - self._t)
+        h = np.where(self._again, self._wanted, self._halved_for_patches(h, acceleration))
+        after, last, error = self._step(self._acceleration, self._t, tuple(self._state), acceleration, h)
+        assert last is not None
+        assert error is not None
+        off = np.abs(error[0]) + np.abs(error[1]) + np.abs(error[2]) + np.abs(error[3])
+        off = off + SPIN_WEIGHT * self._radius[self._shot] * np.abs(error[4])
+        fits = off <= self._local_error
+        growth = 0.9 * (self._local_error / off) ** 0.2
+        longer = h * np.where(off > 0.0, np.minimum(5.0, growth), 5.0)
+        shorter = h * np.where(np.isfinite(off), np.maximum(0.2, growth), 0.1)
+        longer = np.where(h >= self._wanted, longer, np.maximum(longer, self._wanted))
+        after = np.array(after)
+        lost = (shorter < np.maximum(1e-15, 1e-15 * self._t)) & ~fits
+        lost |= fits & ~self._makes_sense(after)
+        for lane in np.flatnonzero(lost).tolist():
+            self._leave(lane, "flight")  # which says what is wrong
+        self._counts[STEPS, self._shot] += 1
+        self._counts[REFINED, self._shot] += ~fits
+        self._wanted = np.where(fits, longer, shorter)
+        self._again = ~fits
+        self._touched = np.full(len(h), -1)
+        gone = lost
+        accepted = np.flatnonzero(fits & ~lost)
+        if len(accepted):
+            gone = gone | self._travel(accepted, h, np.array(acceleration), after, np.array(last))
+        if gone.any():
+            self._go_on_with(~gone)
+
+    def _halved_for_patches(self, h: np.ndarray, acceleration: Sequence[np.ndarray]) -> np.ndarray:
+        x, y, vx, vy, _ = self._state
+        ax, ay, _ = acceleration
+        for patch in self._patches:
+            left, bottom, right, top, step = patch[:, self._shot]
+            while True:
+                half = 0.5 * h
+                xs, ys = (x, x + half * vx, x + h * (vx + half * ax)), (y, y + half * vy, y + h * (vy + half * ay))
+                crossed = (np.minimum.reduce(xs) <= right) & (np.maximum.reduce(xs) >= left)
+                crossed &= (np.minimum.reduce(ys) <= top) & (np.maximum.reduce(ys) >= bottom)
+                crossed &= h > step
+                if not crossed.any():
+                    break
+                h = np.where(crossed, np.maximum(half, step), h)
+        return h
+
+    def _makes_sense(self, state: np.ndarray) -> np.ndarray:
+        left, bottom, right, top = self._bounds[:, self._shot]
+        x, y = state[:2]
+        return np.isfinite(state).all(axis=0) & (left <= x) & (x <= right) & (bottom <= y) & (y <= top)
+
+    # ------------------------------------------------------------------ travelling
+
+    def _travel(
+        self, lanes: np.ndarray, h: np.ndarray, acceleration: np.ndarray, after: np.ndarray, last: np.ndarray
+    ) -> np.ndarray:
+        """Go the accepted step of these lanes, as far as the first touch; which lanes have left the batch."""
+        shots, h = self._shot[lanes], h[lanes]
+        t0, t1 = self._t[lanes], self._t[lanes] + h
+        start, after = self._state[:, lanes], after[:, lanes]
+        curves = through(t0, h, tuple(start), tuple(acceleration[:, lanes]), tuple(after), tuple(last[:, lanes]))
+        x, y = np.array(curves.x), np.array(curves.y)
+        velocity, spin = np.array((curves.vx, curves.vy)).transpose(1, 0, 2), np.array(curves.spin)
+
+        def arc(i: int) -> Arc:
+            return Arc(
+                float(t0[i]),
+                float(t1[i]),
+                tuple(start[:, i].tolist()),
+                x[:, i].tolist(),
+                y[:, i].tolist(),
+                velocity[:, 0, i].tolist(),
+                velocity[:, 1, i].tolist(),
+                spin[:, i].tolist(),
+                end=tuple(after[:, i].tolist()),
+            )
+
+        u, looked_at = self._outlines.first_touch(shots, x, y, arc)
+        self._counts[QUERIES, shots] += looked_at
+        hits = np.flatnonzero(t0 + u * h <= t1)
+        touch = u[hits]
+        t1[hits] = t0[hits] + touch * h[hits]
+        x[:, hits], y[:, hits] = until(x[:, hits], touch), until(y[:, hits], touch)
+        velocity[:, :, hits], spin[:, hits] = until(velocity[:, :, hits], touch), until(spin[:, hits], touch)
+        after[:, hits] = x[-1, hits], y[-1, hits], *velocity[-1][:, hits], spin[-1, hits]
+        rows = np.vstack((t0, t1, start, x, y, velocity[:, 0], velocity[:, 1], spin, after))
+        self._paths.append((shots, rows))
+        self._t[lanes], self._state[:, lanes] = t1, after
+        gone = np.zeros(len(self._shot), dtype=bool)
+        if len(hits):
+            gone[lanes[hits]] = self._impact(lanes[hits])
+        for lane in lanes[t1 >= self._duration[shots]].tolist():
+            if not gone[lane] and self._touched[lane] < 0:
+                self._leave(lane, "duration")
+                gone[lane] = True
+        return gone
+
+    # ------------------------------------------------------------------ impacts
+
+    def _impact(self, lanes: np.ndarray) -> np.ndarray:
+        """Let pymunk turn the velocities of shots that have come to touch; which of them have left the batch."""
+        shots = self._shot[lanes]
+        t, (x, y, vx, vy, spin) = self._t[lanes], self._state[:, lanes]
+        near = self._outlines.near(shots, x, y)
+        nx, ny = near.nx, near.ny
+        approach = -(vx * nx + vy * ny)
+        along = vx * ny - vy * nx
+        plain = (near.touching == 1) & (approach > STILL)
+        for lane in lanes[~plain].tolist():
+            self._leave(lane, "before")
+        at = np.flatnonzero(plain)
+        answers = []
+        tilts = []
+        for i in at.tolist():
+            setup = self._setups[shots[i]]
+            surface = setup.surfaces[near.obstacle[i]]
+            speed, sideways = float(approach[i]), float(along[i])
+            bounce = (
+                Bounce(surface.restitution, surface.friction)
+                if surface.law is None
+                else surface.law(speed, abs(sideways))
+            )
+            answers.append((bounce.restitution, bounce.friction, self._factor[shots[i]]))
+            tilts.append((cos(bounce.tilt), sin(bounce.tilt) * (1.0 if sideways >= 0.0 else -1.0)))
+            event = Event(float(t[i]), "impact", setup.balls[0].name, surface.name, speed, float(x[i]), float(y[i]))
+            self._events[shots[i]].append(event)
+        self._counts[IMPACTS, shots[at]] += 1
+        if len(at):
+            c, s = np.array(tilts).T
+            mx, my = c * nx[at] - s * ny[at], c * ny[at] + s * nx[at]
+            r = self._radius[shots[at]]
+            level = (vx[at] * my - vy[at] * mx) / r
+            up = (vx[at] * mx + vy[at] * my) / r
+            level, up, turn = self._lanes.exchange(level, up, spin[at], np.array(answers))
+            here = lanes[at]
+            self._state[2, here] = r * (level * my + up * mx)
+            self._state[3, here] = r * (up * my - level * mx)
+            self._state[4, here] = turn
+            self._touched[here] = near.obstacle[at]
+            self._normal = np.zeros((3, len(self._shot)))
+            self._normal[:, here] = nx[at], ny[at], near.curvature[at]
+        return ~plain
+
+    def _leaving(self, acceleration: Sequence[np.ndarray]) -> np.ndarray:
+        """Of the shots that touch a surface and do not close in on it: which fly on. The others leave the batch."""
+        flying = np.ones(len(self._shot), dtype=bool)
+        at = np.flatnonzero(self._touched >= 0)
+        if not len(at):
+            return flying
+        _, _, vx, vy, _ = self._state[:, at]
+        nx, ny, curvature = self._normal[:, at]
+        along = vx * ny - vy * nx
+        press = -(acceleration[0][at] * nx + acceleration[1][at] * ny) - curvature * along * along
+        away = vx * nx + vy * ny
+        for lane, pressed, speed in zip(at.tolist(), press.tolist(), away.tolist(), strict=True):
+            shot = self._shot[lane]
+            setup = self._setups[shot]
+            lowest = setup.surfaces[self._touched[lane]].lowest_bounce
+            if speed <= leaves_at(pressed, max(self._accuracy.settle, lowest)):
+                self._leave(lane, "after")
+                flying[lane] = False
+            elif setup.until is not None and self._events[shot] and setup.until(self._events[shot][-1]):
+                self._leave(lane, "until")
+                flying[lane] = False
+        return flying
+
+    # ------------------------------------------------------------------ leaving the batch
+
+    def _go_on_with(self, staying: np.ndarray) -> None:
+        self._shot, self._t, self._state = self._shot[staying], self._t[staying], self._state[:, staying]
+        self._wanted, self._again = self._wanted[staying], self._again[staying]
+        self._touched = self._touched[staying]
+        self._normal = self._normal[:, staying]
+        if len(self._shot):
+            self._gather()
+
+    def _leave(self, lane: int, how: str) -> None:
+        state = tuple(self._state[:, lane].tolist())
+        self._left[int(self._shot[lane])] = _Left(float(self._t[lane]), how, state, float(self._wanted[lane]))
+
+    def _rows(self) -> Iterator[np.ndarray]:
+        """The path of each shot, in order."""
+        shots = np.concatenate([shots for shots, _ in self._paths])
+        order = np.argsort(shots, kind="stable")
+        rows = np.ascontiguousarray(np.concatenate([columns for _, columns in self._paths], axis=1)[:, order].T)
+        ends = np.cumsum(np.bincount(shots, minlength=len(self._setups)))
+        return iter(np.split(rows, ends[:-1]))
+
+    def _run(self, number: int, rows: np.ndarray, seconds: float) -> Run | Exception:
+        setup = self._setups[number]
+        if number not in self._left:  # not even begun
+            return _one(setup, self._accuracy)
+        steps, refined, impacts, queries = self._counts[:, number].tolist()
+        numerics = Numerics(7 * steps, steps, refined, impacts, 2 * impacts, queries, seconds)
+        left, events = self._left[number], self._events[number]
+        if left.how in ("until", "duration"):
+            arcs = {setup.balls[0].name: ArcRows(rows)}
+            return Run(setup, self._accuracy, arcs, events, numerics, left.t, left.how)
+        try:
+            simulation = Simulation(setup, self._accuracy, numerics)
+            return simulation.take_over(left.t, left.state, list(ArcRows(rows)), events, left.wanted, left.how)
+        except Exception as error:
+            return error

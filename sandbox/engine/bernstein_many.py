@@ -1,0 +1,87 @@
+"""The polynomials of bernstein.py for many paths at once.
+
+Coefficients lie along the first axis, paths along the last: shape (degree + 1, ..., paths); u has shape (paths,).
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from sandbox.engine.bernstein import binomials
+
+#: Most Newton steps to a root; five or six are needed, and halving gets there in 53.
+_MOST_STEPS = 60
+
+
+def evaluate(b: np.ndarray, u: np.ndarray) -> np.ndarray:
+    """f(u), shape (..., paths)."""
+    n = len(b) - 1
+    k = np.arange(n + 1).reshape(-1, *[1] * (b.ndim - 1))
+    weights = np.array(binomials(n)).reshape(k.shape) * u**k * (1.0 - u) ** (n - k)
+    return (weights * b).sum(axis=0)
+
+
+def until(b: np.ndarray, u: np.ndarray) -> np.ndarray:
+    """Coefficients on [0, u], in the shape of ``b``, by de Casteljau."""
+    left = np.empty_like(b)
+    left[0] = b[0]
+    for k in range(1, len(b)):
+        b = (1.0 - u) * b[:-1] + u * b[1:]
+        left[k] = b[0]
+    return left
+
+
+def without_root_at_start(b: np.ndarray) -> np.ndarray:
+    """Coefficients of f(u) / u, where f(0) is taken as exactly zero."""
+    n = len(b) - 1
+    return b[1:] * (n / np.arange(1, n + 1)).reshape(-1, *[1] * (b.ndim - 1))
+
+
+def squared_length(x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    """Coefficients of x^2 + y^2, shape (2 degree + 1, paths)."""
+    m = len(x)
+    products = x[:, None] * x[None, :] + y[:, None] * y[None, :]
+    return _product_weights(m - 1) @ products.reshape(m * m, -1)
+
+
+def _product_weights(n: int) -> np.ndarray:
+    c, d = binomials(n), binomials(2 * n)
+    weights = np.zeros((2 * n + 1, n + 1, n + 1))
+    for i in range(n + 1):
+        for j in range(n + 1):
+            weights[i + j, i, j] = c[i] * c[j] / d[i + j]
+    return weights.reshape(2 * n + 1, -1)
+
+
+def first_downward_crossing(b: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """The u in [0, 1] where each f goes from positive to negative, inf where none does; and where that is not plain.
+
+    Plain are those whose coefficients change sign at most once, and are never exactly zero. ``b`` has shape
+    (degree + 1, paths); both arrays have shape (paths,).
+    """
+    u = np.full(b.shape[1], np.inf)
+    positive = b > 0.0
+    changes = (positive[1:] != positive[:-1]).sum(axis=0)
+    unclear = (changes > 1) | ((b == 0.0).any(axis=0) & (changes > 0))
+    falling = np.flatnonzero((changes == 1) & ~positive[-1] & ~unclear)
+    if len(falling):
+        u[falling] = _single_root(b[:, falling])
+    return u, unclear
+
+
+def _single_root(b: np.ndarray) -> np.ndarray:
+    """The root of polynomials that fall through zero just once in [0, 1]: Newton, kept inside a bracket."""
+    low, high = np.zeros(b.shape[1]), np.ones(b.shape[1])
+    slope = (len(b) - 1) * (b[1:] - b[:-1])
+    u = b[0] / (b[0] - b[-1])
+    near = np.zeros(b.shape[1], dtype=bool)
+    for _ in range(_MOST_STEPS):
+        value = evaluate(b, u)
+        low, high = np.where(value > 0.0, u, low), np.where(value < 0.0, u, high)
+        following = u - value / evaluate(slope, u)
+        near |= (value == 0.0) | (np.abs(following - u) <= 2e-16 * u) | (high - low <= 1e-16)
+        if near.all():
+            break
+        following = np.where((low < following) & (following < high), following, 0.5 * (low + high))
+        u = np.where(near, u, following)
+    return u
