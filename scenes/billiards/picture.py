@@ -188,6 +188,7 @@ class Picture:
     def _impacts(self, sheet: Sheet, radius: float) -> None:
         """What the struck ball met, and how hard."""
         camera = self.camera
+        sheet.labels.take(pygame.Rect(0, self.card_row, *self.size))
         for path in self.paths.values():
             points = camera.pixels(path[:, 1:])
             sheet.labels.take_path(_evenly(points, 5 * self.unit), 2 * self.unit)

@@ -222,7 +222,7 @@ def _dusk(size: tuple[int, int]) -> pygame.Surface:
     width, height = size
     across = abs(np.arange(width)[:, None] / width * 2 - 1)
     down = abs(np.arange(height)[None, :] / height * 2 - 1.04)
-    dark = np.clip(0.40 * across**3 + 1.9 * np.clip(down - 0.50, 0, 1), 0, 1)
+    dark = np.clip(0.40 * across**3 + 2.6 * np.clip(down - 0.52, 0, 1), 0, 1)
     dusk = blank(size, transparent=True)
     dusk.fill((*PITCH["dusk"], 0))
     alpha = pygame.surfarray.pixels_alpha(dusk)
