@@ -44,6 +44,7 @@ class Variant(NamedTuple):
     change: str
     scene: Callable[[], Scene]
     setup: Callable[[Scene], Setup] = lambda scene: scene.build()
+    touching: bool = False  # whether it matters only where something is touched
 
 
 @dataclass(frozen=True)
@@ -58,11 +59,13 @@ class Ablated:
     saves: float | None  # share of the time that the scene takes at the level "balanced"
     results: dict[str, tuple[float, float]]  # numbers of the result, with the part and without
     problem: str = ""
+    idle: bool = False  # whether it is about touching, and nothing was touched
 
     @property
     def is_nothing(self) -> bool:
-        """Whether leaving it out could be seen by nobody."""
-        return self.shift_m is not None and self.shift_m < NOTHING and self.verdict[0] == self.verdict[1]
+        """Whether leaving it out could be seen by nobody: neither on the way nor at the end."""
+        shifts = self.shift_m, self.flight_m
+        return all(m is not None and m < NOTHING for m in shifts) and self.verdict[0] == self.verdict[1]
 
     def as_dict(self) -> dict[str, Any]:
         return {
@@ -84,7 +87,7 @@ class Ablated:
             return self.part, self.change, "", "", saves, f"cannot be run: {self.problem}"
         shifts = length(self.flight_m), length(self.shift_m)
         if self.is_nothing:
-            return self.part, self.change, *shifts, saves, "nothing"
+            return self.part, self.change, *shifts, saves, "nothing: it touches nothing" if self.idle else "nothing"
         shown = [
             f"{name} {significant(a, 4)} -> {significant(b, 4)}" for name, (a, b) in list(self.results.items())[:_SHOWN]
         ]
@@ -118,8 +121,9 @@ def ablation(reference: Reference) -> list[Ablated]:
             continue
         shift = apart(looked_at(scene, whole, reference.time), looked_at(other, run, reference.time))
         flight = apart(places(whole, names, reference.first_touch), places(run, names, reference.first_touch))
-        turned = before, verdict(run.result)
-        rows.append(Ablated(change.part, change.change, shift, flight, turned, saves, _differences(whole, run)))
+        turned, differences = (before, verdict(run.result)), _differences(whole, run)
+        idle = change.touching and reference.first_touch >= reference.time
+        rows.append(Ablated(change.part, change.change, shift, flight, turned, saves, differences, idle=idle))
     return rows
 
 
@@ -127,11 +131,11 @@ def variants(scene: Scene) -> Iterator[Variant]:
     """Each part of the model left out, simplified, or put in where the scene leaves it out."""
     setup = scene.build()
 
-    def changed(part: str, change: str, apply: Callable[[Setup], Setup]) -> Variant:
-        return Variant(part, change, lambda: scene, lambda same: apply(same.build()))
+    def changed(part: str, change: str, apply: Callable[[Setup], Setup], touching: bool = True) -> Variant:
+        return Variant(part, change, lambda: scene, lambda same: apply(same.build()), touching)
 
     for name in _terms(setup):
-        yield changed(name, "left out", lambda setup, name=name: _without(setup, name))  # type: ignore[misc]
+        yield changed(name, "left out", lambda setup, name=name: _without(setup, name), touching=False)  # type: ignore[misc]
     yield from _by_parameters(scene, setup)
     if any(surface.law is not None for surface in setup.surfaces):
         yield changed("law of the bounce", "as for a slow one", lambda s: _on_surfaces(s, _without_law))
@@ -150,10 +154,11 @@ def variants(scene: Scene) -> Iterator[Variant]:
     if setup.cloth is not None:
         for field in ("sliding", "rolling", "spinning"):
             if getattr(setup.cloth, field) > 0.0:
-                yield changed(f"{field} friction of the cloth", "left out", lambda s, f=field: _on_cloth(s, f))  # type: ignore[misc]
+                part = f"{field} friction of the cloth"
+                yield changed(part, "left out", lambda s, f=field: _on_cloth(s, f), touching=False)  # type: ignore[misc]
     spins = any(ball.spin != 0.0 and any(isinstance(force, Magnus) for force in ball.forces) for ball in setup.balls)
     if spins and not any(ball.torques for ball in setup.balls):
-        yield changed("spin decay", "put in, as a golf ball's", _with_decay)
+        yield changed("spin decay", "put in, as a golf ball's", _with_decay, touching=False)
 
 
 def with_changes(scene: Scene, changes: dict[str, Any]) -> Scene:
@@ -166,7 +171,9 @@ def with_changes(scene: Scene, changes: dict[str, Any]) -> Scene:
 
 
 def _by_parameters(scene: Scene, setup: Setup) -> Iterator[Variant]:
-    values = {parameter.key: parameter.value for parameter in declared.walk(scene.parameters)}
+    parameters = list(declared.walk(scene.parameters))
+    values = {parameter.key: parameter.value for parameter in parameters}
+    laws = [(p.key, p.value, [word for word in p.choices if word != p.value]) for p in parameters if _is_law(p)]
 
     def changed(part: str, change: str, changes: dict[str, Any]) -> Variant:
         return Variant(part, change, lambda: with_changes(scene, changes))
@@ -179,6 +186,9 @@ def _by_parameters(scene: Scene, setup: Setup) -> Iterator[Variant]:
         if pull > 0.0 and unit > 0.0:
             changes = {f"ball.{key}.model": "constant", f"ball.{key}.coefficient": pull / unit}
             yield changed(part, f"{pull / unit:.3f} as at the start", changes)
+    for key, word, others in laws:
+        for other in others:
+            yield changed(key.rpartition(".")[2].replace("_", " "), f"{other} instead of {word}", {key: other})
     if values.get("air.density", 0.0) > 0.0:
         if values["air.wind"] == (0.0, 0.0):
             yield changed("wind", "put in, 1 m/s against", {"air.wind": (-1.0, 0.0)})
@@ -186,6 +196,10 @@ def _by_parameters(scene: Scene, setup: Setup) -> Iterator[Variant]:
             yield changed("wind", "left out", {"air.wind": (0.0, 0.0)})
         if values.get("ball.lift.model") == "none":
             yield changed("lift", "put in, as large as the spin ratio", {"ball.lift.model": "spin-ratio"})
+
+
+def _is_law(parameter: declared.Parameter) -> bool:
+    return parameter.key.endswith("_law") and bool(parameter.choices)
 
 
 def _at_launch(setup: Setup, kind: type) -> float:

@@ -119,6 +119,22 @@ def test_on_cloth_no_integrator_takes_part():
     assert methods == {"plain", "closed form", "level"}
 
 
+@pytest.mark.parametrize("scene", ["golf", "soccer", "soccer-curl", "basketball"])
+def test_the_levels_are_on_or_near_the_front(scene: str, monkeypatch: pytest.MonkeyPatch):
+    """By force evaluations, which repeat: no method and setting as accurate needs less than half of them."""
+    monkeypatch.setattr(lab, "RATES", (2, 5, 10, 20, 60))
+    monkeypatch.setattr(lab, "TOLERANCES", (1.0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6))
+    monkeypatch.setattr(lab, "_PATIENCE", 0.0)
+    found = list(lab._measured(converge(load(scene)), lambda done, total: None))
+    points = [point for point in found if point.method not in ("level", "plain")]
+    levels = {point.setting: point for point in found if point.method == "level"}
+    assert set(levels) == set(LEVELS)
+    for level in levels.values():
+        as_good = [point.force_evaluations for point in points if point.error_m <= level.error_m]
+        assert level.force_evaluations <= 2 * min(as_good), level
+        assert level.error_m <= level.accuracy.tolerance
+
+
 # What each part is worth ---------------------------------------------------------------------------------------------
 
 
@@ -141,7 +157,20 @@ def test_a_part_that_does_nothing_is_said_to():
         ablation(converge(load("soccer-curl", {"launch.spin": 0.0, "launch.angle": 8.0, "wall.present": False})))
     )
     assert rows["lift"].is_nothing
+    assert rows["lift"].cells()[-1] == "nothing"
     assert not rows["drag"].is_nothing
+
+
+def test_what_is_seen_on_the_way_is_not_nothing():
+    """The ball ends in the same corner of the net, but 1 cm higher it flew."""
+    row = parts(ablation(converge(load("soccer/dipping-free-kick"))))["spin decay"]
+    assert row.shift_m < 1e-4 < row.flight_m
+    assert not row.is_nothing
+
+
+def test_parts_of_a_surface_that_nothing_touches_are_said_to_be_idle():
+    rows = parts(ablation(converge(load("soccer-curl"))))
+    assert rows["friction of surfaces"].cells()[-1] == "nothing: it touches nothing"
 
 
 def test_what_a_scene_leaves_out_is_put_in():
@@ -164,6 +193,12 @@ def test_a_coefficient_as_at_the_start_is_that_of_the_start():
 def test_throw_and_cloth_on_a_table():
     names = {variant.part for variant in variants(load("billiards"))}
     assert {"friction of balls (throw)", "rolling friction of the cloth"} <= names
+
+
+def test_another_law_is_tried_where_the_scene_has_one():
+    law = next(variant for variant in variants(load("billiards/cut")) if variant.part == "friction law")
+    assert law.change == "speed instead of constant"
+    assert law.scene().parameters.ball.friction_law == "speed"
 
 
 def test_changes_replace_a_model_whole():
