@@ -7,7 +7,7 @@ A scene offers them beside its parameters::
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -18,6 +18,22 @@ class Spin:
 
     key: str
     step: float
+
+
+@dataclass(frozen=True)
+class Spread:
+    """How well a practised player hits a parameter: the standard deviation is a ``share`` of it, or at least ``least``.
+
+    ``least`` is in the parameter's unit.
+    """
+
+    key: str
+    share: float = 0.0
+    least: float = 0.0
+
+    def sigma(self, value: float) -> float:
+        """Standard deviation around a value."""
+        return max(self.share * abs(value), self.least)
 
 
 @dataclass(frozen=True)
@@ -32,6 +48,12 @@ class Controls:
     also: Mapping[str, Any] = field(default_factory=dict)  # what else a pull sets, such as how the shot begins
     sliders: tuple[str, ...] = ()  # shown first
     scores: str = ""  # the entry of the result that is true, or not empty, when the shot scored
+    spoils: str = ""  # the entry that is true when it did not score after all
+    spread: tuple[Spread, ...] = ()  # of a fan of shots; where empty, of speed and angle
+    tells: tuple[str, str] | None = None  # an entry of the result, with its unit: a fan says its mean and its spread
+    #: From a run and its parameters to the changes with which the next shot begins; where there is none, every shot
+    #: begins alike.
+    goes_on: Callable[[Any, Any], Mapping[str, Any]] | None = None
 
 
 def controls_of(module: Any) -> Controls:

@@ -52,7 +52,9 @@ HINTS = {
     "next_shot": "next shot (N)",
     "slower": "slower (-)",
     "faster": "faster (+)",
-    "view": "whole path, or near the ball (V)",
+    "see": "what is shown: fan, arrows, charts, tape, accuracy",
+    "keep": "pictures, replays, scene files",
+    "more": "scenes, sound, full screen",
     "panel": "parameters (Tab)",
     "help": "all keys (H)",
 }
@@ -77,7 +79,6 @@ class Shown:
     duration: float  # s
     ticks: tuple[float, ...]  # s, of impacts
     rate: float
-    view: str
     texts: tuple[str, ...]  # commands that are words, on the right
     on: frozenset[str] = frozenset()  # those of them that are open
 
@@ -115,9 +116,8 @@ class Bar:
             left = rect.right + gap // 4
         right = self.rect.right - 2 * gap
         for name in reversed(shown.texts):
-            text = shown.view if name == "view" else name.replace("_", " ")
-            width = self.lettering.width(text, "small") + 2 * gap
-            right = self._word(surface, name, text, right - width, mouse, on=name in shown.on).left - gap // 2
+            width = self.lettering.width(name, "small") + 2 * gap
+            right = self._word(surface, name, name, right - width, mouse, on=name in shown.on).left - gap // 2
         right -= gap
         rate = f"×{shown.rate:g}" if shown.rate >= 1 else f"×1/{round(1 / shown.rate)}"
         for name in ("faster", "", "slower"):
@@ -130,7 +130,7 @@ class Bar:
             right = rect.left
         self._time(surface, shown, left + gap, right - 2 * gap)
         hovered = self.command_at(mouse)
-        if hovered in HINTS:
+        if hovered in HINTS and hovered not in shown.on:
             self._hint(surface, HINTS[hovered], self.buttons[hovered])
 
     def _hint(self, surface: pygame.Surface, text: str, button: pygame.Rect) -> None:

@@ -22,7 +22,7 @@ class Binding(NamedTuple):
 
 BINDINGS = (
     Binding(pygame.K_SPACE, "go", "Space", "shoot; pause and go on", "Play"),
-    Binding(pygame.K_RETURN, "again", "Enter", "aim again", "Play"),
+    Binding(pygame.K_RETURN, "again", "Enter", "aim again, in billiards go on", "Play"),
     Binding(pygame.K_LEFT, "turn_left", "left right", "turn the shot (Shift: finely)", "Play"),
     Binding(pygame.K_RIGHT, "turn_right", "", "", "Play"),
     Binding(pygame.K_UP, "stronger", "up down", "stronger, weaker (Shift: finely)", "Play"),
@@ -41,28 +41,44 @@ BINDINGS = (
     Binding(pygame.K_KP_PLUS, "faster", "", "", "Watch"),
     Binding(pygame.K_p, "previous_shot", "P N", "previous, next shot", "Watch"),
     Binding(pygame.K_n, "next_shot", "", "", "Watch"),
-    Binding(pygame.K_v, "view", "V", "the whole path, or near the ball", "See"),
+    Binding(pygame.K_v, "view", "V", "near the ball", "See"),
     Binding(pygame.K_g, "ghosts", "G", "earlier shots", "See"),
-    Binding(pygame.K_m, "menu", "M", "all scenes and presets", "Scene"),
-    Binding(pygame.K_PAGEDOWN, "next_preset", "PgDn PgUp", "next, previous preset", "Scene"),
-    Binding(pygame.K_PAGEUP, "previous_preset", "", "", "Scene"),
-    Binding(pygame.K_BACKSPACE, "reset", "Backspace", "all parameters as in the file", "Scene"),
-    Binding(pygame.K_TAB, "panel", "Tab", "the panel of parameters", "Scene"),
-    Binding(pygame.K_a, "accuracy", "A", "fast, balanced, precise", "Scene"),
+    Binding(pygame.K_f, "fan", "F", "fan: 200 such shots, how many score", "See"),
+    Binding(pygame.K_RIGHTBRACKET, "wider", "]", "a wider fan", "See"),
+    Binding(pygame.K_LEFTBRACKET, "narrower", "[", "a narrower fan", "See"),
+    Binding(pygame.K_o, "arrows", "O", "arrows: velocity and forces", "See"),
+    Binding(pygame.K_w, "charts", "W", "charts over time", "See"),
+    Binding(pygame.K_j, "energy", "J", "where the energy goes", "See"),
+    Binding(pygame.K_t, "tape", "T", "tape; or drag with the right button", "See"),
+    Binding(pygame.K_a, "accuracy", "A", "accuracy: fast, balanced, precise", "See"),
     Binding(pygame.K_s, "save_scene", "S", "a scene file with what was changed", "Keep"),
     Binding(pygame.K_c, "copy", "C", "copy the command line of this shot", "Keep"),
     Binding(pygame.K_F12, "screenshot", "F12", "picture of the window", "Keep"),
     Binding(pygame.K_F9, "animation", "F9", "animation of the last shot", "Keep"),
-    Binding(pygame.K_F5, "save_replay", "F5", "replay of the last shot (drop it here to see it)", "Keep"),
+    Binding(pygame.K_F5, "save_replay", "F5", "replay of the last shot, to be dropped here", "Keep"),
     Binding(pygame.K_F6, "compare", "F6", "simulate the shot again, and compare", "Keep"),
-    Binding(pygame.K_u, "sound", "U", "sound on, off", "Window"),
-    Binding(pygame.K_F3, "cost", "F3", "what a frame costs", "Window"),
-    Binding(pygame.K_F11, "fullscreen", "F11", "full screen", "Window"),
-    Binding(pygame.K_h, "help", "H, F1", "this list", "Window"),
-    Binding(pygame.K_F1, "help", "", "", "Window"),
-    Binding(pygame.K_ESCAPE, "back", "Esc", "close what is open; aim again", "Window"),
-    Binding(pygame.K_q, "quit", "Ctrl Q", "leave", "Window", CTRL),
+    Binding(pygame.K_m, "menu", "M", "all scenes and presets", "More"),
+    Binding(pygame.K_PAGEDOWN, "next_preset", "PgDn", "next preset", "More"),
+    Binding(pygame.K_PAGEUP, "previous_preset", "PgUp", "previous preset", "More"),
+    Binding(pygame.K_TAB, "panel", "Tab", "the panel of parameters", "More"),
+    Binding(pygame.K_BACKSPACE, "reset", "Backspace", "all parameters as in the file", "More"),
+    Binding(pygame.K_b, "rack", "B", "the balls back where they began", "More"),
+    Binding(pygame.K_u, "sound", "U", "sound", "More"),
+    Binding(pygame.K_F3, "cost", "F3", "what a frame and a run cost", "More"),
+    Binding(pygame.K_F11, "fullscreen", "F11", "full screen", "More"),
+    Binding(pygame.K_h, "help", "H", "all keys", "More"),
+    Binding(pygame.K_F1, "help", "", "", "More"),
+    Binding(pygame.K_ESCAPE, "back", "Esc", "close what is open; aim again", "More"),
+    Binding(pygame.K_q, "quit", "Ctrl Q", "leave", "More", CTRL),
 )
+
+#: Groups whose commands have no button of their own on the bar: it opens a list of them.
+LISTED = ("See", "Keep", "More")
+
+
+def listed(group: str) -> list[Binding]:
+    """What the bar's list of a group offers."""
+    return [binding for binding in BINDINGS if binding.group == group and binding.shown]
 
 
 def command_for(key: int, modifiers: int) -> str | None:

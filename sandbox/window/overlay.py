@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection, Sequence
 from itertools import groupby
 
 import pygame
@@ -9,9 +10,12 @@ import pygame
 from sandbox.picture.palette import Colour, palette
 from sandbox.picture.sheet import Sheet
 from sandbox.scene import Listing
-from sandbox.window.keys import BINDINGS
+from sandbox.window.keys import listed
 
 CARD = palette("card")
+
+#: Groups of keys in the columns of the help, and where there is no room for so many.
+LAYOUTS = ((("Play", "Keep"), ("Watch", "See"), ("More",)), (("Play", "Watch", "See"), ("Keep", "More")))
 
 
 def _card(sheet: Sheet, width: int, height: int) -> pygame.Rect:
@@ -26,33 +30,88 @@ def _card(sheet: Sheet, width: int, height: int) -> pygame.Rect:
 
 
 def draw_help(sheet: Sheet) -> None:
-    """All keys, in columns by what they are for."""
-    groups = [(name, [b for b in rows if b.shown]) for name, rows in groupby(BINDINGS, lambda b: b.group)]
-    letters, unit, gap = sheet.lettering, sheet.unit, sheet.gap
-    row = round(letters.height("small") + 1.1 * gap)
-    heights = [(len(rows) + 2) * row for _, rows in groups]
-    columns: list[list[int]] = [[], []]
-    for index in range(len(groups)):
-        shorter = min((0, 1), key=lambda c: sum(heights[i] for i in columns[c]))
-        columns[shorter].append(index)
-    tall = max(sum(heights[i] for i in column) for column in columns)
-    head = letters.height("large") + 4 * gap
-    rect = _card(sheet, round(900 * unit), tall + head + 8 * gap)
-    inset = 5 * gap
-    letters.write(sheet.surface, "Keys", "large", (rect.left + inset, rect.top + 3 * gap), CARD["text"], bold=True)
-    text = "Or by mouse: pull back from the ball, let go, and the ball flies the other way."
-    letters.write(sheet.surface, text, "small", (rect.right - inset, rect.top + 6.5 * gap), CARD["quiet"], "topright")
-    for number, column in enumerate(columns):
-        left = rect.left + inset + number * (rect.width - 2 * inset) // 2
-        top = rect.top + head + 2 * gap
-        for index in column:
-            name, rows = groups[index]
-            letters.write(sheet.surface, name, "small", (left, top), CARD["accent"], bold=True)
+    """All keys, in columns by what they are for: in as many as there is room for."""
+    letters, gap = sheet.lettering, sheet.gap
+    row, between = letters.height("small") + max(1, gap // 2), 2 * gap
+    for layout in LAYOUTS:
+        columns = [[(name, listed(name)) for name in names] for names in layout]
+        bindings = [[binding for _, rows in column for binding in rows] for column in columns]
+        keys = [max(letters.width(b.shown, "small", bold=True) for b in column) + between for column in bindings]
+        wide = [max(letters.width(b.meaning, "small") for b in column) + 2 * between for column in bindings]
+        if sum(keys) + sum(wide) <= sheet.size[0] - between:
+            break
+    tall = max(sum(len(rows) + 1.5 for _, rows in column) for column in columns) - 0.5
+    head = letters.height("medium") + gap
+    rect = _card(sheet, sum(keys) + sum(wide) + between, round(tall * row) + head + 4 * gap)
+    left, top = float(rect.left + between), rect.top + 2 * gap
+    letters.write(sheet.surface, "Keys", "medium", (left, top), CARD["text"], bold=True)
+    at = (rect.right - between, top + letters.height("medium") / 2)
+    letters.write(
+        sheet.surface, "Or by mouse: pull back from the ball, and let go.", "small", at, CARD["quiet"], "midright"
+    )
+    for column, room, width in zip(columns, keys, wide, strict=True):
+        y = float(top + head)
+        for name, rows in column:
+            letters.write(sheet.surface, name, "small", (left, y), CARD["accent"], bold=True)
             for binding in rows:
-                top += row
-                letters.write(sheet.surface, binding.shown, "small", (left, top), CARD["text"], bold=True)
-                letters.write(sheet.surface, binding.meaning, "small", (left + 140 * unit, top), CARD["quiet"])
-            top += 2 * row
+                y += row
+                letters.write(sheet.surface, binding.shown, "small", (left, y), CARD["text"], bold=True)
+                letters.write(sheet.surface, binding.meaning, "small", (left + room, y), CARD["quiet"])
+            y += 1.5 * row
+        left += room + width
+
+
+class Choices:
+    """A list above a button of the bar: the commands of one group, with their keys, to be chosen by mouse."""
+
+    def __init__(self, group: str) -> None:
+        self.group = group.lower()
+        self.bindings = listed(group)
+        self.stays = group == "See"  # several may be switched one after the other
+        self.places: list[tuple[pygame.Rect, str]] = []
+
+    def command_at(self, position: tuple[int, int]) -> str | None:
+        return next((command for rect, command in self.places if rect.collidepoint(position)), None)
+
+    def draw(self, sheet: Sheet, button: pygame.Rect | None, on: Collection[str], mouse: tuple[int, int]) -> None:
+        """At the foot of the picture, above its button."""
+        letters, unit, gap = sheet.lettering, sheet.unit, sheet.gap
+        row = round(letters.height("small") + 1.6 * gap)
+        wide = max(letters.width(binding.meaning, "small") for binding in self.bindings)
+        keys = max(letters.width(binding.shown, "small", bold=True) for binding in self.bindings)
+        rect = pygame.Rect(0, 0, wide + keys + 14 * gap, row * len(self.bindings) + 2 * gap)
+        rect.midbottom = button.centerx if button is not None else sheet.size[0], sheet.size[1] - gap
+        rect.clamp_ip(sheet.surface.get_rect().inflate(-2 * gap, -2 * gap))
+        sheet.painter.panel(rect, CARD["background"], 0.96, 10 * unit)
+        self.places.clear()
+        for number, binding in enumerate(self.bindings):
+            place = pygame.Rect(rect.left + gap, rect.top + gap + number * row, rect.width - 2 * gap, row)
+            self.places.append((place, binding.command))
+            if place.collidepoint(mouse):
+                sheet.painter.panel(place, CARD["quiet"], 0.25, 5 * unit)
+            switched = binding.command in on
+            if switched:
+                sheet.painter.disc((place.left + 2 * gap, place.centery), 4 * unit, CARD["accent"])
+            colour: Colour = CARD["accent"] if switched else CARD["text"]
+            letters.write(
+                sheet.surface, binding.meaning, "small", (place.left + 4 * gap, place.centery), colour, "midleft"
+            )
+            at = (place.right - 2 * gap, place.centery)
+            letters.write(sheet.surface, binding.shown, "small", at, CARD["quiet"], "midright", bold=True)
+
+
+def draw_note(sheet: Sheet, lines: Sequence[tuple[str, Colour]], top: float) -> float:
+    """A small card at the right with a line each; returns where there is room below it, in px."""
+    letters, gap = sheet.lettering, sheet.gap
+    row = letters.height("small") + gap // 2
+    width = max(letters.width(text, "small") for text, _ in lines)
+    rect = pygame.Rect(0, 0, width + 4 * gap, len(lines) * row + 2 * gap)
+    rect.topright = sheet.frame.right, round(top)
+    sheet.painter.panel(rect, CARD["background"], 0.85, 8 * sheet.unit)
+    for number, (text, colour) in enumerate(lines):
+        at = (rect.left + 2 * gap, rect.top + gap + number * row)
+        letters.write(sheet.surface, text, "small", at, colour)
+    return float(rect.bottom + gap)
 
 
 class Menu:

@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from sandbox import parameters as declared
 from sandbox.controls import Controls, controls_of
 from sandbox.errors import SandboxError
+from sandbox.physics.forces import Gravity
 from sandbox.scene import Scene, load, simulate
+from sandbox.window.path import moves, points
 
 if TYPE_CHECKING:
     from sandbox.engine.run import Run
@@ -33,9 +37,31 @@ class Shot:
         named = _at(self.scene.parameters, ball) or ball
         return named if named in names else names[0]
 
-    @property
+    @cached_property
     def scored(self) -> bool:
-        return bool(self.run.result.get(controls_of(self.scene.module).scores))
+        controls = controls_of(self.scene.module)
+        return bool(self.run.result.get(controls.scores)) and not self.run.result.get(controls.spoils)
+
+    @cached_property
+    def upright(self) -> bool:
+        """Whether y is height: seen from above, no weight pulls along the picture."""
+        return any(isinstance(force, Gravity) for ball in self.run.setup.balls for force in ball.forces)
+
+    @cached_property
+    def movers(self) -> list[str]:
+        """Names of the balls that leave their place, the played one last."""
+        others = [b.name for b in self.run.setup.balls if b.name != self.ball and moves(self.run, b.name)]
+        return [*others, self.ball]
+
+    def track(self, ball: str) -> np.ndarray:
+        """Points along a ball's path, shape (n, 3): t in s, x and y in m."""
+        if ball not in self._tracks:
+            self._tracks[ball] = points(self.run, ball)
+        return self._tracks[ball]
+
+    @cached_property
+    def _tracks(self) -> dict[str, np.ndarray]:
+        return {}
 
     @cached_property
     def card(self) -> list[tuple[str, str]]:
@@ -51,6 +77,17 @@ class Shot:
     @cached_property
     def _card(self) -> list[tuple[str, str]]:
         return list(self.scene.module.card(self.run.result, self.scene.parameters))
+
+
+def _toml(value: Any) -> str:
+    """A value as TOML writes it on a line."""
+    import tomlkit
+
+    if isinstance(value, Mapping):
+        return "{" + ", ".join(f"{key} = {_toml(item)}" for key, item in value.items()) + "}"
+    if isinstance(value, list | tuple):
+        return "[" + ", ".join(map(_toml, value)) + "]"
+    return str(tomlkit.item(value).as_string())
 
 
 def _at(parameters: Any, key: str) -> Any:
@@ -76,6 +113,8 @@ class Session:
         other = not self.shots or self.shots[-1].scene.folder != scene.folder
         self.source, self.base, self.scene = source, base, scene
         self.changes: dict[str, Any] = dict(changes or {})
+        self.laid: set[str] = set()  # what was changed so that a shot goes on from the one before
+        self.fresh = 0  # of the shots, the first that began where the next one does
         self._declared.clear()
         if other:
             self.shots.clear()
@@ -111,13 +150,15 @@ class Session:
 
     def changed(self, changes: Mapping[str, Any]) -> Scene:
         """The scene with further changes, which are not kept."""
-        wanted = {**self.changes, **changes}
+        return self._with({**self.changes, **changes})
+
+    def _with(self, changes: Mapping[str, Any]) -> Scene:
         values = self.base.parameters.model_dump()
-        parameters = declared.validate(type(self.base.parameters), values, "", wanted, "")
+        parameters = declared.validate(type(self.base.parameters), values, "", changes, "")
         return replace(self.scene, parameters=parameters)
 
     def change(self, changes: Mapping[str, Any]) -> None:
-        """Keep the changes; those that agree with the file are forgotten."""
+        """Keep the changes."""
         self.scene = self.changed(changes)
         self.changes |= changes
 
@@ -131,6 +172,23 @@ class Session:
             self.changes = before
             raise
 
+    def go_on(self, shot: Shot) -> bool:
+        """Let the next shot begin where one of them ended, where the scene knows how; whether it does."""
+        if self.controls.goes_on is None:
+            return False
+        changes = dict(self.controls.goes_on(shot.run, shot.scene.parameters))
+        self.change(changes)
+        self.laid.update(changes)
+        self.fresh = len(self.shots)
+        return True
+
+    def begin_again(self) -> None:
+        """Take back what ``go_on`` changed."""
+        kept = {key: value for key, value in self.changes.items() if key not in self.laid}
+        self.scene, self.changes = self._with(kept), kept
+        self.laid.clear()
+        self.fresh = len(self.shots)
+
     def reload(self) -> None:
         """Read the scene file again. What was changed here stays changed."""
         base = load(self.source)
@@ -143,20 +201,31 @@ class Session:
             raise
         self.scene = scene
 
-    def predict(self, quick: bool = False) -> Shot:
-        """The run of the scene as it stands; ``quick`` at the level fast."""
-        scene = self.scene
-        if quick:
-            scene = self.changed({"accuracy.level": "fast"})
-        return Shot(self.scene, simulate(scene), dict(self.changes))
+    def predict(self) -> Shot:
+        """The run of the scene as it stands."""
+        return self.prediction()()
+
+    def prediction(self) -> Callable[[], Shot]:
+        """What runs the scene as it stands now, later and in another thread."""
+        scene, changes = self.scene, dict(self.changes)
+
+        def run() -> Shot:
+            shot = Shot(scene, simulate(scene), changes)
+            _ = shot.card, shot.verdict, shot.scored, shot.track(shot.ball)
+            return shot
+
+        return run
+
+    @property
+    def recent(self) -> list[Shot]:
+        """The shots that began where the next one does."""
+        return self.shots[self.fresh :]
 
     def command(self) -> str:
         """The command line that plays this."""
-        import json
         import shlex
 
         settings = []
         for key, value in self.changes.items():
-            text = value if isinstance(value, str) else json.dumps(value)
-            settings += ["--set", f"{key}={text}"]
+            settings += ["--set", f"{key}={value if isinstance(value, str) else _toml(value)}"]
         return shlex.join(["sandbox", "run", self.source, *settings])

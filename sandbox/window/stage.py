@@ -13,7 +13,7 @@ from sandbox.picture.camera import Camera
 from sandbox.picture.painter import blank
 from sandbox.picture.palette import Colour, palette
 from sandbox.picture.sheet import Sheet
-from sandbox.window.path import apart, moves, points
+from sandbox.window.path import apart
 from sandbox.window.session import Shot
 
 CARD, TRACE = palette("card"), palette("trace")
@@ -27,23 +27,25 @@ NEAR, MOST_CONTACTS = 14, 24
 class Stage:
     """Shows shots of ``size`` px from where the picture of one of them, the composed one, stands."""
 
-    def __init__(self, shot: Shot, size: tuple[int, int]) -> None:
+    def __init__(self, shot: Shot, size: tuple[int, int], before: Stage | None = None) -> None:
+        """``before`` is the stage of the same place so far: its backdrop is kept where the camera is the same."""
         self.shot, self.size = shot, size
         self.picture: Any = shot.scene.picture(shot.run, size)
         #: None for a scene whose picture offers no stage: then its poster is shown, and nothing over it.
         self.camera: Camera | None = None
         if all(hasattr(self.picture, name) for name in ("stage", "camera", "draw_balls")):
             self.camera = self.picture.camera
-            self.backdrop: pygame.Surface = self.picture.stage()
+            same = before is not None and before.camera == self.camera
+            self.backdrop: pygame.Surface = before.backdrop if before is not None and same else self.picture.stage()
         else:
             self.backdrop = self.picture.poster()
         self._ghosts: tuple[Any, pygame.Surface] | None = None
 
     def holds(self, shot: Shot) -> bool:
         """Whether the path of another shot stays in sight."""
-        if self.camera is None:
+        if self.camera is None or shot is self.shot:
             return shot is self.shot
-        pixels = self.camera.pixels(points(shot.run, shot.ball)[:, 1:])
+        pixels = self.camera.pixels(shot.track(shot.ball)[:, 1:])
         low, high = pixels.min(axis=0), pixels.max(axis=0)
         width, height = self.size
         return bool(
@@ -84,9 +86,8 @@ class Stage:
         if self.camera is None:
             return
         thin = max(1, round(1.4 * sheet.unit))
-        for ball in shot.run.setup.balls:
-            if ball.name != shot.ball and moves(shot.run, ball.name):
-                self._line(sheet.surface, shot, ball.name, thin, CARD["text"], until)
+        for ball in shot.movers[:-1]:
+            self._line(sheet.surface, shot, ball, thin, CARD["text"], until)
         width = max(3, round(3.6 * sheet.unit))
         self._line(sheet.surface, shot, shot.ball, width + 2, TRACE["rim"], until)
         self._line(sheet.surface, shot, shot.ball, width, TRACE["colours"][0], until)
@@ -101,7 +102,7 @@ class Stage:
         self, surface: pygame.Surface, shot: Shot, ball: str, width: int, colour: Colour, until: float | None = None
     ) -> None:
         assert self.camera is not None
-        track = points(shot.run, ball)
+        track = shot.track(ball)
         if until is not None:
             track = track[track[:, 0] <= until]
             track = np.vstack([track, (until, *shot.run.state(ball, until)[:2])])

@@ -19,7 +19,7 @@ from typing import Any, Literal
 
 from pydantic import Field
 
-from sandbox.controls import Controls, Spin
+from sandbox.controls import Controls, Spin, Spread
 from sandbox.engine.run import Run
 from sandbox.engine.setup import Ball, Bounce, Setup, Vector
 from sandbox.engine.touch import Obstacle
@@ -105,6 +105,9 @@ CONTROLS = Controls(
     ball="cue.ball",
     sliders=("cue.speed", "cue.angle", "cue.follow", "cue.english", "rack", "cloth.rolling_friction", "ball.friction"),
     scores="potted",
+    spoils="scratch",
+    spread=(Spread("cue.speed", 0.03), Spread("cue.angle", least=0.2)),  # assumed
+    goes_on=lambda run, parameters: from_rest(run, parameters),
 )
 
 # -------------------------------------------------------------------------------------------------------------- build
@@ -273,6 +276,25 @@ def result(run: Run, parameters: Parameters) -> dict[str, Any]:
         "pockets": caught,
         "ended": run.ended,
     }
+
+
+def from_rest(run: Run, parameters: Parameters) -> dict[str, Any]:
+    """Where the balls lie for the next shot: a cleared table is racked, a potted cue ball spotted."""
+    spots: dict[str, Vector] = {name: (x, y) for name, (x, y) in run.result["positions"].items()}
+    cue = parameters.cue.ball
+    if not set(spots) - {cue}:
+        return {"rack": "nine-ball", "balls": []}
+    if cue not in spots:
+        spots[cue] = _free_spot(list(spots.values()), parameters)
+    return {"rack": "none", "balls": [{"name": name, "x": x, "y": y} for name, (x, y) in spots.items()]}
+
+
+def _free_spot(taken: Sequence[Vector], parameters: Parameters) -> Vector:
+    """The head spot, or the nearest place with room on the line through it."""
+    head, room = -0.25 * parameters.table.length, 2.1 * parameters.ball.radius
+    places = sorted((0.5 * step * room for step in range(-20, 21)), key=abs)
+    free = (y for y in places if all(hypot(head - x, y - other) > room for x, other in taken))
+    return head, next(y for y in free if abs(y) < 0.5 * parameters.table.width - room)
 
 
 def _touches(run: Run, ball: str) -> Iterator[str]:

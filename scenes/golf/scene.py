@@ -19,7 +19,7 @@ from typing import Any, Literal
 
 from sandbox.aerodynamics import Air as EvenAir
 from sandbox.aerodynamics import ConstantLift, NoDrag, NoLift, SpinRatioLift
-from sandbox.controls import Controls, Spin
+from sandbox.controls import Controls, Spin, Spread
 from sandbox.engine.run import Event, Run
 from sandbox.engine.setup import SOLID_SPHERE, Ball, Bounce, Bounds, Force, Segment, Setup, Surface, Torque
 from sandbox.errors import RequestError
@@ -168,6 +168,8 @@ CONTROLS = Controls(
     also={"start": "launch"},
     sliders=("launch.speed", "launch.angle", "launch.spin", "air.wind", "gravity", "pin.distance"),
     scores="holed",
+    spread=(Spread("launch.speed", 0.015), Spread("launch.angle", 0.08), Spread("launch.spin", 0.06)),  # assumed
+    tells=("total", "m"),
 )
 
 # ---------------------------------------------------------------------------------------------------------------- build

@@ -25,7 +25,7 @@ from sandbox.aerodynamics import (
     SpinRatioLift,
     aerodynamic_forces,
 )
-from sandbox.controls import Controls, Spin
+from sandbox.controls import Controls, Spin, Spread
 from sandbox.engine.run import Event, Run
 from sandbox.engine.setup import HOLLOW_SPHERE, Ball, Bounce, Circle, Segment, Setup, Surface, Vector
 from sandbox.errors import RequestError
@@ -126,6 +126,7 @@ CONTROLS = Controls(
     spins=(Spin("launch.spin", 50.0),),
     sliders=("launch.speed", "launch.angle", "launch.spin", "launch.tilt", "goal.distance", "air.wind"),
     scores="goal",
+    spread=(Spread("launch.speed", 0.02), Spread("launch.angle", least=1.0), Spread("launch.spin", 0.1)),  # assumed
 )
 
 # -------------------------------------------------------------------------------------------------------------- build

@@ -24,7 +24,7 @@ from sandbox.aerodynamics import (
     SpinRatioLift,
     aerodynamic_forces,
 )
-from sandbox.controls import Controls, Spin
+from sandbox.controls import Controls, Spin, Spread
 from sandbox.engine.run import Event, Run
 from sandbox.engine.setup import HOLLOW_SPHERE, Ball, Circle, Segment, Setup, Surface
 from sandbox.errors import RequestError
@@ -118,6 +118,7 @@ CONTROLS = Controls(
     spins=(Spin("launch.spin", 50.0),),
     sliders=("launch.speed", "launch.angle", "launch.spin", "goal.distance", "wall.present", "wall.height", "air.wind"),
     scores="goal",
+    spread=(Spread("launch.speed", 0.02), Spread("launch.angle", least=1.0), Spread("launch.spin", 0.1)),  # assumed
 )
 
 # -------------------------------------------------------------------------------------------------------------- build

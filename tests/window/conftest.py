@@ -23,7 +23,7 @@ class Player:
         pygame.display.init()
         self.screen = pygame.display.set_mode(size, pygame.RESIZABLE)
         pygame.event.clear()
-        self.app = App(Session(source), self.screen)
+        self.app = App(Session(source), self.screen, patience=60.0)  # this machine may be busy
         self.frames(1)
 
     def frames(self, count: int = 1, dt: float = FRAME) -> None:

@@ -7,8 +7,7 @@ import pygame
 SIZE = (640, 400)
 
 
-def test_aiming(player, golden, monkeypatch):
-    monkeypatch.setattr("sandbox.window.app.PATIENCE", 60.0)  # how fast this machine is, is not the question
+def test_aiming(player, golden):
     player = player("golf/golf-game", SIZE)
     player.pull((-40, 22), let_go=False)
     golden.check("window-aiming", player.screen)

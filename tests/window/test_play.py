@@ -154,10 +154,10 @@ class TestScenes:
     def test_the_menu_opens_another_scene_by_mouse(self, player):
         player = player("golf")
         player.button("menu")
-        rect = next(rect for rect, name in player.app.menu.places if name == "golf/putt")
+        rect = next(rect for rect, name in player.app.view.menu.places if name == "golf/putt")
         player.click(rect.center)
         assert player.app.session.title == "golf/putt"
-        assert player.app.menu is None
+        assert player.app.view.menu is None
 
 
 def test_what_cannot_be_is_said_and_the_last_good_parameters_stay(player):

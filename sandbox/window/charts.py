@@ -1,0 +1,74 @@
+"""Strip charts: speed, height and spin of the ball that is played, over the time of the shot."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from math import pi
+
+import numpy as np
+import pygame
+
+from sandbox.picture.palette import palette
+from sandbox.picture.sheet import Sheet, signed
+from sandbox.window.session import Shot
+
+CARD, ENERGY = palette("card"), palette("energy")
+
+#: Points of a line; width of the card, where there is room and beside a table, and height of a strip, px on 720 rows.
+SAMPLES, WIDTH, NARROW, STRIP = 200, 280, 170, 46
+
+
+class Charts:
+    """The strips of one shot."""
+
+    def __init__(self, shot: Shot) -> None:
+        self.shot = shot
+        end = shot.run.duration
+        #: A moment before each impact, and the impact, so that steps are upright.
+        hits = [e.t for e in shot.run.events if e.kind == "impact" and e.ball == shot.ball][:100]
+        times = np.union1d(np.linspace(0.0, end, SAMPLES), [t for hit in hits for t in (max(0.0, hit - 1e-6), hit)])
+        self.times = times
+        x, y, vx, vy, spin = np.array([shot.run.state(shot.ball, float(t)) for t in times]).T
+        self.strips = [("speed", "m/s", np.hypot(vx, vy), 2)]
+        if shot.upright:
+            self.strips.append(("height", "m", y, 2))
+        else:
+            way = np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(x), np.diff(y)))])
+            self.strips.append(("way", "m", way, 2))
+        self.strips.append(("spin", "rpm", spin * 30 / pi, 0))
+
+    def draw(self, sheet: Sheet, top: float, t: float | None) -> None:
+        """A card at the right below the row ``top``, or from above at the left, where nothing is shot at.
+
+        ``t`` in s is marked.
+        """
+        unit, gap, letters = sheet.unit, sheet.gap, sheet.lettering
+        row = letters.height("small") + gap // 2
+        tall = round(STRIP * unit)
+        wide = WIDTH if self.shot.upright else NARROW
+        rect = pygame.Rect(0, 0, round(wide * unit), len(self.strips) * (row + tall + gap) + 3 * gap)
+        if self.shot.upright:
+            rect.topright = sheet.frame.right, round(top)
+        else:
+            rect.bottomleft = sheet.frame.left, round(sheet.frame.bottom - sheet.card_height() - gap)
+        sheet.painter.panel(rect, CARD["background"], 0.85, 10 * unit)
+        end = max(self.shot.run.duration, 1e-9)
+        for number, (name, name_of_unit, values, digits) in enumerate(self.strips):
+            y = rect.top + 1.5 * gap + number * (row + tall + gap)
+            plot = pygame.Rect(rect.left + 2 * gap, round(y) + row, rect.width - 4 * gap, tall)
+            low, high = min(0.0, float(values.min())), float(values.max())
+            scale = (plot.height - 2) / max(high - low, 1e-9)
+            columns = plot.left + plot.width * self.times / end
+            rows = plot.bottom - 1 - (values - low) * scale
+            sheet.surface.fill(ENERGY["rule"], (plot.left, round(plot.bottom - 1 + low * scale), plot.width, 1))
+            for a, b in pairwise(np.column_stack([columns, rows])):
+                pygame.draw.aaline(sheet.surface, CARD["accent"], a, b, 2)
+            shown = float(values[np.abs(values).argmax()]) if t is None else float(np.interp(t, self.times, values))
+            label = f"{name}, most" if t is None else name
+            text = signed(f"{shown:.{digits}f}") + f" {name_of_unit}"
+            letters.write(sheet.surface, label, "small", (plot.left, y), CARD["quiet"])
+            letters.write(sheet.surface, text, "small", (plot.right, y), CARD["text"], "topright", bold=True)
+            if t is not None:
+                at = plot.left + plot.width * t / end
+                sheet.surface.fill(CARD["quiet"], (round(at), plot.top, 1, plot.height))
+                sheet.painter.disc((at, plot.bottom - 1 - (shown - low) * scale), 4 * unit, CARD["text"])

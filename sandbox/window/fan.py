@@ -1,0 +1,157 @@
+"""A fan: the same shot varied at random by a stated spread, drawn as a cloud, with the share of them that scores."""
+
+from __future__ import annotations
+
+from concurrent.futures import Future
+from dataclasses import replace
+from math import sqrt
+from time import perf_counter
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import pygame
+
+from sandbox import parameters as declared
+from sandbox.controls import Spread, controls_of
+from sandbox.errors import SandboxError
+from sandbox.picture.camera import Camera
+from sandbox.picture.painter import Painter, blank
+from sandbox.picture.palette import Colour, palette
+from sandbox.picture.sheet import Sheet, signed
+from sandbox.scene import Scene, simulate
+from sandbox.window.path import apart
+from sandbox.window.session import Shot
+
+if TYPE_CHECKING:
+    from sandbox.window.ahead import Ahead
+
+CARD, TRACE = palette("card"), palette("trace")
+
+SHOTS = 200
+#: Where a scene states no spread: of the speed, as a share of it, and of the angle, in deg.
+SPEED, ANGLE = 0.01, 0.5
+#: A spread may be made so many times wider or narrower.
+WIDEST = 16.0
+#: The thread works on a fan for so long at a time, in s, so that a new path never waits for it for long.
+SLICE = 0.006
+#: So many paths are drawn in one frame; the others in the next.
+PER_FRAME = 6
+#: Opacity of a path, of 255: where many go, it is dense.
+FAINT, FAINT_MISS = 70, 50
+
+
+class Fan:
+    """Shots around one of them. ``go_on`` once a frame has them computed; ``draw`` shows those there are."""
+
+    def __init__(self, shot: Shot, width: float = 1.0) -> None:
+        self.shot, self.width = shot, width
+        self.spread = {key: width * sigma for key, sigma in spread_of(shot).items()}
+        self.draws = np.random.default_rng(1).standard_normal((SHOTS, len(self.spread)))
+        self.shots: list[Shot] = []
+        self.failed = 0
+        self.work: Future[None] | None = None
+        self.layer: pygame.Surface | None = None
+        self.camera: Camera | None = None
+        self.drawn = 0
+
+    @property
+    def complete(self) -> bool:
+        return len(self.shots) + self.failed >= SHOTS or not self.spread
+
+    @property
+    def scored(self) -> int:
+        return sum(shot.scored for shot in self.shots)
+
+    def go_on(self, ahead: Ahead) -> None:
+        """Have more of the shots computed, beside the drawing."""
+        if not self.complete and (self.work is None or self.work.done()):
+            self.work = ahead.start(self._compute)
+
+    def _compute(self) -> None:
+        until = perf_counter() + SLICE
+        while not self.complete and perf_counter() < until:
+            try:
+                scene = self._varied(self.draws[len(self.shots) + self.failed])
+                shot = Shot(scene, simulate(scene))
+                _ = shot.scored, shot.track(shot.ball)
+            except SandboxError:
+                self.failed += 1
+            except Exception:  # a scene's own code: the shot itself has told of it, or will
+                self.failed += 1
+            else:
+                self.shots.append(shot)
+
+    def _varied(self, draws: np.ndarray) -> Scene:
+        """The scene with each parameter of the spread moved, within its bounds."""
+        scene = self.shot.scene
+        changes: dict[str, Any] = {}
+        known = {p.key: p for p in declared.walk(scene.parameters)}
+        for (key, sigma), draw in zip(self.spread.items(), draws, strict=True):
+            low, high = known[key].low, known[key].high
+            value = known[key].value + sigma * float(draw)
+            changes[key] = value if low is None or high is None else min(max(value, low), high)
+        values = scene.parameters.model_dump()
+        return replace(scene, parameters=declared.validate(type(scene.parameters), values, "", changes, ""))
+
+    # Drawing
+
+    def draw(self, sheet: Sheet, camera: Camera) -> None:
+        """The cloud under the path; those that score in the colour of success."""
+        if self.layer is None or self.camera != camera or self.layer.get_size() != sheet.size:
+            self.layer, self.camera, self.drawn = blank(sheet.size, transparent=True), camera, 0
+        for shot in self.shots[self.drawn : self.drawn + PER_FRAME]:
+            self._add(self.layer, shot, camera, sheet.unit)
+            self.drawn += 1
+        sheet.surface.blit(self.layer, (0, 0))
+
+    @staticmethod
+    def _add(layer: pygame.Surface, shot: Shot, camera: Camera, unit: float) -> None:
+        pixels = np.clip(camera.pixels(shot.track(shot.ball)[:, 1:]), -2000, 6000)
+        pixels = pixels[apart(pixels, 4.0)]
+        colour: Colour = CARD["good"] if shot.scored else CARD["text"]
+        low, high = pixels.min(axis=0) - 2, pixels.max(axis=0) + 3
+        box = pygame.Rect(*low.astype(int), *(high - low).astype(int)).clip(layer.get_rect())
+        if box.width and box.height and len(pixels) > 1:
+            line = blank(box.size, transparent=True)
+            line.fill((*colour, 0))
+            faint = FAINT if shot.scored else FAINT_MISS
+            pygame.draw.lines(line, (*colour, faint), False, pixels - box.topleft, max(1, round(1.6 * unit)))
+            layer.blit(line, box)
+        Painter(layer).disc(tuple(pixels[-1]), 2.2 * unit, colour, 0.75)
+
+    def told(self) -> tuple[str, str]:
+        """How many score, and by what the shots differ."""
+        count = len(self.shots)
+        name = controls_of(self.shot.scene.module).scores
+        if not self.spread:
+            share = "no fan: this shot does not begin as a player's does"
+        elif not count:
+            share = "the fan ..."
+        elif name:
+            p = self.scored / count
+            off = sqrt(p * (1 - p) / count)
+            share = f"{self.scored} of {count} score: {100 * p:.0f} ± {max(1.0, 100 * off):.0f} %"
+        else:
+            share = f"{count} shots"
+        told = controls_of(self.shot.scene.module).tells
+        values = [shot.run.result.get(told[0]) for shot in self.shots] if told is not None else []
+        numbers = [value for value in values if isinstance(value, float)]
+        if told is not None and len(numbers) > 1:
+            share += f"; {told[0]} {np.mean(numbers):.1f} ± {np.std(numbers):.1f} {told[1]}"
+        known = {p.key: p.unit or "" for p in declared.walk(self.shot.scene.parameters)}
+        parts = [
+            f"{key.rpartition('.')[2]} ± {signed(f'{sigma:.3g}')} {known[key]}".rstrip()
+            for key, sigma in self.spread.items()
+        ]
+        return share, ", ".join(parts) or "nothing to vary"
+
+
+def spread_of(shot: Shot) -> dict[str, float]:
+    """Standard deviation of each parameter that a player does not hit exactly, in its unit."""
+    controls = controls_of(shot.scene.module)
+    known = {p.key: p.value for p in declared.walk(shot.scene.parameters)}
+    if any(known.get(key) != value for key, value in controls.also.items()):
+        return {}  # the shot begins otherwise than a player's, and what a player varies would change nothing
+    spread = controls.spread or (Spread(controls.speed, SPEED), Spread(controls.angle, least=ANGLE))
+    sigmas = {item.key: item.sigma(known[item.key]) for item in spread if isinstance(known.get(item.key), float)}
+    return {key: sigma for key, sigma in sigmas.items() if sigma > 0}

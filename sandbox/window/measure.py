@@ -1,0 +1,121 @@
+"""What can be measured on the picture: a point of a trace under the mouse, and a tape between two places."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import atan2, degrees, hypot, pi
+
+import numpy as np
+import pygame
+
+from sandbox.picture.camera import Camera
+from sandbox.picture.palette import palette
+from sandbox.picture.sheet import Sheet, metres, signed
+from sandbox.window.session import Shot
+
+CARD = palette("card")
+
+#: So near to a trace, in px on 720 rows, the mouse reads it.
+NEAR = 11.0
+
+
+@dataclass(frozen=True)
+class Reading:
+    """A ball at one time of its path, and where that is in px."""
+
+    ball: str
+    t: float  # s
+    at: tuple[float, float]
+
+
+def reading(shot: Shot, camera: Camera, mouse: tuple[int, int], near: float, until: float | None) -> Reading | None:
+    """The point of a trace nearest to the mouse, no farther than ``near`` px; up to the time ``until`` in s."""
+    best: Reading | None = None
+    for ball in shot.movers:
+        track = shot.track(ball)
+        if until is not None:
+            track = track[track[:, 0] <= until]
+        if len(track) < 2:
+            continue
+        pixels = camera.pixels(track[:, 1:])
+        along = np.diff(pixels, axis=0)
+        from_start = np.asarray(mouse) - pixels[:-1]
+        squares = np.maximum((along**2).sum(axis=1), 1e-12)
+        share = np.clip((from_start * along).sum(axis=1) / squares, 0.0, 1.0)
+        away = np.hypot(*(from_start - share[:, None] * along).T)
+        i = int(away.argmin())
+        if away[i] <= near:
+            t = float(track[i, 0] + share[i] * (track[i + 1, 0] - track[i, 0]))
+            near, best = float(away[i]), Reading(ball, t, camera.pixel(*shot.run.state(ball, t)[:2]))
+    return best
+
+
+def state_entries(shot: Shot, ball: str, t: float) -> list[tuple[str, str]]:
+    """What a ball does at a time: speed, height or place, direction, spin."""
+    x, y, vx, vy, spin = shot.run.state(ball, t)
+    places = [("height", metres(y, 2)), ("distance", metres(x, 2))] if shot.upright else [
+        ("x", metres(x, 2)), ("y", metres(y, 2))]  # fmt: skip
+    speed = hypot(vx, vy)
+    way = signed(f"{degrees(atan2(vy, vx)):.1f}") + "°" if speed > 0 else "–"
+    turning = signed(f"{spin * 30 / pi:.0f}") + " rpm"
+    return [("speed", f"{speed:.2f} m/s"), *places, ("direction", way), ("spin", turning)]
+
+
+def draw_reading(sheet: Sheet, shot: Shot, read: Reading) -> None:
+    """A mark on the trace, and beside it what the ball does there."""
+    unit = sheet.unit
+    sheet.painter.disc(read.at, 7 * unit, CARD["background"], 0.9)
+    sheet.painter.disc(read.at, 5 * unit, CARD["text"])
+    rows = [("time", f"{read.t:.3f} s"), *state_entries(shot, read.ball, read.t)]
+    if len(shot.movers) > 1:
+        rows.insert(0, ("ball", read.ball))
+    draw_rows(sheet, rows, read.at)
+
+
+def draw_rows(sheet: Sheet, rows: Sequence[tuple[str, str]], at: tuple[float, float]) -> None:
+    """A small card of labels and values beside a point in px, where there is room."""
+    letters, gap = sheet.lettering, sheet.gap
+    left = max(letters.width(label, "small") for label, _ in rows)
+    right = max(letters.width(value, "small", bold=True) for _, value in rows)
+    row = letters.height("small") + gap // 2
+    rect = pygame.Rect(0, 0, left + right + 7 * gap, len(rows) * row + 3 * gap)
+    away = round(16 * sheet.unit)
+    rect.bottomleft = round(at[0]) + away, round(at[1]) - away
+    if rect.right > sheet.size[0] - gap:
+        rect.right = round(at[0]) - away
+    if rect.top < gap:
+        rect.top = round(at[1]) + away
+    rect.clamp_ip(sheet.surface.get_rect())
+    sheet.painter.panel(rect, CARD["background"], 0.92, 8 * sheet.unit)
+    for number, (label, value) in enumerate(rows):
+        top = rect.top + 1.5 * gap + number * row
+        letters.write(sheet.surface, label, "small", (rect.left + 2 * gap, top), CARD["quiet"])
+        letters.write(sheet.surface, value, "small", (rect.right - 2 * gap, top), CARD["text"], "topright", bold=True)
+
+
+@dataclass
+class Tape:
+    """A measuring tape between two places of the world, in m."""
+
+    start: tuple[float, float]
+    end: tuple[float, float]
+
+    @property
+    def length(self) -> float:
+        return hypot(self.end[0] - self.start[0], self.end[1] - self.start[1])
+
+    def draw(self, sheet: Sheet, camera: Camera, upright: bool) -> None:
+        a, b = camera.pixel(*self.start), camera.pixel(*self.end)
+        unit = sheet.unit
+        if hypot(b[0] - a[0], b[1] - a[1]) > 1:
+            sheet.painter.line([a, b], 4.5 * unit, CARD["background"], 0.75)
+            sheet.painter.dashes([a, b], 2.2 * unit, CARD["text"], 9 * unit, 5 * unit)
+        for at in (a, b):
+            sheet.painter.disc(at, 5.5 * unit, CARD["background"], 0.9)
+            sheet.painter.disc(at, 3.6 * unit, CARD["accent"])
+        along, across = self.end[0] - self.start[0], self.end[1] - self.start[1]
+        names = ("along", "up") if upright else ("x", "y")
+        draw_rows(
+            sheet, [("tape", metres(self.length, 2)), (names[0], metres(along, 2)), (names[1], metres(across, 2))], b
+        )

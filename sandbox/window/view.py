@@ -1,0 +1,230 @@
+"""What is shown above the bar: the shot as it would be, or at a time of its play, and what is switched on beside it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+import pygame
+
+from sandbox.picture.camera import Camera
+from sandbox.picture.palette import palette
+from sandbox.picture.sheet import Sheet
+from sandbox.picture.vectors import Vectors
+from sandbox.window import aim, overlay
+from sandbox.window.charts import Charts
+from sandbox.window.measure import NEAR, draw_reading, reading, state_entries
+from sandbox.window.playback import Playback
+from sandbox.window.session import Shot
+from sandbox.window.stage import Stage, headline
+
+if TYPE_CHECKING:
+    from sandbox.window.app import App
+
+CARD = palette("card")
+
+#: While the mouse pulls, the view is composed anew no sooner than after so many s: the place must not dance.
+STEADY = 0.3
+
+
+class View:
+    """The picture of one window."""
+
+    def __init__(self, app: App) -> None:
+        self.app = app
+        self.on = {"ghosts"}  # which of commands.SWITCHES
+        self.menu: overlay.Menu | None = None
+        self.choices: overlay.Choices | None = None
+        self.energy: tuple[Shot, pygame.Surface] | None = None
+        self.stage: Stage | None = None
+        self.composed = 0.0  # s since then
+        self._near: tuple[Shot, Any] | None = None
+        self._vectors: tuple[Shot, Vectors] | None = None
+        self._charts: tuple[Shot, Charts] | None = None
+
+    def clear(self) -> None:
+        """Forget what was composed: the place, or its size, is another."""
+        self.stage = self._near = None
+
+    @property
+    def near(self) -> Any:
+        """The picture of the shot that is shown, which goes with its ball."""
+        shot = self.app.shot
+        assert shot is not None
+        if self._near is None or self._near[0] is not shot:
+            self._near = shot, shot.scene.picture(shot.run, self.app.area.size)
+        return self._near[1]
+
+    @property
+    def follows(self) -> bool:
+        """Whether the view goes with the ball."""
+        stage = self.stage
+        return self.app.playback is not None and ("view" in self.on or stage is None or stage.camera is None)
+
+    @property
+    def camera(self) -> Camera | None:
+        """Of what is shown; None where the scene does not tell."""
+        if not self.follows:
+            return self.stage.camera if self.stage is not None else None
+        view: Callable[[float], Camera] | None = getattr(self.near, "view", None)
+        return view(self.app.playback.t) if view is not None and self.app.playback is not None else None
+
+    def draw(self) -> Sheet:
+        """Everything above the bar."""
+        app = self.app
+        if app.shot is None:
+            sheet = self._empty()
+        else:
+            self._compose(app.shot)
+            sheet = self._aiming(app.shot) if app.playback is None else self._playing(app.shot, app.playback)
+            self._beside(sheet, app.shot)
+        if self.energy is not None and self.energy[0] is app.shot:
+            surface = self.energy[1]
+            sheet.surface.blit(surface, surface.get_rect(center=sheet.surface.get_rect().center))
+        else:
+            self.energy = None
+        if app.message is not None:
+            overlay.draw_message(sheet, app.message[0], app.message[1])
+        if self.choices is not None:
+            self.choices.draw(sheet, app.bar.buttons.get(self.choices.group), self.on, app.pointer.at)
+        return sheet
+
+    def draw_over(self, canvas: pygame.Surface, height: int) -> None:
+        """What lies over all but the bar, the panel too: the keys, the scenes."""
+        if "help" not in self.on and self.menu is None:
+            return
+        sheet = Sheet((canvas.get_width(), height))
+        sheet.surface.blit(canvas, (0, 0))
+        if self.menu is not None:
+            self.menu.draw(sheet, self.app.session.title, self.app.pointer.at)
+        if "help" in self.on:
+            overlay.draw_help(sheet)
+        canvas.blit(sheet.surface, (0, 0))
+
+    def _empty(self) -> Sheet:
+        sheet = Sheet(self.app.area.size)
+        sheet.surface.fill(CARD["background"])
+        return sheet
+
+    def _compose(self, shot: Shot) -> None:
+        stage = self.stage
+        if stage is not None and (self.app.playback is not None or stage.holds(shot)):
+            return
+        if stage is not None and self.app.pointer.pulling and self.composed < STEADY:
+            return
+        self.composed = 0.0
+
+        def compose() -> None:
+            self.stage = Stage(shot, self.app.area.size, stage)
+
+        self.app.trying(compose)
+
+    # The two states
+
+    def _aiming(self, shot: Shot) -> Sheet:
+        """The shot as it would be."""
+        app, stage = self.app, self.stage
+        if stage is None:
+            return self._empty()
+        sheet = stage.sheet()
+        if stage.camera is None:
+            return sheet
+        if "ghosts" in self.on:
+            stage.draw_ghosts(sheet, [*app.session.recent, *([app.before] if app.before is not None else [])])
+        self._cloud(sheet, stage)
+        stage.draw_path(sheet, shot)
+        stage.draw_balls(sheet, 0.0)
+        self._arrows(sheet, shot, stage.ball_at(shot), 0.0)
+        headline(sheet, shot.verdict, self._note(), CARD["good"] if shot.scored else CARD["text"])
+        pull = app.pointer.pull
+        if pull is not None and app.pointer.pulling:
+            longest = aim.FULL * app.area.height
+            scale = min(1.0, longest / (pull[0] ** 2 + pull[1] ** 2) ** 0.5)
+            stage.draw_pull(
+                sheet,
+                stage.ball_at(shot),
+                (pull[0] * scale, pull[1] * scale),
+                shot.card[0][1] if shot.card else "",
+            )
+        entries = [*shot.card, *(self._forces(shot).entries(0.0) if "arrows" in self.on else [])]
+        sheet.columns(sheet.frame.bottom - sheet.card_height(), entries)
+        return sheet
+
+    def _note(self) -> str:
+        if self.app.pointer.pull is not None:
+            return "let go to shoot, Esc to leave it"
+        return "pull back from the ball and let go, or press Space"
+
+    def _playing(self, shot: Shot, playback: Playback) -> Sheet:
+        """The shot at a time of its play."""
+        app, stage, t = self.app, self.stage, playback.t
+        if self.follows or stage is None:
+            sheet = Sheet(app.area.size)
+            sheet.surface.blit(self.near.frame(t), (0, 0))
+            return sheet
+        sheet = stage.sheet()
+        if "ghosts" in self.on:
+            stage.draw_ghosts(sheet, [earlier for earlier in app.session.recent if earlier is not shot])
+        self._cloud(sheet, stage)
+        stage.draw_path(sheet, shot, t)
+        stage.draw_balls(sheet, t, self.near)
+        self._arrows(sheet, shot, stage.ball_at(shot, t), t)
+        forces = self._forces(shot).entries(t) if "arrows" in self.on else []
+        if playback.over:
+            colour = CARD["good"] if shot.scored else CARD["text"]
+            again = "go on" if app.session.controls.goes_on is not None else "aim again"
+            headline(sheet, shot.verdict, f"Enter to {again}, R to see it again", colour)
+            entries = [*shot.card, *forces]
+        else:
+            headline(sheet, f"{t:.2f} s", f"shot {app.chosen + 1}", CARD["text"])
+            entries = [*state_entries(shot, shot.ball, t), *forces]
+        sheet.columns(sheet.frame.bottom - sheet.card_height(), entries)
+        return sheet
+
+    # Beside the shot
+
+    def _cloud(self, sheet: Sheet, stage: Stage) -> None:
+        if self.app.fan is not None and stage.camera is not None:
+            self.app.fan.draw(sheet, stage.camera)
+
+    def _forces(self, shot: Shot) -> Vectors:
+        if self._vectors is None or self._vectors[0] is not shot:
+            self._vectors = shot, Vectors(shot.run, shot.ball)
+        return self._vectors[1]
+
+    def _arrows(self, sheet: Sheet, shot: Shot, at: tuple[float, float], t: float) -> None:
+        if "arrows" in self.on:
+            self._forces(shot).draw(sheet, at, 9 * sheet.unit, t)
+
+    def _beside(self, sheet: Sheet, shot: Shot) -> None:
+        """Cards down the right side, what the mouse reads, the tape."""
+        app, top = self.app, float(sheet.frame.top)
+        if "cost" in self.on:
+            text = (
+                f"frame {1e3 * app.frame_cost:.1f} ms   run {1e3 * app.cost:.1f} ms, "
+                f"{app.session.value('accuracy.level')}"
+            )
+            top = overlay.draw_note(sheet, [(text, CARD["accent"])], top)
+        if app.fan is not None:
+            share, spread = app.fan.told()
+            top = overlay.draw_note(sheet, [(share, CARD["text"]), (spread, CARD["quiet"])], top)
+        if "charts" in self.on:
+            if self._charts is None or self._charts[0] is not shot:
+                self._charts = shot, Charts(shot)
+            t = app.playback.t if app.playback is not None else None
+            self._charts[1].draw(sheet, top, t)
+        camera, pointer = self.camera, app.pointer
+        if camera is not None and pointer.tape is not None:
+            pointer.tape.draw(sheet, camera, shot.upright)
+        if camera is None or self.follows or self.covered or pointer.pull is not None or pointer.laying:
+            return
+        if app.area.collidepoint(pointer.at):
+            until = app.playback.t if app.playback is not None else None
+            read = reading(shot, camera, pointer.at, NEAR * sheet.unit, until)
+            if read is not None:
+                draw_reading(sheet, shot, read)
+
+    @property
+    def covered(self) -> bool:
+        """Whether something lies over the picture."""
+        return self.menu is not None or self.choices is not None or "help" in self.on or self.energy is not None
