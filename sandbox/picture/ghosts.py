@@ -8,6 +8,7 @@ from math import cos, dist, pi, sin
 from typing import Any
 
 import numpy as np
+import pygame
 
 from sandbox.picture.palette import Colour, mix, palette
 from sandbox.picture.path import FINEST, apart, chip
@@ -17,6 +18,8 @@ TRACE = palette("trace")
 
 #: How much lighter than its trace a ghost's text on the card is.
 LIGHTER = 0.45
+#: The path of a ghost in a frame has so many points at most.
+MOST_POINTS = 480
 #: Colours no further apart than this, in levels, are too much alike for two traces.
 ALIKE = 100
 
@@ -32,7 +35,20 @@ class Ghost:
     @property
     def row(self) -> tuple[Colour, list[Entry]]:
         """Its numbers for the card, in its colour."""
-        return mix(self.colour, CARD["text"], LIGHTER), self.picture.numbers()
+        return self.light, self.picture.numbers()
+
+    @property
+    def light(self) -> Colour:
+        """Its colour on a dark ground."""
+        return mix(self.colour, CARD["text"], LIGHTER)
+
+    def live(self, t: float) -> tuple[Colour, list[Entry]]:
+        """The same for a frame at time t in s."""
+        return self.light, self.picture.live(min(t, self.picture.run.duration))
+
+    def colour_on(self, sheet: Sheet) -> Colour:
+        """Lighter where the picture's ground is dark."""
+        return self.light if sheet.ink == CARD["text"] else self.colour
 
     @property
     def note(self) -> str:
@@ -52,13 +68,23 @@ def ghosts_of(kind: Any, runs: Mapping[str, Any], size: tuple[int, int], trace: 
     ]
 
 
+def draw_in_frame(sheet: Sheet, ghost: Ghost, points: np.ndarray, at: tuple[float, float], top: float) -> None:
+    """A ghost's path (px, shape (n, 2)) as a thin line, and where its ball is (px); nothing above the row ``top``."""
+    colour = ghost.colour_on(sheet)
+    sheet.surface.set_clip((0, round(top), *sheet.size))
+    if len(points) > 1:
+        kept = np.unique(np.linspace(0, len(points) - 1, MOST_POINTS).astype(int))
+        pygame.draw.aalines(sheet.surface, colour, False, points[kept])
+    sheet.painter.disc(at, max(2.5, 5 * sheet.unit), colour, 0.9)
+    sheet.surface.set_clip(None)
+
+
 def draw_ghost(sheet: Sheet, ghost: Ghost, points: np.ndarray, trace: np.ndarray) -> None:
     """A ghost's path (px, shape (n, 2)) and its label, where it is farthest from the picture's own ``trace``."""
     points = points[apart(points, FINEST)]
     width = max(2.5, 4.5 * sheet.unit)
-    on_dark = sheet.ink == CARD["text"]
-    sheet.painter.line(points, width, ghost.row[0] if on_dark else ghost.colour, TRACE["earlier"])
-    sheet.painter.disc(points[-1], 1.3 * width, ghost.row[0], 0.9)
+    sheet.painter.line(points, width, ghost.colour_on(sheet), TRACE["earlier"])
+    sheet.painter.disc(points[-1], 1.3 * width, ghost.light, 0.9)
     sheet.labels.take_path(points, 3 * sheet.unit)
     away = np.hypot(*(points[:, None] - trace[None, :: max(1, len(trace) // 100)]).T).min(axis=0)
     x, y = points[int(away.argmax())]
@@ -68,4 +94,4 @@ def draw_ghost(sheet: Sheet, ghost: Ghost, points: np.ndarray, trace: np.ndarray
         for far in (8, 16, 28)
         for across, down in directions
     ]
-    chip(sheet, ghost.label, spots, ghost.row[0])
+    chip(sheet, ghost.label, spots, ghost.light)

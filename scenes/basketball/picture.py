@@ -16,7 +16,7 @@ from sandbox.picture.camera import Area, Box, Camera
 from sandbox.picture.chase import Chase
 from sandbox.picture.depth import Eye
 from sandbox.picture.figures import REACHING, SHOOTING, draw_figure
-from sandbox.picture.ghosts import draw_ghost, ghosts_of
+from sandbox.picture.ghosts import draw_ghost, draw_in_frame, ghosts_of
 from sandbox.picture.kept import Kept
 from sandbox.picture.lettering import Labels
 from sandbox.picture.painter import Painter, around_corners, rounded
@@ -366,7 +366,7 @@ class Picture:
         painter, unit, camera = sheet.painter, self.unit, self.view(t)
         eye = self.hall.eye(camera)
         sheet.surface.blit(self._backdrop(camera), (0, 0))
-        x, y, vx, vy, spin = self.run.state("ball", t)
+        x, y, *_ = self.run.state("ball", t)
         self.net.draw(painter, self.hall.hoop_eye(eye), unit, True, t)
         true = self.radius * camera.scale
         radius = max(true, 1.3 * self._smallest)
@@ -374,6 +374,10 @@ class Picture:
         near = 1 / (1 + (y - self.radius) * camera.scale / (80 * unit))
         below = at[0], self.hall.base + unit
         painter.shadow(below, radius * (2.2 - near), 0.35 * radius, CARD["shadow"], 0.15 + 0.45 * near)
+        for ghost in self.ghosts:
+            other = ghost.picture
+            place = camera.pixel(*other.run.state("ball", min(t, other.run.duration))[:2])
+            draw_in_frame(sheet, ghost, camera.pixels(other.path.points), place, self.top_row)
         self._trail(sheet, camera, t, 0.7 * radius)
         self.vectors.draw(sheet, at, radius, t)
         BALL.draw(painter, at, radius, self.run.angle("ball", t), unit, radius > true)
@@ -385,24 +389,27 @@ class Picture:
             right = self.lens.left - 2 * sheet.gap
         if any(self.wind):
             right = sheet.wind(*self.wind, right, sheet.frame.top).left
-        notes = ["ball drawn larger than it is"] if radius > true else []
+        notes = [f"beside {ghost.label}" for ghost in self.ghosts]
+        notes += ["ball drawn larger than it is"] if radius > true else []
         if t >= self.decided:
             sheet.headline(self.verdict(), notes, right - sheet.frame.left - 2 * sheet.gap)
         else:
             sheet.headline(metres(y), ["above the floor", *notes], self.size[0])
-        speed = hypot(vx, vy)
-        sheet.columns(
-            self.card_row,
-            [
-                ("time", f"{t:.2f} s"),
-                ("to the ring", metres(self.hall.hoop[0] - x)),
-                ("speed", f"{speed:.1f} m/s"),
-                ("direction", signed(f"{degrees(atan2(vy, vx)):.0f}") + "°" if speed > 0.01 else "–"),
-                ("backspin", signed(f"{spin * 30 / pi:.0f}") + " rpm"),
-                *self.vectors.entries(t),
-            ],
-        )
+        sheet.columns(self.card_row, self.live(t), [ghost.live(t) for ghost in self.ghosts])
         return sheet.surface
+
+    def live(self, t: float) -> list[Entry]:
+        """What a frame's card says at time t in s."""
+        x, _, vx, vy, spin = self.run.state("ball", t)
+        speed = hypot(vx, vy)
+        return [
+            ("time", f"{t:.2f} s"),
+            ("to the ring", metres(self.hall.hoop[0] - x)),
+            ("speed", f"{speed:.1f} m/s"),
+            ("direction", signed(f"{degrees(atan2(vy, vx)):.0f}") + "°" if speed > 0.01 else "–"),
+            ("backspin", signed(f"{spin * 30 / pi:.0f}") + " rpm"),
+            *self.vectors.entries(t),
+        ]
 
     def _backdrop(self, camera: Camera) -> pygame.Surface:
         """What stands still behind the ball; kept while the camera does."""

@@ -13,7 +13,7 @@ import pygame
 from sandbox.picture import sphere
 from sandbox.picture.ball import SMALLEST
 from sandbox.picture.camera import Camera
-from sandbox.picture.ghosts import draw_ghost, ghosts_of
+from sandbox.picture.ghosts import draw_ghost, draw_in_frame, ghosts_of
 from sandbox.picture.painter import Painter
 from sandbox.picture.palette import Colour, palette
 from sandbox.picture.path import Path, apart, draw_mark, label_mark
@@ -308,6 +308,11 @@ class Picture:
         sheet.surface.blit(self._backdrop, (0, 0))
         painter, camera = sheet.painter, self.camera
         radius = self._radius(camera)
+        for ghost in self.ghosts:
+            other = ghost.picture
+            if other.struck in other.paths:
+                place = camera.pixel(*other.run.state(other.struck, min(t, other.run.duration))[:2])
+                draw_in_frame(sheet, ghost, camera.pixels(other.paths[other.struck][:, 1:]), place, self.head_row)
         for name in self.paths:
             self._trail(painter, name, t, radius)
         if self.struck in self._on_table(t):
@@ -315,8 +320,9 @@ class Picture:
         self.draw_balls(painter, camera, t)
         right = self._head(sheet, t)
         headline = self.verdict() if t >= self.run.duration else self._story(t)
-        sheet.headline(headline, self._notes(), right - sheet.frame.left - 3 * sheet.gap)
-        sheet.columns(self.card_row, self._live(t))
+        notes = [*self._notes(), *(f"beside {ghost.label}" for ghost in self.ghosts)]
+        sheet.headline(headline, notes, right - sheet.frame.left - 3 * sheet.gap)
+        sheet.columns(self.card_row, self.live(t), [ghost.live(t) for ghost in self.ghosts])
         return sheet.surface
 
     def _trail(self, painter: Painter, name: str, t: float, radius: float) -> None:
@@ -351,7 +357,8 @@ class Picture:
         pair = {self.struck, self.run.result["first_contact"]}
         return next((e for e in self.run.events if e.kind == "impact" and {e.ball, e.partner} == pair), None)
 
-    def _live(self, t: float) -> list[Entry]:
+    def live(self, t: float) -> list[Entry]:
+        """What a frame's card says at time t in s."""
         run = self.run
         present = self._on_table(t)
         speeds = {name: hypot(*run.state(name, t)[2:4]) for name in present}

@@ -13,11 +13,11 @@ import pygame
 
 from sandbox.picture.ball import least_radius, mark_radius
 from sandbox.picture.camera import Area, Box, Camera, Follow
-from sandbox.picture.ghosts import draw_ghost, ghosts_of
+from sandbox.picture.ghosts import draw_ghost, draw_in_frame, ghosts_of
 from sandbox.picture.painter import Painter
 from sandbox.picture.palette import Colour, palette
-from sandbox.picture.path import Mark, Path, mark_impacts
-from sandbox.picture.sheet import Sheet, metres, nice, signed, yards
+from sandbox.picture.path import Mark, Path, apart, mark_impacts
+from sandbox.picture.sheet import Entry, Sheet, metres, nice, roughly, signed, yards
 from sandbox.picture.vectors import Vectors
 
 from .course import BALL, Course
@@ -142,7 +142,7 @@ class Picture:
         if flag:
             sheet.labels.take(flag.inflate(0, 2 * sheet.gap))
         path = self._lifted(course, camera, self.path[:, 1:3])
-        self.trace = path[_apart(path, 1.5)]
+        self.trace = path[apart(path, 1.5)]
         sheet.labels.take_path(self.trace, 4 * self.unit)
         sheet.labels.take(pygame.Rect(0, course.base, self.size[0], self.size[1]))  # distances and ruler
         for ghost in self.ghosts:
@@ -220,8 +220,8 @@ class Picture:
         for i in range(floor(run.duration / every) + 1):
             x, y = run.state(self.name, i * every)[:2]
             at = self._spot(course, camera, x, y, radius)
-            apart = hypot(at[0] - last[0], at[1] - last[1])
-            if apart > 2.6 * radius and hypot(at[0] - end[0], at[1] - end[1]) > largest + 2 * radius:
+            far = hypot(at[0] - last[0], at[1] - last[1])
+            if far > 2.6 * radius and hypot(at[0] - end[0], at[1] - end[1]) > largest + 2 * radius:
                 BALL.draw(sheet.painter, at, radius, run.angle(self.name, i * every), self.unit)
                 last = at
         sheet.painter.shadow(
@@ -236,8 +236,8 @@ class Picture:
         least = max([LEAST_IMPACT, *(SOFT * mark.speed for mark in marks)])
         kept: list[Mark] = []
         for mark in marks:
-            apart = abs(mark.at[0] - kept[-1].at[0]) * camera.scale if kept else self.size[0]
-            if mark.speed >= least and apart > 30 * self.unit:
+            far = abs(mark.at[0] - kept[-1].at[0]) * camera.scale if kept else self.size[0]
+            if mark.speed >= least and far > 30 * self.unit:
                 kept.append(mark)
         return kept
 
@@ -277,19 +277,19 @@ class Picture:
         result = self.run.result
         carry, total, away = result["carry"], result["total"], result["distance_to_pin"]
         if result["holed"]:
-            return f"Holed from {_roughly(abs(self.pin))}"
+            return f"Holed from {roughly(abs(self.pin))}"
         if carry is None:
             return "Did not come down"
         if result["ended"] == "duration":
-            return f"Still rolling after {self.run.duration:.0f} s, {_roughly(abs(total))} from the start"
+            return f"Still rolling after {self.run.duration:.0f} s, {roughly(abs(total))} from the start"
         if abs(carry) < 0.05 * abs(total):
-            story = f"Rolls {_roughly(abs(total))}"
+            story = f"Rolls {roughly(abs(total))}"
         else:
-            story = f"Flies {_roughly(-carry)} backwards" if carry < 0 else f"{_roughly(carry)} carry"
+            story = f"Flies {roughly(-carry)} backwards" if carry < 0 else f"{roughly(carry)} carry"
         if result["ended"] == "water":
             return f"{story}, into the water"
         side = "short of" if (self.pin - total) * self.pin > 0 else "past"
-        return f"{story}, stops {_roughly(away)} {side} the pin"
+        return f"{story}, stops {roughly(away)} {side} the pin"
 
     # Frames
 
@@ -327,7 +327,7 @@ class Picture:
         sheet = self.sheet = Sheet(self.size)
         painter, unit, course = sheet.painter, self.unit, self.frame_course
         camera = self.follow.camera(t)
-        x, y, vx, vy, spin = self.run.state(self.name, t)
+        x, y, *_ = self.run.state(self.name, t)
         lowest = course.draw(painter, camera, nice(110 * unit / self.nearest), camera.at[0] * self.nearest)
         course.hole(painter, camera, t, self.wind[0])
         true = self.radius * camera.scale
@@ -338,6 +338,11 @@ class Picture:
             near = 1 / (1 + height * camera.scale / (80 * unit))
             below = at[0], camera.pixel(x, course.height(x))[1] + 1
             painter.shadow(below, radius * (2.2 - near), 0.35 * radius, CARD["shadow"], 0.15 + 0.45 * near)
+        for ghost in self.ghosts:
+            other = ghost.picture
+            there = other.run.state(other.name, min(t, other.run.duration))
+            place = self._spot(course, camera, there[0], there[1], radius)
+            draw_in_frame(sheet, ghost, self._lifted(course, camera, other.path[:, 1:3]), place, self.sky_row)
         self._trail(sheet, camera, t, radius)
         self.vectors.draw(sheet, at, radius, t)
         BALL.draw(painter, at, radius, self.run.angle(self.name, t), self.unit, radius > true)
@@ -349,25 +354,32 @@ class Picture:
         corner = self._map(sheet, t)
         if any(self.wind):
             sheet.wind(*self.wind, corner.right, corner.bottom + 2 * sheet.gap)
-        notes = ["ball drawn larger than it is"] if radius > true else []
-        digits = 1 if self.run.result["apex"] >= 10 else 2
+        notes = [f"beside {ghost.label}" for ghost in self.ghosts]
+        notes += ["ball drawn larger than it is"] if radius > true else []
         if t >= self.run.duration:
             sheet.headline(self.verdict(), notes, corner.left - sheet.frame.left - 2 * sheet.gap)
         else:
-            sheet.headline(metres(x - self.path[0, 1], digits), ["from the start", *notes], self.size[0])
-        speed = hypot(vx, vy)
-        sheet.columns(
-            self.card_row,
-            [
-                ("time", f"{t:.2f} s"),
-                ("height", metres(max(0.0, y - self.path[0, 2]) if y > 0 else y - self.path[0, 2], digits)),
-                ("speed", f"{speed:.1f} m/s"),
-                ("direction", signed(f"{degrees(atan2(vy, vx)):.0f}") + "°" if speed > 0.01 else "–"),
-                ("backspin", signed(f"{spin * 30 / pi:.0f}") + " rpm"),
-                *self.vectors.entries(t),
-            ],
-        )
+            sheet.headline(metres(x - self.path[0, 1], self._digits), ["from the start", *notes], self.size[0])
+        sheet.columns(self.card_row, self.live(t), [ghost.live(t) for ghost in self.ghosts])
         return sheet.surface
+
+    @property
+    def _digits(self) -> int:
+        """Digits after the point of lengths in m."""
+        return 1 if self.run.result["apex"] >= 10 else 2
+
+    def live(self, t: float) -> list[Entry]:
+        """What a frame's card says at time t in s."""
+        _, y, vx, vy, spin = self.run.state(self.name, t)
+        speed = hypot(vx, vy)
+        return [
+            ("time", f"{t:.2f} s"),
+            ("height", metres(max(0.0, y - self.path[0, 2]) if y > 0 else y - self.path[0, 2], self._digits)),
+            ("speed", f"{speed:.1f} m/s"),
+            ("direction", signed(f"{degrees(atan2(vy, vx)):.0f}") + "°" if speed > 0.01 else "–"),
+            ("backspin", signed(f"{spin * 30 / pi:.0f}") + " rpm"),
+            *self.vectors.entries(t),
+        ]
 
     def _trail(self, sheet: Sheet, camera: Camera, t: float, radius: float) -> None:
         """Where the ball has just been; kept out of the header."""
@@ -376,16 +388,19 @@ class Picture:
         above = np.flatnonzero(points[:, 1] < self.sky_row)
         points = points[above[-1] + 1 :] if len(above) else points
         if len(points) > 1:
-            sheet.painter.fading(points[_apart(points, 2.0)], 1.1 * radius, TRACE["colours"][0], 0.9)
+            sheet.painter.fading(points[apart(points, 2.0)], 1.1 * radius, TRACE["colours"][0], 0.9)
 
     def _map(self, sheet: Sheet, t: float) -> pygame.Rect:
         """The whole path, small, in the upper right corner, and where on it the ball is."""
         rect, camera, ground, times, path = self._mapped
+        others = [(ghost, camera.pixels(ghost.picture.path[:, 1:3])) for ghost in self.ghosts]
         surface, painter, unit = sheet.surface, sheet.painter, self.unit
         thin = max(1, round(1.6 * unit))
         painter.panel(rect, CARD["background"], CARD["opacity"], 8 * unit)
         surface.set_clip(rect)
         _draw_path(surface, ground, GOLF["fairway"], thin)
+        for ghost, points in others:
+            _draw_path(surface, points[apart(points, 1.5)], ghost.light, 1)
         _draw_path(surface, path, CARD["quiet"], 1)
         x, y, *_ = self.run.state(self.name, t)
         at = camera.pixel(x, y)
@@ -403,7 +418,7 @@ class Picture:
         """The map's place, its camera, the ground in px, and times (s) and points (px) of the path."""
         sheet, course = Sheet(self.size), self.frame_course
         inset = 2.4 * sheet.gap
-        x, y = self.path[:, 1], self.path[:, 2]
+        x, y = np.concatenate([self.path, *(ghost.picture.path for ghost in self.ghosts)])[:, 1:3].T
         left, right = min(float(x.min()), self.pin), max(float(x.max()), self.pin)
         low, high = course.lowest_and_highest(left, right)
         world = Box(left, low, max(right, left + 60 * self.radius), max(high, float(y.max())))
@@ -418,24 +433,10 @@ class Picture:
         edges = (camera.world(px, 0)[0] for px in (rect.left + sheet.gap, rect.right - sheet.gap))
         ground = np.add(camera.pixels(course.between(*edges)), (0, 1))
         path = camera.pixels(self.path[:, 1:3])
-        kept = _apart(path, 1.5)
+        kept = apart(path, 1.5)
         return rect, camera, ground, self.path[kept, 0], path[kept]
 
 
 def _draw_path(surface: pygame.Surface, points: Iterable[Any], colour: Colour, width: int) -> None:
     for a, b in pairwise(points):
         pygame.draw.aaline(surface, colour, a, b, width)
-
-
-def _roughly(value: float) -> str:
-    """A length of 0 or more as one says it: 0.14 m, 2.9 m, 252 m."""
-    return metres(value, 0 if value >= 9.95 else 1 if value >= 0.995 else 2)
-
-
-def _apart(points: np.ndarray, least: float) -> list[int]:
-    """Indices of the points that are ``least`` px from each other, and of the last."""
-    kept = [0]
-    for i in range(1, len(points) - 1):
-        if hypot(*(points[i] - points[kept[-1]])) >= least:
-            kept.append(i)
-    return [*kept, len(points) - 1]

@@ -13,7 +13,7 @@ import pygame
 
 from sandbox.picture.ball import least_radius, mark_radius
 from sandbox.picture.camera import Camera, Follow
-from sandbox.picture.ghosts import draw_ghost, ghosts_of
+from sandbox.picture.ghosts import draw_ghost, draw_in_frame, ghosts_of
 from sandbox.picture.painter import Painter
 from sandbox.picture.palette import mix, palette
 from sandbox.picture.path import MOST_SAMPLES, Path, apart, chip, draw_trace, mark_impacts
@@ -328,9 +328,13 @@ class Picture:
         sheet.surface.blit(self._standing[1], (0, 0))
         if self.parameters.keeper.present:
             self.pitch.draw_keeper(painter, camera, self.run.state("keeper", t)[:2])
-        x, y, vx, vy, spin = self.run.state("ball", t)
+        x, y, *_ = self.run.state("ball", t)
         radius = max(self.radius * camera.scale, 1.3 * self._smallest)
         at = camera.pixel(x, y)
+        for ghost in self.ghosts:
+            other = ghost.picture
+            place = camera.pixel(*other.run.state("ball", min(t, other.run.duration))[:2])
+            draw_in_frame(sheet, ghost, camera.pixels(other.path.points), place, self.top_row)
         self._trail(sheet, camera, t, radius)
         painter.shadow((at[0] + 0.5 * radius, at[1] + 0.6 * radius), 1.1 * radius, 0.9 * radius, CARD["shadow"], 0.5)
         self.vectors.draw(sheet, at, radius, t)
@@ -340,27 +344,30 @@ class Picture:
         right = sheet.frame.right
         if any(self.wind):
             right = sheet.wind(*self.wind, right, sheet.frame.top).left
-        notes = ["ball drawn larger than it is"] if large else []
+        notes = [f"beside {ghost.label}" for ghost in self.ghosts]
+        notes += ["ball drawn larger than it is"] if large else []
         if t >= self.path.until:
             sheet.headline(self.verdict(), notes, right - sheet.frame.left - 2 * sheet.gap)
         else:
             away = self.parameters.goal.distance - x
             where = "to the goal line" if away >= 0 else "behind the goal line"
             sheet.headline(metres(abs(away)), [where, *notes], self.size[0])
+        sheet.columns(self.card_row, self.live(t), [ghost.live(t) for ghost in self.ghosts])
+        return sheet.surface
+
+    def live(self, t: float) -> list[Entry]:
+        """What a frame's card says at time t in s."""
+        x, y, vx, vy, spin = self.run.state("ball", t)
         angle = radians(self.parameters.launch.angle)
         aside = y * cos(angle) - x * sin(angle)
-        sheet.columns(
-            self.card_row,
-            [
-                ("time", f"{t:.2f} s"),
-                ("off the straight", f"{metres(abs(aside))} {_side(aside)}" if abs(aside) >= 0.005 else "–"),
-                ("speed", f"{hypot(vx, vy):.1f} m/s"),
-                ("direction", f"{abs(degrees(atan2(vy, vx))):.0f}° {_side(vy)}" if hypot(vx, vy) > 0.01 else "–"),
-                ("spin", f"{abs(spin) * 30 / pi:.0f} rpm"),
-                *self.vectors.entries(t),
-            ],
-        )
-        return sheet.surface
+        return [
+            ("time", f"{t:.2f} s"),
+            ("off the straight", f"{metres(abs(aside))} {_side(aside)}" if abs(aside) >= 0.005 else "–"),
+            ("speed", f"{hypot(vx, vy):.1f} m/s"),
+            ("direction", f"{abs(degrees(atan2(vy, vx))):.0f}° {_side(vy)}" if hypot(vx, vy) > 0.01 else "–"),
+            ("spin", f"{abs(spin) * 30 / pi:.0f} rpm"),
+            *self.vectors.entries(t),
+        ]
 
     def _trail(self, sheet: Sheet, camera: Camera, t: float, width: float) -> None:
         """The straight line of the launch, where the ball has been, and where it was of late."""

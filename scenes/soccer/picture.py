@@ -13,7 +13,7 @@ import pygame
 from sandbox.picture.ball import least_radius, mark_radius
 from sandbox.picture.camera import Area, Box, Camera
 from sandbox.picture.chase import Chase
-from sandbox.picture.ghosts import draw_ghost, ghosts_of
+from sandbox.picture.ghosts import draw_ghost, draw_in_frame, ghosts_of
 from sandbox.picture.painter import Painter
 from sandbox.picture.palette import mix, palette
 from sandbox.picture.path import Path, apart, chip, draw_trace, mark_impacts
@@ -285,7 +285,7 @@ class Picture:
         sheet = self.sheet = Sheet(self.size, on_dark=True)
         painter, unit, camera = sheet.painter, self.unit, self.view(t)
         sheet.surface.blit(self._backdrop(camera), (0, 0))
-        x, y, vx, vy, spin = self.run.state("ball", t)
+        x, y, *_ = self.run.state("ball", t)
         true = self.radius * camera.scale
         radius = max(true, 1.3 * self._smallest)
         at = self._spot(camera, x, y, radius)
@@ -293,6 +293,11 @@ class Picture:
         painter.shadow(
             (at[0], self.stadium.base + unit), radius * (2.2 - near), 0.35 * radius, CARD["shadow"], 0.15 + 0.45 * near
         )
+        for ghost in self.ghosts:
+            other = ghost.picture
+            there = other.run.state("ball", min(t, other.run.duration))
+            place = self._spot(camera, there[0], there[1], true)
+            draw_in_frame(sheet, ghost, camera.pixels(other.path.points), place, self.top_row)
         self._trail(sheet, camera, t, radius)
         self.vectors.draw(sheet, at, radius, t)
         BALL.draw(painter, at, radius, self.run.angle("ball", t), unit, radius > true)
@@ -301,24 +306,27 @@ class Picture:
         right = sheet.frame.right
         if any(self.wind):
             right = sheet.wind(*self.wind, right, sheet.frame.top).left
-        notes = ["ball drawn larger than it is"] if radius > true else []
+        notes = [f"beside {ghost.label}" for ghost in self.ghosts]
+        notes += ["ball drawn larger than it is"] if radius > true else []
         if t >= self.path.until:
             sheet.headline(self.verdict(), notes, right - sheet.frame.left - 2 * sheet.gap)
         else:
             sheet.headline(metres(x), ["from the kick", *notes], self.size[0])
-        speed = hypot(vx, vy)
-        sheet.columns(
-            self.card_row,
-            [
-                ("time", f"{t:.2f} s"),
-                ("height", metres(max(0.0, y - self.radius))),
-                ("speed", f"{speed:.1f} m/s"),
-                ("direction", signed(f"{degrees(atan2(vy, vx)):.0f}") + "°" if speed > 0.01 else "–"),
-                ("spin", _spin(spin * 30 / pi)),
-                *self.vectors.entries(t),
-            ],
-        )
+        sheet.columns(self.card_row, self.live(t), [ghost.live(t) for ghost in self.ghosts])
         return sheet.surface
+
+    def live(self, t: float) -> list[Entry]:
+        """What a frame's card says at time t in s."""
+        _, y, vx, vy, spin = self.run.state("ball", t)
+        speed = hypot(vx, vy)
+        return [
+            ("time", f"{t:.2f} s"),
+            ("height", metres(max(0.0, y - self.radius))),
+            ("speed", f"{speed:.1f} m/s"),
+            ("direction", signed(f"{degrees(atan2(vy, vx)):.0f}") + "°" if speed > 0.01 else "–"),
+            ("spin", _spin(spin * 30 / pi)),
+            *self.vectors.entries(t),
+        ]
 
     def _backdrop(self, camera: Camera) -> pygame.Surface:
         """What stands still behind the ball; kept while the camera does."""

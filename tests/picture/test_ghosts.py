@@ -1,11 +1,13 @@
-"""Two runs over each other in one poster."""
+"""Two runs over each other, in a poster and in frames."""
 
 from functools import cache
 
 import numpy as np
 import pytest
+from PIL import ImageChops
 
 import sandbox
+from sandbox.picture.frames import to_image
 
 PAIRS = [
     ("golf", "golf/headwind"),
@@ -27,6 +29,13 @@ def compared(pair, size=(640, 360)):
     return run.scene.picture(run, size, {"the other": other})
 
 
+def assert_legible(sheet) -> None:
+    for i, (text, rect) in enumerate(sheet.written):
+        assert sheet.frame.contains(rect), f"{text} leaves the frame"
+        for other_text, other in sheet.written[:i]:
+            assert not rect.colliderect(other), f"{text} overlaps {other_text}"
+
+
 @pytest.mark.parametrize("size", [(640, 360), (1280, 720), (1920, 1080)], ids=str)
 @pytest.mark.parametrize("pair", PAIRS, ids=str)
 def test_both_are_told_and_nothing_overlaps(pair, size):
@@ -40,10 +49,26 @@ def test_both_are_told_and_nothing_overlaps(pair, size):
         assert label in written
         assert value in written
     assert entries[0][1] in written
-    for i, (text, rect) in enumerate(picture.sheet.written):
-        assert picture.sheet.frame.contains(rect), f"{text} leaves the frame"
-        for other_text, other in picture.sheet.written[:i]:
-            assert not rect.colliderect(other), f"{text} overlaps {other_text}"
+    assert_legible(picture.sheet)
+
+
+@pytest.mark.parametrize("pair", PAIRS, ids=str)
+def test_frames_show_both_at_the_same_time(pair):
+    """Up to the end of the longer run, and after that of the shorter."""
+    run, other = map(run_of, pair)
+    picture = compared(pair)
+    for share in (0.0, 0.4, 1.0):
+        t = share * run.duration
+        assert picture.frame(t).get_size() == (640, 360)
+        written = [text for text, _ in picture.sheet.written]
+        assert "beside the other" in " ".join(written)
+        assert {f"{t:.2f} s", f"{min(t, other.duration):.2f} s"} <= set(written)
+        assert_legible(picture.sheet)
+    shown = to_image(picture.frame(0.1 * run.duration)).copy()
+    picture.ghosts.clear()  # the camera stays
+    hidden = to_image(picture.frame(0.1 * run.duration))
+    middle = (0, 100, 640, round(picture.card_row) - 5)  # off headline and card
+    assert ImageChops.difference(shown.crop(middle), hidden.crop(middle)).getbbox() is not None
 
 
 @pytest.mark.parametrize("pair", PAIRS, ids=str)
