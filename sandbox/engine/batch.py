@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from sandbox.engine import simulate
+from sandbox.engine import flies_in_batches, simulate
 from sandbox.engine.accuracy import Accuracy
 from sandbox.engine.arc import Arc, through
 from sandbox.engine.arc_rows import ArcRows
@@ -40,28 +40,30 @@ STEPS, REFINED, IMPACTS, QUERIES = range(4)
 _ROUNDING = 1e-12
 
 
-def simulate_many(setups: Sequence[Setup], accuracy: Accuracy) -> list[Run | Exception]:
-    """A run of each setup, or the exception that it ended in.
+def simulate_many(setups: Sequence[Setup], accuracy: Accuracy) -> Iterator[Run | Exception]:
+    """A run of each setup, in order, or the exception that it ended in.
 
     As ``simulate`` one by one, to rounding; much quicker for setups that are alike. Forces are called with arrays,
     shape (n,), for time, position, velocity and spin; where one cannot take them, its shots run one at a time.
     """
-    outcomes: dict[int, Run | Exception] = {}
     groups: dict[Hashable, tuple[list[int], list[list[float]]]] = {}
     for number, setup in enumerate(setups):
-        if _flies_in_batches(setup, accuracy):
+        if flies_in_batches(setup, accuracy):
             floats: list[float] = []
             members, numbers = groups.setdefault(_kind(setup, floats), ([], []))
             members.append(number)
             numbers.append(floats)
+    batch_of: dict[int, Iterator[Run | Exception]] = {}
     for members, numbers in groups.values():
         if len(members) >= _FEWEST:
+            batch = _Batch([setups[member] for member in members], numbers, accuracy)
             try:
-                found = _Batch([setups[member] for member in members], numbers, accuracy).run()
+                batch.fly()
             except Exception:
                 continue  # arrays are not for these forces; one at a time they say so themselves, or run
-            outcomes.update(zip(members, found, strict=True))
-    return [outcomes[n] if n in outcomes else _one(setup, accuracy) for n, setup in enumerate(setups)]
+            batch_of |= dict.fromkeys(members, batch.runs())
+    for number, setup in enumerate(setups):
+        yield next(batch_of[number]) if number in batch_of else _one(setup, accuracy)
 
 
 def _one(setup: Setup, accuracy: Accuracy) -> Run | Exception:
@@ -69,11 +71,6 @@ def _one(setup: Setup, accuracy: Accuracy) -> Run | Exception:
         return simulate(setup, accuracy)
     except Exception as error:
         return error
-
-
-def _flies_in_batches(setup: Setup, accuracy: Accuracy) -> bool:
-    one_at_a_time = setup.cloth is not None or setup.catches or len(setup.balls) > 1 or not setup.surfaces
-    return accuracy.method == "exact" and INTEGRATORS[accuracy.integrator].controls_error and not one_at_a_time
 
 
 def _kind(setup: Setup, floats: list[float]) -> Hashable:
@@ -127,8 +124,8 @@ class _Batch:
         self._again = np.zeros(len(setups), dtype=bool)  # a step that was too long is tried again
         self._gather()
 
-    def run(self) -> list[Run | Exception]:
-        """All of them, to the end."""
+    def fly(self) -> None:
+        """All of them, to the end, or as far as they go here."""
         started = perf_counter()
         self._check_forces()
         with np.errstate(all="ignore"):
@@ -137,8 +134,16 @@ class _Batch:
                 self._round()
         for lane in range(len(self._shot)):
             self._leave(lane, "flight" if self._touched[lane] < 0 else "after")
-        each = (perf_counter() - started) / len(self._setups)
-        return [self._run(number, rows, each) for number, rows in enumerate(self._rows())]
+        self._seconds = perf_counter() - started
+
+    def runs(self) -> Iterator[Run | Exception]:
+        """Each shot's run, in order."""
+        shots = np.concatenate([shots for shots, _ in self._paths])
+        order = np.argsort(shots, kind="stable")
+        rows = np.ascontiguousarray(np.concatenate([columns for _, columns in self._paths], axis=1)[:, order].T)
+        ends = np.cumsum(np.bincount(shots, minlength=len(self._setups)))
+        for number, path in enumerate(np.split(rows, ends[:-1])):
+            yield self._run(number, path)
 
     # ------------------------------------------------------------------ forces
 
@@ -373,19 +378,12 @@ class _Batch:
         state = tuple(self._state[:, lane].tolist())
         self._left[int(self._shot[lane])] = _Left(float(self._t[lane]), how, state, float(self._wanted[lane]))
 
-    def _rows(self) -> Iterator[np.ndarray]:
-        """The path of each shot, in order."""
-        shots = np.concatenate([shots for shots, _ in self._paths])
-        order = np.argsort(shots, kind="stable")
-        rows = np.ascontiguousarray(np.concatenate([columns for _, columns in self._paths], axis=1)[:, order].T)
-        ends = np.cumsum(np.bincount(shots, minlength=len(self._setups)))
-        return iter(np.split(rows, ends[:-1]))
-
-    def _run(self, number: int, rows: np.ndarray, seconds: float) -> Run | Exception:
+    def _run(self, number: int, rows: np.ndarray) -> Run | Exception:
         setup = self._setups[number]
         if number not in self._left:  # not even begun
             return _one(setup, self._accuracy)
         steps, refined, impacts, queries = self._counts[:, number].tolist()
+        seconds = self._seconds / len(self._setups)
         numerics = Numerics(7 * steps, steps, refined, impacts, 2 * impacts, queries, seconds)
         left, events = self._left[number], self._events[number]
         if left.how in ("until", "duration"):

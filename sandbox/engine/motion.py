@@ -82,6 +82,8 @@ class Mover:
         self._local_error = accuracy.tolerance * LOCAL_SHARE  # m
         self._suggested = FIRST_STEP if self._integrator.controls_error else accuracy.step  # s
 
+        self._known: tuple[State, Acceleration] = ((), (0.0, 0.0, 0.0))  # the end of the last step: the next start
+
     def suggest(self, step: float) -> None:
         """Try this step in s next."""
         self._suggested = step
@@ -150,7 +152,9 @@ class Mover:
         return self._cut_where_contact_changes(arc, contact)
 
     def _integrate(self, t: float, until: float, state: State, law: Law, contact: Contact | None) -> Arc:
-        acceleration = law(t, state)
+        known, acceleration = self._known
+        if known is not state:
+            acceleration = law(t, state)
         step = self._integrator.step
         wanted = self._suggested
         h = min(wanted, LONGEST, until - t)
@@ -190,6 +194,7 @@ class Mover:
             self._numerics.refined_steps += 1
             h = wanted = shorter
         self._check(t + h, after)
+        self._known = (after, end_acceleration)
         return through(t, h, state, acceleration, after, end_acceleration, contact)
 
     def _size(self, error: State) -> float:
@@ -291,6 +296,7 @@ def _crossing(arc: Arc, value: Callable[[float, State], float]) -> float:
     at_low, at_high = value(low, arc.start), value(high, arc.state(high))
     if at_low <= 0.0:
         return low
+    last, kept = low, 0  # which end was replaced last
     for _ in range(60):  # regula falsi with the Illinois weights
         t = low + (high - low) * at_low / (at_low - at_high)
         if not low < t < high:
@@ -298,16 +304,19 @@ def _crossing(arc: Arc, value: Callable[[float, State], float]) -> float:
             if not low < t < high:
                 break
         here = value(t, arc.state(t))
-        if here == 0.0:
+        if here == 0.0 or abs(t - last) <= 1e-15 * (1.0 + t):
             return t
+        last = t
         if here > 0.0:
             low, at_low = t, here
-            at_high *= 0.5
+            if kept == 1:
+                at_high *= 0.5
+            kept = 1
         else:
             high, at_high = t, here
-            at_low *= 0.5
-        if high - low <= 1e-15 * (1.0 + high):
-            break
+            if kept == -1:
+                at_low *= 0.5
+            kept = -1
     return high
 
 

@@ -15,7 +15,7 @@ import numpy as np
 from sandbox import resources
 from sandbox.errors import RequestError, SandboxError
 from sandbox.lab.axes import MOST_POINTS, Axis, Span, Values
-from sandbox.lab.runs import runs
+from sandbox.lab.runs import fly_together, runs
 from sandbox.scene import Scene, compare
 
 if TYPE_CHECKING:
@@ -29,6 +29,10 @@ HANGS = "hangs_on_accuracy"
 
 #: Random points are drawn in blocks of so many, each from a seed of its own, so that any of them is found at once.
 _BLOCK = 1024
+
+#: Points that fly together: more are quicker, fewer are shared out evenly and seen sooner. The number must not depend
+#: on who computes, as the last digits of a shot depend on how many fly with it.
+_SMALLEST_BLOCK, _LARGEST_BLOCK, _BLOCKS = 32, 512, 16
 
 #: One run as a row: swept parameters, results, flags, and ``error``, which is empty where the run came to its end.
 Record = dict[str, Any]
@@ -76,6 +80,12 @@ class Plan:
     def size(self) -> int:
         """How many points there are."""
         return math.prod(self.shape)
+
+    @cached_property
+    def block(self) -> int:
+        """How many points are computed together: 1 where shots fly one at a time."""
+        together = fly_together(self.scene, self.keys, next(self.points(0, 1)))
+        return min(_LARGEST_BLOCK, max(_SMALLEST_BLOCK, self.size // _BLOCKS)) if together else 1
 
     def points(self, start: int, stop: int) -> Iterator[tuple[Any, ...]]:
         """The swept values of the points from ``start`` up to ``stop``."""
@@ -126,8 +136,24 @@ def _drawn(axis: Axis, share: float) -> Any:
 # ---------------------------------------------------------------------------------------------------------------------
 
 
-def records(plan: Plan, start: int, stop: int) -> list[Record]:
-    """The rows of the points from ``start`` up to ``stop``. A point that fails is a row with its error."""
+def records(plan: Plan, start: int, stop: int, alone: bool = False) -> list[Record]:
+    """The rows of the points from ``start`` up to ``stop``. A point that fails is a row with its error.
+
+    Points are computed by blocks, whichever part of them is asked for, so that a row has the same digits whoever
+    computes it; ``alone`` computes the points asked for and no others.
+    """
+    if alone:
+        return _rows(plan, start, stop)
+    rows = []
+    while start < stop:
+        first = start - start % plan.block
+        last = min(first + plan.block, plan.size)
+        rows += _rows(plan, first, last)[start - first : stop - first]
+        start = last
+    return rows
+
+
+def _rows(plan: Plan, start: int, stop: int) -> list[Record]:
     points = list(plan.points(start, stop))
     outcomes = runs(plan.scene, plan.keys, points)
     if not plan.check:

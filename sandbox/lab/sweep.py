@@ -18,12 +18,14 @@ from sandbox.errors import RequestError, RunError
 from sandbox.lab.axes import Values, as_axis
 from sandbox.lab.plan import Plan, Record, failed, records
 from sandbox.lab.row_file import RowFile
-from sandbox.lab.runs import BATCH, flies_in_batches
 from sandbox.lab.workers import Call, Cluster, InTurn, Processes, Workers
 from sandbox.scene import Scene, load
 
 #: Time in s that one call to a worker should take: progress is seen, and Ctrl-C obeyed, a few times a second.
 _CALL = 0.3
+
+#: Most points in one call.
+_MOST = 1_000
 
 #: Calls that wait for each one that is computed, so that no worker idles; more would only cost memory.
 _AHEAD = 3
@@ -190,7 +192,7 @@ def swept(plan: Plan, staff: Workers, first: int = 0, progress: Progress = _sile
     progress(first, plan.size)
     while following < plan.size or waiting:
         while following < plan.size and len(waiting) < _AHEAD * staff.width:
-            stop = min(plan.size, following + pace.points)
+            stop = min(plan.size, following - following % plan.block + pace.points)
             waiting.append((following, stop, staff.submit(_computed, payload, following, stop)))
             following = stop
         start, stop, call = waiting.popleft()
@@ -200,43 +202,43 @@ def swept(plan: Plan, staff: Workers, first: int = 0, progress: Progress = _sile
         progress(stop, plan.size)
 
 
-def _result(plan: Plan, payload: bytes, staff: Workers, start: int, stop: int, call: Call) -> Any:
-    """What a call gives. One whose worker went away is repeated, alone, so that it does not suffer for others."""
+def _result(plan: Plan, payload: bytes, staff: Workers, start: int, stop: int, call: Call, alone: bool = False) -> Any:
+    """What a call gives. One whose worker went away is repeated; in the end point by point, each alone, so that none
+    suffers for others."""
     for _ in range(_TRIES):
         try:
             return call.result()
         except Exception as error:
             if not staff.lost(error):
                 raise
-        call = staff.submit(_computed, payload, start, stop)
+        call = staff.submit(_computed, payload, start, stop, alone)
     if stop - start == 1:
         return failed(plan, start, stop, f"the process that ran it was killed {_TRIES} times: out of memory?"), 0.0
     found: list[Record] = []
     for number in range(start, stop):
-        alone = staff.submit(_computed, payload, number, number + 1)
-        found += _result(plan, payload, staff, number, number + 1, alone)[0]
+        one = staff.submit(_computed, payload, number, number + 1, True)
+        found += _result(plan, payload, staff, number, number + 1, one, alone=True)[0]
     return found, 0.0
 
 
 class _Pace:
-    """How many points to hand out at once."""
+    """How many points to hand out at once: whole blocks, in calls that take about ``_CALL`` s."""
 
     def __init__(self, plan: Plan, width: int) -> None:
-        self._batches = flies_in_batches(plan.scene, plan.keys, next(plan.points(0, 1)))
-        self._most = max(1, min(BATCH, -(-plan.size // (_AHEAD * width))))
-        self.points = self._most if self._batches else 1
+        self._block = plan.block
+        self._most = max(self._block, min(_MOST, -(-plan.size // (_AHEAD * width))))
+        self.points = self._block
 
     def note(self, points: int, seconds: float) -> None:
         """A call that computed so many points took so long."""
-        if not self._batches:
-            fitting = int(points * _CALL / max(seconds, 1e-6))
-            self.points = max(1, min(fitting, 4 * self.points, self._most))
+        fitting = int(min(points * _CALL / max(seconds, 1e-6), 4 * self.points, self._most))
+        self.points = max(self._block, fitting - fitting % self._block)
 
 
-def _computed(payload: bytes, start: int, stop: int) -> tuple[list[Record], float]:
+def _computed(payload: bytes, start: int, stop: int, alone: bool = False) -> tuple[list[Record], float]:
     """The rows of some points, and how long they took in s; in whatever process this is."""
     began = perf_counter()
-    rows = records(_plan(payload), start, stop)
+    rows = records(_plan(payload), start, stop, alone)
     return rows, perf_counter() - began
 
 
