@@ -542,7 +542,7 @@ def _json(value: Any) -> str:
     """JSON of plain values; what is not finite is null."""
     import json
 
-    from sandbox.report import plain
+    from sandbox.files import plain
 
     return json.dumps(plain(value), allow_nan=False, ensure_ascii=False)
 

@@ -1,12 +1,13 @@
-"""Output files: checked before the work begins, and written whole or not at all."""
+"""Output files: checked before the work begins, written whole or not at all, and what of values JSON knows."""
 
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
+from math import isfinite
 from pathlib import Path
-from typing import TextIO
+from typing import Any, TextIO
 
 from sandbox.errors import RequestError
 
@@ -45,6 +46,17 @@ def _check_folder(option: str, folder: Path) -> None:
         trial.unlink()
     except OSError as error:
         raise RequestError(f"{option}: cannot write into {folder}: {reason(error)}") from None
+
+
+def plain(value: Any) -> Any:
+    """The same in what JSON knows; what is not finite is null."""
+    if isinstance(value, Mapping):
+        return {str(key): plain(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [plain(item) for item in value]
+    if hasattr(value, "tolist"):  # numpy's numbers and arrays
+        return plain(value.tolist())
+    return None if isinstance(value, float) and not isfinite(value) else value
 
 
 @contextmanager

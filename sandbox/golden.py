@@ -29,6 +29,7 @@ from typing import TYPE_CHECKING, Any, NoReturn
 import pytest
 
 from sandbox import record
+from sandbox.errors import RunError
 
 if TYPE_CHECKING:
     import numpy as np
@@ -223,14 +224,17 @@ def _as_image(subject: Any, until: float | None) -> Image.Image:
 
     if isinstance(subject, Image.Image):
         return subject.convert("RGB")
-    from sandbox.picture.frames import to_image
+    from sandbox.picture.frames import frame_of, poster_of, to_image
 
     if not hasattr(subject, "setup"):
         return to_image(subject)
     if subject.scene is None:
         raise TypeError("only a run of a scene has a picture: check what sandbox.simulate(scene) returns")
     picture = subject.scene.picture(subject, SIZE)
-    return to_image(picture.poster() if until is None else picture.frame(until))
+    try:
+        return to_image(poster_of(picture) if until is None else frame_of(picture, until))
+    except RunError as error:
+        _fail(str(error))
 
 
 def _read(path: Path) -> Image.Image | None:

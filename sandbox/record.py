@@ -5,8 +5,9 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
-from math import isfinite
 from typing import Any
+
+from sandbox.files import plain
 
 #: Two numbers are the same when they differ by no more than this, in s, m, m/s or rad/s, or by this share of
 #: themselves. Rounding on another processor stays below 1e-9, unless the scene is chaotic; a force that is wrong by one
@@ -40,7 +41,7 @@ def record(run: Any, until: float | None = None, times: Sequence[float] | None =
         times = [end * i / (count - 1) for i in range(count)]
     kept: Record = {} if until is None else {"until": until}
     if until is None:
-        kept |= {"ended": run.ended, "duration": run.duration, "result": _plain(run.result)}
+        kept |= {"ended": run.ended, "duration": run.duration, "result": plain(run.result)}
     kept["events"] = [
         [event.t, event.kind, event.ball, event.partner, event.speed] for event in run.events if event.t <= end
     ]
@@ -170,17 +171,6 @@ def _same(a: Any, b: Any) -> bool:
     if isinstance(a, dict) and isinstance(b, dict):
         return a.keys() == b.keys() and all(_same(a[key], b[key]) for key in a)
     return type(a) is type(b) and a == b
-
-
-def _plain(value: Any) -> Any:
-    """The same in what JSON knows; what is not finite is null."""
-    if isinstance(value, Mapping):
-        return {str(key): _plain(item) for key, item in value.items()}
-    if isinstance(value, list | tuple):
-        return [_plain(item) for item in value]
-    if hasattr(value, "tolist"):  # numpy's numbers and arrays
-        return _plain(value.tolist())
-    return None if isinstance(value, float) and not isfinite(value) else value
 
 
 def _rounded(value: Any) -> Any:

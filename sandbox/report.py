@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import json
-import math
 import re
-from collections.abc import Mapping
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from sandbox.errors import RunError
-from sandbox.files import written_whole
+from sandbox.files import plain, written_whole
 
 if TYPE_CHECKING:
     from sandbox.engine.run import Event, Run
@@ -62,17 +60,6 @@ def _event(event: Event) -> dict[str, Any]:
         "x": event.x,
         "y": event.y,
     }
-
-
-def plain(value: Any) -> Any:
-    """The same in what JSON knows."""
-    if isinstance(value, Mapping):
-        return {str(key): plain(item) for key, item in value.items()}
-    if isinstance(value, list | tuple):
-        return [plain(item) for item in value]
-    if hasattr(value, "tolist"):  # numpy's numbers and arrays
-        return plain(value.tolist())
-    return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
 def write_trajectory(run: Run, path: Path) -> None:

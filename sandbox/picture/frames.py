@@ -19,6 +19,7 @@ import numpy as np
 import pygame
 from PIL import Image, ImageChops
 
+from sandbox.errors import RunError
 from sandbox.files import written_whole
 
 #: zlib's level for frames, which are many and passing. Measured by ``python benchmarks/frames.py --levels``, mean over
@@ -36,6 +37,8 @@ BLEED = 16
 PALETTE_FRAMES = 16
 #: Viewers slow a GIF down that shows more frames per second than this.
 FASTEST_GIF = 50
+#: Of what a picture hands back in place of a surface, so many characters are told.
+LONGEST_TOLD = 60
 #: The last picture of an animation stays for so long, in s, before it begins again.
 PAUSE = 2.0
 
@@ -52,6 +55,22 @@ class Picture(Protocol):
     def poster(self) -> pygame.Surface: ...
 
     def frame(self, t: float) -> pygame.Surface: ...
+
+
+def poster_of(picture: Picture) -> pygame.Surface:
+    """The picture's poster. Raises RunError where a scene's own hands back something else."""
+    return _surface("poster()", picture.poster())
+
+
+def frame_of(picture: Picture, t: float) -> pygame.Surface:
+    """The picture's frame at time t in s. Raises RunError where a scene's own hands back something else."""
+    return _surface(f"frame({t:g})", picture.frame(t))
+
+
+def _surface(call: str, drawn: object) -> pygame.Surface:
+    if not isinstance(drawn, pygame.Surface):
+        raise RunError(f"picture.py: {call} must return a pygame.Surface, and returned {drawn!r:.{LONGEST_TOLD}}")
+    return drawn
 
 
 def to_image(surface: pygame.Surface) -> Image.Image:
@@ -92,7 +111,7 @@ def quick_png(image: Image.Image) -> bytes:
 
 def save_poster(picture: Picture, path: Path | str) -> None:
     """Write the whole run as one PNG. Raises OSError where it cannot be written."""
-    save_png(picture.poster(), path)
+    save_png(poster_of(picture), path)
 
 
 def save_frames(picture: Picture, run: Any, folder: Path | str, fps: float, progress: Progress | None = None) -> int:
@@ -112,7 +131,7 @@ def save_frames(picture: Picture, run: Any, folder: Path | str, fps: float, prog
             (Path(part) / name).write_bytes(quick_png(image))
             return name
 
-        drawn = ((i, to_image(picture.frame(t))) for i, t in enumerate(times))
+        drawn = ((i, to_image(frame_of(picture, t))) for i, t in enumerate(times))
         names = list(_in_threads(keep, drawn, len(times), progress))
         for name in names:
             (Path(part) / name).replace(folder / name)
@@ -134,7 +153,7 @@ def save_gif(picture: Picture, run: Any, path: Path | str, fps: float, progress:
     def reduced(image: Image.Image) -> Image.Image:
         return image.quantize(palette=colours, dither=Image.Dither.NONE)
 
-    images = _in_threads(reduced, (to_image(picture.frame(t)) for t in times), len(times), progress)
+    images = _in_threads(reduced, (to_image(frame_of(picture, t)) for t in times), len(times), progress)
     durations = _durations([round(100 * t) for t in times], 10)
     data = io.BytesIO()
     first = next(images)
@@ -152,7 +171,7 @@ def save_webp(picture: Picture, run: Any, path: Path | str, fps: float, progress
     times = frame_times(run.duration, fps)
     durations = _durations([round(1000 * t) for t in times], 1)
     parts = list(
-        _in_threads(_webp_part, _with_changes(to_image(picture.frame(t)) for t in times), len(times), progress)
+        _in_threads(_webp_part, _with_changes(to_image(frame_of(picture, t)) for t in times), len(times), progress)
     )
     frames = b"".join(_webp_frame(*part, stay) for part, stay in zip(parts, durations, strict=True))
     width, height = parts[0][0][2:]
@@ -219,7 +238,7 @@ def _shared_palette(picture: Picture, times: list[float]) -> Image.Image:
     A colour counts by the square root of its area: small things such as ball and trace matter more than their size.
     """
     chosen = {times[round(i * (len(times) - 1) / (PALETTE_FRAMES - 1))] for i in range(PALETTE_FRAMES)}
-    pixels = np.concatenate([np.asarray(to_image(picture.frame(t))).reshape(-1, 3) for t in sorted(chosen)])
+    pixels = np.concatenate([np.asarray(to_image(frame_of(picture, t))).reshape(-1, 3) for t in sorted(chosen)])
     packed = (pixels >> 2).astype(np.uint32) @ np.array([1 << 12, 1 << 6, 1], np.uint32)
     counts = np.bincount(packed, minlength=1 << 18)
     present = np.flatnonzero(counts)

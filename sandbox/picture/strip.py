@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pygame
 
-from sandbox.picture.frames import Picture
+from sandbox.picture.frames import Picture, frame_of
 from sandbox.picture.painter import Painter, blank
 from sandbox.picture.palette import palette
 
@@ -37,7 +37,7 @@ def strip_times(run: Any, count: int = FRAMES) -> list[float]:
 
 def film_strip(picture: Picture, run: Any) -> pygame.Surface:
     """The strip; each of its frames is as large as the picture's."""
-    frames = [picture.frame(t) for t in strip_times(run)]
+    frames = [frame_of(picture, t) for t in strip_times(run)]
     width, height = frames[0].get_size()
     margin, gap = round(MARGIN * height), round(GAP * height)
     strip = blank((len(frames) * (width + gap) + gap, height + 2 * margin))
