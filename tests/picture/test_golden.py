@@ -25,6 +25,8 @@ from sandbox.record import (
 
 pytest_plugins = ["pytester"]
 
+DROP = Path(__file__).parents[1] / "scenes" / "drop"
+
 SKY, BALL, RIM = (190, 220, 230), (255, 255, 255), (42, 22, 8)
 
 
@@ -111,8 +113,7 @@ def run(project, *options: str):
 def scene_project(pytester, monkeypatch):
     """A project with a golden test of a run, whose numbers and colours the environment chooses."""
     monkeypatch.delenv("CI", raising=False)
-    drop = Path(__file__).parents[1] / "scenes" / "drop"
-    shutil.copytree(drop, pytester.path / "drop", ignore=shutil.ignore_patterns("__pycache__"))
+    shutil.copytree(DROP, pytester.path / "drop", ignore=shutil.ignore_patterns("__pycache__"))
     pytester.makepyfile(
         test_it="""
         import json, os
@@ -125,30 +126,41 @@ def scene_project(pytester, monkeypatch):
     return pytester
 
 
-def apart(project, *options: str):
-    """In a process of its own, which imports the scene afresh."""
-    return project.runpytest_subprocess("-p", "no:cacheprovider", *options)
+@pytest.fixture(scope="module", autouse=True)
+def _loaded():
+    """All that a run and its picture need, but the scene: pytest forgets what is imported in a run within a run."""
+    scene = sandbox.load(DROP)
+    scene.picture(sandbox.simulate(scene)).poster()
+
+
+def again(project, *options: str):
+    """Run the project's tests; its scene is imported afresh."""
+    return project.runpytest_inprocess("-p", "no:cacheprovider", *options)
 
 
 class TestRuns:
     def changed(self, project, monkeypatch, changes: str = "{}"):
-        apart(project, "--golden-update").assert_outcomes(passed=1)
+        again(project, "--golden-update").assert_outcomes(passed=1)
         monkeypatch.setenv("CHANGES", changes)
-        return apart(project)
+        return again(project)
 
     def test_update_keeps_what_happened_beside_the_picture(self, scene_project):
-        result = apart(scene_project, "--golden-update")
+        result = again(scene_project, "--golden-update")
         result.stdout.fnmatch_lines(["*golden files written*", "*it.json: new", "*it.png: new"])
         kept = json.loads((scene_project.path / "golden" / "it.json").read_text())
         assert kept["result"]["bounces"] == len(kept["events"])
         assert len(kept["states"]["ball"]) == SAMPLES
-        apart(scene_project).assert_outcomes(passed=1)
+        again(scene_project).assert_outcomes(passed=1)
+
+    def test_another_process_gets_the_same(self, scene_project):
+        again(scene_project, "--golden-update")
+        scene_project.runpytest_subprocess("-p", "no:cacheprovider").assert_outcomes(passed=1)
 
     def test_a_missing_one_fails_and_says_how_to_make_it(self, scene_project):
-        apart(scene_project).stdout.fnmatch_lines(["*it has no golden picture*pytest --golden-update*"])
-        apart(scene_project, "--golden-update")
+        again(scene_project).stdout.fnmatch_lines(["*it has no golden picture*pytest --golden-update*"])
+        again(scene_project, "--golden-update")
         (scene_project.path / "golden" / "it.json").unlink()
-        apart(scene_project).stdout.fnmatch_lines(["*it has no golden run*it.json*pytest --golden-update*"])
+        again(scene_project).stdout.fnmatch_lines(["*it has no golden run*it.json*pytest --golden-update*"])
 
     def test_says_that_the_physics_changed_and_where_first(self, scene_project, monkeypatch):
         result = self.changed(scene_project, monkeypatch, '{"floor.restitution": 0.79}')
@@ -166,12 +178,12 @@ class TestRuns:
         self.changed(scene_project, monkeypatch, '{"gravity": 9.8100000001}').assert_outcomes(passed=1)
 
     def test_says_that_only_the_drawing_changed(self, scene_project, monkeypatch):
-        apart(scene_project, "--golden-update")
+        again(scene_project, "--golden-update")
         picture = scene_project.path / "drop" / "picture.py"
         picture.write_text(picture.read_text().replace("set_at((16,", "set_at((17,"))
         lines = picture.read_text().replace("return surface", "surface.fill((9, 90, 9), (2, 2, 9, 9)); return surface")
         picture.write_text(lines)
-        result = apart(scene_project)
+        result = again(scene_project)
         result.stdout.fnmatch_lines(
             [
                 "*it is not like its golden picture: same physics, the drawing changed: *of the pixels changed*",
@@ -181,10 +193,17 @@ class TestRuns:
         )
 
     def test_says_that_only_a_result_changed(self, scene_project, monkeypatch):
-        apart(scene_project, "--golden-update")
+        again(scene_project, "--golden-update")
         scene = scene_project.path / "drop" / "scene.py"
         scene.write_text(scene.read_text().replace('"bounces": len(impacts)', '"bounces": 99'))
-        apart(scene_project).stdout.fnmatch_lines(["*same motion, another result; bounces is 99, was *"])
+        again(scene_project).stdout.fnmatch_lines(["*same motion, another result; bounces is 99, was *"])
+
+    def test_a_picture_without_a_surface_is_said_in_a_line(self, scene_project):
+        picture = scene_project.path / "drop" / "picture.py"
+        picture.write_text(picture.read_text().replace("return self.frame(self.run.duration)", "self.frame(0.0)"))
+        result = again(scene_project)
+        result.stdout.fnmatch_lines(["picture.py: poster() must return a pygame.Surface, and returned None"])
+        result.stdout.no_fnmatch_line("*frames.py*")
 
     def test_a_run_of_no_scene_is_refused(self, pytester):
         pytester.makepyfile(
@@ -197,7 +216,7 @@ class TestRuns:
                 golden.check("it", simulate(Setup([Ball("ball", 1.0, 0.1, (0.0, 0.0))], duration=1.0), resolve()))
             """
         )
-        apart(pytester).stdout.fnmatch_lines(["*only a run of a scene has a picture*"])
+        again(pytester).stdout.fnmatch_lines(["*only a run of a scene has a picture*"])
 
 
 def test_a_chaotic_run_is_kept_until_it_diverges(pytester, monkeypatch):
@@ -212,14 +231,14 @@ def test_a_chaotic_run_is_kept_until_it_diverges(pytester, monkeypatch):
             golden.check("it", sandbox.simulate(sandbox.load("billiards")), until)  # the middle of a rack
         """
     )
-    result = apart(pytester, "--golden-update")
+    result = again(pytester, "--golden-update")
     result.assert_outcomes(failed=1)
     result.stdout.fnmatch_lines(["*it hangs on rounding from t = 0.1* s on*golden.check('it', run, until=0.1*"])
     monkeypatch.setenv("UNTIL", "0.12")
-    apart(pytester, "--golden-update").assert_outcomes(passed=1)
-    apart(pytester).assert_outcomes(passed=1)
+    again(pytester, "--golden-update").assert_outcomes(passed=1)
+    again(pytester).assert_outcomes(passed=1)
     monkeypatch.setenv("UNTIL", "0.13")
-    apart(pytester).stdout.fnmatch_lines(["*kept until 0.12 and checked until 0.13*"])
+    again(pytester).stdout.fnmatch_lines(["*kept until 0.12 and checked until 0.13*"])
 
 
 class TestRecords:
