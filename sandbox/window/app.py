@@ -138,8 +138,9 @@ class App:
 
     def _layout(self) -> None:
         """Places for everything, for the window's size."""
-        width, height = (max(a, b) for a, b in zip(self.screen.get_size(), SMALLEST, strict=True))
-        fits = (width, height) == self.screen.get_size()
+        self.laid_out = self.screen.get_size()
+        width, height = (max(a, b) for a, b in zip(self.laid_out, SMALLEST, strict=True))
+        fits = (width, height) == self.laid_out
         self.canvas: pygame.Surface = self.screen if fits else pygame.Surface((width, height))
         tall = round(HEIGHT * height / 720)
         self.bar = Bar(pygame.Rect(0, height - tall, width, tall), height)
@@ -167,7 +168,7 @@ class App:
     def resized(self) -> None:
         """The window may have another size."""
         screen = pygame.display.get_surface()
-        if screen is not None and self.canvas.get_size() != screen.get_size():
+        if screen is not None and self.laid_out != screen.get_size():  # it may be the same surface, now larger
             self.screen = screen
             self._layout()
 

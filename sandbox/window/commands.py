@@ -133,7 +133,11 @@ def _sound(app: App) -> None:
 
 
 def _full_screen(app: App) -> None:
-    pygame.display.toggle_fullscreen()
+    """The whole display, or the window again."""
+    try:
+        pygame.display.toggle_fullscreen()
+    except pygame.error as error:
+        app.tell(f"no full screen here: {str(error).lower()}", bad=True)
     app.resized()
 
 

@@ -33,7 +33,7 @@ SPEED, ANGLE = 0.01, 0.5
 #: A spread may be made so many times wider or narrower.
 WIDEST = 16.0
 #: The thread works on a fan for so long at a time, in s, so that a new path never waits for it for long.
-SLICE = 0.006
+SLICE = 0.012
 #: So many paths are drawn in one frame; the others in the next.
 PER_FRAME = 6
 #: Opacity of a path, of 255: where many go, it is dense.

@@ -5,12 +5,14 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
+from threading import Event
 
 import numpy as np
 import pygame
 import pytest
 
 import sandbox
+from sandbox.window.app import SMALLEST
 from sandbox.window.keys import BINDINGS
 from sandbox.window.playback import LONGEST_FRAME, STEP
 
@@ -177,26 +179,91 @@ def test_any_size_is_drawn(player, size):
     player.screen = pygame.display.set_mode(size, pygame.RESIZABLE)
     player.send(pygame.VIDEORESIZE, size=size, w=size[0], h=size[1])
     assert picture(player).std() > 10
+    assert player.app.bar.rect.bottom == max(size[1], SMALLEST[1])
+    assert player.app.stage.size[0] == max(size[0], SMALLEST[0])
     player.pull((-60, 20))
     player.frames(3)
     player.key(pygame.K_h)
     player.key(pygame.K_m)
 
 
-def test_every_key_does_something_harmless_in_every_state(player):
-    player = player("golf")
+def test_every_key_does_something_harmless_in_every_state(player, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)  # some of them write files
+    player = player("golf/putt", (640, 400))
     for state in ("aiming", "playing", "over"):
         for binding in BINDINGS:
-            if binding.command in ("quit", "next_preset", "previous_preset", "fullscreen"):
-                continue
+            if binding.command in ("quit", "next_preset", "previous_preset", "fullscreen", "animation"):
+                continue  # they have tests of their own
             if state != "aiming" and player.app.playback is None:
                 player.app.shoot()
             if state == "over":
                 player.app.playback.seek(1e9)
             player.key(binding.key, binding.modifier)
             assert player.app.running
-        for _ in range(3):
+        for _ in range(5):
             player.key(pygame.K_ESCAPE)
+
+
+def test_without_full_screen_it_says_so(player):
+    player = player("golf/putt")  # SDL's dummy driver has none
+    player.key(pygame.K_F11)
+    assert player.app.message[0].startswith("no full screen here: ")
+
+
+def test_in_full_screen_everything_has_its_place(player, monkeypatch):
+    player = player("golf/putt")
+    monkeypatch.setattr(pygame.display, "toggle_fullscreen", lambda: pygame.display.set_mode((1600, 900)))
+    player.key(pygame.K_F11)
+    assert player.app.canvas.get_size() == (1600, 900)
+    assert player.app.bar.rect.bottom == 900
+
+
+def test_the_key_for_leaving_leaves(player):
+    player = player("golf/putt")
+    player.key(pygame.K_q)
+    assert player.app.running
+    player.key(pygame.K_q, pygame.KMOD_CTRL)
+    assert not player.app.running
+
+
+class TestASlowRun:
+    """A frame that does not wait for the path of its shot."""
+
+    def test_shows_the_path_before_until_it_is_there(self, player):
+        player = player("golf/putt")
+        app = player.app
+        slow = Event()
+        predict = app.session.prediction
+
+        def slowly():
+            run = predict()
+            return lambda: (slow.wait(20), run())[1]
+
+        app.session.prediction, app.patience = slowly, 0.0
+        before = app.shot
+        player.key(pygame.K_UP)
+        player.frames(3)
+        assert app.shot is before
+        slow.set()
+        app.settle()
+        assert app.shot.scene is app.session.scene
+
+    def test_letting_go_waits_for_it(self, player):
+        player = player("golf/putt")
+        player.app.patience = 0.0
+        player.key(pygame.K_UP)
+        player.key(pygame.K_SPACE)
+        assert player.app.session.shots[-1].scene is player.app.session.scene
+
+    def test_one_that_fails_leaves_the_last_good_shot(self, player):
+        player = player("golf/putt")
+        before = player.app.shot
+        player.app.session.prediction = lambda: lambda: 1 / 0
+        player.key(pygame.K_UP)
+        assert player.app.shot is before
+        assert "ZeroDivisionError" in player.app.message[0]
+        player.key(pygame.K_SPACE)
+        assert not player.app.session.shots
 
 
 def test_closing_in_mid_flight_ends_it(player):

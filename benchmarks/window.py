@@ -1,0 +1,123 @@
+"""What a frame of the window costs, in every scene: aiming by mouse, with a fan, watching, near the ball, paused.
+
+Run ``python benchmarks/window.py [SCENE ...] [--json F]``. The window is 1280x720 and drawn in memory (SDL's dummy
+driver), as without a GPU; frames are paced at 60 per second, and the time of each is that from its events to its
+picture. "processor" is what a frame takes of one core, runs beside the drawing included, and "share" is that of
+16.7 ms: on a busy machine it repeats, and the time does not. While aiming, the mouse moves in every frame; "path" is
+the share of frames whose path is that of the mouse in this very frame, and not yet that of one before.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import sys
+from collections.abc import Callable, Iterator
+from math import cos, pi, radians, sin
+from pathlib import Path
+from statistics import median
+from time import perf_counter, process_time, sleep
+from typing import Any
+
+os.environ |= {"SDL_VIDEODRIVER": "dummy", "SDL_AUDIODRIVER": "dummy"}
+
+import pygame
+
+from sandbox.scene import listings
+from sandbox.window.app import App
+from sandbox.window.session import Session
+
+SIZE, FRAME = (1280, 720), 1 / 60  # px, s
+#: The mouse is this far from the ball in px, and swings so far, in px along and in rad, so many times.
+PULL, SWING, TURN, SWINGS = 170.0, 45.0, 0.25, 2.0
+
+
+def timed(
+    app: App, frames: int, before: Callable[[int], object] = lambda frame: None
+) -> Iterator[tuple[float, float, bool]]:
+    """Of each frame the time and the processor's time, in s, and whether its path was that of its parameters."""
+    for frame in range(frames):
+        before(frame)
+        started, used = perf_counter(), process_time()
+        app.tick(FRAME)
+        spent, current = perf_counter() - started, app.awaited is None and not app.stale
+        sleep(max(0.0, FRAME - spent))
+        yield spent, process_time() - used, current
+
+
+def post(kind: int, at: tuple[int, int]) -> None:
+    values: dict[str, Any] = {"rel": (0, 0), "buttons": (1, 0, 0)} if kind == pygame.MOUSEMOTION else {"button": 1}
+    pygame.event.post(pygame.event.Event(kind, pos=at, **values))
+
+
+def measure(source: str, frames: int) -> dict[str, dict[str, float]]:
+    """For each thing that a player does: median and 95th percentile in ms, and shares of frames."""
+    app = App(Session(source), pygame.display.set_mode(SIZE))
+    app.tick(FRAME)
+    assert app.stage is not None
+    assert app.shot is not None
+    x, y = (round(value) for value in app.stage.ball_at(app.shot))
+    angle = radians(app.session.value(app.session.controls.angle) or 0.0)
+    post(pygame.MOUSEBUTTONDOWN, (x, y))
+    app.tick(FRAME)
+
+    def pull(frame: int) -> None:
+        turn = sin(2 * pi * SWINGS * frame / frames)
+        length, towards = PULL + SWING * turn, angle + TURN * turn
+        post(pygame.MOUSEMOTION, (round(x - length * cos(towards)), round(y + length * sin(towards))))
+
+    found = {"aiming": told(timed(app, frames, pull))}
+    app.view.on.add("fan")
+    found["with a fan"] = told(timed(app, frames))
+    app.view.on.discard("fan")
+    post(pygame.MOUSEBUTTONUP, (x, y))
+    found["watching"] = told(timed(app, frames))
+    app.view.on.add("view")
+    found["near the ball"] = told(timed(app, frames))
+    if app.playback is not None:
+        app.playback.playing = False
+    found["paused"] = told(timed(app, frames // 2))
+    app.ahead.close()
+    return found
+
+
+def told(rows: Iterator[tuple[float, float, bool]]) -> dict[str, float]:
+    times, used, current = zip(*rows, strict=True)
+    ordered = sorted(times)
+    return {
+        "median_ms": 1e3 * median(times),
+        "p95_ms": 1e3 * ordered[int(0.95 * (len(ordered) - 1))],
+        "processor_ms": 1e3 * median(used),
+        "in_time": sum(t <= FRAME for t in times) / len(times),
+        "path": sum(current) / len(current),
+    }
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("scenes", nargs="*", help="scenes and presets; left out: every scene, and its hardest presets")
+    parser.add_argument("--frames", type=int, default=180)
+    parser.add_argument("--json", type=Path, help="write the rows here")
+    arguments = parser.parse_args()
+    hard = ["golf/putt", "billiards/nine-ball-break", "billiards/snooker-break"]
+    sources = arguments.scenes or [item.name for item in listings() if "/" not in item.name or item.name in hard]
+    pygame.display.init()
+    rows: dict[str, dict[str, dict[str, float]]] = {}
+    head = f"{'':<26} {'':<14} {'median':>9} {'95 %':>9} {'processor':>10} {'share':>6} {'in time':>8} {'path':>6}"
+    sys.stdout.write(head + "\n")
+    for source in sources:
+        rows[source] = measure(source, arguments.frames)
+        for number, (name, row) in enumerate(rows[source].items()):
+            share = row["processor_ms"] / FRAME / 1e3
+            path = f"{row['path']:>6.0%}" if name == "aiming" else ""
+            sys.stdout.write(
+                f"{'' if number else source:<26} {name:<14} {row['median_ms']:>6.1f} ms {row['p95_ms']:>6.1f} ms "
+                f"{row['processor_ms']:>7.1f} ms {share:>6.0%} {row['in_time']:>8.0%} {path}\n"
+            )
+    if arguments.json:
+        arguments.json.write_text(json.dumps(rows, indent=1))
+
+
+if __name__ == "__main__":
+    main()

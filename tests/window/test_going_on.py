@@ -1,0 +1,99 @@
+"""Billiards goes on from where the balls rest."""
+
+from __future__ import annotations
+
+import shlex
+
+import pygame
+import pytest
+
+import sandbox
+from sandbox.parameters import parse_assignment
+from sandbox.window import keep
+from sandbox.window.session import Session
+
+
+@pytest.fixture
+def watched(player):
+    """A shot that has come to rest."""
+    player = player("billiards", (640, 400))
+    player.app.change({"cue.speed": 3.0, "cue.angle": 4.0})
+    player.key(pygame.K_SPACE)
+    player.app.playback.seek(1e9)
+    player.frames(1)
+    return player
+
+
+def places(session: Session) -> dict[str, list[float]]:
+    return {ball.name: list(ball.position) for ball in session.scene.build().balls}
+
+
+def laid_out(**balls: tuple[float, float]) -> dict[str, object]:
+    """The changes that put balls on the table."""
+    return {"rack": "none", "balls": [{"name": name, "x": x, "y": y} for name, (x, y) in balls.items()]}
+
+
+def test_the_next_shot_begins_where_the_balls_rest(watched):
+    resting = watched.app.shot.run.result["positions"]
+    watched.key(pygame.K_RETURN)
+    found = places(watched.app.session)
+    assert found.keys() == resting.keys()
+    for name, place in resting.items():
+        assert found[name] == pytest.approx(place, abs=2e-5)
+    assert watched.app.shot.run.setup.balls[0].position in [tuple(place) for place in found.values()]
+    assert watched.app.session.recent == []
+
+
+def test_a_pull_after_the_end_goes_on_too(watched):
+    before = places(watched.app.session)
+    watched.pull((-60, 20))
+    assert places(watched.app.session) != before
+    assert len(watched.app.session.shots) == 2
+
+
+def test_in_mid_shot_the_same_is_aimed_again(watched):
+    before = places(watched.app.session)
+    watched.app.playback.seek(0.5)
+    watched.key(pygame.K_RETURN)
+    assert places(watched.app.session) == before
+
+
+def test_a_key_racks_again(watched):
+    before = places(watched.app.session)
+    watched.key(pygame.K_RETURN)
+    watched.key(pygame.K_b)
+    assert places(watched.app.session) == before
+    assert watched.app.session.changes == {"cue.speed": 3.0, "cue.angle": 4.0}
+    watched.key(pygame.K_b)
+    assert "where they began" in watched.app.message[0]
+
+
+def test_potted_balls_stay_away_and_a_potted_cue_ball_is_spotted():
+    session = Session("billiards", {"cue.speed": 3.0, **laid_out(cue=(0.5, 0.0), one=(0.7, 0.02))})
+    shot = session.predict()
+    shot.run.result["positions"] = {"9": [-0.635, 0.01]}
+    session.go_on(shot)
+    found = places(session)
+    assert found.keys() == {"cue", "9"}
+    assert found["cue"][0] == pytest.approx(-0.635)
+    assert abs(found["cue"][1] - 0.01) > 2 * shot.scene.parameters.ball.radius
+    shot.run.result["positions"] = {"cue": [0.0, 0.0]}
+    session.go_on(shot)
+    assert len(places(session)) == 10  # a cleared table is racked
+
+
+def test_the_command_line_and_the_scene_file_know_where_the_balls_lie(watched, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    watched.key(pygame.K_RETURN)
+    session = watched.app.session
+    _, _, source, *settings = shlex.split(session.command())
+    again = sandbox.load(source, dict(parse_assignment(text) for text in settings[1::2]))
+    assert again.parameters == session.scene.parameters
+    assert sandbox.load(keep.scene_file(session)).parameters == session.scene.parameters
+
+
+def test_a_scratch_is_no_score():
+    session = Session("billiards", {"cue.speed": 3.0, "cue.angle": 90.0, **laid_out(cue=(0.0, 0.3))})
+    shot = session.predict()
+    assert shot.run.result["scratch"]
+    assert not shot.scored

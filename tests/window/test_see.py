@@ -1,0 +1,252 @@
+"""What is shown beside the shot: fans, readings, charts, arrows, the tape, the energy; and the lists of commands."""
+
+from __future__ import annotations
+
+from math import hypot
+
+import numpy as np
+import pygame
+import pytest
+
+from sandbox.window import commands
+from sandbox.window.fan import SHOTS, Fan
+from sandbox.window.keys import BINDINGS, LISTED, listed
+from sandbox.window.measure import reading
+from sandbox.window.session import Session
+
+PUTT = "golf/putt"
+
+
+def picture(player) -> np.ndarray:
+    return pygame.surfarray.array3d(player.screen)
+
+
+def differ(a: np.ndarray, b: np.ndarray) -> float:
+    """The share of pixels that differ."""
+    return float((a != b).any(axis=2).mean())
+
+
+def wait_for_fan(player) -> Fan:
+    player.frames(10)
+    while not player.app.fan.complete:
+        player.frames(1)
+    return player.app.fan
+
+
+class TestTheFan:
+    def test_it_tells_the_share_that_scores_and_by_what_the_shots_differ(self, player):
+        player = player("basketball")
+        player.key(pygame.K_f)
+        fan = wait_for_fan(player)
+        made = sum(shot.run.result["made"] for shot in fan.shots)
+        assert len(fan.shots) == SHOTS
+        assert 0 < made < SHOTS
+        share, spread = fan.told()
+        assert share.startswith(f"{made} of {SHOTS} score: {100 * made / SHOTS:.0f} ±")
+        assert "angle ± 1 deg" in spread
+        speeds = [shot.run.state("ball", 0.0)[2:4] for shot in fan.shots]
+        sigma = np.std([hypot(*velocity) for velocity in speeds])
+        assert sigma == pytest.approx(fan.spread["launch.speed"], rel=0.2)
+
+    def test_it_is_drawn_and_put_away(self, player):
+        player = player(PUTT)
+        plain = picture(player)
+        player.key(pygame.K_f)
+        fan = wait_for_fan(player)
+        player.frames(SHOTS // 6 + 1)
+        assert fan.drawn == SHOTS
+        assert differ(picture(player), plain) > 0.005
+        player.key(pygame.K_f)
+        assert player.app.fan is None
+        assert differ(picture(player), plain) == 0
+
+    def test_another_aim_has_a_fan_of_its_own(self, player):
+        player = player(PUTT)
+        player.key(pygame.K_f)
+        player.frames(10)
+        fan = player.app.fan
+        player.key(pygame.K_UP)
+        assert player.app.fan is None
+        player.frames(10)
+        assert player.app.fan.shot is player.app.shot is not fan.shot
+
+    def test_it_can_be_made_wider_and_narrower(self, player):
+        player = player(PUTT)
+        player.key(pygame.K_RIGHTBRACKET)
+        player.frames(10)
+        assert player.app.fan.spread["launch.speed"] == pytest.approx(
+            2 * 0.015 * player.app.session.value("launch.speed")
+        )
+        for _ in range(9):
+            player.key(pygame.K_LEFTBRACKET)
+        assert player.app.fan_width == 1 / 16
+
+    def test_a_shot_that_does_not_begin_as_a_players_has_none(self):
+        fan = Fan(Session("golf/club-head").predict())
+        assert fan.complete
+        assert "no fan" in fan.told()[0]
+
+    def test_a_shot_is_watched_with_its_fan(self, player):
+        player = player(PUTT)
+        player.key(pygame.K_f)
+        player.key(pygame.K_SPACE)
+        player.frames(10)
+        assert player.app.playback is not None
+        assert player.app.fan.shot is player.app.session.shots[0]
+
+
+class TestReading:
+    def test_the_mouse_on_the_trace_reads_the_ball_there(self, player):
+        player = player("golf")
+        app = player.app
+        t = 0.4 * app.shot.run.duration
+        at = app.stage.camera.pixel(*app.shot.run.state("ball", t)[:2])
+        mouse = round(at[0]), round(at[1]) - 3
+        read = reading(app.shot, app.stage.camera, mouse, 12.0, None)
+        assert read.t == pytest.approx(t, rel=0.02)
+        assert hypot(read.at[0] - mouse[0], read.at[1] - mouse[1]) < 5
+        plain = picture(player)
+        player.move(mouse)
+        assert differ(picture(player), plain) > 0.01
+
+    def test_away_from_it_nothing_is_read(self, player):
+        player = player("golf")
+        assert reading(player.app.shot, player.app.stage.camera, (600, 20), 12.0, None) is None
+
+    def test_what_has_not_been_flown_is_not_read(self, player):
+        player = player("golf")
+        app = player.app
+        t = 0.4 * app.shot.run.duration
+        at = app.stage.camera.pixel(*app.shot.run.state("ball", t)[:2])
+        assert reading(app.shot, app.stage.camera, (round(at[0]), round(at[1])), 12.0, 0.5 * t) is None
+
+    def test_of_many_balls_the_nearest_is_read(self, player):
+        player = player("billiards")
+        app = player.app
+        ball = app.shot.movers[0]
+        x, y, *_ = app.shot.run.state(ball, app.shot.run.duration)
+        at = app.stage.camera.pixel(x, y)
+        assert reading(app.shot, app.stage.camera, (round(at[0]), round(at[1])), 12.0, None).ball == ball
+
+
+class TestTheTape:
+    def test_it_measures_metres(self, player):
+        player = player("basketball")
+        camera = player.app.stage.camera
+        ends = [tuple(map(round, camera.pixel(*place))) for place in ((1.0, 1.0), (4.0, 5.0))]
+        player.key(pygame.K_t)
+        player.press(ends[0])
+        player.move(ends[1])
+        player.release(ends[1])
+        assert player.app.pointer.tape.length == pytest.approx(5.0, abs=2 / camera.scale)
+        assert player.app.pointer.pull is None
+        player.move((5, 5))
+        assert player.app.pointer.tape.length == pytest.approx(5.0, abs=2 / camera.scale)
+        player.key(pygame.K_ESCAPE)
+        assert player.app.pointer.tape is None
+        assert "tape" not in player.app.view.on
+
+    def test_the_right_button_lays_it_without_a_key(self, player):
+        player = player("basketball")
+        player.send(pygame.MOUSEBUTTONDOWN, pos=(300, 300), button=3, touch=False)
+        player.move((500, 300))
+        player.send(pygame.MOUSEBUTTONUP, pos=(500, 300), button=3, touch=False)
+        assert player.app.pointer.tape.length == pytest.approx(200 / player.app.stage.camera.scale)
+        assert player.app.playback is None
+
+
+@pytest.mark.parametrize(("key", "least"), [(pygame.K_o, 0.0005), (pygame.K_w, 0.05), (pygame.K_F3, 0.002)])
+def test_arrows_charts_and_costs_are_switched(player, key, least):
+    player = player("golf")
+    plain = picture(player)
+    player.key(key)
+    assert differ(picture(player), plain) > least
+    player.key(key)
+    assert differ(picture(player), plain) == 0
+
+
+def test_the_charts_show_the_state_at_the_time(player, monkeypatch):
+    from sandbox.picture.lettering import Lettering
+
+    written = []
+    write = Lettering.write
+    monkeypatch.setattr(
+        Lettering, "write", lambda self, s, text, *a, **k: (written.append(text), write(self, s, text, *a, **k))[1]
+    )
+    player = player("golf")
+    player.key(pygame.K_w)
+    player.key(pygame.K_SPACE)
+    player.app.playback.playing = False
+    player.app.playback.seek(1.5)
+    written.clear()
+    player.frames(1)
+    _, y, vx, vy, _ = player.app.shot.run.state("ball", 1.5)
+    assert sum(text == f"{hypot(vx, vy):.2f} m/s" for text in written) == 2  # on the card, and over the strip
+    assert sum(text == f"{y:.2f} m" for text in written) == 2
+
+
+def test_where_the_energy_goes_lies_over_the_picture_until_a_click(player):
+    player = player(PUTT)
+    plain = picture(player)
+    player.key(pygame.K_j)
+    assert differ(picture(player), plain) > 0.5
+    player.click((600, 300))
+    assert differ(picture(player), plain) < 0.2
+    assert not player.app.session.shots
+
+
+class TestTheLists:
+    def test_every_key_has_its_command(self):
+        known = {*commands.COMMANDS, *commands.FINE, *commands.SWITCHES}
+        assert {binding.command for binding in BINDINGS} <= known
+
+    @pytest.mark.parametrize("group", LISTED)
+    def test_every_command_of_a_group_can_be_clicked(self, player, group, monkeypatch):
+        done = []
+        monkeypatch.setattr("sandbox.window.pointer.commands.do", lambda app, command: done.append(command))
+        player = player(PUTT)
+        for number, binding in enumerate(listed(group)):
+            commands.COMMANDS[group.lower()](player.app)
+            player.frames(1)
+            player.click(player.app.view.choices.places[number][0].center)
+            assert done[-1] == binding.command
+            player.app.view.choices = None
+
+    def test_a_button_opens_it_and_closes_it(self, player):
+        player = player(PUTT)
+        player.button("see")
+        assert player.app.view.choices.group == "see"
+        player.button("see")
+        assert player.app.view.choices is None
+        player.button("keep")
+        player.key(pygame.K_ESCAPE)
+        assert player.app.view.choices is None
+
+    def test_what_is_shown_is_switched_by_mouse(self, player):
+        player = player(PUTT)
+        player.button("see")
+        row = next(rect for rect, command in player.app.view.choices.places if command == "charts")
+        player.click(row.center)
+        assert "charts" in player.app.view.on
+        player.click((300, 100))
+        assert player.app.view.choices is None
+        assert player.app.pointer.pull is None
+
+    def test_with_the_panel_open_the_help_and_the_menu_can_still_be_clicked(self, player):
+        player = player(PUTT, (640, 400))
+        player.key(pygame.K_TAB)
+        player.key(pygame.K_m)
+        place, name = player.app.view.menu.places[-1]
+        assert player.app.panel.rect.collidepoint(place.center)
+        player.click(place.center)
+        assert player.app.session.title == name
+
+
+def test_accuracy_tells_its_cost_and_its_error(player):
+    player = player("golf")
+    player.key(pygame.K_a)
+    assert player.app.session.value("accuracy.level") == "precise"
+    text = player.app.message[0]
+    assert text.startswith("accuracy precise: ")
+    assert " ms a run; " in text
+    assert "carry ± " in text
