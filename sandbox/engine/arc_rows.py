@@ -20,6 +20,7 @@ TIMES, START, X, Y, VX, VY, SPIN, END = (
     slice(29, 33),
     slice(33, 38),
 )
+COLUMNS = END.stop
 
 
 class ArcRows(Sequence[Arc]):

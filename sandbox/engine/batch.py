@@ -17,7 +17,7 @@ import numpy as np
 from sandbox.engine import flies_in_batches, simulate
 from sandbox.engine.accuracy import Accuracy
 from sandbox.engine.arc import Arc, through
-from sandbox.engine.arc_rows import ArcRows
+from sandbox.engine.arc_rows import COLUMNS, ArcRows
 from sandbox.engine.bernstein_many import until
 from sandbox.engine.impacts import STILL
 from sandbox.engine.lanes import Lanes
@@ -103,7 +103,8 @@ class _Batch:
         self._lanes = Lanes()
         self._events: list[list[Event]] = [[] for _ in setups]
         self._left: dict[int, _Left] = {}
-        self._paths: list[tuple[np.ndarray, np.ndarray]] = []  # of each round: shots, and columns of their arcs
+        nothing = (np.zeros(0, dtype=int), np.zeros((COLUMNS, 0)))
+        self._paths = [nothing]  # of each round: shots, and the rows of their arcs as columns
 
         # of all shots
         self._mass = np.array([ball.mass for ball in balls])

@@ -289,13 +289,19 @@ def _spin_down(t: float, until: float, state: State, contact: Contact) -> tuple[
 
 
 def _crossing(arc: Arc, value: Callable[[float, State], float]) -> float:
-    """The time at which ``value``, negative at the end of the arc, reaches zero; the start if it is negative
-    throughout.
+    """The time at which ``value``, negative at the end of the arc, comes to zero from above; the start if it is
+    nowhere positive.
     """
     low, high = arc.t0, arc.t1
     at_low, at_high = value(low, arc.start), value(high, arc.state(high))
-    if at_low <= 0.0:
-        return low
+    if at_low <= 0.0:  # perhaps it only begins at zero, as slip does where a rolling ball loses its grip
+        for halvings in range(1, 40):
+            low = arc.t0 + (high - arc.t0) * 0.5**halvings
+            at_low = value(low, arc.state(low))
+            if at_low > 0.0:
+                break
+        else:
+            return arc.t0
     last, kept = low, 0  # which end was replaced last
     for _ in range(60):  # regula falsi with the Illinois weights
         t = low + (high - low) * at_low / (at_low - at_high)

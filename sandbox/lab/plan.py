@@ -32,7 +32,7 @@ _BLOCK = 1024
 
 #: Points that fly together: more are quicker, fewer are shared out evenly and seen sooner. The number must not depend
 #: on who computes, as the last digits of a shot depend on how many fly with it.
-_SMALLEST_BLOCK, _LARGEST_BLOCK, _BLOCKS = 32, 512, 16
+_SMALLEST_BLOCK, _LARGEST_BLOCK, _BLOCKS = 32, 512, 8
 
 #: One run as a row: swept parameters, results, flags, and ``error``, which is empty where the run came to its end.
 Record = dict[str, Any]
@@ -85,7 +85,7 @@ class Plan:
     def block(self) -> int:
         """How many points are computed together: 1 where shots fly one at a time."""
         together = fly_together(self.scene, self.keys, next(self.points(0, 1)))
-        return min(_LARGEST_BLOCK, max(_SMALLEST_BLOCK, self.size // _BLOCKS)) if together else 1
+        return min(_LARGEST_BLOCK, max(_SMALLEST_BLOCK, -(-self.size // _BLOCKS))) if together else 1
 
     def points(self, start: int, stop: int) -> Iterator[tuple[Any, ...]]:
         """The swept values of the points from ``start`` up to ``stop``."""

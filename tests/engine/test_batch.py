@@ -1,0 +1,329 @@
+"""Many shots at once go the way that each goes alone."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import sandbox
+from sandbox.engine import batch, simulate, simulate_many
+from sandbox.engine.accuracy import Accuracy, resolve
+from sandbox.engine.arc import Arc, through
+from sandbox.engine.arc_rows import ArcRows
+from sandbox.engine.contacts import Contact, Contacts, Moving
+from sandbox.engine.lanes import Lanes
+from sandbox.engine.outlines import Outlines
+from sandbox.engine.run import Numerics, Run
+from sandbox.engine.setup import Ball, Bounce, Circle, Patch, Segment, Setup, Surface
+from sandbox.engine.stacking import Stack, structure
+from sandbox.engine.touch import Obstacle
+from sandbox.errors import RunError
+from sandbox.physics.coefficients import constant
+from sandbox.physics.forces import Drag, Gravity
+from sandbox.scene import load
+
+#: Positions and times before the first impact, in m and s.
+EQUAL = 1e-9
+
+FLOOR = Surface("floor", Segment((-50.0, 0.0), (50.0, 0.0)), 0.7, 0.4)
+POST = Surface("post", Circle((3.0, 1.0), 0.1), 0.6, 0.3)
+
+
+def thrown(speed: float = 5.0, angle: float = 0.6, extra: Any = None, **others: Any) -> Setup:
+    forces = [Gravity(0.6, 9.81), Drag(0.12, 1.2, constant(0.5)), *([] if extra is None else [extra])]
+    velocity = (speed * math.cos(angle), speed * math.sin(angle))
+    ball = Ball("ball", 0.6, 0.12, (0.0, 2.0), velocity, -5.0, forces=forces)
+    return Setup([ball], [FLOOR, POST], **{"duration": 4.0, **others})
+
+
+@pytest.fixture
+def flown(monkeypatch: pytest.MonkeyPatch) -> list[int]:
+    """How many shots flew in each batch that came to its end."""
+    sizes: list[int] = []
+    fly = batch._Batch.fly
+
+    def counted(self: batch._Batch) -> None:
+        fly(self)
+        sizes.append(len(self._setups))
+
+    monkeypatch.setattr(batch._Batch, "fly", counted)
+    return sizes
+
+
+def assert_same(together: Run | Exception, alone: Run) -> None:
+    assert isinstance(together, Run), together
+    assert together.ended == alone.ended
+    assert [(e.kind, e.partner) for e in together.events] == [(e.kind, e.partner) for e in alone.events]
+    first = next((e.t for e in alone.events if e.kind == "impact"), alone.duration)
+    name = alone.setup.balls[0].name
+    for t in np.linspace(0.0, 0.999 * first, 7):
+        assert together.state(name, t)[:2] == pytest.approx(alone.state(name, t)[:2], abs=EQUAL)
+    for mine, theirs in zip(together.events, alone.events, strict=True):
+        assert (mine.t, mine.x, mine.y, mine.speed) == pytest.approx(
+            (theirs.t, theirs.x, theirs.y, theirs.speed), abs=1e-5
+        )
+    counted = ("steps", "refined_steps", "impacts", "queries")
+    assert [getattr(together.numerics, c) for c in counted] == [getattr(alone.numerics, c) for c in counted]
+
+
+SHOTS = {
+    "golf": {"launch.speed": (20.0, 76.0), "launch.angle": (5.0, 50.0), "launch.spin": (0.0, 6000.0)},
+    "basketball": {"launch.speed": (6.0, 9.0), "launch.angle": (35.0, 75.0), "hoop.distance": (4.0, 4.6)},
+    "soccer": {"launch.speed": (15.0, 35.0), "launch.angle": (5.0, 50.0)},
+}
+
+
+@pytest.mark.parametrize("name", SHOTS)
+def test_scenes_agree_with_the_engine_one_by_one(name: str, flown: list[int]):
+    rng = np.random.default_rng(1)
+    scenes = [load(name, {key: rng.uniform(*span) for key, span in SHOTS[name].items()}) for _ in range(40)]
+    accuracy = resolve()
+    setups = [scene.build() for scene in scenes]
+    for scene, setup, together in zip(scenes, setups, simulate_many(setups, accuracy), strict=True):
+        alone = simulate(setup, accuracy)
+        assert_same(together, alone)
+        assert isinstance(together, Run)
+        numbers = scene.module.result(alone, scene.parameters)
+        for key, value in scene.module.result(together, scene.parameters).items():
+            assert value == (pytest.approx(numbers[key], abs=1e-5) if isinstance(value, float) else numbers[key]), key
+    assert flown == [40]
+
+
+def test_each_of_several_kinds_keeps_its_place(flown: list[int]):
+    setups = []
+    for i in range(30):
+        setups.append(thrown(4.0 + 0.1 * i))
+        setups.append(thrown(4.0 + 0.1 * i, extra=Gravity(0.1, 1.0)))
+    runs = list(simulate_many(setups, resolve()))
+    assert flown == [30, 30]
+    for setup, run in zip(setups, runs, strict=True):
+        assert_same(run, simulate(setup, resolve()))
+
+
+def test_radius_mass_and_shapes_may_differ():
+    setups = []
+    for i in range(30):
+        ball = Ball("ball", 0.1 + 0.02 * i, 0.05 + 0.003 * i, (0.0, 2.0), (4.0, 1.0), forces=[Gravity(1.0, 9.81)])
+        hill = Surface("hill", Segment((1.0, 0.0), (3.0, 0.01 * i), 0.02), 0.6, 0.1 + 0.01 * i, lowest_bounce=0.01)
+        setups.append(Setup([ball], [FLOOR, hill], duration=3.0))
+    for setup, run in zip(setups, simulate_many(setups, resolve()), strict=True):
+        assert_same(run, simulate(setup, resolve()))
+
+
+def test_a_patch_is_stepped_through_as_alone():
+    def kick(t: Any, position: Any, velocity: Any, spin: Any) -> tuple[Any, Any]:
+        return 50.0 * np.exp(-(((position[0] - 2.0) / 0.02) ** 2)), 0.0
+
+    patches = [Patch(1.9, -1.0, 2.1, 9.0, 0.002)]
+    setups = [thrown(4.0 + 0.1 * i, extra=kick, patches=patches) for i in range(30)]
+    runs = list(simulate_many(setups, resolve()))
+    for setup, run in zip(setups, runs, strict=True):
+        assert_same(run, simulate(setup, resolve()))
+    without = simulate(thrown(4.0, extra=kick), resolve())
+    assert isinstance(runs[0], Run)
+    assert abs(without.state("ball", 0.8)[2] - runs[0].state("ball", 0.8)[2]) > 0.01  # it was leapt over
+
+
+@pytest.mark.parametrize("level", ["fast", "precise"])
+def test_other_levels(level: str):
+    setups = [thrown(5.0 + 0.1 * i) for i in range(30)]
+    for setup, run in zip(setups, simulate_many(setups, resolve(level)), strict=True):
+        assert_same(run, simulate(setup, resolve(level)))
+
+
+def test_until_is_asked_after_each_impact():
+    setups = [thrown(4.0 + 0.05 * i, until=lambda event: event.partner == "floor") for i in range(30)]
+    for run in simulate_many(setups, resolve()):
+        assert isinstance(run, Run)
+        assert run.ended == "until"
+        assert run.events[-1].partner == "floor"
+        assert run.duration == run.events[-1].t
+
+
+# --------------------------------------------------------------------------------------------- what arrays are not for
+
+
+def of_floats_only(t: float, position: Any, velocity: Any, spin: float) -> tuple[float, float]:
+    return 0.3 * math.sin(position[0]), 0.0
+
+
+def mixes_shots_up(t: Any, position: Any, velocity: Any, spin: Any) -> tuple[Any, Any]:
+    return 0.0 * spin, -0.01 * np.max(velocity[0])
+
+
+@pytest.mark.parametrize("force", [of_floats_only, mixes_shots_up])
+def test_a_force_that_cannot_take_arrays_is_called_with_floats(force: Any, flown: list[int]):
+    setups = [thrown(4.0 + 0.1 * i, extra=force) for i in range(30)]
+    for setup, run in zip(setups, simulate_many(setups, resolve()), strict=True):
+        assert_same(run, simulate(setup, resolve()))
+    assert flown == []
+
+
+@pytest.mark.parametrize("accuracy", [resolve(integrator="rk4"), resolve(method="plain", step=1e-3)])
+def test_other_methods_run_one_at_a_time(accuracy: Accuracy, flown: list[int]):
+    setups = [thrown(4.0 + 0.1 * i, duration=0.3) for i in range(25)]
+    for setup, run in zip(setups, simulate_many(setups, accuracy), strict=True):
+        assert isinstance(run, Run)
+        assert run.state("ball", 0.3) == simulate(setup, accuracy).state("ball", 0.3)
+    assert flown == []
+
+
+def test_a_shot_that_fails_is_an_error_in_its_place():
+    def hole(t: Any, position: Any, velocity: Any, spin: Any) -> tuple[Any, Any]:
+        return np.where(np.asarray(position[0]) > 6.0, np.nan, 0.0), 0.0
+
+    setups = [thrown(1.0 + 0.3 * i, angle=1.0, extra=hole) for i in range(40)]
+    runs = list(simulate_many(setups, resolve()))
+    failed = [isinstance(run, RunError) for run in runs]
+    assert any(failed)
+    assert not all(failed)
+    for setup, run in zip(setups, runs, strict=True):
+        if isinstance(run, RunError):
+            with pytest.raises(RunError) as alone:
+                simulate(setup, resolve())
+            assert str(run).split(":")[0] == str(alone.value).split(":")[0]  # the time and the ball
+            assert "nan" in str(run)
+        else:
+            assert_same(run, simulate(setup, resolve()))
+
+
+def test_starts_in_touch_and_in_overlap():
+    def start(height: float, up: float) -> Setup:
+        ball = Ball("ball", 0.6, 0.12, (0.0, height), (1.0, up), forces=[Gravity(0.6, 9.81)])
+        return Setup([ball], [FLOOR, POST], duration=1.0)
+
+    setups = [start(0.12, 0.1 * i) for i in range(10)] + [start(0.12, -0.1 * i) for i in range(10)]
+    setups += [start(0.119, 1.0), start(0.05, 1.0), *(start(0.12 + 1e-12 * i, 0.5) for i in range(10))]
+    for number, (setup, run) in enumerate(zip(setups, simulate_many(setups, resolve()), strict=True)):
+        if number == 21:
+            assert "overlaps 'floor' at the start" in str(run)
+        else:
+            assert_same(run, simulate(setup, resolve()))
+
+
+# ------------------------------------------------------------------------------------------------ the parts
+
+speeds = st.floats(-30.0, 30.0)
+
+
+@given(st.lists(st.tuples(speeds, st.floats(-30.0, -0.01), st.floats(-200.0, 200.0)), min_size=1, max_size=70))
+def test_lanes_exchange_what_contacts_do(motions: list[tuple[float, float, float]]):
+    lanes = Lanes()
+    along, away, spin = np.array(motions).T
+    rng = np.random.default_rng(len(motions))
+    answers = rng.uniform((0.0, 0.0, 0.3), (1.0, 1.5, 1.0), (len(motions), 3))
+    radius = 0.11
+    found = lanes.exchange(along / radius, away / radius, spin, answers)
+    for i, (restitution, friction, factor) in enumerate(answers.tolist()):
+        ball = Ball("ball", 0.43, radius, (0.0, 0.0), inertia_factor=factor)
+        moving = Moving(0, 5.0, 3.0, along[i], away[i], spin[i])
+        bounce = Bounce(restitution, friction)
+        contact = Contact(0, None, 0.0, 1.0, bounce, friction, -away[i], 1.0)
+        Contacts([ball], Numerics()).exchange([moving], [contact])
+        size = abs(along[i]) + abs(away[i]) + radius * abs(spin[i])
+        assert radius * found[0][i] == pytest.approx(moving.vx, abs=1e-9 * size)
+        assert radius * found[1][i] == pytest.approx(moving.vy, abs=1e-9 * size)
+        assert radius * found[2][i] == pytest.approx(radius * moving.spin, abs=1e-9 * size)
+
+
+def test_first_touches_are_those_of_single_obstacles():
+    rng = np.random.default_rng(7)
+    surfaces = [
+        FLOOR,
+        POST,
+        Surface("slope", Segment((1.0, 0.2), (2.0, 1.0), 0.05), 0.5, 0.5),
+        Surface("roof", Segment((-1.0, 2.0), (1.0, 2.0)), 0.5, 0.5),
+    ]
+    count = 400
+    setup = Setup([Ball("ball", 0.6, 0.12, (0.0, 1.0))], surfaces)
+    starts = np.vstack((rng.uniform((-2, 0.12), (4, 3), (count, 2)).T, rng.uniform(-8, 8, (2, count)), np.zeros(count)))
+    starts[1, :100] = 0.12  # on the floor
+    arcs = []
+    for start in starts.T.tolist():
+        x, y, u, v, _ = start
+        h = 0.4
+        end = (x + u * h, y + v * h - 4.9 * h * h, u, v - 9.8 * h, 0.0)
+        arcs.append(through(0.0, h, tuple(start), (0.0, -9.8, 0.0), end, (0.0, -9.8, 0.0)))
+    coefficients = [np.array([getattr(arc, c) for arc in arcs]).T for c in "xy"]
+    outlines = Outlines([setup] * count)
+    found, _ = outlines.first_touch(np.arange(count), *coefficients, lambda i: arcs[i])
+    obstacles = [Obstacle(surface, 0.12) for surface in surfaces]
+    touches = 0
+    for arc, u in zip(arcs, found.tolist(), strict=True):
+        each = [obstacle.first_touch(arc) for obstacle in obstacles]
+        expected = min((e for e in each if e is not None), default=math.inf)
+        assert u == pytest.approx(expected, abs=1e-13)
+        touches += expected < math.inf
+    assert 100 < touches < count
+    near = outlines.near(np.arange(count), starts[0], starts[1])
+    for i, (x, y) in enumerate(starts[:2].T.tolist()):
+        nearest = min((obstacle.near(x, y) for obstacle in obstacles), key=lambda touching: touching.gap)
+        assert (near.gap[i], near.nx[i], near.ny[i], near.curvature[i]) == pytest.approx(nearest[:4], abs=1e-12)
+
+
+class Spring:
+    def __init__(self, stiffness: float, law: Any, places: dict[str, Any]) -> None:
+        self.stiffness = stiffness
+        self.law = law
+        self.places = places
+
+    def __call__(self, x: Any) -> Any:
+        return self.stiffness * self.law(x) + self.places["far"][1]
+
+
+def spring(stiffness: float, power: float, far: float) -> Spring:
+    def law(x: Any, offset: float = far) -> Any:
+        return power * x + offset
+
+    return Spring(stiffness, law, {"far": (1.0, far)})
+
+
+def test_what_is_built_alike_is_stacked():
+    springs = [spring(1.0 + i, 2.0 * i, 0.1 * i) for i in range(5)]
+    numbers: list[list[float]] = [[] for _ in springs]
+    kinds = {structure(one, floats) for one, floats in zip(springs, numbers, strict=True)}
+    assert len(kinds) == 1
+    stack = Stack(springs[0], numbers)
+    chosen = np.array([3, 1])
+    x = np.array([0.5, 0.7])
+    assert stack.of(chosen)(x).tolist() == [springs[3](0.5), springs[1](0.7)]
+    assert springs[0](0.5) == 0.0  # left as it was
+
+
+def test_what_is_built_otherwise_is_not():
+    assert structure(spring(1.0, 2.0, 3.0), []) != structure(Spring(1.0, abs, {"far": (1.0, 3.0)}), [])
+    assert structure((1, 2.0), []) != structure((2, 2.0), [])  # only floats may differ
+    assert structure([1.0], []) != structure([1.0, 1.0], [])
+
+
+def test_rows_are_the_arcs_they_were_made_from():
+    run = simulate(thrown(), resolve())
+    arcs = run.arcs["ball"]
+    assert isinstance(arcs, list)
+    flights = [arc for arc in arcs if len(arc.x) == 6]
+    rows = ArcRows(
+        np.array([[a.t0, a.t1, *a.start, *a.x, *a.y, *a.vx, *a.vy, *a.spin, *a.state(a.t1)] for a in flights])
+    )
+    assert len(rows) == len(flights) > 5
+    for kept, arc in zip([*rows, *rows[1:3], rows[-1]], [*flights, *flights[1:3], flights[-1]], strict=True):
+        assert isinstance(kept, Arc)
+        middle = 0.5 * (arc.t0 + arc.t1)
+        assert kept.state(middle) == arc.state(middle)
+        assert kept.state(arc.t1) == arc.state(arc.t1)
+    by_rows = Run(run.setup, run.accuracy, {"ball": rows}, run.events, run.numerics, run.duration, run.ended)
+    by_list = Run(run.setup, run.accuracy, {"ball": flights}, run.events, run.numerics, run.duration, run.ended)
+    for point, normal in (((0.0, 0.5), (0.0, 1.0)), ((1.5, 0.0), (-0.6, 0.8)), ((0.0, 0.5), (0.0, -1.0))):
+        crossings = list(by_rows.crossings("ball", point, normal))
+        assert crossings == list(by_list.crossings("ball", point, normal))
+        assert crossings
+    assert by_rows.highest("ball") == by_list.highest("ball")
+
+
+def test_python_may_fly_many_too():
+    swept = sandbox.sweep("basketball", {"launch.angle": np.linspace(45.0, 60.0, 40)})
+    assert swept["made"].shape == (40,)
