@@ -24,6 +24,9 @@ from sandbox.scene import Scene
 #: Shifts below this, in m, are nothing to a player.
 NOTHING = 1e-4
 
+#: Shifts below this, in m, are written as 0: they are errors of the reference.
+_LEAST = 1e-8
+
 #: Spin decay of a golf ball by radar, put in where a scene has none.
 _DECAY = 6e-5
 
@@ -85,15 +88,27 @@ class Ablated:
         saves = "" if self.saves is None else f"{100.0 * self.saves:.0f} %"
         if self.problem:
             return self.part, self.change, "", "", saves, f"cannot be run: {self.problem}"
-        shifts = length(self.flight_m), length(self.shift_m)
+        shifts = _shift(self.flight_m), _shift(self.shift_m)
         if self.is_nothing:
             return self.part, self.change, *shifts, saves, "nothing: it touches nothing" if self.idle else "nothing"
         shown = [
             f"{name} {significant(a, 4)} -> {significant(b, 4)}" for name, (a, b) in list(self.results.items())[:_SHOWN]
         ]
         if self.verdict[0] != self.verdict[1]:
-            shown.append(f"{self.verdict[0]} -> {self.verdict[1]}")
+            shown.append(_turned(*self.verdict))
         return self.part, self.change, *shifts, saves, ", ".join(shown)
+
+
+def _shift(metres: float | None) -> str:
+    return "0" if metres is not None and metres < _LEAST else length(metres)
+
+
+def _turned(before: str, after: str) -> str:
+    """Two verdicts, without the words that stand in both."""
+    a, b = before.split(", "), after.split(", ")
+    return " -> ".join(
+        ", ".join(word for word in own if word not in other) or "none" for own, other in ((a, b), (b, a))
+    )
 
 
 def as_text(rows: list[Ablated], time: float) -> list[str]:

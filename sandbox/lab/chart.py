@@ -51,6 +51,8 @@ def draw_trade(found: Trade, path: Path) -> None:
         _targets(axes, colours)
         axes.set_xscale("log")
         axes.set_yscale("log")
+        slowest, fastest = axes.get_xlim()
+        axes.set_xlim(slowest, fastest * (fastest / slowest) ** 0.1)  # room for the levels' names
         axes.invert_yaxis()
         axes.set_xlabel("speed, times real time")
         axes.set_ylabel("error, smaller upwards")

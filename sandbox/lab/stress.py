@@ -22,7 +22,7 @@ from sandbox.engine.run import Run
 from sandbox.engine.setup import Circle, Surface
 from sandbox.errors import RequestError, SandboxError
 from sandbox.lab.extremes import ALL, ERROR_CONTROL, EXACT, FIXED_STEP, PLAIN, Extreme, bare, of_scene
-from sandbox.lab.tables import length, table
+from sandbox.lab.tables import length, percent, table
 from sandbox.physics.integrators import INTEGRATORS
 from sandbox.scene import Scene
 
@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 ENERGY, ENERGY_FIXED_STEP = 1e-3, 3e-2
 
 #: Overlap in m that the exact method may show.
-OVERLAP = 1e-6
+OVERLAP = 1e-9
 
 #: A run of an extreme that takes longer than this, in s, counts as one without end.
 ENDLESS = 20.0
@@ -278,7 +278,7 @@ def _table(outcomes: Sequence[Outcome]) -> list[str]:
         exact = [outcome for name, outcome in own.items() if name != "plain"]
         energy = max((o.energy_gained for o in exact if o.energy_gained is not None), default=None)
         deepest = max((o.penetration_m for o in exact if o.penetration_m is not None), default=None)
-        gained = "" if energy is None else "none" if energy < 1e-12 else f"{100.0 * energy:.1g} %"
+        gained = "" if energy is None else percent(energy)
         words = [own[name].outcome if name in own else "" for name in names]
         rows.append((extreme, *(word.upper() if word == FAILED else word for word in words), gained, length(deepest)))
     return table(("extreme", *names, "energy", "overlap"), rows, "l" + "l" * len(names) + "rr")
@@ -305,7 +305,7 @@ def summary(outcomes: Sequence[Outcome]) -> tuple[list[str], list[list[str]]]:
         energy = max((o.energy_gained for o in own if o.energy_gained is not None), default=0.0)
         deepest = max((o.penetration_m for o in own if o.penetration_m is not None), default=0.0)
         steps = [o for o in own if o.extreme.startswith("step ")]
-        rows.append([method, *counts, f"{100.0 * energy:.1g} %", length(deepest), _longest_step(steps)])
+        rows.append([method, *counts, percent(energy), length(deepest), _longest_step(steps)])
     return ["method", "held", "refused", "failed", "most energy", "deepest overlap", "holds up to"], rows
 
 

@@ -31,14 +31,23 @@ def table(headings: Sequence[str], rows: Sequence[Sequence[str]], align: str, in
     return [line(row) for row in cells]
 
 
+#: Lengths below this, in m, are rounding.
+_ROUNDING = 1e-12
+
+
 def length(metres: float | None) -> str:
-    """``0.0032`` as ``3.2 mm``."""
-    return _scaled(metres, _LENGTHS)
+    """``0.0032`` as ``3.2 mm``; what is less than rounding is 0."""
+    return _scaled(0.0 if metres is not None and abs(metres) < _ROUNDING else metres, _LENGTHS)
 
 
 def time(seconds: float | None) -> str:
     """``0.0032`` as ``3.2 ms``."""
     return _scaled(seconds, _TIMES)
+
+
+def percent(share: float) -> str:
+    """``0.0032`` as ``0.3 %``; what is less than rounding is none."""
+    return "none" if share < 1e-12 else f"{significant(100.0 * share, 1)} %"
 
 
 def _scaled(value: float | None, units: Sequence[tuple[float, str, float]]) -> str:

@@ -33,6 +33,9 @@ TARGETS = (0.1, 0.01, 0.001, 0.0001)
 #: A finer setting is left out where it would take longer than this, in s.
 _LONGEST = 1.0
 
+#: Share by which the same run may take longer another time.
+_NOISE = 0.1
+
 #: Time in s to spend on the repeats of one setting, and the most repeats.
 _PATIENCE, _REPEATS = 0.1, 15
 
@@ -66,9 +69,14 @@ class Trade:
     verdicts: ShotMap | None = None
 
     def best(self, target: float) -> Point | None:
-        """The cheapest setting with an error of at most ``target`` m."""
+        """The cheapest setting with an error of at most ``target`` m.
+
+        Times that differ by less than a machine's noise are alike; of those the fewest force evaluations win.
+        """
         good = [point for point in self.points if point.error_m is not None and point.error_m <= target]
-        return min(good, key=lambda point: point.wall_s, default=None)
+        least = min((point.wall_s for point in good), default=0.0)
+        alike = [point for point in good if point.wall_s <= (1.0 + _NOISE) * least]
+        return min(alike, key=lambda point: point.force_evaluations, default=None)
 
     def behind_front(self, level: str) -> float | None:
         """How many times longer a level takes than the cheapest setting that is as accurate; 1 on the front."""

@@ -24,6 +24,9 @@ _PATIENCE, _FEWEST, _MOST = 2.0, 5, 15
 #: A method that would take longer than this, in s, is left out.
 _TOO_LONG = 10.0
 
+#: Results whose word says by itself what it is.
+_PLAIN_WORDS = ("verdict", "ended")
+
 _PLAIN = {f"plain 1/{rate} s": replace(LEVELS["balanced"], method="plain", step=1 / rate) for rate in (60, 240)}
 
 
@@ -53,7 +56,7 @@ def verdict(result: Mapping[str, Any]) -> str:
         if value is True:
             words.append(name)
         elif isinstance(value, str):
-            words.append(value)
+            words.append(value if name in _PLAIN_WORDS else f"{name} {value}")
         elif isinstance(value, list) and name != "touches" and all(isinstance(item, str) for item in value):
             words.append(" ".join([name, *value]) if value else "")
     return ", ".join(word for word in words if word)
