@@ -9,7 +9,7 @@ from __future__ import annotations
 import threading
 from collections.abc import Callable, Sequence
 from functools import lru_cache
-from itertools import pairwise
+from itertools import accumulate, pairwise
 from math import ceil, degrees, floor, hypot
 
 import numpy as np
@@ -155,13 +155,14 @@ class Painter:
 
     def lines(self, lines: Sequence[Points], width: float, colour: Colour, opacity: float = 1.0) -> None:
         """Many thin lines at once, such as the mesh of a net; where they cross they are no denser."""
-        ends = np.cumsum([len(line) for line in lines])
+        ends = list(accumulate((len(line) for line in lines), initial=0))
 
         def draw(mask: pygame.Surface, drawn: np.ndarray, larger: int) -> None:
-            for line in np.split(drawn, ends[:-1]):
-                pygame.draw.lines(mask, colour, False, line, max(1, round(width * larger)))
+            thick, points = max(1, round(width * larger)), drawn.tolist()
+            for start, end in pairwise(ends):
+                pygame.draw.lines(mask, colour, False, points[start:end], thick)
 
-        self._shape([point for line in lines for point in line], width, colour, opacity, draw)
+        self._shape(np.concatenate(lines), width, colour, opacity, draw)
 
     def trace(self, points: Points, width: float, colour: Colour, rim: Colour, rim_width: float) -> None:
         """A line with a thin edge of another colour, so that it stands out on any ground."""

@@ -106,10 +106,12 @@ class Path:
 
 def apart(points: np.ndarray, least: float) -> list[int]:
     """Indices of the points that are ``least`` px from each other, and of the last."""
-    kept = [0]
-    for i in range(1, len(points) - 1):
-        if hypot(*(points[i] - points[kept[-1]])) >= least:
+    places = points.tolist()  # numbers of Python's own are ten times as quick one by one
+    kept, (last_x, last_y) = [0], places[0]
+    for i, (x, y) in enumerate(places[1:-1], 1):
+        if hypot(x - last_x, y - last_y) >= least:
             kept.append(i)
+            last_x, last_y = x, y
     return [*kept, len(points) - 1]
 
 

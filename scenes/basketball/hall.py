@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from itertools import pairwise
 from math import asin, ceil, cos, floor, pi, sin, tau
 from typing import Any
@@ -76,7 +76,7 @@ class Hall:
     def _floor(self, eye: Eye) -> pygame.Surface:
         """The floor behind the plane of play: boards, each in a tone of its own, and on them what lines there are."""
         larger, width, rows = FLOOR_OVERSAMPLING, self.size[0], self.base - self.foot
-        drawn = blank((width * larger, rows * larger))
+        drawn = self._floor_drawn
         self._boards(drawn, eye)
         end, throw = self.face + END_LINE, self.face - KEY_LENGTH
         key = [(throw, 0.0), (end, 0.0), (end, KEY_HALF_WIDTH), (throw, KEY_HALF_WIDTH)]
@@ -90,6 +90,11 @@ class Hall:
             thick = max(1.1 * self.unit, 0.5 * LINE * eye.camera.scale * share) * larger
             pygame.draw.lines(drawn, COURT["line"], False, self._on_floor(eye, line), max(2, round(thick)))
         return pygame.transform.smoothscale(drawn, (width, rows))
+
+    @cached_property
+    def _floor_drawn(self) -> pygame.Surface:
+        """Where the floor is drawn, larger: new memory is slow."""
+        return blank((self.size[0] * FLOOR_OVERSAMPLING, (self.base - self.foot) * FLOOR_OVERSAMPLING))
 
     def _on_floor(self, eye: Eye, points: list[tuple[float, float]]) -> np.ndarray:
         """Points (x, z) of the floor in m as points of the floor as it is drawn, in px."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from itertools import pairwise
 from math import asin, ceil, floor, pi
 from typing import Any
@@ -99,8 +99,8 @@ class Stadium:
 
     def _pitch(self, eye: Eye) -> pygame.Surface:
         """The pitch behind the plane of play: mown stripes and lines."""
-        larger, width, rows = PITCH_OVERSAMPLING, self.size[0], self.base - self.foot
-        drawn = blank((width * larger, rows * larger))
+        width, rows = self.size[0], self.base - self.foot
+        drawn = self._pitch_drawn
         stripe = STRIPE * max(1.0, 2.0 ** ceil(np.log2(12 * self.unit / (STRIPE * eye.camera.scale))))
         deepest = eye.depth(FAR)
         low, high = (eye.camera.world(eye.centre + (px - eye.centre) / FAR, 0)[0] for px in (0, width))
@@ -112,12 +112,23 @@ class Stadium:
                 corners = [(a, 0.0), (b, 0.0), (b, deepest), (a, deepest)]
                 pygame.draw.polygon(drawn, GROUND["grass"][1], self._on_pitch(eye, corners))
         self._lines(drawn, eye)
-        fade = np.linspace(150, 0, round(0.8 * rows * larger)).astype(int)
+        drawn.blit(self._haze, (0, 0))
+        return pygame.transform.smoothscale(drawn, (width, rows))
+
+    @cached_property
+    def _pitch_drawn(self) -> pygame.Surface:
+        """Where the pitch is drawn, larger: new memory is slow."""
+        return blank((self.size[0] * PITCH_OVERSAMPLING, (self.base - self.foot) * PITCH_OVERSAMPLING))
+
+    @cached_property
+    def _haze(self) -> pygame.Surface:
+        """What the pitch fades into with distance, as it is drawn."""
+        width, rows = self._pitch_drawn.get_size()
+        fade = np.linspace(150, 0, round(0.8 * rows)).astype(int)
         haze = blank((1, len(fade)), transparent=True)
         for row, opacity in enumerate(fade):
             haze.set_at((0, row), (*GROUND["grass_far"], int(opacity)))
-        drawn.blit(pygame.transform.scale(haze, (width * larger, len(fade))), (0, 0))
-        return pygame.transform.smoothscale(drawn, (width, rows))
+        return pygame.transform.scale(haze, (width, len(fade)))
 
     def _lines(self, drawn: pygame.Surface, eye: Eye) -> None:
         """All lines of the pitch that lie behind the plane of play, which passes by the goal's near post."""
@@ -184,7 +195,8 @@ class Stadium:
         return np.linspace(0.0, span, max(2, round(span / mesh) + 1))
 
     def _draw_net(self, painter: Painter, eye: Eye, net: list[Any], opacity: float) -> None:
-        lines = [eye.points(np.array(thread)) for thread in net]
+        ends = np.cumsum([len(thread) for thread in net])
+        lines = np.split(eye.points(np.concatenate(net)), ends[:-1])
         painter.lines(lines, max(0.6, 0.8 * self.unit), GROUND["net"], opacity)
 
     def _post(self, painter: Painter, eye: Eye, ends: list[Any], colour: Colour, share: float) -> None:

@@ -107,3 +107,27 @@ class TestEveryShot:
             assert 0.04 * size[0] <= x <= 0.96 * size[0]
             assert 0.04 * size[1] <= y <= 0.96 * size[1]
             assert ring == ("ball drawn larger" in texts(picture))
+
+
+@pytest.mark.parametrize("name", ["soccer, in a gale", "curl, 1997", "basketball", "basketball, brick"])
+def test_frames_can_be_drawn_in_any_order(name):
+    picture = picture_of(name)
+    end = picture.run.duration
+    first = picture.frame(0.3 * end).get_buffer().raw
+    for share in (0.9, 0.0, 1.0):
+        picture.frame(share * end)
+    picture.poster()
+    assert picture.frame(0.3 * end).get_buffer().raw == first
+
+
+@pytest.mark.parametrize("name", ["soccer", "curl", "basketball"])
+def test_the_ball_turns(name):
+    picture = picture_of(name, (1280, 720))
+    end = 0.5 * (picture.run.result["flight_time"] or picture.run.duration)
+    still = picture.run.angle("ball", end)
+    before = picture.frame(end).get_buffer().raw
+    picture.run.angle = lambda ball, t: still + 0.5  # everything but its turning stays
+    try:
+        assert picture.frame(end).get_buffer().raw != before
+    finally:
+        del picture.run.angle
