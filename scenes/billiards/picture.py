@@ -15,7 +15,7 @@ from sandbox.picture.ball import SMALLEST
 from sandbox.picture.camera import Camera
 from sandbox.picture.ghosts import draw_ghost, draw_in_frame, ghosts_of
 from sandbox.picture.painter import Painter
-from sandbox.picture.palette import Colour, palette
+from sandbox.picture.palette import Colour, mix, palette
 from sandbox.picture.path import Path, apart, draw_mark, label_mark
 from sandbox.picture.sheet import Entry, Sheet, metres, nice, signed
 from sandbox.picture.vectors import Vectors
@@ -313,6 +313,7 @@ class Picture:
             if other.struck in other.paths:
                 place = camera.pixel(*other.run.state(other.struck, min(t, other.run.duration))[:2])
                 draw_in_frame(sheet, ghost, camera.pixels(other.paths[other.struck][:, 1:]), place, self.head_row)
+        self._earlier(sheet.surface, t)
         for name in self.paths:
             self._trail(painter, name, t, radius)
         if self.struck in self._on_table(t):
@@ -324,6 +325,26 @@ class Picture:
         sheet.headline(headline, notes, right - sheet.frame.left - 3 * sheet.gap)
         sheet.columns(self.card_row, self.live(t), [ghost.live(t) for ghost in self.ghosts])
         return sheet.surface
+
+    @cached_property
+    def _tracks(self) -> dict[str, tuple[np.ndarray, np.ndarray]]:
+        """Of each path times in s and points in px; the struck ball's last, to be drawn over the others."""
+        tracks = {}
+        for name in sorted(self.paths, key=lambda name: name == self.struck):
+            path = self.paths[name]
+            points = self.camera.pixels(path[:, 1:])
+            kept = apart(points, 2.0)
+            tracks[name] = path[kept, 0], points[kept]
+        return tracks
+
+    def _earlier(self, surface: pygame.Surface, t: float) -> None:
+        """Where the balls have been: a thin line each."""
+        for name, (times, points) in self._tracks.items():
+            past = int(np.searchsorted(times, t))
+            if past > 0:
+                here = [np.interp(t, times, points[:, axis]) for axis in (0, 1)]
+                faint = mix(self.colours[name], BILLIARDS["cloth"], 0.35 if name == self.struck else 0.55)
+                pygame.draw.aalines(surface, faint, False, [*points[:past], here])
 
     def _trail(self, painter: Painter, name: str, t: float, radius: float) -> None:
         path = self.paths[name]

@@ -133,6 +133,17 @@ def test_the_marks_move_with_the_ball():
     assert (after @ top)[:2] == pytest.approx(np.array([vx, vy]) * 0.001 / picture.radius, rel=1e-2)
 
 
+def test_where_a_ball_has_been_stays_in_sight():
+    """And where it will be does not show yet."""
+    picture = picture_of("bank")
+    empty = picture.stage()
+    x, y = map(int, picture.camera.pixel(*picture.run.state("cue", 2.0)[:2]))
+    here = [(x + i, y + j) for i in (-1, 0, 1) for j in (-1, 0, 1)]
+    for t, seen in ((1.0, False), (picture.run.duration, True)):
+        frame = picture.frame(t)
+        assert any(frame.get_at(at) != empty.get_at(at) for at in here) == seen
+
+
 def test_frames_can_be_drawn_in_any_order():
     picture = picture_of("break")
     first = picture.frame(0.4).get_buffer().raw
