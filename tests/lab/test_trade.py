@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import shutil
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -16,8 +17,9 @@ from sandbox.engine.accuracy import LEVELS
 from sandbox.lab import trade as lab
 from sandbox.lab import verdicts
 from sandbox.lab.ablation import Ablated, ablation, variants, with_changes
-from sandbox.lab.reference import Reference, converge
+from sandbox.lab.reference import REFERENCE, Reference, converge
 from sandbox.lab.verdicts import shot_map, verdict
+from sandbox.new import new_scene
 from sandbox.physics.forces import Drag
 from sandbox.scene import load
 
@@ -55,6 +57,14 @@ def test_the_reference_is_better_than_the_finest_level(rattle: Reference):
     precise = rattle.error_of(simulate(rattle.setup(), LEVELS["precise"]))
     assert rattle.error < 1e-5
     assert precise < 1e-3
+
+
+def test_the_error_of_the_reference_counts_the_bounces_that_are_left_out(tmp_path: Path):
+    """A ball that bounces until it rolls, and is slowed as it rolls: its place hangs on the lowest bounce."""
+    new_scene(tmp_path / "volleyball")
+    reference = converge(load(tmp_path / "volleyball"))
+    higher = simulate(reference.setup(), replace(REFERENCE, settle=16.0 * REFERENCE.settle))  # four times as wrong
+    assert 1e-8 < reference.error < reference.error_of(higher) < 10.0 * reference.error
 
 
 def test_errors_grow_on_the_round_ring(rattle: Reference):
