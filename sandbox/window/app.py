@@ -40,6 +40,8 @@ SMALLEST = (640, 400)
 MESSAGE = 6.0
 #: A fan is begun when the shot has not changed for so long, in s.
 STILL = 0.1
+#: Time in s that is left free at the end of a frame, for the display and for what runs a little longer.
+RESERVE = 0.004
 
 
 class App:
@@ -71,6 +73,7 @@ class App:
         self.frame_cost = 0.0  # s, smoothed
         self.panel: Panel | None = None
         self.has_panel: bool = False
+        self.windowed = SIZE  # while it fills the display, its size before
         self.view, self.pointer = View(self), Pointer(self)
         self._layout()
 
@@ -91,7 +94,10 @@ class App:
             self.handle(event)
         self.update(dt)
         self.draw()
-        self.frame_cost += 0.1 * (perf_counter() - started - self.frame_cost)
+        spent = perf_counter() - started
+        self.frame_cost += 0.1 * (spent - self.frame_cost)
+        if self.fan is not None:
+            self.fan.go_on(self.ahead, 1 / FRAMES - spent - RESERVE)
 
     def update(self, dt: float) -> None:
         if self.message is not None:
@@ -217,10 +223,8 @@ class App:
             return
         if self.fan is not None and (self.fan.shot is not self.shot or self.fan.width != self.fan_width):
             self.fan = None
-        if self.still >= STILL and self.awaited is None:
-            if self.fan is None:
-                self.fan = Fan(self.shot, self.fan_width)
-            self.fan.go_on(self.ahead)
+        if self.fan is None and self.still >= STILL and self.awaited is None:
+            self.fan = Fan(self.shot, self.fan_width)
 
     def change(self, changes: Mapping[str, Any]) -> bool:
         """Change parameters, and aim with them."""

@@ -37,7 +37,7 @@ class Charts:
             self.strips.append(("way", "m", way, 2))
         self.strips.append(("spin", "rpm", spin * 30 / pi, 0))
 
-    def draw(self, sheet: Sheet, top: float, t: float | None) -> None:
+    def draw(self, sheet: Sheet, top: float, t: float | None, avoid: pygame.Rect) -> None:
         """A card at the right below the row ``top``, or from above at the left, where nothing is shot at.
 
         ``t`` in s is marked.
@@ -49,6 +49,8 @@ class Charts:
         rect = pygame.Rect(0, 0, round(wide * unit), len(self.strips) * (row + tall + gap) + 3 * gap)
         if self.shot.upright:
             rect.topright = sheet.frame.right, round(top)
+            if rect.colliderect(avoid):
+                rect.top = avoid.bottom + gap
         else:
             rect.bottomleft = sheet.frame.left, round(sheet.frame.bottom - sheet.card_height() - gap)
         sheet.painter.panel(rect, CARD["background"], 0.85, 10 * unit)
@@ -64,9 +66,8 @@ class Charts:
             for a, b in pairwise(np.column_stack([columns, rows])):
                 pygame.draw.aaline(sheet.surface, CARD["accent"], a, b, 2)
             shown = float(values[np.abs(values).argmax()]) if t is None else float(np.interp(t, self.times, values))
-            label = f"{name}, most" if t is None else name
-            text = signed(f"{shown:.{digits}f}") + f" {name_of_unit}"
-            letters.write(sheet.surface, label, "small", (plot.left, y), CARD["quiet"])
+            text = ("most " if t is None else "") + signed(f"{shown:.{digits}f}") + f" {name_of_unit}"
+            letters.write(sheet.surface, name, "small", (plot.left, y), CARD["quiet"])
             letters.write(sheet.surface, text, "small", (plot.right, y), CARD["text"], "topright", bold=True)
             if t is not None:
                 at = plot.left + plot.width * t / end

@@ -133,11 +133,12 @@ def _sound(app: App) -> None:
 
 
 def _full_screen(app: App) -> None:
-    """The whole display, or the window again."""
-    try:
-        pygame.display.toggle_fullscreen()
-    except pygame.error as error:
-        app.tell(f"no full screen here: {str(error).lower()}", bad=True)
+    """The whole display, or the window again as it was."""
+    if pygame.display.is_fullscreen():
+        pygame.display.set_mode(app.windowed, pygame.RESIZABLE)
+    else:
+        app.windowed = app.laid_out
+        pygame.display.set_mode((0, 0), pygame.FULLSCREEN)
     app.resized()
 
 

@@ -32,8 +32,8 @@ SHOTS = 200
 SPEED, ANGLE = 0.01, 0.5
 #: A spread may be made so many times wider or narrower.
 WIDEST = 16.0
-#: The thread works on a fan for so long at a time, in s, so that a new path never waits for it for long.
-SLICE = 0.012
+#: A fan is worked on between the frames, for so long at least, in s: one run, and more where there is time.
+LEAST_TIME = 0.001
 #: So many paths are drawn in one frame; the others in the next.
 PER_FRAME = 6
 #: Opacity of a path, of 255: where many go, it is dense.
@@ -41,11 +41,12 @@ FAINT, FAINT_MISS = 70, 50
 
 
 class Fan:
-    """Shots around one of them. ``go_on`` once a frame has them computed; ``draw`` shows those there are."""
+    """Shots around one of them. ``go_on`` after each frame has them computed; ``draw`` shows those there are."""
 
     def __init__(self, shot: Shot, width: float = 1.0) -> None:
         self.shot, self.width = shot, width
-        self.spread = {key: width * sigma for key, sigma in spread_of(shot).items()}
+        self.known = {p.key: p for p in declared.walk(shot.scene.parameters)}
+        self.spread = {key: width * sigma for key, sigma in self._sigmas().items()}
         self.draws = np.random.default_rng(1).standard_normal((SHOTS, len(self.spread)))
         self.shots: list[Shot] = []
         self.failed = 0
@@ -53,6 +54,16 @@ class Fan:
         self.layer: pygame.Surface | None = None
         self.camera: Camera | None = None
         self.drawn = 0
+
+    def _sigmas(self) -> dict[str, float]:
+        """Standard deviation of each parameter that a player does not hit exactly, in its unit."""
+        controls = controls_of(self.shot.scene.module)
+        values = {key: parameter.value for key, parameter in self.known.items()}
+        if any(values.get(key) != value for key, value in controls.also.items()):
+            return {}  # the shot begins otherwise than a player's, and what a player varies would change nothing
+        spread = controls.spread or (Spread(controls.speed, SPEED), Spread(controls.angle, least=ANGLE))
+        sigmas = {item.key: item.sigma(values[item.key]) for item in spread if isinstance(values.get(item.key), float)}
+        return {key: sigma for key, sigma in sigmas.items() if sigma > 0}
 
     @property
     def complete(self) -> bool:
@@ -62,13 +73,13 @@ class Fan:
     def scored(self) -> int:
         return sum(shot.scored for shot in self.shots)
 
-    def go_on(self, ahead: Ahead) -> None:
-        """Have more of the shots computed, beside the drawing."""
+    def go_on(self, ahead: Ahead, time: float) -> None:
+        """Have more of the shots computed, in the ``time`` s that there are until the next frame."""
         if not self.complete and (self.work is None or self.work.done()):
-            self.work = ahead.start(self._compute)
+            self.work = ahead.start(lambda: self._compute(max(time, LEAST_TIME)))
 
-    def _compute(self) -> None:
-        until = perf_counter() + SLICE
+    def _compute(self, time: float) -> None:
+        until = perf_counter() + time
         while not self.complete and perf_counter() < until:
             try:
                 scene = self._varied(self.draws[len(self.shots) + self.failed])
@@ -85,10 +96,9 @@ class Fan:
         """The scene with each parameter of the spread moved, within its bounds."""
         scene = self.shot.scene
         changes: dict[str, Any] = {}
-        known = {p.key: p for p in declared.walk(scene.parameters)}
         for (key, sigma), draw in zip(self.spread.items(), draws, strict=True):
-            low, high = known[key].low, known[key].high
-            value = known[key].value + sigma * float(draw)
+            low, high = self.known[key].low, self.known[key].high
+            value = self.known[key].value + sigma * float(draw)
             changes[key] = value if low is None or high is None else min(max(value, low), high)
         values = scene.parameters.model_dump()
         return replace(scene, parameters=declared.validate(type(scene.parameters), values, "", changes, ""))
@@ -138,20 +148,8 @@ class Fan:
         numbers = [value for value in values if isinstance(value, float)]
         if told is not None and len(numbers) > 1:
             share += f"; {told[0]} {np.mean(numbers):.1f} ± {np.std(numbers):.1f} {told[1]}"
-        known = {p.key: p.unit or "" for p in declared.walk(self.shot.scene.parameters)}
         parts = [
-            f"{key.rpartition('.')[2]} ± {signed(f'{sigma:.3g}')} {known[key]}".rstrip()
+            f"{key.rpartition('.')[2]} ± {signed(f'{sigma:.3g}')} {self.known[key].unit or ''}".rstrip()
             for key, sigma in self.spread.items()
         ]
         return share, ", ".join(parts) or "nothing to vary"
-
-
-def spread_of(shot: Shot) -> dict[str, float]:
-    """Standard deviation of each parameter that a player does not hit exactly, in its unit."""
-    controls = controls_of(shot.scene.module)
-    known = {p.key: p.value for p in declared.walk(shot.scene.parameters)}
-    if any(known.get(key) != value for key, value in controls.also.items()):
-        return {}  # the shot begins otherwise than a player's, and what a player varies would change nothing
-    spread = controls.spread or (Spread(controls.speed, SPEED), Spread(controls.angle, least=ANGLE))
-    sigmas = {item.key: item.sigma(known[item.key]) for item in spread if isinstance(known.get(item.key), float)}
-    return {key: sigma for key, sigma in sigmas.items() if sigma > 0}

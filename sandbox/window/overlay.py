@@ -100,13 +100,15 @@ class Choices:
             letters.write(sheet.surface, binding.shown, "small", at, CARD["quiet"], "midright", bold=True)
 
 
-def draw_note(sheet: Sheet, lines: Sequence[tuple[str, Colour]], top: float) -> float:
-    """A small card at the right with a line each; returns where there is room below it, in px."""
+def draw_note(sheet: Sheet, lines: Sequence[tuple[str, Colour]], top: float, avoid: pygame.Rect) -> float:
+    """A small card at the right with a line each, off what is to be avoided; returns where there is room below it."""
     letters, gap = sheet.lettering, sheet.gap
     row = letters.height("small") + gap // 2
     width = max(letters.width(text, "small") for text, _ in lines)
     rect = pygame.Rect(0, 0, width + 4 * gap, len(lines) * row + 2 * gap)
     rect.topright = sheet.frame.right, round(top)
+    if rect.colliderect(avoid):
+        rect.top = avoid.bottom + gap
     sheet.painter.panel(rect, CARD["background"], 0.85, 8 * sheet.unit)
     for number, (text, colour) in enumerate(lines):
         at = (rect.left + 2 * gap, rect.top + gap + number * row)

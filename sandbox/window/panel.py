@@ -29,7 +29,7 @@ WIDTH, NARROWEST = 320, 280  # px on 720 rows; px
 LEAST_UNIT = 0.8
 #: A slider reaches this many times its value in the file to either side, and at least this share of the bounds.
 REACH, LEAST_REACH = 1.5, 0.02
-FAVOURITES, UNSET = "this shot", "as the level says"
+FAVOURITES = "this shot"
 
 
 @dataclass
@@ -155,8 +155,9 @@ class Panel:
         value = row.part(parameter.value)
         if parameter.choices:
             words: list[Any] = [str(word) for word in parameter.choices]
-            words = [UNSET, *words] if value is None or self._optional(parameter) else words
-            chosen = UNSET if value is None else str(value)
+            unset = "as the level says" if parameter.key.startswith("accuracy.") else "left out"
+            words = [unset, *words] if value is None or self._optional(parameter) else words
+            chosen = unset if value is None else str(value)
             rect = pygame.Rect(0, top + height, self.wide, height)
             row.choice = UIDropDownMenu(words, chosen, rect, expansion_height_limit=200, **place)
             end = top + 2 * height

@@ -146,8 +146,8 @@ class Stage:
         sheet.lettering.write(sheet.surface, text, "small", rect.center, CARD["text"], "center")
 
 
-def headline(sheet: Sheet, text: str, note: str, colour: Colour) -> None:
-    """What happens, large on a dark card at the top left, and a line below it."""
+def headline(sheet: Sheet, text: str, note: str, colour: Colour) -> pygame.Rect:
+    """What happens, large on a dark card at the top left, and a line below it; returns where it is."""
     room = round(0.66 * sheet.size[0])
     size = "large" if sheet.lettering.width(text, "large", bold=True) <= room else "medium"
     inset = 2 * sheet.gap
@@ -158,3 +158,4 @@ def headline(sheet: Sheet, text: str, note: str, colour: Colour) -> None:
     at = sheet.write(text, size, (rect.left + inset, rect.top + inset), colour, bold=True)
     if note:
         sheet.write(note, "small", (at.left, at.bottom + sheet.gap), CARD["quiet"])
+    return rect

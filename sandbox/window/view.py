@@ -38,6 +38,7 @@ class View:
         self.energy: tuple[Shot, pygame.Surface] | None = None
         self.stage: Stage | None = None
         self.composed = 0.0  # s since then
+        self.head = pygame.Rect(0, 0, 0, 0)  # where the headline is
         self._near: tuple[Shot, Any] | None = None
         self._vectors: tuple[Shot, Vectors] | None = None
         self._charts: tuple[Shot, Charts] | None = None
@@ -135,7 +136,7 @@ class View:
         stage.draw_path(sheet, shot)
         stage.draw_balls(sheet, 0.0)
         self._arrows(sheet, shot, stage.ball_at(shot), 0.0)
-        headline(sheet, shot.verdict, self._note(), CARD["good"] if shot.scored else CARD["text"])
+        self.head = headline(sheet, shot.verdict, self._note(), CARD["good"] if shot.scored else CARD["text"])
         pull = app.pointer.pull
         if pull is not None and app.pointer.pulling:
             longest = aim.FULL * app.area.height
@@ -173,10 +174,10 @@ class View:
         if playback.over:
             colour = CARD["good"] if shot.scored else CARD["text"]
             again = "go on" if app.session.controls.goes_on is not None else "aim again"
-            headline(sheet, shot.verdict, f"Enter to {again}, R to see it again", colour)
+            self.head = headline(sheet, shot.verdict, f"Enter to {again}, R to see it again", colour)
             entries = [*shot.card, *forces]
         else:
-            headline(sheet, f"{t:.2f} s", f"shot {app.chosen + 1}", CARD["text"])
+            self.head = headline(sheet, f"{t:.2f} s", f"shot {app.chosen + 1}", CARD["text"])
             entries = [*state_entries(shot, shot.ball, t), *forces]
         sheet.columns(sheet.frame.bottom - sheet.card_height(), entries)
         return sheet
@@ -204,15 +205,15 @@ class View:
                 f"frame {1e3 * app.frame_cost:.1f} ms   run {1e3 * app.cost:.1f} ms, "
                 f"{app.session.value('accuracy.level')}"
             )
-            top = overlay.draw_note(sheet, [(text, CARD["accent"])], top)
+            top = overlay.draw_note(sheet, [(text, CARD["accent"])], top, self.head)
         if app.fan is not None:
             share, spread = app.fan.told()
-            top = overlay.draw_note(sheet, [(share, CARD["text"]), (spread, CARD["quiet"])], top)
+            top = overlay.draw_note(sheet, [(share, CARD["text"]), (spread, CARD["quiet"])], top, self.head)
         if "charts" in self.on:
             if self._charts is None or self._charts[0] is not shot:
                 self._charts = shot, Charts(shot)
             t = app.playback.t if app.playback is not None else None
-            self._charts[1].draw(sheet, top, t)
+            self._charts[1].draw(sheet, top, t, self.head)
         camera, pointer = self.camera, app.pointer
         if camera is not None and pointer.tape is not None:
             pointer.tape.draw(sheet, camera, shot.upright)

@@ -204,18 +204,14 @@ def test_every_key_does_something_harmless_in_every_state(player, tmp_path, monk
             player.key(pygame.K_ESCAPE)
 
 
-def test_without_full_screen_it_says_so(player):
-    player = player("golf/putt")  # SDL's dummy driver has none
-    player.key(pygame.K_F11)
-    assert player.app.message[0].startswith("no full screen here: ")
-
-
-def test_in_full_screen_everything_has_its_place(player, monkeypatch):
-    player = player("golf/putt")
-    monkeypatch.setattr(pygame.display, "toggle_fullscreen", lambda: pygame.display.set_mode((1600, 900)))
-    player.key(pygame.K_F11)
-    assert player.app.canvas.get_size() == (1600, 900)
-    assert player.app.bar.rect.bottom == 900
+def test_full_screen_and_back(player):
+    player = player("golf/putt", (800, 500))
+    display = pygame.display.get_desktop_sizes()[0]
+    for size in (display, (800, 500)):
+        player.key(pygame.K_F11)
+        player.frames(2)
+        assert player.app.canvas.get_size() == size
+        assert player.app.bar.rect.bottom == size[1]
 
 
 def test_the_key_for_leaving_leaves(player):

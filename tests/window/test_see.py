@@ -28,9 +28,12 @@ def differ(a: np.ndarray, b: np.ndarray) -> float:
 
 def wait_for_fan(player) -> Fan:
     player.frames(10)
-    while not player.app.fan.complete:
-        player.frames(1)
-    return player.app.fan
+    fan = player.app.fan
+    fan.work.result()
+    fan.go_on(player.app.ahead, 60.0)
+    fan.work.result()
+    player.frames(1)
+    return fan
 
 
 class TestTheFan:
