@@ -17,6 +17,7 @@ from sandbox.picture.depth import Eye
 from sandbox.picture.figures import KICKING, STANDING, draw_figure
 from sandbox.picture.painter import Painter, blank, from_colours
 from sandbox.picture.palette import Colour, mix, palette
+from sandbox.picture.sheet import Sheet
 
 GROUND, CARD = palette("soccer"), palette("card")
 
@@ -284,8 +285,11 @@ def _stands(size: tuple[int, int], foot: int) -> pygame.Surface:
     painter, random = Painter(stands), np.random.default_rng(11)
     roof, upper, lower = GROUND["stands"]
     boards, top = round(17 * unit), foot - round(124 * unit)
+    sheet = Sheet(size)
+    text = sheet.frame.top + sheet.lettering.height("large") + sheet.lettering.height("small") + sheet.gap
+    head = min(max(top - 74 * unit, text + 20 * unit), top - 30 * unit)  # lamps under the headline
     for x in np.array([0.14, 0.47, 0.80]) * width:
-        _mast(painter, (x, top), unit)
+        _mast(painter, (x, top), head, unit)
     stands.fill(upper, (0, top, width, foot - top))
     _roof(painter, top, width, unit)
     for i in range(9):
@@ -321,10 +325,9 @@ def _roof(painter: Painter, top: int, width: int, unit: float) -> None:
             painter.surface.fill(mix(upper, roof, 0.5), (round(x), top, max(1, round(2.5 * unit)), round(58 * unit)))
 
 
-def _mast(painter: Painter, foot: tuple[float, float], unit: float) -> None:
-    """A mast with lamps and the light around them."""
+def _mast(painter: Painter, foot: tuple[float, float], head: float, unit: float) -> None:
+    """A mast with lamps in row ``head`` and the light around them."""
     x, y = foot
-    head = y - 74 * unit
     painter.line([(x, y), (x, head)], 4 * unit, GROUND["mast"])
     painter.shadow((x, head), 90 * unit, 62 * unit, GROUND["lamp"], 0.22)
     painter.panel(
