@@ -8,7 +8,6 @@ at once, a state that makes no sense) is left to it: it takes the shot over from
 from __future__ import annotations
 
 from collections.abc import Hashable, Iterator, Sequence
-from math import cos, sin
 from time import perf_counter
 from typing import NamedTuple
 
@@ -25,10 +24,10 @@ from sandbox.engine.lasting import leaves_at
 from sandbox.engine.motion import FIRST_STEP, LOCAL_SHARE, LONGEST, SPIN_WEIGHT
 from sandbox.engine.outlines import Outlines
 from sandbox.engine.run import Event, Numerics, Run
-from sandbox.engine.setup import Bounce, Setup
+from sandbox.engine.setup import Bounce, Setup, Surface
 from sandbox.engine.simulation import Simulation
 from sandbox.engine.stacking import Stack, structure
-from sandbox.physics.integrators import INTEGRATORS, State
+from sandbox.physics.integrators import INTEGRATORS, Acceleration, State
 
 #: Fewer shots than this are quicker one at a time: a round of arrays costs as much as some thirty steps.
 _FEWEST = 24
@@ -59,8 +58,8 @@ def simulate_many(setups: Sequence[Setup], accuracy: Accuracy) -> Iterator[Run |
             batch = _Batch([setups[member] for member in members], numbers, accuracy)
             try:
                 batch.fly()
-            except Exception:
-                continue  # arrays are not for these forces; one at a time they say so themselves, or run
+            except _OnlyFloats:
+                continue  # one at a time they run, or say themselves what is wrong
             batch_of |= dict.fromkeys(members, batch.runs())
     for number, setup in enumerate(setups):
         yield next(batch_of[number]) if number in batch_of else _one(setup, accuracy)
@@ -78,6 +77,29 @@ def _kind(setup: Setup, floats: list[float]) -> Hashable:
     ball = setup.balls[0]
     shapes = tuple((type(surface.shape), surface.name) for surface in setup.surfaces)
     return ball.name, shapes, len(setup.patches), structure((tuple(ball.forces), tuple(ball.torques)), floats)
+
+
+def _answer(surface: Surface, approach: float, along: float) -> Bounce | None:
+    """Restitution, friction and tilt; None where the surface's law fails, which its shot alone then says."""
+    if surface.law is None:
+        return Bounce(surface.restitution, surface.friction)
+    try:
+        return Bounce(*surface.law(approach, abs(along)))
+    except Exception:
+        return None
+
+
+def _over(setup: Setup, event: Event) -> str:
+    """ "until" where this event ends the run, "" where not; "after" where that cannot be told, which its shot alone
+    then says."""
+    try:
+        return "until" if setup.until is not None and setup.until(event) else ""
+    except Exception:
+        return "after"
+
+
+class _OnlyFloats(Exception):
+    """Forces that cannot take arrays, or answer otherwise than with floats."""
 
 
 class _Left(NamedTuple):
@@ -154,20 +176,23 @@ class _Batch:
         self._m = self._mass[self._shot]
         self._inertia = self._factor[self._shot] * self._m * self._radius[self._shot] ** 2
 
-    def _acceleration(self, t: np.ndarray, state: Sequence[np.ndarray]) -> tuple[np.ndarray, ...]:
+    def _acceleration(self, t: np.ndarray, state: State) -> Acceleration:
         x, y, vx, vy, spin = state
         fx = fy = torque = np.zeros(len(t))
-        for force in self._forces:
-            px, py = force(t, (x, y), (vx, vy), spin)
-            fx = fx + px
-            fy = fy + py
-        for turn in self._torques:
-            torque = torque + turn(t, (x, y), (vx, vy), spin)
+        try:
+            for force in self._forces:
+                px, py = force(t, (x, y), (vx, vy), spin)
+                fx = fx + px
+                fy = fy + py
+            for turn in self._torques:
+                torque = torque + turn(t, (x, y), (vx, vy), spin)
+        except Exception as error:
+            raise _OnlyFloats from error
         return fx / self._m, fy / self._m, torque / self._inertia
 
     def _check_forces(self) -> None:
-        """Whether arrays give what floats give. Raises ValueError otherwise."""
-        together = np.array(self._acceleration(self._t, self._state))
+        """Whether arrays give what floats give."""
+        together = np.array(self._acceleration(self._t, tuple(self._state)))
         alone = []
         for setup in self._setups:
             ball = setup.balls[0]
@@ -182,7 +207,7 @@ class _Batch:
             )
         size = np.abs(together).max(axis=0)
         if not (np.abs(together - np.array(alone).T) <= _ROUNDING * size).all():
-            raise ValueError("the forces are other with arrays than with floats")
+            raise _OnlyFloats
 
     # ------------------------------------------------------------------ a round: one step, or an impact, for each
 
@@ -195,41 +220,43 @@ class _Batch:
         self._go_on_with(plain)
 
     def _round(self) -> None:
-        acceleration = self._acceleration(self._t, self._state)
+        acceleration = np.array(self._acceleration(self._t, tuple(self._state)))
         flying = self._leaving(acceleration)
         if not flying.all():
-            acceleration = tuple(part[flying] for part in acceleration)
+            acceleration = acceleration[:, flying]
             self._go_on_with(flying)
+            if not len(self._shot):
+                return
         h = np.minimum(np.minimum(self._wanted, LONGEST), self._duration[self._shot] - self._t)
         h = np.where(self._again, self._wanted, self._halved_for_patches(h, acceleration))
-        after, last, error = self._step(self._acceleration, self._t, tuple(self._state), acceleration, h)
-        assert last is not None
-        assert error is not None
-        off = np.abs(error[0]) + np.abs(error[1]) + np.abs(error[2]) + np.abs(error[3])
-        off = off + SPIN_WEIGHT * self._radius[self._shot] * np.abs(error[4])
-        fits = off <= self._local_error
-        growth = 0.9 * (self._local_error / off) ** 0.2
-        longer = h * np.where(off > 0.0, np.minimum(5.0, growth), 5.0)
-        shorter = h * np.where(np.isfinite(off), np.maximum(0.2, growth), 0.1)
-        longer = np.where(h >= self._wanted, longer, np.maximum(longer, self._wanted))
-        after = np.array(after)
-        lost = (shorter < np.maximum(1e-15, 1e-15 * self._t)) & ~fits
-        lost |= fits & ~self._makes_sense(after)
-        for lane in np.flatnonzero(lost).tolist():
+        found = self._step(self._acceleration, self._t, tuple(self._state), tuple(acceleration), h)
+        after, last, error = map(np.array, found)
+        fits = self._judge(h, error)
+        accepted = np.flatnonzero(fits & self._makes_sense(after))
+        staying = ~fits & (self._wanted >= np.maximum(1e-15, 1e-15 * self._t))
+        staying[accepted] = True
+        for lane in np.flatnonzero(~staying).tolist():
             self._leave(lane, "flight")  # which says what is wrong
-        self._counts[STEPS, self._shot] += 1
-        self._counts[REFINED, self._shot] += ~fits
+        if len(accepted):
+            staying[accepted[self._travel(accepted, h, acceleration, after, last)]] = False
+        if not staying.all():
+            self._go_on_with(staying)
+
+    def _judge(self, h: np.ndarray, error: np.ndarray) -> np.ndarray:
+        """Whether steps of length h are good enough; how long the next shall be, or the same again."""
+        off = np.abs(error[:4]).sum(axis=0) + SPIN_WEIGHT * self._radius[self._shot] * np.abs(error[4])
+        fits = off <= self._local_error
+        change = 0.9 * (self._local_error / off) ** 0.2
+        longer = h * np.where(off > 0.0, np.minimum(5.0, change), 5.0)
+        shorter = h * np.where(np.isfinite(off), np.maximum(0.2, change), 0.1)
+        longer = np.where(h >= self._wanted, longer, np.maximum(longer, self._wanted))
         self._wanted = np.where(fits, longer, shorter)
         self._again = ~fits
-        self._touched = np.full(len(h), -1)
-        gone = lost
-        accepted = np.flatnonzero(fits & ~lost)
-        if len(accepted):
-            gone = gone | self._travel(accepted, h, np.array(acceleration), after, np.array(last))
-        if gone.any():
-            self._go_on_with(~gone)
+        self._counts[STEPS, self._shot] += 1
+        self._counts[REFINED, self._shot] += ~fits
+        return fits
 
-    def _halved_for_patches(self, h: np.ndarray, acceleration: Sequence[np.ndarray]) -> np.ndarray:
+    def _halved_for_patches(self, h: np.ndarray, acceleration: np.ndarray) -> np.ndarray:
         x, y, vx, vy, _ = self._state
         ax, ay, _ = acceleration
         for patch in self._patches:
@@ -255,7 +282,7 @@ class _Batch:
     def _travel(
         self, lanes: np.ndarray, h: np.ndarray, acceleration: np.ndarray, after: np.ndarray, last: np.ndarray
     ) -> np.ndarray:
-        """Go the accepted step of these lanes, as far as the first touch; which lanes have left the batch."""
+        """Go the accepted step of these lanes, as far as the first touch; which of them leave the batch, as a mask."""
         shots, h = self._shot[lanes], h[lanes]
         t0, t1 = self._t[lanes], self._t[lanes] + h
         start, after = self._state[:, lanes], after[:, lanes]
@@ -287,62 +314,70 @@ class _Batch:
         rows = np.vstack((t0, t1, start, x, y, velocity[:, 0], velocity[:, 1], spin, after))
         self._paths.append((shots, rows))
         self._t[lanes], self._state[:, lanes] = t1, after
-        gone = np.zeros(len(self._shot), dtype=bool)
+        self._touched = np.full(len(self._shot), -1)
+        leaving = t1 >= self._duration[shots]
+        leaving[hits] = False
+        for lane in lanes[leaving].tolist():
+            self._leave(lane, "duration")
         if len(hits):
-            gone[lanes[hits]] = self._impact(lanes[hits])
-        for lane in lanes[t1 >= self._duration[shots]].tolist():
-            if not gone[lane] and self._touched[lane] < 0:
-                self._leave(lane, "duration")
-                gone[lane] = True
-        return gone
+            leaving[hits[~self._impact(lanes[hits])]] = True
+        return leaving
 
     # ------------------------------------------------------------------ impacts
 
     def _impact(self, lanes: np.ndarray) -> np.ndarray:
-        """Let pymunk turn the velocities of shots that have come to touch; which of them have left the batch."""
+        """Let pymunk turn the velocities of shots that have come to touch; which of them stay in the batch."""
         shots = self._shot[lanes]
-        t, (x, y, vx, vy, spin) = self._t[lanes], self._state[:, lanes]
+        x, y, vx, vy, spin = self._state[:, lanes]
         near = self._outlines.near(shots, x, y)
-        nx, ny = near.nx, near.ny
-        approach = -(vx * nx + vy * ny)
-        along = vx * ny - vy * nx
+        approach = -(vx * near.nx + vy * near.ny)
+        along = vx * near.ny - vy * near.nx
         plain = (near.touching == 1) & (approach > STILL)
+        answers = np.zeros((len(lanes), 3))  # restitution, friction, tilt
+        for i in np.flatnonzero(plain).tolist():
+            setup = self._setups[shots[i]]
+            surface, speed = setup.surfaces[near.obstacle[i]], float(approach[i])
+            answer = _answer(surface, speed, float(along[i]))
+            if answer is None:
+                plain[i] = False
+                continue
+            answers[i] = answer
+            t = float(self._t[lanes[i]])
+            event = Event(t, "impact", setup.balls[0].name, surface.name, speed, float(x[i]), float(y[i]))
+            self._events[shots[i]].append(event)
         for lane in lanes[~plain].tolist():
             self._leave(lane, "before")
         at = np.flatnonzero(plain)
-        answers = []
-        tilts = []
-        for i in at.tolist():
-            setup = self._setups[shots[i]]
-            surface = setup.surfaces[near.obstacle[i]]
-            speed, sideways = float(approach[i]), float(along[i])
-            bounce = (
-                Bounce(surface.restitution, surface.friction)
-                if surface.law is None
-                else surface.law(speed, abs(sideways))
-            )
-            answers.append((bounce.restitution, bounce.friction, self._factor[shots[i]]))
-            tilts.append((cos(bounce.tilt), sin(bounce.tilt) * (1.0 if sideways >= 0.0 else -1.0)))
-            event = Event(float(t[i]), "impact", setup.balls[0].name, surface.name, speed, float(x[i]), float(y[i]))
-            self._events[shots[i]].append(event)
-        self._counts[IMPACTS, shots[at]] += 1
         if len(at):
-            c, s = np.array(tilts).T
-            mx, my = c * nx[at] - s * ny[at], c * ny[at] + s * nx[at]
-            r = self._radius[shots[at]]
-            level = (vx[at] * my - vy[at] * mx) / r
-            up = (vx[at] * mx + vy[at] * my) / r
-            level, up, turn = self._lanes.exchange(level, up, spin[at], np.array(answers))
             here = lanes[at]
-            self._state[2, here] = r * (level * my + up * mx)
-            self._state[3, here] = r * (up * my - level * mx)
-            self._state[4, here] = turn
+            self._counts[IMPACTS, shots[at]] += 1
+            nx, ny = near.nx[at], near.ny[at]
+            self._state[2:, here] = self._exchanged(shots[at], nx, ny, vx[at], vy[at], spin[at], answers[at])
             self._touched[here] = near.obstacle[at]
             self._normal = np.zeros((3, len(self._shot)))
-            self._normal[:, here] = nx[at], ny[at], near.curvature[at]
-        return ~plain
+            self._normal[:, here] = nx, ny, near.curvature[at]
+        return plain
 
-    def _leaving(self, acceleration: Sequence[np.ndarray]) -> np.ndarray:
+    def _exchanged(
+        self,
+        shots: np.ndarray,
+        nx: np.ndarray,
+        ny: np.ndarray,
+        vx: np.ndarray,
+        vy: np.ndarray,
+        spin: np.ndarray,
+        answers: np.ndarray,
+    ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Velocities (m/s) and spins (rad/s) after impacts on surfaces with these normals."""
+        restitution, friction, tilt = answers.T
+        tilt = np.where(vx * ny - vy * nx >= 0.0, tilt, -tilt)
+        c, s, r = np.cos(tilt), np.sin(tilt), self._radius[shots]
+        nx, ny = c * nx - s * ny, c * ny + s * nx
+        pairs = np.array((restitution, friction, self._factor[shots])).T
+        level, up, spin = self._lanes.exchange((vx * ny - vy * nx) / r, (vx * nx + vy * ny) / r, spin, pairs)
+        return r * (level * ny + up * nx), r * (up * ny - level * nx), spin
+
+    def _leaving(self, acceleration: np.ndarray) -> np.ndarray:
         """Of the shots that touch a surface and do not close in on it: which fly on. The others leave the batch."""
         flying = np.ones(len(self._shot), dtype=bool)
         at = np.flatnonzero(self._touched >= 0)
@@ -360,8 +395,8 @@ class _Batch:
             if speed <= leaves_at(pressed, max(self._accuracy.settle, lowest)):
                 self._leave(lane, "after")
                 flying[lane] = False
-            elif setup.until is not None and self._events[shot] and setup.until(self._events[shot][-1]):
-                self._leave(lane, "until")
+            elif self._events[shot] and (how := _over(setup, self._events[shot][-1])):
+                self._leave(lane, how)
                 flying[lane] = False
         return flying
 

@@ -41,8 +41,8 @@ _FINE, _JUMP = 1e-12, 1e-6
 _STEP, _SAME = 1e-5, 1e-6
 
 #: Ends of intervals are closed in on in rounds, in each by so many runs between what is known. The finer runs look
-#: for the same end only so near to it, as a share of the range, if they can.
-_BETWEEN, _ROUNDS, _NEAR = 9, 6, 1e-5
+#: for the same end only so near to it, as a share of the range, if they can; ends are found to the last of these.
+_BETWEEN, _ROUNDS, _NEAR, _END = 9, 6, 1e-5, 1e-8
 
 #: Starts for two numbers, and the most iterations of each.
 _STARTS, _ITERATIONS = 12, 60
@@ -654,7 +654,7 @@ def _seen_finer(shots: _Shots, changes: Sequence[_Change], ends: Sequence[float]
 def _closed_in(shots: _Shots, changes: Sequence[_Change], finer: bool) -> list[float]:
     """Where the target begins or ceases to be met, for each change."""
     brackets = list(changes)
-    least = _FINE * (shots.spans[0].high - shots.spans[0].low)
+    least = _END * (shots.spans[0].high - shots.spans[0].low)
     for _ in range(_ROUNDS):
         if all(high - low <= least for low, high, _ in brackets):
             break

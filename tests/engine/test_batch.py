@@ -192,6 +192,29 @@ def test_a_shot_that_fails_is_an_error_in_its_place():
             assert_same(run, simulate(setup, resolve()))
 
 
+def test_what_a_scene_gets_wrong_is_an_error_of_its_shot():
+    def law(normal_speed: float, tangential_speed: float) -> Bounce:
+        return Bounce(1.0 / (normal_speed > 5.5), 0.1)
+
+    def until(event: Any) -> bool:
+        return 1 / int(10.0 * event.x) < 0.0  # nothing is at x = 0
+
+    rough = Surface("rough", Segment((-50.0, 0.0), (50.0, 0.0)), 0.7, 0.4, law=law)
+    drops = [Ball("ball", 0.6, 0.12, (0.1 * i, 1.0 + 0.05 * i), forces=[Gravity(0.6, 9.81)]) for i in range(30)]
+    for surface, ending in ((rough, None), (FLOOR, until)):
+        setups = [Setup([ball], [surface], duration=1.0, until=ending) for ball in drops]
+        runs = list(simulate_many(setups, resolve()))
+        failed = [isinstance(run, ZeroDivisionError) for run in runs]
+        assert any(failed)
+        assert not all(failed)
+        for setup, run in zip(setups, runs, strict=True):
+            if isinstance(run, ZeroDivisionError):
+                with pytest.raises(ZeroDivisionError):
+                    simulate(setup, resolve())
+            else:
+                assert_same(run, simulate(setup, resolve()))
+
+
 def test_starts_in_touch_and_in_overlap():
     def start(height: float, up: float) -> Setup:
         ball = Ball("ball", 0.6, 0.12, (0.0, height), (1.0, up), forces=[Gravity(0.6, 9.81)])
