@@ -385,8 +385,9 @@ class Picture:
         sheet.ruler(camera, self.ruler_row, "ft")
         right = sheet.frame.right
         if self.composed[1]:
-            self._frame_lens(sheet, t)
             right = self.lens.left - 2 * sheet.gap
+            if not self._under_lens(camera):
+                self._frame_lens(sheet, t)
         if any(self.wind):
             right = sheet.wind(*self.wind, right, sheet.frame.top).left
         notes = [f"beside {ghost.label}" for ghost in self.ghosts]
@@ -431,6 +432,16 @@ class Picture:
         points = camera.pixels(np.array([self.run.state("ball", s)[:2] for s in times]))
         if np.ptp(points, axis=0).max() > 2:
             sheet.painter.fading(points[apart(points, 2.0)], width, COURT["trace"], 0.9)
+
+    def _under_lens(self, camera: Camera) -> bool:
+        """Whether the lens would hide the ring and board that it shows: the camera has gone along with the ball."""
+        hall = self.hall
+        (left, top), (right, bottom) = (
+            camera.pixel(hall.hoop[0] - 0.6, hall.top),
+            camera.pixel(hall.back + 1.0, hall.bottom),
+        )
+        board = pygame.Rect(round(left), round(top), round(right - left), round(bottom - top))
+        return bool(self.lens.colliderect(board))
 
     def _frame_lens(self, sheet: Sheet, t: float) -> None:
         """The ring from near by, at time t in s."""

@@ -7,6 +7,9 @@ import pytest
 
 import sandbox
 from sandbox.picture.ball import SMALLEST, Look
+from sandbox.picture.palette import palette
+
+COURT = palette("basketball")
 
 SIZES = [(640, 360), (1280, 720), (1920, 1080)]
 SHOTS = {
@@ -131,3 +134,11 @@ def test_the_ball_turns(name):
         assert picture.frame(end).get_buffer().raw != before
     finally:
         del picture.run.angle
+
+
+def test_the_lens_goes_where_it_would_hide_the_ring():
+    picture = picture_of("basketball, brick", (1280, 720))
+    corner = picture.lens.left + 20, picture.lens.bottom - 20
+    early, late = picture.frame(1.0), picture.frame(picture.run.duration)
+    assert early.get_at(corner) == (*COURT["lens"], 255)
+    assert late.get_at(corner) != (*COURT["lens"], 255)
