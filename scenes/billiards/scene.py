@@ -4,12 +4,12 @@ Models: sliding, rolling and spinning on cloth in closed form; the cue tip's off
 english; impacts of balls with restitution and friction, so that cuts and english throw the object ball and spin passes
 on; cushions with restitution and friction; jaws as real shapes, and pockets that take a ball whose centre is over the
 hole.
-Leaves out, with what it is worth: friction of balls that falls with their speed, unless the scene file asks for it (4 cm
-in where the balls of the preset cut come to rest); hops, as friction lifts a rolling ball that hits another straight on
-at 3 m/s by 1.1 mm for 0.03 s; squirt, as the ball leaves along the cue (2.7 deg at the most english, by a cue that pivots
-0.3 m behind its tip). And, not measured: the elevated cue (swerve, masse, jump); the nose's height over the ball's
-centre, which changes how much of its roll a cushion takes; the cushions' give; the nap of the cloth; the pockets' depth,
-out of which a fast ball may rattle.
+Leaves out, with what it is worth: friction of balls that falls with their speed, unless the scene file asks for it
+(4 cm in where the balls of the preset cut come to rest); hops, as friction lifts a rolling ball that hits another
+straight on at 3 m/s by 1.1 mm for 0.03 s; squirt, as the ball leaves along the cue (2.7 deg at the most english, by a
+cue that pivots 0.3 m behind its tip). And, not measured: the elevated cue (swerve, masse, jump); the nose's height over
+the ball's centre, which changes how much of its roll a cushion takes; the cushions' give; the nap of the cloth; the
+pockets' depth, out of which a fast ball may rattle.
 """
 
 from __future__ import annotations
