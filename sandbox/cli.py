@@ -301,7 +301,7 @@ def _draw(
             elif option == "--strip":
                 from sandbox.picture.strip import film_strip
 
-                frames.save_png(film_strip(scene.picture(done, (width // 2, height // 2)), done), path)
+                frames.save_png(film_strip(scene.picture(done, (width // 2, height // 2), ghosts), done), path)
             elif option == "--energy":
                 from sandbox.picture.energy import energy_chart
 
