@@ -139,16 +139,18 @@ class Painter:
         self._blit(sprite, (round(left), round(top)), opacity)
 
     def polygon(self, points: Points, colour: Colour, opacity: float = 1.0) -> None:
-        self._shape(points, 0, colour, opacity, lambda mask, drawn, _: pygame.draw.polygon(mask, colour, drawn))
+        self._shape(
+            points, 0, colour, opacity, lambda mask, drawn, _: pygame.draw.polygon(mask, colour, drawn.tolist())
+        )
 
     def line(self, points: Points, width: float, colour: Colour, opacity: float = 1.0) -> None:
         """A line through the points with round ends and joints."""
 
         def draw(mask: pygame.Surface, drawn: np.ndarray, larger: int) -> None:
-            radius = width * larger / 2
-            for a, b in pairwise(drawn):
+            radius, places = width * larger / 2, drawn.tolist()
+            for a, b in pairwise(places):
                 pygame.draw.polygon(mask, colour, _quad(a, b, radius))
-            for point in drawn:
+            for point in places:
                 pygame.draw.circle(mask, colour, point, radius)
 
         self._shape(points, width, colour, opacity, draw)
@@ -187,7 +189,7 @@ class Painter:
         half = across * (share * width / 2)[:, None]
 
         def draw(mask: pygame.Surface, drawn: np.ndarray, larger: int) -> None:
-            one, other = drawn + half * larger, drawn - half * larger
+            one, other = (drawn + half * larger).tolist(), (drawn - half * larger).tolist()
             for i in range(len(drawn) - 1):
                 corners = [one[i], one[i + 1], other[i + 1], other[i]]
                 pygame.draw.polygon(mask, (*colour, round(255 * share[i + 1])), corners)
@@ -221,9 +223,10 @@ class Painter:
         half = ARROW * (head + wider + beyond)
 
         def draw(mask: pygame.Surface, drawn: np.ndarray, larger: int) -> None:
-            pygame.draw.polygon(mask, colour, _quad(drawn[0], drawn[1], (width / 2 + wider) * larger))
-            pygame.draw.circle(mask, colour, drawn[0], (width / 2 + wider) * larger)
-            pygame.draw.polygon(mask, colour, drawn[2:])
+            tail, neck, *head = drawn.tolist()
+            pygame.draw.polygon(mask, colour, _quad(tail, neck, (width / 2 + wider) * larger))
+            pygame.draw.circle(mask, colour, tail, (width / 2 + wider) * larger)
+            pygame.draw.polygon(mask, colour, head)
 
         across = -along[1] * half, along[0] * half
         sides = [(neck[0] + across[0], neck[1] + across[1]), tip, (neck[0] - across[0], neck[1] - across[1])]
@@ -274,12 +277,12 @@ class Painter:
         self.surface.blit(sprite, position)
 
 
-def _quad(a: np.ndarray, b: np.ndarray, radius: float) -> list[Point]:
+def _quad(a: Point, b: Point, radius: float) -> list[Point]:
     """The rectangle from a to b, ``radius`` to either side."""
-    along = b - a
-    length = hypot(along[0], along[1]) or 1.0
-    across = np.array([-along[1], along[0]]) * (radius / length)
-    return [tuple(a + across), tuple(b + across), tuple(b - across), tuple(a - across)]
+    along, down = b[0] - a[0], b[1] - a[1]
+    share = radius / (hypot(along, down) or 1.0)
+    x, y = -down * share, along * share
+    return [(a[0] + x, a[1] + y), (b[0] + x, b[1] + y), (b[0] - x, b[1] - y), (a[0] - x, a[1] - y)]
 
 
 def _dashed(points: Points, dash: float, gap: float) -> list[list[Point]]:
