@@ -34,13 +34,14 @@ class Sheet:
     dark.
     """
 
-    def __init__(self, size: tuple[int, int], on_dark: bool = False):
+    def __init__(self, size: tuple[int, int], on_dark: bool = False, surface: pygame.Surface | None = None):
+        """``surface`` is drawn on where there is one, of that size, and else a new one."""
         width, height = size
         self.size, self.unit = size, height / 720
         self.ink, self.quiet_ink = (CARD["text"], CARD["quiet"]) if on_dark else (CARD["ink"], CARD["ink_quiet"])
         self.wind_ink = palette("force")["wind"] if on_dark else CARD["wind"]
         self.gap = max(3, round(6 * self.unit))
-        self.surface = blank(size)
+        self.surface = blank(size) if surface is None else surface
         self.painter = Painter(self.surface)
         self.lettering = Lettering(height)
         self.frame = pygame.Rect(0, 0, width, height).inflate(-2 * ceil(MARGIN * width), -2 * ceil(MARGIN * height))

@@ -106,7 +106,7 @@ class App:
         if self.watched.saved(dt):
             self._reload()
         self.still += dt
-        self.view.composed += dt
+        self.view.pass_time(dt)
         self._predict(self.patience if self.shot is not None else None)
         self._spread()
         if self.panel is not None:
@@ -177,6 +177,11 @@ class App:
         if screen is not None and self.laid_out != screen.get_size():  # it may be the same surface, now larger
             self.screen = screen
             self._layout()
+
+    @property
+    def surface(self) -> pygame.Surface:
+        """Where the view is drawn."""
+        return self.canvas.subsurface(self.area)
 
     @property
     def stage(self) -> Stage | None:
@@ -355,12 +360,11 @@ class App:
     def draw(self) -> None:
         """The whole window."""
         try:
-            sheet = self.view.draw()
+            self.view.draw()
         except Exception as error:  # a scene's own code
-            sheet = Sheet(self.area.size)
+            sheet = Sheet(self.area.size, surface=self.surface)
             sheet.surface.fill(CARD["background"])
             overlay.draw_message(sheet, f"{self.session.title} cannot be drawn: {type(error).__name__}: {error}", True)
-        self.canvas.blit(sheet.surface, self.area.topleft)
         if self.panel is not None:
             self.panel.draw(self.canvas)
         self.view.draw_over(self.canvas, self.area.height)

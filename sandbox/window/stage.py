@@ -61,9 +61,9 @@ class Stage:
             return self.size[0] / 2, self.size[1] / 2
         return self.camera.pixel(*shot.run.state(shot.ball, t)[:2])
 
-    def sheet(self) -> Sheet:
-        """A sheet with the place on it."""
-        sheet = Sheet(self.size)
+    def sheet(self, surface: pygame.Surface) -> Sheet:
+        """A sheet on a surface, with the place on it."""
+        sheet = Sheet(self.size, surface=surface)
         sheet.surface.blit(self.backdrop, (0, 0))
         return sheet
 

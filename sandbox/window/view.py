@@ -25,6 +25,8 @@ CARD = palette("card")
 
 #: While the mouse pulls, the view is composed anew no sooner than after so many s: the place must not dance.
 STEADY = 0.3
+#: While the mouse pulls, words and numbers stay for so many s: quicker ones cannot be read.
+LEGIBLE = 0.05
 
 
 class View:
@@ -39,6 +41,8 @@ class View:
         self.stage: Stage | None = None
         self.composed = 0.0  # s since then
         self.head = pygame.Rect(0, 0, 0, 0)  # where the headline is
+        self._told: Shot | None = None
+        self.told_for = 0.0  # s since its words were chosen
         self._near: tuple[Shot, Any] | None = None
         self._vectors: tuple[Shot, Vectors] | None = None
         self._charts: tuple[Shot, Charts] | None = None
@@ -46,6 +50,11 @@ class View:
     def clear(self) -> None:
         """Forget what was composed: the place, or its size, is another."""
         self.stage = self._near = None
+
+    def pass_time(self, dt: float) -> None:
+        """``dt`` s have passed."""
+        self.composed += dt
+        self.told_for += dt
 
     @property
     def near(self) -> Any:
@@ -70,7 +79,7 @@ class View:
         view: Callable[[float], Camera] | None = getattr(self.near, "view", None)
         return view(self.app.playback.t) if view is not None and self.app.playback is not None else None
 
-    def draw(self) -> Sheet:
+    def draw(self) -> None:
         """Everything above the bar."""
         app = self.app
         if app.shot is None:
@@ -88,22 +97,20 @@ class View:
             overlay.draw_message(sheet, app.message[0], app.message[1])
         if self.choices is not None:
             self.choices.draw(sheet, app.bar.buttons.get(self.choices.group), self.on, app.pointer.at)
-        return sheet
 
     def draw_over(self, canvas: pygame.Surface, height: int) -> None:
         """What lies over all but the bar, the panel too: the keys, the scenes."""
         if "help" not in self.on and self.menu is None:
             return
-        sheet = Sheet((canvas.get_width(), height))
-        sheet.surface.blit(canvas, (0, 0))
+        size = canvas.get_width(), height
+        sheet = Sheet(size, surface=canvas.subsurface((0, 0), size))
         if self.menu is not None:
             self.menu.draw(sheet, self.app.session.title, self.app.pointer.at)
         if "help" in self.on:
             overlay.draw_help(sheet)
-        canvas.blit(sheet.surface, (0, 0))
 
     def _empty(self) -> Sheet:
-        sheet = Sheet(self.app.area.size)
+        sheet = Sheet(self.app.area.size, surface=self.app.surface)
         sheet.surface.fill(CARD["background"])
         return sheet
 
@@ -127,7 +134,7 @@ class View:
         app, stage = self.app, self.stage
         if stage is None:
             return self._empty()
-        sheet = stage.sheet()
+        sheet = stage.sheet(app.surface)
         if stage.camera is None:
             return sheet
         if "ghosts" in self.on:
@@ -136,7 +143,8 @@ class View:
         stage.draw_path(sheet, shot)
         stage.draw_balls(sheet, 0.0)
         self._arrows(sheet, shot, stage.ball_at(shot), 0.0)
-        self.head = headline(sheet, shot.verdict, self._note(), CARD["good"] if shot.scored else CARD["text"])
+        words = self._words(shot)
+        self.head = headline(sheet, words.verdict, self._note(), CARD["good"] if words.scored else CARD["text"])
         pull = app.pointer.pull
         if pull is not None and app.pointer.pulling:
             longest = aim.FULL * app.area.height
@@ -145,11 +153,17 @@ class View:
                 sheet,
                 stage.ball_at(shot),
                 (pull[0] * scale, pull[1] * scale),
-                shot.card[0][1] if shot.card else "",
+                words.card[0][1] if words.card else "",
             )
-        entries = [*shot.card, *(self._forces(shot).entries(0.0) if "arrows" in self.on else [])]
+        entries = [*words.card, *(self._forces(shot).entries(0.0) if "arrows" in self.on else [])]
         sheet.columns(sheet.frame.bottom - sheet.card_height(), entries)
         return sheet
+
+    def _words(self, shot: Shot) -> Shot:
+        """The shot whose words and numbers are shown: during a pull they wait a moment, to be read."""
+        if self._told is None or not self.app.pointer.pulling or self.told_for >= LEGIBLE:
+            self._told, self.told_for = shot, 0.0
+        return self._told
 
     def _note(self) -> str:
         if self.app.pointer.pull is not None:
@@ -160,10 +174,10 @@ class View:
         """The shot at a time of its play."""
         app, stage, t = self.app, self.stage, playback.t
         if self.follows or stage is None:
-            sheet = Sheet(app.area.size)
+            sheet = Sheet(app.area.size, surface=app.surface)
             sheet.surface.blit(self.near.frame(t), (0, 0))
             return sheet
-        sheet = stage.sheet()
+        sheet = stage.sheet(app.surface)
         if "ghosts" in self.on:
             stage.draw_ghosts(sheet, [earlier for earlier in app.session.recent if earlier is not shot])
         self._cloud(sheet, stage)

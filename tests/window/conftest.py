@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from typing import Any
 
 os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
 os.environ.setdefault("SDL_AUDIODRIVER", "dummy")
@@ -68,5 +69,13 @@ class Player:
 
 @pytest.fixture
 def player():
-    yield Player
+    opened: list[Player] = []
+
+    def open_one(*arguments: Any) -> Player:
+        opened.append(Player(*arguments))
+        return opened[-1]
+
+    yield open_one
+    for one in opened:
+        one.app.ahead.close()
     pygame.display.quit()

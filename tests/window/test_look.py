@@ -10,6 +10,7 @@ SIZE = (640, 400)
 def test_aiming(player, golden):
     player = player("golf/golf-game", SIZE)
     player.pull((-40, 22), let_go=False)
+    player.frames(4)  # the numbers are those of the path
     golden.check("window-aiming", player.screen)
 
 
