@@ -33,6 +33,7 @@ from sandbox.errors import RequestError
 from sandbox.parameters import Accuracy, Group, either, group, quantity, switch
 from sandbox.physics.elementwise import clip
 from sandbox.physics.forces import Gravity
+from sandbox.physics.integrators import State
 
 RPM = pi / 30.0  # rad/s
 
@@ -283,7 +284,9 @@ def result(run: Run, parameters: Parameters) -> dict[str, Any]:
     height, or first touches something up there, whichever is earlier; ``entry_offset`` is how far beyond the ring's
     middle it is then. ``flight_time`` lasts until that moment, ``apex`` is above the release. None where it never is.
     """
-    through = _through(run, parameters)
+    plane = (parameters.hoop.distance, parameters.hoop.height)
+    downs = list(run.crossings("ball", plane, (0.0, 1.0)))  # each time the centre comes down to the ring's height
+    through = _through(run, parameters, downs)
     made = through is not None
     floor = next((event.t for event in run.events if event.partner == "floor"), run.duration)
     decided = floor if through is None else through
@@ -300,8 +303,7 @@ def result(run: Run, parameters: Parameters) -> dict[str, Any]:
         "apex": run.highest("ball")[1][1] - parameters.release.height,
         "ended": run.ended,
     }
-    plane = (parameters.hoop.distance, parameters.hoop.height)
-    down = next(run.crossings("ball", plane, (0.0, 1.0)), None)
+    down = next(iter(downs), None)
     first = next((event.t for event in run.events if event.partner != "floor"), None)
     if first is not None and first <= floor and (down is None or first < down[0]):
         down = first, run.before("ball", first)
@@ -316,15 +318,11 @@ def result(run: Run, parameters: Parameters) -> dict[str, Any]:
     return found
 
 
-def _through(run: Run, parameters: Parameters) -> float | None:
-    """When the ball left the ring below, or None."""
+def _through(run: Run, parameters: Parameters, downs: list[tuple[float, State]]) -> float | None:
+    """When the ball left the ring below, or None; ``downs`` are its passages down through the ring's plane."""
     hoop, radius = parameters.hoop, parameters.ball.radius
     half = 0.5 * hoop.inner_diameter
-    inside = [
-        t
-        for t, state in run.crossings("ball", (hoop.distance, hoop.height), (0.0, 1.0))
-        if abs(state[0] - hoop.distance) < half
-    ]
+    inside = [t for t, state in downs if abs(state[0] - hoop.distance) < half]
     for t in inside:
         back_up = next((at for at, _ in run.crossings("ball", (0.0, hoop.height), (0.0, -1.0)) if at > t), run.duration)
         below = (at for at, _ in run.crossings("ball", (0.0, hoop.height - radius), (0.0, 1.0)) if t < at <= back_up)
