@@ -141,7 +141,7 @@ class Panel:
     def _place(self, row: Row, top: int) -> int:
         """Make the elements of a row; returns where they end."""
         parameter, height, unit = row.parameter, self.row, self.unit
-        tip = parameter.meaning
+        tip = f"{parameter.key}: {parameter.meaning}"
         if parameter.low is not None and parameter.high is not None:
             tip += f"; from {parameter.low:g} to {parameter.high:g} {parameter.unit}".rstrip()
         small, field = round(24 * unit), round(84 * unit)
@@ -186,7 +186,8 @@ class Panel:
         part = "" if row.index is None else f" {'xyz'[row.index]}"
         ending = f"  [{unit}]" if unit else ""
         short = key.rpartition(".")[2]
-        texts = [f"{name.replace('_', ' ')}{part}" for name in ([key] if self.group == FAVOURITES else []) + [short]]
+        names = [key, short] if self.group == FAVOURITES else [short]
+        texts = [name.replace("_", " ").replace(".", " ") + part for name in names]
         texts = [*(text + ending for text in texts), texts[-1]]
         return next((text for text in texts if self.lettering.width(text, "small") <= room - 6), texts[-1])
 
