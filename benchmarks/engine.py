@@ -1,8 +1,17 @@
-"""Error against time: a free throw that clips the rim, and a golf flight, ours beside plain pymunk, in one process.
+"""Error against time: a free throw that clips the rim, and a golf flight; ours, pymunk alone and scipy in one process.
 
-Run ``python benchmarks/engine.py [--json F]``. The error is that of the ball's position at the end, against "precise"
-at a thousandth of its tolerance; the time is the median of repeats, taken in turn over all methods so that a slow
-moment of the machine hits all.
+Run ``python benchmarks/engine.py [--json F] [--repeats N] [--quick]``. The error is that of the ball's position at the
+end, against "precise" at a thousandth of its tolerance. The time is the median of repeats, taken in turn over all
+methods so that a slow moment of the machine hits all; what takes a second is run once.
+
+- exact: this engine, at each level.
+- scipy: ``solve_ivp`` with a terminal event for each surface (by_scipy.py), at a tolerance and a longest step.
+- bare pymunk: a Space, drag in ``velocity_func`` and a loop (by_pymunk.py), without any record of the path.
+- plain: the same as a method of this program, which records the path, checks and reports.
+
+The limit is what no method can do without: the fewest evaluations of the law with which scipy flies as exactly when it
+is given the time and state of every impact, by RK45 or DOP853 at any tolerance, times what one evaluation costs in
+Python. "evaluations" and "time" are over that limit, at the error of their row.
 """
 
 from __future__ import annotations
@@ -10,94 +19,187 @@ from __future__ import annotations
 import argparse
 import json
 import sys
-from dataclasses import replace
-from math import hypot
+from collections.abc import Callable
+from math import hypot, inf
 from pathlib import Path
 from statistics import median
 from time import perf_counter
-from typing import Any
+from timeit import timeit
+from typing import Any, NamedTuple
 
-import sandbox
+import by_pymunk
+import by_scipy
+from shots import Shot, golf_flight, rim_shot
+
 from sandbox.engine import simulate
 from sandbox.engine.accuracy import LEVELS, Accuracy, resolve
-from sandbox.engine.setup import Setup
+from sandbox.engine.run import Run
 
-#: The shot of the design: off the front of the rim, then high; position 2.5 s after the release.
-RIM = {
-    "launch.speed": 7.3,
-    "launch.angle": 52.0,
-    "launch.spin": 180.0,
-}
-PLAIN_RATES = (60, 1_000, 4_000, 16_000, 64_000, 256_000)  # steps/s
 TARGET = 0.01  # m
+#: A method whose runs take longer than this in s is run once.
+LONG = 1.0
+#: Tolerances of the flights that make the limit: three in each power of ten.
+LADDER = [10.0 ** (-k / 3) for k in range(37)]
+
+#: Method, tolerance, longest step in s.
+SCIPY_ON_THE_RIM = (
+    ("RK45", 1e-3, inf),
+    ("RK45", 1e-3, 0.05),
+    ("RK45", 1e-6, 0.01),
+    ("DOP853", 1e-3, inf),
+    ("DOP853", 1e-6, 0.05),
+    ("DOP853", 1e-9, 0.01),
+)
+SCIPY_IN_FLIGHT = tuple((method, tolerance, inf) for method in ("RK45", "DOP853") for tolerance in (1e-3, 1e-6, 1e-9))
 
 
-def rim_shot() -> Setup:
-    """The basketball scene, run for 2.5 s whatever the ball does."""
-    return replace(sandbox.load("basketball", RIM).build(), duration=2.5, until=None)
+class End(NamedTuple):
+    """Where a shot ended in m, and how often its forces were evaluated."""
+
+    x: float
+    y: float
+    evaluations: int
 
 
-def golf_flight() -> Setup:
-    """The default drive, to its landing."""
-    return replace(sandbox.load("golf").build(), until=lambda event: True)
+class Case(NamedTuple):
+    """A shot, and what flies it beside ours: steps per second, and scipy's settings."""
+
+    name: str
+    shot: Shot
+    bare_rates: tuple[int, ...]
+    plain_rates: tuple[int, ...]
+    scipy: tuple[tuple[str, float, float], ...]
 
 
-def methods(plain_rates: tuple[int, ...]) -> dict[str, Accuracy]:
+def cases(quick: bool) -> list[Case]:
+    rim, golf = ("rim shot, 2.5 s", rim_shot()), ("golf flight to landing", golf_flight())
+    if quick:
+        return [
+            Case(*rim, (60, 1_000), (60,), SCIPY_ON_THE_RIM[1:2]),
+            Case(*golf, (1_000,), (1_000,), SCIPY_IN_FLIGHT[:1]),
+        ]
+    coarse = (60, 1_000, 4_000, 16_000)
+    return [
+        Case(*rim, (*coarse, 64_000, 256_000), (*coarse, 64_000), SCIPY_ON_THE_RIM),
+        Case(*golf, coarse, coarse, SCIPY_IN_FLIGHT),
+    ]
+
+
+def ours(shot: Shot, accuracy: Accuracy) -> End:
+    run = simulate(shot.setup, accuracy)
+    x, y = run.state(shot.setup.balls[0].name, run.duration)[:2]
+    return End(x, y, run.numerics.force_evaluations)
+
+
+def methods(case: Case) -> dict[str, Callable[[], tuple[float, float, int]]]:
     """What is compared, by name."""
-    exact = {f"exact, {name}": accuracy for name, accuracy in LEVELS.items()}
-    return exact | {f"plain, {rate:,} steps/s": resolve(method="plain", step=1 / rate) for rate in plain_rates}
+    shot = case.shot
+    chosen: dict[str, Callable[[], tuple[float, float, int]]] = {}
+    for name, accuracy in LEVELS.items():
+        chosen[f"exact, {name}"] = lambda accuracy=accuracy: ours(shot, accuracy)
+    for method, tolerance, longest in case.scipy:
+        name = f"scipy {method}, {tolerance:.0e}" + ("" if longest == inf else f", steps <= {longest:g} s")
+        chosen[name] = lambda given=(method, tolerance, longest): by_scipy.shoot(shot, *given)
+    for rate in case.bare_rates:
+        chosen[f"bare pymunk, {rate:,} steps/s"] = lambda rate=rate: by_pymunk.shoot(shot, rate)
+    for rate in case.plain_rates:
+        accuracy = resolve(method="plain", step=1 / rate)
+        chosen[f"plain, {rate:,} steps/s"] = lambda accuracy=accuracy: ours(shot, accuracy)
+    return chosen
 
 
-def compare(setup: Setup, plain_rates: tuple[int, ...], repeats: int) -> list[dict[str, Any]]:
-    """Error in m and median time in s of each method."""
-    name = setup.balls[0].name
-    best = resolve("precise", tolerance=1e-8)
-    reference = simulate(setup, best)
-    x, y = reference.state(name, reference.duration)[:2]
-    chosen = methods(plain_rates)
+def limits(shot: Shot, reference: Run) -> list[tuple[float, int]]:
+    """Error in m and evaluations of the flights alone."""
+    return [
+        by_scipy.flight_alone(shot, reference, method, tolerance)
+        for method in ("RK45", "DOP853")
+        for tolerance in LADDER
+    ]
+
+
+def seconds_per_evaluation(shot: Shot) -> float:
+    ball = shot.setup.balls[0]
+    state = (*ball.velocity, ball.spin)
+    return min(timeit(lambda: shot.law(*state), number=20_000) / 20_000 for _ in range(5))
+
+
+def compare(case: Case, repeats: int) -> list[dict[str, Any]]:
+    """A row for each method."""
+    shot = case.shot
+    reference = simulate(shot.setup, resolve("precise", tolerance=1e-8))
+    x, y = reference.state(shot.setup.balls[0].name, reference.duration)[:2]
+    alone, cost = limits(shot, reference), seconds_per_evaluation(shot)
+    chosen = methods(case)
     times: dict[str, list[float]] = {method: [] for method in chosen}
-    ends: dict[str, float] = {}
-    for round_number in range(repeats):
-        for method, accuracy in chosen.items():
-            if accuracy.method == "plain" and accuracy.step < 1e-4 and round_number > 0:
-                continue  # seconds each: once is enough
-            started = perf_counter()
-            run = simulate(setup, accuracy)
-            times[method].append(perf_counter() - started)
-            u, v = run.state(name, run.duration)[:2]
-            ends[method] = hypot(u - x, v - y)
-    return [{"method": method, "error_m": ends[method], "time_s": median(times[method])} for method in chosen]
+    ends: dict[str, tuple[float, float, int]] = {}
+    for _ in range(repeats):
+        for method, fly in chosen.items():
+            if not times[method] or times[method][0] < LONG:
+                started = perf_counter()
+                ends[method] = fly()
+                times[method].append(perf_counter() - started)
+    rows = []
+    for method, (u, v, evaluations) in ends.items():
+        error, spent = hypot(u - x, v - y), median(times[method])
+        fewest = min(count for reached, count in alone if reached <= max(error, alone[-1][0]))
+        rows.append(
+            {
+                "method": method,
+                "error_m": error,
+                "time_s": spent,
+                "evaluations": evaluations,
+                "limit_evaluations": fewest,
+                "limit_s": fewest * cost,
+                "evaluations_over_limit": evaluations / fewest,
+                "time_over_limit": spent / (fewest * cost),
+            }
+        )
+    return rows
 
 
-def ratio_at(rows: list[dict[str, Any]], target: float) -> float | None:
-    """How many times longer plain pymunk takes than ours, each at its cheapest below the target error.
+def ratios_at(rows: list[dict[str, Any]], target: float) -> dict[str, float]:
+    """How many times longer the others take than ours, each at its cheapest below the target error in m."""
+    cheapest: dict[str, float] = {}
+    for row in rows:
+        kind = row["method"].partition(",")[0].partition(" ")[0]
+        if row["error_m"] < target:
+            cheapest[kind] = min(row["time_s"], cheapest.get(kind, inf))
+    return {kind: spent / cheapest["exact"] for kind, spent in cheapest.items() if kind != "exact"}
 
-    Where no plain run gets there, the finest is taken: the true ratio is larger.
-    """
-    ours = [row["time_s"] for row in rows if row["method"].startswith("exact") and row["error_m"] < target]
-    plain = [row for row in rows if row["method"].startswith("plain")]
-    theirs = [row["time_s"] for row in plain if row["error_m"] < target] or [plain[-1]["time_s"]]
-    return min(theirs) / min(ours) if ours else None
+
+def show(name: str, rows: list[dict[str, Any]]) -> None:
+    out = sys.stdout
+    out.write(f"\n{name}\n{'':<38}{'':>11}{'':>12}{'evalu-':>11}{'   over the limit':>20}\n")
+    out.write(f"  {'method':<36}{'error':>11}{'time':>12}{'ations':>11}{'ations':>10}{'time':>10}\n")
+    for row in rows:
+        out.write(
+            f"  {row['method']:<36}{row['error_m']:>9.1e} m{1e3 * row['time_s']:>9.2f} ms{row['evaluations']:>11,}"
+            f"{_short(row['evaluations_over_limit']):>10}{_short(row['time_over_limit']):>10}\n"
+        )
+    words = {"scipy": "scipy", "bare": "bare pymunk", "plain": "plain"}
+    told = [f"{words[kind]} {_short(ratio)} times" for kind, ratio in ratios_at(rows, TARGET).items()]
+    out.write(
+        f"  at an error of {100 * TARGET:g} cm, over the quickest of ours: {', '.join(told) or 'none gets there'}\n"
+    )
+
+
+def _short(ratio: float) -> str:
+    """Two digits, or whole."""
+    return f"{ratio:,.0f}" if ratio >= 9.95 else f"{ratio:.1f}"
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__)
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--json", type=Path, help="write the rows here")
     parser.add_argument("--repeats", type=int, default=15)
+    parser.add_argument("--quick", action="store_true", help="few methods, once: to see that it works")
     arguments = parser.parse_args()
-    cases = {
-        "rim shot, 2.5 s": compare(rim_shot(), PLAIN_RATES, arguments.repeats),
-        "golf flight to landing": compare(golf_flight(), PLAIN_RATES[:5], arguments.repeats),
-    }
-    for case, rows in cases.items():
-        sys.stdout.write(f"\n{case}\n  {'method':<26} {'error':>12} {'time':>12}\n")
-        for row in rows:
-            sys.stdout.write(f"  {row['method']:<26} {row['error_m']:>10.2e} m {1e3 * row['time_s']:>9.2f} ms\n")
-        ratio = ratio_at(rows, TARGET)
-        if ratio is not None:
-            sys.stdout.write(f"  at {100 * TARGET:g} cm error: plain pymunk takes {ratio:,.0f} times as long\n")
+    told = {}
+    for case in cases(arguments.quick):
+        told[case.name] = compare(case, 1 if arguments.quick else arguments.repeats)
+        show(case.name, told[case.name])
     if arguments.json:
-        arguments.json.write_text(json.dumps(cases, indent=1))
+        arguments.json.write_text(json.dumps(told, indent=1))
 
 
 if __name__ == "__main__":

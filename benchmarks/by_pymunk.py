@@ -1,0 +1,69 @@
+"""A shot by pymunk alone, as a user writes it: a Space, drag in ``velocity_func``, ``space.step`` in a loop.
+
+Nothing is recorded. The one thing that not every user does: ``collision_slop`` is lowered from its default, which is
+meant for pixels and would let the ball sink 10 cm into the floor.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import pymunk
+from shots import Shot
+
+from sandbox.engine.setup import Circle
+
+SLOP = 1e-5  # m
+
+
+class Stepped(NamedTuple):
+    """Where a shot ended in m, and how many steps it took."""
+
+    x: float
+    y: float
+    steps: int
+
+
+def shoot(shot: Shot, rate: float) -> Stepped:
+    """At ``rate`` steps per second; to the setup's duration, or to the first impact where that is its end."""
+    setup, ball, law = shot.setup, shot.setup.balls[0], shot.law
+    space = pymunk.Space()
+    space.collision_slop = SLOP
+    for surface in setup.surfaces:
+        shape = surface.shape
+        fixed: pymunk.Shape
+        if isinstance(shape, Circle):
+            fixed = pymunk.Circle(space.static_body, shape.radius, shape.center)
+        else:
+            fixed = pymunk.Segment(space.static_body, shape.a, shape.b, shape.radius)
+        fixed.elasticity, fixed.friction, fixed.collision_type = surface.restitution, surface.friction, 2
+        space.add(fixed)
+    body = pymunk.Body(ball.mass, ball.inertia)
+    body.position, body.velocity, body.angular_velocity = ball.position, ball.velocity, ball.spin
+    disc = pymunk.Circle(body, ball.radius)
+    disc.elasticity, disc.friction, disc.collision_type = 1.0, 1.0, 1
+    space.add(body, disc)
+
+    def update(body: pymunk.Body, gravity: Any, damping: float, dt: float) -> None:
+        vx, vy = body.velocity
+        ax, ay, alpha = law(vx, vy, body.angular_velocity)
+        body.velocity = vx + dt * ax, vy + dt * ay
+        body.angular_velocity += dt * alpha
+
+    body.velocity_func = update
+    over = False
+
+    def begin(arbiter: pymunk.Arbiter, space: pymunk.Space, data: Any) -> None:
+        nonlocal over
+        nx, ny = arbiter.normal
+        vx, vy = body.velocity
+        over = over or vx * nx + vy * ny > 0.0  # the ball starts on the tee, and leaves it
+
+    if setup.until is not None:
+        space.on_collision(1, 2, begin=begin)
+    steps, dt = round(setup.duration * rate), 1.0 / rate
+    for step in range(steps):
+        space.step(dt)
+        if over:
+            return Stepped(*body.position, step + 1)
+    return Stepped(*body.position, steps)
