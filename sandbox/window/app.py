@@ -31,6 +31,8 @@ if TYPE_CHECKING:
     from sandbox.window.stage import Stage
 
 CARD = palette("card")
+#: Columns and rows that each goes on.
+ARROWS = {pygame.K_LEFT: (-1, 0), pygame.K_RIGHT: (1, 0), pygame.K_UP: (0, -1), pygame.K_DOWN: (0, 1)}
 
 FRAMES = 60  # per second
 SIZE = (1280, 720)
@@ -337,10 +339,20 @@ class App:
                 self.open(event.file)
             case pygame.KEYDOWN:
                 command = command_for(event.key, event.mod)
-                if command is not None:
+                if self.view.menu is not None and event.key in (*ARROWS, pygame.K_RETURN):
+                    self._choose(self.view.menu, event.key)
+                elif command is not None:
                     commands.do(self, command, bool(event.mod & pygame.KMOD_SHIFT))
             case _:
                 self.pointer.handle(event)
+
+    def _choose(self, menu: overlay.Menu, key: int) -> None:
+        """A key while the scenes are listed."""
+        if key in ARROWS:
+            menu.move(*ARROWS[key], self.session.title)
+        elif menu.chosen:
+            self.view.menu = None
+            self.open(menu.chosen)
 
     def _for_panel(self, panel: Panel, event: pygame.event.Event) -> bool:
         """Let the panel take an event; whether it is for nobody else."""

@@ -29,6 +29,11 @@ def do(app: App, command: str, fine: bool = False) -> None:
         app.view.on ^= {command}
     elif command in FINE:
         app.change(FINE[command](app, fine))
+    elif command in PANEL:
+        if app.panel is None:
+            app.open_panel(True)
+        elif not app.trying(lambda: PANEL[command](app.panel, fine)):
+            app.panel.refresh(everything=True)
     else:
         COMMANDS[command](app)
 
@@ -162,6 +167,15 @@ def _save_replay(app: App, shot: Shot) -> Path:
     return path
 
 
+def _open_replay(app: App) -> None:
+    """The newest file of those that the window wrote."""
+    found = sorted(keep.FOLDER.glob(f"*{replay.SUFFIX}"), key=lambda path: path.stat().st_mtime)
+    if found:
+        app.open(str(found[-1]))
+    else:
+        app.tell(f"no replays in {keep.FOLDER} yet")
+
+
 def _animate(app: App, shot: Shot) -> None:
     if app.writer is not None and app.writer.is_alive():
         app.tell("the animation before is still being written")
@@ -185,6 +199,17 @@ def _copy(app: App) -> None:
 def _quit(app: App) -> None:
     app.running = False
 
+
+#: Commands for the panel, which is opened first.
+PANEL: dict[str, Callable[[Any, bool], object]] = {
+    "row_down": lambda panel, fine: panel.choose(1),
+    "row_up": lambda panel, fine: panel.choose(-1),
+    "row_more": lambda panel, fine: panel.nudge(1, fine),
+    "row_less": lambda panel, fine: panel.nudge(-1, fine),
+    "row_reset": lambda panel, fine: panel.reset_row(),
+    "group_down": lambda panel, fine: panel.turn(1),
+    "group_up": lambda panel, fine: panel.turn(-1),
+}
 
 #: Commands that change the shot, finely with Shift: from the window to the changes.
 FINE: dict[str, Callable[[App, bool], dict[str, Any]]] = {
@@ -218,6 +243,7 @@ COMMANDS: dict[str, Callable[[App], object]] = {
     "animation": lambda app: _with_shot(app, lambda shot: _animate(app, shot)),
     "save_replay": lambda app: _with_shot(app, lambda shot: _keep(app, lambda: _save_replay(app, shot))),
     "compare": lambda app: _with_shot(app, lambda shot: app.tell(replay.compared(shot))),
+    "open_replay": _open_replay,
     "menu": _menu,
     "next_preset": lambda app: _other_preset(app, 1),
     "previous_preset": lambda app: _other_preset(app, -1),

@@ -57,7 +57,8 @@ BINDINGS = (
     Binding(pygame.K_F9, "animation", "F9", "animation of the last shot", "Keep"),
     Binding(pygame.K_F5, "save_replay", "F5", "replay of the last shot, to be dropped here", "Keep"),
     Binding(pygame.K_F6, "compare", "F6", "simulate the shot again, and compare", "Keep"),
-    Binding(pygame.K_m, "menu", "M", "all scenes and presets", "More"),
+    Binding(pygame.K_F7, "open_replay", "F7", "see the newest replay", "Keep"),
+    Binding(pygame.K_m, "menu", "M", "all scenes and presets; arrows, Enter", "More"),
     Binding(pygame.K_PAGEDOWN, "next_preset", "PgDn", "next preset", "More"),
     Binding(pygame.K_PAGEUP, "previous_preset", "PgUp", "previous preset", "More"),
     Binding(pygame.K_TAB, "panel", "Tab", "the panel of parameters", "More"),
@@ -70,6 +71,13 @@ BINDINGS = (
     Binding(pygame.K_F1, "help", "", "", "More"),
     Binding(pygame.K_ESCAPE, "back", "Esc", "close what is open; aim again", "More"),
     Binding(pygame.K_q, "quit", "Ctrl Q", "leave", "More", CTRL),
+    Binding(pygame.K_DOWN, "row_down", "Ctrl up down", "another row of the panel", "Panel", CTRL),
+    Binding(pygame.K_UP, "row_up", "", "", "Panel", CTRL),
+    Binding(pygame.K_RIGHT, "row_more", "Ctrl left right", "less, more of it (Shift: finely)", "Panel", CTRL),
+    Binding(pygame.K_LEFT, "row_less", "", "", "Panel", CTRL),
+    Binding(pygame.K_PAGEDOWN, "group_down", "Ctrl PgDn PgUp", "another group", "Panel", CTRL),
+    Binding(pygame.K_PAGEUP, "group_up", "", "", "Panel", CTRL),
+    Binding(pygame.K_BACKSPACE, "row_reset", "Ctrl Backspace", "as in the file", "Panel", CTRL),
 )
 
 #: Groups whose commands have no button of their own on the bar: it opens a list of them.

@@ -15,7 +15,10 @@ from sandbox.window.keys import listed
 CARD = palette("card")
 
 #: Groups of keys in the columns of the help, and where there is no room for so many.
-LAYOUTS = ((("Play", "Keep"), ("Watch", "See"), ("More",)), (("Play", "Watch", "See"), ("Keep", "More")))
+LAYOUTS = (
+    (("Play", "Keep", "Watch"), ("See", "Panel"), ("More",)),
+    (("Play", "Watch", "See"), ("Keep", "More", "Panel")),
+)
 
 
 def _card(sheet: Sheet, width: int, height: int) -> pygame.Rect:
@@ -122,6 +125,7 @@ class Menu:
     def __init__(self, listings: list[Listing]) -> None:
         self.listings = listings
         self.places: list[tuple[pygame.Rect, str]] = []
+        self.chosen = ""  # by key
 
     def draw(self, sheet: Sheet, current: str, mouse: tuple[int, int]) -> None:
         letters, unit, gap = sheet.lettering, sheet.unit, sheet.gap
@@ -145,7 +149,7 @@ class Menu:
                 place = pygame.Rect(rect.left + 3 * gap + number * each, top, each - gap, row)
                 self.places.append((place, item.name))
                 colour: Colour = CARD["text"] if scene else CARD["quiet"]
-                if place.collidepoint(mouse):
+                if place.collidepoint(mouse) or item.name == self.chosen:
                     sheet.painter.panel(place.inflate(gap, 0), CARD["quiet"], 0.25, 5 * unit)
                     about, colour = item.about, CARD["text"]
                 if item.name == current:
@@ -156,6 +160,18 @@ class Menu:
                 top += row
         below = (rect.left + 3 * gap, rect.top + 3 * gap + letters.height("medium"))
         letters.write(sheet.surface, _cut(sheet, about, rect.width - 6 * gap), "small", below, CARD["quiet"])
+
+    def move(self, across: int, down: int, current: str) -> None:
+        """Choose by key: so many columns and rows on, from what is played."""
+        columns = [
+            [item.name for item in rows] for _, rows in groupby(self.listings, lambda i: i.name.partition("/")[0])
+        ]
+        start = self.chosen or current
+        column = next((i for i, names in enumerate(columns) if start in names), 0)
+        row = columns[column].index(start) if start in columns[column] else 0
+        column = (column + across) % len(columns)
+        names = columns[column]
+        self.chosen = names[(row + down) % len(names) if down else min(row, len(names) - 1)]
 
     def name_at(self, position: tuple[int, int]) -> str | None:
         return next((name for rect, name in self.places if rect.collidepoint(position)), None)

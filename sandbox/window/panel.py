@@ -38,6 +38,7 @@ class Row:
 
     parameter: Parameter
     index: int | None  # within a vector
+    label: UILabel | None = None
     entry: UITextEntryLine | None = None
     slider: UIHorizontalSlider | None = None
     choice: UIDropDownMenu | None = None
@@ -107,6 +108,7 @@ class Panel:
             allow_scroll_x=False,
         )
         self.rows: list[Row] = []
+        self.chosen: int | None = None  # the row that keys change
         self.wide, y = inner - gap, 0
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", UserWarning)  # a long name is cut off, and its tooltip tells the rest
@@ -148,7 +150,8 @@ class Panel:
         place: dict[str, Any] = {"manager": self.manager, "container": self.container}
         left = self.wide - field - small - 4
         label = self._label(row, left)
-        UILabel(pygame.Rect(0, top, left, height), label, **place).set_tooltip(tip)
+        row.label = UILabel(pygame.Rect(0, top, left, height), label, **place)
+        row.label.set_tooltip(tip)
         row.reset = UIButton(
             pygame.Rect(self.wide - small, top, small, height), "×", tool_tip_text="as in the scene file", **place
         )
@@ -266,6 +269,55 @@ class Panel:
         self.change({row.parameter.key: row.whole(self.session, value)})
         self.refresh()
 
+    # By key
+
+    def choose(self, by: int) -> None:
+        """Another row, so many on."""
+        self.chosen = (self.chosen + by if self.chosen is not None else min(by, 0)) % max(1, len(self.rows))
+        bar = self.container.vert_scroll_bar
+        label = self.rows[self.chosen].label
+        if bar is not None and label is not None:
+            first = self.rows[0].label
+            assert first is not None
+            height = self.container.scrollable_container.rect.height
+            bar.set_scroll_from_start_percentage((label.rect.top - first.rect.top) / height)
+
+    def nudge(self, by: int, fine: bool = False) -> None:
+        """More or less of the chosen row: a hundredth of its slider, the next word, on or off."""
+        if self.chosen is None:
+            self.choose(0)
+        row = self.rows[self.chosen or 0]
+        value = row.part(self.session.value(row.parameter.key))
+        if row.choice is not None:
+            words = list(row.parameter.choices)
+            self._set(row, words[(words.index(value) + by) % len(words)] if value in words else words[0])
+            chosen = self.chosen
+            self._build()
+            self.chosen = chosen
+        elif row.switch is not None:
+            self._set(row, not value)
+        elif row.slider is not None:
+            low, high = row.slider.value_range
+            value += by * (high - low) / (1000 if fine else 100)
+            bounds = row.parameter.low, row.parameter.high
+            if bounds[0] is not None and bounds[1] is not None:
+                value = min(max(value, bounds[0]), bounds[1])
+            self._set(row, float(f"{value:.5g}"))
+
+    def turn(self, by: int) -> None:
+        """Another group, so many on."""
+        groups = list(self._groups())
+        self.group = groups[(groups.index(self.group) + by) % len(groups)]
+        self._build()
+
+    def reset_row(self) -> None:
+        """The chosen row as in the file."""
+        if self.chosen is not None:
+            chosen = self.chosen
+            self.reset(self.rows[chosen].parameter.key)
+            self._build()
+            self.chosen = chosen
+
     def _typed(self, row: Row, text: str) -> None:
         """A number, or a text with a unit of its own; nothing leaves an optional number out."""
         value: Any = text
@@ -307,6 +359,9 @@ class Panel:
     def draw(self, surface: pygame.Surface) -> None:
         surface.fill(NAMED["background"], self.rect)
         self.manager.draw_ui(surface)
+        label = self.rows[self.chosen].label if self.chosen is not None else None
+        if label is not None:
+            surface.fill(NAMED["accent"], (self.rect.left + 3, label.rect.top + 3, 3, label.rect.height - 6))
 
 
 def _written(value: Any) -> str:

@@ -171,6 +171,7 @@ class Session:
         except SandboxError:
             self.changes = before
             raise
+        self.laid.intersection_update(kept)
 
     def go_on(self, shot: Shot) -> bool:
         """Let the next shot begin where one of them ended, where the scene knows how; whether it does."""

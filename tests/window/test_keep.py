@@ -92,6 +92,20 @@ class TestReplays:
         player.key(pygame.K_F5)
         assert replay.read(elsewhere / "out" / f"golf-putt-1{replay.SUFFIX}")[1].run.duration > 0
 
+    def test_a_key_opens_the_newest(self, player, elsewhere):
+        player = player("golf/putt")
+        player.key(pygame.K_F7)
+        assert "no replays" in player.app.message[0]
+        player.key(pygame.K_SPACE)
+        player.key(pygame.K_F5)
+        player.key(pygame.K_PAGEDOWN)
+        assert player.app.session.title != "golf/putt"
+        player.key(pygame.K_F7)
+        assert player.app.session.title == "golf/putt"
+        assert player.app.playback.playing
+        player.key(pygame.K_F6)
+        assert "the same to the last bit" in player.app.message[0]
+
 
 def test_a_scene_file_keeps_its_comments(elsewhere):
     session = Session("golf/putt")

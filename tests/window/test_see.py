@@ -200,7 +200,7 @@ def test_where_the_energy_goes_lies_over_the_picture_until_a_click(player):
 
 class TestTheLists:
     def test_every_key_has_its_command(self):
-        known = {*commands.COMMANDS, *commands.FINE, *commands.SWITCHES}
+        known = {*commands.COMMANDS, *commands.FINE, *commands.PANEL, *commands.SWITCHES}
         assert {binding.command for binding in BINDINGS} <= known
 
     @pytest.mark.parametrize("group", LISTED)

@@ -91,6 +91,59 @@ class TestThePanel:
         assert player.app.playback is None
 
 
+class TestThePanelByKey:
+    """Ctrl and arrows do what the mouse does."""
+
+    def test_the_first_key_opens_it(self, player):
+        player = player("golf")
+        player.key(pygame.K_DOWN, pygame.KMOD_CTRL)
+        assert player.app.panel is not None
+        assert player.app.session.changes == {}
+
+    def test_a_row_is_chosen_and_changed_and_taken_back(self, player):
+        player = player("golf")
+        player.key(pygame.K_TAB)
+        for _ in range(2):
+            player.key(pygame.K_DOWN, pygame.KMOD_CTRL)
+        row = player.app.panel.rows[player.app.panel.chosen]
+        assert row.parameter.key == "launch.angle"
+        low, high = row.slider.value_range
+        player.key(pygame.K_RIGHT, pygame.KMOD_CTRL)
+        player.key(pygame.K_LEFT, pygame.KMOD_CTRL | pygame.KMOD_SHIFT)
+        assert player.app.session.value("launch.angle") == pytest.approx(10.4 + 0.009 * (high - low), rel=1e-3)
+        assert float(row.entry.get_text()) == player.app.session.value("launch.angle")
+        player.key(pygame.K_BACKSPACE, pygame.KMOD_CTRL)
+        assert player.app.session.changes == {}
+        assert player.app.panel.chosen == 1
+
+    def test_switches_and_words_too(self, player):
+        player = player("soccer")
+        player.key(pygame.K_TAB)
+        panel = player.app.panel
+        panel.chosen = next(i for i, row in enumerate(panel.rows) if row.switch is not None)
+        key = panel.rows[panel.chosen].parameter.key
+        before = player.app.session.value(key)
+        player.key(pygame.K_RIGHT, pygame.KMOD_CTRL)
+        assert player.app.session.value(key) is not before
+        while panel.group != "ball.drag":
+            player.key(pygame.K_PAGEDOWN, pygame.KMOD_CTRL)
+        panel.chosen = next(i for i, row in enumerate(panel.rows) if row.choice is not None)
+        parameter = panel.rows[panel.chosen].parameter
+        player.key(pygame.K_RIGHT, pygame.KMOD_CTRL)
+        after = player.app.session.value(parameter.key)
+        assert after != parameter.value
+        assert after in parameter.choices
+
+    def test_a_row_out_of_sight_is_scrolled_to(self, player):
+        player = player("golf", (640, 400))
+        player.key(pygame.K_TAB)
+        player.key(pygame.K_UP, pygame.KMOD_CTRL)
+        player.frames(3)
+        label = player.app.panel.rows[player.app.panel.chosen].label
+        assert player.app.panel.chosen == len(player.app.panel.rows) - 1
+        assert label.rect.bottom <= player.app.panel.rect.bottom
+
+
 class TestSaving:
     def wait(self, player) -> None:
         player.frames(3, dt=0.11)
