@@ -22,7 +22,7 @@ class Binding(NamedTuple):
 
 BINDINGS = (
     Binding(pygame.K_SPACE, "go", "Space", "shoot; pause and go on", "Play"),
-    Binding(pygame.K_RETURN, "again", "Enter", "aim again, in billiards go on", "Play"),
+    Binding(pygame.K_RETURN, "again", "Enter", "aim again; in billiards go on", "Play"),
     Binding(pygame.K_LEFT, "turn_left", "left right", "turn the shot (Shift: finely)", "Play"),
     Binding(pygame.K_RIGHT, "turn_right", "", "", "Play"),
     Binding(pygame.K_UP, "stronger", "up down", "stronger, weaker (Shift: finely)", "Play"),
@@ -55,9 +55,9 @@ BINDINGS = (
     Binding(pygame.K_c, "copy", "C", "copy the command line of this shot", "Keep"),
     Binding(pygame.K_F12, "screenshot", "F12", "picture of the window", "Keep"),
     Binding(pygame.K_F9, "animation", "F9", "animation of the last shot", "Keep"),
-    Binding(pygame.K_F5, "save_replay", "F5", "replay of the last shot, to be dropped here", "Keep"),
+    Binding(pygame.K_F5, "save_replay", "F5", "replay file of the last shot", "Keep"),
     Binding(pygame.K_F6, "compare", "F6", "simulate the shot again, and compare", "Keep"),
-    Binding(pygame.K_F7, "open_replay", "F7", "see the newest replay", "Keep"),
+    Binding(pygame.K_F7, "open_replay", "F7", "see the newest replay; or drop one here", "Keep"),
     Binding(pygame.K_m, "menu", "M", "all scenes and presets; arrows, Enter", "More"),
     Binding(pygame.K_PAGEDOWN, "next_preset", "PgDn", "next preset", "More"),
     Binding(pygame.K_PAGEUP, "previous_preset", "PgUp", "previous preset", "More"),

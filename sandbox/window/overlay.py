@@ -45,13 +45,15 @@ def draw_help(sheet: Sheet) -> None:
             break
     tall = max(sum(len(rows) + 1.5 for _, rows in column) for column in columns) - 0.5
     head = letters.height("medium") + gap
+    if tall * row + head + 4 * gap > sheet.size[1]:  # a small window: the title makes room
+        row, head = letters.height("small"), 0
     rect = _card(sheet, sum(keys) + sum(wide) + between, round(tall * row) + head + 4 * gap)
     left, top = float(rect.left + between), rect.top + 2 * gap
-    letters.write(sheet.surface, "Keys", "medium", (left, top), CARD["text"], bold=True)
-    at = (rect.right - between, top + letters.height("medium") / 2)
-    letters.write(
-        sheet.surface, "Or by mouse: pull back from the ball, and let go.", "small", at, CARD["quiet"], "midright"
-    )
+    if head:
+        letters.write(sheet.surface, "Keys", "medium", (left, top), CARD["text"], bold=True)
+        at = (rect.right - between, top + letters.height("medium") / 2)
+        text = "Or by mouse: pull back from the ball, and let go."
+        letters.write(sheet.surface, text, "small", at, CARD["quiet"], "midright")
     for column, room, width in zip(columns, keys, wide, strict=True):
         y = float(top + head)
         for name, rows in column:
