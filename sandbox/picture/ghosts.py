@@ -18,6 +18,8 @@ TRACE = palette("trace")
 
 #: How much lighter than its trace a ghost's text on the card is.
 LIGHTER = 0.45
+#: The label of a ghost may stand at about so many points of its path.
+ANCHORS = 12
 #: The path of a ghost in a frame has so many points at most.
 MOST_POINTS = 480
 #: Colours no further apart than this, in levels, are too much alike for two traces.
@@ -80,17 +82,18 @@ def draw_in_frame(sheet: Sheet, ghost: Ghost, points: np.ndarray, at: tuple[floa
 
 
 def draw_ghost(sheet: Sheet, ghost: Ghost, points: np.ndarray, trace: np.ndarray) -> None:
-    """A ghost's path (px, shape (n, 2)) and its label, where it is farthest from the picture's own ``trace``."""
+    """A ghost's path (px, shape (n, 2)) and its label: where there is room, far from the picture's own ``trace``."""
     points = points[apart(points, FINEST)]
     width = max(2.5, 4.5 * sheet.unit)
     sheet.painter.line(points, width, ghost.colour_on(sheet), TRACE["earlier"])
     sheet.painter.disc(points[-1], 1.3 * width, ghost.light, 0.9)
     sheet.labels.take_path(points, 3 * sheet.unit)
     away = np.hypot(*(points[:, None] - trace[None, :: max(1, len(trace) // 100)]).T).min(axis=0)
-    x, y = points[int(away.argmax())]
+    far_first = points[np.argsort(-away, kind="stable")[:: max(1, len(points) // ANCHORS)]]
     directions = [(cos(turn), -sin(turn)) for turn in np.linspace(pi / 2, 5 * pi / 2, 9)]
     spots = [
         (float(x + across * far * sheet.unit), float(y + down * far * sheet.unit), across, down)
+        for x, y in far_first
         for far in (8, 16, 28)
         for across, down in directions
     ]
