@@ -14,6 +14,7 @@ from PIL import Image
 import sandbox
 from sandbox.cli import main as program
 from sandbox.picture.frames import to_image
+from sandbox.window import aim
 from sandbox.window.app import App
 from sandbox.window.session import Session
 
@@ -54,22 +55,21 @@ def free_throws() -> None:
 
 
 def window() -> None:
-    """The window while a drive is aimed, after another and with the panel open: by events, without a display."""
+    """The window while a free throw is aimed, with its fan and the panel open: by events, without a display."""
     pygame.display.init()
-    app = App(Session("golf"), pygame.display.set_mode(WINDOW))
+    app = App(Session("basketball"), pygame.display.set_mode(WINDOW), patience=60.0)
     app.tick(FRAME)
-    for pull in ((-215, 40), (-225, 72)):
-        x, y = (round(value) for value in app.stage.ball_at(app.shot))
-        places = [(round(x + share * pull[0]), round(y + share * pull[1])) for share in (0.0, 0.5, 1.0)]
-        post(app, pygame.MOUSEBUTTONDOWN, pos=places[0], button=1)
-        for place in places:
-            post(app, pygame.MOUSEMOTION, pos=place, rel=(0, 0), buttons=(1, 0, 0))
-        if pull[1] == 40:
-            post(app, pygame.MOUSEBUTTONUP, pos=places[-1], button=1)
-            for _ in range(900):
-                app.tick(FRAME)
-            post(app, pygame.KEYDOWN, key=pygame.K_TAB, mod=0, unicode="", scancode=0)
-            post(app, pygame.KEYDOWN, key=pygame.K_RETURN, mod=0, unicode="", scancode=0)
+    for key in (pygame.K_TAB, pygame.K_f):
+        post(app, pygame.KEYDOWN, key=key, mod=0, unicode="", scancode=0)
+    x, y = (round(value) for value in app.stage.ball_at(app.shot))
+    across, down = aim.pull_of(app.session, app.area.height, app.stage.camera.stretch)
+    post(app, pygame.MOUSEBUTTONDOWN, pos=(x, y), button=1)
+    for share in (0.4, 0.7, 1.0):
+        place = round(x + share * across), round(y + share * down)
+        post(app, pygame.MOUSEMOTION, pos=place, rel=(0, 0), buttons=(1, 0, 0))
+    while app.fan is None or not app.fan.complete or app.fan.drawn < len(app.fan.shots):
+        app.tick(FRAME)
+    app.ahead.close()
     to_image(app.screen).save(HERE / "window.jpg", quality=QUALITY, subsampling=0, optimize=True, progressive=True)
 
 

@@ -149,7 +149,7 @@ class Fan:
         if told is not None and len(numbers) > 1:
             share += f"; {told[0]} {np.mean(numbers):.1f} ± {np.std(numbers):.1f} {told[1]}"
         parts = [
-            f"{key.rpartition('.')[2]} ± {signed(f'{sigma:.3g}')} {self.known[key].unit or ''}".rstrip()
+            f"{key.rpartition('.')[2]} ± {signed(f'{sigma:.2g}')} {self.known[key].unit or ''}".rstrip()
             for key, sigma in self.spread.items()
         ]
         return share, ", ".join(parts) or "nothing to vary"

@@ -12,9 +12,11 @@ import pygame
 import pytest
 
 import sandbox
+from sandbox.window import aim
 from sandbox.window.app import SMALLEST
 from sandbox.window.keys import BINDINGS
 from sandbox.window.playback import LONGEST_FRAME, STEP
+from sandbox.window.session import Session
 
 
 def picture(player) -> np.ndarray:
@@ -53,6 +55,15 @@ def test_a_longer_pull_is_stronger_and_escape_leaves_it(player):
     assert not player.app.session.shots
     player.release((5, 5))
     assert not player.app.session.shots
+
+
+@pytest.mark.parametrize("source", ["golf", "basketball", "billiards", "soccer", "soccer-curl"])
+def test_the_pull_of_a_shot_gives_that_shot(source):
+    session = Session(source)
+    controls = session.controls
+    again = aim.pulled(session, aim.pull_of(session, 672, 2.0), 672, 2.0)
+    assert again[controls.speed] == pytest.approx(session.value(controls.speed), abs=0.01)
+    assert again[controls.angle] == pytest.approx(session.value(controls.angle), abs=0.01)
 
 
 def test_a_click_is_no_shot(player):
