@@ -57,7 +57,7 @@ class Ablated:
     part: str
     change: str
     shift_m: float | None  # by the scene's measure
-    flight_m: float | None  # at the moment when the unchanged scene first touches anything
+    flight_m: float | None  # at the moment when the ball first touches anything, with the part or without
     verdict: tuple[str, str]  # with the part, and without
     saves: float | None  # share of the time that the scene takes at the level "balanced"
     results: dict[str, tuple[float, float]]  # numbers of the result, with the part and without
@@ -135,7 +135,8 @@ def ablation(reference: Reference) -> list[Ablated]:
             rows.append(Ablated(change.part, change.change, None, None, (before, ""), saves, {}, str(error)))
             continue
         shift = apart(looked_at(scene, whole, reference.time), looked_at(other, run, reference.time))
-        flight = apart(places(whole, names, reference.first_touch), places(run, names, reference.first_touch))
+        touch = min([reference.first_touch, *(event.t for event in run.events)])
+        flight = apart(places(whole, names, touch), places(run, names, touch))
         turned, differences = (before, verdict(run.result)), _differences(whole, run)
         idle = change.touching and reference.first_touch >= reference.time
         rows.append(Ablated(change.part, change.change, shift, flight, turned, saves, differences, idle=idle))

@@ -57,6 +57,8 @@ def draw_trade(found: Trade, path: Path) -> None:
         axes.set_xlabel("speed, times real time")
         axes.set_ylabel("error, smaller upwards")
         axes.xaxis.set_major_formatter(lambda value, position: significant(value))
+        axes.tick_params(axis="x", which="minor", pad=7)  # in line with the others, which have ticks
+        axes.xaxis.set_minor_formatter(lambda value, position: significant(value) if f"{value:e}"[0] in "25" else "")
         axes.yaxis.set_major_formatter(lambda value, position: length(value))
         ink = colours["card"]["ink"]
         figure = axes.get_figure()
@@ -104,11 +106,14 @@ def _targets(axes: Any, colours: dict[str, Any]) -> None:
 
 
 def _level(axes: Any, name: str, point: Point, floor: float, colours: dict[str, Any]) -> None:
+    from matplotlib.patheffects import withStroke
+
     place = point.times_real_time, max(point.error_m or 0.0, floor)
     card = colours["card"]
     axes.plot(*place, marker="D", markersize=9, markerfacecolor=card["accent"], markeredgecolor=card["ink"], zorder=5)
     axes.annotate(name, place, xytext=(11, 0), textcoords="offset points", va="center", fontsize=10.5,
-                  fontweight="bold", color=card["ink"], zorder=6)  # fmt: skip
+                  fontweight="bold", color=card["ink"], zorder=6,
+                  path_effects=[withStroke(linewidth=3.5, foreground="white")])  # fmt: skip
 
 
 # ---------------------------------------------------------------------------------------------------------------- frame
