@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 ENERGY, ENERGY_FIXED_STEP = 1e-3, 3e-2
 
 #: Overlap in m that the exact method may show.
-OVERLAP = 1e-9
+OVERLAP = 1e-7
 
 #: A run of an extreme that takes longer than this, in s, counts as one without end.
 ENDLESS = 20.0
@@ -245,6 +245,8 @@ def _overlap_of_balls(run: Run) -> float:
     deepest = 0.0
     for t in times:
         there = [ball for ball in balls if caught[ball.name] is None or t < (caught[ball.name] or 0.0)]
+        if len(there) < 2:
+            continue
         places = np.array([run.state(ball.name, t)[:2] for ball in there])
         radii = np.array([ball.radius for ball in there])
         gaps = np.hypot(*(places[:, None] - places[None]).transpose(2, 0, 1)) - radii[:, None] - radii[None]

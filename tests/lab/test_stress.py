@@ -134,6 +134,14 @@ def test_two_balls_in_each_other_are_seen():
     assert lab._overlap(run)[0] > 0.01
 
 
+def test_a_run_that_ends_with_all_balls_potted_is_looked_at_too():
+    lone = {"balls": [{"name": "cue", "x": 0.9, "y": -0.3}, {"name": "1", "x": 1.0, "y": -0.4}], "cue.angle": -45.0}
+    potted = load("billiards", {**lone, "cue.follow": 0.4})
+    outcome = one(Extreme("cleared", potted.build), LEVEL_METHOD)
+    assert outcome.outcome == HELD
+    assert simulate(potted.build(), LEVELS["balanced"]).caught_at("cue") is not None
+
+
 # The command ---------------------------------------------------------------------------------------------------------
 
 
