@@ -8,6 +8,7 @@ import numpy as np
 import pygame
 import pytest
 
+from sandbox.picture.sheet import Sheet
 from sandbox.window import commands
 from sandbox.window.fan import SHOTS, Fan
 from sandbox.window.keys import BINDINGS, LISTED, listed
@@ -62,6 +63,17 @@ class TestTheFan:
         player.key(pygame.K_f)
         assert player.app.fan is None
         assert differ(picture(player), plain) == 0
+
+    @pytest.mark.parametrize("made", [True, False])
+    def test_those_that_score_are_green(self, made):
+        session = Session("basketball", {} if made else {"launch.speed": 5.0})
+        fan = Fan(session.predict())
+        fan.shots = [fan.shot] * 3
+        sheet = Sheet((640, 360))
+        fan.draw(sheet, fan.shot.scene.picture(fan.shot.run, (640, 360)).camera)
+        drawn = pygame.surfarray.array3d(fan.layer)[pygame.surfarray.array_alpha(fan.layer) > 60].astype(int)
+        assert len(drawn) > 100
+        assert np.mean(drawn[:, 1] > drawn[:, 0] + 40) == pytest.approx(int(made), abs=0.05)
 
     def test_another_aim_has_a_fan_of_its_own(self, player):
         player = player(PUTT)
