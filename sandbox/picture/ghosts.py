@@ -8,7 +8,6 @@ from math import cos, dist, pi, sin
 from typing import Any
 
 import numpy as np
-import pygame
 
 from sandbox.picture.palette import Colour, mix, palette
 from sandbox.picture.path import FINEST, apart, chip
@@ -76,7 +75,7 @@ def draw_in_frame(sheet: Sheet, ghost: Ghost, points: np.ndarray, at: tuple[floa
     sheet.surface.set_clip((0, round(top), *sheet.size))
     if len(points) > 1:
         kept = np.unique(np.linspace(0, len(points) - 1, MOST_POINTS).astype(int))
-        pygame.draw.aalines(sheet.surface, colour, False, points[kept])
+        sheet.painter.thread(points[kept], sheet.unit, colour)
     sheet.painter.disc(at, max(2.5, 5 * sheet.unit), colour, 0.9)
     sheet.surface.set_clip(None)
 

@@ -427,7 +427,7 @@ class Picture:
         earlier = camera.pixels(np.array([*self.path.points[self.path.samples[:, 0] < t], (x, y)]))
         if t <= self.path.until and len(earlier) > 1:
             faint = mix(COURT["trace"], COURT["wall"][1], 0.45)
-            pygame.draw.aalines(sheet.surface, faint, False, earlier[apart(earlier, 3.0)])
+            sheet.painter.thread(earlier[apart(earlier, 3.0)], self.unit, faint)
         times = np.linspace(max(0.0, t - TRAIL), t, 25)
         points = camera.pixels(np.array([self.run.state("ball", s)[:2] for s in times]))
         if np.ptp(points, axis=0).max() > 2:

@@ -313,7 +313,7 @@ class Picture:
             if other.struck in other.paths:
                 place = camera.pixel(*other.run.state(other.struck, min(t, other.run.duration))[:2])
                 draw_in_frame(sheet, ghost, camera.pixels(other.paths[other.struck][:, 1:]), place, self.head_row)
-        self._earlier(sheet.surface, t)
+        self._earlier(painter, t)
         for name in self.paths:
             self._trail(painter, name, t, radius)
         if self.struck in self._on_table(t):
@@ -337,14 +337,14 @@ class Picture:
             tracks[name] = path[kept, 0], points[kept]
         return tracks
 
-    def _earlier(self, surface: pygame.Surface, t: float) -> None:
+    def _earlier(self, painter: Painter, t: float) -> None:
         """Where the balls have been: a thin line each."""
         for name, (times, points) in self._tracks.items():
             past = int(np.searchsorted(times, t))
             if past > 0:
-                here = [np.interp(t, times, points[:, axis]) for axis in (0, 1)]
+                here = np.interp(t, times, points[:, 0]), np.interp(t, times, points[:, 1])
                 faint = mix(self.colours[name], BILLIARDS["cloth"], 0.35 if name == self.struck else 0.55)
-                pygame.draw.aalines(surface, faint, False, [*points[:past], here])
+                painter.thread(np.vstack([points[:past], here]), self.unit, faint)
 
     def _trail(self, painter: Painter, name: str, t: float, radius: float) -> None:
         path = self.paths[name]

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from functools import cached_property
-from itertools import pairwise
 from math import atan2, degrees, floor, hypot, pi
 from typing import Any
 
@@ -15,7 +14,7 @@ from sandbox.picture.ball import least_radius, mark_radius
 from sandbox.picture.camera import Area, Box, Camera, Follow
 from sandbox.picture.ghosts import draw_ghost, draw_in_frame, ghosts_of
 from sandbox.picture.painter import Painter
-from sandbox.picture.palette import Colour, palette
+from sandbox.picture.palette import palette
 from sandbox.picture.path import Mark, Path, apart, mark_impacts
 from sandbox.picture.sheet import Entry, Sheet, metres, nice, roughly, signed, yards
 from sandbox.picture.vectors import Vectors
@@ -398,13 +397,13 @@ class Picture:
         thin = max(1, round(1.6 * unit))
         painter.panel(rect, CARD["background"], CARD["opacity"], 8 * unit)
         surface.set_clip(rect)
-        _draw_path(surface, ground, GOLF["fairway"], thin)
+        painter.thread(ground, thin, GOLF["fairway"])
         for ghost, points in others:
-            _draw_path(surface, points[apart(points, 1.5)], ghost.light, 1)
-        _draw_path(surface, path, CARD["quiet"], 1)
+            painter.thread(points[apart(points, 1.5)], 1, ghost.light)
+        painter.thread(path, 1, CARD["quiet"])
         x, y, *_ = self.run.state(self.name, t)
         at = camera.pixel(x, y)
-        _draw_path(surface, [*path[times <= t], at], TRACE["colours"][0], thin + 1)
+        painter.thread([*path[times <= t], at], thin + 1, TRACE["colours"][0])
         px, py = camera.pixel(self.pin, self.frame_course.height(self.pin))
         tall = 24 * unit
         pygame.draw.line(surface, GOLF["pole"], (px, py), (px, py - tall), thin)
@@ -435,8 +434,3 @@ class Picture:
         path = camera.pixels(self.path[:, 1:3])
         kept = apart(path, 1.5)
         return rect, camera, ground, self.path[kept, 0], path[kept]
-
-
-def _draw_path(surface: pygame.Surface, points: Iterable[Any], colour: Colour, width: int) -> None:
-    for a, b in pairwise(points):
-        pygame.draw.aaline(surface, colour, a, b, width)

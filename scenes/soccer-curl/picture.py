@@ -376,11 +376,11 @@ class Picture:
         far = hypot(x, y)
         if far * camera.scale > 20 * self.unit:
             ends = [camera.pixel(0.0, 0.0), camera.pixel(far * cos(angle), far * sin(angle))]
-            pygame.draw.aalines(sheet.surface, mix(PITCH["straight"], PITCH["grass"][0], 0.5), False, ends)
+            painter.thread(ends, self.unit, mix(PITCH["straight"], PITCH["grass"][0], 0.5))
         earlier = camera.pixels(np.array([*self.path.points[self.path.samples[:, 0] < t], (x, y)]))
         if len(earlier) > 1:
             faint = mix(PITCH["trace"], PITCH["grass"][0], 0.3)
-            pygame.draw.aalines(sheet.surface, faint, False, earlier[apart(earlier, 3.0)])
+            sheet.painter.thread(earlier[apart(earlier, 3.0)], self.unit, faint)
         moments = np.linspace(max(0.0, t - TRAIL), t, 25)
         points = camera.pixels(np.array([self.run.state("ball", s)[:2] for s in moments]))
         if np.ptp(points, axis=0).max() > 2:

@@ -343,7 +343,7 @@ class Picture:
         earlier = camera.pixels(np.array([*self.path.points[self.path.samples[:, 0] < t], (x, y)]))
         if len(earlier) > 1:
             faint = mix(GROUND["trace"], GROUND["grass"][0], 0.4)
-            pygame.draw.aalines(sheet.surface, faint, False, earlier[apart(earlier, 3.0)])
+            sheet.painter.thread(earlier[apart(earlier, 3.0)], self.unit, faint)
         moments = np.linspace(max(0.0, t - TRAIL), t, 25)
         places = [self.run.state("ball", s)[:2] for s in moments]
         points = np.array([self._spot(camera, x, y, 0.4 * width) for x, y in places])

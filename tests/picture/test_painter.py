@@ -102,3 +102,14 @@ def test_colours():
     surface = from_colours(np.full((4, 3, 3), (10.4, 300.0, -5.0)))
     assert surface.get_size() == (4, 3)
     assert surface.get_at((2, 2))[:3] == (10, 255, 0)
+
+
+@pytest.mark.parametrize(("width", "rows"), [(0.4, 1), (1.0, 1), (2.0, 2), (3.4, 3)])
+def test_a_thread_is_of_whole_pixels_and_at_least_one(width, rows):
+    light = drawn(lambda p: p.thread([(5, 10), (20, 10), (35, 10)], width, WHITE))
+    assert (light[12] > 0.5).sum() == rows
+
+
+@pytest.mark.parametrize("width", [1, 3])
+def test_a_thread_of_one_point_is_nothing(width):
+    assert not drawn(lambda p: p.thread([(4, 4)], width, WHITE)).any()
