@@ -7,9 +7,9 @@ from typing import Any, Literal
 
 from sandbox.engine.setup import Force
 from sandbox.parameters import Group, choice, quantity, vector
-from sandbox.physics.air import UniformWind
+from sandbox.physics.air import LogWind, UniformWind
 from sandbox.physics.coefficients import Coefficient, constant, spin_ratio_lift
-from sandbox.physics.forces import Drag, Magnus
+from sandbox.physics.forces import Drag, Magnus, Wind
 
 
 class Air(Group):
@@ -17,6 +17,23 @@ class Air(Group):
 
     density: float = quantity(1.204, "kg/m^3", 0, 1100, "density")
     wind: tuple[float, float] = vector((0.0, 0.0), "m/s", -100, 100, "along x and y; negative x is a headwind")
+
+
+class OutdoorAir(Air):
+    """The air over level ground, and how it moves."""
+
+    profile: Literal["uniform", "log"] = choice("uniform", "even wind, or one that grows with height over the ground")
+    reference_height: float = quantity(10.0, "m", 0.1, 100, "height at which a log profile has the wind given")
+    roughness: float = quantity(0.03, "m", 0.0001, 2, "roughness length of a log profile")
+
+
+def wind_in(air: Air) -> Wind | None:
+    """The wind as a velocity field, or None for still air."""
+    if air.wind == (0.0, 0.0):
+        return None
+    if isinstance(air, OutdoorAir) and air.profile == "log":
+        return LogWind(air.wind, air.reference_height, air.roughness)
+    return UniformWind(*air.wind)
 
 
 class ConstantDrag(Group):
@@ -68,7 +85,7 @@ def aerodynamic_forces(
     """
     if air.density == 0.0:
         return []
-    wind = None if air.wind == (0.0, 0.0) else UniformWind(*air.wind)
+    wind = wind_in(air)
     forces: list[Force] = []
     drag_coefficient = _coefficient(drag, models or {})
     if drag_coefficient is not None:

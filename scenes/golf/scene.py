@@ -17,16 +17,14 @@ from itertools import pairwise
 from math import atan2, cos, degrees, hypot, inf, pi, radians, sin, sqrt
 from typing import Any, Literal
 
-from sandbox.aerodynamics import Air as EvenAir
-from sandbox.aerodynamics import ConstantLift, NoDrag, NoLift, SpinRatioLift
+from sandbox.aerodynamics import ConstantLift, NoDrag, NoLift, OutdoorAir, SpinRatioLift, wind_in
 from sandbox.controls import Controls, Spin, Spread
 from sandbox.engine.run import Event, Run
 from sandbox.engine.setup import SOLID_SPHERE, Ball, Bounce, Bounds, Force, Segment, Setup, Surface, Torque
 from sandbox.errors import RequestError
 from sandbox.parameters import Accuracy, Group, choice, either, group, groups, quantity, vectors
 from sandbox.physics import coefficients
-from sandbox.physics.air import LogWind, UniformWind
-from sandbox.physics.forces import Drag, Gravity, Magnus, SpinDecay, Wind
+from sandbox.physics.forces import Drag, Gravity, Magnus, SpinDecay
 from sandbox.physics.turf import penner_bounce, penner_restitution, stimp_resistance
 
 RPM = pi / 30.0  # rad/s
@@ -90,13 +88,10 @@ class BallParameters(Group):
     lift: GolfLift | SpinRatioLift | ConstantLift | NoLift = either(GolfLift(), "Magnus lift")
 
 
-class Air(EvenAir):
+class Air(OutdoorAir):
     """The air and how it moves."""
 
     viscosity: float = quantity(1.789e-5, "Pa s", 1e-7, 10, "dynamic viscosity, for the Reynolds number")
-    profile: Literal["uniform", "log"] = choice("uniform", "even wind, or one that grows with height over the tee")
-    reference_height: float = quantity(10.0, "m", 0.1, 100, "height at which a log profile has the wind given")
-    roughness: float = quantity(0.03, "m", 0.0001, 2, "roughness length of a log profile")
 
 
 class Turf(Group):
@@ -197,7 +192,7 @@ def build(parameters: Parameters) -> Setup:
     air, ball = parameters.air, parameters.ball
     surfaces = _course(parameters)
     velocity, spin = launched(parameters)
-    wind = _wind(air)
+    wind = wind_in(air)
     forces: list[Force] = []
     torques: list[Torque] = []
     if parameters.gravity > 0.0:
@@ -252,14 +247,6 @@ def launched(parameters: Parameters) -> tuple[tuple[float, float], float]:
 
 def _is_in_water(event: Event) -> bool:
     return event.partner == "water"
-
-
-def _wind(air: Air) -> Wind | None:
-    if air.wind == (0.0, 0.0):
-        return None
-    if air.profile == "log":
-        return LogWind(air.wind, air.reference_height, air.roughness)
-    return UniformWind(*air.wind)
 
 
 def _drag_coefficient(drag: GolfDrag | ConstantDrag) -> coefficients.Coefficient:

@@ -16,11 +16,11 @@ from math import cos, hypot, pi, radians, sin
 from typing import Any, Literal
 
 from sandbox.aerodynamics import (
-    Air,
     ConstantDrag,
     ConstantLift,
     NoDrag,
     NoLift,
+    OutdoorAir,
     SpinRatioLift,
     aerodynamic_forces,
 )
@@ -105,7 +105,7 @@ class Parameters(Group):
 
     launch: Launch = group(Launch(), "the ball just after the kick")
     gravity: float = quantity(9.81, "m/s^2", 0, 30, "gravity")
-    air: Air = group(Air(), "the air")
+    air: OutdoorAir = group(OutdoorAir(), "the air")
     ball: BallParameters = group(BallParameters(), "the ball")
     wall: Wall = group(Wall(), "the wall of players")
     goal: Goal = group(Goal(), "the goal")
