@@ -1,8 +1,8 @@
 """Error against time: a free throw that clips the rim, and a golf flight; ours, pymunk alone and scipy in one process.
 
 Run ``python benchmarks/engine.py [--json F] [--repeats N] [--quick]``. The error is that of the ball's position at the
-end, against "precise" at a thousandth of its tolerance. The time is the median of repeats, taken in turn over all
-methods so that a slow moment of the machine hits all; what takes a second is run once.
+end, against "precise" at a thousandth of its tolerance. The time is that of the processor, the median of repeats taken
+in turn over all methods; what takes a second is run once.
 
 - exact: this engine, at each level.
 - scipy: ``solve_ivp`` with a terminal event for each surface (by_scipy.py), at a tolerance and a longest step.
@@ -23,7 +23,7 @@ from collections.abc import Callable
 from math import hypot, inf
 from pathlib import Path
 from statistics import median
-from time import perf_counter
+from time import thread_time
 from timeit import timeit
 from typing import Any, NamedTuple
 
@@ -135,9 +135,9 @@ def compare(case: Case, repeats: int) -> list[dict[str, Any]]:
     for _ in range(repeats):
         for method, fly in chosen.items():
             if not times[method] or times[method][0] < LONG:
-                started = perf_counter()
+                started = thread_time()
                 ends[method] = fly()
-                times[method].append(perf_counter() - started)
+                times[method].append(thread_time() - started)
     rows = []
     for method, (u, v, evaluations) in ends.items():
         error, spent = hypot(u - x, v - y), median(times[method])

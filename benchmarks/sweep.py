@@ -1,0 +1,216 @@
+"""Shots per second: the map of free throws, 61 speeds by 41 angles, in each way; and how the time grows.
+
+Run ``python benchmarks/sweep.py [--json F] [--repeats N] [--quick]``.
+
+- sandbox sweep: the whole command, from its start to the written file, on one process and on two; by the clock, since
+  it is the clock that processes save.
+- simulate_many: the engine alone, all shots together in arrays, as the sweep does it.
+- simulate: the engine alone, one shot at a time.
+- bare pymunk (by_pymunk.py): a few shots drawn from the map, each to the same moment, at the fewest of the step rates
+  that bring it within 1 cm of where it should be. A shot that none of them brings there counts with the highest: the
+  true time is longer. The map is extrapolated from them.
+
+The limit is the forces alone: numpy evaluates gravity and drag for all shots at once, as often as the flights ask for
+them at "balanced", with nothing in between; on two processes half of that. "over limit" is the time of a shot over it.
+
+How it grows: with the number of shots, from Python (``sandbox.lab.sweep``: build, fly, judge), and with the number of
+balls that fly in one setup without meeting, by ``simulate``. But for the command, times are those of the processor.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import subprocess
+import sys
+import tempfile
+from collections.abc import Callable
+from dataclasses import replace
+from math import cos, hypot, radians, sin
+from pathlib import Path
+from random import Random
+from statistics import mean, median
+from time import perf_counter, thread_time
+from timeit import timeit
+from typing import Any
+
+import by_pymunk
+import numpy as np
+from forces import together
+from shots import Shot, basketball_law
+
+import sandbox
+from sandbox.engine import simulate, simulate_many
+from sandbox.engine.accuracy import resolve
+from sandbox.engine.run import Run
+from sandbox.engine.setup import Setup
+from sandbox.lab.sweep import sweep
+
+SPEEDS, ANGLES = (6.0, 9.0), (35.0, 75.0)  # m/s, deg
+MAP = (61, 41)
+TARGET = 0.01  # m
+RATES = (1_000, 4_000, 16_000, 64_000)  # steps/s
+#: Shots of the map that bare pymunk flies, the same each time.
+DRAWN = 6
+#: Grids of so many shots, and setups of so many balls.
+GRIDS = ((10, 10), (25, 20), MAP, (100, 100))
+BALLS = (1, 4, 16, 64)
+
+
+def grid(shape: tuple[int, int]) -> dict[str, Any]:
+    return {"launch.speed": np.linspace(*SPEEDS, shape[0]), "launch.angle": np.linspace(*ANGLES, shape[1])}
+
+
+def setups(shape: tuple[int, int]) -> list[Setup]:
+    """The setup of each shot of the map."""
+    setup = sandbox.load("basketball").build()
+    speeds, angles = grid(shape).values()
+    directions = [(cos(radians(angle)), sin(radians(angle))) for angle in angles]
+    return [
+        replace(setup, balls=[replace(setup.balls[0], velocity=(float(speed) * x, float(speed) * y))])
+        for speed in speeds
+        for x, y in directions
+    ]
+
+
+def timed(work: Callable[[], Any], repeats: int) -> tuple[float, Any]:
+    """Median of the processor's time in s, and what came of it."""
+    times = []
+    for _ in range(repeats):
+        started = thread_time()
+        done = work()
+        times.append(thread_time() - started)
+    return median(times), done
+
+
+# -------------------------------------------------------------------------------------------------------------- the map
+
+
+def by_command(shape: tuple[int, int], processes: int) -> float:
+    """Seconds by the clock of ``sandbox sweep``."""
+    program = [sys.executable, "-c", "from sandbox.cli import main; main()"]
+    axes = [("launch.speed", SPEEDS, shape[0]), ("launch.angle", ANGLES, shape[1])]
+    over = [word for key, (low, high), n in axes for word in ("--over", f"{key}={low:g}:{high:g}:{n}")]
+    with tempfile.TemporaryDirectory() as folder:
+        out = Path(folder) / "map.csv"
+        command = [*program, "sweep", "basketball", *over, "--jobs", str(processes), "--out", str(out)]
+        started = perf_counter()
+        subprocess.run(command, check=True, capture_output=True)
+        return perf_counter() - started
+
+
+def by_bare_pymunk(setup: Setup, run: Run) -> tuple[float, float, int]:
+    """Seconds and error in m at the fewest steps per second that reach the target, and how many these are."""
+    shot = Shot(replace(setup, duration=run.duration, until=None), basketball_law)
+    x, y = run.before("ball", run.duration)[:2]
+    for rate in RATES:
+        spent, end = timed(lambda rate=rate: by_pymunk.shoot(shot, rate), 1)
+        error = hypot(end.x - x, end.y - y)
+        if error <= TARGET:
+            break
+    return spent, error, rate
+
+
+def forces_alone(shots: int, evaluations: int) -> float:
+    """Seconds that numpy takes for the forces of so many shots, each evaluated so often."""
+    vx, vy = np.full(shots, 4.0), np.linspace(-6.0, 6.0, shots)
+    once = min(timeit(lambda: basketball_law(vx, vy, 0.0), number=50) / 50 for _ in range(5))  # type: ignore[arg-type]
+    return evaluations * once
+
+
+def the_map(shape: tuple[int, int], drawn: int, repeats: int) -> dict[str, Any]:
+    """A row for each way to compute it."""
+    flown, balanced = setups(shape), resolve()
+    shots = len(flown)
+    together_s, runs = timed(lambda: list(simulate_many(flown, balanced)), repeats)
+    one_by_one_s, _ = timed(lambda: [simulate(setup, balanced) for setup in flown], 1)
+    evaluations = mean(run.numerics.force_evaluations for run in runs)
+    limit = forces_alone(shots, round(evaluations)) / shots
+    commands = [[by_command(shape, processes) for processes in (1, 2)] for _ in range(repeats)]
+    finest = resolve("precise", tolerance=1e-9)
+    some = Random(1).sample(flown, drawn)
+    bare = [by_bare_pymunk(setup, simulate(setup, finest)) for setup in some]
+    found = {
+        "sandbox sweep, 1 process": (median(one for one, _ in commands) / shots, limit),
+        "sandbox sweep, 2 processes": (median(two for _, two in commands) / shots, limit / 2),
+        "simulate_many, engine alone": (together_s / shots, limit),
+        "simulate, engine alone": (one_by_one_s / shots, limit),
+        "bare pymunk, extrapolated": (mean(spent for spent, _, _ in bare), limit),
+    }
+    rows = [
+        {"way": way, "s_per_shot": spent, "shots_per_s": 1 / spent, "map_s": spent * shots, "over_limit": spent / least}
+        for way, (spent, least) in found.items()
+    ]
+    return {
+        "shots": shots,
+        "cores": os.cpu_count(),
+        "evaluations_per_shot": evaluations,
+        "limit_s_per_shot": limit,
+        "bare_pymunk": [{"time_s": spent, "error_m": error, "steps_per_s": rate} for spent, error, rate in bare],
+        "rows": rows,
+    }
+
+
+# --------------------------------------------------------------------------------------------------------------- growth
+
+
+def by_shots(shape: tuple[int, int]) -> dict[str, float]:
+    shots = shape[0] * shape[1]
+    spent, _ = timed(lambda: sweep("basketball", grid(shape)), 3 if shots < 1_000 else 1)
+    return {"shots": shots, "time_s": spent, "ms_per_shot": 1e3 * spent / shots}
+
+
+def by_balls(balls: int, repeats: int) -> dict[str, float]:
+    setup, balanced = together(balls), resolve()
+    spent, _ = timed(lambda: simulate(setup, balanced), repeats)
+    return {"balls": balls, "time_s": spent, "ms_per_ball": 1e3 * spent / balls}
+
+
+# --------------------------------------------------------------------------------------------------------------- report
+
+
+def show(told: dict[str, Any]) -> None:
+    out, found = sys.stdout, told["map"]
+    out.write(f"{found['shots']:,} free throws, {found['cores']} cores\n")
+    out.write(f"  {'':<30}{'shots/s':>10}{'the map':>12}{'over limit':>12}\n")
+    for row in found["rows"]:
+        out.write(
+            f"  {row['way']:<30}{row['shots_per_s']:>10,.3g}{row['map_s']:>10,.1f} s{row['over_limit']:>12,.0f}\n"
+        )
+    out.write(
+        f"  limit: {found['evaluations_per_shot']:.0f} evaluations of the forces a shot in numpy, "
+        f"{1e6 * found['limit_s_per_shot']:.1f} us\n"
+    )
+    drawn = found["bare_pymunk"]
+    reached = sum(one["error_m"] <= TARGET for one in drawn)
+    rates = ", ".join(f"{one['steps_per_s']:,}" for one in drawn)
+    out.write(f"  bare pymunk: {len(drawn)} shots drawn, {reached} within {100 * TARGET:g} cm, at {rates} steps/s\n")
+    out.write(f"\n  {'shots':>8}{'time':>12}{'a shot':>12}\n")
+    for row in told["shots"]:
+        out.write(f"  {row['shots']:>8,}{row['time_s']:>10.2f} s{row['ms_per_shot']:>9.2f} ms\n")
+    out.write(f"\n  {'balls':>8}{'time':>12}{'a ball':>12}\n")
+    for row in told["balls"]:
+        out.write(f"  {row['balls']:>8,}{1e3 * row['time_s']:>9.2f} ms{row['ms_per_ball']:>9.2f} ms\n")
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--json", type=Path, help="write the rows here")
+    parser.add_argument("--repeats", type=int, default=3)
+    parser.add_argument("--quick", action="store_true", help="a small map, once: to see that it works")
+    arguments = parser.parse_args()
+    quick = arguments.quick
+    repeats = 1 if quick else arguments.repeats
+    told = {
+        "map": the_map((6, 5) if quick else MAP, 1 if quick else DRAWN, repeats),
+        "shots": [by_shots(shape) for shape in (((3, 2),) if quick else GRIDS)],
+        "balls": [by_balls(balls, 3 * repeats) for balls in (BALLS[:2] if quick else BALLS)],
+    }
+    show(told)
+    if arguments.json:
+        arguments.json.write_text(json.dumps(told, indent=1))
+
+
+if __name__ == "__main__":
+    main()
