@@ -1,0 +1,161 @@
+"""How soon something happens: ``sandbox --help``, a run's numbers, the window's first frame; and which imports take it.
+
+Run ``python benchmarks/start.py [--json F] [--repeats N] [--quick]``. Each is a new process, from its start to its end,
+the median of repeats, all in turn; the window ends with its first frame, drawn in memory (SDL's dummy driver). Files
+are in the system's cache and compiled, as from the second start on.
+
+Each has its limit, a process that does only what nothing of the kind can do without: Python alone for the help; Python
+and ``import pymunk`` for a run; these, pygame and an empty window of the same size for the first frame.
+
+"clock" is what one waits, "processor" what all threads take of the cores; "over limit" compares the latter, which
+repeats on a busy machine too. Imports are by ``python -X importtime``: each package's own time, without what it imports
+from others.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import subprocess
+import sys
+from collections import defaultdict
+from pathlib import Path
+from resource import RUSAGE_CHILDREN, getrusage
+from statistics import median
+from time import perf_counter
+from typing import Any
+
+HELP = "from sandbox.cli import main; main(['--help'])"
+RUN = "from sandbox.cli import main; main(['run', 'golf', '--json'])"
+WINDOW = """
+import os, pygame
+flip = pygame.display.flip
+def first():
+    flip()
+    os._exit(0)
+pygame.display.flip = first
+from sandbox.cli import main
+main(['play', 'golf'])
+"""
+EMPTY = """
+import pygame, pymunk
+pygame.display.init()
+pygame.display.set_mode((1280, 720), pygame.RESIZABLE)
+pygame.display.flip()
+"""
+
+#: What is measured, and its limit: name and program of each.
+STARTS = {
+    "sandbox --help": (HELP, "python", "pass"),
+    "sandbox run golf --json": (RUN, "python, pymunk", "import pymunk"),
+    "window's first frame": (WINDOW, "python, pymunk, empty window", EMPTY),
+}
+#: Packages that are listed; the others are one line.
+LISTED = 10
+
+UNSEEN = os.environ | {"SDL_VIDEODRIVER": "dummy", "SDL_AUDIODRIVER": "dummy", "PYGAME_HIDE_SUPPORT_PROMPT": "1"}
+
+
+def started(program: str, *options: str) -> tuple[float, float, str]:
+    """Seconds by the clock and of the processor that a process takes, and what it said on stderr."""
+    before, began = getrusage(RUSAGE_CHILDREN), perf_counter()
+    command = [sys.executable, *options, "-c", program]
+    done = subprocess.run(command, env=UNSEEN, capture_output=True, text=True)
+    clock, after = perf_counter() - began, getrusage(RUSAGE_CHILDREN)
+    if done.returncode != 0:
+        raise SystemExit(f"{command} failed:\n{done.stderr}")
+    return clock, after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime, done.stderr
+
+
+def starts(repeats: int) -> list[dict[str, Any]]:
+    """A row for each start."""
+    programs = {name: program for name, (program, *_) in STARTS.items()}
+    programs |= {limit: program for _, limit, program in STARTS.values()}
+    for program in programs.values():
+        started(program)  # compiled and in the cache from here on
+    times: dict[str, list[tuple[float, float]]] = {name: [] for name in programs}
+    for _ in range(repeats):
+        for name, program in programs.items():
+            times[name].append(started(program)[:2])
+    clock = {name: median(one for one, _ in found) for name, found in times.items()}
+    processor = {name: median(one for _, one in found) for name, found in times.items()}
+    return [
+        {
+            "start": name,
+            "clock_s": clock[name],
+            "processor_s": processor[name],
+            "limit": limit,
+            "limit_clock_s": clock[limit],
+            "limit_processor_s": processor[limit],
+            "over_limit": processor[name] / processor[limit],
+        }
+        for name, (_, limit, _) in STARTS.items()
+    ]
+
+
+def imports(program: str, repeats: int) -> dict[str, float]:
+    """Milliseconds of each package's own modules, the median of repeats."""
+    found = [_by_package(started(program, "-X", "importtime")[2]) for _ in range(repeats)]
+    return {package: median(times.get(package, 0.0) for times in found) for package in found[0]}
+
+
+def _by_package(said: str) -> dict[str, float]:
+    times: dict[str, float] = defaultdict(float)
+    for line in said.splitlines():
+        own, _, rest = line.removeprefix("import time:").partition("|")
+        if line.startswith("import time:") and own.strip().isdigit():
+            times[_package(rest.partition("|")[2].strip())] += int(own) / 1e3
+    return dict(times)
+
+
+def _package(module: str) -> str:
+    top = module.partition(".")[0]
+    if top in ("sandbox", "sandbox_scenes"):
+        return "the sandbox and its scenes"
+    return "standard library" if top in sys.stdlib_module_names else top.removeprefix("_").removesuffix("_cffi")
+
+
+def show(told: dict[str, Any]) -> None:
+    out = sys.stdout
+    out.write(f"{'':<26}{'clock':>9}{'processor':>12}{'over limit':>12}   limit, its clock and processor\n")
+    for row in told["starts"]:
+        out.write(
+            f"{row['start']:<26}{1e3 * row['clock_s']:>6.0f} ms{1e3 * row['processor_s']:>9.0f} ms"
+            f"{row['over_limit']:>12.1f}   {row['limit']}: {1e3 * row['limit_clock_s']:.0f} ms, "
+            f"{1e3 * row['limit_processor_s']:.0f} ms\n"
+        )
+    columns = told["imports"]
+    heads = [name.removeprefix("sandbox ") for name in columns]
+    out.write(f"\n{'own time of imports, ms':<28}" + "".join(f"{head:>22}" for head in heads) + "\n")
+    packages = sorted({name for found in columns.values() for name in found}, key=lambda name: -_most(columns, name))
+    for package in packages[:LISTED]:
+        cells = (f"{found.get(package, 0.0):>22.1f}" for found in columns.values())
+        out.write(f"{package:<28}" + "".join(cells) + "\n")
+    others = (f"{sum(found.get(name, 0.0) for name in packages[LISTED:]):>22.1f}" for found in columns.values())
+    out.write(f"{f'{len(packages[LISTED:])} others':<28}" + "".join(others) + "\n")
+    out.write(f"{'all':<28}" + "".join(f"{sum(found.values()):>22.1f}" for found in columns.values()) + "\n")
+
+
+def _most(columns: dict[str, dict[str, float]], package: str) -> float:
+    return max(found.get(package, 0.0) for found in columns.values())
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--json", type=Path, help="write the rows here")
+    parser.add_argument("--repeats", type=int, default=9)
+    parser.add_argument("--quick", action="store_true", help="once: to see that it works")
+    arguments = parser.parse_args()
+    repeats = 1 if arguments.quick else arguments.repeats
+    told = {
+        "starts": starts(repeats),
+        "imports": {name: imports(program, min(repeats, 3)) for name, (program, *_) in STARTS.items()},
+    }
+    show(told)
+    if arguments.json:
+        arguments.json.write_text(json.dumps(told, indent=1))
+
+
+if __name__ == "__main__":
+    main()
