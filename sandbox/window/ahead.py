@@ -9,7 +9,7 @@ from concurrent.futures import wait as wait_for
 from typing import Any
 
 #: How long a frame waits for a run, in s: most runs end in this time, and the rest of a frame is for drawing.
-PATIENCE = 0.007
+PATIENCE = 0.009
 #: How often Python lets threads take turns, in s: its own 5 ms would be a third of a frame.
 TURNS = 0.0005
 

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from concurrent.futures import Future
 from pathlib import Path
 from threading import Thread
-from time import perf_counter
+from time import perf_counter, thread_time
 from typing import TYPE_CHECKING, Any
 
 import pygame
@@ -42,6 +42,8 @@ SMALLEST = (640, 400)
 MESSAGE = 6.0
 #: A fan is begun when the shot has not changed for so long, in s.
 STILL = 0.1
+#: Share of its patience that a frame has with runs that take longer than that.
+SHORT = 0.2
 #: Time in s that is left free at the end of a frame, for the display and for what runs a little longer.
 RESERVE = 0.004
 
@@ -109,7 +111,9 @@ class App:
             self._reload()
         self.still += dt
         self.view.pass_time(dt)
-        self._predict(self.patience if self.shot is not None else None)
+        # A run that takes longer anyway is hardly waited for: it goes on beside the drawing.
+        patience = self.patience if self.cost <= self.patience else SHORT * self.patience
+        self._predict(patience if self.shot is not None else None)
         self._spread()
         if self.panel is not None:
             self.panel.update(dt)
@@ -198,9 +202,9 @@ class App:
             predict, self.stale = self.session.prediction(), False
 
             def timed() -> tuple[Shot, float]:
-                started = perf_counter()
+                started = thread_time()  # the processor's: drawing goes on beside it
                 shot = predict()
-                return shot, perf_counter() - started
+                return shot, thread_time() - started
 
             self.awaited = self.ahead.start(timed)
         self._take(patience)
@@ -258,6 +262,11 @@ class App:
                 self.tell("from where the balls rest; B puts them back where they began")
             self.view.clear()
             self.settle()  # a shot of another place must not be drawn on this one
+
+    def restore(self, changes: dict[str, Any]) -> None:
+        """Aim as it was with these changes."""
+        if changes != self.session.changes and self.trying(lambda: self.session.restore(changes)):
+            self.stale = True
 
     def begin_again(self) -> None:
         """The balls back where they were before any shot went on from another."""

@@ -116,7 +116,7 @@ def _back(app: App) -> None:
         view.on.discard("help")
         view.energy = None
     elif app.pointer.pull is not None:
-        app.pointer.let_go()
+        app.pointer.give_up()
     elif app.pointer.tape is not None:
         view.on.discard("tape")
         app.pointer.tape = None

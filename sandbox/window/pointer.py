@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from math import hypot
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import pygame
 
@@ -23,6 +23,7 @@ class Pointer:
         self.app = app
         self.at: Place = (-1, -1)
         self.start: Place | None = None  # where the button went down for a pull
+        self.before: dict[str, Any] = {}  # what was changed until then
         self.pull: tuple[float, float] | None = None  # px, while it is down
         self.scrubbing = False  # the time line is dragged
         self.tape: Tape | None = None
@@ -36,6 +37,11 @@ class Pointer:
     def let_go(self) -> None:
         """Leave what was begun."""
         self.start, self.pull, self.scrubbing, self.laying = None, None, False, False
+
+    def give_up(self) -> None:
+        """Leave a pull: the aim is what it was before."""
+        self.let_go()
+        self.app.restore(self.before)
 
     def handle(self, event: pygame.event.Event) -> None:
         """One event of the mouse."""
@@ -86,7 +92,7 @@ class Pointer:
                 self._lay(at)
             else:
                 app.back_to_aiming(goes_on=True)
-                self.start, self.pull = at, (0.0, 0.0)
+                self.start, self.pull, self.before = at, (0.0, 0.0), dict(app.session.changes)
 
     def _lay(self, at: Place) -> None:
         camera = self.app.view.camera

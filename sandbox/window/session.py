@@ -183,10 +183,13 @@ class Session:
         self.fresh = len(self.shots)
         return True
 
+    def restore(self, changes: Mapping[str, Any]) -> None:
+        """These changes and no others."""
+        self.scene, self.changes = self._with(changes), dict(changes)
+
     def begin_again(self) -> None:
         """Take back what ``go_on`` changed."""
-        kept = {key: value for key, value in self.changes.items() if key not in self.laid}
-        self.scene, self.changes = self._with(kept), kept
+        self.restore({key: value for key, value in self.changes.items() if key not in self.laid})
         self.laid.clear()
         self.fresh = len(self.shots)
 

@@ -48,10 +48,12 @@ def test_letting_go_shoots_what_was_shown(player):
 def test_a_longer_pull_is_stronger_and_escape_leaves_it(player):
     player = player("golf")
     speeds = []
+    before = player.app.shot.run.result
     for length in (40, 120, 240):
         player.pull((-length, 0), let_go=False)
         speeds.append(player.app.session.value("launch.speed"))
         player.key(pygame.K_ESCAPE)
+        assert player.app.shot.run.result == before
     assert speeds == sorted(set(speeds))
     assert not player.app.session.shots
     player.release((5, 5))
