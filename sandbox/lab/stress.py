@@ -22,7 +22,7 @@ from sandbox.engine.run import Run
 from sandbox.engine.setup import Circle, Surface
 from sandbox.errors import RequestError, SandboxError
 from sandbox.lab.extremes import ALL, ERROR_CONTROL, EXACT, FIXED_STEP, PLAIN, Extreme, bare, of_scene
-from sandbox.lab.tables import length, percent, table
+from sandbox.lab.tables import length, percent, significant, table
 from sandbox.physics.integrators import INTEGRATORS
 from sandbox.scene import Scene
 
@@ -134,7 +134,7 @@ def _tried(scene: str, extreme: Extreme, method: str, accuracy: Accuracy) -> Out
         problems.append("a number that is none")
     bound = ENERGY if INTEGRATORS[accuracy.integrator].controls_error else ENERGY_FIXED_STEP
     if accuracy.method == "exact" and gained > bound:
-        problems.append(f"energy from nowhere, {100.0 * gained:.2g} %")
+        problems.append(f"energy from nowhere, {significant(100.0 * gained)} %")
     if accuracy.method == "exact" and overlap > OVERLAP:
         problems.append(f"overlap of {length(overlap)}")
     if through:
