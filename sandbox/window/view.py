@@ -96,7 +96,9 @@ class View:
         if app.message is not None:
             overlay.draw_message(sheet, app.message[0], app.message[1])
         if self.choices is not None:
-            self.choices.draw(sheet, app.bar.buttons.get(self.choices.group), self.on, app.pointer.at)
+            button = app.bar.buttons.get(self.choices.group)
+            words = {"accuracy": f"accuracy: {app.session.value('accuracy.level')}, and the next"}
+            self.choices.draw(sheet, button, self.switched, words, app.pointer.at)
 
     def draw_over(self, canvas: pygame.Surface, height: int) -> None:
         """What lies over all but the bar, the panel too: the keys, the scenes."""
@@ -238,6 +240,13 @@ class View:
             read = reading(shot, camera, pointer.at, NEAR * sheet.unit, until)
             if read is not None:
                 draw_reading(sheet, shot, read)
+
+    @property
+    def switched(self) -> set[str]:
+        """The commands whose switches are on."""
+        app = self.app
+        others = {"panel": app.has_panel, "sound": app.sound is not None and app.sound.on}
+        return self.on | {command for command, on in others.items() if on}
 
     @property
     def covered(self) -> bool:
