@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from itertools import groupby
 
 import pygame
@@ -78,18 +78,26 @@ class Choices:
     def command_at(self, position: tuple[int, int]) -> str | None:
         return next((command for rect, command in self.places if rect.collidepoint(position)), None)
 
-    def draw(self, sheet: Sheet, button: pygame.Rect | None, on: Collection[str], mouse: tuple[int, int]) -> None:
-        """At the foot of the picture, above its button."""
+    def draw(
+        self,
+        sheet: Sheet,
+        button: pygame.Rect | None,
+        on: Collection[str],
+        words: Mapping[str, str],
+        mouse: tuple[int, int],
+    ) -> None:
+        """At the foot of the picture, above its button; ``words`` instead of what the help says of a command."""
         letters, unit, gap = sheet.lettering, sheet.unit, sheet.gap
         row = round(letters.height("small") + 1.6 * gap)
-        wide = max(letters.width(binding.meaning, "small") for binding in self.bindings)
+        texts = [words.get(binding.command, binding.meaning) for binding in self.bindings]
+        wide = max(letters.width(text, "small") for text in texts)
         keys = max(letters.width(binding.shown, "small", bold=True) for binding in self.bindings)
         rect = pygame.Rect(0, 0, wide + keys + 14 * gap, row * len(self.bindings) + 2 * gap)
         rect.midbottom = button.centerx if button is not None else sheet.size[0], sheet.size[1] - gap
         rect.clamp_ip(sheet.surface.get_rect().inflate(-2 * gap, -2 * gap))
         sheet.painter.panel(rect, CARD["background"], 0.96, 10 * unit)
         self.places.clear()
-        for number, binding in enumerate(self.bindings):
+        for number, (binding, text) in enumerate(zip(self.bindings, texts, strict=True)):
             place = pygame.Rect(rect.left + gap, rect.top + gap + number * row, rect.width - 2 * gap, row)
             self.places.append((place, binding.command))
             if place.collidepoint(mouse):
@@ -98,9 +106,8 @@ class Choices:
             if switched:
                 sheet.painter.disc((place.left + 2 * gap, place.centery), 4 * unit, CARD["accent"])
             colour: Colour = CARD["accent"] if switched else CARD["text"]
-            letters.write(
-                sheet.surface, binding.meaning, "small", (place.left + 4 * gap, place.centery), colour, "midleft"
-            )
+            at = (place.left + 4 * gap, place.centery)
+            letters.write(sheet.surface, text, "small", at, colour, "midleft")
             at = (place.right - 2 * gap, place.centery)
             letters.write(sheet.surface, binding.shown, "small", at, CARD["quiet"], "midright", bold=True)
 

@@ -247,6 +247,13 @@ class TestTheLists:
         assert player.app.view.choices is None
         assert player.app.pointer.pull is None
 
+    def test_it_says_what_is_on(self, player):
+        player = player(PUTT)
+        assert player.app.view.switched == {"ghosts"}
+        player.key(pygame.K_TAB)
+        player.key(pygame.K_o)
+        assert player.app.view.switched == {"ghosts", "panel", "arrows"}
+
     def test_with_the_panel_open_the_help_and_the_menu_can_still_be_clicked(self, player):
         player = player(PUTT, (640, 400))
         player.key(pygame.K_TAB)
