@@ -1,14 +1,10 @@
-"""The same billiard shots beside pooltool 0.6.0: where the balls end, and how long a nine-ball break takes.
+"""The same billiard shots beside pooltool 0.6.0: where the balls end, and how long a break and a cut shot take.
 
-Run ``python benchmarks/billiards_pooltool.py --pooltool /tmp/pooltool/bin/python [--json F] [--repeats N]``.
+Run ``python benchmarks/billiards_pooltool.py --pooltool .venv/pooltool/bin/python [--json F] [--repeats N] [--cold]
+[--quick]``.
 
 pooltool asks for pins that cannot be met beside each other, so it lives in a virtual environment of its own, with the
-same Python as ours::
-
-    python3 -m venv /tmp/pooltool
-    /tmp/pooltool/bin/pip install panda3d==1.10.15 "numba<0.62" panda3d-gltf panda3d-simplepbr scipy attrs cattrs \\
-        msgpack msgpack-numpy pyyaml click pillow h5py h11 "rich<15" numpy-quaternion
-    /tmp/pooltool/bin/pip install --no-deps pooltool-billiards==0.6.0
+same Python as ours: ``make .venv/pooltool/ready`` makes it.
 
 This program asks it, in a process that stays, for one shot at a time and takes turns with it, so that a slow moment of
 the machine hits both. Both get the same balls, cloth, positions, and velocity and spin just after the stroke, and
@@ -21,6 +17,13 @@ friction between balls by speed (Alciatore). Where they differ:
   takes up more of its roll and springs back along itself. Ours meets the ball at its centre, with restitution and
   friction.
 - Balls that meet at one instant: pooltool takes them one by one, we all at once.
+
+Times are those of the processor, the medians of repeats in turn. The limit is what an impact costs where pymunk is to
+resolve it: one bare step of a Space with two balls that touch, for each impact of ours; all that comes between, which
+has closed forms, for nothing.
+
+Cold is a process that begins with the break: the import and the first shot. pooltool compiles its functions once for an
+installation and keeps them; ``--cold`` measures that, with an empty cache, which takes most of a minute.
 """
 
 from __future__ import annotations
@@ -35,10 +38,12 @@ from dataclasses import asdict, dataclass, replace
 from math import cos, hypot, radians, sin
 from pathlib import Path
 from statistics import median
-from time import perf_counter
+from time import thread_time
+from timeit import timeit
 from typing import Any
 
 R = 0.028575  # m
+NAMES = {"ours": "ours, balanced", "pooltool": "pooltool 0.6.0"}
 CLEAR, TABLE = (20.0, 10.0), (2.54, 1.27)  # m; the first is so large that no ball reaches a cushion
 
 
@@ -123,9 +128,9 @@ def our_answer(setup: Any) -> dict[str, Any]:
     from sandbox.engine import simulate
     from sandbox.engine.accuracy import resolve
 
-    started = perf_counter()
+    started = thread_time()
     run = simulate(setup, resolve("balanced"))
-    seconds = perf_counter() - started
+    seconds = thread_time() - started
     off = next((e.t for e in run.events if e.kind == "impact" and e.partner.endswith("cushion")), None)
     return {
         "seconds": seconds,
@@ -143,14 +148,16 @@ def our_answer(setup: Any) -> dict[str, Any]:
 class Peer:
     """pooltool in a process of its own, one shot at a time."""
 
-    def __init__(self, python: Path) -> None:
+    def __init__(self, python: Path, compiled: bool = True) -> None:
+        """``compiled``: with what it keeps of earlier compilations."""
         self._home = tempfile.TemporaryDirectory()  # it writes its configuration into the user's home
+        places = {"HOME": self._home.name, "XDG_CONFIG_HOME": self._home.name}
         self._process = subprocess.Popen(
             [python, __file__, "--peer"],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             text=True,
-            env={**os.environ, "HOME": self._home.name, "XDG_CONFIG_HOME": self._home.name},
+            env=os.environ | places | ({} if compiled else {"NUMBA_CACHE_DIR": self._home.name}),
         )
 
     def __enter__(self) -> Peer:
@@ -165,12 +172,19 @@ class Peer:
     def answer(self, shot: Shot, setup: Any) -> dict[str, Any]:
         """The shot from the state of our ``setup``."""
         assert self._process.stdin is not None
-        assert self._process.stdout is not None
         cue = next(ball for ball in setup.balls if ball.name == "cue")
         motion = {"velocity": cue.velocity, "spin": cue.spin, "rolling_spin": cue.rolling_spin}
         places = {ball.name: ball.position for ball in setup.balls}
         self._process.stdin.write(json.dumps(asdict(shot) | motion | {"balls": places}) + "\n")
         self._process.stdin.flush()
+        return self._said()
+
+    def import_seconds(self) -> float:
+        """What it says first."""
+        return self._said()["seconds"]
+
+    def _said(self) -> dict[str, Any]:
+        assert self._process.stdout is not None
         line = self._process.stdout.readline()
         if not line:
             raise SystemExit("pooltool's process ended; its error stands above")
@@ -181,8 +195,11 @@ def be_peer() -> None:
     """Answer shots, a line of JSON each; with pooltool's interpreter."""
     answers = os.fdopen(os.dup(1), "w")
     os.dup2(2, 1)  # whatever pooltool prints goes to stderr
+    started = thread_time()
     import pooltool
 
+    answers.write(json.dumps({"seconds": thread_time() - started}) + "\n")
+    answers.flush()
     for line in sys.stdin:
         answers.write(json.dumps(_pooltool_answer(pooltool, json.loads(line))) + "\n")
         answers.flush()
@@ -205,9 +222,9 @@ def _pooltool_answer(pooltool: Any, shot: dict[str, Any]) -> dict[str, Any]:
     cue.rvw[2] = (-wy, wx, shot["spin"])
     cue.s = pooltool.constants.sliding
     system = pooltool.System(cue=pooltool.Cue(cue_ball_id="cue"), table=table, balls=balls)
-    started = perf_counter()
+    started = thread_time()
     pooltool.simulate(system, inplace=True)
-    seconds = perf_counter() - started
+    seconds = thread_time() - started
     pocketed = [event.ids[0] for event in system.events if event.event_type == pooltool.EventType.BALL_POCKET]
     kinds = [str(event.event_type) for event in system.events]
     cushion = next((event for event in system.events if "cushion" in str(event.event_type)), None)
@@ -229,10 +246,10 @@ def _pooltool_answer(pooltool: Any, shot: dict[str, Any]) -> dict[str, Any]:
 # --------------------------------------------------------------------------------------------------------------- report
 
 
-def compare(peer: Peer) -> list[dict[str, Any]]:
+def compare(peer: Peer, chosen: list[Shot]) -> list[dict[str, Any]]:
     """Each shot by both: where the balls end, and how far apart that is."""
     rows = []
-    for shot in shots():
+    for shot in chosen:
         mine, theirs, apart = _both(peer, shot)
         _, _, elastic = _both(peer, replace(shot, restitution=1.0))
         rows.append(
@@ -250,20 +267,59 @@ def _both(peer: Peer, shot: Shot) -> tuple[dict[str, Any], dict[str, Any], dict[
     return mine, theirs, {name: hypot(x - ends[name][0], y - ends[name][1]) for name, (x, y) in mine["ends"].items()}
 
 
-def race(peer: Peer, repeats: int) -> dict[str, Any]:
-    """The nine-ball break, in turns: median seconds."""
+def race(peer: Peer, repeats: int) -> list[dict[str, Any]]:
+    """The break and a cut shot, in turns: median seconds."""
+    rows = []
+    cost = seconds_of_an_impact()
+    for shot in (rack(), next(shot for shot in shots() if shot.name == "cut 30 deg, rolling")):
+        setup = our_setup(shot)
+        ours, theirs = our_answer(setup), peer.answer(shot, setup)
+        turns = [(our_answer(setup)["seconds"], peer.answer(shot, setup)["seconds"]) for _ in range(repeats)]
+        ours |= {"seconds": median(mine for mine, _ in turns)}
+        theirs |= {"seconds": median(other for _, other in turns)}
+        limit = ours["impacts"] * cost
+        for answer in (ours, theirs):
+            answer["over_limit"] = answer["seconds"] / limit
+        rows.append({"shot": shot.name, "limit_s": limit, "ours": ours, "pooltool": theirs})
+    return rows
+
+
+def seconds_of_an_impact() -> float:
+    """One bare pymunk step of two balls that touch."""
+    import pymunk
+
+    space = pymunk.Space()
+    for x in (-R, R):
+        body = pymunk.Body(0.17, 0.4 * 0.17 * R * R)
+        body.position = x, 0.0
+        body.velocity = -x, 0.0
+        space.add(body, pymunk.Circle(body, R))
+    return min(timeit(lambda: space.step(1e-9), number=2_000) / 2_000 for _ in range(5))
+
+
+def cold(python: Path, compiled: bool) -> dict[str, float]:
+    """Seconds of pooltool's import and of the break, the first thing that a process computes."""
     shot = rack()
-    setup = our_setup(shot)
-    first = our_answer(setup), peer.answer(shot, setup)
-    turns = [(our_answer(setup)["seconds"], peer.answer(shot, setup)["seconds"]) for _ in range(repeats)]
-    return {
-        "ours_s": median(mine for mine, _ in turns),
-        "pooltool_s": median(theirs for _, theirs in turns),
-        "first": first,
-    }
+    with Peer(python, compiled) as peer:
+        return {"import_s": peer.import_seconds(), "first_s": peer.answer(shot, our_setup(shot))["seconds"]}
 
 
-def report(rows: list[dict[str, Any]], timing: dict[str, Any], first_shot: float) -> str:
+def ours_cold() -> dict[str, float]:
+    """The same of ours, in a new process."""
+    return json.loads(subprocess.run([sys.executable, __file__, "--begin"], stdout=subprocess.PIPE, check=True).stdout)
+
+
+def begin() -> None:
+    """Be that process."""
+    started = thread_time()
+    import sandbox.engine.simulation  # noqa: F401
+
+    setup = our_setup(rack())
+    imported = thread_time() - started
+    sys.stdout.write(json.dumps({"import_s": imported, "first_s": our_answer(setup)["seconds"]}))
+
+
+def report(rows: list[dict[str, Any]], races: list[dict[str, Any]], colds: dict[str, dict[str, float]]) -> str:
     """All of it, for people."""
     lines = [f"{'shot':<24} {'':<4}{'ours end':^16} {'pooltool':^16} {'apart':>10} {'at e = 1':>12}  differs by"]
     for row in rows:
@@ -280,19 +336,21 @@ def report(rows: list[dict[str, Any]], timing: dict[str, Any], first_shot: float
                 vx, vy, wz, wx, wy = row[who]["off_cushion"]
                 spin = f"({R * wx:.3f}, {R * wy:.3f}, {R * wz:.3f})"
                 lines.append(f"{'':<24}   off the cushion, {who + ':':<9} v ({vx:.3f}, {vy:.3f}), r w {spin} m/s")
-    lines += ["", "nine-ball break at 8 m/s, strike to rest, warm, in turns:"]
-    for who, answer, seconds in zip(
-        ("ours, balanced", "pooltool 0.6.0"), timing["first"], (timing["ours_s"], timing["pooltool_s"]), strict=True
-    ):
-        potted = ", ".join(answer["potted"]) or "none"
-        lines.append(
-            f"  {who}  {1e3 * seconds:6.1f} ms   {answer['impacts']} impacts, {answer['lasts']:.1f} s, potted {potted}"
-        )
-    lines += [
-        f"  pooltool takes {timing['pooltool_s'] / timing['ours_s']:.1f} times as long; "
-        f"its first shot took {first_shot:.1f} s (it compiles, once for an installation)",
-        "  Ends are not compared: each impact multiplies a difference by ten or so, and cushions and jaws differ.",
-    ]
+    lines += ["", f"{'strike to rest, warm':<24} {'':<16}{'time':>9}{'over limit':>12}  impacts, lasts, potted"]
+    for race in races:
+        title = race["shot"]
+        for who in ("ours", "pooltool"):
+            answer = race[who]
+            potted = ", ".join(answer["potted"]) or "none"
+            lines.append(
+                f"{title:<24} {NAMES[who]:<16}{1e3 * answer['seconds']:>6.1f} ms{answer['over_limit']:>12,.0f}  "
+                f"{answer['impacts']}, {answer['lasts']:.1f} s, {potted}"
+            )
+            title = ""
+        lines.append(f"{'':<24} {'limit':<16}{1e3 * race['limit_s']:>6.3f} ms{1:>12}")
+    lines += ["", f"{'cold, the break':<41}{'import':>9}{'first shot':>12}"]
+    lines += [f"{who:<41}{found['import_s']:>7.2f} s{found['first_s']:>10.2f} s" for who, found in colds.items()]
+    lines.append("Where the balls of the break end is not compared: each impact multiplies a difference by ten or so.")
     return "\n".join(lines)
 
 
@@ -301,21 +359,30 @@ def main() -> None:
     parser.add_argument("--pooltool", type=Path, help="the Python that has pooltool")
     parser.add_argument("--repeats", type=int, default=25)
     parser.add_argument("--json", type=Path, help="write all of it here")
+    parser.add_argument("--cold", action="store_true", help="also how long pooltool compiles")
+    parser.add_argument("--quick", action="store_true", help="one shot, once: to see that it works")
     parser.add_argument("--peer", action="store_true", help=argparse.SUPPRESS)
+    parser.add_argument("--begin", action="store_true", help=argparse.SUPPRESS)
     arguments = parser.parse_args()
     if arguments.peer:
         be_peer()
         return
+    if arguments.begin:
+        begin()
+        return
     if arguments.pooltool is None:
         parser.error("--pooltool: which Python has pooltool? The head of this file says how to make one")
+    quick = arguments.quick
     with Peer(arguments.pooltool) as peer:
-        stop = shots()[0]
-        first_shot = peer.answer(stop, our_setup(stop))["seconds"]
-        rows = compare(peer)
-        timing = race(peer, arguments.repeats)
-    sys.stdout.write(report(rows, timing, first_shot) + "\n")
+        peer.import_seconds()
+        rows = compare(peer, shots()[:1] if quick else shots())
+        races = race(peer, 1 if quick else arguments.repeats)
+    colds = {"ours": ours_cold(), "pooltool 0.6.0": cold(arguments.pooltool, compiled=True)}
+    if arguments.cold:
+        colds["pooltool 0.6.0, which has to compile"] = cold(arguments.pooltool, compiled=False)
+    sys.stdout.write(report(rows, races, colds) + "\n")
     if arguments.json:
-        arguments.json.write_text(json.dumps({"shots": rows, "break": timing, "first_shot_s": first_shot}, indent=1))
+        arguments.json.write_text(json.dumps({"shots": rows, "races": races, "cold": colds}, indent=1))
 
 
 if __name__ == "__main__":
