@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable
-from concurrent.futures import Future, ThreadPoolExecutor
+from concurrent.futures import Future
 from concurrent.futures import wait as wait_for
+from queue import SimpleQueue
+from threading import Thread
 from typing import Any
 
 #: How long a frame waits for a run, in s: most runs end in this time, and the rest of a frame is for drawing.
@@ -15,19 +17,30 @@ TURNS = 0.0005
 
 
 class Ahead:
-    """One thread that does one thing after the other."""
+    """One thread that does one thing after the other. It keeps no program from ending, whatever it is at."""
 
     def __init__(self) -> None:
         sys.setswitchinterval(TURNS)
-        self.pool = ThreadPoolExecutor(1, "runs")
+        self.work: SimpleQueue[tuple[Future[Any], Callable[[], Any]] | None] = SimpleQueue()
+        Thread(target=self._go_on, name="runs", daemon=True).start()
 
     def start(self, work: Callable[[], Any]) -> Future[Any]:
         """Do it as soon as what was asked for before is done."""
-        return self.pool.submit(work)
+        future: Future[Any] = Future()
+        self.work.put((future, work))
+        return future
 
     def close(self) -> None:
-        """Leave what has not begun."""
-        self.pool.shutdown(wait=False, cancel_futures=True)
+        """End when what was asked for is done."""
+        self.work.put(None)
+
+    def _go_on(self) -> None:
+        while (item := self.work.get()) is not None:
+            future, work = item
+            try:
+                future.set_result(work())
+            except Exception as error:  # told where the result is asked for
+                future.set_exception(error)
 
 
 def ready(future: Future[Any], patience: float | None) -> bool:

@@ -95,7 +95,7 @@ class Choices:
         rect = pygame.Rect(0, 0, wide + keys + 14 * gap, row * len(self.bindings) + 2 * gap)
         rect.midbottom = button.centerx if button is not None else sheet.size[0], sheet.size[1] - gap
         rect.clamp_ip(sheet.surface.get_rect().inflate(-2 * gap, -2 * gap))
-        sheet.painter.panel(rect, CARD["background"], 0.96, 10 * unit)
+        sheet.painter.panel(rect, CARD["background"], 1.0, 10 * unit)
         self.places.clear()
         for number, (binding, text) in enumerate(zip(self.bindings, texts, strict=True)):
             place = pygame.Rect(rect.left + gap, rect.top + gap + number * row, rect.width - 2 * gap, row)

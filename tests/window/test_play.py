@@ -280,6 +280,17 @@ class TestASlowRun:
         player.key(pygame.K_SPACE)
         assert player.app.session.shots[-1].scene is player.app.session.scene
 
+    def test_one_that_never_ends_keeps_nobody_from_leaving(self):
+        code = (
+            "import pygame, time; pygame.display.init(); screen = pygame.display.set_mode((640, 400));"
+            "from sandbox.window.app import App; from sandbox.window.session import Session;"
+            "app = App(Session('golf/putt'), screen, patience=0.01); app.tick(0.02);"
+            "app.session.prediction = lambda: lambda: time.sleep(1000);"
+            "app.change({'launch.speed': 2.0}); app.tick(0.02);"
+            "pygame.event.post(pygame.event.Event(pygame.QUIT)); app.run()"
+        )
+        subprocess.run([sys.executable, "-c", code], timeout=60, check=True)
+
     def test_one_that_fails_leaves_the_last_good_shot(self, player):
         player = player("golf/putt")
         before = player.app.shot
