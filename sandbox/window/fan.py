@@ -19,7 +19,7 @@ from sandbox.picture.painter import Painter, blank
 from sandbox.picture.palette import Colour, palette
 from sandbox.picture.sheet import Sheet, signed
 from sandbox.scene import Scene, simulate
-from sandbox.window.path import apart
+from sandbox.window.path import few
 from sandbox.window.session import Shot
 
 if TYPE_CHECKING:
@@ -117,7 +117,7 @@ class Fan:
     @staticmethod
     def _add(layer: pygame.Surface, shot: Shot, camera: Camera, unit: float) -> None:
         pixels = np.clip(camera.pixels(shot.track(shot.ball)[:, 1:]), -2000, 6000)
-        pixels = pixels[apart(pixels, 4.0)]
+        pixels = few(pixels)
         colour: Colour = CARD["good"] if shot.scored else CARD["text"]
         low, high = pixels.min(axis=0) - 2, pixels.max(axis=0) + 3
         box = pygame.Rect(*low.astype(int), *(high - low).astype(int)).clip(layer.get_rect())

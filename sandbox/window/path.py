@@ -13,6 +13,8 @@ if TYPE_CHECKING:
 
 #: Points on each arc of a path. The arcs of a drive are seconds long, and its line must still look smooth.
 POINTS = 9
+#: A drawn line has no points nearer to each other than this, none farther, in px, and bends by no more at one, in rad.
+CLOSEST, LONGEST, BEND = 3.0, 40.0, 0.06
 
 
 @lru_cache
@@ -44,8 +46,23 @@ def moves(run: Run, ball: str) -> bool:
     return any(len(arc.x) > 1 or len(arc.y) > 1 for arc in run.arcs[ball])
 
 
-def apart(pixels: np.ndarray, least: float) -> np.ndarray:
-    """Indices of points that are at least so many px from the one before, and the last."""
+def few(pixels: np.ndarray) -> np.ndarray:
+    """As few of the points (px, shape (n, 2)) as give the same line to the eye: more where it bends, and each corner.
+
+    Pieces of a smooth line that are short show where they meet.
+    """
+    pixels = pixels[_apart(pixels)]
+    steps = np.diff(pixels, axis=0)
+    heading = np.arctan2(steps[:, 1], steps[:, 0])
+    turn = np.abs((np.diff(heading) + np.pi) % (2 * np.pi) - np.pi)
+    along = np.hypot(*steps.T) / LONGEST
+    along[1:] += turn / BEND
+    _, kept = np.unique(np.floor(np.cumsum(along)), return_index=True)
+    return pixels[np.union1d([0, len(pixels) - 1], kept)]
+
+
+def _apart(pixels: np.ndarray) -> np.ndarray:
+    """Indices of points that are at least CLOSEST px from the one before, and the last."""
     along = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(pixels, axis=0).T))])
-    _, kept = np.unique(np.floor(along / least), return_index=True)
+    _, kept = np.unique(np.floor(along / CLOSEST), return_index=True)
     return np.union1d(kept, [len(pixels) - 1])

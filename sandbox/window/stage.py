@@ -13,13 +13,19 @@ from sandbox.picture.camera import Camera
 from sandbox.picture.painter import blank
 from sandbox.picture.palette import Colour, palette
 from sandbox.picture.sheet import Sheet
-from sandbox.window.path import apart
+from sandbox.window.path import few
 from sandbox.window.session import Shot
 
 CARD, TRACE = palette("card"), palette("trace")
 
 #: So much of the stage, on every side, a path may use before the view is composed anew.
 EDGE = 0.02
+#: Where a line bends by more than this, in rad, it has a round joint.
+JOINT = 0.2
+#: So far from its edge, in px, a line is filled.
+INSIDE = 1.2
+#: Pieces of a line lie over each other by so much, in px, or a gap would show where they meet.
+OVERLAP = 0.35
 #: Contacts nearer to each other than this, in px, are marked once; and at most so many.
 NEAR, MOST_CONTACTS = 14, 24
 
@@ -108,8 +114,7 @@ class Stage:
             track = np.vstack([track, (until, *shot.run.state(ball, until)[:2])])
         pixels = self.camera.pixels(track[:, 1:])
         pixels = np.clip(pixels, -4000, 8000)
-        for a, b in pairwise(pixels[apart(pixels, 3.0)]):
-            pygame.draw.aaline(surface, colour, a, b, width)
+        draw_line(surface, few(pixels), width, colour)
 
     def _contacts(self, sheet: Sheet, shot: Shot, until: float | None) -> None:
         assert self.camera is not None
@@ -144,6 +149,33 @@ class Stage:
         rect = rect.inflate(4 * sheet.gap, 2 * sheet.gap).clamp(sheet.frame)
         sheet.painter.panel(rect, CARD["background"], 0.85, 6 * sheet.unit)
         sheet.lettering.write(sheet.surface, text, "small", rect.center, CARD["text"], "center")
+
+
+def draw_line(surface: pygame.Surface, points: np.ndarray, width: float, colour: Colour) -> None:
+    """A line through points (px, shape (n, 2)), as wide in every direction, and smooth: quicker than the painter's.
+
+    pygame's own smooth lines are as wide as ``width`` only where they run straight along or down.
+    """
+    if width < 2.5:
+        for a, b in pairwise(points):
+            pygame.draw.aaline(surface, colour, a, b, round(width))
+        return
+    steps = np.diff(points, axis=0)
+    lengths = np.maximum(np.hypot(*steps.T), 1e-9)
+    ahead = steps / lengths[:, None]
+    across = np.column_stack([-ahead[:, 1], ahead[:, 0]])
+    bends = np.hypot(*np.diff(across, axis=0).T) > JOINT
+    for point in points[1:-1][bends]:
+        pygame.draw.aacircle(surface, colour, point, width / 2)
+    # The edge of a filled shape is rough, and covered by the smooth lines along it.
+    sides = np.array([width / 2 - 0.5, width / 2 - INSIDE, INSIDE - width / 2, 0.5 - width / 2])
+    aside = sides[:, None, None] * across
+    starts, ends = (points[:-1] - OVERLAP * ahead + aside).tolist(), (points[1:] + OVERLAP * ahead + aside).tolist()
+    for a, b, c, d in zip(starts[1], ends[1], ends[2], starts[2], strict=True):
+        pygame.draw.polygon(surface, colour, (a, b, c, d))
+    for side in range(len(sides)):
+        for a, b in zip(starts[side], ends[side], strict=True):
+            pygame.draw.aaline(surface, colour, a, b)
 
 
 def headline(sheet: Sheet, text: str, note: str, colour: Colour) -> pygame.Rect:

@@ -2,7 +2,12 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pygame
+import pytest
+
+from sandbox.window.path import few
+from sandbox.window.stage import draw_line
 
 SIZE = (640, 400)
 
@@ -31,3 +36,37 @@ def test_the_panel(player, golden):
     player.move((100, 100))
     player.frames(3)
     golden.check("window-panel", player.screen)
+
+
+def test_a_line_is_as_wide_in_every_direction():
+    for angle in np.radians([0, 20, 45, 70, 90]):
+        surface = pygame.Surface((200, 200))
+        ends = np.array([[100, 100], [100 + 80 * np.cos(angle), 100 + 80 * np.sin(angle)]])
+        draw_line(surface, ends, 6.0, (255, 255, 255))
+        area = pygame.surfarray.array3d(surface)[:, :, 0].sum() / 255
+        assert area == pytest.approx(6.0 * 80, rel=0.15)
+
+
+def test_few_points_keep_to_the_line_and_to_its_corners():
+    angles = np.linspace(0, np.pi, 400)
+    arch = np.column_stack([300 - 200 * np.cos(angles), 300 - 200 * np.sin(angles)])
+    path = np.vstack([arch, arch + np.array([400, 0])])  # a bounce between
+    points = few(path)
+    assert len(points) < 0.2 * len(path)
+    assert np.hypot(*(points - (500, 300)).T).min() < 3
+    between = (points[1:] + points[:-1]) / 2
+    away = [np.hypot(*(path - point).T).min() for point in between]
+    assert max(away) < 2.5
+
+
+@pytest.mark.parametrize("source", ["golf", "basketball", "billiards", "soccer"])
+def test_a_shot_that_goes_nowhere_is_drawn(player, source):
+    player = player(source, SIZE)
+    player.app.change({player.app.session.controls.speed: 0.0})
+    player.key(pygame.K_w)
+    player.key(pygame.K_o)
+    assert player.app.session.value(player.app.session.controls.speed) == 0.0
+    for _ in ("aiming", "watching"):
+        player.app.view.draw()  # raises what the window would only tell
+        assert player.app.message is None
+        player.key(pygame.K_SPACE)
