@@ -69,10 +69,6 @@ class Fan:
     def complete(self) -> bool:
         return len(self.shots) + self.failed >= SHOTS or not self.spread
 
-    @property
-    def scored(self) -> int:
-        return sum(shot.scored for shot in self.shots)
-
     def go_on(self, ahead: Ahead, time: float) -> None:
         """Have more of the shots computed, in the ``time`` s that there are until the next frame."""
         if not self.complete and (self.work is None or self.work.done()):
@@ -131,20 +127,22 @@ class Fan:
 
     def told(self) -> tuple[str, str]:
         """How many score, and by what the shots differ."""
-        count = len(self.shots)
+        shots = list(self.shots)  # more are computed meanwhile
+        count = len(shots)
         name = controls_of(self.shot.scene.module).scores
         if not self.spread:
             share = "no fan: this shot does not begin as a player's does"
         elif not count:
             share = "the fan ..."
         elif name:
-            p = self.scored / count
+            scored = sum(shot.scored for shot in shots)
+            p = scored / count
             off = sqrt(p * (1 - p) / count)
-            share = f"{self.scored} of {count} score: {100 * p:.0f} ± {max(1.0, 100 * off):.0f} %"
+            share = f"{scored} of {count} score: {100 * p:.0f} ± {max(1.0, 100 * off):.0f} %"
         else:
             share = f"{count} shots"
         told = controls_of(self.shot.scene.module).tells
-        values = [shot.run.result.get(told[0]) for shot in self.shots] if told is not None else []
+        values = [shot.run.result.get(told[0]) for shot in shots] if told is not None else []
         numbers = [value for value in values if isinstance(value, float)]
         if told is not None and len(numbers) > 1:
             share += f"; {told[0]} {np.mean(numbers):.1f} ± {np.std(numbers):.1f} {told[1]}"
