@@ -6,7 +6,7 @@ PIP := $(BIN)/python -m pip --disable-pip-version-check install --quiet --constr
 
 SCENES := $(patsubst scenes/%/scene.py,%,$(wildcard scenes/*/scene.py))
 
-.PHONY: run play test lint format schemas pictures wheel clean
+.PHONY: run play test lint format schemas pictures bench wheel clean
 
 run: .venv/ready
 	@mkdir -p out
@@ -34,6 +34,11 @@ schemas: .venv/ready
 pictures: .venv/ready-dev
 	$(BIN)/python docs/pictures/make.py
 
+# Beside the others, into docs/benchmarks.md: some minutes, on a machine that is left alone.
+bench: .venv/ready-dev
+	@$(MAKE) --no-print-directory .venv/pooltool/ready || echo "pooltool cannot be had here: what it is compared in stays as it is"
+	$(BIN)/python benchmarks/page.py
+
 wheel: .venv/ready-dev
 	$(BIN)/python -m pip --disable-pip-version-check wheel --quiet --no-deps --no-build-isolation --wheel-dir dist .
 	@ls dist/*.whl
@@ -50,4 +55,13 @@ clean:
 
 .venv/ready-dev: .venv/ready
 	$(PIP) --editable '.[dev]'
+	@touch $@
+
+# What pooltool pins cannot be met beside ours: it gets a place of its own, and what it needs without its pins.
+.venv/pooltool/ready: | .venv/ready-dev
+	$(BIN)/python -m venv .venv/pooltool
+	.venv/pooltool/bin/python -m pip --disable-pip-version-check install --quiet panda3d==1.10.15 "numba<0.62" \
+		panda3d-gltf panda3d-simplepbr scipy attrs cattrs msgpack msgpack-numpy pyyaml click pillow h5py h11 "rich<15" \
+		numpy-quaternion
+	.venv/pooltool/bin/python -m pip --disable-pip-version-check install --quiet --no-deps pooltool-billiards==0.6.0
 	@touch $@

@@ -1,0 +1,104 @@
+"""Runs the comparisons again and writes what they print into docs/benchmarks.md: ``make bench``, or for some of them
+``python benchmarks/page.py NAME ...``.
+
+Names are engine, billiards, forces, frames, sweep, start and window. What is not run stays as it is on the page, so run
+all on one machine, left alone, before the page is committed. The JSON of each goes to out/benchmarks.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import platform
+import re
+import shlex
+import subprocess
+import sys
+from collections.abc import Iterable
+from importlib.metadata import version
+from pathlib import Path
+from time import perf_counter
+
+ROOT = Path(__file__).resolve().parent.parent
+PAGE = ROOT / "docs" / "benchmarks.md"
+JSON = ROOT / "out" / "benchmarks"
+PEER = ROOT / ".venv" / "pooltool" / "bin" / "python"
+
+#: The script of each block and what it is given.
+SCRIPTS = {
+    "engine": "benchmarks/engine.py",
+    "billiards": "benchmarks/billiards_pooltool.py --pooltool .venv/pooltool/bin/python --cold",
+    "forces": "benchmarks/forces.py",
+    "frames": "benchmarks/frames.py",
+    "sweep": "benchmarks/sweep.py",
+    "start": "benchmarks/start.py",
+    "window": "benchmarks/window.py --frames 60",
+}
+#: Versions that are told.
+PACKAGES = ("pymunk", "numpy", "scipy", "pillow", "pygame-ce", "pydantic", "typer")
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("names", nargs="*", metavar="NAME", help=", ".join(SCRIPTS))
+    wanted = parser.parse_args().names or list(SCRIPTS)
+    unknown = [name for name in wanted if name not in SCRIPTS]
+    if unknown:
+        parser.error(f"{', '.join(unknown)}: choose from {', '.join(SCRIPTS)}")
+    JSON.mkdir(parents=True, exist_ok=True)
+    load = os.getloadavg()[0]
+    for name in wanted:
+        if name == "billiards" and not PEER.exists():
+            sys.stderr.write("billiards: no pooltool in .venv/pooltool (make .venv/pooltool/ready); stays as it is\n")
+            continue
+        began = perf_counter()
+        printed = said_by(name)
+        sys.stderr.write(f"{name}: {perf_counter() - began:.0f} s\n")
+        write(name, ["```console", f"$ python {SCRIPTS[name]}", *printed, "```"])
+    write("machine", machine(load))
+
+
+def said_by(name: str) -> list[str]:
+    """What the script prints, as lines."""
+    command = [sys.executable, *shlex.split(SCRIPTS[name]), "--json", str(JSON / f"{name}.json")]
+    quiet = os.environ | {"PYGAME_HIDE_SUPPORT_PROMPT": "1"}
+    done = subprocess.run(command, cwd=ROOT, env=quiet, stdout=subprocess.PIPE, text=True)
+    if done.returncode != 0:
+        raise SystemExit(f"{name} failed; its error stands above")
+    return [line.rstrip() for line in done.stdout.strip("\n").splitlines()]
+
+
+def machine(load: float) -> list[str]:
+    """Processor, system and versions; ``load`` is the average of the minute before the start."""
+    packages = ", ".join(f"{package} {version(package)}" for package in PACKAGES)
+    return [
+        f"{processor()}, {os.cpu_count()} cores, {platform.system()} {platform.machine()}, "
+        f"Python {platform.python_version()};",
+        f"{packages}.",
+        f"Processes that wanted a core in the minute before the start: {load:.1f}.",
+    ]
+
+
+def processor() -> str:
+    """Its model, where the system tells."""
+    told = Path("/proc/cpuinfo")
+    found = re.search(r"^model name\s*: (.+)$", told.read_text("utf-8"), re.MULTILINE) if told.exists() else None
+    return found[1] if found else platform.processor() or "unknown processor"
+
+
+def write(block: str, lines: Iterable[str]) -> None:
+    """New lines between the marks of a block of the page."""
+    PAGE.write_text(filled(PAGE.read_text("utf-8"), block, lines), "utf-8")
+
+
+def filled(page: str, block: str, lines: Iterable[str]) -> str:
+    """The page with these lines in the block."""
+    text = "\n".join([f"<!-- {block} -->", *lines, "<!-- end -->"])
+    page, count = re.subn(rf"<!-- {block} -->\n.*?<!-- end -->", lambda match: text, page, flags=re.DOTALL)
+    if count != 1:
+        raise SystemExit(f"{PAGE.name} has {count} blocks {block!r}: there must be one")
+    return page
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,164 @@
+"""Each benchmark runs with its smallest settings and writes the numbers it promises; no time is asserted."""
+
+from __future__ import annotations
+
+import importlib.util
+import json
+import math
+import os
+import subprocess
+import sys
+from collections.abc import Callable, Iterable, Iterator
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+import pytest
+
+ROOT = Path(__file__).resolve().parent.parent
+FOLDER = ROOT / "benchmarks"
+
+Run = Callable[..., Any]
+
+
+@pytest.fixture
+def opened(monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[[str], ModuleType]]:
+    """A script as a module; it and what it imports from its folder are forgotten afterwards."""
+    monkeypatch.syspath_prepend(str(FOLDER))
+
+    def load(name: str) -> ModuleType:
+        spec = importlib.util.spec_from_file_location(name, FOLDER / f"{name}.py")
+        assert spec is not None
+        assert spec.loader is not None
+        module = importlib.util.module_from_spec(spec)
+        sys.modules[name] = module
+        spec.loader.exec_module(module)
+        return module
+
+    yield load
+    for name in [path.stem for path in FOLDER.glob("*.py")]:
+        sys.modules.pop(name, None)
+
+
+@pytest.fixture
+def run(opened: Callable[[str], ModuleType], monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Run:
+    """Runs a script in this process, with other values of some of its constants, and returns its JSON."""
+
+    def run(name: str, *options: str, **constants: int) -> Any:
+        module, out = opened(name), tmp_path / "out.json"
+        for constant, value in constants.items():
+            assert hasattr(module, constant)
+            setattr(module, constant, value)
+        monkeypatch.setattr(sys, "argv", [name, "--json", str(out), *options])
+        module.main()
+        return json.loads(out.read_text("utf-8"))
+
+    return run
+
+
+def check(rows: Iterable[dict[str, Any]], *keys: str) -> None:
+    """Each row has a number, finite and above 0, for each of these keys."""
+    found = list(rows)
+    assert found
+    for row in found:
+        for key in keys:
+            assert math.isfinite(row[key])
+            assert row[key] > 0, f"{key} of {row}"
+
+
+def test_error_against_time(run: Run):
+    cases = run("engine", "--quick")
+    reached = {"rim shot, 2.5 s": 1e-6, "golf flight to landing": 0.05}  # m, by scipy as it is asked there
+    assert list(cases) == list(reached)
+    for case, rows in cases.items():
+        check(rows, "error_m", "time_s", "evaluations", "limit_evaluations", "limit_s", "time_over_limit")
+        error = {row["method"].split()[0]: row["error_m"] for row in rows}
+        assert list(error) == ["exact,", "scipy", "bare", "plain,"]
+        assert {row["method"]: row["error_m"] for row in rows}["exact, balanced"] < 1e-6
+        assert error["scipy"] < reached[case]
+
+
+@pytest.mark.parametrize("name", ["rim_shot", "golf_flight"])
+def test_the_law_written_out_is_that_of_the_setup(opened: Callable[[str], ModuleType], name: str):
+    """What the peers fly by is what the engine flies by."""
+    shot = getattr(opened("shots"), name)()
+    ball = shot.setup.balls[0]
+    for scale in (1.0, 0.7, 0.2):
+        vx, vy = (scale * v for v in ball.velocity)
+        now = (0.0, ball.position, (vx, vy), ball.spin)
+        expected = [sum(force(*now)[axis] for force in ball.forces) / ball.mass for axis in (0, 1)]
+        expected.append(sum(torque(*now) for torque in ball.torques) / ball.inertia)
+        assert shot.law(vx, vy, ball.spin) == pytest.approx(expected, rel=1e-12)
+
+
+def test_forces(run: Run):
+    rows = run("forces", "--quick")["forces"]
+    check(rows, "balls", "steps", "us_per_step", "us_per_second", "step_over_limit", "second_over_limit")
+    errors = {row["method"]: row["error_m"] for row in rows if row["balls"] == 2}
+    assert errors.pop("bare pymunk") is None  # it has no drag
+    assert errors["exact"] < 1e-6
+    assert errors["exact, many"] < 1e-6
+    for method in ("velocity_func", "batch and numpy", "plain"):
+        assert errors[method] == pytest.approx(errors["plain"], rel=0.01), method
+
+
+def test_sweep(run: Run):
+    told = run("sweep", "--quick")
+    check(told["map"]["rows"], "s_per_shot", "shots_per_s", "map_s", "over_limit")
+    check(told["map"]["bare_pymunk"], "time_s", "error_m", "steps_per_s")
+    check(told["shots"], "shots", "time_s", "ms_per_shot")
+    check(told["balls"], "balls", "time_s", "ms_per_ball")
+
+
+def test_start(run: Run):
+    told = run("start", "--quick")
+    check(told["starts"], "clock_s", "processor_s", "limit_clock_s", "limit_processor_s", "over_limit")
+    check(told["imports"].values(), "standard library", "the sandbox and its scenes")
+    assert "pymunk" in told["imports"]["sandbox run golf --json"]
+    assert "pygame" in told["imports"]["window's first frame"]
+
+
+def test_frames(run: Run):
+    rows = run("frames", "--scenes", "soccer", MOST_FRAMES=2, ROUNDS=1)["frames"]
+    check(rows, "drawing_ms", "pillow_ms", "packing_ms", "cpu_ms", "limit_frames_per_s", "whole_over_limit")
+
+
+def test_window(tmp_path: Path):
+    """In a process of its own: it chooses the display's driver."""
+    out = tmp_path / "out.json"
+    command = [sys.executable, FOLDER / "window.py", "soccer-curl", "--frames", "3", "--json", out]
+    subprocess.run(command, check=True, capture_output=True)
+    rows = json.loads(out.read_text("utf-8"))["soccer-curl"]
+    check(rows.values(), "median_ms", "p95_ms", "processor_ms")
+
+
+def test_our_half_of_billiards(opened: Callable[[str], ModuleType]):
+    """pooltool does not live here: what is compared with it."""
+    billiards = opened("billiards_pooltool")
+    check([billiards.ours_cold()], "import_s", "first_s")
+    cut = next(shot for shot in billiards.shots() if shot.name.startswith("cut 30"))
+    answer = billiards.our_answer(billiards.our_setup(cut))
+    check([answer], "seconds", "impacts", "lasts")
+    assert list(answer["ends"]) == ["cue", "1"]
+    assert 0.0 < billiards.seconds_of_an_impact() < answer["seconds"]
+
+
+def test_the_page_has_a_place_for_each(opened: Callable[[str], ModuleType]):
+    page = opened("page")
+    text = page.PAGE.read_text("utf-8")
+    for block in (*page.SCRIPTS, "machine"):
+        filled = page.filled(text, block, ["new", "lines"])
+        assert f"<!-- {block} -->\nnew\nlines\n<!-- end -->\n" in filled
+        assert filled.count("<!-- end -->") == text.count("<!-- end -->") == len(page.SCRIPTS) + 1
+    with pytest.raises(SystemExit, match="0 blocks 'nothing'"):
+        page.filled(text, "nothing", [])
+    run = {command.split()[0] for command in page.SCRIPTS.values()}
+    scripts = {f"benchmarks/{path.name}" for path in FOLDER.glob("*.py") if "--json" in path.read_text("utf-8")}
+    assert run == scripts - {"benchmarks/page.py"}
+
+
+def test_the_page_names_the_machine(opened: Callable[[str], ModuleType]):
+    lines = opened("page").machine(0.04)
+    assert f"{os.cpu_count()} cores" in lines[0]
+    assert "pymunk 7" in lines[1]
+    assert lines[2].endswith("0.0.")
