@@ -118,9 +118,9 @@ def _way_of_moving(
     moves = abs(speed) > _STILL
     direction = (1.0 if speed > 0.0 else -1.0) if moves else (1.0 if drive > 0.0 else -1.0)
     a, spare = rolling(ball, surface, along, torque, normal, direction)
-    if spare < 0.0:
-        slip_direction = 1.0 if drive / (1.0 + ball.inertia_factor) - along < 0.0 else -1.0
-        return Contact(SLIDING, obstacle, touching, slip_direction)
+    turning = drive / (1.0 + ball.inertia_factor) - along  # friction that rolling asks for
+    if spare < 0.0 or (spare == 0.0 and turning != 0.0):
+        return Contact(SLIDING, obstacle, touching, 1.0 if turning < 0.0 else -1.0)
     if not moves and direction * a <= _STILL:
         return Contact(RESTING, obstacle, touching)
     return Contact(ROLLING, obstacle, touching, direction)

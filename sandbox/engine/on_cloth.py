@@ -10,7 +10,7 @@ from sandbox.physics.integrators import State
 
 #: Lowest bounce in m that is followed where the cloth presses a ball against another or a cushion, as it can while the
 #: ball slides.
-_LOWEST_HOP = 1e-7
+_LOWEST_HOP = 1e-6
 
 
 def slowest_hop(cloth: Cloth, settle: float) -> float:

@@ -11,7 +11,7 @@ from time import perf_counter
 from typing import Any
 
 from sandbox.engine import simulate
-from sandbox.engine.accuracy import LEVELS, Accuracy
+from sandbox.engine.accuracy import LEVELS, Accuracy, settle_for
 from sandbox.errors import RunError
 from sandbox.lab.ablation import Ablated, ablation
 from sandbox.lab.ablation import as_text as ablation_text
@@ -108,8 +108,7 @@ def settings(reference: Reference) -> Iterator[tuple[str, str, Accuracy]]:
         for name, integrator in INTEGRATORS.items():
             if integrator.controls_error:
                 for tolerance in TOLERANCES:
-                    settle = min(1e-4, 1e-3 * tolerance)
-                    how = replace(exact, integrator=name, tolerance=tolerance, settle=settle)
+                    how = replace(exact, integrator=name, tolerance=tolerance, settle=settle_for(tolerance))
                     yield name, f"{tolerance:g} m", how
             else:
                 for rate in RATES:

@@ -283,6 +283,19 @@ def test_a_steady_push_along_the_ground_rolls_or_slides_and_never_stalls(push, r
         assert 0.0 <= a < 5 / 7 * push / 0.3
 
 
+@pytest.mark.parametrize("rate", [2.0, 3.0, 7.0])
+def test_a_growing_push_makes_a_rolling_ball_slide(rate):
+    """F = k t: a = 5/7 F/m while F (1 - 5/7) <= mu m g, F/m - mu g from then on."""
+    m, mu = 0.3, 0.5
+    floor = Surface("floor", Segment((-9e3, 0.0), (9e3, 0.0)), 0.5, mu)
+    shot = ball((0.0, 0.05), (2.0, 0.0), spin=-40.0)
+    pushed = Ball(**{**vars(shot), "forces": (*shot.forces, lambda t, p, v, s: (-rate * t, 0.0))})
+    end, slips = 4.0, 3.5 * mu * m * G / rate
+    run = simulate(Setup([pushed], [floor], duration=end), resolve())
+    speed = 2.0 - 5 / 14 * rate / m * slips**2 - 0.5 * rate / m * (end**2 - slips**2) + mu * G * (end - slips)
+    assert run.state("ball", end)[2] == pytest.approx(speed, rel=1e-7)
+
+
 @pytest.mark.parametrize("restitution", [0.0, 0.05, 0.4])
 @pytest.mark.parametrize("speed", [1.2, 1.3, 1.35, 1.5, 1.9])
 def test_a_ball_rolls_over_a_hole_or_comes_to_rest_in_it(restitution, speed):
