@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import math
 from collections.abc import Mapping
 from dataclasses import asdict
 from pathlib import Path
@@ -11,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from sandbox.files import plain
 from sandbox.lab.aim import Aim, Solution, Target
 from sandbox.lab.axes import label, unit_of
 from sandbox.lab.chart import chart
@@ -44,7 +44,7 @@ def as_json(aim: Aim) -> str:
         "tries": len(aim.tries),
         "failures": aim.failures,
     }
-    return json.dumps(_plain(told), allow_nan=False, ensure_ascii=False)
+    return json.dumps(plain(told), allow_nan=False, ensure_ascii=False)
 
 
 def _solution(solution: Solution) -> dict[str, Any]:
@@ -65,17 +65,6 @@ def _named(aim: Aim, values: tuple[float, ...]) -> dict[str, float]:
 
 def _found(aim: Aim, found: tuple[Any, ...]) -> dict[str, Any]:
     return {target.name: value for target, value in zip(aim.targets, found, strict=True)}
-
-
-def _plain(value: Any) -> Any:
-    """The same in what JSON knows."""
-    if isinstance(value, Mapping):
-        return {str(key): _plain(item) for key, item in value.items()}
-    if isinstance(value, list | tuple):
-        return [_plain(item) for item in value]
-    if hasattr(value, "tolist"):
-        return _plain(value.tolist())
-    return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
 # ---------------------------------------------------------------------------------------------------------------------
