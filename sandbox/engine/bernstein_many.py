@@ -53,11 +53,12 @@ def _product_weights(n: int) -> np.ndarray:
     return weights.reshape(2 * n + 1, -1)
 
 
-def first_downward_crossing(b: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """The u in [0, 1] where each f goes from positive to negative, inf where none does; and where that is not plain.
+def first_downward_crossing(b: np.ndarray, halvings: int = 4) -> tuple[np.ndarray, np.ndarray]:
+    """The u in [0, 1] where each f first goes from positive to negative, inf where none does; and where that is not
+    plain.
 
-    Plain are those whose coefficients change sign at most once, and are never exactly zero. ``b`` has shape
-    (degree + 1, paths); both arrays have shape (paths,).
+    Plain are those whose coefficients change sign at most once, and are never exactly zero, on [0, 1] or on the pieces
+    after some ``halvings``. ``b`` has shape (degree + 1, paths); both arrays have shape (paths,).
     """
     u = np.full(b.shape[1], np.inf)
     positive = b > 0.0
@@ -66,7 +67,24 @@ def first_downward_crossing(b: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     falling = np.flatnonzero((changes == 1) & ~positive[-1] & ~unclear)
     if len(falling):
         u[falling] = _single_root(b[:, falling])
+    some = np.flatnonzero(unclear)
+    if len(some) and halvings:
+        early, late = _halves(b[:, some])
+        u1, unclear1 = first_downward_crossing(early, halvings - 1)
+        u2, unclear2 = first_downward_crossing(late, halvings - 1)
+        u[some] = np.where(np.isfinite(u1), 0.5 * u1, 0.5 + 0.5 * u2)
+        unclear[some] = unclear1 | (np.isinf(u1) & unclear2)
     return u, unclear
+
+
+def _halves(b: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Coefficients on [0, 1/2] and on [1/2, 1]."""
+    left, right = np.empty_like(b), np.empty_like(b)
+    left[0], right[-1] = b[0], b[-1]
+    for k in range(1, len(left)):
+        b = 0.5 * (b[:-1] + b[1:])
+        left[k], right[-1 - k] = b[0], b[-1]
+    return left, right
 
 
 def _single_root(b: np.ndarray) -> np.ndarray:
