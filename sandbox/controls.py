@@ -48,7 +48,6 @@ class Controls:
     also: Mapping[str, Any] = field(default_factory=dict)  # what else a pull sets, such as how the shot begins
     sliders: tuple[str, ...] = ()  # shown first
     scores: str = ""  # the entry of the result that is true, or not empty, when the shot scored
-    spoils: str = ""  # the entry that is true when it did not score after all
     spread: tuple[Spread, ...] = ()  # of a fan of shots; where empty, of speed and angle
     tells: tuple[str, str] | None = None  # an entry of the result, with its unit: a fan says its mean and its spread
     #: From a run and its parameters to the changes with which the next shot begins; where there is none, every shot

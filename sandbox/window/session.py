@@ -39,8 +39,7 @@ class Shot:
 
     @cached_property
     def scored(self) -> bool:
-        controls = controls_of(self.scene.module)
-        return bool(self.run.result.get(controls.scores)) and not self.run.result.get(controls.spoils)
+        return bool(self.run.result.get(controls_of(self.scene.module).scores))
 
     @cached_property
     def upright(self) -> bool:

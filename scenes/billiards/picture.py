@@ -269,15 +269,10 @@ class Picture:
 
     def _point(self) -> str:
         """On a table without pockets: whether the struck ball met all others, after how many cushions."""
-        met: list[str] = []
-        cushions = 0
-        for touched in self.run.result["touches"]:
-            if touched in self.names and touched not in met:
-                met.append(touched)
-            elif touched.endswith("cushion"):
-                cushions += 1
-            if len(met) == len(self.names) - 1:
-                return f"Point, after {cushions} cushion{'' if cushions == 1 else 's'}"
+        cushions = self.run.result["point"]
+        if cushions is not None:
+            return f"Point, after {cushions} cushion{'' if cushions == 1 else 's'}"
+        met = [name for name in dict.fromkeys(self.run.result["touches"]) if name in self.names]
         return f"No point: meets {_named(met)} alone"
 
     def numbers(self) -> list[tuple[str, str]]:

@@ -15,7 +15,7 @@ pockets' depth, out of which a fast ball may rattle.
 from __future__ import annotations
 
 import random
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from itertools import combinations
 from math import cos, hypot, pi, radians, sin, sqrt
 from typing import Any, Literal
@@ -107,8 +107,7 @@ CONTROLS = Controls(
     spins=(Spin("cue.follow", 0.05), Spin("cue.english", 0.05)),
     ball="cue.ball",
     sliders=("cue.speed", "cue.angle", "cue.follow", "cue.english", "rack", "cloth.rolling_friction", "ball.friction"),
-    scores="potted",
-    spoils="scratch",
+    scores="scored",
     spread=(Spread("cue.speed", 0.03), Spread("cue.angle", least=0.2)),  # assumed
     goes_on=lambda run, parameters: from_rest(run, parameters),
 )
@@ -262,15 +261,20 @@ def result(run: Run, parameters: Parameters) -> dict[str, Any]:
 
     ``rails`` counts the impacts of all balls on the cushions' noses; those on the pockets' jaws stand in the events
     alone. ``touches`` is what the struck ball met, in order, with jaws and pocket. ``rest_time`` is None where the shot
-    did not come to rest.
+    did not come to rest. ``point`` is a carom's, on a table without pockets: how many cushions the struck ball met
+    before the last of the other balls, None where it did not meet them all. ``scored`` is whether there is a point, or
+    a ball potted without a scratch.
     """
     cue = parameters.cue.ball
     caught = {event.ball: event.partner for event in run.events if event.kind == "caught"}
     touches = list(_touches(run, cue))
     balls = [ball.name for ball in run.setup.balls]
+    point = None if run.setup.catches else _point(touches, set(balls) - {cue})
     return {
         "potted": list(caught),
         "scratch": cue in caught,
+        "point": point,
+        "scored": point is not None or (bool(caught) and cue not in caught),
         "first_contact": next((name for name in touches if name in balls), None),
         "rails": sum(event.kind == "impact" and event.partner.endswith(" cushion") for event in run.events),
         "rest_time": run.duration if run.ended == "rest" else None,
@@ -279,6 +283,17 @@ def result(run: Run, parameters: Parameters) -> dict[str, Any]:
         "pockets": caught,
         "ended": run.ended,
     }
+
+
+def _point(touches: Iterable[str], others: set[str]) -> int | None:
+    """Cushions met before all others were met, of which there must be two at least."""
+    missing, cushions = set(others), 0
+    for touched in touches:
+        missing.discard(touched)
+        cushions += touched.endswith(" cushion")
+        if not missing and len(others) > 1:
+            return cushions
+    return None
 
 
 def from_rest(run: Run, parameters: Parameters) -> dict[str, Any]:
@@ -317,11 +332,21 @@ def card(result: dict[str, Any], parameters: Parameters) -> list[tuple[str, str]
     lines.append(("rails", f"{result['rails']} cushion contacts"))
     at_rest = "still moving when time ran out" if result["rest_time"] is None else f"after {result['rest_time']:.1f} s"
     lines.append(("at rest", at_rest))
-    verdict = f"scratch ({pockets[cue.ball]})" if result["scratch"] else "potted" if potted else "nothing potted"
-    if result["first_contact"] is None and not result["scratch"]:
-        verdict = "hit no ball"
-    lines.append(("verdict", verdict))
+    lines.append(("verdict", _verdict(result, parameters, bool(potted))))
     return lines
+
+
+def _verdict(result: dict[str, Any], parameters: Parameters, potted: bool) -> str:
+    cue = parameters.cue.ball
+    if result["scratch"]:
+        return f"scratch ({result['pockets'][cue]})"
+    if result["first_contact"] is None:
+        return "hit no ball"
+    if result["point"] is not None:
+        return f"a point, after {result['point']} cushion{'' if result['point'] == 1 else 's'}"
+    if not parameters.table.pockets:
+        return "no point"
+    return "potted" if potted else "nothing potted"
 
 
 def _called(name: str) -> str:

@@ -557,6 +557,17 @@ def test_the_carom_makes_three_cushions_between_the_balls():
     result = preset("three-rail-carom")
     assert result["touches"][:5] == ["red", "foot cushion", "left cushion", "right cushion", "yellow"]
     assert result["potted"] == []
+    assert (result["point"], result["scored"]) == (3, True)
+
+
+def test_a_point_needs_all_others_and_a_pocket_no_scratch():
+    laid = spot("cue", -0.5, 0.0), spot("red", 0.0, 0.0), spot("yellow", 0.0, 0.4)
+    missed = shot(*laid, table__kind="carom", cue__speed=0.5)
+    assert missed.result["first_contact"] == "red"
+    assert (missed.result["point"], missed.result["scored"]) == (None, False)
+    assert dict(missed.scene.card(missed.result))["verdict"] == "no point"
+    potted = shot(spot("cue", 0.0, 0.2), spot("5", 0.0, 0.5), cue__speed=2.0, cue__angle=90.0, cue__follow=-0.2).result
+    assert (potted["potted"], potted["point"], potted["scored"]) == (["5"], None, True)
 
 
 def test_in_newtons_cradle_only_the_last_ball_leaves():
@@ -593,6 +604,7 @@ def test_a_scratch_and_the_order_of_potting(struck: str, other: str):
     result = shot(*balls, cue__ball=struck, cue__speed=2.0, cue__angle=90.0, cue__follow=0.4).result
     assert result["potted"] == [other, struck]
     assert result["scratch"] is True
+    assert result["scored"] is False
     assert result["positions"] == {}
     assert result["rest_time"] is not None
 
