@@ -2,7 +2,7 @@
 
 Run ``python benchmarks/engine.py [--json F] [--repeats N] [--quick]``. The error is that of the ball's position at the
 end, against "precise" at a thousandth of its tolerance. The time is that of the processor, the median of repeats taken
-in turn over all methods; what takes a second is run once.
+in turn over all methods; what takes long is run once.
 
 - exact: this engine, at each level.
 - scipy: ``solve_ivp`` with a terminal event for each surface (by_scipy.py), at a tolerance and a longest step.
@@ -36,8 +36,8 @@ from sandbox.engine.accuracy import LEVELS, Accuracy, resolve
 from sandbox.engine.run import Run
 
 TARGET = 0.01  # m
-#: A method whose runs take longer than this in s is run once.
-LONG = 1.0
+#: A method whose runs take longer than this in s is run once; the others run for so long in each turn.
+LONG, TURN = 0.2, 0.02
 #: Tolerances of the flights that make the limit: three in each power of ten.
 LADDER = [10.0 ** (-k / 3) for k in range(37)]
 
@@ -78,10 +78,10 @@ def cases(quick: bool) -> list[Case]:
             Case(*rim, (60, 1_000), (60,), SCIPY_ON_THE_RIM[1:2]),
             Case(*golf, (1_000,), (1_000,), SCIPY_IN_FLIGHT[:1]),
         ]
-    coarse = (60, 1_000, 4_000, 16_000)
+    fine = (60, 1_000, 4_000, 16_000, 32_000)
     return [
-        Case(*rim, (*coarse, 64_000, 256_000), (*coarse, 64_000), SCIPY_ON_THE_RIM),
-        Case(*golf, coarse, coarse, SCIPY_IN_FLIGHT),
+        Case(*rim, (*fine, 64_000, 256_000), fine, SCIPY_ON_THE_RIM),
+        Case(*golf, (60, 1_000, 2_000, 4_000, 16_000), (60, 1_000, 2_000, 4_000), SCIPY_IN_FLIGHT),
     ]
 
 
@@ -123,6 +123,13 @@ def seconds_per_evaluation(shot: Shot) -> float:
     return min(timeit(lambda: shot.law(*state), number=20_000) / 20_000 for _ in range(5))
 
 
+def timed(fly: Callable[[], tuple[float, float, int]]) -> tuple[float, tuple[float, float, int]]:
+    """The processor's time in s, and where the shot ended."""
+    started = thread_time()
+    end = fly()
+    return thread_time() - started, end
+
+
 def compare(case: Case, repeats: int) -> list[dict[str, Any]]:
     """A row for each method."""
     shot = case.shot
@@ -130,17 +137,17 @@ def compare(case: Case, repeats: int) -> list[dict[str, Any]]:
     x, y = reference.state(shot.setup.balls[0].name, reference.duration)[:2]
     alone, cost = limits(shot, reference), seconds_per_evaluation(shot)
     chosen = methods(case)
-    times: dict[str, list[float]] = {method: [] for method in chosen}
     ends: dict[str, tuple[float, float, int]] = {}
+    first: dict[str, float] = {}
+    for method, fly in chosen.items():
+        first[method], ends[method] = timed(fly)
+    turns: dict[str, list[float]] = {method: [] for method in chosen if first[method] <= LONG}
     for _ in range(repeats):
-        for method, fly in chosen.items():
-            if not times[method] or times[method][0] < LONG:
-                started = thread_time()
-                ends[method] = fly()
-                times[method].append(thread_time() - started)
+        for method, times in turns.items():
+            times += [timed(chosen[method])[0] for _ in range(max(1, round(TURN / first[method])))]
     rows = []
     for method, (u, v, evaluations) in ends.items():
-        error, spent = hypot(u - x, v - y), median(times[method])
+        error, spent = hypot(u - x, v - y), median(turns.get(method, [first[method]]))
         fewest = min(count for reached, count in alone if reached <= max(error, alone[-1][0]))
         rows.append(
             {

@@ -12,7 +12,7 @@ second where the step is fixed; the balls are far from each other, and nothing i
 - exact, many: the same, each ball in a setup of its own, by ``simulate_many``, as sweeps fly their shots; the times
   are those of arrays where there are enough shots, and of one at a time else.
 
-Times are those of the processor, medians of repeats in turn; what takes a second is flown once. "error" is the largest
+Times are those of the processor, medians of repeats in turn; what takes long is flown once. "error" is the largest
 of all balls' positions after the second.
 """
 
@@ -46,7 +46,7 @@ RATE, DURATION = 240, 1.0  # steps/s, s
 MASS, RADIUS, GRAVITY, DENSITY, DRAG = 0.624, 0.1194, 9.81, 1.204, 0.5  # those of the basketball
 APART = 50.0  # m
 #: A method whose flights take longer than this in s flies once.
-LONG = 1.0
+LONG = 0.2
 #: Balls in one setup beyond which the exact engine is left out: it foresees each pair of them.
 MOST_TOGETHER = 100
 
