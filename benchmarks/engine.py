@@ -20,6 +20,7 @@ import argparse
 import json
 import sys
 from collections.abc import Callable
+from functools import partial
 from math import hypot, inf
 from pathlib import Path
 from statistics import median
@@ -96,15 +97,14 @@ def methods(case: Case) -> dict[str, Callable[[], tuple[float, float, int]]]:
     shot = case.shot
     chosen: dict[str, Callable[[], tuple[float, float, int]]] = {}
     for name, accuracy in LEVELS.items():
-        chosen[f"exact, {name}"] = lambda accuracy=accuracy: ours(shot, accuracy)
+        chosen[f"exact, {name}"] = partial(ours, shot, accuracy)
     for method, tolerance, longest in case.scipy:
         name = f"scipy {method}, {tolerance:.0e}" + ("" if longest == inf else f", steps <= {longest:g} s")
-        chosen[name] = lambda given=(method, tolerance, longest): by_scipy.shoot(shot, *given)
+        chosen[name] = partial(by_scipy.shoot, shot, method, tolerance, longest)
     for rate in case.bare_rates:
-        chosen[f"bare pymunk, {rate:,} steps/s"] = lambda rate=rate: by_pymunk.shoot(shot, rate)
+        chosen[f"bare pymunk, {rate:,} steps/s"] = partial(by_pymunk.shoot, shot, rate)
     for rate in case.plain_rates:
-        accuracy = resolve(method="plain", step=1 / rate)
-        chosen[f"plain, {rate:,} steps/s"] = lambda accuracy=accuracy: ours(shot, accuracy)
+        chosen[f"plain, {rate:,} steps/s"] = partial(ours, shot, resolve(method="plain", step=1 / rate))
     return chosen
 
 

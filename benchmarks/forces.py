@@ -37,7 +37,7 @@ from shots import basketball_law
 from sandbox.engine import simulate, simulate_many
 from sandbox.engine.accuracy import Accuracy, resolve
 from sandbox.engine.run import Run
-from sandbox.engine.setup import HOLLOW_SPHERE, Ball, Bounds, Segment, Setup, Surface
+from sandbox.engine.setup import HOLLOW_SPHERE, Ball, Bounds, Force, Segment, Setup, Surface
 from sandbox.physics.coefficients import constant
 from sandbox.physics.forces import Drag, Gravity
 
@@ -62,7 +62,7 @@ class Flown(NamedTuple):
 
 def balls(count: int) -> list[Ball]:
     """Thrown upwards, each a little otherwise, in a row."""
-    forces = [Gravity(MASS, GRAVITY), Drag(RADIUS, DENSITY, constant(DRAG))]
+    forces: list[Force] = [Gravity(MASS, GRAVITY), Drag(RADIUS, DENSITY, constant(DRAG))]
     angles = (radians(50.0 + 30.0 * i / count) for i in range(count))
     return [
         Ball(
@@ -139,7 +139,7 @@ def _stepped(space: pymunk.Space, push: Callable[[], None] = lambda: None) -> Fl
     for _ in range(steps):
         push()
         space.step(1 / RATE)
-    return Flown([tuple(body.position) for body in space.bodies], steps)
+    return Flown([(body.position.x, body.position.y) for body in space.bodies], steps)
 
 
 def by_engine(setup: Setup, accuracy: Accuracy) -> Callable[[], Flown]:
@@ -189,7 +189,7 @@ def compare(count: int, repeats: int) -> list[dict[str, Any]]:
             flown[method] = fly()
             times[method].append(thread_time() - started)
     truth = _ended(_finest(setups), count, resolve("precise")).ends
-    rows = []
+    rows: list[dict[str, Any]] = []
     for method, (ends, steps) in flown.items():
         spent = 1e6 * median(times[method]) / count
         error = max(hypot(x - u, y - v) for (x, y), (u, v) in zip(ends, truth, strict=True))
@@ -224,8 +224,8 @@ def show(rows: list[dict[str, Any]]) -> None:
         error = "" if row["error_m"] is None else f"{row['error_m']:.1e} m"
         out.write(
             f"{format(row['balls'], ',') if first else '':<9}{row['method']:<18}{row['steps']:>8.3g}"
-            f"{row['us_per_step']:>11.2f} us{row['step_over_limit']:>10.1f}"
-            f"{row['us_per_second']:>13,.0f} us{row['second_over_limit']:>10.1f}{error:>12}\n"
+            f"{row['us_per_step']:>11.2f} us{row['step_over_limit']:>10,.1f}"
+            f"{row['us_per_second']:>13,.0f} us{row['second_over_limit']:>10,.1f}{error:>12}\n"
         )
 
 

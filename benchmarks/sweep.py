@@ -27,6 +27,7 @@ import sys
 import tempfile
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 from math import cos, hypot, radians, sin
 from pathlib import Path
 from random import Random
@@ -105,7 +106,7 @@ def by_bare_pymunk(setup: Setup, run: Run) -> tuple[float, float, int]:
     shot = Shot(replace(setup, duration=run.duration, until=None), basketball_law)
     x, y = run.before("ball", run.duration)[:2]
     for rate in RATES:
-        spent, end = timed(lambda rate=rate: by_pymunk.shoot(shot, rate), 1)
+        spent, end = timed(partial(by_pymunk.shoot, shot, rate), 1)
         error = hypot(end.x - x, end.y - y)
         if error <= TARGET:
             break
@@ -176,7 +177,8 @@ def show(told: dict[str, Any]) -> None:
     out.write(f"  {'':<30}{'shots/s':>10}{'the map':>12}{'over limit':>12}\n")
     for row in found["rows"]:
         out.write(
-            f"  {row['way']:<30}{row['shots_per_s']:>10,.3g}{row['map_s']:>10,.1f} s{row['over_limit']:>12,.0f}\n"
+            f"  {row['way']:<30}{row['shots_per_s']:>10,.{0 if row['shots_per_s'] >= 100 else 1}f}"
+            f"{row['map_s']:>10,.1f} s{row['over_limit']:>12,.0f}\n"
         )
     out.write(
         f"  limit: {found['evaluations_per_shot']:.0f} evaluations of the forces a shot in numpy, "
