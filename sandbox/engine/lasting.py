@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from sandbox.engine.arc import Arc
 from sandbox.engine.motion import PINNED, RESTING, ROLLING, SLIDING, Contact, Mover, rolling
 from sandbox.engine.touch import Obstacle, Touching
-from sandbox.engine.track import Near
+from sandbox.engine.track import Near, Track
 from sandbox.physics.integrators import State
 
 #: Speed in m/s, and acceleration in m/s^2, that is rounding.
@@ -19,55 +20,82 @@ _PRESSING = 1e-9
 _FLUSH = 1e-7
 
 
-def settle(mover: Mover, t: float, state: State, near: Sequence[Near], height: float) -> tuple[State, Contact | None]:
-    """The state from which the ball goes on, and its lasting contact, or None for flight.
+class InPlane(Mover):
+    """A ball that flies in the plane of the picture, and slides, rolls and rests on what stands there."""
 
-    A ball stays on a surface if it is pressed on and would not bounce higher than ``height`` (m). A bounce below that
-    is taken from the state; so is the overlap, of at most CONTACT, that the surface was found with.
-    """
-    if not near:
-        return state, None
-    x, y, vx, vy, spin = state
-    fx, fy, torque = mover.force(t, state)
-    mass = mover.ball.mass
-    kept: list[Near] = []
-    for obstacle, touching in near:
-        nx, ny = touching.nx, touching.ny
-        along = vx * ny - vy * nx
-        press = -(fx * nx + fy * ny) / mass - touching.curvature * along * along  # m/s^2
-        lowest = max(height, obstacle.surface.lowest_bounce)
-        if vx * nx + vy * ny <= leaves_at(press, lowest):
-            kept.append((obstacle, touching))
-    if not kept:
-        return state, None
-    for _, touching in kept:
-        leaving = vx * touching.nx + vy * touching.ny
-        vx -= leaving * touching.nx
-        vy -= leaving * touching.ny
-    if any(_sine(touching, kept[0][1]) > _FLUSH for _, touching in kept[1:]):
-        vx = vy = 0.0  # held in two directions
-    state = (x, y, vx, vy, spin)
+    def settle(self, t: float, state: State, track: Track, height: float) -> tuple[State, Contact | None]:
+        """The state from which the ball goes on, and its lasting contact, or None for flight.
 
-    held: list[Contact] = []
-    for obstacle, touching in kept:
-        mx, my = (vx, vy) if vx or vy else (fx, fy)  # where it is about to go
-        place = obstacle.ahead(touching, x, y, mx, my)
-        contact = _way_of_moving(mover, state, obstacle, place, fx, fy, torque)
+        A ball stays on a surface if it is pressed on and would not bounce higher than ``height`` (m). A bounce below
+        that is taken from the state; so is the overlap, of at most CONTACT, that the surface was found with.
+        """
+        x, y, vx, vy, spin = state
+        near = track.near(x, y)
+        if not near:
+            return state, None
+        fx, fy, torque = self.force(t, state)
+        mass = self.ball.mass
+        kept: list[Near] = []
+        for obstacle, touching in near:
+            nx, ny = touching.nx, touching.ny
+            along = vx * ny - vy * nx
+            press = -(fx * nx + fy * ny) / mass - touching.curvature * along * along  # m/s^2
+            lowest = max(height, obstacle.surface.lowest_bounce)
+            if vx * nx + vy * ny <= leaves_at(press, lowest):
+                kept.append((obstacle, touching))
+        if not kept:
+            return state, None
+        for _, touching in kept:
+            leaving = vx * touching.nx + vy * touching.ny
+            vx -= leaving * touching.nx
+            vy -= leaving * touching.ny
+        if any(_sine(touching, kept[0][1]) > _FLUSH for _, touching in kept[1:]):
+            vx = vy = 0.0  # held in two directions
+        state = (x, y, vx, vy, spin)
+
+        held: list[Contact] = []
+        for obstacle, touching in kept:
+            mx, my = (vx, vy) if vx or vy else (fx, fy)  # where it is about to go
+            place = obstacle.ahead(touching, x, y, mx, my)
+            contact = _way_of_moving(self, state, obstacle, place, fx, fy, torque)
+            if contact is None:
+                continue
+            held.append(contact)
+        held.sort(key=lambda contact: contact.touching.curvature)  # the next piece's side before this one's corner
+        for contact in held:
+            (ax, ay, _), _, _ = self.on_surface(t, state, contact)
+            if contact.mode == RESTING:
+                ax = ay = 0.0
+            if all(
+                ax * other.nx + ay * other.ny >= -1e-9 or _sine(other, contact.touching) <= _FLUSH for _, other in kept
+            ):
+                return _on(self, state, contact), contact
+        if not held:
+            return state, None
+        return _wedged(self, state, kept, held, fx, fy)
+
+    def conclude(self, state: State, contact: Contact | None, reason: str) -> State:
+        """The state at the end of an arc: put back on a round surface, whose path the arc only follows closely; just
+        rolling, or just still, where that is why it ended."""
         if contact is None:
-            continue
-        held.append(contact)
-    held.sort(
-        key=lambda contact: contact.touching.curvature
-    )  # the side of the next piece before the corner of this one
-    for contact in held:
-        (ax, ay, _), _, _ = mover.on_surface(t, state, contact)
-        if contact.mode == RESTING:
-            ax = ay = 0.0
-        if all(ax * other.nx + ay * other.ny >= -1e-9 or _sine(other, contact.touching) <= _FLUSH for _, other in kept):
-            return _on(mover, state, contact), contact
-    if not held:
-        return state, None
-    return _wedged(mover, state, kept, held, fx, fy)
+            return state
+        x, y, vx, vy, spin = state
+        nx, ny, _ = contact.touching.normal_at(x, y)
+        if contact.touching.center is not None and contact.mode in (SLIDING, ROLLING):
+            x = contact.touching.center[0] + contact.obstacle.reach * nx
+            y = contact.touching.center[1] + contact.obstacle.reach * ny
+            leaving = vx * nx + vy * ny
+            vx -= leaving * nx
+            vy -= leaving * ny
+        if reason == "grip":
+            spin = -(vx * ny - vy * nx) / self.ball.radius
+        if reason == "stop":
+            vx = vy = spin = 0.0
+        return x, y, vx, vy, spin
+
+    def rests(self, arc: Arc) -> bool:
+        """Whether the ball lies still on this arc."""
+        return isinstance(arc.contact, Contact) and arc.contact.mode == RESTING
 
 
 def leaves_at(press: float, height: float) -> float:
@@ -76,26 +104,6 @@ def leaves_at(press: float, height: float) -> float:
     ``press`` in m/s^2 is what drives it back, no matter how strongly if it is negative.
     """
     return (2.0 * max(press, 0.0) * height) ** 0.5 + _STILL
-
-
-def conclude(mover: Mover, state: State, contact: Contact | None, reason: str) -> State:
-    """The state at the end of an arc: put back on a round surface, whose path the arc only follows closely; just
-    rolling, or just still, where that is why it ended."""
-    if contact is None:
-        return state
-    x, y, vx, vy, spin = state
-    nx, ny, _ = contact.touching.normal_at(x, y)
-    if contact.touching.center is not None and contact.mode in (SLIDING, ROLLING):
-        x = contact.touching.center[0] + contact.obstacle.reach * nx
-        y = contact.touching.center[1] + contact.obstacle.reach * ny
-        leaving = vx * nx + vy * ny
-        vx -= leaving * nx
-        vy -= leaving * ny
-    if reason == "grip":
-        spin = -(vx * ny - vy * nx) / mover.ball.radius
-    if reason == "stop":
-        vx = vy = spin = 0.0
-    return x, y, vx, vy, spin
 
 
 def _way_of_moving(

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from sandbox.engine.arc import Arc, still
+from sandbox.engine.motion import Contact
 from sandbox.engine.run import Numerics
 from sandbox.engine.setup import Ball
+from sandbox.engine.track import Track
 from sandbox.physics.cloth import Cloth
 from sandbox.physics.integrators import State
 
@@ -30,18 +32,18 @@ class OnCloth:
         self._cloth = cloth
         self._numerics = numerics
 
-    def advance(self, t: float, until: float, state: State) -> Arc:
+    def advance(self, t: float, until: float, state: State, contact: Contact | None) -> tuple[Arc, str]:
         """The next arc from t, at most to ``until``: a whole phase, however long."""
         phase = self._cloth.phase(state, self.ball.radius)
         self._numerics.steps += 1
         if phase.mode == "resting":
-            return still(t, until, state)
+            return still(t, until, state), ""
         h = min(phase.duration, until - t)
         end = self._cloth.after(state, phase, h)
         x, y, vx, vy, spin, wx, wy = state
         x1, y1, vx1, vy1, spin1, wx1, wy1 = end
         half = 0.5 * h
-        return Arc(
+        arc = Arc(
             t,
             t + h,
             state,
@@ -54,10 +56,19 @@ class OnCloth:
             ((wx, wx + h * phase.alpha_x), (wy, wy + h * phase.alpha_y)),
             end,
         )
+        return arc, ""
 
-    def rests(self, state: State) -> bool:
-        """Whether nothing moves any more."""
-        return self._cloth.phase(state, self.ball.radius).mode == "resting"
+    def settle(self, t: float, state: State, track: Track, height: float) -> tuple[State, Contact | None]:
+        """As it is: cloth knows no lasting contact with a cushion."""
+        return state, None
+
+    def conclude(self, state: State, contact: Contact | None, reason: str) -> State:
+        """As it is: phases end exactly."""
+        return state
+
+    def rests(self, arc: Arc) -> bool:
+        """Whether the ball lies still on this arc."""
+        return arc.t1 > arc.t0 and len(arc.x) == 1 and len(arc.spin) == 1
 
 
 def slip_over(ball: Ball, state: State, nx: float, ny: float) -> float:

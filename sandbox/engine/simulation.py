@@ -15,13 +15,13 @@ from sandbox.engine.accuracy import Accuracy
 from sandbox.engine.arc import Arc, still
 from sandbox.engine.contacts import Contacts
 from sandbox.engine.impacts import Impacts
-from sandbox.engine.lasting import conclude, settle
+from sandbox.engine.lasting import InPlane
 from sandbox.engine.motion import RESTING, Contact, Diverged, Mover
 from sandbox.engine.on_cloth import OnCloth, slowest_hop
 from sandbox.engine.run import Event, Numerics, Run
 from sandbox.engine.setup import Ball, Circle, Setup, Surface
 from sandbox.engine.touch import CONTACT, Obstacle, balls_touch, box
-from sandbox.engine.track import Track
+from sandbox.engine.track import Motion, Track
 from sandbox.errors import RequestError, RunError
 from sandbox.physics.integrators import State
 
@@ -74,10 +74,10 @@ class Simulation:
             if ball.radius not in obstacles:
                 obstacles[ball.radius] = [Obstacle(surface, ball.radius) for surface in setup.surfaces]
             x, y = _clear_of(ball, obstacles[ball.radius])
-            mover: Mover | OnCloth
+            mover: Motion
             state: State = (x, y, *map(float, (*ball.velocity, ball.spin)))
             if setup.cloth is None:
-                mover = Mover(ball, self._accuracy, setup.bounds, setup.patches, self._numerics)
+                mover = InPlane(ball, self._accuracy, setup.bounds, setup.patches, self._numerics)
             else:
                 mover = OnCloth(ball, setup.cloth, self._numerics)
                 state = (*state, *map(float, ball.rolling_spin))
@@ -111,8 +111,8 @@ class Simulation:
         started = perf_counter()
         track = self._tracks[0]
         track.arc, track.state, track.path = still(t, t, state), state, arcs
-        if isinstance(track.mover, Mover):
-            track.mover.suggest(step)
+        assert isinstance(track.mover, Mover)  # nobody else has steps
+        track.mover.suggest(step)
         self._events = events
         self._over = self._setup.until is not None and any(map(self._setup.until, events))
         if how == "flight":
@@ -161,8 +161,7 @@ class Simulation:
         track = self._tracks[index]
         track.keep(t)
         track.state = track.arc.state(track.arc.t1)
-        if isinstance(track.mover, Mover):
-            track.state = conclude(track.mover, track.state, track.contact, reason)
+        track.state = track.mover.conclude(track.state, track.contact, reason)
         if reason == "":
             self._plan(index, t)
         else:
@@ -203,13 +202,12 @@ class Simulation:
     def _resume(self, index: int, t: float) -> None:
         """Go on from the ball's state: sort out what it is in contact with, and plan its way."""
         track = self._tracks[index]
-        if isinstance(track.mover, Mover):
-            before = track.contact
-            near = track.near(track.state[0], track.state[1])
-            track.state, track.contact = settle(track.mover, t, track.state, near, self._accuracy.settle)
-            self._note_contact(track, t, before)
+        before = track.contact
+        track.state, track.contact = track.mover.settle(t, track.state, track, self._accuracy.settle)
+        self._note_contact(track, t, before)
         if self._over:
-            track.arc = still(t, t, track.state)  # nothing more to plan
+            track.arc = still(t, t, track.state, track.contact)  # nothing more to plan
+            self._note_rest(track, t)
         else:
             self._plan(index, t)
 
@@ -217,27 +215,25 @@ class Simulation:
         after = track.contact
         was = "" if before is None else before.obstacle.surface.name
         now = "" if after is None else after.obstacle.surface.name
-        place = (track.ball.name, now, 0.0, track.state[0], track.state[1])
+        x, y = track.state[:2]
         if was and was != now:
-            self._note(Event(t, "leave", track.ball.name, was, 0.0, *place[3:]))
-        track.rests = after is not None and after.mode == RESTING
-        if track.rests and (before is None or before.mode != RESTING):
-            self._note(Event(t, "rest", *place))
-        elif now and was != now:
-            self._note(Event(t, "contact", *place))
+            self._note(Event(t, "leave", track.ball.name, was, 0.0, x, y))
+        if after is not None and was != now and after.mode != RESTING:
+            self._note(Event(t, "contact", track.ball.name, now, 0.0, x, y))
+
+    def _note_rest(self, track: Track, t: float) -> None:
+        rested, track.rests = track.rests, track.mover.rests(track.arc)
+        if track.rests and not rested and (t > 0.0 or track.contact is not None):
+            on = "" if track.contact is None else track.contact.obstacle.surface.name
+            self._note(Event(t, "rest", track.ball.name, on, 0.0, *track.state[:2]))
 
     def _plan(self, index: int, t: float) -> None:
         """A new arc from the ball's state at t, and what will happen on it first."""
         track = self._tracks[index]
         track.version += 1
-        if isinstance(track.mover, Mover):
-            arc, kind = track.mover.advance(t, self._setup.duration, track.state, track.contact)
-        else:
-            arc, kind = track.mover.advance(t, self._setup.duration, track.state), ""
-            rested, track.rests = track.rests, len(arc.x) == 1 and len(arc.spin) == 1
-            if track.rests and not rested and t > 0.0:
-                self._note(Event(t, "rest", track.ball.name, "", 0.0, *track.state[:2]))
+        arc, kind = track.mover.advance(t, self._setup.duration, track.state, track.contact)
         track.arc = arc
+        self._note_rest(track, t)
         at, own = arc.t1, None if track.contact is None else track.contact.obstacle
         limits = box(arc)
         for obstacles, what in ((track.obstacles, "touch"), (track.catches, "catch")):

@@ -3,22 +3,40 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Protocol
 
 from sandbox.engine.arc import Arc, still
-from sandbox.engine.motion import Contact, Mover
-from sandbox.engine.on_cloth import OnCloth
+from sandbox.engine.motion import Contact
+from sandbox.engine.setup import Ball
 from sandbox.engine.touch import CONTACT, Obstacle, Touching
 from sandbox.physics.integrators import State
 
 Near = tuple[Obstacle, Touching]
 
 
+class Motion(Protocol):
+    """How one ball moves: in the plane of the picture, or on cloth."""
+
+    ball: Ball
+
+    def advance(self, t: float, until: float, state: State, contact: Contact | None) -> tuple[Arc, str]:
+        """The next arc from t, at most to ``until``, and why it ends: "" for no reason but its length."""
+
+    def settle(self, t: float, state: State, track: Track, height: float) -> tuple[State, Contact | None]:
+        """The state from which the ball goes on after it touched something, and its lasting contact if it stays there:
+        if it would not bounce higher than ``height`` (m)."""
+
+    def conclude(self, state: State, contact: Contact | None, reason: str) -> State:
+        """The state at the end of an arc that ended for this reason."""
+
+    def rests(self, arc: Arc) -> bool:
+        """Whether the ball lies still on this arc."""
+
+
 class Track:
     """A ball's state, the arc it is on, and the path behind it."""
 
-    def __init__(
-        self, mover: Mover | OnCloth, obstacles: Sequence[Obstacle], catches: Sequence[Obstacle], state: State
-    ) -> None:
+    def __init__(self, mover: Motion, obstacles: Sequence[Obstacle], catches: Sequence[Obstacle], state: State) -> None:
         self.mover = mover
         self.ball = mover.ball
         self.obstacles = obstacles
