@@ -168,7 +168,7 @@ def _single_root(b: list[float]) -> float:
         else:
             return u
         following = u - value / fall if fall != 0.0 else low
-        if abs(following - u) <= 2e-16 * u or high - low <= 1e-16:
+        if abs(following - u) <= 2e-16 or high - low <= 1e-16:
             return min(max(following, low), high)
         if not low < following < high:
             following = 0.5 * (low + high)

@@ -97,7 +97,7 @@ def _single_root(b: np.ndarray) -> np.ndarray:
         value = evaluate(b, u)
         low, high = np.where(value > 0.0, u, low), np.where(value < 0.0, u, high)
         following = u - value / evaluate(slope, u)
-        near |= (value == 0.0) | (np.abs(following - u) <= 2e-16 * u) | (high - low <= 1e-16)
+        near |= (value == 0.0) | (np.abs(following - u) <= 2e-16) | (high - low <= 1e-16)
         if near.all():
             break
         following = np.where((low < following) & (following < high), following, 0.5 * (low + high))
