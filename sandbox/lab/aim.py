@@ -203,7 +203,7 @@ def search(scene: Scene, spans: Sequence[Span], targets: Sequence[Target], progr
     try:
         import scipy  # noqa: F401
     except ImportError:
-        raise RequestError('sandbox aim needs scipy: pip install "sports-sandbox[lab]"') from None
+        raise RequestError("sandbox aim needs scipy, which is not installed: pip install scipy") from None
     if len({span.key for span in spans}) < len(spans) or len({target.name for target in targets}) < len(targets):
         raise RequestError("a parameter or a target is named twice")
     numbers = [target.is_number for target in targets]

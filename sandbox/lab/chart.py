@@ -32,7 +32,7 @@ def check_installed(option: str) -> None:
     try:
         import matplotlib  # noqa: F401
     except ImportError:
-        raise RequestError(f'{option} needs matplotlib: pip install "sports-sandbox[lab]"') from None
+        raise RequestError(f"{option} needs matplotlib, which is not installed: pip install matplotlib") from None
 
 
 def draw_trade(found: Trade, path: Path) -> None:

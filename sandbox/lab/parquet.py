@@ -15,7 +15,7 @@ def check_installed(option: str) -> None:
     try:
         import pyarrow  # noqa: F401
     except ImportError:
-        raise RequestError(f'{option} needs pyarrow: pip install "sports-sandbox[parquet]"') from None
+        raise RequestError(f"{option} needs pyarrow, which is not installed: pip install pyarrow") from None
 
 
 def write_parquet(plan: Plan, file: Path, path: Path) -> None:

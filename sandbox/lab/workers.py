@@ -125,9 +125,7 @@ class Cluster:
         try:
             import distributed
         except ImportError:
-            raise RequestError(
-                "--scheduler needs Dask, which is not installed: pip install 'sports-sandbox[cluster]'"
-            ) from None
+            raise RequestError("--scheduler needs Dask, which is not installed: pip install distributed") from None
         try:
             # first by hand: a Client that finds nobody takes half a minute to give up
             host, port = distributed.comm.parse_host_port(distributed.comm.parse_address(address)[1])

@@ -282,4 +282,4 @@ def test_without_matplotlib_the_command_says_how_to_get_it(
 
     monkeypatch.setitem(sys.modules, "matplotlib", None)
     assert main(["trade", "golf", "--plot", str(tmp_path / "chart.png")]) == 2
-    assert 'pip install "sports-sandbox[lab]"' in capsys.readouterr().err
+    assert "pip install matplotlib" in capsys.readouterr().err
