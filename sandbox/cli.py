@@ -74,11 +74,15 @@ def _program(
 
 
 @app.command("list")
-def list_scenes() -> None:
+def list_scenes(
+    scene: Annotated[
+        str | None, typer.Argument(metavar="[SCENE]", help="Only this scene and its presets.", show_default=False)
+    ] = None,
+) -> None:
     """Show the scenes and presets there are, those in this folder too."""
-    from sandbox.scene import listings, listings_in
+    from sandbox.scene import listings, listings_in, listings_of
 
-    found = [*listings(), *listings_in(Path())]
+    found = [*listings(), *listings_in(Path())] if scene is None else listings_of(scene)
     width = max((len(listing.name) for listing in found), default=0)
     for listing in found:
         _say(f"{listing.name:{width}}  {listing.about}".rstrip())

@@ -275,7 +275,11 @@ def _chosen(field: FieldInfo, inner: type[Group], table: Any) -> bool:
 def json_schema(schema: type[Group], scene: str) -> dict[str, Any]:
     """JSON schema of the scene file of ``scene``; numbers may be strings with a unit."""
     body = _relaxed(schema.model_json_schema())
-    properties = {"scene": {"const": scene, "description": "the scene that this file is for"}, **body["properties"]}
+    named = {
+        "anyOf": [{"const": scene}, {"type": "string", "pattern": f"^{scene}/[A-Za-z0-9_-]+$"}],
+        "description": "the scene that this file is for, or the preset that it begins from",
+    }
+    properties = {"scene": named, **body["properties"]}
     # The draft that editors' TOML extensions know.
     head = {"$schema": "http://json-schema.org/draft-07/schema#", "title": f"{scene} scene file"}
     return {**head, **body, "properties": properties}
@@ -351,6 +355,11 @@ def merged(base: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any
     return result
 
 
+def over(schema: type[Group], values: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
+    """Nested ``values`` with nested ``changes`` over them; a drag of another model leaves the old one's keys behind."""
+    return _without_leftovers(schema, merged(values, changes), changes)
+
+
 Schema = TypeVar("Schema", bound=Group)
 
 
@@ -366,7 +375,7 @@ def validate(
     Raises RequestError with a line that names file (or ``changed_by``), key, value, bound and unit.
     """
     changes = nested(changes or {})
-    combined = _without_leftovers(schema, merged(values, changes), changes)
+    combined = over(schema, values, changes)
     try:
         return schema.model_validate(combined)
     except ValidationError as failure:

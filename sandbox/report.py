@@ -133,8 +133,8 @@ def _count(number: int, noun: str) -> str:
 def _with_error(text: str, error: float | None) -> str:
     """``"257.3 m  (281 yd)"`` as ``"257.3 m ± 0.4 mm  (281 yd)"``; the error is in the text's first unit."""
     match = re.match(r"[-+]?[\d.]+(?: ([^\s(]+))?", text)
-    if error is None or match is None:
-        return text
+    if error is None or match is None or (error == 0.0 and re.match(r"[-+]?\d+(?![\d.])", text)):
+        return text  # a count that is the same in both runs is not "less than 0.001" off
     unit = match[1] or ""
     if unit == "m" and error < 0.1:
         error, unit = error * 1e3, "mm"

@@ -209,14 +209,28 @@ def load(source: str | Path, overrides: Mapping[str, Any] | None = None, *, over
     name, folder, file = _find(source)
     values: dict[str, Any] = {}
     where = _shown(folder) if file is None else _shown(file)
+    preset = file.stem if file is not None and file.resolve().parent == folder / "presets" else None
+    schema = _parameters_class(folder)
     if file is not None:
         values = declared.read_toml(file)
-        written = values.pop("scene", name)
-        if written != name:
+        written = str(values.pop("scene", name))
+        based_on = written.removeprefix(f"{name}/")
+        if written != name and (based_on == written or preset is not None):
             raise RequestError(f'{where}: scene = "{written}", but here it is a file for {name}')
-    preset = file.stem if file is not None and file.resolve().parent == folder / "presets" else None
-    parameters = declared.validate(_parameters_class(folder), values, where, overrides, overrides_from)
+        if written != name:
+            values = declared.over(schema, _preset_values(name, folder, based_on, where), values)
+    parameters = declared.validate(schema, values, where, overrides, overrides_from)
     return Scene(name, preset, parameters, folder)
+
+
+def _preset_values(name: str, folder: Path, preset: str, where: str) -> dict[str, Any]:
+    """What stands in the preset that a scene file begins from."""
+    try:
+        values = declared.read_toml(_preset(name, folder, preset))
+    except RequestError as error:
+        raise RequestError(f"{where}: {error}") from None
+    values.pop("scene", None)
+    return values
 
 
 def parameters_of(source: str | Path) -> tuple[str, type[declared.Group]]:
@@ -245,6 +259,14 @@ def listings_in(place: Path) -> Iterator[Listing]:
     for folder in sorted(file.parent for file in place.glob("*/scene.py")):
         if folder.resolve() not in ours:
             yield from _listed(f"./{folder.name}", folder)
+
+
+def listings_of(source: str) -> list[Listing]:
+    """The scene that ``source`` names, followed by its presets."""
+    name, folder, _ = _find(source)
+    if (_built_in(name) or _installed(name)) != folder:
+        name = _shown(folder) if Path(_shown(folder)).is_absolute() else f"./{_shown(folder)}"
+    return list(_listed(name, folder))
 
 
 def _listed(name: str, folder: Path) -> Iterator[Listing]:
@@ -360,11 +382,12 @@ def _preset(name: str, folder: Path, preset: str) -> Path:
 def _scene_of_file(path: Path) -> tuple[str, Path]:
     """Name and folder of the scene that a scene file is for; the nearest wins: around it, beside it, by its name."""
     name = declared.read_toml(path).get("scene")
+    name = name.partition("/")[0] if isinstance(name, str) else ""
     parent = path.resolve().parent
     around = parent.parent if parent.name == "presets" else parent
     if (around / "scene.py").is_file():
         return around.name, around
-    if not isinstance(name, str) or not _is_word(name):
+    if not _is_word(name):
         raise RequestError(f'{path}: needs a line that names its scene, such as scene = "golf"')
     beside = parent / name
     folder = beside if (beside / "scene.py").is_file() else _built_in(name) or _installed(name)

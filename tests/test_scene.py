@@ -168,6 +168,23 @@ def test_an_installed_package_may_offer_scenes(drop: Path, tmp_path: Path, monke
     assert "unknown scene gone" in refusal("gone")
 
 
+def test_a_scene_file_may_begin_from_a_preset(tmp_path: Path):
+    file = tmp_path / "shot.toml"
+    file.write_text('scene = "golf/golf-game"\n[launch]\nangle = 20\n[ball.lift]\nmodel = "none"\n')
+    game, own = sandbox.load("golf/golf-game"), sandbox.load(file)
+    assert (own.name, own.preset) == ("golf", None)
+    assert own.parameters == sandbox.load("golf/golf-game", {"launch.angle": 20, "ball.lift.model": "none"}).parameters
+    assert own.parameters.ball.mass == game.parameters.ball.mass != sandbox.load("golf").parameters.ball.mass
+    file.write_text('scene = "golf/golf-gane"')
+    assert refusal(file) == f"{file}: golf has no preset golf-gane; did you mean golf/golf-game?"
+
+
+def test_a_preset_begins_from_no_other(drop: Path):
+    preset = next((drop / "presets").glob("*.toml"))
+    preset.write_text(f'scene = "drop/{preset.stem}"')
+    assert "but here it is a file for drop" in refusal(preset)
+
+
 def test_a_scene_can_be_sent_to_another_process(drop: Path):
     scene = sandbox.load(drop / "presets" / "moon.toml", {"launch.height": 3, "ball.drag.model": "constant"})
     assert pickle.loads(pickle.dumps(scene)) == scene
