@@ -161,14 +161,14 @@ def _single_root(b: list[float]) -> float:
             value, fall = _horner(backwards[0], u / w) * w, _horner(backwards[1], u / w)  # both over w^(n - 1)
         else:
             value, fall = _horner(scaled, w / u) * u, _horner(slopes, w / u)
-        if value > 0.0:
-            low = u
-        elif value < 0.0:
+        if value == 0.0 and fall < 0.0:
+            return u
+        if value < 0.0:
             high = u
         else:
-            return u
-        following = u - value / fall if fall != 0.0 else low
-        if abs(following - u) <= 2e-16 or high - low <= 1e-16:
+            low = u
+        following = u - value / fall if fall < 0.0 else low  # where it rises there is no root of ours, only rounding
+        if (fall < 0.0 and abs(following - u) <= 2e-16) or high - low <= 1e-16:
             return min(max(following, low), high)
         if not low < following < high:
             following = 0.5 * (low + high)

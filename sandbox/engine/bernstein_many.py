@@ -94,12 +94,14 @@ def _single_root(b: np.ndarray) -> np.ndarray:
     u = b[0] / (b[0] - b[-1])
     near = np.zeros(b.shape[1], dtype=bool)
     for _ in range(_MOST_STEPS):
-        value = evaluate(b, u)
-        low, high = np.where(value > 0.0, u, low), np.where(value < 0.0, u, high)
-        following = u - value / evaluate(slope, u)
-        near |= (value == 0.0) | (np.abs(following - u) <= 2e-16) | (high - low <= 1e-16)
+        value, fall = evaluate(b, u), evaluate(slope, u)
+        low, high = np.where(value >= 0.0, u, low), np.where(value < 0.0, u, high)
+        following = u - value / fall
+        falls = fall < 0.0  # where it rises there is no root of ours, only rounding
+        near |= falls & ((value == 0.0) | (np.abs(following - u) <= 2e-16))
+        near |= high - low <= 1e-16
         if near.all():
             break
-        following = np.where((low < following) & (following < high), following, 0.5 * (low + high))
-        u = np.where(near, u, following)
+        inside = falls & (low < following) & (following < high)
+        u = np.where(near, u, np.where(inside, following, 0.5 * (low + high)))
     return u

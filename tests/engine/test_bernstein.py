@@ -15,6 +15,7 @@ from sandbox.engine.bernstein import (
     split,
     without_root_at_start,
 )
+from sandbox.engine.bernstein_many import first_downward_crossing
 
 coefficients = st.lists(st.floats(-10, 10, allow_subnormal=False), min_size=2, max_size=8)
 inside = st.floats(0.0, 1.0)
@@ -62,6 +63,22 @@ def test_every_downward_crossing_is_found_in_order():
     roots = (0.1, 0.3, 0.300001, 0.7, 0.95)  # down, up, down, up, down
     found = list(downward_crossings(from_roots(*roots)))
     assert found == pytest.approx([0.1, 0.300001, 0.95], abs=1e-9)
+
+
+def test_a_root_going_up_exactly_on_a_cut_does_not_hide_the_next():
+    roots = (0.125, 0.5, 0.943359375)  # down, up, down
+    assert list(downward_crossings(from_roots(*roots))) == pytest.approx([0.125, 0.943359375], abs=1e-12)
+    u, unclear = first_downward_crossing(np.array(from_roots(*roots))[:, None])
+    assert unclear[0] or u[0] == pytest.approx(0.125, abs=1e-12)
+
+
+@given(st.lists(st.lists(st.floats(0.001, 0.999), min_size=3, max_size=3, unique=True), min_size=1, max_size=8))
+def test_many_at_once_find_the_same(rows):
+    polynomials = [from_roots(*roots) for roots in rows]
+    u, unclear = first_downward_crossing(np.array(polynomials).T)
+    for coefficients, found, doubtful in zip(polynomials, u.tolist(), unclear.tolist(), strict=True):
+        if not doubtful:
+            assert found == pytest.approx(next(downward_crossings(coefficients), np.inf), abs=1e-9)
 
 
 def test_a_graze_without_crossing_is_no_touch_and_a_shallow_dip_is():
