@@ -23,7 +23,7 @@ class Arc:
     components.
     """
 
-    __slots__ = ("contact", "end", "rolling_spin", "spin", "start", "t0", "t1", "vx", "vy", "x", "y")
+    __slots__ = ("_box", "contact", "end", "rolling_spin", "spin", "start", "t0", "t1", "vx", "vy", "x", "y")
 
     def __init__(
         self,
@@ -50,6 +50,7 @@ class Arc:
         self.contact = contact
         self.rolling_spin = rolling_spin
         self.end = end  # the state at t1 where it is known without evaluating
+        self._box: tuple[float, float, float, float] | None = None
 
     def state(self, t: float) -> State:
         """Position, velocity and spin at time t in [t0, t1]."""
@@ -75,6 +76,12 @@ class Arc:
             return self.x[0], self.y[0]
         u = min(1.0, max(0.0, (t - self.t0) / h))
         return evaluate(self.x, u), evaluate(self.y, u)
+
+    def box(self) -> tuple[float, float, float, float]:
+        """Left, bottom, right, top (m) of a rectangle that holds the whole path."""
+        if self._box is None:
+            self._box = min(self.x), min(self.y), max(self.x), max(self.y)
+        return self._box
 
     def until(self, t: float) -> Arc:
         """The same path, ending at t."""

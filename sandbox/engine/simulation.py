@@ -20,7 +20,7 @@ from sandbox.engine.motion import RESTING, Contact, Diverged, Mover
 from sandbox.engine.on_cloth import OnCloth, slowest_hop
 from sandbox.engine.run import Event, Numerics, Run
 from sandbox.engine.setup import Ball, Circle, Setup, Surface
-from sandbox.engine.touch import CONTACT, Obstacle, balls_touch, box
+from sandbox.engine.touch import CONTACT, Obstacle, balls_touch
 from sandbox.engine.track import Motion, Track
 from sandbox.errors import RequestError, RunError
 from sandbox.physics.integrators import State
@@ -235,7 +235,7 @@ class Simulation:
         track.arc = arc
         self._note_rest(track, t)
         at, own = arc.t1, None if track.contact is None else track.contact.obstacle
-        limits = box(arc)
+        limits = arc.box()
         for obstacles, what in ((track.obstacles, "touch"), (track.catches, "catch")):
             for obstacle in obstacles:
                 if obstacle is own or not obstacle.may_meet(limits):
@@ -250,7 +250,7 @@ class Simulation:
             if other == index or neighbour.caught:
                 continue
             reach = track.ball.radius + neighbour.ball.radius
-            a, b, c, d = box(neighbour.arc)
+            a, b, c, d = neighbour.arc.box()
             if left <= c + reach and right >= a - reach and bottom <= d + reach and top >= b - reach:
                 self._numerics.queries += 1
                 pair_at = balls_touch(arc, neighbour.arc, reach, t)

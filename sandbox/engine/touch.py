@@ -197,11 +197,6 @@ def _closings(gap: list[float], starts_beside: bool) -> Iterable[float]:
     return downward_crossings(gap)
 
 
-def box(arc: Arc) -> tuple[float, float, float, float]:
-    """Left, bottom, right, top of a rectangle that holds the whole arc."""
-    return min(arc.x), min(arc.y), max(arc.x), max(arc.y)
-
-
 def balls_touch(first: Arc, second: Arc, reach: float, t: float) -> float | None:
     """The first time from t on, while both arcs last, at which two centres come within ``reach`` of each other, or
     None.
