@@ -349,7 +349,7 @@ def aim(
 
     chosen = _load(scene, set_, accuracy)
     spans = [parse_span(chosen, "--vary", text) for text in vary]
-    targets = [parse_target(text) for text in target]
+    targets = [parse_target(text, chosen) for text in target]
     if show is not None:
         from sandbox.lab.chart import check_installed
 

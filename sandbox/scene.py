@@ -112,6 +112,12 @@ class Scene:
             raise self._wrong("card", "a list of pairs of label and text", rows)
         return rows
 
+    @property
+    def units(self) -> Mapping[str, str]:
+        """The units of the result's numbers, by their names, as far as the scene names them in ``UNITS``."""
+        units: Mapping[str, str] = getattr(self.module, "UNITS", {})
+        return units
+
     def _wrong(self, function: str, expected: str, value: Any) -> RunError:
         """A scene's function handed back something else: mostly a forgotten return."""
         file = _shown(self.folder / "scene.py")

@@ -124,6 +124,10 @@ def build(parameters: Parameters) -> Setup:
 # ------------------------------------------------------------------------------------------------------------- result
 
 
+#: Units of the result's numbers, for charts and tables.
+UNITS = {"distance": "m", "apex": "m", "flight_time": "s", "landing_speed": "m/s"}
+
+
 def result(run: Run, parameters: Parameters) -> dict[str, Any]:
     """The numbers that matter, in m, s and m/s; None for what did not happen."""
     floor = parameters.floor

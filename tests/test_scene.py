@@ -17,6 +17,7 @@ from sandbox import resources
 from sandbox.errors import RequestError
 from sandbox.parameters import read_toml, walk
 from sandbox.scene import listings
+from sandbox.units import KIND_OF
 
 DROP = Path(__file__).parent / "scenes" / "drop"
 SCENES = resources.folder("scenes")
@@ -49,6 +50,15 @@ def test_every_scene_and_preset_runs_to_its_end_and_stays_finite(name: str):
     numbers = [value for value in run.result.values() if isinstance(value, float)]
     assert all(math.isfinite(number) for number in numbers)
     assert scene.module.card(run.result, scene.parameters)
+
+
+@pytest.mark.parametrize("name", [name for name in NAMES if "/" not in name])
+def test_every_number_of_a_result_has_its_unit(name: str):
+    presets = [listing for listing in NAMES if listing.partition("/")[0] == name]
+    runs = [sandbox.simulate(sandbox.load(preset)) for preset in presets]
+    numbers = {key for run in runs for key, value in run.result.items() if isinstance(value, float)}
+    assert numbers == set(sandbox.load(name).units)
+    assert all(unit in KIND_OF for unit in sandbox.load(name).units.values())
 
 
 @pytest.mark.parametrize("listing", list(listings()), ids=lambda listing: listing.name)

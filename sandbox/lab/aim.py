@@ -136,16 +136,17 @@ class Aim:
         }
 
 
-def parse_target(text: str) -> Target:
+def parse_target(text: str, scene: Scene | None = None) -> Target:
     """``carry=200``, ``carry="219 yd"``, ``made=true`` or ``verdict=swish``. Raises RequestError."""
     name, equals, value = (part.strip() for part in text.partition("="))
     if not name or not equals or not value:
         raise RequestError(f"--target {text}: write it as NAME=VALUE, for example --target carry=200")
-    return as_target(name, value, "--target")
+    return as_target(name, value, "--target", scene)
 
 
-def as_target(name: str, value: Any, option: str = "target") -> Target:
-    """A target from Python. A number may have a unit; results are in SI, but angles in deg and spins in rpm."""
+def as_target(name: str, value: Any, option: str = "target", scene: Scene | None = None) -> Target:
+    """A target from Python. A number may have a unit: that of the scene's result, or of its kind; where the scene does
+    not say, results are in SI, but angles in deg and spins in rpm."""
     if isinstance(value, bool | np.bool_):
         return Target(name, bool(value))
     if isinstance(value, int | float | np.number):
@@ -161,11 +162,18 @@ def as_target(name: str, value: Any, option: str = "target") -> Target:
         return as_target(name, float(text), option)
     except ValueError:
         pass
-    for result_unit in _RESULT_UNITS:
+    declared = "" if scene is None else scene.units.get(name, "")
+    for unit in _RESULT_UNITS:
         try:
-            return as_target(name, units.parse(text, result_unit), option)
+            number = units.parse(text, unit)
         except ValueError:
             continue
+        if declared in units.KIND_OF and declared:
+            try:
+                number = units.parse(text, declared)
+            except ValueError as error:
+                raise RequestError(f"{option} {name}={text}: {error}") from None
+        return as_target(name, number, option)
     return Target(name, text)
 
 
@@ -195,7 +203,7 @@ def aim(
         if not isinstance(axis, Span):
             raise RequestError(f"vary {key}: only numbers have a range")
         spans.append(axis)
-    return search(chosen, spans, [as_target(name, value) for name, value in target.items()], progress)
+    return search(chosen, spans, [as_target(name, value, scene=chosen) for name, value in target.items()], progress)
 
 
 def search(scene: Scene, spans: Sequence[Span], targets: Sequence[Target], progress: Progress = _silent) -> Aim:

@@ -93,7 +93,7 @@ def as_text(aim: Aim) -> list[str]:
 
 def _question(aim: Aim) -> str:
     name = f"{aim.scene.name}/{aim.scene.preset}" if aim.scene.preset else aim.scene.name
-    wanted = " and ".join(f"{target.name} = {_value(target)}" for target in aim.targets)
+    wanted = " and ".join(f"{target.name} = {_value(target, aim)}" for target in aim.targets)
     ranges = " and ".join(_range(aim, span.key, span.low, span.high) for span in aim.spans)
     return f"{name}: {wanted} by {ranges}"
 
@@ -102,10 +102,11 @@ def _range(aim: Aim, key: str, low: float, high: float) -> str:
     return f"{key} from {low:g} to {high:g} {unit_of(aim.scene, key)}".rstrip()
 
 
-def _value(target: Target) -> str:
+def _value(target: Target, aim: Aim) -> str:
     if isinstance(target.value, bool):
         return "true" if target.value else "false"
-    return f"{target.value:g}" if target.is_number else str(target.value)
+    unit = aim.scene.units.get(target.name, "")
+    return f"{target.value:g} {unit}".rstrip() if target.is_number else str(target.value)
 
 
 def _root_lines(aim: Aim) -> list[str]:
@@ -117,8 +118,13 @@ def _root_lines(aim: Aim) -> list[str]:
         for name in names:
             row += [f"{solution.result[name]:.8g}", _error(solution.result_errors.get(name))]
         rows.append(row)
-    headings += [part for name in names for part in (name, "±")]
+    headings += [part for name in names for part in (_heading(aim, name), "±")]
     return [*table(headings, rows, "r" * len(headings)), *_more(aim)]
+
+
+def _heading(aim: Aim, name: str) -> str:
+    unit = aim.scene.units.get(name)
+    return f"{name} ({unit})" if unit else name
 
 
 def _interval_lines(aim: Aim) -> list[str]:

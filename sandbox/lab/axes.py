@@ -174,6 +174,12 @@ def label(scene: Scene, key: str) -> str:
     return f"{key} ({unit})" if unit else key
 
 
+def result_label(scene: Scene, name: str) -> str:
+    """A number of the result with its unit, for charts: ``"flight time (s)"``."""
+    unit = scene.units.get(name.removesuffix("_error"))
+    return name.replace("_", " ") + (f" ({unit})" if unit else "")
+
+
 def _placed(node: Any, path: Path, value: Any, option: str, key: str) -> Any:
     """Nested tables and lists with ``value`` at ``path``."""
     if not path:

@@ -12,7 +12,7 @@ import numpy as np
 
 from sandbox import parameters as declared
 from sandbox.errors import RequestError
-from sandbox.lab.axes import Axis, Values, at, label, path_of
+from sandbox.lab.axes import Axis, Values, at, label, path_of, result_label
 from sandbox.lab.chart import chart, check_installed
 from sandbox.lab.plan import FLAGS, HANGS, Plan, records
 from sandbox.lab.row_file import cell, rows
@@ -40,6 +40,7 @@ class Found:
 
     axes: list[np.ndarray]  # where each point stands along each axis; words stand at 0, 1, 2...
     name: str  # of what is shown
+    label: str  # the same with its unit
     numbers: np.ndarray | None
     words: list[str]  # of the same length as the axes; empty if what is shown is a number
     good: frozenset[str]  # words that stand for success
@@ -75,10 +76,10 @@ def draw_sweep(plan: Plan, file: Path, path: Path, of: str | None = None) -> Non
         else:
             _map(axes, plan, found, colours)
         _tick_words(axes, plan)
-        _mark_own(axes, plan, colours)
+        _mark_own(axes, plan, found, colours)
         labels = [label(plan.scene, axis.key) for axis in plan.axes]
         axes.set_xlabel(labels[0])
-        axes.set_ylabel(labels[1] if len(labels) == 2 else found.name.replace("_", " ") if not found.words else "")
+        axes.set_ylabel(labels[1] if len(labels) == 2 else found.label if not found.words else "")
 
 
 # ---------------------------------------------------------------------------------------------------------------------
@@ -111,9 +112,9 @@ def read(plan: Plan, file: Path, of: str | None) -> Found:
     swept = [_column(axis, place) for axis, place in zip(plan.axes, places, strict=True)]
     numbers = _numbers(["" if text == FAILED else text for text in texts])
     if numbers is not None:
-        return Found(swept, shown, numbers, [], frozenset())
+        return Found(swept, shown, result_label(plan.scene, shown), numbers, [], frozenset())
     good = frozenset(word for word, (lost, won) in wins.items() if won > lost)
-    return Found(swept, shown, None, [text or "none" for text in texts], good)
+    return Found(swept, shown, result_label(plan.scene, shown), None, [text or "none" for text in texts], good)
 
 
 def _chained(first: Mapping[str, str], rest: Iterable[Mapping[str, str]]) -> Iterable[Mapping[str, str]]:
@@ -228,7 +229,7 @@ def _line(axes: Any, plan: Plan, found: Found, colours: Mapping[str, Any]) -> No
     _legend(axes, found, chosen, colours)
 
 
-def _mark_own(axes: Any, plan: Plan, colours: Mapping[str, Any]) -> None:
+def _mark_own(axes: Any, plan: Plan, found: Found, colours: Mapping[str, Any]) -> None:
     """A ring where the scene file's own shot is, or a line."""
     own = _own(plan)
     if own is None:
@@ -236,8 +237,9 @@ def _mark_own(axes: Any, plan: Plan, colours: Mapping[str, Any]) -> None:
     ink = colours["card"]["ink"]
     if len(own) == 1:
         axes.axvline(own[0], color=ink, linewidth=1.0, linestyle=(0, (4, 3)))
-        place, offset = (own[0], 1.0), (5, -6)
-        beside: dict[str, Any] = {"xycoords": ("data", "axes fraction"), "va": "top"}
+        top = not _is_high(found, own[0])  # away from the curve
+        place, offset = (own[0], float(top)), (5, -6 if top else 6)
+        beside: dict[str, Any] = {"xycoords": ("data", "axes fraction"), "va": "top" if top else "bottom"}
     else:
         axes.plot(*own, marker="o", markersize=11, markerfacecolor="none", markeredgecolor="white", markeredgewidth=3.5)
         axes.plot(*own, marker="o", markersize=11, markerfacecolor="none", markeredgecolor=ink, markeredgewidth=1.6)
@@ -245,6 +247,14 @@ def _mark_own(axes: Any, plan: Plan, colours: Mapping[str, Any]) -> None:
     beside |= {"xytext": offset, "textcoords": "offset points", "fontsize": 9.5, "color": ink}
     text = axes.annotate("scene file", place, **beside)
     text.set_bbox({"facecolor": "white", "edgecolor": "none", "alpha": 0.75, "pad": 1.5})
+
+
+def _is_high(found: Found, own: float) -> bool:
+    """Whether the curve is in the upper half of its range where the scene file's own shot is."""
+    if found.numbers is None or not np.isfinite(found.numbers).any():
+        return False
+    height = found.numbers[np.nanargmin(np.abs(found.axes[0] - own))]
+    return bool(height > 0.5 * (np.nanmin(found.numbers) + np.nanmax(found.numbers)))
 
 
 def _coded(found: Found, colours: Mapping[str, Any]) -> tuple[dict[str, str], np.ndarray]:
@@ -295,7 +305,7 @@ def _key(axes: Any, drawn: Any, found: Found, colours: Mapping[str, Any]) -> Non
     bar = axes.figure.colorbar(drawn, ax=axes, aspect=30, pad=0.02)
     bar.outline.set_visible(False)
     bar.ax.tick_params(colors=colours["card"]["ink_quiet"], labelsize=9.5, length=0)
-    bar.set_label(found.name.replace("_", " "), color=colours["card"]["ink_quiet"])
+    bar.set_label(found.label, color=colours["card"]["ink_quiet"])
 
 
 def _positions(axis: Axis) -> np.ndarray:

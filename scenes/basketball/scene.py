@@ -275,6 +275,10 @@ def _court(parameters: Parameters) -> list[Surface]:
 # ------------------------------------------------------------------------------------------------------------- result
 
 
+#: Units of the result's numbers, for charts and tables.
+UNITS = {"entry_angle": "deg", "entry_speed": "m/s", "entry_offset": "m", "flight_time": "s", "apex": "m"}
+
+
 def result(run: Run, parameters: Parameters) -> dict[str, Any]:
     """In or out, and how; angles in deg, lengths in m, speeds in m/s, times in s.
 

@@ -256,6 +256,10 @@ def _between_balls(ball: BallParameters) -> Callable[[float, float], Bounce]:
 # ------------------------------------------------------------------------------------------------------------- result
 
 
+#: Units of the result's numbers, for charts and tables.
+UNITS = {"rest_time": "s"}
+
+
 def result(run: Run, parameters: Parameters) -> dict[str, Any]:
     """What the shot came to; lengths in m, times in s.
 

@@ -355,6 +355,19 @@ def _turf(parameters: Parameters, kind: str, a: tuple[float, float], b: tuple[fl
 # --------------------------------------------------------------------------------------------------------------- result
 
 
+#: Units of the result's numbers, for charts and tables.
+UNITS = {
+    "carry": "m",
+    "total": "m",
+    "apex": "m",
+    "flight_time": "s",
+    "landing_angle": "deg",
+    "landing_speed": "m/s",
+    "landing_spin": "rpm",
+    "distance_to_pin": "m",
+}
+
+
 def result(run: Run, parameters: Parameters) -> dict[str, Any]:
     """Carry, total, apex and the rest, in m, s, deg and rpm. None where the ball never came down."""
     start = run.setup.balls[0].position

@@ -249,6 +249,10 @@ def _rectangle(left: float, right: float, bottom: float, top: float) -> list[Vec
 # ------------------------------------------------------------------------------------------------------------- result
 
 
+#: Units of the result's numbers, for charts and tables.
+UNITS = {"deviation": "m", "offset_at_goal": "m", "speed_at_goal": "m/s", "flight_time": "s"}
+
+
 def result(run: Run, parameters: Parameters) -> dict[str, Any]:
     """Goal or not, and how the ball bent; lengths in m and positive to the left, speeds in m/s, times in s.
 

@@ -223,6 +223,17 @@ def _pitch(parameters: Parameters) -> list[Surface]:
 # ------------------------------------------------------------------------------------------------------------- result
 
 
+#: Units of the result's numbers, for charts and tables.
+UNITS = {
+    "height_at_wall": "m",
+    "height_at_goal": "m",
+    "speed_at_goal": "m/s",
+    "flight_time": "s",
+    "carry": "m",
+    "apex": "m",
+}
+
+
 def result(run: Run, parameters: Parameters) -> dict[str, Any]:
     """Goal or not, and the numbers of the flight; lengths in m, speeds in m/s, times in s.
 

@@ -134,6 +134,8 @@ def test_targets_have_units():
     assert parse_target("landing_speed=36 km/h") == Target("landing_speed", 10.0)
     assert parse_target("made=true") == as_target("made", True) == Target("made", True)
     assert parse_target("verdict=swish") == Target("verdict", "swish")
+    with pytest.raises(RequestError, match="s is a unit of time; use m,"):
+        aim("golf", {"launch.speed": (40, 80)}, {"carry": "20 s"})
 
 
 @pytest.mark.parametrize(
