@@ -50,6 +50,7 @@ def next_steps(folder: Path) -> list[str]:
     return [
         "now try:",
         f"  sandbox run {shown} --poster {folder.name}.png",
+        f"  sandbox play {shown}    # the window: what you save is there at once",
         f"  pytest {folder} --golden-update    # makes the golden picture: look at it; from then on: pytest {folder}",
     ]
 

@@ -203,6 +203,15 @@ def test_a_scene_can_be_sent_to_another_process(drop: Path):
     assert process.stdout.decode().strip() == str(scene.parameters)
 
 
+def test_what_python_shows_of_a_run_fits_a_line():
+    run = sandbox.simulate(sandbox.load("golf/driver"))
+    assert repr(run) == f"<Run of golf/driver: {run.duration:.2f} s, {len(run.events)} events, ended by rest>"
+    found = sandbox.sweep("golf/driver", {"launch.angle": [10, 12]})
+    assert repr(found) == "<Sweep of golf/driver: 2 points over launch.angle>"
+    near = sandbox.aim("golf/driver", {"launch.speed": (60, 60.5)}, {"carry": 500})
+    assert repr(near) == "<Aim of golf/driver at carry = 500.0: no solution>"
+
+
 # Refusals -----------------------------------------------------------------------------------------------------------
 
 

@@ -27,6 +27,7 @@ WINDOW, FRAME = (1280, 720), 1 / 60  # px, s
 QUALITY = 88  # of JPEG: the smallest at which letters stay clean
 
 SWEEP = ("sweep", "basketball", "--over", "launch.speed=6.8:8.6:73", "--over", "launch.angle=40:70:61")
+COMPARE = ("run", "golf", "--compare", "golf/headwind")
 
 
 def poster(name: str) -> Image.Image:
@@ -52,6 +53,15 @@ def free_throws() -> None:
         program([*SWEEP, "--out", str(Path(folder, "map.csv")), "--plot", str(plot)])
         with Image.open(plot) as image:
             image.convert("RGB").quantize(64, dither=Image.Dither.NONE).save(HERE / "free-throws.png", optimize=True)
+
+
+def compare() -> None:
+    """The comparison that the README shows, by the command that it names."""
+    with tempfile.TemporaryDirectory() as folder:
+        plot = Path(folder, "compare.png")
+        program([*COMPARE, "--poster", str(plot)])
+        with Image.open(plot) as image:
+            image.save(HERE / "compare.jpg", quality=QUALITY, subsampling=0, optimize=True, progressive=True)
 
 
 def window() -> None:
@@ -82,4 +92,5 @@ def post(app: App, kind: int, **values: object) -> None:
 if __name__ == "__main__":
     sports()
     free_throws()
+    compare()
     window()

@@ -63,6 +63,10 @@ class Run:
     result: dict[str, Any] = field(default_factory=dict)
     scene: Any = field(default=None, repr=False, compare=False)  # what it is a run of, where that is a scene
 
+    def __repr__(self) -> str:
+        what = "" if self.scene is None else f" of {self.scene.title}"
+        return f"<Run{what}: {self.duration:.2f} s, {len(self.events)} events, ended by {self.ended}>"
+
     def state(self, ball: str, t: float) -> State:
         """(x, y, vx, vy, spin) of a ball at time t, held at its last state beyond the end; m, m/s, rad/s.
 

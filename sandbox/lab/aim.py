@@ -124,6 +124,11 @@ class Aim:
     tries: list[Try] = field(repr=False)
     failures: int = 0  # tries that could not be run
 
+    def __repr__(self) -> str:
+        wanted = ", ".join(f"{target.name} = {target.value}" for target in self.targets)
+        found = "; ".join(", ".join(f"{k} = {v:.6g}" for k, v in one.values.items()) for one in self.solutions)
+        return f"<Aim of {self.scene.title} at {wanted}: {found or 'no solution'}>"
+
     @property
     def misses(self) -> dict[str, float]:
         """By how much the nearest try misses each target; empty where there is a solution, or no nearest."""

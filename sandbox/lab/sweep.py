@@ -56,6 +56,9 @@ class Sweep:
     plan: Plan
     records: list[Record]
 
+    def __repr__(self) -> str:
+        return f"<Sweep of {self.plan.scene.title}: {len(self.records):,} points over {', '.join(self.plan.keys)}>"
+
     @property
     def axes(self) -> dict[str, np.ndarray]:
         """The values along each axis of a grid."""
