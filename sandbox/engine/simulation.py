@@ -98,7 +98,7 @@ class Simulation:
         for track in self._tracks:
             if not track.caught:
                 track.keep(t)
-        self._numerics.wall_s = perf_counter() - started
+        self._numerics.wall_s += perf_counter() - started
         arcs = {track.ball.name: track.path for track in self._tracks}
         return Run(self._setup, self._accuracy, arcs, self._events, self._numerics, t, ended)
 
@@ -114,7 +114,8 @@ class Simulation:
         assert isinstance(track.mover, Mover)  # nobody else has steps
         track.mover.suggest(step)
         self._events = events
-        self._over = self._setup.until is not None and any(map(self._setup.until, events))
+        if how == "after" and events and self._setup.until is not None:
+            self._over = self._setup.until(events[-1])  # of those before it has been asked
         if how == "flight":
             self._plan(0, t)
         elif how == "before":

@@ -2,7 +2,7 @@
 
 Two shots' forces are alike if they are built alike: the same classes and functions, nested alike, differing in nothing
 but floats. Then one of them, with arrays in place of those floats, stands for all. What cannot be looked into (a
-compiled function, a class with slots) is alike only if it is one and the same.
+compiled function, a bound method, a module, a class with slots) is alike only if it is one and the same.
 """
 
 from __future__ import annotations
@@ -13,6 +13,8 @@ from typing import Any
 
 import numpy as np
 
+_FLOATS = (float, np.float64)
+
 #: Objects nested deeper than this are not looked into.
 _DEEPEST = 10
 
@@ -20,7 +22,7 @@ _DEEPEST = 10
 def structure(thing: Any, numbers: list[float], depth: int = 0) -> Hashable:
     """How a thing is built; its floats are added to ``numbers`` in a fixed order."""
     kind = type(thing)
-    if kind is float:
+    if kind in _FLOATS:
         numbers.append(thing)
         return float
     if thing is None or kind in (int, bool, str):
@@ -35,13 +37,16 @@ def structure(thing: Any, numbers: list[float], depth: int = 0) -> Hashable:
         held = (*[cell.cell_contents for cell in thing.__closure__ or ()], thing.__defaults__, thing.__kwdefaults__)
         return kind, thing.__code__, *[structure(item, numbers, depth + 1) for item in held]
     inside = getattr(thing, "__dict__", None)
-    if type(inside) is not dict or isinstance(thing, type) or _has_slots(kind):
+    if type(inside) is not dict or not _is_plain(kind):
         return kind, id(thing)
     return kind, *[(name, structure(value, numbers, depth + 1)) for name, value in inside.items()]
 
 
-def _has_slots(kind: type) -> bool:
-    return any(getattr(base, "__slots__", ()) for base in kind.__mro__)
+def _is_plain(kind: type) -> bool:
+    """Whether all there is to such an object stands in its ``__dict__``: not so with what has slots or is made in C,
+    as functools.partial, bound methods, modules and what derives from dict or list."""
+    made_by: object = kind.__new__
+    return made_by is object.__new__ and not any(getattr(base, "__slots__", ()) for base in kind.__mro__)
 
 
 class Stack:
@@ -64,7 +69,7 @@ class Stack:
 def _filled(thing: Any, columns: Any, depth: int) -> tuple[Any, bool]:
     """The thing with the next columns in place of its floats, and whether anything in it differs from shot to shot."""
     kind = type(thing)
-    if kind is float:
+    if kind in _FLOATS:
         varies, column = next(columns)
         return (column, True) if varies else (thing, False)
     if thing is None or kind in (int, bool, str) or depth > _DEEPEST:
@@ -86,7 +91,7 @@ def _filled(thing: Any, columns: Any, depth: int) -> tuple[Any, bool]:
         copy.__kwdefaults__ = keywords[0]
         return copy, True
     inside = getattr(thing, "__dict__", None)
-    if type(inside) is not dict or isinstance(thing, type) or _has_slots(kind):
+    if type(inside) is not dict or not _is_plain(kind):
         return thing, False
     parts = {name: _filled(value, columns, depth + 1) for name, value in inside.items()}
     if not any(new for _, new in parts.values()):

@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import math
+from collections import OrderedDict
+from collections.abc import Callable
+from functools import lru_cache, partial
 from typing import Any
 
 import numpy as np
@@ -18,7 +21,7 @@ from sandbox.engine.arc_rows import ArcRows
 from sandbox.engine.contacts import Contact, Contacts, Moving
 from sandbox.engine.lanes import Lanes
 from sandbox.engine.outlines import Outlines
-from sandbox.engine.run import Numerics, Run
+from sandbox.engine.run import Event, Numerics, Run
 from sandbox.engine.setup import Ball, Bounce, Circle, Patch, Segment, Setup, Surface
 from sandbox.engine.stacking import Stack, structure
 from sandbox.engine.touch import Obstacle
@@ -156,12 +159,87 @@ def mixes_shots_up(t: Any, position: Any, velocity: Any, spin: Any) -> tuple[Any
     return 0.0 * spin, -0.01 * np.max(velocity[0])
 
 
-@pytest.mark.parametrize("force", [of_floats_only, mixes_shots_up])
+def changes_what_it_is_given(t: Any, position: Any, velocity: Any, spin: Any) -> tuple[Any, Any]:
+    vx, vy = velocity
+    vx -= 1.0  # wind
+    return -0.1 * vx, -0.1 * vy
+
+
+def has_another_shape(t: Any, position: Any, velocity: Any, spin: Any) -> tuple[Any, Any]:
+    return np.reshape(velocity[0], (1, -1)), 0.0
+
+
+def of_arrays_only(t: Any, position: Any, velocity: Any, spin: Any) -> tuple[Any, Any]:
+    return velocity[0].clip(0.0, 1.0), 0.0
+
+
+def not_at_the_start(t: Any, position: Any, velocity: Any, spin: Any) -> tuple[Any, Any]:
+    return 0.1 / t, 0.0
+
+
+FORCES = [
+    of_floats_only,
+    mixes_shots_up,
+    changes_what_it_is_given,
+    has_another_shape,
+    of_arrays_only,
+    not_at_the_start,
+]
+
+
+@pytest.mark.parametrize("force", FORCES)
 def test_a_force_that_cannot_take_arrays_is_called_with_floats(force: Any, flown: list[int]):
     setups = [thrown(4.0 + 0.1 * i, extra=force) for i in range(30)]
     for setup, run in zip(setups, simulate_many(setups, resolve()), strict=True):
+        alone = batch._one(setup, resolve())
+        if isinstance(alone, Run):
+            assert_same(run, alone)
+        else:
+            assert repr(run) == repr(alone)
+    assert flown == []
+
+
+def test_forces_that_mix_shots_up_only_later_are_found_out(flown: list[int]):
+    def drag(t: Any, position: Any, velocity: Any, spin: Any) -> tuple[Any, Any]:
+        speed = np.linalg.norm(velocity)  # of one ball: of many it is the norm of all
+        return -0.01 * speed * velocity[0], -0.01 * speed * velocity[1]
+
+    drops = [Ball("ball", 0.6, 0.12, (0.0, 1.0 + 0.1 * i), forces=[Gravity(0.6, 9.81), drag]) for i in range(30)]
+    setups = [Setup([ball], [FLOOR], duration=1.0) for ball in drops]
+    for setup, run in zip(setups, simulate_many(setups, resolve()), strict=True):
         assert_same(run, simulate(setup, resolve()))
     assert flown == []
+
+
+def test_whole_numbers_are_numbers():
+    balls = [Ball("ball", 1 + i, 1, (0, 5), (5, 3), 0, forces=[Gravity(1.0 + i, 9.81)]) for i in range(30)]
+    setups = [Setup([ball], [FLOOR], duration=2) for ball in balls]
+    for setup, run in zip(setups, simulate_many(setups, resolve()), strict=True):
+        assert_same(run, simulate(setup, resolve()))
+
+
+def test_an_end_that_counts_is_asked_once_about_each_event():
+    def at_impact(last: int) -> Callable[[Event], bool]:
+        met: list[Event] = []
+
+        def until(event: Event) -> bool:
+            met.append(event)
+            return len(met) == last
+
+        return until
+
+    setups = [thrown(4.0 + 0.1 * i, duration=20.0, until=at_impact(9 if i % 2 else 3)) for i in range(30)]
+    for i, run in enumerate(simulate_many(setups, resolve())):
+        assert isinstance(run, Run)
+        assert (run.ended, len(run.events)) == ("until", 9 if i % 2 else 3)
+
+
+def test_a_batch_without_end_goes_on_one_at_a_time(monkeypatch: pytest.MonkeyPatch):
+    setups = [thrown(4.0 + 0.1 * i, duration=1.0) for i in range(30)]
+    monkeypatch.setattr(batch, "_MOST_PIECES", 100)
+    for setup, run in zip(setups, simulate_many(setups, resolve()), strict=True):
+        assert_same(run, simulate(setup, resolve()))
+        assert isinstance(run.arcs["ball"], list)
 
 
 @pytest.mark.parametrize("accuracy", [resolve(integrator="rk4"), resolve(method="plain", step=1e-3)])
@@ -316,6 +394,36 @@ def test_what_is_built_alike_is_stacked():
     x = np.array([0.5, 0.7])
     assert stack.of(chosen)(x).tolist() == [springs[3](0.5), springs[1](0.7)]
     assert springs[0](0.5) == 0.0  # left as it was
+
+
+class Pull:
+    def __init__(self, stiffness: float) -> None:
+        self.stiffness = stiffness
+
+    def back(self, x: Any) -> Any:
+        return -self.stiffness * x
+
+
+class Row(list[float]):
+    pass
+
+
+def test_what_cannot_be_looked_into_is_alike_only_if_it_is_one():
+    makers = (
+        lambda k: Pull(k).back,
+        lambda k: partial(pow, k),
+        lambda k: Row([k]),
+        lambda k: OrderedDict(k=k),
+        lambda k: lru_cache(lambda x: k * x),
+    )
+    for make in makers:
+        one, other = make(1.0), make(2.0)
+        assert structure(one, []) != structure(other, [])
+        numbers: list[float] = []
+        assert structure(one, numbers) == structure(one, [])
+        assert numbers == []
+        assert Stack(one, [[], []]).of(np.array([0, 1])) is one
+    assert structure(np, []) == structure(np, [])  # and not all that is in it
 
 
 def test_what_is_built_otherwise_is_not():
