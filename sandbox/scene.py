@@ -1,8 +1,8 @@
 """Scenes: what one is, how it is found, and how it is run.
 
 A scene is a folder with a ``scene.py`` that offers ``Parameters``, ``build``, ``result`` and ``card``, a scene file
-``<name>.toml``, presets in ``presets/*.toml`` and a ``picture.py``. It may come with the sandbox, with an installed
-package (entry point group ``sandbox.scenes``), or stand anywhere on disk.
+``<name>.toml``, presets in ``presets/*.toml`` and, if it likes, a ``picture.py``. It may come with the sandbox, with an
+installed package (entry point group ``sandbox.scenes``), or stand anywhere on disk.
 """
 
 from __future__ import annotations
@@ -35,6 +35,8 @@ if TYPE_CHECKING:
 #: Scene folders are imported as packages below this name, which nothing else can have taken.
 NAMESPACE = "sandbox_scenes"
 ENTRY_POINTS = "sandbox.scenes"
+#: Draws any scene that has no picture.py.
+PLAIN_PICTURE = "sandbox.picture.plain"
 OFFERS = ("Parameters", "build", "result", "card")
 #: How the functions of a scene, and its picture, are called.
 CALLS = {
@@ -67,10 +69,11 @@ class Scene:
         return _docstring(self.folder / "scene.py")
 
     def picture_module(self) -> ModuleType:
-        """The scene's ``picture.py``, imported when first asked for: it brings pygame with it."""
-        if not (self.folder / "picture.py").is_file():
-            raise RequestError(f"{self.name} has no picture: {self.folder / 'picture.py'} is missing")
+        """The scene's ``picture.py``, or a plain one for a scene without; imported when first asked for: it brings
+        pygame with it."""
         os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")  # its greeting on stdout, which belongs to --json
+        if not (self.folder / "picture.py").is_file():
+            return importlib.import_module(PLAIN_PICTURE)
         module = _module(self.folder, "picture")
         _check_calls(self.folder / "picture.py", "Picture", getattr(module, "Picture", None))
         return module

@@ -276,12 +276,6 @@ def test_a_folder_that_is_no_scene_is_refused(drop: Path, old: str, new: str, ex
     assert expected in refusal(drop)
 
 
-def test_a_scene_without_a_picture_says_so(drop: Path):
-    (drop / "picture.py").unlink()
-    with pytest.raises(RequestError, match=r"picture\.py is missing"):
-        sandbox.load(drop).picture_module()
-
-
 # Checking -----------------------------------------------------------------------------------------------------------
 
 

@@ -1,0 +1,74 @@
+"""The picture of a scene that has none of its own."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+import numpy as np
+import pygame
+import pytest
+
+import sandbox
+from sandbox.picture import plain
+
+SCENES = Path(__file__).resolve().parents[2] / "scenes"
+SIZE = (640, 360)
+
+
+@pytest.fixture
+def bare(tmp_path: Path):
+    """A scene that came with the sandbox, without its picture."""
+
+    def load(name: str) -> sandbox.Scene:
+        folder, _, preset = name.partition("/")
+        skip = shutil.ignore_patterns("picture.py", "__pycache__")
+        return sandbox.load(shutil.copytree(SCENES / folder, tmp_path / folder, ignore=skip) / preset)
+
+    return load
+
+
+def colour(surface: pygame.Surface, at: tuple[float, float]) -> tuple[int, ...]:
+    return tuple(surface.get_at((round(at[0]), round(at[1]))))[:3]
+
+
+@pytest.mark.parametrize("name", ["basketball", "golf", "soccer-curl", "billiards/nine-ball-break"])
+def test_everything_is_in_the_picture(bare, name: str):
+    scene = bare(name)
+    run = sandbox.simulate(scene)
+    picture = scene.picture(run, SIZE)
+    assert isinstance(picture, plain.Picture)
+    poster, stage = picture.poster(), picture.stage()
+    for ball in run.setup.balls:
+        pixels = picture.camera.pixels(run.trajectory(ball.name)[:, 1:3])
+        assert np.all((pixels > 0) & (pixels < SIZE))
+        end = picture.camera.pixel(*run.state(ball.name, run.duration)[:2])
+        assert colour(poster, end) != colour(stage, end)
+    half = pygame.surfarray.array3d(picture.frame(0.5 * run.duration))
+    assert (half != pygame.surfarray.array3d(poster)).any()
+
+
+def test_surfaces_are_where_they_are(bare):
+    scene = bare("basketball")
+    picture = scene.picture(sandbox.simulate(scene), SIZE)
+    hoop, stage = scene.parameters.hoop, picture.stage()
+    paper = colour(stage, (3, 3))
+    ring = picture.camera.pixel(hoop.distance - 0.5 * hoop.inner_diameter - hoop.tube_radius, hoop.height)
+    for at in (ring, picture.camera.pixel(1.0, 0.0), (1, picture.camera.pixel(0.0, 0.0)[1])):
+        assert sum(paper) - sum(colour(stage, at)) > 200
+    middle = picture.camera.pixel(hoop.distance, hoop.height)
+    assert abs(sum(paper) - sum(colour(stage, middle))) < 50
+
+
+@pytest.mark.parametrize(
+    ("a", "b", "seen"),
+    [
+        ((-1e7, 10.0), (1e7, 10.0), [(-50.0, 10.0), (690.0, 10.0)]),
+        ((20.0, 20.0), (30.0, 40.0), [(20.0, 20.0), (30.0, 40.0)]),
+        ((-1e7, 500.0), (1e7, 500.0), None),
+        ((700.0, -1e3), (700.0, 1e3), None),
+    ],
+)
+def test_a_line_is_drawn_as_far_as_it_is_seen(a, b, seen):
+    clipped = plain._clipped(a, b, SIZE)
+    assert clipped is None if seen is None else np.allclose(clipped, seen)
