@@ -130,11 +130,15 @@ class Outlines:
             some = np.flatnonzero(reached & (gap.max(axis=0) > -NOISE))
             if not len(some):
                 continue
-            u, doubtful = _closing(gap[:, some], within[some] & (side * across[0, some] > 0.0))
+            gap = gap[:, some]
+            u, doubtful = _closing(gap, within[some] & (side * across[0, some] > 0.0))
             there = evaluate(along[:, some], np.where(np.isfinite(u), u, 0.0))
-            u[(there < 0.0) | (there > length[some])] = np.inf
+            missed = np.isfinite(u) & ((there < 0.0) | (there > length[some]))
+            u[missed] = np.inf
+            positive = gap > 0.0
+            again = (positive[1:] != positive[:-1]).sum(axis=0) > 1  # perhaps: having passed beyond the side's end
             first[some] = np.minimum(first[some], u)
-            unclear[some] |= doubtful
+            unclear[some] |= doubtful | (missed & (again | (gap[0] <= NOISE)))
         return first, unclear
 
 

@@ -367,6 +367,22 @@ def test_first_touches_are_those_of_single_obstacles():
         assert (near.gap[i], near.nx[i], near.ny[i], near.curvature[i]) == pytest.approx(nearest[:4], abs=1e-12)
 
 
+def test_a_side_that_is_first_passed_beyond_its_end_is_touched_after_all():
+    count = 1000
+    rng = np.random.default_rng(3)
+    x, y = rng.uniform(-2.0, 4.0, (6, count)), rng.uniform(-0.5, 3.0, (6, count))  # through the line and back again
+    slope = Surface("slope", Segment((1.0, 0.2), (2.0, 1.0), 0.05), 0.5, 0.5)
+    setup = Setup([Ball("ball", 0.6, 0.12, (0.0, 1.0))], [slope])
+    arcs = []
+    for xs, ys in zip(x.T.tolist(), y.T.tolist(), strict=True):
+        arcs.append(Arc(0.0, 1.0, (xs[0], ys[0], 0.0, 0.0, 0.0), xs, ys, [0.0] * 5, [0.0] * 5, [0.0] * 4))
+    found, _ = Outlines([setup] * count).first_touch(np.arange(count), x, y, lambda i: arcs[i])
+    obstacle = Obstacle(slope, 0.12)
+    for arc, u in zip(arcs, found.tolist(), strict=True):
+        expected = obstacle.first_touch(arc)
+        assert u == pytest.approx(math.inf if expected is None else expected, abs=1e-12)
+
+
 class Spring:
     def __init__(self, stiffness: float, law: Any, places: dict[str, Any]) -> None:
         self.stiffness = stiffness
