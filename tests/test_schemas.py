@@ -60,6 +60,7 @@ def test_the_shipped_files_are_in_order(folder: Path):
         "[air]\nwind = [1.0]",
         '[ball.drag]\nmodel = "feather"',
         'scene = "chess"',
+        'scene = "golf/"',
         "launches = 1",
     ],
 )
@@ -75,6 +76,7 @@ def test_a_mistake_is_seen(text: str):
         '[launch]\nspeed = 70\nangle = "12 deg"',
         '[air]\nwind = ["-10 mph", 0]',
         '[ball.drag]\nmodel = "constant"\ncoefficient = 0.3',
+        'scene = "golf/7-iron"',
         "",
     ],
 )
