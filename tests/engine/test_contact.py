@@ -1,6 +1,6 @@
 """Touching: nothing tunnels, corners and grazes are handled, and every kind of start is."""
 
-from math import atan2, cos, hypot, inf, pi, sin
+from math import atan2, cos, hypot, inf, nextafter, pi, sin
 
 import numpy as np
 import pymunk
@@ -211,6 +211,26 @@ def test_a_ball_resting_on_another_is_a_named_error():
         simulate(setup, resolve())
     heap = simulate(setup, resolve(method="plain", step=1e-3))
     assert heap.state("upper", 5.0)[1] == pytest.approx(0.15, abs=1e-3)
+
+
+def test_a_lively_ball_comes_to_lie_after_however_many_faint_bounces():
+    floor = Surface("floor", Segment((-5.0, 0.0), (5.0, 0.0)), 0.997, 0.5)
+    run = simulate(Setup([ball((0.0, 0.0501))], [floor], duration=60.0), resolve("precise"))
+    assert run.ended == "rest"
+    assert sum(event.speed < 1e-4 for event in run.events) > 1000
+
+
+def test_a_touch_in_the_last_instant_of_a_run():
+    floor = Surface("floor", Segment((-5.0, 0.0), (5.0, 0.0)), 0.5, 0.5)
+    falling = Ball("ball", 1.0, 0.5, (0.0, 1.5), (0.0, -1.0))
+    moment = simulate(Setup([falling], [floor], duration=2.0), resolve()).events[0].t
+    met = []
+    for _ in range(5):
+        moment = nextafter(moment, 2.0)
+        run = simulate(Setup([falling], [floor], duration=moment), resolve())
+        assert run.duration == moment
+        met.append(run.events[0].t == moment)
+    assert any(met)
 
 
 # ------------------------------------------------------------------------------------------------- distance, by pymunk
