@@ -294,7 +294,7 @@ class Simulation:
         x, y = track.arc.state(t)[:2]
         where = f"t = {t:.6g} s, ball {track.ball.name!r} at ({x:.4g}, {y:.4g}) m"
         last = next((event for event in reversed(self._events) if event.ball == track.ball.name), None)
-        if self._faint <= _MOST_FAINT and (last is None or last.t < t - _STANDSTILL):
+        if last is None or (last.t < t - _STANDSTILL and self._faint <= _MOST_FAINT):
             return Diverged(f"{where}: the velocity changes too fast for any step; look for a force that is not smooth")
         return Stalled(
             f'{where}: events without end, last with {last.partner!r}; a heap of balls needs accuracy.method = "plain"'
