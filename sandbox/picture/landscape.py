@@ -27,7 +27,7 @@ class Landscape:
         self.unit = size[1] / 720
         self.width = 2 * size[0]
         self.sky = self._sky()
-        self.layers = [(self._clouds(), CLOUDS)]
+        self.layers = [(self._stars() if "star" in colours else self._clouds(), CLOUDS)]
         for i, (speed, height) in enumerate(zip(HILLS, (104, 70, 44), strict=True)):
             self.layers.append((self._hills(i, height * self.unit), speed))
         self.layers.append((self._trees(), TREES))
@@ -87,6 +87,14 @@ class Landscape:
                 fading = 0.75 - 0.45 * np.clip(1 - height / (1.3 * size), 0, 1)
                 self._heap(cover, x + offset * size * 0.9, base, radius, 1.25, np.clip(height, 0, 1) * fading)
         return from_coverage(cover * 0.8, self.colours["cloud"]), int(self.horizon * 0.08)
+
+    def _stars(self) -> tuple[pygame.Surface, int]:
+        """Where there is no air."""
+        cover = np.zeros((self.width, self.horizon), np.float32)
+        places = self.random.uniform((0, 0), (self.width, self.horizon), (260, 2))
+        for (x, y), faint in zip(places, self.random.uniform(0, 1, len(places)), strict=True):
+            self._heap(cover, x, y, (1.7 - faint) * self.unit, rows=1.0 - 0.75 * faint)
+        return from_coverage(cover, self.colours["star"]), 0
 
     def _heap(
         self, cover: np.ndarray, x: float, y: float, radius: float, flat: float = 1.0, rows: np.ndarray | float = 1.0

@@ -16,6 +16,7 @@ from sandbox.picture.painter import OVERSAMPLING, Painter, blank
 from sandbox.picture.palette import Colour, mix, palette
 
 GOLF, CARD = palette("golf"), palette("card")
+MOON = GOLF | palette("moon")
 
 FLAGSTICK = 2.13  # m
 #: How much smaller things look at the far side of the fairway than on the line of play.
@@ -29,8 +30,9 @@ FIELD_OVERSAMPLING = 2
 class Course:
     """The place that the ball flies over, for pictures on which the lowest ground is ``base`` px from the top."""
 
-    def __init__(self, setup: Any, pin: float, size: tuple[int, int], base: int):
-        self.pin, self.size, self.base = pin, size, base
+    def __init__(self, setup: Any, pin: float, size: tuple[int, int], base: int, moon: bool = False):
+        self.pin, self.size, self.base, self.moon = pin, size, base, moon
+        self.colours = MOON if moon else GOLF
         self.unit = size[1] / 720
         self.horizon = base - round(FIELD * self.unit)
         turf = [s for s in setup.surfaces if s.name != "cup"]
@@ -56,13 +58,13 @@ class Course:
 
     @property
     def landscape(self) -> Landscape:
-        return _landscape(self.size, self.horizon)
+        return _landscape(self.size, self.horizon, self.moon)
 
     @cached_property
     def soil(self) -> pygame.Surface:
         """The ground cut open along the line of play, darker with depth."""
         rows = self.size[1] - self.base
-        top, middle, low = (np.array(colour, float) for colour in GOLF["soil"])
+        top, middle, low = (np.array(colour, float) for colour in self.colours["soil"])
         share = np.linspace(0, 2, rows)[:, None]
         column = np.where(share < 1, top + (middle - top) * share, middle + (low - middle) * (share - 1))
         soil = blank((self.size[0], rows))
@@ -84,18 +86,20 @@ class Course:
         painter.surface.blit(self.soil, (0, deepest))
         if outline[:, 1].min() < deepest - 1:
             under = np.add(outline, (0, self._turf_depth / 2))  # so that its rough edge is hidden
-            pygame.draw.polygon(painter.surface, GOLF["soil"][0], [*under, (self.size[0], deepest), (0, deepest)])
+            pygame.draw.polygon(
+                painter.surface, self.colours["soil"][0], [*under, (self.size[0], deepest), (0, deepest)]
+            )
         light = self._light(camera, stripe)
         for name, a, b in self.pieces:
             left, right = max(a, low), min(b, high)
             if left >= right:
                 continue
-            self._turf(painter, camera, left, right, GOLF[name])
+            self._turf(painter, camera, left, right, self.colours[name])
             if name == "fairway":
                 for band in _bands(left, right, stripe):
                     self._turf(painter, camera, *band, light)
             elif name in ("bunker", "water"):
-                self._hollow(painter, camera, a, b, GOLF[name])
+                self._hollow(painter, camera, a, b, self.colours[name])
         return deepest
 
     def _field(self, surface: pygame.Surface, camera: Camera, stripe: float, deepest: int) -> None:
@@ -115,14 +119,14 @@ class Course:
             corners = ((a, top), (b, top), (b, bottom), (a, bottom))
             pygame.draw.polygon(field, colour, [(column(x, row), row) for x, row in corners])
 
-        field.fill(GOLF["fairway"], (0, top, width * larger, bottom - top))
+        field.fill(self.colours["fairway"], (0, top, width * larger, bottom - top))
         reach = width / 2 / FAR / camera.scale
         light = self._light(camera, stripe)
         for a, b in _bands(middle - reach, middle + reach, stripe):
             across(a, b, light)
         for name, a, b in self.pieces:
             if name in ("rough", "tee"):
-                across(max(a, middle - reach), min(b, middle + reach), GOLF[name])
+                across(max(a, middle - reach), min(b, middle + reach), self.colours[name])
             elif name != "fairway":
                 left, right = column(a, line), column(b, line)
                 tall = min(0.5 * line, max(0.16 * (right - left), 8.0 * self.unit))
@@ -131,7 +135,7 @@ class Course:
                 edge = line - tall * np.sqrt(1 - away**2)
                 if x[0] < x[-1]:
                     pygame.draw.polygon(
-                        field, GOLF[name], [*zip(x, edge, strict=True), (x[-1], bottom), (x[0], bottom)]
+                        field, self.colours[name], [*zip(x, edge, strict=True), (x[-1], bottom), (x[0], bottom)]
                     )
         surface.blit(pygame.transform.smoothscale(field, (width, rows)), (0, self.horizon))
 
@@ -142,13 +146,13 @@ class Course:
         field = blank((self.size[0] * FIELD_OVERSAMPLING, rows * FIELD_OVERSAMPLING))
         far = round((self.base - self.horizon) * FAR * FIELD_OVERSAMPLING)
         for row in range(far):
-            field.fill(mix(GOLF["rough_far"], GOLF["rough"], row / far), (0, row, field.get_width(), 1))
+            field.fill(mix(self.colours["rough_far"], self.colours["rough"], row / far), (0, row, field.get_width(), 1))
         return field
 
     def _light(self, camera: Camera, stripe: float) -> Colour:
         """The lighter stripes' colour; it goes over into the darker one's where stripes are too narrow to see."""
         fade = min(1.0, max(0.0, stripe * camera.scale / (12 * self.unit) - 0.5))
-        return mix(GOLF["fairway"], GOLF["fairway_stripe"], fade)
+        return mix(self.colours["fairway"], self.colours["fairway_stripe"], fade)
 
     @property
     def _turf_depth(self) -> int:
@@ -192,29 +196,33 @@ class Course:
             left, right = (round(camera.pixel(edge, 0)[0]) for edge in (self.cup.left, self.cup.right))
             foot = camera.pixel(0, self.cup.bottom)[1]
             deep = round(foot - ground)
-            painter.surface.fill(GOLF["liner"], (left, round(ground), right - left, deep))
+            painter.surface.fill(self.colours["liner"], (left, round(ground), right - left, deep))
             thin = max(1, round(1.6 * unit))
-            painter.surface.fill(GOLF["cup"], (left + thin, round(ground), right - left - 2 * thin, deep - thin))
+            painter.surface.fill(
+                self.colours["cup"], (left + thin, round(ground), right - left - 2 * thin, deep - thin)
+            )
         elif self.cup is not None:
             foot += 3 * unit
-            painter.shadow((x, foot), 7 * unit, 2.5 * unit, GOLF["cup"], 0.9)
+            painter.shadow((x, foot), 7 * unit, 2.5 * unit, self.colours["cup"], 0.9)
         painter.shadow((x + 12 * unit, ground - unit), 16 * unit, 2.5 * unit, CARD["shadow"], 0.3)
         pole = max(2.0, 2.6 * unit)
         painter.line([(x, foot), (x, ground - tall)], pole + 1.4 * unit, CARD["shadow"], 0.3)
-        painter.line([(x, foot), (x, ground - tall)], pole, GOLF["pole"])
+        painter.line([(x, foot), (x, ground - tall)], pole, self.colours["pole"])
         side = -1 if wind < 0 else 1
         share = np.linspace(0, 1, 9)
         along = x + side * cloth * share
         wave = ground - tall + np.array([1.6 * unit * s * sin(5 * s - 9 * t) for s in share])
         upper, lower = wave + 9 * unit * share, wave + (19 - 9 * share) * unit
-        painter.polygon([*zip(along, upper, strict=True), *zip(along[::-1], lower[::-1], strict=True)], GOLF["flag"])
+        painter.polygon(
+            [*zip(along, upper, strict=True), *zip(along[::-1], lower[::-1], strict=True)], self.colours["flag"]
+        )
         return pygame.Rect(round(x - cloth), round(ground - tall), round(2 * cloth), round(tall))
 
 
 @lru_cache(maxsize=4)
-def _landscape(size: tuple[int, int], horizon: int) -> Landscape:
+def _landscape(size: tuple[int, int], horizon: int, moon: bool) -> Landscape:
     """Shared by all pictures of the same shape."""
-    return Landscape(size, horizon, GOLF)
+    return Landscape(size, horizon, MOON if moon else GOLF)
 
 
 def _pieces(turf: list[Any]) -> list[tuple[str, float, float]]:

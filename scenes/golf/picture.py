@@ -35,6 +35,8 @@ WIDEST_VIEW = 64.0
 SIGHT = 0.5
 #: s of path that the trail behind the ball shows.
 TRAIL = 1.4
+#: Without air, and with gravity below this in m/s^2, it is the Moon.
+LEAST_GRAVITY = 5.0
 #: The path is sampled this often in s; of a long run, in so many pieces.
 SAMPLING, MOST_SAMPLES = 1 / 120, 5000
 
@@ -52,6 +54,7 @@ class Picture:
         self.path = run.trajectory(self.name, every=max(SAMPLING, run.duration / MOST_SAMPLES))
         self.pin = parameters.pin.distance
         self.wind: tuple[float, float] = parameters.air.wind
+        self.moon = parameters.air.density == 0.0 and parameters.gravity < LEAST_GRAVITY
         sheet = Sheet(size)
         self.unit = sheet.unit
         # Rows in px, from the bottom up: the card, the ruler, the distances; and where the sky is free.
@@ -69,7 +72,7 @@ class Picture:
 
     def _course(self, base: int, scale: float) -> Course:
         """The course at ``scale`` px/m: where a cup can be seen, the ground is higher, for the ruler is below it."""
-        course = Course(self.run.setup, self.pin, self.size, base)
+        course = Course(self.run.setup, self.pin, self.size, base, self.moon)
         ends = float(self.path[:, 1].min()), float(self.path[:, 1].max())
         near = 0.5 * self.size[0] / scale
         if course.cup is None or not ends[0] - near < self.pin < ends[1] + near:
@@ -77,11 +80,11 @@ class Picture:
         deep = (course.cup.top - course.cup.bottom) * scale - 4 * self.unit
         if deep <= 0:
             return course
-        return Course(self.run.setup, self.pin, self.size, round(base - min(deep, 0.15 * self.size[1])))
+        return Course(self.run.setup, self.pin, self.size, round(base - min(deep, 0.15 * self.size[1])), self.moon)
 
     @cached_property
     def poster_course(self) -> Course:
-        course = Course(self.run.setup, self.pin, self.size, self.poster_base)
+        course = Course(self.run.setup, self.pin, self.size, self.poster_base, self.moon)
         return self._course(self.poster_base, self._composed(course).scale)
 
     @cached_property
@@ -111,7 +114,7 @@ class Picture:
 
     def stage(self) -> pygame.Surface:
         """The place alone, as the poster's camera sees it."""
-        sheet = Sheet(self.size)
+        sheet = Sheet(self.size, on_dark=self.moon)
         self._place(sheet)
         return sheet.surface
 
@@ -135,7 +138,7 @@ class Picture:
 
     def poster(self) -> pygame.Surface:
         """The whole run in one picture."""
-        sheet = self.sheet = Sheet(self.size)
+        sheet = self.sheet = Sheet(self.size, on_dark=self.moon)
         camera, course = self.camera, self.poster_course
         flag = self._place(sheet)
         if flag:
@@ -149,7 +152,7 @@ class Picture:
         self._apex(sheet, camera)
         if flag:
             above = [(flag.centerx, flag.top - lift * self.unit, "midbottom") for lift in (8, 14)]
-            sheet.label(f"pin {signed(f'{self.pin:g}')} m", "small", above, CARD["ink"], bold=True)
+            sheet.label(f"pin {signed(f'{self.pin:g}')} m", "small", above, sheet.ink, bold=True)
         width = max(2.5, 4.5 * self.unit)
         sheet.painter.trace(self.trace, width, TRACE["colours"][0], TRACE["rim"], max(0.75, self.unit))
         every = self._balls_at_even_times(sheet, camera)
@@ -187,10 +190,10 @@ class Picture:
         if ground - y < 44 * unit:
             return
         sheet.painter.dashes(
-            [(x, y + 10 * unit), (x, ground - 4 * unit)], 1.3 * unit, CARD["ink"], 4 * unit, 5 * unit, 0.5
+            [(x, y + 10 * unit), (x, ground - 4 * unit)], 1.3 * unit, sheet.ink, 4 * unit, 5 * unit, 0.5
         )
         text = f"apex {metres(self.run.result['apex'])}"
-        sheet.label(text, "small", [(x, y - lift * unit, "midbottom") for lift in (12, 18, 24)], CARD["ink"], bold=True)
+        sheet.label(text, "small", [(x, y - lift * unit, "midbottom") for lift in (12, 18, 24)], sheet.ink, bold=True)
 
     def _lifted(self, course: Course, camera: Camera, points: np.ndarray) -> np.ndarray:
         """Path in px for points in m, raised so that balls drawn too large along it lie on the ground and not in it."""
@@ -323,7 +326,7 @@ class Picture:
     def frame(self, t: float) -> pygame.Surface:
         """The scene at time t in s, seen by a camera that follows the ball."""
         t = min(max(t, 0.0), self.run.duration)
-        sheet = self.sheet = Sheet(self.size)
+        sheet = self.sheet = Sheet(self.size, on_dark=self.moon)
         painter, unit, course = sheet.painter, self.unit, self.frame_course
         camera = self.follow.camera(t)
         x, y, *_ = self.run.state(self.name, t)
@@ -397,7 +400,7 @@ class Picture:
         thin = max(1, round(1.6 * unit))
         painter.panel(rect, CARD["background"], CARD["opacity"], 8 * unit)
         surface.set_clip(rect)
-        painter.thread(ground, thin, GOLF["fairway"])
+        painter.thread(ground, thin, self.frame_course.colours["fairway"])
         for ghost, points in others:
             painter.thread(points[apart(points, 1.5)], 1, ghost.light)
         painter.thread(path, 1, CARD["quiet"])
@@ -415,7 +418,7 @@ class Picture:
     @cached_property
     def _mapped(self) -> tuple[pygame.Rect, Camera, np.ndarray, np.ndarray, np.ndarray]:
         """The map's place, its camera, the ground in px, and times (s) and points (px) of the path."""
-        sheet, course = Sheet(self.size), self.frame_course
+        sheet, course = Sheet(self.size, on_dark=self.moon), self.frame_course
         inset = 2.4 * sheet.gap
         x, y = np.concatenate([self.path, *(ghost.picture.path for ghost in self.ghosts)])[:, 1:3].T
         left, right = min(float(x.min()), self.pin), max(float(x.max()), self.pin)
