@@ -17,7 +17,7 @@ from sandbox.errors import SandboxError
 from sandbox.picture.camera import Camera
 from sandbox.picture.painter import Painter, blank
 from sandbox.picture.palette import Colour, palette
-from sandbox.picture.sheet import Sheet, signed
+from sandbox.picture.sheet import Sheet
 from sandbox.scene import Scene, simulate
 from sandbox.window.path import few
 from sandbox.window.session import Shot
@@ -147,7 +147,12 @@ class Fan:
         if told is not None and len(numbers) > 1:
             share += f"; {told[0]} {np.mean(numbers):.1f} ± {np.std(numbers):.1f} {told[1]}"
         parts = [
-            f"{key.rpartition('.')[2]} ± {signed(f'{sigma:.2g}')} {self.known[key].unit or ''}".rstrip()
+            f"{key.rpartition('.')[2]} ± {_short(sigma)} {self.known[key].unit or ''}".rstrip()
             for key, sigma in self.spread.items()
         ]
         return share, ", ".join(parts) or "nothing to vary"
+
+
+def _short(sigma: float) -> str:
+    """To two digits, but whole from 100 on: ``0.087``, ``370``."""
+    return f"{float(f'{sigma:.2g}'):.0f}" if sigma >= 99.5 else f"{sigma:.2g}"

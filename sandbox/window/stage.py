@@ -146,7 +146,9 @@ class Stage:
         rect = sheet.lettering.rect(
             text, "small", (hand[0], hand[1] + (20 if below else -20) * sheet.unit), "midtop" if below else "midbottom"
         )
-        rect = rect.inflate(4 * sheet.gap, 2 * sheet.gap).clamp(sheet.frame)
+        room = sheet.frame.copy()
+        room.height -= sheet.card_height() + sheet.gap
+        rect = rect.inflate(4 * sheet.gap, 2 * sheet.gap).clamp(room)
         sheet.painter.panel(rect, CARD["background"], 0.85, 6 * sheet.unit)
         sheet.lettering.write(sheet.surface, text, "small", rect.center, CARD["text"], "center")
 

@@ -10,7 +10,7 @@ import pytest
 
 from sandbox.picture.sheet import Sheet
 from sandbox.window import commands
-from sandbox.window.fan import SHOTS, Fan
+from sandbox.window.fan import SHOTS, Fan, _short
 from sandbox.window.keys import BINDINGS, LISTED, listed
 from sandbox.window.measure import reading
 from sandbox.window.session import Session
@@ -38,6 +38,9 @@ def wait_for_fan(player) -> Fan:
 
 
 class TestTheFan:
+    def test_spreads_are_told_without_powers_of_ten(self):
+        assert [_short(sigma) for sigma in (0.0874, 1.13, 36.4, 372.0, 1240.0)] == ["0.087", "1.1", "36", "370", "1200"]
+
     def test_it_tells_the_share_that_scores_and_by_what_the_shots_differ(self, player):
         player = player("basketball")
         player.key(pygame.K_f)
