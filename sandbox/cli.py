@@ -152,7 +152,9 @@ def run(
     ] = None,
     fps: Annotated[
         int | None,
-        typer.Option(min=1, max=240, help="Frames per second of the run.  [default: 60 for --frames, else 25]"),
+        typer.Option(
+            metavar="N", min=1, max=240, help="Frames per second of the run.  [default: 60 for --frames, else 25]"
+        ),
     ] = None,
     size: Annotated[
         str | None,
@@ -384,7 +386,7 @@ def sweep(
     samples: Annotated[
         int | None, typer.Option(metavar="N", min=1, help="So many random points in place of a grid.")
     ] = None,
-    seed: Annotated[int, typer.Option(min=0, help="Which random points.")] = 0,
+    seed: Annotated[int, typer.Option(metavar="N", min=0, help="Which random points.")] = 0,
     check: Annotated[bool, typer.Option("--check", help="Run each point again, finer, and add its errors.")] = False,
     plot: Annotated[
         Path | None, typer.Option(metavar="F.png", help="A map over two parameters, a curve over one.")

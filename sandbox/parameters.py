@@ -64,7 +64,14 @@ class Quantity:
     def _vector(self, value: Any, length: int) -> tuple[float, ...]:
         if not _is_list(value) or len(value) != length:
             raise ValueError(f"must be a list of {length} numbers, each {self.range}, such as {[0.0] * length}")
-        return tuple(self._number(item) for item in value)
+        return tuple(self._entry(item) for item in value)
+
+    def _entry(self, item: Any) -> float:
+        """One number of a vector; what is wrong with it names it, for the whole vector is shown."""
+        try:
+            return self._number(item)
+        except ValueError as error:
+            raise ValueError(f"{_shown(item)} {error}") from None
 
     def _number(self, value: Any) -> float:
         if isinstance(value, str):

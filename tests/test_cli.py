@@ -297,6 +297,7 @@ def test_settings_and_accuracy_stand_over_the_file(call, tmp_path: Path):
         (["run", "golf", "--set", "launch=3"], "--set launch = 3: must be a group of keys"),
         (["run", "golf", "--set", "launch.speed"], "--set launch.speed: write it as key.path=value"),
         (["run", "golf", "--set", "air.wind=3"], "--set air.wind = 3: must be a list of 2 numbers"),
+        (["run", "golf", "--set", "air.wind=[3,300]"], "air.wind = [3, 300]: 300 must be from -100 to 100 m/s"),
         (["run", "golf", "--set", "ball.drag.model=ideal"], "ball.drag"),
         (["run", "golf", "--accuracy", "best"], "'best' is not one of 'fast', 'balanced', 'precise'"),
         (["run", "golf", "--set", "accuracy.level=best"], 'must be "fast", "balanced" or "precise"'),
