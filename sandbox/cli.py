@@ -396,7 +396,7 @@ def sweep(
         Path | None, typer.Option(metavar="F.parquet", help="The rows once more; needs pyarrow.")
     ] = None,
     jobs: Annotated[
-        int | None, typer.Option(min=1, metavar="N", help="Processes.  [default: one for each core]")
+        int | None, typer.Option(min=1, metavar="N", help="Processes.  [default: one for each core that saves time]")
     ] = None,
     scheduler: Annotated[
         str | None, typer.Option(metavar="ADDRESS", help="Have the workers of a Dask scheduler compute.")
@@ -416,8 +416,7 @@ def sweep(
     from sandbox.files import check_file
     from sandbox.lab.axes import parse_axis
     from sandbox.lab.plan import Plan
-    from sandbox.lab.sweep import sweep_to_file, workers
-    from sandbox.lab.workers import cores
+    from sandbox.lab.sweep import jobs_that_pay, sweep_to_file, workers
     from sandbox.progress import bar
 
     chosen = _load(scene, set_, accuracy)
@@ -435,7 +434,7 @@ def sweep(
 
         check_file("--parquet", parquet, ".parquet")
         check_installed("--parquet")
-    with workers(jobs or min(cores(), plan.size), scheduler) as staff, bar("sweep") as progress:
+    with workers(jobs or jobs_that_pay(plan), scheduler) as staff, bar("sweep") as progress:
         done = sweep_to_file(plan, out, staff, progress)
     if plot is not None:
         from sandbox.lab.maps import draw_sweep

@@ -18,7 +18,7 @@ from sandbox.errors import RequestError, RunError
 from sandbox.lab.axes import Values, as_axis
 from sandbox.lab.plan import Plan, Record, failed, records
 from sandbox.lab.row_file import RowFile
-from sandbox.lab.workers import Call, Cluster, InTurn, Processes, Workers
+from sandbox.lab.workers import Call, Cluster, InTurn, Processes, Workers, cores
 from sandbox.scene import Scene, load
 
 #: Time in s that one call to a worker should take: progress is seen, and Ctrl-C obeyed, a few times a second.
@@ -32,6 +32,9 @@ _AHEAD = 3
 
 #: Times that points are given to another worker when theirs goes away, before they are taken to be the reason.
 _TRIES = 3
+
+#: Shots that fly together and are no more than this are done before another process has started.
+_FEW = 200
 
 Progress = Callable[[int, int], None]
 
@@ -170,6 +173,11 @@ def sweep_to_file(plan: Plan, path: Path, staff: Workers, progress: Progress = _
 # ---------------------------------------------------------------------------------------------------------------------
 # Handing out the work
 # ---------------------------------------------------------------------------------------------------------------------
+
+
+def jobs_that_pay(plan: Plan) -> int:
+    """One process for each core; but one alone where shots fly together and are done before another has started."""
+    return 1 if plan.block > 1 and plan.size <= _FEW else min(cores(), plan.size)
 
 
 @contextmanager

@@ -22,7 +22,7 @@ from sandbox.errors import RequestError, RunError
 from sandbox.lab.axes import Span, Values, as_axis, parse_axis
 from sandbox.lab.plan import HANGS, Plan, records
 from sandbox.lab.row_file import RowFile, cell
-from sandbox.lab.sweep import sweep_to_file, swept, workers
+from sandbox.lab.sweep import jobs_that_pay, sweep_to_file, swept, workers
 from sandbox.scene import Scene, load, simulate
 
 DROP = Path(__file__).parents[1] / "scenes" / "drop"
@@ -299,6 +299,13 @@ def everybody_gone(group: int) -> bool:
             return True
         time.sleep(0.05)
     return False
+
+
+def test_few_shots_that_fly_together_do_without_processes(monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr("sandbox.lab.sweep.cores", lambda: 4)
+    few, many = (grid(load("golf"), f"launch.angle=5:40:{n}") for n in (3, 500))
+    table = grid(load("billiards"), "cue.angle=-5:5:3")  # its balls meet: one shot at a time
+    assert [jobs_that_pay(plan) for plan in (few, many, table)] == [1, 4, 3]
 
 
 @pytest.mark.parametrize("jobs", [1, 2])
