@@ -190,7 +190,10 @@ def run(
     }
     _check_outputs(outputs, fps)
     pixels = None if size is None else _parse_size(size)
-    done = simulate(chosen)
+    try:
+        done = simulate(chosen)
+    except RequestError as error:  # what only the scene itself can see: two balls in one place
+        raise RequestError(f"{scene}: {error}") from None
     checked = check_scene(chosen, done) if check else None
     other = None if compare is None else simulate(_comparable(chosen, compare, accuracy))
     if as_json:

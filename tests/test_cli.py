@@ -122,6 +122,13 @@ def test_schema_is_json(call):
     assert call("schema", DROP / "drop.toml").out == call("schema", DROP).out
 
 
+def test_what_only_the_scene_can_refuse_names_the_file(call, tmp_path: Path):
+    file = tmp_path / "table.toml"
+    spots = "".join(f'[[balls]]\nname = "{name}"\nx = {x}\ny = 0\n' for name, x in (("cue", 0), ("1", 0.01)))
+    file.write_text(f'scene = "billiards"\n{spots}')
+    assert_refused(call("run", file), f'{file}: balls "cue" at (0, 0) m and "1" at (0.01, 0) m overlap')
+
+
 def test_a_count_has_no_error_where_it_stays_the_same(call):
     card = call("run", "billiards", "--check").out
     rails = next(line for line in card.splitlines() if line.startswith("  rails"))
