@@ -22,7 +22,7 @@ from sandbox.engine.contacts import Contact, Contacts, Moving
 from sandbox.engine.lanes import Lanes
 from sandbox.engine.outlines import Outlines
 from sandbox.engine.run import Event, Numerics, Run
-from sandbox.engine.setup import Ball, Bounce, Circle, Patch, Segment, Setup, Surface
+from sandbox.engine.setup import Ball, Bounce, Bounds, Circle, Patch, Segment, Setup, Surface
 from sandbox.engine.stacking import Stack, structure
 from sandbox.engine.touch import Obstacle
 from sandbox.errors import RunError
@@ -146,6 +146,38 @@ def test_until_is_asked_after_each_impact():
         assert run.ended == "until"
         assert run.events[-1].partner == "floor"
         assert run.duration == run.events[-1].t
+
+
+def test_a_spin_that_changes_fast_asks_for_short_steps():
+    def swinging(t: Any, position: Any, velocity: Any, spin: Any) -> Any:
+        return np.sin(60.0 * t)
+
+    balls = [Ball("ball", 1.0, 0.1, (0.0, 1.0 + 0.1 * i), torques=[swinging]) for i in range(30)]
+    setups = [Setup([ball], [FLOOR], duration=1.0) for ball in balls]
+    for setup, run in zip(setups, simulate_many(setups, resolve()), strict=True):
+        assert_same(run, simulate(setup, resolve()))
+
+
+def test_a_touch_in_the_last_instant():
+    falling = Ball("ball", 1.0, 0.5, (0.0, 1.5), (0.0, -1.0))
+    moment = simulate(Setup([falling], [FLOOR], duration=2.0), resolve()).events[0].t
+    setups = [Setup([falling], [FLOOR], duration=moment + i * 2.3e-16) for i in range(-15, 15)]
+    runs = list(simulate_many(setups, resolve()))
+    assert any(run.events[-1].t == run.duration for run in runs if isinstance(run, Run) and run.events)
+    for setup, run in zip(setups, runs, strict=True):
+        assert_same(run, simulate(setup, resolve()))
+
+
+def test_leaving_the_world_is_an_error_as_alone():
+    setups = [thrown(1.0 + 0.3 * i, bounds=Bounds(-5.0, -5.0, 6.0, 9.0)) for i in range(40)]
+    runs = list(simulate_many(setups, resolve()))
+    assert 5 < sum(isinstance(run, RunError) for run in runs) < 35
+    for setup, run in zip(setups, runs, strict=True):
+        alone = batch._one(setup, resolve())
+        if isinstance(alone, Run):
+            assert_same(run, alone)
+        else:
+            assert str(run) == str(alone)
 
 
 # --------------------------------------------------------------------------------------------- what arrays are not for
@@ -394,8 +426,8 @@ class Spring:
 
 
 def spring(stiffness: float, power: float, far: float) -> Spring:
-    def law(x: Any, offset: float = far) -> Any:
-        return power * x + offset
+    def law(x: Any, offset: float = far, *, shift: float = 2.0 * far) -> Any:
+        return power * x + offset + shift
 
     return Spring(stiffness, law, {"far": (1.0, far)})
 
