@@ -113,6 +113,12 @@ def test_a_users_own_force_of_position_and_time_beside_ours():
         assert other.state("cue", 2.0)[:2] == pytest.approx(with_it[:2], abs=1e-4)
 
 
+def test_a_tolerance_of_ones_own_settles_as_that_of_a_level_does():
+    for level, accuracy in LEVELS.items():
+        assert resolve(level, tolerance=accuracy.tolerance).settle == pytest.approx(accuracy.settle)
+    assert resolve(tolerance=1e-5).settle < resolve().settle
+
+
 def test_unknown_choices_are_named():
     with pytest.raises(RequestError, match=r"accuracy\.level: 'best' is not one of fast, balanced, precise"):
         resolve("best")

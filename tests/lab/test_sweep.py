@@ -189,6 +189,14 @@ def test_python_gets_arrays_and_records():
         found["carry"]
 
 
+def test_each_row_has_the_accuracy_that_it_asks_for():
+    swept = sandbox.sweep(
+        "basketball", {"accuracy.level": ["fast", "precise"], "launch.angle": np.linspace(45, 60, 30)}
+    )
+    fast, precise = swept["steps"]
+    assert np.all(1.2 * fast < precise)
+
+
 def test_a_checked_sweep_tells_errors_and_what_hangs_on_the_accuracy():
     # at the edge of the ring: in or out is decided by less than the error
     found = sandbox.sweep("basketball", {"launch.speed": [7.0, 7.465]}, check=True)
