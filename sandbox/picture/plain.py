@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from functools import cached_property
 from math import hypot
 from typing import Any
@@ -12,6 +13,7 @@ import pygame
 from sandbox.engine.setup import Circle, Segment
 from sandbox.picture.ball import Look, least_radius, mark_radius, seams
 from sandbox.picture.camera import Area, Box, Camera
+from sandbox.picture.ghosts import Ghost, draw_ghost, draw_in_frame, ghosts_of
 from sandbox.picture.painter import Painter, blank, from_colours
 from sandbox.picture.palette import palette
 from sandbox.picture.path import Path, draw_trace
@@ -28,17 +30,23 @@ LEAST, BEYOND = 12.0, 0.06
 class Picture:
     """One run at ``size`` px, seen by a camera that stands still."""
 
-    def __init__(self, run: Any, parameters: Any, size: tuple[int, int] = (1280, 720)):
+    def __init__(
+        self, run: Any, parameters: Any, size: tuple[int, int] = (1280, 720), ghosts: Mapping[str, Any] | None = None
+    ):
         self.run, self.parameters, self.size = run, parameters, size
+        self.ghosts = ghosts_of(Picture, ghosts or {}, size)
         self.unit = size[1] / 720  # what 1 px is on a picture of 720 rows
         self.paths = [Path(run, ball.name) for ball in run.setup.balls]
         self.several = len(self.paths) > 1
-        area = Area(0.07 * size[0], 150 * self.unit, 0.93 * size[0], size[1] - 190 * self.unit)
+        sheet = Sheet(size)
+        self.card_row = sheet.frame.bottom - sheet.card_height(len(self.ghosts))
+        area = Area(0.07 * size[0], 150 * self.unit, 0.93 * size[0], self.card_row - 89 * self.unit)
         self.camera = Camera.fit(self._place(), area)
 
     def _place(self) -> Box:
         """All paths, and the surfaces that do not reach far beyond them."""
-        points = np.concatenate([path.points for path in self.paths])
+        others = [path for ghost in self.ghosts for path in ghost.picture.paths]
+        points = np.concatenate([path.points for path in (*self.paths, *others)])
         radius = max(path.radius for path in self.paths)
         low, high = points.min(axis=0) - radius, points.max(axis=0) + radius
         reach = max(LEAST * radius, *(high - low))
@@ -58,11 +66,13 @@ class Picture:
         """The scene at time t in s, with the paths behind the balls."""
         sheet, over = Sheet(self.size), t >= self.run.duration
         sheet.surface.blit(self.standing, (0, 0))
+        for ghost in self.ghosts:
+            self._ghost(sheet, ghost, t)
         for i, path in enumerate(self.paths):
             past = path.points[path.samples[:, 0] <= t]
             if len(past) > 1:
                 draw_trace(sheet, self.camera.pixels(past), TRACES[i % len(TRACES)])
-        notes = []
+        notes = [ghost.note if over else f"beside {ghost.label}" for ghost in self.ghosts]
         if not self.several:
             (path,), radius = self.paths, max(self.paths[0].radius * self.camera.scale, mark_radius(self.size[1]))
             every, times = path.even_times(self.camera, radius)
@@ -70,12 +80,22 @@ class Picture:
                 self._ball(sheet.painter, self.camera, s, 0, radius)
             notes.append(f"a ball every {every:g} s")
         self.draw_balls(sheet.painter, self.camera, t)
-        sheet.scale_bar(self.camera, sheet.frame.left, self.size[1] - 130 * self.unit, 0.2 * self.size[0])
+        sheet.scale_bar(self.camera, sheet.frame.left, self.card_row - 28 * self.unit, 0.2 * self.size[0])
         sheet.headline(self.verdict() if over else f"{t:.2f} s", notes, self.size[0])
-        numbers = self.numbers() if over else self._now(t)
+        numbers = self.numbers() if over else self.live(t)
         if numbers:
-            sheet.columns(sheet.frame.bottom - sheet.card_height(), numbers)
+            sheet.columns(self.card_row, numbers, [ghost.row if over else ghost.live(t) for ghost in self.ghosts])
         return sheet.surface
+
+    def _ghost(self, sheet: Sheet, ghost: Ghost, t: float) -> None:
+        """Another run, pale: its path and its label, or in a frame where its balls are."""
+        for i, path in enumerate(ghost.picture.paths):
+            points = self.camera.pixels(path.points)
+            if t >= self.run.duration and not self.several:
+                draw_ghost(sheet, ghost, points, self.camera.pixels(self.paths[i].points))
+                continue
+            x, y = path.run.state(path.name, min(t, path.run.duration))[:2]
+            draw_in_frame(sheet, ghost, points, self.camera.pixel(x, y), 0.0)
 
     def verdict(self) -> str:
         """What happened, in a line: the verdict on the scene's card, or how long it took."""
@@ -90,7 +110,8 @@ class Picture:
     def _card(self) -> list[tuple[str, str]]:
         return list(self.run.scene.card(self.run.result))
 
-    def _now(self, t: float) -> list[tuple[str, str]]:
+    def live(self, t: float) -> list[tuple[str, str]]:
+        """Numbers at time t in s."""
         now = [("time", f"{t:.2f} s")]
         if not self.several:
             x, y, vx, vy, _ = self.run.state(self.paths[0].name, t)

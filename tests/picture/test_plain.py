@@ -48,6 +48,21 @@ def test_everything_is_in_the_picture(bare, name: str):
     assert (half != pygame.surfarray.array3d(poster)).any()
 
 
+@pytest.mark.parametrize("name", ["basketball", "billiards"])
+def test_another_run_is_drawn_beside_this_one(bare, name: str):
+    scene = bare(name)
+    key = "launch.speed" if name == "basketball" else "cue.speed"
+    run, other = (sandbox.simulate(sandbox.load(scene.folder, {key: speed})) for speed in (7.4, 5.0))
+    alone, beside = scene.picture(run, SIZE), scene.picture(run, SIZE, {"slower": other})
+    for ball in other.setup.balls:
+        pixels = beside.camera.pixels(other.trajectory(ball.name)[:, 1:3])
+        assert np.all((pixels > 0) & (pixels < SIZE))
+    for t in (0.4, run.duration):
+        assert (pygame.surfarray.array3d(alone.frame(t)) != pygame.surfarray.array3d(beside.frame(t))).any()
+    at = beside.camera.pixel(*other.state(other.setup.balls[0].name, 0.4)[:2])
+    assert colour(beside.frame(0.4), at) != colour(alone.frame(0.4), at)
+
+
 def test_surfaces_are_where_they_are(bare):
     scene = bare("basketball")
     picture = scene.picture(sandbox.simulate(scene), SIZE)
