@@ -24,7 +24,7 @@ from sandbox.engine.lasting import leaves_at
 from sandbox.engine.motion import FIRST_STEP, LOCAL_SHARE, LONGEST, SPIN_WEIGHT
 from sandbox.engine.outlines import Outlines
 from sandbox.engine.run import Event, Numerics, Run
-from sandbox.engine.setup import Bounce, Setup, Surface
+from sandbox.engine.setup import Bounce, Setup, Surface, possible
 from sandbox.engine.simulation import Simulation
 from sandbox.engine.stacking import Stack, structure
 from sandbox.physics.integrators import INTEGRATORS, Acceleration, State
@@ -91,8 +91,7 @@ def _answer(surface: Surface, approach: float, along: float) -> Bounce | None:
     if surface.law is None:
         return Bounce(surface.restitution, surface.friction)
     try:
-        bounce = surface.law(approach, abs(along))
-        return Bounce(float(bounce.restitution), float(bounce.friction), float(bounce.tilt))
+        return possible(surface.law(approach, abs(along)), surface.name)
     except Exception:
         return None
 

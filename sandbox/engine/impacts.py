@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 from sandbox.engine.contacts import Contact, Contacts, Moving
 from sandbox.engine.on_cloth import looseness, rub_over, slip_over
-from sandbox.engine.setup import Ball, Bounce, Setup
+from sandbox.engine.setup import Ball, Bounce, Setup, possible
 from sandbox.engine.touch import CONTACT
 from sandbox.engine.track import Track
 from sandbox.physics.integrators import State
@@ -133,7 +133,7 @@ class Impacts:
             bounce = (
                 Bounce(surface.restitution, surface.friction)
                 if surface.law is None or approach <= 0.0
-                else surface.law(approach, abs(along))
+                else possible(surface.law(approach, abs(along)), surface.name)
             )
             forward = 1.0 if along >= 0.0 else -1.0
             found.append(
@@ -163,7 +163,7 @@ class Impacts:
         approach = (wx - vx) * nx + (wy - vy) * ny
         flat = (vx - wx) * ny - (vy - wy) * nx + a.radius * spin + b.radius * other_spin
         slip = (flat, self._upward(i, states[i], nx, ny) - self._upward(j, states[j], -nx, -ny))
-        bounce = self._setup.between_balls(max(approach, 0.0), hypot(*slip))
+        bounce = possible(self._setup.between_balls(max(approach, 0.0), hypot(*slip)), b.name)
         found.append(
             Contact(place, later, nx, ny, self._shared(bounce, approach, slip), bounce.friction, approach, 1.0)
         )

@@ -7,6 +7,8 @@ from dataclasses import dataclass
 from math import hypot, inf, isfinite
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
+from sandbox.errors import RunError
+
 if TYPE_CHECKING:
     from sandbox.engine.run import Event
     from sandbox.physics.cloth import Cloth
@@ -103,6 +105,13 @@ class Bounce(NamedTuple):
     restitution: float
     friction: float
     tilt: float = 0.0  # rad; the surface gives way and its normal leans against the ball's motion along it
+
+
+def possible(bounce: Bounce, partner: str) -> Bounce:
+    """The bounce off ``partner`` as it is, if it can be. Raises RunError if not: Chipmunk would end the program."""
+    if 0.0 <= bounce.restitution < inf and 0.0 <= bounce.friction < inf and isfinite(bounce.tilt):
+        return bounce
+    raise RunError(f"no ball bounces off {partner!r} with {bounce}: look at the scene's law for it")
 
 
 @dataclass(frozen=True)

@@ -7,11 +7,11 @@ from math import inf, nan, pi, sin, tanh
 import numpy as np
 import pytest
 
-from sandbox.engine import simulate
+from sandbox.engine import simulate, simulate_many
 from sandbox.engine.accuracy import LEVELS, resolve
 from sandbox.engine.ledger import ledger
 from sandbox.engine.motion import Diverged
-from sandbox.engine.setup import Ball, Bounds, Segment, Setup, Surface
+from sandbox.engine.setup import Ball, Bounce, Bounds, Segment, Setup, Surface
 from sandbox.errors import RequestError, RunError
 from sandbox.physics.coefficients import constant
 from sandbox.physics.forces import Drag, Gravity
@@ -186,3 +186,17 @@ def test_a_force_with_a_pole_is_a_named_error():
     pole = lambda t, p, v, s: (0.0, -1.0 / p[1] ** 3)  # noqa: E731
     with pytest.raises(Diverged, match=r"changes too fast for any step|is not finite|outside the world"):
         simulate(Setup([shot(pole, velocity=(0.0, 0.0))], duration=5.0), resolve())
+
+
+@pytest.mark.parametrize("bounce", [Bounce(nan, 0.1), Bounce(-0.1, 0.1), Bounce(0.5, inf), Bounce(0.5, 0.1, nan)])
+def test_a_law_of_bouncing_that_cannot_be_is_a_named_error(bounce):
+    ground = Surface("ground", Segment((-50.0, 0.0), (50.0, 0.0)), 0.5, 0.5, law=lambda normal, along: bounce)
+    setup = Setup([shot()], [ground], duration=3.0)
+    with pytest.raises(RunError, match=r"'ground' with Bounce\(restitution="):
+        simulate(setup, resolve())
+    assert {str(error) for error in simulate_many([setup] * 30, resolve())} == {
+        f"no ball bounces off 'ground' with {bounce}: look at the scene's law for it"
+    }
+    pair = [Ball("a", 1.0, 0.1, (0.0, 0.0), (1.0, 0.0)), Ball("b", 1.0, 0.1, (1.0, 0.0))]
+    with pytest.raises(RunError, match=r"'[ab]' with Bounce"):
+        simulate(Setup(pair, between_balls=lambda normal, slip: bounce), resolve())
