@@ -19,7 +19,7 @@ from sandbox.engine.accuracy import Accuracy
 from sandbox.engine.arc import Arc
 from sandbox.engine.motion import Diverged, misused
 from sandbox.engine.run import Event, Numerics, Run
-from sandbox.engine.setup import Ball, Bounce, Circle, Setup, Surface
+from sandbox.engine.setup import Ball, Bounce, Circle, Setup, Surface, possible
 from sandbox.physics.cloth import ClothState
 from sandbox.physics.integrators import State
 
@@ -274,7 +274,9 @@ class PlainSimulation:
             return
         ax, ay = self._tracked[_body(first)].acceleration
         bounce = (
-            Bounce(surface.restitution, surface.friction) if surface.law is None else surface.law(approach, abs(along))
+            Bounce(surface.restitution, surface.friction)
+            if surface.law is None
+            else possible(surface.law(approach, abs(along)), surface.name)
         )
         press = max(0.0, ax * normal.x + ay * normal.y)  # m/s^2
         tracked = self._tracked[_body(first)]
@@ -296,7 +298,7 @@ class PlainSimulation:
         a.touched = b.touched = self._steps
         normal, approach, along = _closing(arbiter)
         slip = along + a.ball.radius * _body(first).angular_velocity + b.ball.radius * _body(second).angular_velocity
-        bounce: Bounce = self._setup.between_balls(max(approach, 0.0), abs(slip))
+        bounce = possible(self._setup.between_balls(max(approach, 0.0), abs(slip)), b.ball.name)
         arbiter.restitution, arbiter.friction = bounce.restitution, bounce.friction
 
     def _press(self, arbiter: pymunk.Arbiter) -> None:

@@ -192,8 +192,9 @@ def test_a_force_with_a_pole_is_a_named_error():
 def test_a_law_of_bouncing_that_cannot_be_is_a_named_error(bounce):
     ground = Surface("ground", Segment((-50.0, 0.0), (50.0, 0.0)), 0.5, 0.5, law=lambda normal, along: bounce)
     setup = Setup([shot()], [ground], duration=3.0)
-    with pytest.raises(RunError, match=r"'ground' with Bounce\(restitution="):
-        simulate(setup, resolve())
+    for accuracy in (resolve(), PLAIN):
+        with pytest.raises(RunError, match=r"'ground' with Bounce\(restitution="):
+            simulate(setup, accuracy)
     assert {str(error) for error in simulate_many([setup] * 30, resolve())} == {
         f"no ball bounces off 'ground' with {bounce}: look at the scene's law for it"
     }
