@@ -22,16 +22,17 @@ DISC = 1 / 2
 
 
 class Force(Protocol):
-    """Force on a ball in N, as (fx, fy). Components of position (m), velocity (m/s) and the spin (rad/s,
-    counter-clockwise) are floats, or arrays of shape (n,) when many shots fly at once."""
+    """Force on a ball in N, as (fx, fy). Time (s), components of position (m) and velocity (m/s), and the spin (rad/s,
+    counter-clockwise) are floats, or arrays of shape (n,) when many shots fly at once. It depends on these alone:
+    steps are tried, and tried again."""
 
-    def __call__(self, t: float, position: Any, velocity: Any, spin: Any) -> tuple[Any, Any]: ...
+    def __call__(self, t: Any, position: Any, velocity: Any, spin: Any) -> tuple[Any, Any]: ...
 
 
 class Torque(Protocol):
     """Torque on a ball in N m, counter-clockwise; arguments as for Force."""
 
-    def __call__(self, t: float, position: Any, velocity: Any, spin: Any) -> Any: ...
+    def __call__(self, t: Any, position: Any, velocity: Any, spin: Any) -> Any: ...
 
 
 @dataclass(frozen=True)

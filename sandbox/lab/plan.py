@@ -111,7 +111,8 @@ class Plan:
     @cached_property
     def fingerprint(self) -> str:
         """Two sweeps with one fingerprint have the same rows: the same scene at the same points, by the same code."""
-        folders = (self.scene.folder, resources.PACKAGE / "physics", resources.PACKAGE / "engine")
+        rooms = (resources.PACKAGE / room for room in (".", "physics", "engine", "lab"))
+        folders = (self.scene.folder, *rooms)
         sources = [path for folder in folders for path in sorted(folder.glob("*.py"))]
         told = {
             "scene": self.scene.name,

@@ -17,6 +17,7 @@ import pytest
 from PIL import Image
 
 import sandbox
+from sandbox import resources
 from sandbox.cli import main
 from sandbox.errors import RequestError, RunError
 from sandbox.lab.axes import Span, Values, as_axis, parse_axis
@@ -272,6 +273,16 @@ def test_a_changed_scene_begins_anew(tmp_path):
     before = grid(load(folder), "launch.height=0.5:2:3").fingerprint
     (folder / "scene.py").write_text((folder / "scene.py").read_text("utf-8") + "\n# another scene\n", "utf-8")
     assert grid(load(folder), "launch.height=0.5:2:3").fingerprint != before
+
+
+def test_code_that_changes_makes_another_sweep(tmp_path, drop, monkeypatch):
+    monkeypatch.setattr(resources, "PACKAGE", tmp_path)
+    found = {grid(drop, "launch.height=0.5:2:3").fingerprint}
+    for name in ("aerodynamics.py", "physics/forces.py", "engine/batch.py", "lab/plan.py"):
+        (tmp_path / name).parent.mkdir(exist_ok=True)
+        (tmp_path / name).write_text("")
+        found.add(grid(drop, "launch.height=0.5:2:3").fingerprint)
+    assert len(found) == 5
 
 
 def test_columns_that_come_later_are_blank_before(tmp_path):
