@@ -18,6 +18,7 @@ import re
 import sys
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
+from itertools import takewhile
 from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
@@ -55,6 +56,7 @@ class Scene:
     preset: str | None
     parameters: Any  # the scene's own Parameters
     folder: Path
+    note: str = field(default="", compare=False)  # the first comment of a scene file that stands elsewhere
 
     @property
     def module(self) -> ModuleType:
@@ -63,10 +65,10 @@ class Scene:
 
     @property
     def about(self) -> str:
-        """What it is, in a line: of the preset if there is one, else of the scene."""
+        """What it is, in a line: of the preset if there is one, of a scene file elsewhere, else of the scene."""
         if self.preset is not None:
             return _first_comment(self.folder / "presets" / f"{self.preset}.toml")
-        return _docstring(self.folder / "scene.py")
+        return self.note or _docstring(self.folder / "scene.py")
 
     def picture_module(self) -> ModuleType:
         """The scene's ``picture.py``, or a plain one for a scene without; imported when first asked for: it brings
@@ -229,7 +231,8 @@ def load(source: str | Path, overrides: Mapping[str, Any] | None = None, *, over
         if written != name:
             values = declared.over(schema, _preset_values(name, folder, based_on, where), values)
     parameters = declared.validate(schema, values, where, overrides, overrides_from)
-    return Scene(name, preset, parameters, folder)
+    elsewhere = file is not None and folder not in file.resolve().parents
+    return Scene(name, preset, parameters, folder, _first_comment(file) if file is not None and elsewhere else "")
 
 
 def _preset_values(name: str, folder: Path, preset: str, where: str) -> dict[str, Any]:
@@ -422,12 +425,13 @@ def _docstring(file: Path) -> str:
 
 
 def _first_comment(file: Path) -> str:
-    """The first comment of a scene file that is meant for people."""
+    """The first comment of a scene file that is meant for people, before all keys."""
     try:
         lines = file.read_text(encoding="utf-8").splitlines()
     except (UnicodeDecodeError, OSError):
         return ""
-    return next((line.lstrip("# ").rstrip() for line in lines if line.startswith("# ")), "")
+    head = takewhile(lambda line: not line.strip() or line.startswith("#"), lines)
+    return next((line.lstrip("# ").rstrip() for line in head if line.startswith("# ")), "")
 
 
 # ---------------------------------------------------------------------------------------------------------------------

@@ -189,6 +189,14 @@ def test_a_scene_file_may_begin_from_a_preset(tmp_path: Path):
     assert refusal(file) == f"{file}: golf has no preset golf-gane; did you mean golf/golf-game?"
 
 
+def test_a_scene_file_elsewhere_says_what_it_is(tmp_path: Path):
+    file = tmp_path / "shot.toml"
+    file.write_text('# A flop over the bunker.\nscene = "golf"\n')
+    assert sandbox.load(file).about == "A flop over the bunker."
+    file.write_text('scene = "golf"\n# gravity = 3\n')
+    assert sandbox.load(file).about == sandbox.load("golf").about
+
+
 def test_a_preset_begins_from_no_other(drop: Path):
     preset = next((drop / "presets").glob("*.toml"))
     preset.write_text(f'scene = "drop/{preset.stem}"')
