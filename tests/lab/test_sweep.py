@@ -331,7 +331,7 @@ def test_few_shots_that_fly_together_do_without_processes(monkeypatch: pytest.Mo
 def test_ctrl_c_keeps_what_is_done_and_the_same_command_resumes(tmp_path, jobs):
     scene = own_scene(tmp_path, "    import time\n    time.sleep(0.02)\n")
     path = tmp_path / "rows.csv"
-    command = ["sweep", scene, "--over", "launch.height=0.5:2:100", "--jobs", jobs, "--out", path]
+    command = ["sweep", scene, "--over", "launch.height=0.5:2:200", "--jobs", jobs, "--out", path]
     process = started(*command)
     deadline = time.monotonic() + 60
     while not (path.exists() and path.read_bytes().count(b"\n") > 10):
@@ -341,13 +341,13 @@ def test_ctrl_c_keeps_what_is_done_and_the_same_command_resumes(tmp_path, jobs):
     out, err = process.communicate(timeout=30)
     assert (process.returncode, out) == (130, "")
     kept = len(table(path))
-    assert 10 <= kept < 100
-    assert err == f"error: stopped: {kept} of 100 points are kept in {path}; the same command goes on from there\n"
+    assert 10 <= kept < 200
+    assert err == f"error: stopped: {kept} of 200 points are kept in {path}; the same command goes on from there\n"
     assert everybody_gone(process.pid)
 
     finished = subprocess.run([*COMMAND, *map(str, command)], capture_output=True, text=True, check=True)
-    assert f"100 points, {kept} of them before" in finished.stdout
-    assert path.read_bytes() == whole(grid(load(scene), "launch.height=0.5:2:100"), tmp_path / "again.csv")
+    assert f"200 points, {kept} of them before" in finished.stdout
+    assert path.read_bytes() == whole(grid(load(scene), "launch.height=0.5:2:200"), tmp_path / "again.csv")
 
 
 # Workers that go away -------------------------------------------------------------------------------------------------
