@@ -140,8 +140,8 @@ def _drawn(axis: Axis, share: float) -> Any:
 def records(plan: Plan, start: int, stop: int, alone: bool = False) -> list[Record]:
     """The rows of the points from ``start`` up to ``stop``. A point that fails is a row with its error.
 
-    Points are computed by blocks, whichever part of them is asked for, so that on processors of one kind a row has the same digits whoever
-    computes it; ``alone`` computes the points asked for and no others.
+    Points are computed by blocks, whichever part of them is asked for, so that a row has the same digits whoever
+    computes it on a processor of the same kind; ``alone`` computes the points asked for and no others.
     """
     if alone:
         return _rows(plan, start, stop)
