@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from sandbox.engine.bernstein import evaluate, piece
+from sandbox.engine.bernstein import evaluate, until
 from sandbox.physics.elementwise import choose
 from sandbox.physics.integrators import Acceleration, State
 
@@ -94,13 +94,13 @@ class Arc:
             self.t0,
             t,
             self.start,
-            piece(self.x, 0.0, u),
-            piece(self.y, 0.0, u),
-            piece(self.vx, 0.0, u),
-            piece(self.vy, 0.0, u),
-            piece(self.spin, 0.0, u),
+            until(self.x, u),
+            until(self.y, u),
+            until(self.vx, u),
+            until(self.vy, u),
+            until(self.spin, u),
             self.contact,
-            tuple(piece(curve, 0.0, u) for curve in self.rolling_spin),
+            tuple(until(curve, u) for curve in self.rolling_spin),
         )
 
 

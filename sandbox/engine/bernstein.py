@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from functools import lru_cache
+from itertools import pairwise
 from math import comb
 
 #: Deepest halving of [0, 1]: two roots nearer than 2**-40 of the interval count as one touch without crossing.
@@ -65,10 +66,20 @@ def split(b: Sequence[float], u: float) -> tuple[list[float], list[float]]:
     return left, right
 
 
+def until(b: Sequence[float], u: float) -> list[float]:
+    """Coefficients on [0, u]."""
+    w = 1.0 - u
+    row, left = b, [b[0]]
+    for _ in range(len(b) - 1):
+        row = [w * p + u * q for p, q in pairwise(row)]
+        left.append(row[0])
+    return left
+
+
 def piece(b: Sequence[float], u0: float, u1: float) -> Sequence[float]:
     """Coefficients on [u0, u1]."""
     if u1 < 1.0:
-        b = split(b, u1)[0]
+        b = until(b, u1)
         u0 = u0 / u1
     if u0 > 0.0:
         b = split(b, u0)[1]

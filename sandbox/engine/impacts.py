@@ -71,10 +71,11 @@ class Impacts:
         """Exchange impulses. Where several contacts close at once, restitution beside friction can gain energy (Kane's
         paradox: the slip turns over while the normal speeds are forced back): friction then counts for less, down to
         nothing."""
+        if len(found) == 1:
+            self._contacts.exchange(cluster, found)
+            return
         start = [replace(moving) for moving in cluster]
         self._contacts.exchange(cluster, found)
-        if len(found) == 1:
-            return
         most, share = (1.0 + _GAIN) * self._energy(start), 1.0
         while self._energy(cluster) > most and share > 0.0:
             share = 0.5 * share if share > 1e-3 else 0.0

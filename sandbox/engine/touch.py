@@ -133,11 +133,16 @@ class Obstacle:
 
     def first_touch(self, arc: Arc) -> float | None:
         """The first u in [0, 1] of the arc at which the ball comes to touch, or None."""
-        first = _round(arc.x, arc.y, self._a, self.reach)
         if self._round:
-            return first
-        touches = (first, self._side(arc), _round(arc.x, arc.y, self._b, self.reach))
+            return self._corner(arc, self._a)
+        touches = (self._corner(arc, self._a), self._side(arc), self._corner(arc, self._b))
         return min((u for u in touches if u is not None), default=None)
+
+    def _corner(self, arc: Arc, center: Point) -> float | None:
+        (left, bottom, right, top), (x, y), reach = arc.box(), center, self.reach
+        if x - reach > right or x + reach < left or y - reach > top or y + reach < bottom:
+            return None
+        return _round(arc.x, arc.y, center, reach)
 
     def _side(self, arc: Arc) -> float | None:
         ax, ay = self._a
