@@ -57,12 +57,17 @@ def few(pixels: np.ndarray) -> np.ndarray:
     turn = np.abs((np.diff(heading) + np.pi) % (2 * np.pi) - np.pi)
     along = np.hypot(*steps.T) / LONGEST
     along[1:] += turn / BEND
-    _, kept = np.unique(np.floor(np.cumsum(along)), return_index=True)
-    return pixels[np.union1d([0, len(pixels) - 1], kept)]
+    return pixels[_firsts(np.cumsum(along), len(pixels))]
 
 
 def _apart(pixels: np.ndarray) -> np.ndarray:
     """Indices of points that are at least CLOSEST px from the one before, and the last."""
     along = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(pixels, axis=0).T))])
-    _, kept = np.unique(np.floor(along / CLOSEST), return_index=True)
-    return np.union1d(kept, [len(pixels) - 1])
+    return _firsts(along / CLOSEST, len(pixels))
+
+
+def _firsts(growing: np.ndarray, count: int) -> np.ndarray:
+    """Of ``count`` points the first, those at which a value that only grows comes to another whole number, and the
+    last."""
+    kept = np.flatnonzero(np.diff(np.floor(growing))) + 1
+    return np.concatenate([[0], kept, [count - 1]] if not len(kept) or kept[-1] < count - 1 else [[0], kept])
