@@ -32,7 +32,7 @@ _BLOCK = 1024
 
 #: Points that fly together: more are quicker, fewer are shared out evenly and seen sooner. The number must not depend
 #: on who computes, as the last digits of a shot depend on how many fly with it.
-_SMALLEST_BLOCK, _LARGEST_BLOCK, _BLOCKS = 32, 512, 8
+_SMALLEST_BLOCK, _LARGEST_BLOCK, _BLOCKS = 32, 640, 4
 
 #: One run as a row: swept parameters, results, flags, and ``error``, which is empty where the run came to its end.
 Record = dict[str, Any]
