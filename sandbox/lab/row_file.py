@@ -11,7 +11,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
-from sandbox.errors import RunError
+from sandbox.errors import RequestError, RunError
 from sandbox.files import reason
 
 _BLOCK = 1 << 20  # bytes
@@ -21,8 +21,9 @@ class RowFile:
     """A CSV file that grows by whole lines; use it in a ``with`` block, and call ``finish`` after the last row.
 
     Until then a small file beside it, with ``.resume`` at the end of its name, tells what the rows belong to. Opened
-    again with the same ``fingerprint``, rows are added to those that are there (``done``, a number); otherwise the
-    file begins anew. A line that was cut off by a crash is dropped. Devices such as /dev/stdout are simply written to.
+    again with the same ``fingerprint``, rows are added to those that are there (``done``, a number); a finished file
+    begins anew, and the unfinished rows of another sweep raise RequestError. A line that was cut off by a crash is
+    dropped. Devices such as /dev/stdout are simply written to.
     """
 
     def __init__(self, path: Path, fingerprint: str) -> None:
@@ -93,8 +94,13 @@ class RowFile:
             known = self._mark.read_text("utf-8").strip()
         except (OSError, UnicodeDecodeError):
             return False
-        if known != self._fingerprint or not self.path.is_file():
+        if not self.path.is_file() or not self.path.stat().st_size:
             return False
+        if known != self._fingerprint:
+            raise RequestError(
+                f"--out {self.path}: holds the rows of another sweep that was interrupted, or of this one with another "
+                f"scene or program; name another file, or remove this one and {self._mark.name}"
+            )
         lines, end, size = 0, 0, 0
         with self.path.open("rb+") as file:
             while block := file.read(_BLOCK):

@@ -258,11 +258,16 @@ def test_a_file_cut_off_anywhere_is_gone_on_with(drop, tmp_path, kept):
     assert done.resumed == max(0, expected[: int(kept * len(expected))].count(b"\n") - 1)
 
 
-def test_another_sweep_begins_anew(drop, tmp_path):
+def test_another_sweep_begins_anew_but_never_over_one_that_was_interrupted(drop, tmp_path):
     path = tmp_path / "rows.csv"
     with RowFile(path, grid(drop, "launch.height=0.5:2:40").fingerprint) as file:
         file.append([{"launch.height": 9.0, "error": ""}])
+    kept = path.read_bytes()
     other = grid(drop, "launch.height=0.5:2:3")
+    with workers(1) as staff, pytest.raises(RequestError, match=r"rows\.csv: holds the rows of another sweep"):
+        sweep_to_file(other, path, staff)
+    assert path.read_bytes() == kept
+    path.with_name("rows.csv.resume").unlink()
     assert whole(other, path) == whole(other, tmp_path / "fresh.csv")
     changed = Plan(load(DROP, {"gravity": 1.0}), other.axes)
     assert changed.fingerprint != other.fingerprint
