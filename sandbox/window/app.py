@@ -44,6 +44,9 @@ MESSAGE = 6.0
 STILL = 0.1
 #: Share of its patience that a frame has with runs that take longer than that.
 SHORT = 0.2
+#: A run that takes the processor longer than this, in s, is begun in every second frame only: together with the drawing
+#: it would be too much for each.
+DEAR = 0.005
 #: Time in s that is left free at the end of a frame, for the display and for what runs a little longer.
 RESERVE = 0.004
 
@@ -65,6 +68,7 @@ class App:
         self.stale = True  # the shot is not that of the parameters, nor is one awaited
         self.shot: Shot | None = None  # as aimed, and as played
         self.still = 0.0  # s since it changed
+        self.even = True  # of two frames in turn
         self.fan: Fan | None = None
         self.fan_width = 1.0
         self.playback: Playback | None = None  # None while aiming
@@ -110,6 +114,7 @@ class App:
         if self.watched.saved(dt):
             self._reload()
         self.still += dt
+        self.even = not self.even
         self.view.pass_time(dt)
         # A run that takes longer anyway is hardly waited for: it goes on beside the drawing.
         patience = self.patience if self.cost <= self.patience else SHORT * self.patience
@@ -198,7 +203,8 @@ class App:
     def _predict(self, patience: float | None) -> None:
         """Have the scene run as it stands, and wait at most ``patience`` s for it."""
         self._take(0.0)
-        if self.stale and self.awaited is None:
+        turn = self.cost <= DEAR or self.even or patience is None
+        if self.stale and self.awaited is None and turn:
             predict, self.stale = self.session.prediction(), False
 
             def timed() -> tuple[Shot, float]:
