@@ -46,6 +46,7 @@ class Stage:
         else:
             self.backdrop = self.picture.poster()
         self._ghosts: tuple[Any, pygame.Surface] | None = None
+        self._lines: dict[str, tuple[Shot, np.ndarray]] = {}  # whole lines drawn last, by ball, in px
 
     def holds(self, shot: Shot) -> bool:
         """Whether the path of another shot stays in sight."""
@@ -82,7 +83,8 @@ class Stage:
         if self._ghosts is None or self._ghosts[0] != kept:
             layer = blank(self.size, transparent=True)
             for index, shot in enumerate(shown):
-                self._line(layer, shot, shot.ball, 2, TRACE["colours"][1 + index % (len(TRACE["colours"]) - 1)])
+                colour = TRACE["colours"][1 + index % (len(TRACE["colours"]) - 1)]
+                draw_line(layer, self._line(shot, shot.ball), 2, colour)
             layer.set_alpha(round(255 * (TRACE["earlier"] + 0.15)))
             self._ghosts = kept, layer
         sheet.surface.blit(self._ghosts[1], (0, 0))
@@ -93,10 +95,10 @@ class Stage:
             return
         thin = max(1, round(1.4 * sheet.unit))
         for ball in shot.movers[:-1]:
-            self._line(sheet.surface, shot, ball, thin, CARD["text"], until)
-        width = max(3, round(3.6 * sheet.unit))
-        self._line(sheet.surface, shot, shot.ball, width + 2, TRACE["rim"], until)
-        self._line(sheet.surface, shot, shot.ball, width, TRACE["colours"][0], until)
+            draw_line(sheet.surface, self._line(shot, ball, until), thin, CARD["text"])
+        width, line = max(3, round(3.6 * sheet.unit)), self._line(shot, shot.ball, until)
+        draw_line(sheet.surface, line, width + 2, TRACE["rim"])
+        draw_line(sheet.surface, line, width, TRACE["colours"][0])
         self._contacts(sheet, shot, until)
 
     def draw_balls(self, sheet: Sheet, t: float, picture: Any = None) -> None:
@@ -104,17 +106,20 @@ class Stage:
         if self.camera is not None:
             (picture or self.picture).draw_balls(sheet.painter, self.camera, t)
 
-    def _line(
-        self, surface: pygame.Surface, shot: Shot, ball: str, width: int, colour: Colour, until: float | None = None
-    ) -> None:
+    def _line(self, shot: Shot, ball: str, until: float | None = None) -> np.ndarray:
+        """Points of a ball's path in px, shape (n, 2); up to the time ``until`` (s), or all of it."""
         assert self.camera is not None
+        kept = self._lines.get(ball)
+        if until is None and kept is not None and kept[0] is shot:
+            return kept[1]
         track = shot.track(ball)
         if until is not None:
             track = track[track[:, 0] <= until]
             track = np.vstack([track, (until, *shot.run.state(ball, until)[:2])])
-        pixels = self.camera.pixels(track[:, 1:])
-        pixels = np.clip(pixels, -4000, 8000)
-        draw_line(surface, few(pixels), width, colour)
+        line = few(np.clip(self.camera.pixels(track[:, 1:]), -4000, 8000))
+        if until is None:
+            self._lines[ball] = shot, line
+        return line
 
     def _contacts(self, sheet: Sheet, shot: Shot, until: float | None) -> None:
         assert self.camera is not None
