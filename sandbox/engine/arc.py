@@ -10,7 +10,7 @@ from sandbox.physics.elementwise import choose
 from sandbox.physics.integrators import Acceleration, State
 
 #: Step in s below which the mean velocity (x1 - x0) / h is mostly rounding (1e-14 m at 100 m) and is not used.
-SHORT = 1e-3
+_SHORT = 1e-3
 
 
 class Arc:
@@ -124,9 +124,9 @@ def through(
     third = h / 3.0
     mx = 5.0 * (x1 - x0) / h - 2.0 * (vx0 + vx1) + quarter * (ax1 - ax0)
     my = 5.0 * (y1 - y0) / h - 2.0 * (vy0 + vy1) + quarter * (ay1 - ay0)
-    if not isinstance(h, float) or h <= SHORT:
-        mx = choose(h > SHORT, mx, 0.5 * (vx0 + vx1 + third * (ax0 - ax1)))
-        my = choose(h > SHORT, my, 0.5 * (vy0 + vy1 + third * (ay0 - ay1)))
+    if not isinstance(h, float) or h <= _SHORT:
+        mx = choose(h > _SHORT, mx, 0.5 * (vx0 + vx1 + third * (ax0 - ax1)))
+        my = choose(h > _SHORT, my, 0.5 * (vy0 + vy1 + third * (ay0 - ay1)))
     return Arc(
         t,
         t + h,

@@ -188,8 +188,6 @@ def _round(xs: Sequence[float], ys: Sequence[float], center: Point, reach: float
 def _closings(gap: list[float], starts_beside: bool) -> Iterable[float]:
     """Times u at which a gap closes. One that is closed at the start, within rounding, counts only if it closes
     further.
-
-    ``hop.speed`` is in m per unit of u here.
     """
     if len(gap) == 1:
         return ()  # nothing moves

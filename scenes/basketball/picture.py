@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import pygame
 
-from sandbox.picture.ball import least_radius
+from sandbox.picture.ball import enlarged, least_radius
 from sandbox.picture.camera import Area, Box, Camera
 from sandbox.picture.chase import Chase
 from sandbox.picture.depth import Eye
@@ -177,15 +177,11 @@ class Picture:
             notes.append(f"the ring is {roughly(hall.hoop[0])} away")
         elif (factor := hall.enlarged(camera)) > 1:
             notes.append(f"ring and board drawn {times(factor)} their size")
-        if (factor := self._enlarged(camera)) > 1:
+        if (factor := enlarged(self.radius, camera, self.size[1])) > 1:
             notes.append(f"ball drawn {times(factor)} its size")
         sheet.headline(self.verdict(), notes, right - sheet.frame.left - 2 * sheet.gap)
         sheet.columns(self.card_row, self.numbers(), [ghost.row for ghost in self.ghosts])
         return sheet.surface
-
-    def _enlarged(self, camera: Camera) -> float:
-        """How many times its size the ball is drawn."""
-        return max(1.0, self._smallest / (self.radius * camera.scale))
 
     def _place(self, sheet: Sheet, eye: Eye, t: float) -> None:
         """Everything behind the ball, the net as it hangs at time t in s."""

@@ -10,13 +10,13 @@ from typing import Any
 import numpy as np
 import pygame
 
-from sandbox.picture.ball import least_radius, mark_radius
+from sandbox.picture.ball import enlarged, least_radius, mark_radius
 from sandbox.picture.camera import Area, Box, Camera, Follow
 from sandbox.picture.ghosts import draw_ghost, draw_in_frame, ghosts_of
 from sandbox.picture.painter import Painter
 from sandbox.picture.palette import palette
 from sandbox.picture.path import Mark, Path, apart, mark_impacts
-from sandbox.picture.sheet import Entry, Sheet, metres, nice, roughly, signed, yards
+from sandbox.picture.sheet import Entry, Sheet, metres, nice, roughly, signed, times, yards
 from sandbox.picture.vectors import Vectors
 
 from .course import BALL, Course
@@ -108,7 +108,7 @@ class Picture:
         box = Box(left, bottom, right, max(top, hill))
         camera = Camera.fit(box, area)
         rise, room = (box.top - box.bottom) * camera.scale, area.bottom - area.top
-        if self._enlarged(camera) > 3 and LEAST_RISE * self.unit < rise < 0.45 * room:
+        if enlarged(self.radius, camera, self.size[1]) > 3 and LEAST_RISE * self.unit < rise < 0.45 * room:
             return Camera.fit(box, area, stretch=2.0)
         return camera
 
@@ -165,8 +165,8 @@ class Picture:
         notes = [f"a ball every {every:g} s"]
         if camera.stretch != 1:
             notes.append(f"heights drawn {camera.stretch:g} times as large as lengths")
-        if (factor := self._enlarged(camera)) > 1:
-            notes.append(f"ball drawn {factor:.{0 if factor >= 10 else 1}f} times its size")
+        if (factor := enlarged(self.radius, camera, self.size[1])) > 1:
+            notes.append(f"ball drawn {times(factor)} its size")
         notes = [ghost.note for ghost in self.ghosts] + notes
         sheet.headline(self.verdict(), notes, right - sheet.frame.left - 2 * sheet.gap)
         sheet.columns(self.card_row, self.numbers(), [ghost.row for ghost in self.ghosts])
@@ -176,10 +176,6 @@ class Picture:
     def _smallest(self) -> float:
         """Least radius of the ball in px."""
         return least_radius(self.size[1])
-
-    def _enlarged(self, camera: Camera) -> float:
-        """How many times its size the ball is drawn."""
-        return max(1.0, self._smallest / (self.radius * camera.scale))
 
     def _apex(self, sheet: Sheet, camera: Camera) -> None:
         """The highest point: a dashed line down to the ground, and its height over the start."""

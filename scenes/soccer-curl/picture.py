@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import pygame
 
-from sandbox.picture.ball import least_radius, mark_radius
+from sandbox.picture.ball import enlarged, least_radius, mark_radius
 from sandbox.picture.camera import Camera, Follow
 from sandbox.picture.ghosts import draw_ghost, draw_in_frame, ghosts_of
 from sandbox.picture.painter import Painter
@@ -131,7 +131,7 @@ class Picture:
         notes = [*(ghost.note for ghost in self.ghosts), f"a ball every {every:g} s"]
         if (factor := pitch.enlarged(camera)) > 1:
             notes.append(f"players drawn {times(factor)} their size")
-        if (factor := self._enlarged(camera)) > 1:
+        if (factor := enlarged(self.radius, camera, self.size[1])) > 1:
             notes.append(f"ball drawn {times(factor)} its size")
         sheet.headline(self.verdict(), notes, right - sheet.frame.left - 2 * sheet.gap)
         sheet.columns(self.card_row, self.numbers(), [ghost.row for ghost in self.ghosts])
@@ -141,10 +141,6 @@ class Picture:
     def _smallest(self) -> float:
         """Least radius of the ball in px."""
         return least_radius(self.size[1])
-
-    def _enlarged(self, camera: Camera) -> float:
-        """How many times its size the ball is drawn."""
-        return max(1.0, self._smallest / (self.radius * camera.scale))
 
     def _keeper(self, sheet: Sheet, camera: Camera) -> None:
         """The keeper when the ball is at the goal line or touched, and where he stood at the kick."""

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pygame
 
-from sandbox.picture.ball import least_radius, mark_radius
+from sandbox.picture.ball import enlarged, least_radius, mark_radius
 from sandbox.picture.camera import Area, Box, Camera
 from sandbox.picture.chase import Chase
 from sandbox.picture.ghosts import draw_ghost, draw_in_frame, ghosts_of
@@ -138,7 +138,7 @@ class Picture:
             notes.append(f"the goal is {roughly(self.parameters.goal.distance)} away")
         elif (factor := stadium.enlarged(camera)) > 1:
             notes.append(f"players and goal drawn {times(factor)} their size")
-        if (factor := self._enlarged(camera)) > 1:
+        if (factor := enlarged(self.radius, camera, self.size[1])) > 1:
             notes.append(f"ball drawn {times(factor)} its size")
         sheet.headline(self.verdict(), notes, right - sheet.frame.left - 2 * sheet.gap)
         sheet.columns(self.card_row, self.numbers(), [ghost.row for ghost in self.ghosts])
@@ -151,10 +151,6 @@ class Picture:
     def _smallest(self) -> float:
         """Least radius of the ball in px."""
         return least_radius(self.size[1])
-
-    def _enlarged(self, camera: Camera) -> float:
-        """How many times its size the ball is drawn."""
-        return max(1.0, self._smallest / (self.radius * camera.scale))
 
     def _spot(self, camera: Camera, x: float, y: float, radius: float) -> tuple[float, float]:
         """Where in px a ball drawn with ``radius`` px goes: on the path, and not into the ground."""
