@@ -10,8 +10,8 @@ from queue import SimpleQueue
 from threading import Thread
 from typing import Any
 
-#: How long a frame waits for a run, in s: most runs end in this time, and the rest of a frame is for drawing.
-PATIENCE = 0.009
+#: How long a frame waits for a run, in s: the rest of a frame is for drawing.
+PATIENCE = 0.005
 #: How often Python lets threads take turns, in s: its own 5 ms would be a third of a frame.
 TURNS = 0.0005
 

@@ -42,11 +42,6 @@ SMALLEST = (640, 400)
 MESSAGE = 6.0
 #: A fan is begun when the shot has not changed for so long, in s.
 STILL = 0.1
-#: Share of its patience that a frame has with runs that take longer than that.
-SHORT = 0.2
-#: A run that takes the processor longer than this, in s, is begun in every second frame only: together with the drawing
-#: it would be too much for each.
-DEAR = 0.005
 #: Time in s that is left free at the end of a frame, for the display and for what runs a little longer.
 RESERVE = 0.004
 
@@ -54,7 +49,8 @@ RESERVE = 0.004
 class App:
     """One window on a session. ``tick`` makes one frame; ``run`` makes them until the window is closed.
 
-    A frame waits ``patience`` s for the path of what was changed, and then shows the one before.
+    A frame waits for the path of what was changed where that takes no longer than ``patience`` s. Runs that take longer
+    are begun after the drawing, and go on until the next frame, which shows the path there is by then.
     """
 
     def __init__(
@@ -68,7 +64,6 @@ class App:
         self.stale = True  # the shot is not that of the parameters, nor is one awaited
         self.shot: Shot | None = None  # as aimed, and as played
         self.still = 0.0  # s since it changed
-        self.even = True  # of two frames in turn
         self.fan: Fan | None = None
         self.fan_width = 1.0
         self.playback: Playback | None = None  # None while aiming
@@ -102,6 +97,7 @@ class App:
             self.handle(event)
         self.update(dt)
         self.draw()
+        self._begin_run()
         spent = perf_counter() - started
         self.frame_cost += 0.1 * (spent - self.frame_cost)
         if self.fan is not None:
@@ -114,11 +110,8 @@ class App:
         if self.watched.saved(dt):
             self._reload()
         self.still += dt
-        self.even = not self.even
         self.view.pass_time(dt)
-        # A run that takes longer anyway is hardly waited for: it goes on beside the drawing.
-        patience = self.patience if self.cost <= self.patience else SHORT * self.patience
-        self._predict(patience if self.shot is not None else None)
+        self._predict()
         self._spread()
         if self.panel is not None:
             self.panel.update(dt)
@@ -200,20 +193,27 @@ class App:
 
     # ------------------------------------------------------------------------------------------------------- the shot
 
-    def _predict(self, patience: float | None) -> None:
-        """Have the scene run as it stands, and wait at most ``patience`` s for it."""
+    def _predict(self) -> None:
+        """Have the path that this frame shows."""
         self._take(0.0)
-        turn = self.cost <= DEAR or self.even or patience is None
-        if self.stale and self.awaited is None and turn:
-            predict, self.stale = self.session.prediction(), False
+        if self.shot is None:
+            self.settle()
+        elif self.cost <= self.patience:
+            self._begin_run()
+            self._take(self.patience)
 
-            def timed() -> tuple[Shot, float]:
-                started = thread_time()  # the processor's: drawing goes on beside it
-                shot = predict()
-                return shot, thread_time() - started
+    def _begin_run(self) -> None:
+        """Have the scene run as it stands, beside whatever is done here, once the run before has ended."""
+        if not self.stale or self.awaited is not None:
+            return
+        predict, self.stale = self.session.prediction(), False
 
-            self.awaited = self.ahead.start(timed)
-        self._take(patience)
+        def timed() -> tuple[Shot, float]:
+            started = thread_time()  # the processor's: drawing goes on beside it
+            shot = predict()
+            return shot, thread_time() - started
+
+        self.awaited = self.ahead.start(timed)
 
     def _take(self, patience: float | None) -> None:
         """Show what has been run; where that failed the last good shot stays."""
@@ -231,7 +231,8 @@ class App:
     def settle(self) -> None:
         """Wait until the shot is that of the parameters."""
         while self.stale or self.awaited is not None:
-            self._predict(None)
+            self._begin_run()
+            self._take(None)
 
     def _spread(self) -> None:
         """The fan of the shot that is shown, once it stands still."""
