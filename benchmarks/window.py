@@ -25,6 +25,7 @@ os.environ |= {"SDL_VIDEODRIVER": "dummy", "SDL_AUDIODRIVER": "dummy"}
 import pygame
 
 from sandbox.scene import listings
+from sandbox.window.ahead import steady
 from sandbox.window.app import App
 from sandbox.window.session import Session
 
@@ -61,6 +62,7 @@ def measure(source: str, frames: int) -> dict[str, dict[str, float]]:
     angle = radians(app.session.value(app.session.controls.angle) or 0.0)
     post(pygame.MOUSEBUTTONDOWN, (x, y))
     app.tick(FRAME)
+    steady()
 
     def pull(frame: int) -> None:
         turn = sin(2 * pi * SWINGS * frame / frames)

@@ -15,7 +15,7 @@ from sandbox.errors import SandboxError
 from sandbox.picture.palette import palette
 from sandbox.picture.sheet import Sheet
 from sandbox.window import commands, overlay, replay
-from sandbox.window.ahead import PATIENCE, Ahead, ready
+from sandbox.window.ahead import PATIENCE, Ahead, ready, steady
 from sandbox.window.bar import HEIGHT, Bar, Shown
 from sandbox.window.fan import Fan
 from sandbox.window.keys import command_for
@@ -84,6 +84,7 @@ class App:
 
     def run(self) -> None:
         """Until the window is closed."""
+        steady()
         clock = pygame.time.Clock()
         while self.running:
             self.tick(clock.tick(FRAMES) / 1000)
@@ -98,6 +99,7 @@ class App:
         self.update(dt)
         self.draw()
         self._begin_run()
+        self.view.follow()
         spent = perf_counter() - started
         self.frame_cost += 0.1 * (spent - self.frame_cost)
         if self.fan is not None:
@@ -174,6 +176,7 @@ class App:
         """Show the panel of parameters, or close it."""
         self.panel, self.has_panel = None, wanted
         self._layout()
+        steady()
 
     def resized(self) -> None:
         """The window may have another size."""
@@ -336,6 +339,7 @@ class App:
 
     def _begin(self) -> None:
         """Nothing of the scene before is left."""
+        steady()
         self.view.clear()
         self.view.menu = self.before = self.pointer.tape = None
         self.watched = Watch(self.session.file)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from concurrent.futures import Future
 from typing import TYPE_CHECKING, Any
 
 import pygame
@@ -12,6 +13,7 @@ from sandbox.picture.palette import palette
 from sandbox.picture.sheet import Sheet
 from sandbox.picture.vectors import Vectors
 from sandbox.window import aim, overlay
+from sandbox.window.ahead import ready
 from sandbox.window.charts import Charts
 from sandbox.window.measure import NEAR, draw_reading, reading, state_entries
 from sandbox.window.playback import Playback
@@ -39,6 +41,7 @@ class View:
         self.choices: overlay.Choices | None = None
         self.energy: tuple[Shot, pygame.Surface] | None = None
         self.stage: Stage | None = None
+        self.composing: Future[Stage] | None = None  # the next one
         self.composed = 0.0  # s since then
         self.head = pygame.Rect(0, 0, 0, 0)  # where the headline is
         self._told: Shot | None = None
@@ -49,7 +52,7 @@ class View:
 
     def clear(self) -> None:
         """Forget what was composed: the place, or its size, is another."""
-        self.stage = self._near = None
+        self.stage = self.composing = self._near = None
 
     def pass_time(self, dt: float) -> None:
         """``dt`` s have passed."""
@@ -85,7 +88,7 @@ class View:
         if app.shot is None:
             sheet = self._empty()
         else:
-            self._compose(app.shot)
+            self._take_stage(app.shot)
             sheet = self._aiming(app.shot) if app.playback is None else self._playing(app.shot, app.playback)
             self._beside(sheet, app.shot)
         if self.energy is not None and self.energy[0] is app.shot:
@@ -116,18 +119,30 @@ class View:
         sheet.surface.fill(CARD["background"])
         return sheet
 
+    def _take_stage(self, shot: Shot) -> None:
+        """Go over to a stage that was composed; the first one is waited for."""
+        if self.stage is None:
+            self._compose(shot)
+        if self.composing is None or not ready(self.composing, self.app.patience if self.stage is not None else None):
+            return
+        composing, self.composing, self.composed = self.composing, None, 0.0
+
+        def take() -> None:
+            self.stage = composing.result()
+
+        self.app.trying(take)
+
+    def follow(self) -> None:
+        """Have a stage composed that shows the shot, if this one does not; it comes with a later frame."""
+        app, stage = self.app, self.stage
+        if app.shot is None or stage is None or self.composing is not None or app.playback is not None:
+            return
+        if (self.composed >= STEADY or not app.pointer.pulling) and not stage.holds(app.shot):
+            self._compose(app.shot)
+
     def _compose(self, shot: Shot) -> None:
-        stage = self.stage
-        if stage is not None and (self.app.playback is not None or stage.holds(shot)):
-            return
-        if stage is not None and self.app.pointer.pulling and self.composed < STEADY:
-            return
-        self.composed = 0.0
-
-        def compose() -> None:
-            self.stage = Stage(shot, self.app.area.size, stage)
-
-        self.app.trying(compose)
+        size, before = self.app.area.size, self.stage
+        self.composing = self.app.ahead.start(lambda: Stage(shot, size, before))
 
     # The two states
 
