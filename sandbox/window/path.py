@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 #: Points on each arc of a path. The arcs of a drive are seconds long, and its line must still look smooth.
 POINTS = 9
 #: A drawn line has no points nearer to each other than this, none farther, in px, and bends by no more at one, in rad.
-CLOSEST, LONGEST, BEND = 3.0, 40.0, 0.06
+CLOSEST, LONGEST, BEND = 3.0, 60.0, 0.12
 
 
 @lru_cache
