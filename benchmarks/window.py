@@ -24,6 +24,7 @@ os.environ |= {"SDL_VIDEODRIVER": "dummy", "SDL_AUDIODRIVER": "dummy"}
 
 import pygame
 
+from sandbox.lab.workers import Processes
 from sandbox.scene import listings
 from sandbox.window.ahead import steady
 from sandbox.window.app import App
@@ -52,9 +53,9 @@ def post(kind: int, at: tuple[int, int]) -> None:
     pygame.event.post(pygame.event.Event(kind, pos=at, **values))
 
 
-def measure(source: str, frames: int) -> dict[str, dict[str, float]]:
+def measure(source: str, frames: int, runs: Processes) -> dict[str, dict[str, float]]:
     """For each thing that a player does: median and 95th percentile in ms, and shares of frames."""
-    app = App(Session(source), pygame.display.set_mode(SIZE))
+    app = App(Session(source), pygame.display.set_mode(SIZE), runs)
     app.tick(FRAME)
     assert app.stage is not None
     assert app.shot is not None
@@ -106,10 +107,11 @@ def main() -> None:
     sources = arguments.scenes or [item.name for item in listings() if "/" not in item.name or item.name in hard]
     pygame.display.init()
     rows: dict[str, dict[str, dict[str, float]]] = {}
+    runs = Processes(1)
     head = f"{'':<26} {'':<14} {'median':>9} {'95 %':>9} {'processor':>10} {'share':>6} {'in time':>8} {'path':>6}"
     sys.stdout.write(head + "\n")
     for source in sources:
-        rows[source] = measure(source, arguments.frames)
+        rows[source] = measure(source, arguments.frames, runs)
         for number, (name, row) in enumerate(rows[source].items()):
             share = row["processor_ms"] / FRAME / 1e3
             path = f"{row['path']:>6.0%}" if name == "aiming" else ""
@@ -117,6 +119,7 @@ def main() -> None:
                 f"{'' if number else source:<26} {name:<14} {row['median_ms']:>6.1f} ms {row['p95_ms']:>6.1f} ms "
                 f"{row['processor_ms']:>7.1f} ms {share:>6.0%} {row['in_time']:>8.0%} {path}\n"
             )
+    runs.close(abandon=False)
     if arguments.json:
         arguments.json.write_text(json.dumps(rows, indent=1))
 

@@ -13,6 +13,7 @@ from PIL import Image
 
 import sandbox
 from sandbox.cli import main as program
+from sandbox.lab.workers import Processes
 from sandbox.picture.frames import to_image
 from sandbox.window import aim
 from sandbox.window.app import App
@@ -67,7 +68,8 @@ def compare() -> None:
 def window() -> None:
     """The window while a free throw is aimed, with its fan and the panel open: by events, without a display."""
     pygame.display.init()
-    app = App(Session("basketball"), pygame.display.set_mode(WINDOW), patience=60.0)
+    runs = Processes(1)
+    app = App(Session("basketball"), pygame.display.set_mode(WINDOW), runs, patience=60.0)
     app.tick(FRAME)
     for key in (pygame.K_TAB, pygame.K_f):
         post(app, pygame.KEYDOWN, key=key, mod=0, unicode="", scancode=0)
@@ -80,6 +82,7 @@ def window() -> None:
     while app.fan is None or not app.fan.complete or app.fan.drawn < len(app.fan.shots):
         app.tick(FRAME)
     app.ahead.close()
+    runs.close(abandon=False)
     to_image(app.screen).save(HERE / "window.jpg", quality=QUALITY, subsampling=0, optimize=True, progressive=True)
 
 

@@ -1,4 +1,4 @@
-"""Runs computed beside the drawing: a frame waits a little for the path, and is not late where it takes longer."""
+"""What is done in other threads, and how long a frame waits for it."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ import sys
 from collections.abc import Callable
 from concurrent.futures import Future
 from concurrent.futures import wait as wait_for
+from functools import partial
 from queue import SimpleQueue
 from threading import Thread
 from typing import Any
@@ -25,17 +26,17 @@ def steady() -> None:
 
 
 class Ahead:
-    """One thread that does one thing after the other. It keeps no program from ending, whatever it is at."""
+    """One thread that does one thing after the other beside the drawing. It keeps no program from ending."""
 
     def __init__(self) -> None:
         sys.setswitchinterval(TURNS)
         self.work: SimpleQueue[tuple[Future[Any], Callable[[], Any]] | None] = SimpleQueue()
         Thread(target=self._go_on, name="runs", daemon=True).start()
 
-    def start(self, work: Callable[[], Any]) -> Future[Any]:
+    def submit(self, work: Callable[..., Any], *args: Any) -> Future[Any]:
         """Do it as soon as what was asked for before is done."""
         future: Future[Any] = Future()
-        self.work.put((future, work))
+        self.work.put((future, partial(work, *args)))
         return future
 
     def close(self) -> None:

@@ -4,29 +4,34 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from concurrent.futures import Future
+from concurrent.futures.process import BrokenProcessPool
 from pathlib import Path
 from threading import Thread
-from time import perf_counter, thread_time
-from typing import TYPE_CHECKING, Any
+from time import perf_counter
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import pygame
 
-from sandbox.errors import SandboxError
+from sandbox.errors import RunError, SandboxError
+from sandbox.lab.workers import Processes
 from sandbox.picture.palette import palette
 from sandbox.picture.sheet import Sheet
 from sandbox.window import commands, overlay, replay
 from sandbox.window.ahead import PATIENCE, Ahead, ready, steady
 from sandbox.window.bar import HEIGHT, Bar, Shown
+from sandbox.window.beside import predicted, warmed
 from sandbox.window.fan import Fan
 from sandbox.window.keys import command_for
 from sandbox.window.playback import Playback
 from sandbox.window.pointer import Pointer
+from sandbox.window.recorded import run_of
 from sandbox.window.session import Session, Shot
 from sandbox.window.sound import Sound
 from sandbox.window.view import View
 from sandbox.window.watch import Watch
 
 if TYPE_CHECKING:
+    from sandbox.scene import Scene
     from sandbox.window.panel import Panel
     from sandbox.window.stage import Stage
 
@@ -42,25 +47,36 @@ SMALLEST = (640, 400)
 MESSAGE = 6.0
 #: A fan is begun when the shot has not changed for so long, in s.
 STILL = 0.1
-#: Time in s that is left free at the end of a frame, for the display and for what runs a little longer.
-RESERVE = 0.004
+
+
+class Awaited(NamedTuple):
+    """A shot that is computed."""
+
+    scene: Scene
+    changes: dict[str, Any]
+    result: Future[tuple[dict[str, Any], float]]  # of beside.predicted
 
 
 class App:
     """One window on a session. ``tick`` makes one frame; ``run`` makes them until the window is closed.
 
-    A frame waits for the path of what was changed where that takes no longer than ``patience`` s. Runs that take longer
-    are begun after the drawing, and go on until the next frame, which shows the path there is by then.
+    Scenes run in a process beside this one, of ``runs``. A frame waits for the path of what was changed where that
+    takes no longer than ``patience`` s; else it shows the path there is.
     """
 
     def __init__(
-        self, session: Session, screen: pygame.Surface, sound: Sound | None = None, patience: float = PATIENCE
+        self,
+        session: Session,
+        screen: pygame.Surface,
+        runs: Processes,
+        sound: Sound | None = None,
+        patience: float = PATIENCE,
     ) -> None:
         self.session: Session = session
-        self.screen, self.sound, self.patience = screen, sound, patience
+        self.screen, self.runs, self.sound, self.patience = screen, runs, sound, patience
         self.running = True
         self.ahead = Ahead()
-        self.awaited: Future[tuple[Shot, float]] | None = None  # the shot as it was aimed last
+        self.awaited: Awaited | None = None  # the shot as it was aimed last
         self.stale = True  # the shot is not that of the parameters, nor is one awaited
         self.shot: Shot | None = None  # as aimed, and as played
         self.still = 0.0  # s since it changed
@@ -98,12 +114,10 @@ class App:
             self.handle(event)
         self.update(dt)
         self.draw()
-        self._begin_run()
         self.view.follow()
-        spent = perf_counter() - started
-        self.frame_cost += 0.1 * (spent - self.frame_cost)
-        if self.fan is not None:
-            self.fan.go_on(self.ahead, 1 / FRAMES - spent - RESERVE)
+        if self.fan is not None and not self.stale and self.awaited is None:
+            self.fan.go_on(self.runs)
+        self.frame_cost += 0.1 * (perf_counter() - started - self.frame_cost)
 
     def update(self, dt: float) -> None:
         if self.message is not None:
@@ -197,37 +211,36 @@ class App:
     # ------------------------------------------------------------------------------------------------------- the shot
 
     def _predict(self) -> None:
-        """Have the path that this frame shows."""
-        self._take(0.0)
+        """Have the scene run as it stands, and take the path that this frame shows."""
         if self.shot is None:
             self.settle()
-        elif self.cost <= self.patience:
-            self._begin_run()
+            return
+        self._take(0.0)
+        if self._begin_run() and self.cost <= self.patience:
             self._take(self.patience)
 
-    def _begin_run(self) -> None:
-        """Have the scene run as it stands, beside whatever is done here, once the run before has ended."""
-        if not self.stale or self.awaited is not None:
-            return
-        predict, self.stale = self.session.prediction(), False
-
-        def timed() -> tuple[Shot, float]:
-            started = thread_time()  # the processor's: drawing goes on beside it
-            shot = predict()
-            return shot, thread_time() - started
-
-        self.awaited = self.ahead.start(timed)
+    def _begin_run(self) -> bool:
+        """Have the scene run as it stands, once the run before has ended; whether there is one to wait for."""
+        if self.stale and self.awaited is None:
+            self.stale, scene = False, self.session.scene
+            # The first shot is waited for, and the process beside may still be starting.
+            workers = self.runs if self.shot is not None else self.ahead
+            self.awaited = Awaited(scene, dict(self.session.changes), workers.submit(predicted, scene))
+        return self.awaited is not None
 
     def _take(self, patience: float | None) -> None:
         """Show what has been run; where that failed the last good shot stays."""
-        if self.awaited is None or not ready(self.awaited, patience):
+        if self.awaited is None or not ready(self.awaited.result, patience):
             return
-        awaited, self.awaited = self.awaited, None
+        (scene, changes, result), self.awaited = self.awaited, None
 
         def take() -> None:
-            shot, cost = awaited.result()
+            try:
+                record, cost = result.result()
+            except BrokenProcessPool:
+                raise RunError("the process that ran it was killed: out of memory?") from None
             if self.playback is None:
-                self.shot, self.cost, self.still = shot, cost, 0.0
+                self.shot, self.cost, self.still = Shot(scene, run_of(scene, record), changes), cost, 0.0
 
         self.trying(take)
 
@@ -426,10 +439,14 @@ def play(source: str, changes: Mapping[str, Any] | None = None) -> None:
     """Open the window on a scene, until it is closed. Raises RequestError where there is no display."""
     from sandbox.window.display import opened
 
-    recorded = source.endswith(replay.SUFFIX)
-    session = replay.read(Path(source))[0] if recorded else Session(source, changes)
-    with opened(SIZE, f"Sports sandbox: {session.title}") as screen:
-        app = App(session, screen, Sound())
-        if recorded:
-            app.watch(0)
-        app.run()
+    recorded, runs = source.endswith(replay.SUFFIX), Processes(1)
+    try:
+        runs.submit(warmed, source)  # it takes as long to start as this one does to open the window
+        session = replay.read(Path(source))[0] if recorded else Session(source, changes)
+        with opened(SIZE, f"Sports sandbox: {session.title}") as screen:
+            app = App(session, screen, runs, Sound())
+            if recorded:
+                app.watch(0)
+            app.run()
+    finally:
+        runs.close(abandon=True)

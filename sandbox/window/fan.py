@@ -3,27 +3,24 @@
 from __future__ import annotations
 
 from concurrent.futures import Future
-from dataclasses import replace
 from math import sqrt
-from time import perf_counter
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 import pygame
 
 from sandbox import parameters as declared
 from sandbox.controls import Spread, controls_of
-from sandbox.errors import SandboxError
 from sandbox.picture.camera import Camera
 from sandbox.picture.painter import Painter, blank
 from sandbox.picture.palette import Colour, palette
 from sandbox.picture.sheet import Sheet
-from sandbox.scene import Scene, simulate
+from sandbox.window.beside import Varied, varied
 from sandbox.window.path import few
 from sandbox.window.session import Shot
 
 if TYPE_CHECKING:
-    from sandbox.window.ahead import Ahead
+    from sandbox.lab.workers import Processes
 
 CARD, TRACE = palette("card"), palette("trace")
 
@@ -32,8 +29,8 @@ SHOTS = 200
 SPEED, ANGLE = 0.01, 0.5
 #: A spread may be made so many times wider or narrower.
 WIDEST = 16.0
-#: A fan is worked on between the frames, for so long at least, in s: one run, and more where there is time.
-LEAST_TIME = 0.001
+#: Shots are computed so many at first, and then so many as take this long, in s: another aim must not wait for more.
+FIRST, AT_ONCE = 8, 0.05
 #: So many paths are drawn in one frame; the others in the next.
 PER_FRAME = 6
 #: Opacity of a path, of 255: where many go, it is dense.
@@ -48,9 +45,10 @@ class Fan:
         self.known = {p.key: p for p in declared.walk(shot.scene.parameters)}
         self.spread = {key: width * sigma for key, sigma in self._sigmas().items()}
         self.draws = np.random.default_rng(1).standard_normal((SHOTS, len(self.spread)))
-        self.shots: list[Shot] = []
+        self.shots: list[Varied] = []
         self.failed = 0
-        self.work: Future[None] | None = None
+        self.work: Future[tuple[list[Varied | None], float]] | None = None
+        self.next = FIRST
         self.layer: pygame.Surface | None = None
         self.camera: Camera | None = None
         self.drawn = 0
@@ -69,35 +67,37 @@ class Fan:
     def complete(self) -> bool:
         return len(self.shots) + self.failed >= SHOTS or not self.spread
 
-    def go_on(self, ahead: Ahead, time: float) -> None:
-        """Have more of the shots computed, in the ``time`` s that there are until the next frame."""
-        if not self.complete and (self.work is None or self.work.done()):
-            self.work = ahead.start(lambda: self._compute(max(time, LEAST_TIME)))
+    def go_on(self, runs: Processes) -> None:
+        """Take the shots that were computed, and have more of them computed."""
+        if self.work is not None and self.work.done():
+            self._take(self.work)
+            self.work = None
+        done = len(self.shots) + self.failed
+        if self.work is None and not self.complete:
+            controls = controls_of(self.shot.scene.module)
+            told = controls.tells[0] if controls.tells is not None else None
+            points = [self._point(draws) for draws in self.draws[done : done + self.next]]
+            self.work = runs.submit(varied, self.shot.scene, list(self.spread), points, told)
 
-    def _compute(self, time: float) -> None:
-        until = perf_counter() + time
-        while not self.complete and perf_counter() < until:
-            try:
-                scene = self._varied(self.draws[len(self.shots) + self.failed])
-                shot = Shot(scene, simulate(scene))
-                _ = shot.scored, shot.track(shot.ball)
-            except SandboxError:
-                self.failed += 1
-            except Exception:  # a scene's own code: the shot itself has told of it, or will
-                self.failed += 1
-            else:
-                self.shots.append(shot)
+    def _take(self, work: Future[tuple[list[Varied | None], float]]) -> None:
+        try:
+            found, seconds = work.result()
+        except Exception:  # the process was killed, and another will take its place
+            self.failed += 1
+            return
+        good = [shot for shot in found if shot is not None]
+        self.shots += good
+        self.failed += len(found) - len(good)
+        self.next = max(1, round(AT_ONCE * len(found) / seconds))
 
-    def _varied(self, draws: np.ndarray) -> Scene:
-        """The scene with each parameter of the spread moved, within its bounds."""
-        scene = self.shot.scene
-        changes: dict[str, Any] = {}
+    def _point(self, draws: np.ndarray) -> list[float]:
+        """Each parameter of the spread moved, within its bounds."""
+        values = []
         for (key, sigma), draw in zip(self.spread.items(), draws, strict=True):
             low, high = self.known[key].low, self.known[key].high
             value = self.known[key].value + sigma * float(draw)
-            changes[key] = value if low is None or high is None else min(max(value, low), high)
-        values = scene.parameters.model_dump()
-        return replace(scene, parameters=declared.validate(type(scene.parameters), values, "", changes, ""))
+            values.append(value if low is None or high is None else min(max(value, low), high))
+        return values
 
     # Drawing
 
@@ -111,8 +111,8 @@ class Fan:
         sheet.surface.blit(self.layer, (0, 0))
 
     @staticmethod
-    def _add(layer: pygame.Surface, shot: Shot, camera: Camera, unit: float) -> None:
-        pixels = np.clip(camera.pixels(shot.track(shot.ball)[:, 1:]), -2000, 6000)
+    def _add(layer: pygame.Surface, shot: Varied, camera: Camera, unit: float) -> None:
+        pixels = np.clip(camera.pixels(shot.points[:, 1:]), -2000, 6000)
         pixels = few(pixels)
         colour: Colour = CARD["good"] if shot.scored else CARD["text"]
         low, high = pixels.min(axis=0) - 2, pixels.max(axis=0) + 3
@@ -127,23 +127,21 @@ class Fan:
 
     def told(self) -> tuple[str, str]:
         """How many score, and by what the shots differ."""
-        shots = list(self.shots)  # more are computed meanwhile
-        count = len(shots)
+        count = len(self.shots)
         name = controls_of(self.shot.scene.module).scores
         if not self.spread:
             share = "no fan: this shot does not begin as a player's does"
         elif not count:
             share = "the fan ..."
         elif name:
-            scored = sum(shot.scored for shot in shots)
+            scored = sum(shot.scored for shot in self.shots)
             p = scored / count
             off = sqrt(p * (1 - p) / count)
             share = f"{scored} of {count} score: {100 * p:.0f} ± {max(1.0, 100 * off):.0f} %"
         else:
             share = f"{count} shots"
         told = controls_of(self.shot.scene.module).tells
-        values = [shot.run.result.get(told[0]) for shot in shots] if told is not None else []
-        numbers = [value for value in values if isinstance(value, float)]
+        numbers = [shot.value for shot in self.shots if shot.value is not None]
         if told is not None and len(numbers) > 1:
             share += f"; {told[0]} {np.mean(numbers):.1f} ± {np.std(numbers):.1f} {told[1]}"
         parts = [

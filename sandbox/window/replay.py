@@ -4,35 +4,26 @@ from __future__ import annotations
 
 import hashlib
 import json
-from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
-from sandbox.engine.accuracy import Accuracy
-from sandbox.engine.arc import Arc
-from sandbox.engine.run import Event, Numerics, Run
 from sandbox.errors import RequestError, RunError
 from sandbox.files import reason, written_whole
-from sandbox.scene import Scene, load, simulate
+from sandbox.scene import load, simulate
+from sandbox.window.recorded import plain, run_of
 from sandbox.window.session import Session, Shot
 
-FORMAT, VERSION = "sandbox replay", 1
+FORMAT, VERSION = "sandbox replay", 2
 SUFFIX = ".replay.json"
 
 
 def save(shot: Shot, source: str, path: Path) -> None:
     """Write a shot; ``source`` is what its scene was loaded by."""
-    run = shot.run
     body = {
         "scene": source,
         "changes": shot.changes,
         "parameters": shot.scene.parameters.model_dump(mode="json"),
-        "accuracy": asdict(run.accuracy),
-        "duration": run.duration,
-        "ended": run.ended,
-        "result": _plain(run.result),
-        "events": [[e.t, e.kind, e.ball, e.partner, e.speed, e.x, e.y] for e in run.events],
-        "arcs": {ball: [_arc(arc) for arc in arcs] for ball, arcs in run.arcs.items()},
+        "run": _plain(plain(shot.run)),
     }
     record = {"format": FORMAT, "version": VERSION, "check": _sum(body), "body": body}
     try:
@@ -42,15 +33,9 @@ def save(shot: Shot, source: str, path: Path) -> None:
         raise RunError(f"{path}: cannot be written: {reason(error)}") from None
 
 
-def _plain(result: dict[str, Any]) -> Any:
+def _plain(values: dict[str, Any]) -> Any:
     """As JSON gives it back."""
-    return json.loads(json.dumps(result, default=str))
-
-
-def _arc(arc: Arc) -> list[Any]:
-    curves = (arc.x, arc.y, arc.vx, arc.vy, arc.spin)
-    end = None if arc.end is None else list(arc.end)
-    return [arc.t0, arc.t1, list(arc.start), *map(list, curves), [list(c) for c in arc.rolling_spin], end]
+    return json.loads(json.dumps(values, default=str))
 
 
 def _sum(body: dict[str, Any]) -> str:
@@ -76,27 +61,11 @@ def read(path: Path) -> tuple[Session, Shot]:
     try:
         session = Session(body["scene"], body["changes"])
         scene = load(body["scene"], body["parameters"])
-        shot = Shot(scene, _run(scene, body), dict(body["changes"]))
-    except (KeyError, TypeError, ValueError) as error:
+        shot = Shot(scene, run_of(scene, body["run"]), dict(body["changes"]))
+    except (KeyError, IndexError, TypeError, ValueError) as error:
         raise RequestError(f"{path}: damaged: {type(error).__name__} {error}") from None
     session.shots.append(shot)
     return session, shot
-
-
-def _run(scene: Scene, body: dict[str, Any]) -> Run:
-    arcs = {ball: [_read_arc(item) for item in items] for ball, items in body["arcs"].items()}
-    events = [Event(*item) for item in body["events"]]
-    accuracy = Accuracy(**body["accuracy"])
-    run = Run(scene.build(), accuracy, arcs, events, Numerics(), body["duration"], body["ended"])
-    run.result = body["result"]
-    return run
-
-
-def _read_arc(item: list[Any]) -> Arc:
-    t0, t1, start, x, y, vx, vy, spin, rolling, end = item
-    more = tuple(tuple(curve) for curve in rolling)
-    last = None if end is None else tuple(end)
-    return Arc(t0, t1, tuple(start), tuple(x), tuple(y), tuple(vx), tuple(vy), tuple(spin), None, more, last)
 
 
 def compared(shot: Shot) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
@@ -14,7 +14,7 @@ from sandbox import parameters as declared
 from sandbox.controls import Controls, controls_of
 from sandbox.errors import SandboxError
 from sandbox.physics.forces import Gravity
-from sandbox.scene import Scene, load, simulate
+from sandbox.scene import Scene, load
 from sandbox.window.path import moves, points
 
 if TYPE_CHECKING:
@@ -203,21 +203,6 @@ class Session:
             self.base = before
             raise
         self.scene = scene
-
-    def predict(self) -> Shot:
-        """The run of the scene as it stands."""
-        return self.prediction()()
-
-    def prediction(self) -> Callable[[], Shot]:
-        """What runs the scene as it stands now, later and in another thread."""
-        scene, changes = self.scene, dict(self.changes)
-
-        def run() -> Shot:
-            shot = Shot(scene, simulate(scene), changes)
-            _ = shot.card, shot.verdict, shot.scored, shot.track(shot.ball)
-            return shot
-
-        return run
 
     @property
     def recent(self) -> list[Shot]:

@@ -142,7 +142,7 @@ class View:
 
     def _compose(self, shot: Shot) -> None:
         size, before = self.app.area.size, self.stage
-        self.composing = self.app.ahead.start(lambda: Stage(shot, size, before))
+        self.composing = self.app.ahead.submit(Stage, shot, size, before)
 
     # The two states
 

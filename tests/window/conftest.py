@@ -11,8 +11,10 @@ os.environ.setdefault("SDL_AUDIODRIVER", "dummy")
 import pygame
 import pytest
 
+from sandbox.lab.workers import Processes
+from sandbox.scene import simulate
 from sandbox.window.app import App
-from sandbox.window.session import Session
+from sandbox.window.session import Session, Shot
 
 FRAME = 1 / 60  # s
 
@@ -20,11 +22,11 @@ FRAME = 1 / 60  # s
 class Player:
     """Does with a window what a person would: every call is one event, and one frame."""
 
-    def __init__(self, source: str, size: tuple[int, int] = (1280, 720)) -> None:
+    def __init__(self, runs: Processes, source: str, size: tuple[int, int] = (1280, 720)) -> None:
         pygame.display.init()
         self.screen = pygame.display.set_mode(size, pygame.RESIZABLE)
         pygame.event.clear()
-        self.app = App(Session(source), self.screen, patience=60.0)  # this machine may be busy
+        self.app = App(Session(source), self.screen, runs, patience=60.0)  # this machine may be busy
         self.frames(1)
 
     def frames(self, count: int = 1, dt: float = FRAME) -> None:
@@ -67,12 +69,25 @@ class Player:
         self.click(self.app.bar.buttons[command].center)
 
 
+@pytest.fixture(scope="session")
+def shot_of():
+    """Gives the shot of a session as it stands."""
+    return lambda session: Shot(session.scene, simulate(session.scene), dict(session.changes))
+
+
+@pytest.fixture(scope="session")
+def runs():
+    processes = Processes(1)
+    yield processes
+    processes.close(abandon=True)
+
+
 @pytest.fixture
-def player():
+def player(runs):
     opened: list[Player] = []
 
     def open_one(*arguments: Any) -> Player:
-        opened.append(Player(*arguments))
+        opened.append(Player(runs, *arguments))
         return opened[-1]
 
     yield open_one

@@ -68,9 +68,9 @@ def test_a_key_racks_again(watched):
     assert "where they began" in watched.app.message[0]
 
 
-def test_potted_balls_stay_away_and_a_potted_cue_ball_is_spotted():
+def test_potted_balls_stay_away_and_a_potted_cue_ball_is_spotted(shot_of):
     session = Session("billiards", {"cue.speed": 3.0, **laid_out(cue=(0.5, 0.0), one=(0.7, 0.02))})
-    shot = session.predict()
+    shot = shot_of(session)
     shot.run.result["positions"] = {"9": [-0.635, 0.01]}
     session.go_on(shot)
     found = places(session)
@@ -92,8 +92,8 @@ def test_the_command_line_and_the_scene_file_know_where_the_balls_lie(watched, t
     assert sandbox.load(keep.scene_file(session)).parameters == session.scene.parameters
 
 
-def test_a_scratch_is_no_score():
+def test_a_scratch_is_no_score(shot_of):
     session = Session("billiards", {"cue.speed": 3.0, "cue.angle": 90.0, **laid_out(cue=(0.0, 0.3))})
-    shot = session.predict()
+    shot = shot_of(session)
     assert shot.run.result["scratch"]
     assert not shot.scored

@@ -5,19 +5,35 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
-from threading import Event
+from concurrent.futures import Future
 
 import numpy as np
 import pygame
 import pytest
 
 import sandbox
+from sandbox.new import new_scene
 from sandbox.scene import listings
 from sandbox.window import aim
 from sandbox.window.app import SMALLEST
 from sandbox.window.keys import BINDINGS
 from sandbox.window.playback import LONGEST_FRAME, STEP
 from sandbox.window.session import Session
+
+
+class Slow:
+    """Workers that give no result before they are let go."""
+
+    def __init__(self, workers):
+        self.workers, self.calls = workers, []
+
+    def submit(self, work, *args):
+        self.calls.append((Future(), self.workers.submit(work, *args)))
+        return self.calls[-1][0]
+
+    def let_go(self):
+        for shown, call in self.calls:
+            shown.set_result(call.result())
 
 
 def picture(player) -> np.ndarray:
@@ -257,19 +273,12 @@ class TestASlowRun:
     def test_shows_the_path_before_until_it_is_there(self, player):
         player = player("golf/putt")
         app = player.app
-        slow = Event()
-        predict = app.session.prediction
-
-        def slowly():
-            run = predict()
-            return lambda: (slow.wait(20), run())[1]
-
-        app.session.prediction, app.patience = slowly, 0.0
+        app.runs, app.patience = Slow(app.runs), 0.0
         before = app.shot
         player.key(pygame.K_UP)
         player.frames(3)
         assert app.shot is before
-        slow.set()
+        app.runs.let_go()
         app.settle()
         assert app.shot.scene is app.session.scene
 
@@ -282,24 +291,39 @@ class TestASlowRun:
 
     def test_one_that_never_ends_keeps_nobody_from_leaving(self):
         code = (
-            "import pygame, time; pygame.display.init(); screen = pygame.display.set_mode((640, 400));"
-            "from sandbox.window.app import App; from sandbox.window.session import Session;"
-            "app = App(Session('golf/putt'), screen, patience=0.01); app.tick(0.02);"
-            "app.session.prediction = lambda: lambda: time.sleep(1000);"
-            "app.change({'launch.speed': 2.0}); app.tick(0.02);"
-            "pygame.event.post(pygame.event.Event(pygame.QUIT)); app.run()"
+            "import time; from sandbox.window import app;"
+            "app.App.run = lambda self: (self.tick(0.02), self.runs.submit(time.sleep, 1000), self.change("
+            "{'launch.speed': 2.0}), self.tick(0.02));"
+            "app.play('golf/putt')"
         )
         subprocess.run([sys.executable, "-c", code], timeout=60, check=True)
 
-    def test_one_that_fails_leaves_the_last_good_shot(self, player):
-        player = player("golf/putt")
+    def test_one_that_fails_leaves_the_last_good_shot(self, player, tmp_path):
+        new_scene(tmp_path / "picky")
+        file = tmp_path / "picky" / "scene.py"
+        code = file.read_text("utf-8")
+        begins = "def result(run: Run, parameters: Parameters) -> dict[str, Any]:\n"
+        assert begins in code
+        odd = f"{begins}    if parameters.launch.speed == 7.0:\n        raise Odd(7, 0)\n"
+        kind = "\n\nclass Odd(Exception):\n    def __init__(self, a, b):\n        super().__init__(a + b)\n"
+        file.write_text(code.replace(begins, odd) + kind, "utf-8")
+        player = player(str(file.parent))
         before = player.app.shot
-        player.app.session.prediction = lambda: lambda: 1 / 0
-        player.key(pygame.K_UP)
+        player.app.change({"launch.speed": 7.0})
+        player.frames()
         assert player.app.shot is before
-        assert "ZeroDivisionError" in player.app.message[0]
+        assert player.app.message[0] == "Odd: 7"
         player.key(pygame.K_SPACE)
         assert not player.app.session.shots
+
+    def test_a_process_that_is_killed_is_begun_again(self, player):
+        player = player("golf/putt")
+        (process,) = player.app.runs._pool._processes.values()
+        process.kill()
+        process.join()
+        player.key(pygame.K_UP)
+        player.key(pygame.K_UP)
+        assert player.app.shot.scene is player.app.session.scene
 
 
 def test_closing_in_mid_flight_ends_it(player):

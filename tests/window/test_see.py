@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from concurrent.futures import wait
 from math import hypot
 
 import numpy as np
@@ -10,6 +11,7 @@ import pytest
 
 from sandbox.picture.sheet import Sheet
 from sandbox.window import commands
+from sandbox.window.beside import Varied
 from sandbox.window.fan import SHOTS, Fan, _short
 from sandbox.window.keys import BINDINGS, LISTED, listed
 from sandbox.window.measure import reading
@@ -30,10 +32,9 @@ def differ(a: np.ndarray, b: np.ndarray) -> float:
 def wait_for_fan(player) -> Fan:
     player.frames(10)
     fan = player.app.fan
-    fan.work.result()
-    fan.go_on(player.app.ahead, 60.0)
-    fan.work.result()
-    player.frames(1)
+    while not fan.complete:
+        wait([fan.work])
+        player.frames(1)
     return fan
 
 
@@ -45,14 +46,14 @@ class TestTheFan:
         player = player("basketball")
         player.key(pygame.K_f)
         fan = wait_for_fan(player)
-        made = sum(shot.run.result["made"] for shot in fan.shots)
+        made = sum(shot.scored for shot in fan.shots)
         assert len(fan.shots) == SHOTS
         assert 0 < made < SHOTS
         share, spread = fan.told()
         assert share.startswith(f"{made} of {SHOTS} score: {100 * made / SHOTS:.0f} ±")
         assert "angle ± 1 deg" in spread
-        speeds = [shot.run.state("ball", 0.0)[2:4] for shot in fan.shots]
-        sigma = np.std([hypot(*velocity) for velocity in speeds])
+        steps = [shot.points[shot.points[:, 0] > 0.0][0] - shot.points[0] for shot in fan.shots]
+        sigma = np.std([hypot(x, y) / t for t, x, y in steps])
         assert sigma == pytest.approx(fan.spread["launch.speed"], rel=0.2)
 
     def test_it_is_drawn_and_put_away(self, player):
@@ -68,10 +69,11 @@ class TestTheFan:
         assert differ(picture(player), plain) == 0
 
     @pytest.mark.parametrize("made", [True, False])
-    def test_those_that_score_are_green(self, made):
+    def test_those_that_score_are_green(self, shot_of, made):
         session = Session("basketball", {} if made else {"launch.speed": 5.0})
-        fan = Fan(session.predict())
-        fan.shots = [fan.shot] * 3
+        shot = shot_of(session)
+        fan = Fan(shot)
+        fan.shots = [Varied(shot.track(shot.ball), shot.scored, None)] * 3
         sheet = Sheet((640, 360))
         fan.draw(sheet, fan.shot.scene.picture(fan.shot.run, (640, 360)).camera)
         drawn = pygame.surfarray.array3d(fan.layer)[pygame.surfarray.array_alpha(fan.layer) > 60].astype(int)
@@ -99,8 +101,8 @@ class TestTheFan:
             player.key(pygame.K_LEFTBRACKET)
         assert player.app.fan_width == 1 / 16
 
-    def test_a_shot_that_does_not_begin_as_a_players_has_none(self):
-        fan = Fan(Session("golf/club-head").predict())
+    def test_a_shot_that_does_not_begin_as_a_players_has_none(self, shot_of):
+        fan = Fan(shot_of(Session("golf/club-head")))
         assert fan.complete
         assert "no fan" in fan.told()[0]
 

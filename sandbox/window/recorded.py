@@ -1,0 +1,66 @@
+"""A run as plain data, and back: for a replay's file, and from one process to another."""
+
+from __future__ import annotations
+
+from dataclasses import asdict
+from typing import Any
+
+from sandbox.engine.accuracy import Accuracy
+from sandbox.engine.arc import Arc
+from sandbox.engine.motion import Contact
+from sandbox.engine.run import Event, Numerics, Run
+from sandbox.engine.setup import Ball, Setup
+from sandbox.engine.touch import Obstacle, Touching
+from sandbox.scene import Scene
+
+
+def plain(run: Run) -> dict[str, Any]:
+    """All of a run but its setup, which the scene builds again; surfaces go by their places in it."""
+    places = {id(surface): place for place, surface in enumerate(run.setup.surfaces)}
+    return {
+        "accuracy": asdict(run.accuracy),
+        "duration": run.duration,
+        "ended": run.ended,
+        "numerics": asdict(run.numerics),
+        "result": run.result,
+        "events": [(e.t, e.kind, e.ball, e.partner, e.speed, e.x, e.y) for e in run.events],
+        "arcs": {ball: [_plain_arc(arc, places) for arc in arcs] for ball, arcs in run.arcs.items()},
+    }
+
+
+def run_of(scene: Scene, record: dict[str, Any]) -> Run:
+    """The run of a scene. Raises KeyError, TypeError, ValueError or IndexError where the record is none of it."""
+    setup = scene.build()
+    balls = {ball.name: ball for ball in setup.balls}
+    arcs = {name: [_arc(item, setup, balls[name]) for item in items] for name, items in record["arcs"].items()}
+    return Run(
+        setup,
+        Accuracy(**record["accuracy"]),
+        arcs,
+        [Event(*item) for item in record["events"]],
+        Numerics(**record["numerics"]),
+        record["duration"],
+        record["ended"],
+        record["result"],
+        scene,
+    )
+
+
+def _plain_arc(arc: Arc, places: dict[int, int]) -> tuple[Any, ...]:
+    contact = None
+    if isinstance(arc.contact, Contact):
+        mode, obstacle, touching, direction, spin_rate = arc.contact
+        contact = mode, places[id(obstacle.surface)], tuple(touching), direction, spin_rate
+    curves = arc.x, arc.y, arc.vx, arc.vy, arc.spin
+    return arc.t0, arc.t1, arc.start, *curves, contact, arc.rolling_spin, arc.end
+
+
+def _arc(item: Any, setup: Setup, ball: Ball) -> Arc:
+    t0, t1, start, x, y, vx, vy, spin, contact, rolling, end = item
+    if contact is not None:
+        mode, place, (gap, nx, ny, curvature, center, feature), direction, spin_rate = contact
+        touching = Touching(gap, nx, ny, curvature, None if center is None else tuple(center), feature)
+        contact = Contact(mode, Obstacle(setup.surfaces[place], ball.radius), touching, direction, spin_rate)
+    last = None if end is None else tuple(end)
+    turning = tuple(map(tuple, rolling))
+    return Arc(t0, t1, tuple(start), tuple(x), tuple(y), tuple(vx), tuple(vy), tuple(spin), contact, turning, last)
