@@ -2,9 +2,10 @@
 
 Run ``python benchmarks/window.py [SCENE ...] [--json F]``. The window is 1280x720 and drawn in memory (SDL's dummy
 driver), as without a GPU; frames are paced at 60 per second, and the time of each is that from its events to its
-picture. "processor" is what a frame takes of one core, runs beside the drawing included, and "share" is that of
-16.7 ms: on a busy machine it repeats, and the time does not. While aiming, the mouse moves in every frame; "path" is
-the share of frames whose path is that of the mouse in this very frame, and not yet that of one before.
+picture. "processor" is what the window's process takes of one core for a frame, and "share" is that of 16.7 ms: on a
+busy machine it repeats, and the time does not; scenes run in a process beside it, on the other core. While aiming, the
+mouse moves in every frame; "path" is the share of frames whose path is that of the mouse in this very frame, and not
+yet that of one before.
 """
 
 from __future__ import annotations

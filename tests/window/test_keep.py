@@ -12,6 +12,7 @@ import pytest
 from PIL import Image
 
 import sandbox
+from sandbox.engine.ledger import ledger
 from sandbox.errors import RequestError
 from sandbox.window import keep, replay, sound
 from sandbox.window.session import Session
@@ -42,6 +43,8 @@ class TestReplays:
         assert again.run.result == shot.run.result
         assert again.scene.parameters == shot.scene.parameters
         assert session.changes == {"launch.speed": 2.5}
+        assert ledger(again.run) == ledger(shot.run)
+        assert again.run.numerics == shot.run.numerics
 
     def test_simulated_again_it_is_the_same(self, recorded):
         assert "the same to the last bit" in replay.compared(replay.read(recorded[1])[1])
