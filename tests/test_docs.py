@@ -26,6 +26,7 @@ from sandbox.cli import app
 from sandbox.parameters import walk
 from sandbox.physics.coefficients import GOLF_DRAG, GOLF_LIFT, SOCCER_DRAG, SOCCER_LIFT
 from sandbox.physics.integrators import INTEGRATORS
+from sandbox.record import diverges
 
 ROOT = Path(__file__).resolve().parent.parent
 PHYSICS = (ROOT / "docs" / "physics.md").read_text("utf-8")
@@ -184,6 +185,11 @@ def test_code_of_the_readme_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch
         if language == "python":
             exec(text, names)
     assert names["run"].result["carry"] > 200
+    solutions = [solution.values["launch.angle"] for solution in names["aim"].solutions]
+    ((name, until),) = re.findall(r"such as\sthat of `(.+?)`, `golden.check\(.+?, until=(.+?)\)`", README)
+    chaotic = sandbox.simulate(sandbox.load(name))
+    assert (diverges(chaotic, float(until)), diverges(chaotic) is None) == (None, False)
+    assert f"# two: launch angles of {solutions[0]:.1f} and {solutions[1]:.1f} deg\n" in README
     assert names["Fan"]()(0.0, (6.0, 1.0), (0.0, 0.0), 0.0) == (0.0, 4.0)
 
 
