@@ -324,11 +324,14 @@ class App:
 
     def _reload(self) -> None:
         """The scene file was saved: aim by it, with the path as it was still drawn."""
-        before = self.shot
+        before, folder = self.shot, self.session.base.folder
         if self.trying(self.session.reload):
-            self.back_to_aiming()
-            self.view.clear()
-            self.before, self.stale = before, True
+            if self.session.base.folder != folder:
+                self._aim_anew()
+            else:
+                self.back_to_aiming()
+                self.view.clear()
+                self.before, self.stale = before, True
             self.tell(f"read {self.watched.file} again")
         elif self.message is not None:
             self.message = (self.message[0], True, 1e9)  # until it is mended
@@ -338,9 +341,13 @@ class App:
         if source.endswith(replay.SUFFIX):
             self.trying(lambda: self._open_replay(Path(source)))
         elif self.trying(lambda: self.session.open(source)):
-            self.back_to_aiming()
-            self._begin()
-            self.shot, self.awaited, self.stale = None, None, True
+            self._aim_anew()
+
+    def _aim_anew(self) -> None:
+        """The session is on another scene: aim in that."""
+        self.back_to_aiming()
+        self._begin()
+        self.shot, self.awaited, self.stale = None, None, True
 
     def _open_replay(self, path: Path) -> None:
         self.session, _ = replay.read(path)
@@ -354,6 +361,7 @@ class App:
         """Nothing of the scene before is left."""
         steady()
         self.view.clear()
+        self.pointer.let_go()
         self.view.menu = self.before = self.pointer.tape = None
         self.watched = Watch(self.session.file)
 

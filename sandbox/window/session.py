@@ -154,7 +154,7 @@ class Session:
     def _with(self, changes: Mapping[str, Any]) -> Scene:
         values = self.base.parameters.model_dump()
         parameters = declared.validate(type(self.base.parameters), values, "", changes, "")
-        return replace(self.scene, parameters=parameters)
+        return replace(self.base, parameters=parameters)
 
     def change(self, changes: Mapping[str, Any]) -> None:
         """Keep the changes."""
@@ -193,8 +193,11 @@ class Session:
         self.fresh = len(self.shots)
 
     def reload(self) -> None:
-        """Read the scene file again. What was changed here stays changed."""
+        """Read the scene file again. What was changed here stays changed, where it is still the same scene."""
         base = load(self.source)
+        if base.folder != self.base.folder:
+            self.open(self.source)
+            return
         before, self.base = self.base, base
         try:
             scene = self.changed({})

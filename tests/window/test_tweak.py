@@ -180,3 +180,20 @@ class TestSaving:
         self.wait(player)
         assert player.app.session.value("launch.angle") == 33.0
         assert player.app.session.value("launch.speed") == 70.0
+
+    def test_another_scene_in_the_file_is_opened_and_nothing_of_the_one_before_is_left(self, player, file):
+        player = player(str(file))
+        player.key(pygame.K_TAB)
+        player.app.change({"launch.angle": 33.0})
+        player.key(pygame.K_SPACE)
+        file.write_text('scene = "soccer"\n', encoding="utf-8")
+        self.wait(player)
+        app = player.app
+        assert app.message[0].startswith("read ")
+        assert app.session.title == "soccer"
+        assert app.shot.scene is app.session.scene
+        assert app.stage.shot is app.shot
+        assert app.playback is app.before is None
+        assert app.session.changes == {}
+        assert not app.session.shots
+        assert "wall.height" in {row.parameter.key for row in app.panel.rows}
