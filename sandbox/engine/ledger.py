@@ -20,6 +20,10 @@ _NODES = (0.04691007703066802, 0.23076534494715845, 0.5, 0.7692346550528415, 0.9
 _WEIGHTS = (0.11846344252809454, 0.23931433524968324, 0.28444444444444444, 0.23931433524968324, 0.11846344252809454)
 
 
+#: Words for causes whose class is named for its physics.
+CALLED = {"magnus": "lift"}
+
+
 @dataclass(frozen=True)
 class Ledger:
     """Energies in J: ``start`` and the sums of ``work``, ``impacts``, ``contacts`` and ``residue`` make up ``end``."""
@@ -95,11 +99,11 @@ def _book(mover: Mover, arc: Arc, work: dict[str, float], contacts: dict[str, fl
         applied = 0.0
         for force in ball.forces:
             fx, fy = force(t, (x, y), (vx, vy), spin)
-            work[_name(force)] += weight * h * (fx * vx + fy * vy)
+            work[cause(force)] += weight * h * (fx * vx + fy * vy)
             applied += fx * vx + fy * vy
         for torque in ball.torques:
             power = torque(t, (x, y), (vx, vy), spin) * spin
-            work[_name(torque)] += weight * h * power
+            work[cause(torque)] += weight * h * power
             applied += power
         if isinstance(contact, Contact) and contact.mode != RESTING:
             if contact.mode == PINNED:
@@ -113,6 +117,8 @@ def _book(mover: Mover, arc: Arc, work: dict[str, float], contacts: dict[str, fl
     return booked
 
 
-def _name(cause: object) -> str:
-    """``Drag`` is "drag"; a function goes by its own name."""
-    return str(getattr(cause, "__name__", type(cause).__name__)).lower()
+def cause(term: object) -> str:
+    """What people call a force or torque: ``SpinDecay`` is "spin decay"; a function goes by its own name."""
+    name = str(getattr(term, "__name__", type(term).__name__))
+    words = "".join(f" {c.lower()}" if c.isupper() else c for c in name).replace("_", " ").strip()
+    return CALLED.get(words, words)

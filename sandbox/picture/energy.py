@@ -1,4 +1,4 @@
-"""A strip chart of energy by cause: what the balls have along the run, and where the rest has gone."""
+"""A strip chart of energy by cause: what the balls have along the run, what was put in, and where the rest has gone."""
 
 from __future__ import annotations
 
@@ -16,8 +16,9 @@ from sandbox.engine.arc import Arc
 from sandbox.engine.bernstein import piece
 from sandbox.engine.ledger import Ledger, kinetic, ledger
 from sandbox.picture.palette import Colour, mix, palette
+from sandbox.picture.path import chip
 from sandbox.picture.sheet import CARD, Entry, Sheet, nice
-from sandbox.picture.vectors import CALLED, colour_of
+from sandbox.picture.vectors import colour_of
 
 ENERGY = palette("energy")
 
@@ -33,6 +34,8 @@ HITS, HARD = 12, 0.15
 BEFORE = 1e-9
 #: How dark what is lost is drawn.
 LOST = 0.42
+#: What was put in is hatched with lines this far apart, px on 720 rows.
+HATCH = 6
 
 
 #: Name, values in J over time, colour.
@@ -45,12 +48,22 @@ class Course:
 
     times: np.ndarray  # s
     has: dict[str, np.ndarray]  # "height", "speed" and "spin" of all balls
-    lost: dict[str, np.ndarray]  # to each cause until then; a cause that gives energy loses less than nothing
+    work: dict[str, np.ndarray]  # of each cause until then: positive what it put in, negative what it took
 
     @property
     def start(self) -> float:
         """All there is at the start, in J."""
         return float(sum(energy[0] for energy in self.has.values()))
+
+    @property
+    def taken(self) -> dict[str, np.ndarray]:
+        """What each cause has taken."""
+        return {name: np.maximum(-work, 0.0) for name, work in self.work.items()}
+
+    @property
+    def put_in(self) -> dict[str, np.ndarray]:
+        """What each cause has put in, as wind does: with the start it makes up what there is and what was taken."""
+        return {name: np.maximum(work, 0.0) for name, work in self.work.items()}
 
 
 def course(run: Any) -> Course:
@@ -79,7 +92,7 @@ def course(run: Any) -> Course:
     sums = {name: np.cumsum(energy) for name, energy in gained.items()}
     fallen = sums.pop("gravity", np.zeros(len(times)))
     has["height"] = fallen.max() - fallen
-    return Course(times, has, {name: -energy for name, energy in sums.items()})
+    return Course(times, has, sums)
 
 
 def hard_impacts(run: Any) -> list[float]:
@@ -98,7 +111,7 @@ def _names(run: Any) -> Callable[[str], str]:
         kind = name.split()[-1]
         if name in surfaces:
             return f"{kind}s" if kinds[kind] > 1 else name
-        return "balls" if set(name.split(" and ")) <= balls else CALLED.get(name, name)
+        return "balls" if set(name.split(" and ")) <= balls else name
 
     return called
 
@@ -128,14 +141,17 @@ def _cut(arc: Arc, a: float, b: float) -> Arc:
 
 
 def energy_chart(run: Any, size: tuple[int, int] = (1280, 720)) -> pygame.Surface:
-    """The course of a run's energy as bands over time: below what the balls have, above it what each cause took."""
+    """The course of a run's energy as bands over time: below what the balls have, above it what each cause took.
+
+    Where something put energy in, they reach above the start, and that part is hatched in its colour.
+    """
     sheet = Sheet(size, on_dark=True)
     sheet.surface.fill(ENERGY["ground"])
     energy = course(run)
-    bands = _bands(energy)
+    bands, given = _bands(energy), _given(energy)
     titles = [sheet.lettering.height(name) for name in ("large", "small")]
     top, bottom = sheet.frame.top + sum(titles) + 4 * sheet.gap, sheet.frame.bottom - sheet.card_height()
-    names = (f"{name} {joules(values[-1])}" for name, values, _ in bands)
+    names = (f"{name} {joules(values[-1])}" for name, values, _ in [*bands, *given])
     labels = max((sheet.lettering.width(name, "small", bold=True) for name in names), default=0) + 3 * sheet.gap
     total = sum((values for _, values, _ in bands), np.zeros(len(energy.times)))
     tall = bottom - top - sheet.lettering.height("small") - 3 * sheet.gap
@@ -155,33 +171,94 @@ def energy_chart(run: Any, size: tuple[int, int] = (1280, 720)) -> pygame.Surfac
         sheet.painter.line(list(zip(columns, edges[1], strict=True)), max(1.0, 1.2 * sheet.unit), ENERGY["ground"], 0.8)
         spots.append(np.column_stack([columns, (edges[0] + edges[1]) / 2, edges[0] - edges[1]]))
         foot = head
+    foot = np.full(len(energy.times), energy.start)
+    for _, values, colour in given:
+        head = foot + values
+        low, high = (plot.bottom - level * scale for level in (foot, head))
+        _hatch(sheet, columns, low, high, colour)
+        sheet.painter.line(list(zip(columns, high, strict=True)), max(1.0, 1.6 * sheet.unit), colour)
+        spots.append(np.column_stack([columns, high, low - high]))
+        foot = head
     _impacts(sheet, plot, run)
-    _name(sheet, plot, bands, spots)
-    sheet.headline("Where the energy goes", [f"{joules(energy.start)} at the start", _title(run)], sheet.frame.width)
-    entries: list[Entry] = [("at the start", joules(energy.start))]
-    for name, values, colour in bands:
-        share = 100 * values[-1] / max(float(total[-1]), 1e-12)
-        if share >= 0.05:
-            entries.append((name, f"{share:.1f} %", mix(colour, CARD["text"], 0.3)))
-    sheet.columns(bottom, entries)
+    _name(sheet, plot, [*bands, *given], spots)
+    if given:
+        _start(sheet, plot, plot.bottom - energy.start * scale, joules(energy.start))
+    sheet.headline("Where the energy goes", [_whole(energy, given), _title(run)], sheet.frame.width)
+    sheet.columns(bottom, _entries(energy, bands, given))
     return sheet.surface
 
 
+def _whole(energy: Course, given: Sequence[Band]) -> str:
+    """What the shares on the card are shares of."""
+    start, added = energy.start, [f"{joules(values[-1])} {name}" for name, values, _ in given]
+    if not added:
+        return f"shares of {joules(start)} at the start"
+    total = start + sum(float(values[-1]) for _, values, _ in given)
+    return f"shares of {joules(total)}: {joules(start)} at the start + {' + '.join(added)}"
+
+
+def _entries(energy: Course, bands: Sequence[Band], given: Sequence[Band]) -> list[Entry]:
+    """For the card: what there was and what was put in, in J, and as shares of both what is left and what was taken."""
+    entries: list[Entry] = [("at the start", joules(energy.start))]
+    entries += [(name, joules(values[-1]), mix(colour, CARD["text"], 0.3)) for name, values, colour in given]
+    total = max(sum(float(values[-1]) for _, values, _ in bands), 1e-12)
+    for name, values, colour in bands:
+        share = 100 * values[-1] / total
+        if share >= 0.05:
+            entries.append((name, f"{share:.1f} %", mix(colour, CARD["text"], 0.3)))
+    return entries
+
+
 def _bands(energy: Course) -> list[Band]:
-    """What the balls have, and what the largest causes took, the largest first; a gain shows as a higher sum."""
-    least = LEAST_SHARE * max(energy.start, 1e-12)
+    """What the balls have, and what the largest causes took, the largest first."""
+    least, colours = _least(energy), _colours(energy)
     bands = [(name, values, ENERGY[name]) for name, values in energy.has.items() if values.max() > least]
-    lost = {name: np.maximum(values, 0.0) for name, values in energy.lost.items()}
+    lost = energy.taken
     ordered = sorted(lost, key=lambda name: -lost[name].max())
     shown = [name for name in ordered[:MOST_CAUSES] if lost[name].max() > least]
-    surfaces = iter(ENERGY["surfaces"])
-    for name in shown:
-        colour = colour_of(name) if name in ("drag", "lift") else next(surfaces)
-        bands.append((name, lost[name], mix(colour, ENERGY["ground"], LOST)))
+    bands += [(name, lost[name], mix(colours[name], ENERGY["ground"], LOST)) for name in shown]
     rest = sum((lost[name] for name in ordered if name not in shown), np.zeros(len(energy.times)))
     if rest.max() > least:
         bands.append(("other", rest, ENERGY["other"]))
     return bands
+
+
+def _given(energy: Course) -> list[Band]:
+    """What was put in, named so."""
+    least, colours = _least(energy), _colours(energy)
+    given = {name: values for name, values in energy.put_in.items() if values.max() > least}
+    return [(f"put in by {name}", values, colours[name]) for name, values in given.items()]
+
+
+def _least(energy: Course) -> float:
+    """The least energy that is shown by itself, in J."""
+    return LEAST_SHARE * max(energy.start, 1e-12)
+
+
+def _colours(energy: Course) -> dict[str, Colour]:
+    """Of each cause, as in every other chart; another one only where two would look alike."""
+    colours: dict[str, Colour] = {}
+    for name in sorted(energy.work):
+        wanted = [ENERGY["cause"].get(name) or colour_of(name), *ENERGY["spare"]]
+        colours[name] = next((colour for colour in wanted if colour not in colours.values()), wanted[0])
+    return colours
+
+
+def _hatch(sheet: Sheet, columns: np.ndarray, low: np.ndarray, high: np.ndarray, colour: Colour) -> None:
+    """Upright lines between two curves in px."""
+    apart = HATCH * sheet.unit
+    for x in np.arange(columns[0] + apart, columns[-1], apart):
+        foot, head = (float(np.interp(x, columns, rows)) for rows in (low, high))
+        if foot - head >= 1.0:
+            sheet.painter.line([(x, foot), (x, head)], max(1.0, 1.6 * sheet.unit), colour)
+
+
+def _start(sheet: Sheet, plot: pygame.Rect, row: float, text: str) -> None:
+    """A dashed line at what there was at the start, which says so."""
+    unit = sheet.unit
+    sheet.painter.dashes([(plot.left, row), (plot.right, row)], max(1.0, 1.4 * unit), CARD["text"], 8 * unit, 5 * unit)
+    spots = [(plot.right - share * plot.width, row + 4 * unit, -1.0, 1.0) for share in (0.01, 0.2, 0.4, 0.6)]
+    chip(sheet, f"{text} at the start", spots)
 
 
 def _axes(sheet: Sheet, plot: pygame.Rect, duration: float, levels: Mapping[float, float]) -> None:

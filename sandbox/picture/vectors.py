@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from sandbox.engine.ledger import cause
 from sandbox.picture.palette import Colour, palette
 from sandbox.picture.sheet import CARD, Entry, Sheet
 
@@ -22,15 +23,6 @@ FORCE_WIDTH, VELOCITY_WIDTH = 4.2, 3.4
 SAMPLES = 60
 #: s over which the change of velocity is taken for what a surface does.
 STEP = 1e-4
-
-#: Words for causes whose class is named for its physics.
-CALLED = {"magnus": "lift"}
-
-
-def cause(force: object) -> str:
-    """``Drag`` is "drag"; a function goes by its own name."""
-    name = str(getattr(force, "__name__", type(force).__name__)).lower().replace("_", " ")
-    return CALLED.get(name, name)
 
 
 def colour_of(name: str) -> Colour:

@@ -72,14 +72,14 @@ def test_crossings_are_exact_and_one_sided():
 
 def test_ledger_closes_and_names_every_cause(bouncing):
     book = ledger(bouncing)
-    assert set(book.work) == {"gravity", "drag", "magnus", "spindecay"}
+    assert set(book.work) == {"gravity", "drag", "lift", "spin decay"}
     assert set(book.impacts) == {"floor"}
     assert set(book.contacts) == {"floor"}
     causes = sum(book.work.values()) + sum(book.impacts.values()) + sum(book.contacts.values())
     assert book.start + causes + book.residue == pytest.approx(book.end, abs=1e-12)
     assert book.start == pytest.approx(0.5 * 0.2 * 45.0 + 0.5 * 0.4 * 0.2 * 0.05**2 * 400.0)
     assert book.work["gravity"] == pytest.approx(0.2 * G * 0.95, abs=1e-6)
-    assert book.work["magnus"] == pytest.approx(0.0, abs=1e-12)
+    assert book.work["lift"] == pytest.approx(0.0, abs=1e-12)
     assert max(book.work["drag"], book.impacts["floor"], book.contacts["floor"]) < 0
     assert abs(book.residue) < 1e-6
 

@@ -7,9 +7,25 @@ import pytest
 
 import sandbox
 from sandbox.engine.ledger import ledger
+from sandbox.picture import energy
 from sandbox.picture.energy import course, energy_chart, joules
 
 RUNS = ["golf", "golf/putt", "basketball", "billiards/bank", "billiards/nine-ball-break", "soccer"]
+WINDY = "soccer/goal-kick-in-a-gale"
+
+
+@pytest.fixture
+def sheets(monkeypatch):
+    """The sheets of the charts that are drawn."""
+    drawn = []
+
+    class Kept(energy.Sheet):
+        def __init__(self, *args, **kwargs):
+            super().__init__(*args, **kwargs)
+            drawn.append(self)
+
+    monkeypatch.setattr(energy, "Sheet", Kept)
+    return drawn
 
 
 @cache
@@ -19,45 +35,54 @@ def run_of(name: str):
 
 @pytest.mark.parametrize("name", RUNS)
 def test_what_there_is_and_what_is_lost_add_up_at_all_times(name):
-    energy = course(run_of(name))
-    total = sum(energy.has.values()) + sum(energy.lost.values())
-    assert total == pytest.approx(np.full(len(energy.times), energy.start), rel=1e-6)
+    spent = course(run_of(name))
+    total = sum(spent.has.values()) - sum(spent.work.values())
+    assert total == pytest.approx(np.full(len(spent.times), spent.start), rel=1e-6)
+
+
+def test_with_what_the_wind_put_in_the_balance_holds():
+    """In still air lift does no work; through its curving path it hands a kick what the wind has."""
+    spent = course(run_of(WINDY))
+    there = sum(spent.has.values()) + sum(spent.taken.values())
+    assert there == pytest.approx(spent.start + sum(spent.put_in.values()), rel=1e-6)
+    assert spent.put_in["lift"].max() > 0.15 * spent.start
+    assert max(values.max() for values in course(run_of("soccer")).put_in.values()) < 1e-6 * spent.start
 
 
 @pytest.mark.parametrize("name", RUNS)
 def test_each_cause_takes_in_the_end_what_the_ledger_says(name):
     run = run_of(name)
-    energy, book = course(run), ledger(run)
+    spent, book = course(run), ledger(run)
     booked = sum(sum(kind.values()) for kind in (book.work, book.impacts, book.contacts)) - book.work.get(
         "gravity", 0.0
     )
-    pockets = energy.lost.get("pockets", np.zeros(1))[-1]
-    assert sum(lost[-1] for lost in energy.lost.values()) - pockets == pytest.approx(-booked, rel=1e-9)
+    pockets = spent.work.get("pockets", np.zeros(1))[-1]
+    assert sum(work[-1] for work in spent.work.values()) - pockets == pytest.approx(booked, rel=1e-9)
 
 
 def test_drag_takes_more_and_more():
-    lost = course(run_of("golf")).lost["drag"]
+    lost = course(run_of("golf")).taken["drag"]
     assert np.all(np.diff(lost) >= -1e-12)
     assert lost[-1] > 100  # J, of a drive's 134
 
 
 def test_an_impact_takes_its_energy_at_once():
-    energy = course(run_of("basketball"))
+    spent = course(run_of("basketball"))
     event = next(event for event in run_of("basketball").events if event.kind == "impact")
-    before, at = (int(np.argmin(abs(energy.times - t))) for t in (event.t - 1e-9, event.t))
-    jump = energy.lost["floor"][at] - energy.lost["floor"][before]
-    assert jump == pytest.approx(energy.lost["floor"][at], rel=1e-6)
+    before, at = (int(np.argmin(abs(spent.times - t))) for t in (event.t - 1e-9, event.t))
+    jump = spent.taken["floor"][at] - spent.taken["floor"][before]
+    assert jump == pytest.approx(spent.taken["floor"][at], rel=1e-6)
     assert jump > 1.0  # J
 
 
 def test_surfaces_that_are_alike_and_pairs_of_balls_stand_together():
-    assert set(course(run_of("billiards/nine-ball-break")).lost) >= {"cloth", "cushions", "balls"}
+    assert set(course(run_of("billiards/nine-ball-break")).taken) >= {"cloth", "cushions", "balls"}
 
 
 def test_a_caught_ball_takes_its_energy_into_the_pocket():
-    energy = course(run_of("billiards/bank"))
-    assert energy.lost["pockets"][-1] > 0
-    assert energy.has["speed"][-1] == pytest.approx(0.0, abs=1e-12)
+    spent = course(run_of("billiards/bank"))
+    assert spent.taken["pockets"][-1] > 0
+    assert spent.has["speed"][-1] == pytest.approx(0.0, abs=1e-12)
 
 
 @pytest.mark.parametrize("size", [(640, 360), (1280, 720), (1920, 1080)], ids=str)
@@ -70,20 +95,11 @@ def test_a_caught_ball_takes_its_energy_into_the_pocket():
         ("basketball", {}),
         ("billiards/nine-ball-break", {}),
         ("soccer-curl", {}),
+        (WINDY, {}),
     ],
     ids=str,
 )
-def test_the_chart_is_legible(name, overrides, size, monkeypatch):
-    from sandbox.picture import energy
-
-    sheets = []
-
-    class Kept(energy.Sheet):
-        def __init__(self, *args, **kwargs):
-            super().__init__(*args, **kwargs)
-            sheets.append(self)
-
-    monkeypatch.setattr(energy, "Sheet", Kept)
+def test_the_chart_is_legible(name, overrides, size, sheets):
     run = run_of(name) if not overrides else sandbox.simulate(sandbox.load(name, overrides))
     assert energy_chart(run, size).get_size() == size
     (sheet,) = sheets
@@ -93,8 +109,25 @@ def test_the_chart_is_legible(name, overrides, size, monkeypatch):
             assert not rect.colliderect(other), f"{text} overlaps {other_text}"
 
 
+def test_a_chart_says_what_was_put_in_and_its_shares_are_of_one_whole(sheets):
+    energy_chart(run_of(WINDY))
+    texts = [text for text, _ in sheets[0].written]
+    assert any(text.startswith("shares of 204 J: 195 J at the start + 8.65 J put in by lift") for text in texts)
+    shares = [float(text.removesuffix(" %")) for text in texts if text.endswith(" %")]
+    assert sum(shares) == pytest.approx(100.0, abs=0.05 * len(shares))
+
+
+def test_a_cause_has_its_words_and_its_own_colour_in_every_chart():
+    bands = {
+        name: {band[0]: band[2] for band in energy._bands(course(run_of(name)))}
+        for name in ("golf/pond", "golf/splash")
+    }
+    assert bands["golf/pond"]["spin decay"] == bands["golf/splash"]["spin decay"]
+    assert bands["golf/pond"]["spin decay"] != bands["golf/pond"]["green"]
+
+
 @pytest.mark.parametrize(
-    ("energy", "text"), [(0.0, "0 J"), (0.0123, "12.3 mJ"), (1.5, "1.5 J"), (134.5, "134 J"), (12345.0, "12.3 kJ")]
+    ("amount", "text"), [(0.0, "0 J"), (0.0123, "12.3 mJ"), (1.5, "1.5 J"), (134.5, "134 J"), (12345.0, "12.3 kJ")]
 )
-def test_joules(energy, text):
-    assert joules(energy) == text
+def test_joules(amount, text):
+    assert joules(amount) == text

@@ -6,8 +6,9 @@ from math import hypot
 import pytest
 
 import sandbox
+from sandbox.engine.ledger import cause
 from sandbox.picture.sheet import Sheet
-from sandbox.picture.vectors import Vectors, cause, colour_of, newtons
+from sandbox.picture.vectors import Vectors, colour_of, newtons
 
 
 @cache
@@ -61,9 +62,9 @@ def test_causes_have_names_and_colours():
     def fan_of_mine():
         pass
 
-    assert (cause(SideWind()), cause(fan_of_mine)) == ("sidewind", "fan of mine")
-    assert colour_of("drag") != colour_of("lift") != colour_of("sidewind")
-    assert colour_of("sidewind") == colour_of("sidewind")
+    assert (cause(SideWind()), cause(fan_of_mine)) == ("side wind", "fan of mine")
+    assert colour_of("drag") != colour_of("lift") != colour_of("side wind")
+    assert colour_of("side wind") == colour_of("side wind")
 
 
 @pytest.mark.parametrize(
