@@ -35,6 +35,8 @@ WIDEST_VIEW = 64.0
 SIGHT = 0.5
 #: s of path that the trail behind the ball shows.
 TRAIL = 1.4
+#: Carry is measured at launch height; a ball that is then at least this far above the ground (px on 720 rows) shows so.
+LEAST_DROP = 14
 #: Without air, and with gravity below this in m/s^2, it is the Moon.
 LEAST_GRAVITY = 5.0
 #: The path is sampled this often in s; of a long run, in so many pieces.
@@ -246,7 +248,23 @@ class Picture:
             value = self.run.result[name]
             if value and abs(value) * camera.scale > 4:
                 text = f"{name} {metres(value)}   {yards(value)}"
+                if name == "carry" and self._carry_ends_in_the_air(sheet, camera, value):
+                    text += "   at launch height"
                 sheet.dimension(text, row, start, camera.pixel(value, 0)[0], colour)
+
+    def _carry_ends_in_the_air(self, sheet: Sheet, camera: Camera, carry: float) -> bool:
+        """Whether the ball is clearly above lower ground where its carry (m) ends; then this place is marked."""
+        course = self.poster_course
+        x, y = self._lifted(course, camera, np.array([(carry, self.path[0, 2])]))[0]
+        ground = camera.pixel(carry, course.height(carry))[1]
+        if ground - y < LEAST_DROP * self.unit:
+            return False
+        end = self.carry_row - 0.6 * sheet.gap
+        sheet.painter.dashes([(x, y), (x, end)], 1.3 * self.unit, CARD["accent"], 4 * self.unit, 4 * self.unit)
+        sheet.painter.disc((x, y), 4.2 * self.unit, TRACE["rim"], 0.8)
+        sheet.painter.disc((x, y), 3.0 * self.unit, CARD["accent"])
+        sheet.labels.take_path([(x, y), (x, (y + ground) / 2), (x, ground)], 4 * self.unit)
+        return True
 
     def numbers(self) -> list[tuple[str, str]]:
         """What the poster's card says."""

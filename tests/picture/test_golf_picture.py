@@ -154,6 +154,14 @@ def test_a_far_pin_does_not_make_the_path_too_small_to_see():
     assert np.ptp(picture.trace[:, 0]) > 0.7 * 640
 
 
+@pytest.mark.parametrize(("name", "said"), [("golf/pond", True), ("golf", False), ("golf/moon", False)])
+def test_where_carry_ends_above_the_ground_a_poster_says_why(name, said):
+    scene = sandbox.load(name)
+    picture = scene.picture(sandbox.simulate(scene), (640, 360))
+    picture.poster()
+    assert ("at launch height" in notes(picture)) == said
+
+
 def test_the_ball_turns():
     picture = drawn({"launch.speed": 2.0, "launch.angle": 0.0, "launch.spin": 0.0}, (1280, 720))
     pictures = [picture.frame(t) for t in (0.5, 0.6)]
