@@ -7,9 +7,11 @@ A scene offers them beside its parameters::
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any
+
+from sandbox.parameters import Group, every_key, nearest, no_such_result
 
 
 @dataclass(frozen=True)
@@ -54,8 +56,42 @@ class Controls:
     #: begins alike.
     goes_on: Callable[[Any, Any], Mapping[str, Any]] | None = None
 
+    def mistake(self, schema: type[Group]) -> str | None:
+        """What is wrong with these controls for a scene with such parameters, in a line; None if nothing is."""
+        for name, kind in (("sliders", str), ("spins", Spin), ("spread", Spread)):
+            entries = getattr(self, name)
+            if not isinstance(entries, tuple | list) or not all(isinstance(entry, kind) for entry in entries):
+                what = "keys" if kind is str else kind.__name__
+                return f"{name} = {entries!r}: must be a tuple of {what}; one alone has a comma after it"
+        if self.tells is not None and (not isinstance(self.tells, tuple | list) or len(self.tells) != 2):
+            return f'tells = {self.tells!r}: must be a result and its unit, such as ("apex", "m")'
+        known = list(every_key(schema))
+        for name, key in self._keys():
+            if key not in known:
+                near = nearest(key, known)
+                return f'{name} "{key}": unknown key' + (f"; did you mean {near}?" if near else "")
+        return None
+
+    def missing(self, result: Mapping[str, Any]) -> str | None:
+        """Which entry that these controls name a result lacks, in a line; None if none."""
+        if self.scores and self.scores not in result:
+            return f'scores "{self.scores}": {no_such_result(self.scores, tuple(result))}'
+        if self.tells is not None and self.tells[0] not in result:
+            return f'tells "{self.tells[0]}": {no_such_result(self.tells[0], tuple(result))}'
+        return None
+
+    def _keys(self) -> Iterator[tuple[str, str]]:
+        """Each field with the key of a parameter that it names; a scene may lack those that are not its own choice."""
+        plain = Controls()
+        yield from (("speed", self.speed),) if self.speed != plain.speed else ()
+        yield from (("angle", self.angle),) if self.angle != plain.angle else ()
+        yield from (("spins", spin.key) for spin in self.spins)
+        yield from (("also", key) for key in self.also)
+        yield from (("sliders", key) for key in self.sliders)
+        yield from (("spread", spread.key) for spread in self.spread)
+
 
 def controls_of(module: Any) -> Controls:
     """The controls of a scene's module; those of a plain launch where it has none."""
-    found = getattr(module, "CONTROLS", None)
-    return found if isinstance(found, Controls) else Controls()
+    found: Controls = getattr(module, "CONTROLS", Controls())
+    return found

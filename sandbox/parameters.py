@@ -19,7 +19,7 @@ import difflib
 import json
 import math
 import tomllib
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sized
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence, Sized
 from dataclasses import dataclass
 from numbers import Real
 from pathlib import Path
@@ -279,6 +279,17 @@ def _chosen(field: FieldInfo, inner: type[Group], table: Any) -> bool:
     return (word or getattr(field.default, tag)) in get_args(inner.model_fields[tag].annotation)
 
 
+def every_key(schema: type[Group], prefix: str = "") -> Iterator[str]:
+    """The dotted key of every single parameter, whichever groups are chosen; a list of groups is one parameter."""
+    for name, field in schema.model_fields.items():
+        inner = groups_of(field.annotation)
+        if not inner or get_origin(field.annotation) is list:
+            yield prefix + name
+        else:
+            for chosen in inner:
+                yield from every_key(chosen, f"{prefix}{name}.")
+
+
 def json_schema(schema: type[Group], scene: str) -> dict[str, Any]:
     """JSON schema of the scene file of ``scene``; numbers may be strings with a unit."""
     body = _relaxed(schema.model_json_schema())
@@ -413,7 +424,7 @@ def _without_leftovers(schema: type[Group], tables: dict[str, Any], changes: Map
 # ---------------------------------------------------------------------------------------------------------------------
 
 
-def nearest(word: str, known: list[str]) -> str | None:
+def nearest(word: str, known: Sequence[str]) -> str | None:
     """The known dotted key most like ``word``: in the same group, or by its last part anywhere; None if none is."""
     inside, _, last = word.rpartition(".")
     anywhere = {key.rpartition(".")[2]: key for key in reversed(known)}
@@ -422,6 +433,12 @@ def nearest(word: str, known: list[str]) -> str | None:
         for found in difflib.get_close_matches(last, among, n=1, cutoff=cutoff):
             return among[found]
     return None
+
+
+def no_such_result(name: str, known: Sequence[str]) -> str:
+    """What there is to say of an entry of a result that is not there."""
+    near = nearest(name, known)
+    return "no such result; " + (f"did you mean {near}?" if near else f"there are {', '.join(known)}")
 
 
 def _explained(

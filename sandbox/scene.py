@@ -25,6 +25,7 @@ from typing import TYPE_CHECKING, Any
 
 from sandbox import parameters as declared
 from sandbox import resources
+from sandbox.controls import Controls, controls_of
 from sandbox.errors import RequestError, RunError
 from sandbox.files import reason
 
@@ -108,6 +109,9 @@ class Scene:
         result = self.module.result(run, self.parameters)
         if not isinstance(result, dict):
             raise self._wrong("result", "a dict", result)
+        missing = controls_of(self.module).missing(result)
+        if missing is not None:
+            raise RunError(f"{_shown(self.folder / 'scene.py')}: CONTROLS {missing}")
         return result
 
     def card(self, result: dict[str, Any]) -> list[tuple[str, str]]:
@@ -454,6 +458,12 @@ def _parameters_class(folder: Path) -> type[declared.Group]:
         raise RequestError(
             f'{folder / "scene.py"}: Parameters needs a line accuracy: Accuracy = group(Accuracy(), "...")'
         )
+    controls = getattr(module, "CONTROLS", Controls())
+    if not isinstance(controls, Controls):
+        raise RequestError(f"{folder / 'scene.py'}: CONTROLS must be a sandbox.controls.Controls")
+    mistake = controls.mistake(parameters)
+    if mistake is not None:
+        raise RequestError(f"{folder / 'scene.py'}: CONTROLS {mistake}")
     return parameters
 
 

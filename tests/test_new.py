@@ -318,6 +318,18 @@ def test_a_failure_shows_the_users_lines_and_nothing_of_ours(
         ("scene.py", "return 0.0, self.fan.push", "0.0, self.fan.push", "must return"),
         ("scene.py", "return 0.0, self.fan.push", "return self.fan.push", "must return"),
         ("scene.py", "velocity: Any, spin: Any)", "velocity: Any)", "is called with"),
+        ("scene.py", "CONTROLS = Controls(", "CONTROLS = dict(", "CONTROLS must be a sandbox.controls.Controls"),
+        (
+            "scene.py",
+            'sliders=("launch.height"',
+            'sliders=("launch.hight"',
+            f'{NAME}/scene.py: CONTROLS sliders "launch.hight": unknown key; did you mean launch.height?',
+        ),
+        ("scene.py", "strongest=20.0", 'speed="launch.sped"', 'CONTROLS speed "launch.sped": unknown key; did'),
+        ("scene.py", '(Spin("launch.spin", 20.0),)', '(Spin("launch.spin", 20.0))', "CONTROLS spins = Spin("),
+        ("scene.py", 'scores="hit"', 'scores="hitt"', 'CONTROLS scores "hitt": no such result; did you mean hit?'),
+        ("scene.py", 'scores="hit"', 'tells=("apx", "m")', 'CONTROLS tells "apx": no such result; did you mean apex?'),
+        ("scene.py", 'scores="hit"', 'tells="apex"', "CONTROLS tells = 'apex': must be a result and its unit"),
     ],
 )
 def test_what_is_handed_back_wrongly_is_said_in_a_line(call, scene: Path, file: str, old: str, new: str, expected: str):

@@ -20,6 +20,7 @@ from sandbox.parameters import (
     Quantity,
     choice,
     either,
+    every_key,
     group,
     groups,
     json_schema,
@@ -422,6 +423,12 @@ def test_walk_gives_each_parameter_with_its_declaration():
 
 def test_every_walked_key_is_a_known_key():
     assert {parameter.key for parameter in walk(Parameters())} <= set(known_keys(Parameters))
+
+
+def test_every_key_is_one_that_some_choice_has_and_no_group():
+    keys = list(every_key(Parameters))
+    assert {"gravity", "ball.drag.coefficient", "ball.drag.critical", "air.wind", "balls"} <= set(keys)
+    assert not {"ball", "ball.drag", "balls.x", "ball.drag.spin"} & set(keys)
 
 
 def _properties(schema: dict[str, Any], *path: str) -> dict[str, Any]:

@@ -333,9 +333,7 @@ class _Shots:
             return
         for target in self.targets:
             if target.name not in result:
-                near = declared.nearest(target.name, list(result))
-                hint = f"did you mean {near}?" if near else f"there are {', '.join(result)}"
-                raise RequestError(f"--target {target.name}: no such result; {hint}")
+                raise RequestError(f"--target {target.name}: {declared.no_such_result(target.name, tuple(result))}")
             value = result[target.name]
             if isinstance(value, bool) and not isinstance(target.value, bool):
                 raise RequestError(f"--target {target.name}: is true or false; write {target.name}=true")

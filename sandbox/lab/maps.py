@@ -55,12 +55,11 @@ def check_plot(plan: Plan, of: str | None) -> None:
         raise RequestError("--plot needs two values or more along each parameter")
     first = records(plan, 0, 1)[0]
     if of is not None and of not in first and not first["error"]:
-        raise RequestError(_no_such(of, list(first)))
+        raise RequestError(_no_such(of, first))
 
 
-def _no_such(name: str, there: list[str]) -> str:
-    near = declared.nearest(name, there)
-    return f"--of {name}: no such result; " + (f"did you mean {near}?" if near else f"there are {', '.join(there)}")
+def _no_such(name: str, columns: Iterable[str]) -> str:
+    return f"--of {name}: {declared.no_such_result(name, [each for each in columns if each != 'error'])}"
 
 
 def draw_sweep(plan: Plan, file: Path, path: Path, of: str | None = None) -> None:
