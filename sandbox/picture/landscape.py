@@ -10,6 +10,7 @@ import pygame
 
 from sandbox.picture.painter import blank, from_colours, from_coverage
 from sandbox.picture.palette import mix
+from sandbox.picture.sheet import rows_of
 
 #: How far each layer moves when the eye moves by 1 px: the far hills hardly, the near trees most.
 CLOUDS, HILLS, TREES = 0.01, (0.02, 0.04, 0.08), 0.16
@@ -24,7 +25,7 @@ class Landscape:
     def __init__(self, size: tuple[int, int], horizon: int, colours: dict[str, Any], seed: int = 7):
         self.size, self.horizon, self.colours = size, horizon, colours
         self.random = np.random.default_rng(seed)
-        self.unit = size[1] / 720
+        self.unit = rows_of(size) / 720
         self.width = 2 * size[0]
         self.sky = self._sky()
         self.layers = [(self._stars() if "star" in colours else self._clouds(), CLOUDS)]

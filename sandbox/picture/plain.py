@@ -17,7 +17,7 @@ from sandbox.picture.ghosts import Ghost, draw_ghost, draw_in_frame, ghosts_of
 from sandbox.picture.painter import Painter, blank, from_colours
 from sandbox.picture.palette import palette
 from sandbox.picture.path import Path, draw_trace
-from sandbox.picture.sheet import Sheet, metres
+from sandbox.picture.sheet import Sheet, metres, rows_of
 
 COLOURS, TRACES = palette("plain"), palette("trace")["colours"]
 #: Of a ball alone, and of several, each in the colour of its path.
@@ -35,7 +35,8 @@ class Picture:
     ):
         self.run, self.parameters, self.size = run, parameters, size
         self.ghosts = ghosts_of(Picture, ghosts or {}, size)
-        self.unit = size[1] / 720  # what 1 px is on a picture of 720 rows
+        self.rows = rows_of(size)
+        self.unit = self.rows / 720  # what 1 px is on a picture of 720 rows
         self.paths = [Path(run, ball.name) for ball in run.setup.balls]
         self.several = len(self.paths) > 1
         sheet = Sheet(size)
@@ -74,7 +75,7 @@ class Picture:
                 draw_trace(sheet, self.camera.pixels(past), TRACES[i % len(TRACES)])
         notes = [ghost.note if over else f"beside {ghost.label}" for ghost in self.ghosts]
         if not self.several:
-            (path,), radius = self.paths, max(self.paths[0].radius * self.camera.scale, mark_radius(self.size[1]))
+            (path,), radius = self.paths, max(self.paths[0].radius * self.camera.scale, mark_radius(self.rows))
             every, times = path.even_times(self.camera, radius)
             for s in (time for time in times if time < t):
                 self._ball(sheet.painter, self.camera, s, 0, radius)
@@ -146,7 +147,7 @@ class Picture:
     def draw_balls(self, painter: Painter, camera: Camera, t: float) -> None:
         """What moves."""
         for i, path in enumerate(self.paths):
-            self._ball(painter, camera, t, i, max(path.radius * camera.scale, least_radius(self.size[1])))
+            self._ball(painter, camera, t, i, max(path.radius * camera.scale, least_radius(self.rows)))
 
     def _ball(self, painter: Painter, camera: Camera, t: float, i: int, radius: float) -> None:
         name = self.paths[i].name

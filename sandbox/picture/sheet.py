@@ -23,12 +23,22 @@ MARGIN = 0.05
 YARD = 0.9144  # m
 #: What a ruler's second row may count, in m.
 UNITS = {"yd": YARD, "ft": YARD / 3}
+#: Letters and lines go with a picture's height; where it is narrower than this, width over height, with its width.
+SQUAREST = 4 / 3
 #: Under so many rows a ruler has no second row of figures.
 ROWS_FOR_YARDS = 480
 
 
+def rows_of(size: tuple[int, int]) -> int:
+    """The rows in px that letters and lines of a picture are made for: its own, or fewer where it is narrow."""
+    width, height = size
+    return min(height, round(width / SQUAREST))
+
+
 class Sheet:
     """A surface of ``size`` px with its painter and lettering; ``unit`` is what 1 px is on a picture of 720 rows.
+
+    ``rows`` is how many it counts for: a tall picture for fewer than it has.
 
     ``ink``, ``quiet_ink`` and ``wind_ink`` are the colours of what stands straight on the picture, whose ground may be
     dark.
@@ -37,13 +47,14 @@ class Sheet:
     def __init__(self, size: tuple[int, int], on_dark: bool = False, surface: pygame.Surface | None = None):
         """``surface`` is drawn on where there is one, of that size, and else a new one."""
         width, height = size
-        self.size, self.unit = size, height / 720
+        self.size, self.rows = size, rows_of(size)
+        self.unit = self.rows / 720
         self.ink, self.quiet_ink = (CARD["text"], CARD["quiet"]) if on_dark else (CARD["ink"], CARD["ink_quiet"])
         self.wind_ink = palette("force")["wind"] if on_dark else CARD["wind"]
         self.gap = max(3, round(6 * self.unit))
         self.surface = blank(size) if surface is None else surface
         self.painter = Painter(self.surface)
-        self.lettering = Lettering(height)
+        self.lettering = Lettering(self.rows)
         self.frame = pygame.Rect(0, 0, width, height).inflate(-2 * ceil(MARGIN * width), -2 * ceil(MARGIN * height))
         self.labels = Labels(self.frame, self.gap)
         self.written: list[tuple[str, pygame.Rect]] = []
@@ -76,7 +87,8 @@ class Sheet:
 
         Notes for which there is no room are left out, the last first.
         """
-        size = "large" if self.lettering.width(text, "large", bold=True) <= room else "medium"
+        fitting = (size for size in ("large", "medium") if self.lettering.width(text, size, bold=True) <= room)
+        size = next(fitting, "small")
         rect = self.write(text, size, self.frame.topleft, self.ink, bold=True)
         lines = ["   ·   ".join(notes[:count]) for count in range(len(notes), 0, -1)]
         line = next((line for line in lines if self.lettering.width(line, "small") <= room), "")
@@ -127,7 +139,7 @@ class Sheet:
     def ruler_heights(self) -> tuple[int, int]:
         """What the ruler takes above and below its line, in px."""
         figures = self.lettering.height("small") + round(8 * self.unit)
-        return figures, figures if self.size[1] >= ROWS_FOR_YARDS else 0
+        return figures, figures if self.rows >= ROWS_FOR_YARDS else 0
 
     def ruler(self, camera: Camera, row: float, below: str = "yd") -> None:
         """A ruler along x over the frame's width, in metres and, where there is room, in another unit below."""
@@ -135,7 +147,7 @@ class Sheet:
         y = round(row)
         self.surface.fill(CARD["rule"], (self.frame.left, y, self.frame.width, thin))
         self._scale(camera, y, thin, "m", 1.0, upward=True)
-        if self.size[1] >= ROWS_FOR_YARDS:
+        if self.rows >= ROWS_FOR_YARDS:
             self._scale(camera, y, thin, below, UNITS[below], upward=False)
 
     def _scale(self, camera: Camera, row: int, thin: int, unit: str, metre: float, upward: bool) -> None:

@@ -16,6 +16,7 @@ from sandbox.picture.camera import Camera
 from sandbox.picture.depth import Eye
 from sandbox.picture.painter import Painter, blank, from_colours
 from sandbox.picture.palette import Colour, mix, palette
+from sandbox.picture.sheet import rows_of
 
 from .scene import board, rims
 
@@ -49,7 +50,7 @@ class Hall:
 
     def __init__(self, parameters: Any, size: tuple[int, int], base: int):
         self.parameters, self.size, self.base = parameters, size, base
-        self.unit = size[1] / 720
+        self.unit = rows_of(size) / 720
         self.level = base - LEVEL * self.unit
         self.foot = round(self.level + LEVEL * self.unit * FAR)  # where the wall meets the floor
         self.hoop = parameters.hoop.distance, parameters.hoop.height
@@ -210,7 +211,7 @@ def _crowd(size: tuple[int, int], foot: int) -> pygame.Surface:
 
     As wide as the picture, down to row ``foot``; the ends join.
     """
-    width, unit = size[0], size[1] / 720
+    width, unit = size[0], rows_of(size) / 720
     crowd = blank((width, foot), transparent=True)
     painter, random = Painter(crowd), np.random.default_rng(3)
     tall, apart = round(50 * unit), 24 * unit

@@ -56,7 +56,7 @@ class Picture:
         self.radius = self.path.radius
         self.wind: tuple[float, float] = parameters.air.wind
         sheet = Sheet(size)
-        self.unit = sheet.unit
+        self.unit, self.rows = sheet.unit, sheet.rows
         small = sheet.lettering.height("small")
         above, below = sheet.ruler_heights()
         self.card_row = sheet.frame.bottom - sheet.card_height(len(self.ghosts))
@@ -114,7 +114,7 @@ class Picture:
     @property
     def _smallest(self) -> float:
         """Least radius of the ball in px."""
-        return least_radius(self.size[1])
+        return least_radius(self.rows)
 
     @cached_property
     def _figure(self) -> Any:
@@ -177,7 +177,7 @@ class Picture:
             notes.append(f"the ring is {roughly(hall.hoop[0])} away")
         elif (factor := hall.enlarged(camera)) > 1:
             notes.append(f"ring and board drawn {times(factor)} their size")
-        if (factor := enlarged(self.radius, camera, self.size[1])) > 1:
+        if (factor := enlarged(self.radius, camera, self.rows)) > 1:
             notes.append(f"ball drawn {times(factor)} its size")
         sheet.headline(self.verdict(), notes, right - sheet.frame.left - 2 * sheet.gap)
         sheet.columns(self.card_row, self.numbers(), [ghost.row for ghost in self.ghosts])

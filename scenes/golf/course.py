@@ -14,6 +14,7 @@ from sandbox.picture.camera import Box, Camera
 from sandbox.picture.landscape import Landscape
 from sandbox.picture.painter import OVERSAMPLING, Painter, blank
 from sandbox.picture.palette import Colour, mix, palette
+from sandbox.picture.sheet import rows_of
 
 GOLF, CARD = palette("golf"), palette("card")
 MOON = GOLF | palette("moon")
@@ -33,7 +34,7 @@ class Course:
     def __init__(self, setup: Any, pin: float, size: tuple[int, int], base: int, moon: bool = False):
         self.pin, self.size, self.base, self.moon = pin, size, base, moon
         self.colours = MOON if moon else GOLF
-        self.unit = size[1] / 720
+        self.unit = rows_of(size) / 720
         self.horizon = base - round(FIELD * self.unit)
         turf = [s for s in setup.surfaces if s.name != "cup"]
         line = sorted({point for s in turf for point in (s.shape.a, s.shape.b)})

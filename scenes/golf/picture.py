@@ -58,7 +58,7 @@ class Picture:
         self.wind: tuple[float, float] = parameters.air.wind
         self.moon = parameters.air.density == 0.0 and parameters.gravity < LEAST_GRAVITY
         sheet = Sheet(size)
-        self.unit = sheet.unit
+        self.unit, self.rows = sheet.unit, sheet.rows
         # Rows in px, from the bottom up: the card, the ruler, the distances; and where the sky is free.
         small = sheet.lettering.height("small")
         above, below = sheet.ruler_heights()
@@ -110,7 +110,7 @@ class Picture:
         box = Box(left, bottom, right, max(top, hill))
         camera = Camera.fit(box, area)
         rise, room = (box.top - box.bottom) * camera.scale, area.bottom - area.top
-        if enlarged(self.radius, camera, self.size[1]) > 3 and LEAST_RISE * self.unit < rise < 0.45 * room:
+        if enlarged(self.radius, camera, self.rows) > 3 and LEAST_RISE * self.unit < rise < 0.45 * room:
             return Camera.fit(box, area, stretch=2.0)
         return camera
 
@@ -167,7 +167,7 @@ class Picture:
         notes = [f"a ball every {every:g} s"]
         if camera.stretch != 1:
             notes.append(f"heights drawn {camera.stretch:g} times as large as lengths")
-        if (factor := enlarged(self.radius, camera, self.size[1])) > 1:
+        if (factor := enlarged(self.radius, camera, self.rows)) > 1:
             notes.append(f"ball drawn {times(factor)} its size")
         notes = [ghost.note for ghost in self.ghosts] + notes
         sheet.headline(self.verdict(), notes, right - sheet.frame.left - 2 * sheet.gap)
@@ -177,7 +177,7 @@ class Picture:
     @property
     def _smallest(self) -> float:
         """Least radius of the ball in px."""
-        return least_radius(self.size[1])
+        return least_radius(self.rows)
 
     def _apex(self, sheet: Sheet, camera: Camera) -> None:
         """The highest point: a dashed line down to the ground, and its height over the start."""
@@ -197,7 +197,7 @@ class Picture:
         """Path in px for points in m, raised so that balls drawn too large along it lie on the ground and not in it."""
         path = camera.pixels(points)
         on_ground = points[:, 1] > np.interp(points[:, 0], *course.line.T)
-        path[:, 1] -= np.where(on_ground, max(0.0, mark_radius(self.size[1]) - self.radius * camera.scale), 0.0)
+        path[:, 1] -= np.where(on_ground, max(0.0, mark_radius(self.rows) - self.radius * camera.scale), 0.0)
         return path
 
     def _spot(self, course: Course, camera: Camera, x: float, y: float, radius: float) -> tuple[float, float]:
@@ -213,7 +213,7 @@ class Picture:
         seen = run.result["apex"] * camera.scale * camera.stretch > 60 * self.unit
         every = nice(max(flight if flight and seen else run.duration, 0.01) / 14)
         true = self.radius * camera.scale
-        radius, largest = max(true, mark_radius(self.size[1])), max(true, self._smallest)
+        radius, largest = max(true, mark_radius(self.rows)), max(true, self._smallest)
         x, y = run.state(self.name, run.duration)[:2]
         end = self._spot(course, camera, x, y, largest)
         last = (-1e9, 0.0)

@@ -51,7 +51,7 @@ class Picture:
         self.wind: tuple[float, float] = parameters.air.wind
         self.pitch = Pitch(parameters, size)
         sheet = Sheet(size)
-        self.unit = sheet.unit
+        self.unit, self.rows = sheet.unit, sheet.rows
         self.card_row = sheet.frame.bottom - sheet.card_height(len(self.ghosts))
         self.bar_row = self.card_row - 2.0 * sheet.gap
         self.top_row = (
@@ -131,7 +131,7 @@ class Picture:
         notes = [*(ghost.note for ghost in self.ghosts), f"a ball every {every:g} s"]
         if (factor := pitch.enlarged(camera)) > 1:
             notes.append(f"players drawn {times(factor)} their size")
-        if (factor := enlarged(self.radius, camera, self.size[1])) > 1:
+        if (factor := enlarged(self.radius, camera, self.rows)) > 1:
             notes.append(f"ball drawn {times(factor)} its size")
         sheet.headline(self.verdict(), notes, right - sheet.frame.left - 2 * sheet.gap)
         sheet.columns(self.card_row, self.numbers(), [ghost.row for ghost in self.ghosts])
@@ -140,7 +140,7 @@ class Picture:
     @property
     def _smallest(self) -> float:
         """Least radius of the ball in px."""
-        return least_radius(self.size[1])
+        return least_radius(self.rows)
 
     def _keeper(self, sheet: Sheet, camera: Camera) -> None:
         """The keeper when the ball is at the goal line or touched, and where he stood at the kick."""
@@ -200,7 +200,7 @@ class Picture:
         """The ball at even times, and at the end; returns the time between in s."""
         true = self.radius * camera.scale
         largest = max(true, self._smallest)
-        radius = max(true, mark_radius(self.size[1]))
+        radius = max(true, mark_radius(self.rows))
         span = max(self.run.result["flight_time"] or 0.0, LEAST_SPAN * self.path.until)
         every, moments = self.path.even_times(camera, radius, span)
         for t in [*moments, self.path.until]:

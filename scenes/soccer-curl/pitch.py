@@ -15,6 +15,7 @@ from sandbox.picture.figures import draw_from_above
 from sandbox.picture.kept import Kept
 from sandbox.picture.painter import Painter, blank
 from sandbox.picture.palette import Colour, palette
+from sandbox.picture.sheet import rows_of
 
 from .scene import BOARDS_ASIDE, BOARDS_BEHIND, BOARDS_BEYOND
 
@@ -42,7 +43,7 @@ class Pitch:
     def __init__(self, parameters: Any, size: tuple[int, int]):
         self.parameters, self.size = parameters, size
         self.goal, self.wall, self.keeper = parameters.goal, parameters.wall, parameters.keeper
-        self.unit = size[1] / 720
+        self.unit = rows_of(size) / 720
         self.kept = Kept()
 
     def enlarged(self, camera: Camera) -> float:

@@ -50,7 +50,7 @@ class Picture:
         self.radius = self.path.radius
         self.wind: tuple[float, float] = parameters.air.wind
         sheet = Sheet(size)
-        self.unit = sheet.unit
+        self.unit, self.rows = sheet.unit, sheet.rows
         small = sheet.lettering.height("small")
         above, below = sheet.ruler_heights()
         self.card_row = sheet.frame.bottom - sheet.card_height(len(self.ghosts))
@@ -138,7 +138,7 @@ class Picture:
             notes.append(f"the goal is {roughly(self.parameters.goal.distance)} away")
         elif (factor := stadium.enlarged(camera)) > 1:
             notes.append(f"players and goal drawn {times(factor)} their size")
-        if (factor := enlarged(self.radius, camera, self.size[1])) > 1:
+        if (factor := enlarged(self.radius, camera, self.rows)) > 1:
             notes.append(f"ball drawn {times(factor)} its size")
         sheet.headline(self.verdict(), notes, right - sheet.frame.left - 2 * sheet.gap)
         sheet.columns(self.card_row, self.numbers(), [ghost.row for ghost in self.ghosts])
@@ -150,7 +150,7 @@ class Picture:
     @property
     def _smallest(self) -> float:
         """Least radius of the ball in px."""
-        return least_radius(self.size[1])
+        return least_radius(self.rows)
 
     def _spot(self, camera: Camera, x: float, y: float, radius: float) -> tuple[float, float]:
         """Where in px a ball drawn with ``radius`` px goes: on the path, and not into the ground."""
@@ -161,7 +161,7 @@ class Picture:
         """The ball at even times, and at the end; returns the time between in s."""
         true = self.radius * camera.scale
         largest = max(true, self._smallest)
-        radius = max(true, mark_radius(self.size[1]))
+        radius = max(true, mark_radius(self.rows))
         span = max(self.run.result["flight_time"] or 0.0, LEAST_SPAN * self.path.until)
         every, moments = self.path.even_times(camera, radius, span)
         for t in [*moments, self.path.until]:

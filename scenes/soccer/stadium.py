@@ -17,7 +17,7 @@ from sandbox.picture.depth import Eye
 from sandbox.picture.figures import KICKING, STANDING, draw_figure
 from sandbox.picture.painter import Painter, blank, from_colours
 from sandbox.picture.palette import Colour, mix, palette
-from sandbox.picture.sheet import Sheet
+from sandbox.picture.sheet import Sheet, rows_of
 
 GROUND, CARD = palette("soccer"), palette("card")
 
@@ -47,7 +47,7 @@ class Stadium:
     def __init__(self, parameters: Any, size: tuple[int, int], base: int):
         self.goal, self.wall = parameters.goal, parameters.wall
         self.size, self.base = size, base
-        self.unit = size[1] / 720
+        self.unit = rows_of(size) / 720
         self.level = base - LEVEL * self.unit
         self.foot = round(self.level + LEVEL * self.unit * FAR)  # where the boards stand on the ground
         self.boards = [surface.shape for surface in _boards(parameters)]
@@ -264,7 +264,7 @@ def _kit(team: int) -> dict[str, Colour]:
 @lru_cache(maxsize=4)
 def _sky(size: tuple[int, int], foot: int) -> pygame.Surface:
     """The evening sky down to row ``foot``."""
-    width, unit = size[0], size[1] / 720
+    width, unit = size[0], rows_of(size) / 720
     top, middle, low = (np.array(colour, float) for colour in GROUND["sky"])
     share = np.clip(np.arange(foot) / (foot - 90 * unit), 0, 1)[None, :, None]
     turn = 0.62
@@ -280,7 +280,7 @@ def _sky(size: tuple[int, int], foot: int) -> pygame.Surface:
 @lru_cache(maxsize=4)
 def _stands(size: tuple[int, int], foot: int) -> pygame.Surface:
     """Stands with their roof, people, lamps on masts, boards along the pitch: as wide as the picture, the ends join."""
-    width, unit = size[0], size[1] / 720
+    width, unit = size[0], rows_of(size) / 720
     stands = blank((width, foot), transparent=True)
     painter, random = Painter(stands), np.random.default_rng(11)
     roof, upper, lower = GROUND["stands"]

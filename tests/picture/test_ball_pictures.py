@@ -8,6 +8,7 @@ import pytest
 import sandbox
 from sandbox.picture.ball import SMALLEST, Look
 from sandbox.picture.palette import palette
+from tests.picture.legible import assert_legible
 
 COURT = palette("basketball")
 
@@ -52,15 +53,6 @@ def texts(picture) -> str:
     return " ".join(text for text, _ in picture.sheet.written)
 
 
-def assert_legible(picture) -> None:
-    sheet = picture.sheet
-    assert sheet.written
-    for i, (text, rect) in enumerate(sheet.written):
-        assert sheet.frame.contains(rect), f"{text} leaves the frame"
-        for other_text, other in sheet.written[:i]:
-            assert not rect.colliderect(other), f"{text} overlaps {other_text}"
-
-
 @pytest.fixture
 def drawn(monkeypatch):
     """Centre and radius in px, and whether a ring says that it is enlarged, of every ball drawn."""
@@ -79,7 +71,7 @@ class TestEveryShot:
     def test_the_poster_is_composed(self, name, size):
         picture = picture_of(name, size)
         assert picture.poster().get_size() == size
-        assert_legible(picture)
+        assert_legible(picture.sheet)
         for text, rect in picture.sheet.written:
             assert not any(rect.collidepoint(point) for point in picture.trace), f"{text} is on the trace"
         (left, top), (right, bottom) = picture.trace.min(axis=0), picture.trace.max(axis=0)
@@ -90,7 +82,7 @@ class TestEveryShot:
         picture = picture_of(name, size)
         for share in (0.0, 0.3, 1.0):
             assert picture.frame(share * picture.run.duration).get_size() == size
-            assert_legible(picture)
+            assert_legible(picture.sheet)
 
     def test_the_ball_can_always_be_seen(self, name, size, drawn):
         picture = picture_of(name, size)

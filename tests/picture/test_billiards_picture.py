@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import sandbox
+from tests.picture.legible import assert_legible
 
 SIZES = [(640, 360), (1280, 720), (1920, 1080), (960, 672), (640, 400)]
 ONE_BALL = {"rack": "none", "balls": [{"name": "cue", "x": -0.5, "y": 0.0}]}
@@ -44,25 +45,16 @@ def picture_of(name: str, size=(640, 360)):
     return scene.picture(run, size)
 
 
-def assert_legible(picture) -> None:
-    sheet = picture.sheet
-    assert sheet.written
-    for i, (text, rect) in enumerate(sheet.written):
-        assert sheet.frame.contains(rect), f"{text} leaves the frame"
-        for other_text, other in sheet.written[:i]:
-            assert not rect.colliderect(other), f"{text} overlaps {other_text}"
-
-
 @pytest.mark.parametrize("size", SIZES, ids=str)
 @pytest.mark.parametrize("name", SHOTS)
 class TestEveryShot:
     def test_poster_and_frames_are_legible(self, name, size):
         picture = picture_of(name, size)
         assert picture.poster().get_size() == size
-        assert_legible(picture)
+        assert_legible(picture.sheet)
         for share in (0.0, 0.1, 1.0):
             assert picture.frame(share * picture.run.duration).get_size() == size
-            assert_legible(picture)
+            assert_legible(picture.sheet)
 
     def test_the_table_is_whole_and_clear_of_the_text(self, name, size):
         picture = picture_of(name, size)

@@ -9,6 +9,7 @@ import sandbox
 from sandbox.engine.ledger import ledger
 from sandbox.picture import energy
 from sandbox.picture.energy import course, energy_chart, joules
+from tests.picture.legible import assert_legible
 
 RUNS = ["golf", "golf/putt", "basketball", "billiards/bank", "billiards/nine-ball-break", "soccer"]
 WINDY = "soccer/goal-kick-in-a-gale"
@@ -103,10 +104,7 @@ def test_the_chart_is_legible(name, overrides, size, sheets):
     run = run_of(name) if not overrides else sandbox.simulate(sandbox.load(name, overrides))
     assert energy_chart(run, size).get_size() == size
     (sheet,) = sheets
-    for i, (text, rect) in enumerate(sheet.written):
-        assert sheet.frame.inflate(2, 2).contains(rect), f"{text} leaves the frame"
-        for other_text, other in sheet.written[:i]:
-            assert not rect.colliderect(other), f"{text} overlaps {other_text}"
+    assert_legible(sheet)
 
 
 def test_a_chart_says_what_was_put_in_and_its_shares_are_of_one_whole(sheets):

@@ -8,6 +8,7 @@ from PIL import ImageChops
 
 import sandbox
 from sandbox.picture.frames import to_image
+from tests.picture.legible import assert_legible
 
 PAIRS = [
     ("golf", "golf/headwind"),
@@ -27,13 +28,6 @@ def run_of(name: str):
 def compared(pair, size=(640, 360)):
     run, other = map(run_of, pair)
     return run.scene.picture(run, size, {"the other": other})
-
-
-def assert_legible(sheet) -> None:
-    for i, (text, rect) in enumerate(sheet.written):
-        assert sheet.frame.contains(rect), f"{text} leaves the frame"
-        for other_text, other in sheet.written[:i]:
-            assert not rect.colliderect(other), f"{text} overlaps {other_text}"
 
 
 @pytest.mark.parametrize("size", [(640, 360), (1280, 720), (1920, 1080)], ids=str)

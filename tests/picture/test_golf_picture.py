@@ -9,6 +9,7 @@ import pytest
 
 import sandbox
 from sandbox.picture.ball import Look
+from tests.picture.legible import assert_legible
 
 SIZES = [(640, 360), (1280, 720), (1920, 1080)]
 SHOTS = {
@@ -60,19 +61,10 @@ def picture(request):
     return picture
 
 
-def assert_legible(picture) -> None:
-    sheet = picture.sheet
-    assert sheet.written
-    for i, (text, rect) in enumerate(sheet.written):
-        assert sheet.frame.contains(rect), f"{text} leaves the frame"
-        for other_text, other in sheet.written[:i]:
-            assert not rect.colliderect(other), f"{text} overlaps {other_text}"
-
-
 class TestEveryShot:
     def test_the_poster_is_composed(self, picture):
         assert picture.poster().get_size() == picture.size
-        assert_legible(picture)
+        assert_legible(picture.sheet)
         for text, rect in picture.sheet.written:
             assert not any(rect.collidepoint(point) for point in picture.trace), f"{text} is on the trace"
         (left, top), (right, bottom) = picture.trace.min(axis=0), picture.trace.max(axis=0)
@@ -83,7 +75,7 @@ class TestEveryShot:
     def test_frames_are_legible(self, picture):
         for share in (0.0, 0.03, 0.3, 1.0):
             assert picture.frame(share * picture.run.duration).get_size() == picture.size
-            assert_legible(picture)
+            assert_legible(picture.sheet)
 
     def test_the_ball_can_always_be_seen(self, picture, monkeypatch):
         drawn = []

@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 from sandbox.picture.lettering import Labels, Lettering, _font
 from sandbox.picture.painter import blank
 from sandbox.picture.sheet import Sheet, metres, nice, signed, yards
+from tests.picture.legible import assert_legible
 
 HEIGHTS = (360, 720, 1080)
 
@@ -56,7 +57,7 @@ def test_numbers_in_a_card_keep_apart_and_inside(size):
     entries = [("carry", "1450.1 m"), ("total", "1483.3 m"), ("apex", "253.9 m"), ("flight time", "135.41 s")]
     entries += [("ball speed", "340.0 m/s"), ("launch", "−35.0°"), ("backspin", "−20000 rpm"), ("landing", "−35°")]
     sheet.columns(sheet.frame.bottom - sheet.card_height(), entries)
-    _assert_apart(sheet)
+    assert_legible(sheet)
     assert len(sheet.written) == 2 * len(entries)
 
 
@@ -65,7 +66,7 @@ def test_a_card_that_is_too_narrow_leaves_out_the_last():
     sheet.columns(
         sheet.frame.bottom - sheet.card_height(), [("carry", "253.6 m"), ("total", "277.0 m"), ("apex", "33.9 m")]
     )
-    _assert_apart(sheet)
+    assert_legible(sheet)
     assert [text for text, _ in sheet.written] == ["carry", "253.6 m", "total", "277.0 m"]
 
 
@@ -74,14 +75,7 @@ def test_a_card_that_is_too_narrow_leaves_out_the_last():
 def test_a_dimension_stays_in_the_frame(size, start, end):
     sheet = Sheet(size)
     sheet.dimension("carry 253.6 m   277 yd", 100, start, end, (255, 255, 255))
-    _assert_apart(sheet)
-
-
-def _assert_apart(sheet: Sheet) -> None:
-    for i, (text, rect) in enumerate(sheet.written):
-        assert sheet.frame.contains(rect), text
-        for other_text, other in sheet.written[:i]:
-            assert not rect.colliderect(other), (text, other_text)
+    assert_legible(sheet)
 
 
 @pytest.mark.parametrize(
