@@ -84,6 +84,30 @@ class Lettering:
         surface.blit(image, (rect.left, rect.top - round(ABOVE * self.pixels[size])))
         return rect
 
+    def cut(self, text: str, size: str, room: float, bold: bool = False) -> str:
+        """A text that is wider than ``room`` px, ended early."""
+        if self.width(text, size, bold) <= room:
+            return text
+        while text and self.width(text + " ...", size, bold) > room:
+            text = text[:-1]
+        return text.rstrip() + " ..."
+
+    def wrapped(self, text: str, size: str, room: float) -> list[str]:
+        """Lines of at most ``room`` px: broken between words, and within one that is too long for a line."""
+        lines = [""]
+        for word in text.split():
+            longer = f"{lines[-1]} {word}".strip()
+            if self.width(longer, size) <= room:
+                lines[-1] = longer
+                continue
+            if lines[-1]:
+                lines.append("")
+            for letter in word:
+                if lines[-1] and self.width(lines[-1] + letter, size) > room:
+                    lines.append("")
+                lines[-1] += letter
+        return lines
+
 
 class Labels:
     """Finds room for labels: inside the frame, off what is taken, off each other."""

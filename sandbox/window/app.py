@@ -15,7 +15,6 @@ import pygame
 from sandbox.errors import RunError, SandboxError
 from sandbox.lab.workers import Processes
 from sandbox.picture.palette import palette
-from sandbox.picture.sheet import Sheet
 from sandbox.window import commands, overlay, replay
 from sandbox.window.ahead import PATIENCE, Ahead, ready, steady
 from sandbox.window.bar import HEIGHT, Bar, Shown
@@ -25,6 +24,7 @@ from sandbox.window.keys import command_for
 from sandbox.window.playback import Playback
 from sandbox.window.pointer import Pointer
 from sandbox.window.recorded import run_of
+from sandbox.window.scale import Canvas, rows
 from sandbox.window.session import Session, Shot
 from sandbox.window.sound import Sound
 from sandbox.window.view import View
@@ -42,7 +42,7 @@ ARROWS = {pygame.K_LEFT: (-1, 0), pygame.K_RIGHT: (1, 0), pygame.K_UP: (0, -1), 
 FRAMES = 60  # per second
 SIZE = (1280, 720)
 #: Everything is drawn at least this large; of a smaller window a part is seen.
-SMALLEST = (640, 400)
+SMALLEST = (480, 400)
 #: How long a message stays, in s.
 MESSAGE = 6.0
 #: A fan is begun when the shot has not changed for so long, in s.
@@ -168,8 +168,9 @@ class App:
         width, height = (max(a, b) for a, b in zip(self.laid_out, SMALLEST, strict=True))
         fits = (width, height) == self.laid_out
         self.canvas: pygame.Surface = self.screen if fits else pygame.Surface((width, height))
-        tall = round(HEIGHT * height / 720)
-        self.bar = Bar(pygame.Rect(0, height - tall, width, tall), height)
+        unit = rows((width, height)) / 720
+        tall = round(HEIGHT * unit)
+        self.bar = Bar(pygame.Rect(0, height - tall, width, tall), rows((width, height)))
         wide = 0
         if self.has_panel:
             from sandbox.window.panel import (  # it brings pygame_gui, which takes its time
@@ -179,7 +180,7 @@ class App:
                 Panel,
             )
 
-            wide = min(max(NARROWEST, round(WIDTH * height / 720)), width // 2)
+            wide = min(max(NARROWEST, round(WIDTH * unit)), width // 2)
             rect = pygame.Rect(width - wide, 0, wide, height - tall)
             group = self.panel.group if self.panel is not None else FAVOURITES
             self.panel = Panel((width, height), rect, self.session, self.change, self.reset, group)
@@ -415,7 +416,7 @@ class App:
         try:
             self.view.draw()
         except Exception as error:  # a scene's own code
-            sheet = Sheet(self.area.size, surface=self.surface)
+            sheet = Canvas(self.surface)
             sheet.surface.fill(CARD["background"])
             overlay.draw_message(sheet, f"{self.session.title} cannot be drawn: {type(error).__name__}: {error}", True)
         if self.panel is not None:

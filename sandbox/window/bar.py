@@ -14,6 +14,18 @@ from sandbox.picture.palette import Colour, mix, palette
 CARD, TRACE = palette("card"), palette("trace")
 HEIGHT = 48  # px on 720 rows
 APART = 8  # px, at least, between two marks on the time line
+LEAST = 160  # px on 720 rows, of the time line
+WIDEST_RATE = "×1/16"
+#: What goes in a narrow window until the time line has room, the first first: the scene's part of a preset's name, how
+#: long the shot is, and buttons whose commands have a key, or stand in the list "more".
+SPARED = (
+    frozenset({"scene"}),
+    frozenset({"duration"}),
+    frozenset({"previous_shot", "next_shot"}),
+    frozenset({"panel", "help"}),
+    frozenset({"slower", "rate", "faster"}),
+    frozenset({"step_back", "step"}),
+)
 RAISED = mix(CARD["background"], CARD["quiet"], 0.22)
 GROOVE = mix(CARD["background"], CARD["quiet"], 0.35)
 
@@ -84,13 +96,23 @@ class Shown:
 
 
 class Bar:
-    """Lies in ``rect`` of a window with letters for ``height`` rows."""
+    """Lies in ``rect`` of a window that is made for ``rows`` rows."""
 
-    def __init__(self, rect: pygame.Rect, height: int) -> None:
-        self.rect, self.unit = rect, height / 720
-        self.lettering = Lettering(height)
-        self.buttons: dict[str, pygame.Rect] = {}
-        self.line = pygame.Rect(0, 0, 0, 0)
+    def __init__(self, rect: pygame.Rect, rows: int) -> None:
+        self.rect, self.unit = rect, rows / 720
+        self.lettering = Lettering(rows)
+        self.places: dict[str, pygame.Rect] = {}  # of everything by name: commands, "rate", "line" and "time"
+        self.title = ""  # as much of it as there is room for
+        self._laid_out: tuple[str, tuple[str, ...], str] | None = None
+
+    @property
+    def line(self) -> pygame.Rect:
+        return self.places.get("line", pygame.Rect(0, 0, 0, 0))
+
+    @property
+    def buttons(self) -> dict[str, pygame.Rect]:
+        """Places by command."""
+        return {name: rect for name, rect in self.places.items() if name not in ("rate", "line", "time")}
 
     def command_at(self, position: tuple[int, int]) -> str | None:
         return next((name for name, rect in self.buttons.items() if rect.collidepoint(position)), None)
@@ -104,34 +126,76 @@ class Bar:
     def share(self, position: tuple[int, int]) -> float:
         return min(1.0, max(0.0, (position[0] - self.line.left) / max(1, self.line.width)))
 
-    def draw(self, surface: pygame.Surface, shown: Shown, mouse: tuple[int, int]) -> None:
-        surface.fill(CARD["background"], self.rect)
-        self.buttons.clear()
-        gap, side = round(8 * self.unit), round(30 * self.unit)
-        left = self._word(surface, "menu", shown.title, self.rect.left + 2 * gap, mouse, bold=True).right + gap
+    # Places
+
+    def _lay_out(self, shown: Shown) -> None:
+        """Places for all that there is room for."""
+        letters, least = self.lettering, round(LEAST * self.unit)
+        time = "0" * max(2, len(f"{shown.duration:.0f}")) + ".00 s"
+        if self._laid_out == (shown.title, shown.texts, time):
+            return
+        self._laid_out = shown.title, shown.texts, time
+        without: frozenset[str] = frozenset()
+        for spared in (frozenset(), *SPARED):
+            without |= spared
+            self.title = shown.title.rpartition("/")[2] if "scene" in without else shown.title
+            self._place(shown, time if "duration" in without else f"{time[:-2]} / {time}", without)
+            if self.line.width >= least:
+                return
+        room = letters.width(self.title, "small", bold=True) - (least - self.line.width)
+        self.title = letters.cut(self.title, "small", room, bold=True)
+        self._place(shown, time, without)
+
+    def _place(self, shown: Shown, time: str, without: frozenset[str]) -> None:
+        """Places for all but what is left out; the time line has what is left over."""
+        gap, side, thick = round(8 * self.unit), round(30 * self.unit), max(3, round(4 * self.unit))
+        places = self.places = {}
+
+        def put(name: str, left: int, width: int, height: int = side) -> pygame.Rect:
+            places[name] = pygame.Rect(left, self.rect.centery - height // 2, width, height)
+            return places[name]
+
+        left = put("menu", self.rect.left + 2 * gap, self._word_width(self.title, bold=True)).right + gap
         for name in ("previous_shot", "restart", "step_back", "go", "step", "next_shot"):
-            rect = pygame.Rect(left, self.rect.centery - side // 2, side, side)
-            icon = ("pause" if shown.playing else "play") if name == "go" else name
-            self._picture(surface, name, icon, rect, mouse, CARD["accent"] if name == "go" else CARD["text"])
-            left = rect.right + gap // 4
+            if name not in without:
+                left = put(name, left, side).right + gap // 4
         right = self.rect.right - 2 * gap
         for name in reversed(shown.texts):
-            width = self.lettering.width(name, "small") + 2 * gap
-            right = self._word(surface, name, name, right - width, mouse, on=name in shown.on).left - gap // 2
+            if name not in without:
+                width = self._word_width(name)
+                right = put(name, right - width, width).left - gap // 2
         right -= gap
-        rate = f"×{shown.rate:g}" if shown.rate >= 1 else f"×1/{round(1 / shown.rate)}"
-        for name in ("faster", "", "slower"):
-            wide = side if name else round(44 * self.unit)
-            rect = pygame.Rect(right - wide, self.rect.centery - side // 2, wide, side)
-            if name:
-                self._picture(surface, name, name, rect, mouse, CARD["text"])
+        rate = max(round(44 * self.unit), self.lettering.width(WIDEST_RATE, "small"))
+        for name, width in (("faster", side), ("rate", rate), ("slower", side)):
+            if name not in without:
+                right = put(name, right - width, width).left
+        width = self.lettering.width(time, "small")
+        right = put("time", right - 2 * gap - width, width).left
+        put("line", left + gap, max(0, right - 12 - left - gap), thick)
+
+    def _word_width(self, text: str, bold: bool = False) -> int:
+        return self.lettering.width(text, "small", bold) + 2 * round(8 * self.unit)
+
+    # Drawing
+
+    def draw(self, surface: pygame.Surface, shown: Shown, mouse: tuple[int, int]) -> None:
+        surface.fill(CARD["background"], self.rect)
+        self._lay_out(shown)
+        for name in self.buttons:
+            if name == "menu":
+                self._word(surface, name, self.title, mouse, bold=True)
+            elif name in shown.texts:
+                self._word(surface, name, name, mouse, on=name in shown.on)
             else:
-                self.lettering.write(surface, rate, "small", rect.center, CARD["text"], "center")
-            right = rect.left
-        self._time(surface, shown, left + gap, right - 2 * gap)
+                icon = ("pause" if shown.playing else "play") if name == "go" else name
+                self._picture(surface, name, icon, mouse, CARD["accent"] if name == "go" else CARD["text"])
+        if "rate" in self.places:
+            rate = f"×{shown.rate:g}" if shown.rate >= 1 else f"×1/{round(1 / shown.rate)}"
+            self.lettering.write(surface, rate, "small", self.places["rate"].center, CARD["text"], "center")
+        self._time(surface, shown)
         hovered = self.command_at(mouse)
         if hovered in HINTS and hovered not in shown.on:
-            self._hint(surface, HINTS[hovered], self.buttons[hovered])
+            self._hint(surface, HINTS[hovered], self.places[hovered])
 
     def _hint(self, surface: pygame.Surface, text: str, button: pygame.Rect) -> None:
         rect = self.lettering.rect(text, "small", (button.centerx, self.rect.top - 8 * self.unit), "midbottom")
@@ -141,16 +205,8 @@ class Bar:
         Painter(surface).panel(rect, CARD["background"], 0.92, 6 * self.unit)
         self.lettering.write(surface, text, "small", rect.center, CARD["text"], "center")
 
-    def _picture(
-        self,
-        surface: pygame.Surface,
-        name: str,
-        icon: str,
-        rect: pygame.Rect,
-        mouse: tuple[int, int],
-        colour: Colour,
-    ) -> None:
-        self.buttons[name] = rect
+    def _picture(self, surface: pygame.Surface, name: str, icon: str, mouse: tuple[int, int], colour: Colour) -> None:
+        rect = self.places[name]
         if rect.collidepoint(mouse):
             Painter(surface).panel(rect, RAISED, 1.0, 6 * self.unit)
         image = _icon(icon, round(0.5 * rect.height), colour)
@@ -161,29 +217,23 @@ class Bar:
         surface: pygame.Surface,
         name: str,
         text: str,
-        left: int,
         mouse: tuple[int, int],
         bold: bool = False,
         on: bool = False,
-    ) -> pygame.Rect:
-        inset = round(8 * self.unit)
-        rect = pygame.Rect(left, 0, self.lettering.width(text, "small", bold) + 2 * inset, round(30 * self.unit))
-        rect.centery = self.rect.centery
-        self.buttons[name] = rect
+    ) -> None:
+        rect = self.places[name]
         if on or bold or rect.collidepoint(mouse):
             Painter(surface).panel(rect, RAISED, 1.0, 6 * self.unit)
         colour = CARD["accent"] if on else CARD["text"]
         self.lettering.write(surface, text, "small", rect.center, colour, "center", bold)
-        return rect
 
-    def _time(self, surface: pygame.Surface, shown: Shown, left: int, right: int) -> None:
-        text = f"{shown.duration:.2f} s" if shown.t is None else f"{shown.t:.2f} / {shown.duration:.2f} s"
-        room = self.lettering.width("00.00 / 00.00 s", "small")
-        self.lettering.write(surface, text, "small", (right, self.rect.centery), CARD["quiet"], "midright")
-        thick = max(3, round(4 * self.unit))
-        self.line = pygame.Rect(left, self.rect.centery - thick // 2, max(0, right - room - left - 12), thick)
-        if self.line.width < 20:
-            return
+    def _time(self, surface: pygame.Surface, shown: Shown) -> None:
+        room, thick = self.places["time"], self.line.height
+        times = [f"{shown.duration:.2f} s"]
+        if shown.t is not None:
+            times = [f"{shown.t:.2f} / {times[0]}", f"{shown.t:.2f} s"]
+        text = next(text for text in times if text is times[-1] or self.lettering.width(text, "small") <= room.width)
+        self.lettering.write(surface, text, "small", room.midright, CARD["quiet"], "midright")
         surface.fill(GROOVE, self.line)
 
         def column(t: float) -> int:

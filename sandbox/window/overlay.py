@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
 from itertools import groupby
+from math import ceil
 
 import pygame
 
@@ -14,11 +15,9 @@ from sandbox.window.keys import listed
 
 CARD = palette("card")
 
-#: Groups of keys in the columns of the help, and where there is no room for so many.
-LAYOUTS = (
-    (("Play", "Keep", "Watch"), ("See", "Panel"), ("More",)),
-    (("Play", "Watch", "See"), ("Keep", "More", "Panel")),
-)
+#: Groups of keys in two columns of the help, and in as many as it may have, the first that there is room for.
+TWO = ("Play", "Watch", "See"), ("Keep", "More", "Panel")
+LAYOUTS = (("Play", "Keep", "Watch"), ("See", "Panel"), ("More",)), TWO, ((*TWO[0], *TWO[1]),)
 
 
 def _card(sheet: Sheet, width: int, height: int) -> pygame.Rect:
@@ -33,17 +32,19 @@ def _card(sheet: Sheet, width: int, height: int) -> pygame.Rect:
 
 
 def draw_help(sheet: Sheet) -> None:
-    """All keys, in columns by what they are for: in as many as there is room for."""
+    """All keys, in columns by what they are for: in as many as there is room for, or in two with shorter lines."""
     letters, gap = sheet.lettering, sheet.gap
     row, between = letters.height("small") + max(1, gap // 2), 2 * gap
-    for layout in LAYOUTS:
+    for layout in (*LAYOUTS, TWO):
         columns = [[(name, listed(name)) for name in names] for names in layout]
         bindings = [[binding for _, rows in column for binding in rows] for column in columns]
         keys = [max(letters.width(b.shown, "small", bold=True) for b in column) + between for column in bindings]
         wide = [max(letters.width(b.meaning, "small") for b in column) + 2 * between for column in bindings]
-        if sum(keys) + sum(wide) <= sheet.size[0] - between:
+        over = sum(keys) + sum(wide) + between - sheet.size[0]
+        tall = max(sum(len(rows) + 1.5 for _, rows in column) for column in columns) - 0.5
+        if over <= 0 and tall * letters.height("small") + 4 * gap <= sheet.size[1]:
             break
-    tall = max(sum(len(rows) + 1.5 for _, rows in column) for column in columns) - 0.5
+    wide = [room - ceil(max(0, over) / len(wide)) for room in wide]
     head = letters.height("medium") + gap
     if tall * row + head + 4 * gap > sheet.size[1]:  # a small window: the title makes room
         row, head = letters.height("small"), 0
@@ -61,7 +62,8 @@ def draw_help(sheet: Sheet) -> None:
             for binding in rows:
                 y += row
                 letters.write(sheet.surface, binding.shown, "small", (left, y), CARD["text"], bold=True)
-                letters.write(sheet.surface, binding.meaning, "small", (left + room, y), CARD["quiet"])
+                meaning = letters.cut(binding.meaning, "small", width - between)
+                letters.write(sheet.surface, meaning, "small", (left + room, y), CARD["quiet"])
             y += 1.5 * row
         left += room + width
 
@@ -81,7 +83,7 @@ class Choices:
     def draw(
         self,
         sheet: Sheet,
-        button: pygame.Rect | None,
+        button: pygame.Rect,
         on: Collection[str],
         words: Mapping[str, str],
         mouse: tuple[int, int],
@@ -93,7 +95,7 @@ class Choices:
         wide = max(letters.width(text, "small") for text in texts)
         keys = max(letters.width(binding.shown, "small", bold=True) for binding in self.bindings)
         rect = pygame.Rect(0, 0, wide + keys + 14 * gap, row * len(self.bindings) + 2 * gap)
-        rect.midbottom = button.centerx if button is not None else sheet.size[0], sheet.size[1] - gap
+        rect.midbottom = button.centerx, sheet.size[1] - gap
         rect.clamp_ip(sheet.surface.get_rect().inflate(-2 * gap, -2 * gap))
         sheet.painter.panel(rect, CARD["background"], 1.0, 10 * unit)
         self.places.clear()
@@ -143,6 +145,8 @@ class Menu:
         most = max(len(rows) for _, rows in groups)
         width = min(sheet.size[0] - 4 * gap, round(236 * unit) * len(groups) + 6 * gap)
         head = letters.height("medium") + letters.height("small") + 7 * gap
+        if most * row + head + 4 * gap > sheet.size[1]:  # a small window
+            row = letters.height("small")
         rect = _card(sheet, width, most * row + head + 4 * gap)
         each = (rect.width - 6 * gap) // len(groups)
         letters.write(
@@ -165,10 +169,11 @@ class Menu:
                     colour = CARD["accent"]
                 text = item.name if scene else item.name.partition("/")[2]
                 at = (place.left, place.centery)
+                text = letters.cut(text, "small", place.width, bold=scene)
                 letters.write(sheet.surface, text, "small", at, colour, "midleft", bold=scene)
                 top += row
         below = (rect.left + 3 * gap, rect.top + 3 * gap + letters.height("medium"))
-        letters.write(sheet.surface, _cut(sheet, about, rect.width - 6 * gap), "small", below, CARD["quiet"])
+        letters.write(sheet.surface, letters.cut(about, "small", rect.width - 6 * gap), "small", below, CARD["quiet"])
 
     def move(self, across: int, down: int, current: str) -> None:
         """Choose by key: so many columns and rows on, from what is played."""
@@ -190,7 +195,7 @@ def draw_message(sheet: Sheet, text: str, bad: bool) -> None:
     """A message over the bottom of the picture, in as many lines as it needs, six at most."""
     letters, gap = sheet.lettering, sheet.gap
     room = round(0.8 * sheet.size[0])
-    lines = [line for part in text.splitlines() for line in _wrapped(sheet, part, room)][-6:]
+    lines = [line for part in text.splitlines() for line in letters.wrapped(part, "small", room)][-6:]
     row = letters.height("small") + gap // 2
     width = max(letters.width(line, "small") for line in lines)
     rect = pygame.Rect(0, 0, width + 6 * gap, row * len(lines) + 3 * gap)
@@ -201,23 +206,3 @@ def draw_message(sheet: Sheet, text: str, bad: bool) -> None:
     for number, line in enumerate(lines):
         at = (rect.left + 3 * gap, rect.top + 1.5 * gap + number * row)
         letters.write(sheet.surface, line, "small", at, CARD["text"])
-
-
-def _wrapped(sheet: Sheet, text: str, room: int) -> list[str]:
-    lines = [""]
-    for word in text.split():
-        longer = f"{lines[-1]} {word}".strip()
-        if sheet.lettering.width(longer, "small") <= room:
-            lines[-1] = longer
-        else:
-            lines.append(word)
-    return lines
-
-
-def _cut(sheet: Sheet, text: str, room: int) -> str:
-    """A text that is too long, ended early."""
-    if sheet.lettering.width(text, "small") <= room:
-        return text
-    while text and sheet.lettering.width(text + " ...", "small") > room:
-        text = text[:-1]
-    return text.rstrip() + " ..."

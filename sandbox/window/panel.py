@@ -9,6 +9,7 @@ from typing import Any
 
 import pygame
 import pygame_gui
+from pygame_gui.core import UIContainer
 from pygame_gui.elements import (
     UIButton,
     UIDropDownMenu,
@@ -21,6 +22,7 @@ from pygame_gui.elements import (
 
 from sandbox.parameters import Parameter, walk
 from sandbox.picture.lettering import Lettering
+from sandbox.window.scale import rows
 from sandbox.window.session import Session
 from sandbox.window.theme import NAMED, theme
 
@@ -30,6 +32,8 @@ LEAST_UNIT = 0.8
 #: A slider reaches this many times its value in the file to either side, and at least this share of the bounds.
 REACH, LEAST_REACH = 1.5, 0.02
 FAVOURITES = "this shot"
+#: Layers from the panel up to the knobs of its sliders.
+OVER = 6
 
 
 @dataclass
@@ -58,6 +62,13 @@ class Row:
         return values
 
 
+class Over(UIContainer):
+    """Lies over the rows with what opens over them, and lets the mouse through to them."""
+
+    def check_hover(self, time_delta: float, hovered_higher_element: bool) -> bool:
+        return False
+
+
 class Panel:
     """Lies in ``rect`` of a window of ``size``; tells ``change`` what was changed, ``reset`` what to take back."""
 
@@ -71,8 +82,8 @@ class Panel:
         group: str = FAVOURITES,
     ) -> None:
         self.session, self.change, self.reset, self.rect = session, change, reset, rect
-        self.unit, self.lettering = max(LEAST_UNIT, size[1] / 720), Lettering(size[1])
-        self.manager = pygame_gui.UIManager(size, theme(max(11, round(14 * self.unit))))
+        self.unit, self.lettering = max(LEAST_UNIT, rows(size) / 720), Lettering(rows(size))
+        self.manager = pygame_gui.UIManager(size, theme(self.unit))
         self.group = group
         self._build()
 
@@ -90,8 +101,9 @@ class Panel:
         if self.group not in groups:
             self.group = FAVOURITES
         half = (inner - gap) * 6 // 10
+        over = Over(pygame.Rect((0, 0), rect.size), self.manager, container=self.panel, starting_height=OVER)
         self.chooser = UIDropDownMenu(
-            list(groups), self.group, pygame.Rect(gap, gap, half, self.row), self.manager, container=self.panel
+            list(groups), self.group, pygame.Rect(gap, gap, half, self.row), self.manager, container=over
         )
         self.reset_all = UIButton(
             pygame.Rect(2 * gap + half, gap, inner - half - gap, self.row),
@@ -162,7 +174,7 @@ class Panel:
             words = [unset, *words] if value is None or self._optional(parameter) else words
             chosen = unset if value is None else str(value)
             rect = pygame.Rect(0, top + height, self.wide, height)
-            row.choice = UIDropDownMenu(words, chosen, rect, expansion_height_limit=200, **place)
+            row.choice = UIDropDownMenu(words, chosen, rect, expansion_height_limit=round(200 * unit), **place)
             end = top + 2 * height
         elif isinstance(value, bool):
             rect = pygame.Rect(left, top, field, height)

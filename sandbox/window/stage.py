@@ -12,8 +12,8 @@ import pygame
 from sandbox.picture.camera import Camera
 from sandbox.picture.painter import blank
 from sandbox.picture.palette import Colour, palette
-from sandbox.picture.sheet import Sheet
 from sandbox.window.path import few
+from sandbox.window.scale import Canvas
 from sandbox.window.session import Shot
 
 CARD, TRACE = palette("card"), palette("trace")
@@ -68,13 +68,13 @@ class Stage:
             return self.size[0] / 2, self.size[1] / 2
         return self.camera.pixel(*shot.run.state(shot.ball, t)[:2])
 
-    def sheet(self, surface: pygame.Surface) -> Sheet:
+    def sheet(self, surface: pygame.Surface) -> Canvas:
         """A sheet on a surface, with the place on it."""
-        sheet = Sheet(self.size, surface=surface)
+        sheet = Canvas(surface)
         sheet.surface.blit(self.backdrop, (0, 0))
         return sheet
 
-    def draw_ghosts(self, sheet: Sheet, ghosts: list[Shot]) -> None:
+    def draw_ghosts(self, sheet: Canvas, ghosts: list[Shot]) -> None:
         """Earlier shots, faintly; the last five."""
         if self.camera is None or not ghosts:
             return
@@ -89,7 +89,7 @@ class Stage:
             self._ghosts = kept, layer
         sheet.surface.blit(self._ghosts[1], (0, 0))
 
-    def draw_path(self, sheet: Sheet, shot: Shot, until: float | None = None) -> None:
+    def draw_path(self, sheet: Canvas, shot: Shot, until: float | None = None) -> None:
         """The path of every ball that moves, that of the played one last and strongest, and where they touch."""
         if self.camera is None:
             return
@@ -101,7 +101,7 @@ class Stage:
         draw_line(sheet.surface, line, width, TRACE["colours"][0])
         self._contacts(sheet, shot, until)
 
-    def draw_balls(self, sheet: Sheet, t: float, picture: Any = None) -> None:
+    def draw_balls(self, sheet: Canvas, t: float, picture: Any = None) -> None:
         """The balls at time t in s, by the ``picture`` of another shot or by the composed one's."""
         if self.camera is not None:
             (picture or self.picture).draw_balls(sheet.painter, self.camera, t)
@@ -121,7 +121,7 @@ class Stage:
             self._lines[ball] = shot, line
         return line
 
-    def _contacts(self, sheet: Sheet, shot: Shot, until: float | None) -> None:
+    def _contacts(self, sheet: Canvas, shot: Shot, until: float | None) -> None:
         assert self.camera is not None
         marked: list[tuple[float, float]] = []
         for event in shot.run.events:
@@ -134,7 +134,7 @@ class Stage:
             sheet.painter.disc(at, 5.0 * sheet.unit, TRACE["rim"], 0.7)
             sheet.painter.disc(at, 3.6 * sheet.unit, CARD["accent"])
 
-    def draw_pull(self, sheet: Sheet, ball: tuple[float, float], pull: tuple[float, float], text: str) -> None:
+    def draw_pull(self, sheet: Canvas, ball: tuple[float, float], pull: tuple[float, float], text: str) -> None:
         """The rubber band from the ball to the hand, and what it will do."""
         hand = ball[0] + pull[0], ball[1] + pull[1]
         length = hypot(*pull)
@@ -185,13 +185,15 @@ def draw_line(surface: pygame.Surface, points: np.ndarray, width: float, colour:
             pygame.draw.aaline(surface, colour, a, b)
 
 
-def headline(sheet: Sheet, text: str, note: str, colour: Colour) -> pygame.Rect:
+def headline(sheet: Canvas, text: str, note: str, colour: Colour) -> pygame.Rect:
     """What happens, large on a dark card at the top left, and a line below it; returns where it is."""
-    room = round(0.66 * sheet.size[0])
-    size = "large" if sheet.lettering.width(text, "large", bold=True) <= room else "medium"
-    inset = 2 * sheet.gap
-    width = max(sheet.lettering.width(text, size, bold=True), sheet.lettering.width(note, "small"))
-    height = sheet.lettering.height(size) + (sheet.lettering.height("small") + sheet.gap if note else 0)
+    letters, inset = sheet.lettering, 2 * sheet.gap
+    room = sheet.frame.width - 2 * inset
+    rooms = {"large": round(0.66 * sheet.size[0]), "medium": room}
+    size = next((size for size in rooms if letters.width(text, size, bold=True) <= rooms[size]), "small")
+    text, note = letters.cut(text, size, room, bold=True), letters.cut(note, "small", room)
+    width = max(letters.width(text, size, bold=True), letters.width(note, "small"))
+    height = letters.height(size) + (letters.height("small") + sheet.gap if note else 0)
     rect = pygame.Rect(sheet.frame.left, sheet.frame.top, width + 2 * inset, height + 2 * inset)
     sheet.painter.panel(rect, CARD["background"], CARD["opacity"], 10 * sheet.unit)
     at = sheet.write(text, size, (rect.left + inset, rect.top + inset), colour, bold=True)

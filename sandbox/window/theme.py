@@ -14,6 +14,15 @@ NAMED = {
     "lifted": mix(CARD["background"], CARD["quiet"], 0.3),
     "groove": mix(CARD["background"], CARD["quiet"], 0.1),
 }
+#: Elements with letters.
+WRITTEN_ON = ("button", "label", "text_entry_line", "drop_down_menu", "text_box")
+#: Lengths in px on 720 rows, by element.
+LENGTHS = {
+    "drop_down_menu": {"open_button_width": 20},
+    "horizontal_slider": {"sliding_button_width": 14},
+    "selection_list": {"list_item_height": 21},
+    "tool_tip": {"rect_width": 260},
+}
 
 
 def _hex(colour: Colour) -> str:
@@ -27,11 +36,16 @@ def _filled(node: Any) -> Any:
     return _hex(NAMED[node[1:]]) if isinstance(node, str) and node.startswith("$") else node
 
 
-def theme(pixels: int) -> dict[str, Any]:
-    """For letters of ``pixels`` px."""
+def theme(unit: float) -> dict[str, Any]:
+    """For a panel on which 1 px on 720 rows is ``unit`` px."""
     found = _filled(json.loads((ASSETS / "theme.json").read_text("utf-8")))
     files = {f"{style}_path": str(ASSETS / "fonts" / f"NotoSans-{name}.ttf") for style, name in
              (("regular", "Regular"), ("bold", "Bold"), ("italic", "Regular"), ("bold_italic", "Bold"))}  # fmt: skip
-    found["defaults"]["font"] = {"name": "noto", "size": str(pixels), "bold": "0", "italic": "0", **files}
-    found["#title"]["font"] = {"name": "noto", "size": str(pixels), "bold": "1", "italic": "0", **files}
+    plain = {"size": str(max(11, round(14 * unit))), "bold": "0", "italic": "0"}
+    for element in WRITTEN_ON:  # pygame_gui reads no font from the defaults
+        found.setdefault(element, {})["font"] = {"name": "noto", **plain, **files}
+    found["drop_down_menu.#expand_button"] = {"font": {"name": "fira_code_symbols", **plain}}  # pygame_gui's, for ▼
+    for element, lengths in LENGTHS.items():
+        misc = found.setdefault(element, {}).setdefault("misc", {})
+        misc |= {name: str(round(length * unit)) for name, length in lengths.items()}
     return found

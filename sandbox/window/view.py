@@ -10,13 +10,13 @@ import pygame
 
 from sandbox.picture.camera import Camera
 from sandbox.picture.palette import palette
-from sandbox.picture.sheet import Sheet
 from sandbox.picture.vectors import Vectors
 from sandbox.window import aim, overlay
 from sandbox.window.ahead import ready
 from sandbox.window.charts import Charts
 from sandbox.window.measure import NEAR, draw_reading, reading, state_entries
 from sandbox.window.playback import Playback
+from sandbox.window.scale import Canvas
 from sandbox.window.session import Shot
 from sandbox.window.stage import Stage, headline
 
@@ -98,24 +98,24 @@ class View:
             self.energy = None
         if app.message is not None:
             overlay.draw_message(sheet, app.message[0], app.message[1])
+
+    def draw_over(self, canvas: pygame.Surface, height: int) -> None:
+        """What lies over all but the bar, the panel too: the keys, the scenes, the lists of commands."""
+        if "help" not in self.on and self.menu is None and self.choices is None:
+            return
+        app, size = self.app, (canvas.get_width(), height)
+        sheet = Canvas(canvas.subsurface((0, 0), size))
+        if self.menu is not None:
+            self.menu.draw(sheet, app.session.title, app.pointer.at)
+        if "help" in self.on:
+            overlay.draw_help(sheet)
         if self.choices is not None:
-            button = app.bar.buttons.get(self.choices.group)
+            button = app.bar.places[self.choices.group]  # these three are never left out
             words = {"accuracy": f"accuracy: {app.session.value('accuracy.level')}, and the next"}
             self.choices.draw(sheet, button, self.switched, words, app.pointer.at)
 
-    def draw_over(self, canvas: pygame.Surface, height: int) -> None:
-        """What lies over all but the bar, the panel too: the keys, the scenes."""
-        if "help" not in self.on and self.menu is None:
-            return
-        size = canvas.get_width(), height
-        sheet = Sheet(size, surface=canvas.subsurface((0, 0), size))
-        if self.menu is not None:
-            self.menu.draw(sheet, self.app.session.title, self.app.pointer.at)
-        if "help" in self.on:
-            overlay.draw_help(sheet)
-
-    def _empty(self) -> Sheet:
-        sheet = Sheet(self.app.area.size, surface=self.app.surface)
+    def _empty(self) -> Canvas:
+        sheet = Canvas(self.app.surface)
         sheet.surface.fill(CARD["background"])
         return sheet
 
@@ -146,7 +146,7 @@ class View:
 
     # The two states
 
-    def _aiming(self, shot: Shot) -> Sheet:
+    def _aiming(self, shot: Shot) -> Canvas:
         """The shot as it would be."""
         app, stage = self.app, self.stage
         if stage is None:
@@ -173,7 +173,7 @@ class View:
                 words.card[0][1] if words.card else "",
             )
         entries = [*words.card, *(self._forces(shot).entries(0.0) if "arrows" in self.on else [])]
-        sheet.columns(sheet.frame.bottom - sheet.card_height(), entries)
+        sheet.numbers(entries)
         return sheet
 
     def _words(self, shot: Shot) -> Shot:
@@ -187,11 +187,11 @@ class View:
             return "let go to shoot, Esc to leave it"
         return "pull back from the ball and let go, or press Space"
 
-    def _playing(self, shot: Shot, playback: Playback) -> Sheet:
+    def _playing(self, shot: Shot, playback: Playback) -> Canvas:
         """The shot at a time of its play."""
         app, stage, t = self.app, self.stage, playback.t
         if self.follows or stage is None:
-            sheet = Sheet(app.area.size, surface=app.surface)
+            sheet = Canvas(app.surface)
             sheet.surface.blit(self.near.frame(t), (0, 0))
             return sheet
         sheet = stage.sheet(app.surface)
@@ -210,12 +210,12 @@ class View:
         else:
             self.head = headline(sheet, f"{t:.2f} s", f"shot {app.chosen + 1}", CARD["text"])
             entries = [*state_entries(shot, shot.ball, t), *forces]
-        sheet.columns(sheet.frame.bottom - sheet.card_height(), entries)
+        sheet.numbers(entries)
         return sheet
 
     # Beside the shot
 
-    def _cloud(self, sheet: Sheet, stage: Stage) -> None:
+    def _cloud(self, sheet: Canvas, stage: Stage) -> None:
         if self.app.fan is not None and stage.camera is not None:
             self.app.fan.draw(sheet, stage.camera)
 
@@ -224,11 +224,11 @@ class View:
             self._vectors = shot, Vectors(shot.run, shot.ball)
         return self._vectors[1]
 
-    def _arrows(self, sheet: Sheet, shot: Shot, at: tuple[float, float], t: float) -> None:
+    def _arrows(self, sheet: Canvas, shot: Shot, at: tuple[float, float], t: float) -> None:
         if "arrows" in self.on:
             self._forces(shot).draw(sheet, at, 9 * sheet.unit, t)
 
-    def _beside(self, sheet: Sheet, shot: Shot) -> None:
+    def _beside(self, sheet: Canvas, shot: Shot) -> None:
         """Cards down the right side, what the mouse reads, the tape."""
         app, top = self.app, float(sheet.frame.top)
         if "cost" in self.on:

@@ -37,6 +37,22 @@ def test_ink_stays_in_the_rectangle_that_is_returned(height, anchor):
     assert getattr(rect, anchor) == (300, 100)
 
 
+@given(st.text("ab /.", min_size=1, max_size=120), st.integers(20, 200))
+def test_wrapped_text_keeps_its_letters_and_to_its_room(text, room):
+    lettering = Lettering(720)
+    lines = lettering.wrapped(text, "small", room)
+    assert "".join(lines).replace(" ", "") == text.replace(" ", "")
+    assert all(lettering.width(line, "small") <= room for line in lines)
+
+
+def test_a_text_is_cut_where_its_room_ends():
+    lettering = Lettering(720)
+    assert lettering.cut("a long way", "small", 200) == "a long way"
+    short = lettering.cut("a long way", "small", 60)
+    assert short.endswith(" ...")
+    assert lettering.width(short, "small") <= 60
+
+
 rects = st.builds(pygame.Rect, st.integers(-50, 350), st.integers(-50, 250), st.integers(1, 120), st.integers(1, 40))
 
 

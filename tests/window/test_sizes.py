@@ -1,0 +1,121 @@
+"""Windows of any size and shape: nothing of the bar overlaps, and what is written has room."""
+
+from __future__ import annotations
+
+from itertools import combinations
+
+import pygame
+import pytest
+
+from sandbox.picture.lettering import Lettering
+from sandbox.scene import listings
+from sandbox.window import overlay
+from sandbox.window.bar import HEIGHT, HINTS, LEAST, Bar, Shown
+from sandbox.window.scale import Canvas, rows
+
+#: From half as wide as high to three times as wide.
+SIZES = [
+    (width, round(width / shape))
+    for width in (480, 500, 640, 800, 960, 1280, 1366, 1920, 2560, 3840)
+    for shape in (0.5, 0.75, 0.89, 1.0, 1.25, 4 / 3, 16 / 10, 16 / 9, 21 / 9, 3.0)
+    if width / shape >= 400
+]
+TITLES = ("golf", "billiards/three-rail-carom *", "soccer-curl/roberto-carlos-1997 *")
+WORDS = ("see", "keep", "more", "panel", "help")
+
+
+def bar_of(size: tuple[int, int], title: str, duration: float, t: float | None = None) -> Bar:
+    """The bar of such a window, drawn."""
+    surface = pygame.Surface((size[0], round(HEIGHT * rows(size) / 720)))
+    bar = Bar(surface.get_rect(), rows(size))
+    bar.draw(surface, Shown(title, False, t, duration, (0.5, 1.0), 1 / 16, WORDS), (-1, -1))
+    return bar
+
+
+class TestTheBar:
+    @pytest.mark.parametrize("title", TITLES)
+    def test_nothing_overlaps_and_the_time_line_is_long_enough(self, title):
+        assert len(SIZES) > 70
+        for size in SIZES:
+            bar = bar_of(size, title, 15.86)
+            for (name, rect), (other, beside) in combinations(bar.places.items(), 2):
+                assert not rect.colliderect(beside), (size, name, other)
+            assert all(bar.rect.contains(rect) for rect in bar.places.values()), size
+            assert bar.line.width >= LEAST * bar.unit - 1, size
+            assert {"menu", "restart", "go", "see", "keep", "more"} <= set(bar.buttons), size
+
+    def test_where_there_is_room_it_has_everything(self):
+        bar = bar_of((1280, 720), TITLES[1], 15.86)
+        assert set(bar.buttons) == set(HINTS)
+        assert bar.title == TITLES[1]
+
+    def test_what_is_written_has_room(self):
+        for size in ((480, 400), (640, 400), (960, 1080), (1280, 720)):
+            for duration in (0.4, 15.86, 120.0):
+                bar = bar_of(size, TITLES[1], duration)
+                assert bar.lettering.width(bar.title, "small", bold=True) < bar.places["menu"].width
+                assert bar.lettering.width(f"{duration:.2f} s", "small") <= bar.places["time"].width
+                if "rate" in bar.places:
+                    assert bar.lettering.width("×1/16", "small") <= bar.places["rate"].width
+
+    def test_it_stays_as_it_is_while_a_shot_is_watched(self):
+        for size in ((500, 800), (1280, 720)):
+            assert bar_of(size, "golf", 15.86).places == bar_of(size, "golf", 15.86, 3.0).places
+
+
+@pytest.mark.parametrize("size", [(480, 376), (640, 373), (960, 1000), (1200, 373), (1280, 672)])
+def test_every_scene_and_preset_can_be_seen_in_the_menu(size):
+    menu = overlay.Menu(list(listings()))
+    sheet = Canvas(pygame.Surface(size))
+    menu.draw(sheet, "golf", (-1, -1))
+    assert [name for _, name in menu.places] == [listing.name for listing in listings()]
+    assert all(sheet.surface.get_rect().contains(place) for place, _ in menu.places)
+    assert all(not a.colliderect(b) for (a, _), (b, _) in combinations(menu.places, 2))
+
+
+@pytest.mark.parametrize("size", [(480, 376), (480, 920), (640, 373), (960, 1000), (1200, 373), (1280, 672)])
+def test_every_key_can_be_seen_in_the_help(size, monkeypatch):
+    placed = []
+    write = Lettering.write
+
+    def noted(self, *arguments, **named):
+        placed.append(write(self, *arguments, **named))
+        return placed[-1]
+
+    monkeypatch.setattr(Lettering, "write", noted)
+    sheet = Canvas(pygame.Surface(size))
+    overlay.draw_help(sheet)
+    assert len(placed) > 80
+    assert all(sheet.surface.get_rect().contains(rect) for rect in placed)
+    assert not any(a.inflate(0, -2).colliderect(b.inflate(0, -2)) for a, b in combinations(placed, 2))
+
+
+@pytest.mark.parametrize("size", [(640, 400), (960, 1080), (1280, 720), (2560, 1440)])
+def test_the_letters_of_the_panel_fill_its_boxes(player, size):
+    player = player("golf", size)
+    player.key(pygame.K_TAB)
+    panel = player.app.panel
+    panel.group = "accuracy"
+    panel._build()
+    choice = next(row.choice for row in panel.rows if row.choice is not None)
+    for element in (panel.reset_all, panel.rows[1].label, panel.rows[1].entry, choice.current_state.open_button):
+        size_of_letters = element.font.get_point_size()
+        assert 0.5 * panel.row <= size_of_letters <= 0.56 * panel.row
+    player.click(choice.rect.center)
+    player.frames(3)
+    assert choice.current_state.options_selection_list.list_item_height >= 1.4 * size_of_letters
+
+
+def test_the_list_of_groups_opens_over_the_sliders(player):
+    player = player("golf")
+    player.key(pygame.K_TAB)
+    panel = player.app.panel
+    player.click(panel.chooser.rect.center)
+    player.frames(3)
+    opened = panel.chooser.current_state.options_selection_list.item_list_container
+    knobs = [row.slider.sliding_button for row in panel.rows if row.slider is not None]
+    assert opened.rect.collidelist([knob.rect for knob in knobs]) >= 0
+    assert min(item.layer for item in opened.elements) > max(knob.layer for knob in knobs)
+    player.click(opened.elements[2].rect.center)
+    player.frames(3)
+    assert panel.group == "launch"
