@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import signal
 import sys
-from collections.abc import Iterator
+import time
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from io import TextIOWrapper
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -43,12 +45,32 @@ Settings = Annotated[
         "--set", metavar="KEY=VALUE", help='Change a parameter; repeatable. A value may have a unit: "171 mph".'
     ),
 ]
+LEVELS = ("fast", "balanced", "precise")
 Level = Annotated[
-    Literal["fast", "balanced", "precise"] | None,
+    str | None,
     typer.Option(
-        "--accuracy", help="Speed against accuracy, in place of the scene file's accuracy.level.", show_default=False
+        "--accuracy",
+        metavar="|".join(LEVELS),
+        help="Speed against accuracy, in place of the scene file's accuracy.level.",
+        show_default=False,
     ),
 ]
+
+
+def _whole(option: str, low: int, high: float = float("inf"), unit: str = "") -> Callable[[str], int]:
+    """Reads the whole number of an option; its bounds are in ``unit``."""
+    bounds = f"of {low} or more" if high == float("inf") else f"from {low} to {high}"
+
+    def read(text: str) -> int:
+        try:
+            number = int(text)
+        except ValueError:
+            number = low - 1
+        if not low <= number <= high:
+            raise RequestError(f"{option} {text}: must be a whole number {bounds} {unit}".rstrip())
+        return number
+
+    return read
 
 
 def _show_version(wanted: bool) -> None:
@@ -153,7 +175,9 @@ def run(
     fps: Annotated[
         int | None,
         typer.Option(
-            metavar="N", min=1, max=240, help="Frames per second of the run.  [default: 60 for --frames, else 25]"
+            metavar="N",
+            parser=_whole("--fps", 1, 240, "frames per second"),
+            help="Frames per second of the run, from 1 to 240.  [default: 60 for --frames, else 25]",
         ),
     ] = None,
     size: Annotated[
@@ -239,6 +263,8 @@ def _changes(settings: list[str] | None, accuracy: str | None) -> dict[str, Any]
 
     changes = dict(parse_assignment(text) for text in settings or [])
     if accuracy is not None:
+        if accuracy not in LEVELS:
+            raise RequestError(f'--accuracy {accuracy}: must be "fast", "balanced" or "precise"')
         changes["accuracy.level"] = accuracy
     return changes
 
@@ -297,6 +323,7 @@ def _draw(
     done: Run, outputs: dict[str, Path], fps: int | None, size: tuple[int, int] | None, ghosts: dict[str, Run]
 ) -> None:
     """Write the pictures of a run that were asked for, by their options."""
+    from sandbox.files import no_empty_folder
     from sandbox.picture import frames
     from sandbox.progress import bar
 
@@ -317,7 +344,7 @@ def _draw(
                 frames.save_png(energy_chart(done, (width, height)), path)
             else:
                 save = {"--frames": frames.save_frames, "--gif": frames.save_gif, "--webp": frames.save_webp}[option]
-                with bar(option.removeprefix("--")) as progress:
+                with no_empty_folder(path), bar(option.removeprefix("--")) as progress:
                     save(picture, done, path, fps or (60 if option == "--frames" else 25), progress)
 
 
@@ -387,9 +414,10 @@ def sweep(
     set_: Settings = None,
     accuracy: Level = None,
     samples: Annotated[
-        int | None, typer.Option(metavar="N", min=1, help="So many random points in place of a grid.")
+        int | None,
+        typer.Option(metavar="N", parser=_whole("--samples", 1), help="So many random points in place of a grid."),
     ] = None,
-    seed: Annotated[int, typer.Option(metavar="N", min=0, help="Which random points.")] = 0,
+    seed: Annotated[int, typer.Option(metavar="N", parser=_whole("--seed", 0), help="Which random points.")] = 0,
     check: Annotated[bool, typer.Option("--check", help="Run each point again, finer, and add its errors.")] = False,
     plot: Annotated[
         Path | None, typer.Option(metavar="F.png", help="A map over two parameters, a curve over one.")
@@ -399,7 +427,12 @@ def sweep(
         Path | None, typer.Option(metavar="F.parquet", help="The rows once more; needs pyarrow.")
     ] = None,
     jobs: Annotated[
-        int | None, typer.Option(min=1, metavar="N", help="Processes.  [default: one for each core that saves time]")
+        int | None,
+        typer.Option(
+            metavar="N",
+            parser=_whole("--jobs", 1, unit="processes"),
+            help="Processes.  [default: one for each core that saves time]",
+        ),
     ] = None,
     scheduler: Annotated[
         str | None, typer.Option(metavar="ADDRESS", help="Have the workers of a Dask scheduler compute.")
@@ -560,19 +593,26 @@ def _json(value: Any) -> str:
 # ---------------------------------------------------------------------------------------------------------------------
 
 
+#: Exit code after Ctrl-C.
+STOPPED = 130
+
+
 def main(args: list[str] | None = None) -> int:
     """Run one command; what goes wrong becomes a line on stderr and an exit code."""
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, TextIOWrapper):
             stream.reconfigure(errors="replace")  # a terminal without "±" shows "?"
+    if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
+        signal.signal(signal.SIGINT, _Interrupts())
     try:
-        return app(args, prog_name="sandbox", standalone_mode=False) or 0
+        code: int = app(args, prog_name="sandbox", standalone_mode=False) or 0
+        return _fail("stopped", code) if code == STOPPED else code
     except typer.TyperException as error:  # unknown command, missing argument, bad option
-        return _fail(f"{error.format_message()}\nsandbox --help shows how to ask", error.exit_code)
+        return _fail(f"{error.format_message()}\n{_asked(error, args)} --help shows how to ask", error.exit_code)
     except SandboxError as error:
         return _fail(str(error), error.exit_code)
     except KeyboardInterrupt:
-        return 130
+        return _fail("stopped", STOPPED)
     except Exception as error:
         from sandbox.tracebacks import of_user_code
 
@@ -582,8 +622,32 @@ def main(args: list[str] | None = None) -> int:
         return _fail(text, 1)
 
 
+def _asked(error: typer.TyperException, args: list[str] | None) -> str:
+    """The program, or the command of it, that was asked wrongly."""
+    context = getattr(error, "ctx", None)
+    if context is not None:
+        return str(context.command_path)
+    first = (sys.argv[1:] if args is None else args)[0]  # of an option without its value only that is known
+    return "sandbox" if first.startswith("-") else f"sandbox {first}"
+
+
+class _Interrupts:
+    """Ctrl-C, once: another signal within a second is the same one, sent to the process and to its group."""
+
+    def __init__(self) -> None:
+        self.last = -1.0
+
+    def __call__(self, number: int, frame: object) -> None:
+        now = time.monotonic()
+        if now - self.last > 1.0:
+            self.last = now
+            raise KeyboardInterrupt
+
+
 def _say(text: str) -> None:
     """Print on stdout, at once. The reader of a pipe may go when it likes; a full disk is told."""
+    if sys.stdout is None:
+        raise RunError("stdout cannot be written: it is closed")
     try:
         typer.echo(text)
         sys.stdout.flush()
@@ -596,5 +660,5 @@ def _say(text: str) -> None:
 
 
 def _fail(message: str, code: int) -> int:
-    typer.echo(f"error: {message}".rstrip(), err=True)
+    typer.echo(message if code == STOPPED else f"error: {message}".rstrip(), err=True)
     return code

@@ -37,7 +37,7 @@ def bar(what: str) -> Iterator[Callable[[int, int], None]]:
         sys.stderr.flush()
 
     try:
-        yield show if sys.stderr.isatty() else lambda done, total: None
+        yield show if sys.stderr is not None and sys.stderr.isatty() else lambda done, total: None
     finally:
         if shown:
             sys.stderr.write("\r\x1b[K")  # back to the start of the line, and clear it

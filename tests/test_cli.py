@@ -306,17 +306,20 @@ def test_settings_and_accuracy_stand_over_the_file(call, tmp_path: Path):
         (["run", "golf", "--set", "air.wind=3"], "--set air.wind = 3: must be a list of 2 numbers"),
         (["run", "golf", "--set", "air.wind=[3,300]"], "air.wind = [3, 300]: 300 must be from -100 to 100 m/s"),
         (["run", "golf", "--set", "ball.drag.model=ideal"], "ball.drag"),
-        (["run", "golf", "--accuracy", "best"], "'best' is not one of 'fast', 'balanced', 'precise'"),
+        (["run", "golf", "--accuracy", "best"], '--accuracy best: must be "fast", "balanced" or "precise"'),
         (["run", "golf", "--set", "accuracy.level=best"], 'must be "fast", "balanced" or "precise"'),
         (["run", "golf", "--fps", "30"], "--fps 30: goes with --frames, --gif or --webp"),
-        (["run", "golf", "--frames", "frames", "--fps", "0"], "--fps"),
+        (["run", "golf", "--frames", "frames", "--fps", "0"], "--fps 0: must be a whole number from 1 to 240 frames"),
+        (["run", "golf", "--frames", "frames", "--fps", "12.5"], "--fps 12.5: must be a whole number from 1 to 240"),
+        (["sweep", "golf", "--jobs", "0"], "--jobs 0: must be a whole number of 1 or more processes"),
         (["run", "golf", "--size", "720p"], "--size 720p: must be width and height in px, such as 1280x720"),
         (["run", "golf", "--size", "16x9"], "--size 16x9: must be between 320x180 and 7680x4320 px"),
         (["run", "golf", "--compare", "golff"], "unknown scene golff; did you mean golf?"),
         (["run", "golf", "--compare", "soccer"], "--compare soccer: is soccer, and only golf can"),
-        (["run", "golf", "--bogus"], "No such option: --bogus"),
+        (["run", "golf", "--bogus"], "No such option: --bogus\nsandbox run --help shows how to ask"),
+        (["run", "golf", "--fps"], "Option '--fps' requires an argument.\nsandbox run --help shows how to ask"),
         (["run"], "Missing argument 'SCENE'"),
-        (["bogus"], "No such command 'bogus'"),
+        (["bogus"], "No such command 'bogus'.\nsandbox --help shows how to ask"),
     ],
 )
 def test_a_wrong_request_is_refused_in_a_line(call, tmp_path: Path, monkeypatch, args: list[str], expected: str):
@@ -491,7 +494,24 @@ def test_a_terminal_that_cannot_show_a_character_is_no_trouble():
     assert b"1.21 m ? less" in process.stdout
 
 
-def test_ctrl_c_ends_quietly_with_130(drop: Path, tmp_path: Path):
+def test_a_closed_stdout_is_told(tmp_path: Path):
+    outcome = subprocess.run(["sh", "-c", '"$@" >&-', "sh", *COMMAND, "run", str(DROP)], capture_output=True, text=True)
+    assert (outcome.returncode, outcome.stderr) == (1, "error: stdout cannot be written: it is closed\n")
+
+
+def test_a_closed_stderr_is_no_trouble(tmp_path: Path):
+    command = ["sh", "-c", '"$@" 2>&-', "sh", *COMMAND, "run", str(DROP), "--gif", str(tmp_path / "drop.gif")]
+    outcome = subprocess.run(command, capture_output=True, text=True)
+    assert (outcome.returncode, outcome.stderr) == (0, "")
+    assert "wrote" in outcome.stdout
+
+
+def test_python_runs_the_module():
+    outcome = subprocess.run([sys.executable, "-m", "sandbox", "--version"], capture_output=True, text=True)
+    assert (outcome.returncode, outcome.stdout) == (0, f"sandbox {sandbox.__version__}\n")
+
+
+def test_ctrl_c_ends_with_a_line_and_130(drop: Path, tmp_path: Path):
     sign = tmp_path / "running"
     change(
         drop, BUILD, f"{BUILD}    import pathlib, time\n    pathlib.Path({str(sign)!r}).touch()\n    time.sleep(60)\n"
@@ -500,8 +520,19 @@ def test_ctrl_c_ends_quietly_with_130(drop: Path, tmp_path: Path):
     while not sign.exists() and process.poll() is None:
         time.sleep(0.01)
     process.send_signal(signal.SIGINT)
-    assert process.communicate(timeout=30) == ("", "")
+    assert process.communicate(timeout=30) == ("", "stopped\n")
     assert process.returncode == 130
+
+
+def test_frames_that_were_not_finished_leave_no_folder(call, drop: Path, tmp_path: Path):
+    source = (drop / "picture.py").read_text("utf-8")
+    begun = "    def frame(self, t: float) -> pygame.Surface:\n"
+    assert begun in source
+    (drop / "picture.py").write_text(source.replace(begun, f"{begun}        1 / 0\n"))
+    (tmp_path / "there").mkdir()
+    for folder in ("there", "new/frames"):
+        assert call("run", drop, "--frames", tmp_path / folder).code == 1
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["drop", "there"]
 
 
 def test_help_imports_nothing_heavy():

@@ -342,12 +342,13 @@ def test_ctrl_c_keeps_what_is_done_and_the_same_command_resumes(tmp_path, jobs):
     while not (path.exists() and path.read_bytes().count(b"\n") > 10):
         assert time.monotonic() < deadline, process.poll()
         time.sleep(0.02)
+    process.send_signal(signal.SIGINT)  # as timeout does, which then tells the group
     os.killpg(process.pid, signal.SIGINT)  # a terminal tells all processes
     out, err = process.communicate(timeout=30)
     assert (process.returncode, out) == (130, "")
     kept = len(table(path))
     assert 10 <= kept < 200
-    assert err == f"error: stopped: {kept} of 200 points are kept in {path}; the same command goes on from there\n"
+    assert err == f"stopped: {kept} of 200 points are kept in {path}; the same command goes on from there\n"
     assert everybody_gone(process.pid)
 
     finished = subprocess.run([*COMMAND, *map(str, command)], capture_output=True, text=True, check=True)
