@@ -40,7 +40,7 @@ class Picture:
         self.paths = [Path(run, ball.name) for ball in run.setup.balls]
         self.several = len(self.paths) > 1
         sheet = Sheet(size)
-        self.card_row = sheet.frame.bottom - sheet.card_height(len(self.ghosts))
+        self.card_row = sheet.card_row(len(self.ghosts))
         area = Area(0.07 * size[0], 150 * self.unit, 0.93 * size[0], self.card_row - 89 * self.unit)
         self.camera = Camera.fit(self._place(), area)
 

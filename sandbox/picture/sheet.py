@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from math import ceil, floor, hypot, log10
+from typing import NamedTuple
 
 import numpy as np
 import pygame
@@ -25,14 +26,25 @@ YARD = 0.9144  # m
 UNITS = {"yd": YARD, "ft": YARD / 3}
 #: Letters and lines go with a picture's height; where it is narrower than this, width over height, with its width.
 SQUAREST = 4 / 3
-#: Under so many rows a ruler has no second row of figures.
-ROWS_FOR_YARDS = 480
+#: Under so many rows a ruler has no second row of figures; under so few there is no room for a large headline, nor for
+#: lengths between ground and ruler.
+ROWS_FOR_YARDS, ROWS_FOR_LENGTHS = 480, 240
 
 
 def rows_of(size: tuple[int, int]) -> int:
     """The rows in px that letters and lines of a picture are made for: its own, or fewer where it is narrow."""
     width, height = size
     return min(height, round(width / SQUAREST))
+
+
+class SideRows(NamedTuple):
+    """Where things are in a picture from the side, in px from the top."""
+
+    top: float  # under the headline and its notes
+    base: int  # the ground
+    lengths: list[float]  # under it, the lowest first; none in a low picture
+    ruler: float
+    card: int
 
 
 class Sheet:
@@ -82,12 +94,36 @@ class Sheet:
             self.written.append((text, rect))
         return rect
 
+    @property
+    def head(self) -> str:
+        """The size of headlines."""
+        return "large" if self.rows >= ROWS_FOR_LENGTHS else "medium"
+
+    @property
+    def top_row(self) -> int:
+        """Under a headline and its notes, in px."""
+        return self.frame.top + self.lettering.height(self.head) + self.lettering.height("small") + 2 * self.gap
+
+    def card_row(self, others: int = 0) -> int:
+        """Where the card along the bottom begins, in px, with so many rows of other values."""
+        return self.frame.bottom - self.card_height(others)
+
+    def side_rows(self, others: int, lengths: int) -> SideRows:
+        """The rows of a picture from the side with so many rows of other values on its card, and of ``lengths``."""
+        small, card = self.lettering.height("small"), self.card_row(others)
+        above, below = self.ruler_heights()
+        ruler = card - 2.2 * self.gap - below
+        lowest = ruler - above - 0.8 * self.gap - small / 2
+        rows = [lowest - i * (small + 0.7 * self.gap) for i in range(lengths if self.rows >= ROWS_FOR_LENGTHS else 0)]
+        ground = rows[-1] - small / 2 if rows else ruler - above
+        return SideRows(self.top_row, round(ground - 2.4 * self.gap), rows, ruler, card)
+
     def headline(self, text: str, notes: Sequence[str], room: float) -> None:
         """What happened, large, at the top left, and a line of notes below it; ``room`` px wide at most.
 
         Notes for which there is no room are left out, the last first.
         """
-        fitting = (size for size in ("large", "medium") if self.lettering.width(text, size, bold=True) <= room)
+        fitting = (size for size in (self.head, "medium") if self.lettering.width(text, size, bold=True) <= room)
         size = next(fitting, "small")
         rect = self.write(text, size, self.frame.topleft, self.ink, bold=True)
         lines = ["   ·   ".join(notes[:count]) for count in range(len(notes), 0, -1)]
@@ -167,23 +203,22 @@ class Sheet:
                     self.write(text, "small", at, CARD["text"] if upward else CARD["quiet"], anchor)
 
     def dimension(self, text: str, row: float, start: float, end: float, colour: Colour) -> None:
-        """A line from ``start`` to ``end`` (px along x) with a stroke at either end and its text in a gap."""
+        """A line from ``start`` to ``end`` (px along x) with strokes at its ends, its text in a gap or beside it."""
         thin = max(1, round(1.2 * self.unit))
         left, right = sorted((round(start), round(end)))
         y = round(row)
         rect = self.lettering.rect(text, "small", ((left + right) / 2, row), "center", bold=True)
-        if right - left >= rect.width + 6 * self.gap:
-            pieces = [(left, rect.left - self.gap), (rect.right + self.gap, right)]
-        else:
-            pieces = [(left, right)]
+        if right - left < rect.width + 6 * self.gap:
             beside = [(right + 2 * self.gap, "midleft"), (left - 2 * self.gap, "midright")]
             spots = [self.lettering.rect(text, "small", (x, row), anchor, bold=True) for x, anchor in beside]
             rect = next((spot for spot in spots if self.frame.contains(spot)), spots[0].clamp(self.frame))
-        for a, b in pieces:
-            self.surface.fill(colour, (a, y, b - a, thin))
+        room = rect.inflate(2 * self.gap, 0)
+        for a, b in ((left, min(right, room.left)), (max(left, room.right), right)):
+            self.surface.fill(colour, (a, y, max(0, b - a), thin))
         tall = round(9 * self.unit)
         for x in (left, right):
-            self.surface.fill(colour, (x, y - tall // 2, thin, tall + thin - 1))
+            if not room.left < x < room.right:
+                self.surface.fill(colour, (x, y - tall // 2, thin, tall + thin - 1))
         self.write(text, "small", rect.topleft, colour, bold=True)
 
     def wind(self, along: float, up: float, right: float, top: float) -> pygame.Rect:

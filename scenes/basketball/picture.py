@@ -57,14 +57,8 @@ class Picture:
         self.wind: tuple[float, float] = parameters.air.wind
         sheet = Sheet(size)
         self.unit, self.rows = sheet.unit, sheet.rows
-        small = sheet.lettering.height("small")
-        above, below = sheet.ruler_heights()
-        self.card_row = sheet.frame.bottom - sheet.card_height(len(self.ghosts))
-        self.ruler_row = self.card_row - 2.2 * sheet.gap - below
-        self.distance_row = self.ruler_row - above - 0.8 * sheet.gap - small / 2
-        base = round(self.distance_row - small / 2 - 2.4 * sheet.gap)
-        self.top_row = sheet.frame.top + sheet.lettering.height("large") + small + 2 * sheet.gap
-        self.hall, self.net = Hall(parameters, size, base), Net(run, parameters)
+        self.rows_at = sheet.side_rows(len(self.ghosts), lengths=1)
+        self.hall, self.net = Hall(parameters, size, self.rows_at.base), Net(run, parameters)
         side = round(LENS * self.unit)
         self.kept = Kept()
         self._standing: tuple[Camera, pygame.Surface] | None = None
@@ -83,7 +77,7 @@ class Picture:
         if max(right - left, top) >= LEAST_PATH * (wide[1] - wide[0]):
             (left, right), top = wide, max(top, hall.top)
         box = Box(left, 0.0, right, top)
-        area = Area(side, self.top_row + 24 * self.unit, self.size[0] - side, hall.base)
+        area = Area(side, self.rows_at.top + 24 * self.unit, self.size[0] - side, hall.base)
         alone = Camera.fit(box, area)
         beside = Camera.fit(box, area._replace(left=0.06 * self.size[0], right=self.lens.left - 24 * self.unit))
         if self._near_ring and beside.scale >= LEAST_SHRINK * alone.scale and self._lens_factor(beside) > 1.5:
@@ -163,7 +157,7 @@ class Picture:
         draw_trace(sheet, self.trace, COURT["trace"])
         every = self._balls(sheet, camera)
         self._before(sheet, eye, self.net.fullest)
-        sheet.ruler(camera, self.ruler_row, "ft")
+        sheet.ruler(camera, self.rows_at.ruler, "ft")
         self._distance(sheet, camera)
         mark_impacts(sheet, camera, self.path.marks(), lambda mark: not (self.composed[1] and self._in_lens(mark.at)))
         right = sheet.frame.right
@@ -180,7 +174,7 @@ class Picture:
         if (factor := enlarged(self.radius, camera, self.rows)) > 1:
             notes.append(f"ball drawn {times(factor)} its size")
         sheet.headline(self.verdict(), notes, right - sheet.frame.left - 2 * sheet.gap)
-        sheet.columns(self.card_row, self.numbers(), [ghost.row for ghost in self.ghosts])
+        sheet.columns(self.rows_at.card, self.numbers(), [ghost.row for ghost in self.ghosts])
         return sheet.surface
 
     def _place(self, sheet: Sheet, eye: Eye, t: float) -> None:
@@ -238,12 +232,10 @@ class Picture:
         start, end = (camera.pixel(x, 0)[0] for x in (0.0, distance))
         if not sheet.frame.left <= end <= sheet.frame.right:
             return
-        if abs(end - start) > 4:
+        for row in self.rows_at.lengths if abs(end - start) > 4 else ():
             text = f"{metres(distance)} to the ring, {metres(height)} up"
-            sheet.dimension(text, self.distance_row, start, end, CARD["text"])
-            line = pygame.Rect(
-                round(start), round(self.distance_row - 4 * self.unit), round(end - start), round(8 * self.unit)
-            )
+            sheet.dimension(text, row, start, end, CARD["text"])
+            line = pygame.Rect(round(start), round(row - 4 * self.unit), round(end - start), round(8 * self.unit))
             sheet.labels.take(line)
 
     def _in_lens(self, point: tuple[float, float], beyond: float = 0.0) -> bool:
@@ -352,8 +344,8 @@ class Picture:
         hall, home = self.hall, self.camera
         columns = 0.1 * self.size[0], self.lens.left - 40 * self.unit if self.composed[1] else 0.9 * self.size[0]
         box = Box(-THROWER, 0.0, hall.back + STAND, 1.25 * hall.top)
-        near = Camera.fit(box, Area(columns[0], self.top_row, columns[1], hall.base))
-        return Chase(self.run, "ball", near if near.scale > home.scale else home, columns, self.top_row)
+        near = Camera.fit(box, Area(columns[0], self.rows_at.top, columns[1], hall.base))
+        return Chase(self.run, "ball", near if near.scale > home.scale else home, columns, self.rows_at.top)
 
     def frame(self, t: float) -> pygame.Surface:
         """The scene at time t in s, seen by a camera that follows the ball."""
@@ -373,12 +365,12 @@ class Picture:
         for ghost in self.ghosts:
             other = ghost.picture
             place = camera.pixel(*other.run.state("ball", min(t, other.run.duration))[:2])
-            draw_in_frame(sheet, ghost, camera.pixels(other.path.points), place, self.top_row)
+            draw_in_frame(sheet, ghost, camera.pixels(other.path.points), place, self.rows_at.top)
         self._trail(sheet, camera, t, 0.7 * radius)
         self.vectors.draw(sheet, at, radius, t)
         BALL.draw(painter, at, radius, self.run.angle("ball", t), unit, radius > true)
         self._before(sheet, eye, t)
-        sheet.ruler(camera, self.ruler_row, "ft")
+        sheet.ruler(camera, self.rows_at.ruler, "ft")
         right = sheet.frame.right
         if self.composed[1]:
             right = self.lens.left - 2 * sheet.gap
@@ -392,7 +384,7 @@ class Picture:
             sheet.headline(self.verdict(), notes, right - sheet.frame.left - 2 * sheet.gap)
         else:
             sheet.headline(metres(y), ["above the floor", *notes], self.size[0])
-        sheet.columns(self.card_row, self.live(t), [ghost.live(t) for ghost in self.ghosts])
+        sheet.columns(self.rows_at.card, self.live(t), [ghost.live(t) for ghost in self.ghosts])
         return sheet.surface
 
     def live(self, t: float) -> list[Entry]:

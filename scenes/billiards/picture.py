@@ -50,8 +50,7 @@ class Picture:
         self.names = [ball.name for ball in run.setup.balls]
         sheet = self.sheet = Sheet(size, on_dark=True)
         self.unit = sheet.unit
-        self.card_row = sheet.frame.bottom - sheet.card_height(len(self.ghosts))
-        self.head_row = sheet.frame.top + sheet.lettering.height("large") + sheet.lettering.height("small") + sheet.gap
+        self.head_row, self.card_row = sheet.top_row - sheet.gap, sheet.card_row(len(self.ghosts))
 
     @cached_property
     def camera(self) -> Camera:

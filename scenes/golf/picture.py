@@ -59,16 +59,8 @@ class Picture:
         self.moon = parameters.air.density == 0.0 and parameters.gravity < LEAST_GRAVITY
         sheet = Sheet(size)
         self.unit, self.rows = sheet.unit, sheet.rows
-        # Rows in px, from the bottom up: the card, the ruler, the distances; and where the sky is free.
-        small = sheet.lettering.height("small")
-        above, below = sheet.ruler_heights()
-        self.card_row = sheet.frame.bottom - sheet.card_height(len(self.ghosts))
-        self.ruler_row = self.card_row - 2.2 * sheet.gap - below
-        self.total_row = self.ruler_row - above - 0.8 * sheet.gap - small / 2
-        self.carry_row = self.total_row - small - 0.7 * sheet.gap
-        self.sky_row = sheet.frame.top + sheet.lettering.height("large") + small + 2 * sheet.gap
-        self.frame_base = round(self.ruler_row - above - 2.4 * sheet.gap)
-        self.poster_base = round(self.carry_row - small / 2 - 2.4 * sheet.gap)
+        self.rows_at = sheet.side_rows(len(self.ghosts), lengths=2)
+        self.frame_base = sheet.side_rows(len(self.ghosts), lengths=0).base
 
     # The poster
 
@@ -86,8 +78,8 @@ class Picture:
 
     @cached_property
     def poster_course(self) -> Course:
-        course = Course(self.run.setup, self.pin, self.size, self.poster_base, self.moon)
-        return self._course(self.poster_base, self._composed(course).scale)
+        course = Course(self.run.setup, self.pin, self.size, self.rows_at.base, self.moon)
+        return self._course(self.rows_at.base, self._composed(course).scale)
 
     @cached_property
     def camera(self) -> Camera:
@@ -106,7 +98,7 @@ class Picture:
             left, right = wide
         bottom, hill = course.lowest_and_highest(left, right)
         side = 0.085 * self.size[0]
-        area = Area(side, self.sky_row + 40 * self.unit, self.size[0] - side, course.base)
+        area = Area(side, self.rows_at.top + 40 * self.unit, self.size[0] - side, course.base)
         box = Box(left, bottom, right, max(top, hill))
         camera = Camera.fit(box, area)
         rise, room = (box.top - box.bottom) * camera.scale, area.bottom - area.top
@@ -160,7 +152,7 @@ class Picture:
         every = self._balls_at_even_times(sheet, camera)
         self._distances(sheet, camera)
         mark_impacts(sheet, camera, self._hard_impacts(camera), lambda mark: True)
-        sheet.ruler(camera, self.ruler_row)
+        sheet.ruler(camera, self.rows_at.ruler)
         right = sheet.frame.right
         if any(self.wind):
             right = sheet.wind(*self.wind, sheet.frame.right, sheet.frame.top).left
@@ -171,7 +163,7 @@ class Picture:
             notes.append(f"ball drawn {times(factor)} its size")
         notes = [ghost.note for ghost in self.ghosts] + notes
         sheet.headline(self.verdict(), notes, right - sheet.frame.left - 2 * sheet.gap)
-        sheet.columns(self.card_row, self.numbers(), [ghost.row for ghost in self.ghosts])
+        sheet.columns(self.rows_at.card, self.numbers(), [ghost.row for ghost in self.ghosts])
         return sheet.surface
 
     @property
@@ -244,23 +236,23 @@ class Picture:
     def _distances(self, sheet: Sheet, camera: Camera) -> None:
         """Carry and total, measured along the ground."""
         start = camera.pixel(0, 0)[0]
-        for name, row, colour in (("carry", self.carry_row, CARD["accent"]), ("total", self.total_row, CARD["text"])):
+        colours = {"total": CARD["text"], "carry": CARD["accent"]}
+        for row, (name, colour) in zip(self.rows_at.lengths, colours.items(), strict=False):
             value = self.run.result[name]
             if value and abs(value) * camera.scale > 4:
                 text = f"{name} {metres(value)}   {yards(value)}"
-                if name == "carry" and self._carry_ends_in_the_air(sheet, camera, value):
+                if name == "carry" and self._carry_ends_in_the_air(sheet, camera, value, row - 0.6 * sheet.gap):
                     text += "   at launch height"
                 sheet.dimension(text, row, start, camera.pixel(value, 0)[0], colour)
 
-    def _carry_ends_in_the_air(self, sheet: Sheet, camera: Camera, carry: float) -> bool:
-        """Whether the ball is clearly above lower ground where its carry (m) ends; then this place is marked."""
+    def _carry_ends_in_the_air(self, sheet: Sheet, camera: Camera, carry: float, row: float) -> bool:
+        """Whether the ball is clearly above lower ground where its carry (m) ends; then this is marked, down to row."""
         course = self.poster_course
         x, y = self._lifted(course, camera, np.array([(carry, self.path[0, 2])]))[0]
         ground = camera.pixel(carry, course.height(carry))[1]
         if ground - y < LEAST_DROP * self.unit:
             return False
-        end = self.carry_row - 0.6 * sheet.gap
-        sheet.painter.dashes([(x, y), (x, end)], 1.3 * self.unit, CARD["accent"], 4 * self.unit, 4 * self.unit)
+        sheet.painter.dashes([(x, y), (x, row)], 1.3 * self.unit, CARD["accent"], 4 * self.unit, 4 * self.unit)
         sheet.painter.disc((x, y), 4.2 * self.unit, TRACE["rim"], 0.8)
         sheet.painter.disc((x, y), 3.0 * self.unit, CARD["accent"])
         sheet.labels.take_path([(x, y), (x, (y + ground) / 2), (x, ground)], 4 * self.unit)
@@ -330,7 +322,7 @@ class Picture:
         times = np.linspace(0.0, self.run.duration, max(2, min(MOST_SAMPLES, round(self.run.duration * 60))))
         states = np.array([self.run.state(self.name, t) for t in times])
         ground = np.interp(states[:, 0], course.line[:, 0], course.line[:, 1])
-        room = 0.8 * (course.base - self.sky_row)
+        room = 0.8 * (course.base - self.rows_at.top)
         high = room / np.maximum(states[:, 1] - ground, 1e-9)
         fast = 0.6 * width / (SIGHT * np.maximum(np.hypot(states[:, 2], states[:, 3]), 1e-9))
         scales = np.minimum(self.nearest, np.minimum(high, fast))
@@ -358,15 +350,15 @@ class Picture:
             other = ghost.picture
             there = other.run.state(other.name, min(t, other.run.duration))
             place = self._spot(course, camera, there[0], there[1], radius)
-            draw_in_frame(sheet, ghost, self._lifted(course, camera, other.path[:, 1:3]), place, self.sky_row)
+            draw_in_frame(sheet, ghost, self._lifted(course, camera, other.path[:, 1:3]), place, self.rows_at.top)
         self._trail(sheet, camera, t, radius)
         self.vectors.draw(sheet, at, radius, t)
         BALL.draw(painter, at, radius, self.run.angle(self.name, t), self.unit, radius > true)
         over, under = sheet.ruler_heights()
-        if lowest > self.ruler_row - over:  # the ruler would stand on bright turf
-            backing = pygame.Rect(sheet.frame.left, self.ruler_row - over, sheet.frame.width, over + under)
+        if lowest > self.rows_at.ruler - over:  # the ruler would stand on bright turf
+            backing = pygame.Rect(sheet.frame.left, self.rows_at.ruler - over, sheet.frame.width, over + under)
             painter.panel(backing, CARD["background"], 0.5, 10 * unit)
-        sheet.ruler(camera, self.ruler_row)
+        sheet.ruler(camera, self.rows_at.ruler)
         corner = self._map(sheet, t)
         if any(self.wind):
             sheet.wind(*self.wind, corner.right, corner.bottom + 2 * sheet.gap)
@@ -376,7 +368,7 @@ class Picture:
             sheet.headline(self.verdict(), notes, corner.left - sheet.frame.left - 2 * sheet.gap)
         else:
             sheet.headline(metres(x - self.path[0, 1], self._digits), ["from the start", *notes], self.size[0])
-        sheet.columns(self.card_row, self.live(t), [ghost.live(t) for ghost in self.ghosts])
+        sheet.columns(self.rows_at.card, self.live(t), [ghost.live(t) for ghost in self.ghosts])
         return sheet.surface
 
     @property
@@ -401,7 +393,7 @@ class Picture:
         """Where the ball has just been; kept out of the header."""
         times = np.linspace(max(0.0, t - TRAIL), t, 41)
         points = self._lifted(self.frame_course, camera, np.array([self.run.state(self.name, s)[:2] for s in times]))
-        above = np.flatnonzero(points[:, 1] < self.sky_row)
+        above = np.flatnonzero(points[:, 1] < self.rows_at.top)
         points = points[above[-1] + 1 :] if len(above) else points
         if len(points) > 1:
             sheet.painter.fading(points[apart(points, 2.0)], 1.1 * radius, TRACE["colours"][0], 0.9)

@@ -52,11 +52,8 @@ class Picture:
         self.pitch = Pitch(parameters, size)
         sheet = Sheet(size)
         self.unit, self.rows = sheet.unit, sheet.rows
-        self.card_row = sheet.frame.bottom - sheet.card_height(len(self.ghosts))
+        self.top_row, self.card_row = sheet.top_row, sheet.card_row(len(self.ghosts))
         self.bar_row = self.card_row - 2.0 * sheet.gap
-        self.top_row = (
-            sheet.frame.top + sheet.lettering.height("large") + sheet.lettering.height("small") + 2 * sheet.gap
-        )
         self._standing: tuple[Camera, pygame.Surface] | None = None
 
     # Composition

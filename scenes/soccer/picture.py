@@ -51,15 +51,8 @@ class Picture:
         self.wind: tuple[float, float] = parameters.air.wind
         sheet = Sheet(size)
         self.unit, self.rows = sheet.unit, sheet.rows
-        small = sheet.lettering.height("small")
-        above, below = sheet.ruler_heights()
-        self.card_row = sheet.frame.bottom - sheet.card_height(len(self.ghosts))
-        self.ruler_row = self.card_row - 2.2 * sheet.gap - below
-        self.goal_row = self.ruler_row - above - 0.8 * sheet.gap - small / 2
-        self.wall_row = self.goal_row - small - 0.7 * sheet.gap
-        base = round(self.wall_row - small / 2 - 2.4 * sheet.gap)
-        self.top_row = sheet.frame.top + sheet.lettering.height("large") + small + 2 * sheet.gap
-        self.stadium = Stadium(parameters, size, base)
+        self.rows_at = sheet.side_rows(len(self.ghosts), lengths=2)
+        self.stadium = Stadium(parameters, size, self.rows_at.base)
         self._standing: tuple[Camera, pygame.Surface] | None = None
 
     @staticmethod
@@ -85,7 +78,7 @@ class Picture:
         if max(right - left, top) >= LEAST_PATH * (reach - left):
             right = reach
             top = max(top, goal.height + 0.3) if goal.present else top
-        area = Area(side, self.top_row + 24 * self.unit, self.size[0] - side, self.stadium.base)
+        area = Area(side, self.rows_at.top + 24 * self.unit, self.size[0] - side, self.stadium.base)
         return Camera.fit(Box(left, 0.0, right, top), area)
 
     # For the window
@@ -125,7 +118,7 @@ class Picture:
         draw_trace(sheet, self.trace, GROUND["trace"])
         stadium.before(painter, eye)
         self._distances(sheet, camera)
-        sheet.ruler(camera, self.ruler_row)
+        sheet.ruler(camera, self.rows_at.ruler)
         self._clearances(sheet, camera)
         labelled = [mark for mark in self.path.marks() if mark.speed >= LEAST_LABELLED]
         mark_impacts(sheet, camera, labelled, lambda mark: True)
@@ -141,7 +134,7 @@ class Picture:
         if (factor := enlarged(self.radius, camera, self.rows)) > 1:
             notes.append(f"ball drawn {times(factor)} its size")
         sheet.headline(self.verdict(), notes, right - sheet.frame.left - 2 * sheet.gap)
-        sheet.columns(self.card_row, self.numbers(), [ghost.row for ghost in self.ghosts])
+        sheet.columns(self.rows_at.card, self.numbers(), [ghost.row for ghost in self.ghosts])
         return sheet.surface
 
     def _in_sight(self, camera: Camera, x: float) -> bool:
@@ -175,11 +168,10 @@ class Picture:
     def _distances(self, sheet: Sheet, camera: Camera) -> None:
         """How far wall and goal are, along the ground."""
         wall, goal, start = self.parameters.wall, self.parameters.goal, camera.pixel(0, 0)[0]
-        things = [("goal", goal, self.goal_row, CARD["text"]), ("wall", wall, self.wall_row, CARD["text"])]
-        for name, thing, row, colour in things:
+        for row, (name, thing) in zip(self.rows_at.lengths, (("goal", goal), ("wall", wall)), strict=False):
             end = camera.pixel(thing.distance, 0)[0]
             if thing.present and self._in_sight(camera, thing.distance) and end - start > 12 * self.unit:
-                sheet.dimension(f"{name} {metres(thing.distance)}", row, start, end, colour)
+                sheet.dimension(f"{name} {metres(thing.distance)}", row, start, end, CARD["text"])
                 tall = round(8 * self.unit)
                 sheet.labels.take(pygame.Rect(round(start), round(row) - tall // 2, round(end - start), tall))
 
@@ -273,7 +265,7 @@ class Picture:
             ahead = 0.25 if self.parameters.launch.angle <= 90 else 0.75
             home = Camera((0.0, 0.0), (ahead * width, self.stadium.base), width / NEAREST_VIEW)
             columns = 0.25 * width, 0.6 * width
-        return Chase(self.run, "ball", home, columns, self.top_row)
+        return Chase(self.run, "ball", home, columns, self.rows_at.top)
 
     def frame(self, t: float) -> pygame.Surface:
         """The scene at time t in s, seen by a camera that follows the ball."""
@@ -293,12 +285,12 @@ class Picture:
             other = ghost.picture
             there = other.run.state("ball", min(t, other.run.duration))
             place = self._spot(camera, there[0], there[1], true)
-            draw_in_frame(sheet, ghost, camera.pixels(other.path.points), place, self.top_row)
+            draw_in_frame(sheet, ghost, camera.pixels(other.path.points), place, self.rows_at.top)
         self._trail(sheet, camera, t, radius)
         self.vectors.draw(sheet, at, radius, t)
         BALL.draw(painter, at, radius, self.run.angle("ball", t), unit, radius > true)
         self.stadium.before(painter, self.stadium.eye(camera))
-        sheet.ruler(camera, self.ruler_row)
+        sheet.ruler(camera, self.rows_at.ruler)
         right = sheet.frame.right
         if any(self.wind):
             right = sheet.wind(*self.wind, right, sheet.frame.top).left
@@ -308,7 +300,7 @@ class Picture:
             sheet.headline(self.verdict(), notes, right - sheet.frame.left - 2 * sheet.gap)
         else:
             sheet.headline(metres(x), ["from the kick", *notes], self.size[0])
-        sheet.columns(self.card_row, self.live(t), [ghost.live(t) for ghost in self.ghosts])
+        sheet.columns(self.rows_at.card, self.live(t), [ghost.live(t) for ghost in self.ghosts])
         return sheet.surface
 
     def live(self, t: float) -> list[Entry]:

@@ -286,9 +286,9 @@ def _stands(size: tuple[int, int], foot: int) -> pygame.Surface:
     roof, upper, lower = GROUND["stands"]
     boards, top = round(17 * unit), foot - round(124 * unit)
     sheet = Sheet(size)
-    text = sheet.frame.top + sheet.lettering.height("large") + sheet.lettering.height("small") + sheet.gap
+    text = sheet.top_row - sheet.gap
     head = min(max(top - 74 * unit, text + 20 * unit), top - 30 * unit)  # lamps under the headline
-    for x in np.array([0.14, 0.47, 0.80]) * width:
+    for x in np.array([0.14, 0.47, 0.80]) * width if text < head else ():
         _mast(painter, (x, top), head, unit)
     stands.fill(upper, (0, top, width, foot - top))
     _roof(painter, top, width, unit)

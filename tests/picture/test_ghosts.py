@@ -61,7 +61,7 @@ def test_frames_show_both_at_the_same_time(pair):
     shown = to_image(picture.frame(0.1 * run.duration)).copy()
     picture.ghosts.clear()  # the camera stays
     hidden = to_image(picture.frame(0.1 * run.duration))
-    middle = (0, 100, 640, round(picture.card_row) - 5)  # off headline and card
+    middle = (0, 100, 640, picture.sheet.card_row(1) - 5)  # off headline and card
     assert ImageChops.difference(shown.crop(middle), hidden.crop(middle)).getbbox() is not None
 
 

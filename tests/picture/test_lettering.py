@@ -94,6 +94,14 @@ def test_a_dimension_stays_in_the_frame(size, start, end):
     assert_legible(sheet)
 
 
+@pytest.mark.parametrize(("start", "end"), [(20, 180), (60, 130), (20, 40), (100, 100)])
+def test_a_dimension_leaves_its_text_free(start, end):
+    sheet = Sheet((200, 300))
+    sheet.dimension(" " * 40, 100, start, end, (255, 255, 255))
+    ((_, rect),) = sheet.written
+    assert pygame.surfarray.array3d(sheet.surface.subsurface(rect)).max() == 0
+
+
 @pytest.mark.parametrize(
     ("value", "text"),
     [(0.42, "0.42 m"), (-8.314, "−8.31 m"), (251.36, "251.4 m"), (-0.001, "0.00 m"), (12_345.0, "12.3 km")],
