@@ -22,8 +22,10 @@ CARD, TRACE = palette("card"), palette("trace")
 EDGE = 0.02
 #: Where a line bends by more than this, in rad, it has a round joint.
 JOINT = 0.2
-#: So far from its edge, in px, a line is filled.
-INSIDE = 1.2
+#: So far from its edge, in px, the second smooth line of a line lies, and its filling, whose edge is rough, ends.
+INSIDE, FILLED = 1.2, 0.9
+#: Up to this width, in px, the smooth lines fill a line between them.
+NARROW = 3.0
 #: Pieces of a line lie over each other by so much, in px, or a gap would show where they meet.
 OVERLAP = 0.35
 #: Contacts nearer to each other than this, in px, are marked once; and at most so many.
@@ -174,14 +176,15 @@ def draw_line(surface: pygame.Surface, points: np.ndarray, width: float, colour:
     bends = np.hypot(*np.diff(across, axis=0).T) > JOINT
     for point in points[1:-1][bends]:
         pygame.draw.aacircle(surface, colour, point, width / 2)
-    # The edge of a filled shape is rough, and covered by the smooth lines along it.
-    sides = np.array([width / 2 - 0.5, width / 2 - INSIDE, INSIDE - width / 2, 0.5 - width / 2])
-    aside = sides[:, None, None] * across
-    starts, ends = (points[:-1] - OVERLAP * ahead + aside).tolist(), (points[1:] + OVERLAP * ahead + aside).tolist()
-    for a, b, c, d in zip(starts[1], ends[1], ends[2], starts[2], strict=True):
-        pygame.draw.polygon(surface, colour, (a, b, c, d))
-    for side in range(len(sides)):
-        for a, b in zip(starts[side], ends[side], strict=True):
+    sides = np.array([width / 2 - 0.5, width / 2 - INSIDE, INSIDE - width / 2, 0.5 - width / 2])[:, None, None]
+    starts, ends = points[:-1] - OVERLAP * ahead, points[1:] + OVERLAP * ahead
+    if width > NARROW:
+        half = (width / 2 - FILLED) * across
+        begin, end = starts + 0.5, ends + 0.5  # pygame cuts the corners of a polygon off to whole px
+        for quad in np.stack([begin + half, end + half, end - half, begin - half], axis=1).tolist():
+            pygame.draw.polygon(surface, colour, quad)
+    for one, other in zip((starts + sides * across).tolist(), (ends + sides * across).tolist(), strict=True):
+        for a, b in zip(one, other, strict=True):
             pygame.draw.aaline(surface, colour, a, b)
 
 

@@ -47,6 +47,19 @@ def test_a_line_is_as_wide_in_every_direction():
         assert area == pytest.approx(6.0 * 80, rel=0.15)
 
 
+@pytest.mark.parametrize("width", [3, 4, 5, 6, 8, 11])
+def test_nothing_shows_through_a_line(width):
+    across, down = np.mgrid[0:100, 0:100]
+    for angle in np.radians(np.arange(0.0, 180.0, 7.3)):
+        surface = pygame.Surface((100, 100))
+        ahead = np.array([np.cos(angle), np.sin(angle)])
+        draw_line(surface, np.array([(50.3, 49.6) + along * ahead for along in (-40, -10, 15, 40)]), width, (255,) * 3)
+        along = (across - 50.3) * ahead[0] + (down - 49.6) * ahead[1]
+        off = np.abs((down - 49.6) * ahead[0] - (across - 50.3) * ahead[1])
+        inside = (np.abs(along) < 38) & (off < width / 2 - 1)
+        assert pygame.surfarray.array3d(surface)[inside].min() > 140
+
+
 def test_few_points_keep_to_the_line_and_to_its_corners():
     angles = np.linspace(0, np.pi, 400)
     arch = np.column_stack([300 - 200 * np.cos(angles), 300 - 200 * np.sin(angles)])
