@@ -247,7 +247,14 @@ def play(scene: SceneArgument, set_: Settings = None, accuracy: Level = None) ->
     """
     from sandbox.window.app import play as play_in_window
 
-    play_in_window(scene, _changes(set_, accuracy))
+    changes = _changes(set_, accuracy)
+    if any("[" in key for key in changes):  # the window keeps what was changed by whole parameters
+        from sandbox.parameters import whole
+        from sandbox.scene import load
+
+        parameters = load(scene).parameters
+        changes = whole(type(parameters), parameters.model_dump(), scene, changes, "--set")
+    play_in_window(scene, changes)
 
 
 def _load(source: str, settings: list[str] | None, accuracy: str | None) -> Scene:

@@ -18,6 +18,7 @@ from __future__ import annotations
 import difflib
 import json
 import math
+import re
 import tomllib
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence, Sized
 from dataclasses import dataclass
@@ -392,7 +393,7 @@ def validate(
 
     Raises RequestError with a line that names file (or ``changed_by``), key, value, bound and unit.
     """
-    changes = nested(changes or {})
+    changes = nested(whole(schema, values, source, changes or {}, changed_by))
     combined = over(schema, values, changes)
     try:
         return schema.model_validate(combined)
@@ -402,6 +403,57 @@ def validate(
     first, *others = lines
     more = f"\n({len(others)} more like this: {others[0]}{', ...' if len(others) > 1 else ''})" if others else ""
     raise RequestError(first + more)
+
+
+def whole(
+    schema: type[Group], values: Mapping[str, Any], source: str, changes: Mapping[str, Any], changed_by: str
+) -> dict[str, Any]:
+    """The same changes by keys of whole parameters: an entry such as ``air.wind[0]`` is put into the list as it stands.
+
+    ``schema``, ``values``, ``source`` and ``changed_by`` are those of ``validate``. Raises RequestError.
+    """
+    found: dict[str, Any] = {}
+    for key, value in changes.items():
+        if not isinstance(key, str):
+            raise RequestError(f"{changed_by} {key!r}: a key is a text, such as launch.speed")
+        if "[" not in key:
+            found[key] = value
+            continue
+        name = key.partition("[")[0]
+        path = path_of(changed_by, key)[len(name.split(".")) :]
+        node: Any = validate(schema, values, source, found, changed_by)
+        if name in known_keys(schema, node.model_dump()):  # else it is refused as any other
+            for part in name.split("."):
+                node = getattr(node, part)
+            value = _placed(node, path, value, f"{changed_by} {key}")
+        found[name] = value
+    return found
+
+
+_STEP = re.compile(r"([^.\[\]]+)|\[(\d+)\]")
+
+
+def path_of(option: str, key: str) -> tuple[str | int, ...]:
+    """``"air.wind[0]"`` as ``("air", "wind", 0)``."""
+    steps = tuple(name or int(number) for name, number in _STEP.findall(key))
+    if "".join(f"[{step}]" if isinstance(step, int) else f".{step}" for step in steps) != f".{key}":
+        raise RequestError(f"{option} {key}: a key is written like launch.speed, or air.wind[0] for one of a list")
+    return steps
+
+
+def _placed(node: Any, path: Sequence[str | int], value: Any, what: str) -> Any:
+    """A list, or a group in it, with ``value`` at ``path``."""
+    if not path:
+        return value
+    head, *rest = path
+    if isinstance(head, str):
+        table = node.model_dump() if isinstance(node, Group) else {}
+        return {**table, head: _placed(table.get(head), rest, value, what)}
+    if not isinstance(node, list | tuple):
+        raise RequestError(f"{what}: is not a list, so it has no [{head}]")
+    if head >= len(node):
+        raise RequestError(f"{what}: there is no [{head}]; the list has {len(node)}, the first is [0]")
+    return [*node[:head], _placed(node[head], rest, value, what), *node[head + 1 :]]
 
 
 def _without_leftovers(schema: type[Group], tables: dict[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:

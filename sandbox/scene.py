@@ -216,7 +216,8 @@ def _taken_apart(value: Any) -> tuple[Any, list[float]]:
 
 
 def load(source: str | Path, overrides: Mapping[str, Any] | None = None, *, overrides_from: str = "override") -> Scene:
-    """The scene named by ``source``, with ``overrides`` (dotted keys) over its scene file.
+    """The scene named by ``source``, with ``overrides`` (by keys such as ``"air.wind"``, or ``"air.wind[0]"`` for one
+    of a list) over its scene file.
 
     ``source`` is a scene (``"golf"``), a preset (``"golf/driver"``), or a path to a scene file or a scene's folder.
     Raises RequestError for what cannot be found, read or accepted; ``overrides_from`` names the overrides in it.

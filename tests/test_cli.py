@@ -287,6 +287,21 @@ def test_settings_and_accuracy_stand_over_the_file(call, tmp_path: Path):
     assert json.loads(call("run", DROP, "--accuracy", "fast", "--json").out)["accuracy"]["level"] == "fast"
 
 
+def test_one_of_a_list_may_be_set(call, monkeypatch):
+    wind = ["--set", "air.wind=[1,2]", "--set", "air.wind[0]=11 mph"]
+    spot = ["--set", "balls[0].x=0.1"]
+    assert json.loads(call("run", "golf", *wind, "--json").out)["parameters"]["air"]["wind"] == [4.91744, 2.0]
+    before, after = (json.loads(call("run", "billiards/bank", *args, "--json").out) for args in ((), spot))
+    assert after["parameters"]["balls"] == [
+        before["parameters"]["balls"][0] | {"x": 0.1},
+        *before["parameters"]["balls"][1:],
+    ]
+    played = []
+    monkeypatch.setattr("sandbox.window.app.play", lambda *args: played.append(args))
+    assert call("play", "golf", *wind, "--set", "gravity=5").code == 0
+    assert played == [("golf", {"air.wind": ["11 mph", 2.0], "gravity": 5})]
+
+
 @pytest.mark.parametrize(
     ("args", "expected"),
     [
@@ -305,6 +320,11 @@ def test_settings_and_accuracy_stand_over_the_file(call, tmp_path: Path):
         (["run", "golf", "--set", "launch.speed"], "--set launch.speed: write it as key.path=value"),
         (["run", "golf", "--set", "air.wind=3"], "--set air.wind = 3: must be a list of 2 numbers"),
         (["run", "golf", "--set", "air.wind=[3,300]"], "air.wind = [3, 300]: 300 must be from -100 to 100 m/s"),
+        (["run", "golf", "--set", "air.wind[2]=3"], "--set air.wind[2]: there is no [2]; the list has 2"),
+        (["run", "golf", "--set", "air.wind[0]=300"], "--set air.wind = [300, 0.0]: 300 must be from -100 to 100 m/s"),
+        (["run", "golf", "--set", "air.wnd[0]=3"], "--set air.wnd: unknown key; did you mean air.wind?"),
+        (["run", "golf", "--set", "launch.speed[0]=3"], "--set launch.speed[0]: is not a list"),
+        (["run", "golf", "--set", "air.wind[x]=3"], "--set air.wind[x]: a key is written like launch.speed, or air.wi"),
         (["run", "golf", "--set", "ball.drag.model=ideal"], "ball.drag"),
         (["run", "golf", "--accuracy", "best"], '--accuracy best: must be "fast", "balanced" or "precise"'),
         (["run", "golf", "--set", "accuracy.level=best"], 'must be "fast", "balanced" or "precise"'),

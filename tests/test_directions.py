@@ -31,6 +31,7 @@ FLOORS = {
     "progress": 6,
     "report": 6,
     "cli": 6,
+    "__main__": 6,
     "new": 6,
     "": 6,  # sandbox/__init__.py
 }

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 import tomllib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -12,7 +11,7 @@ import numpy as np
 
 from sandbox import parameters as declared
 from sandbox.errors import RequestError
-from sandbox.parameters import Group, Quantity
+from sandbox.parameters import Group, Quantity, path_of
 from sandbox.scene import Scene
 
 #: Most values along one axis, and most points of a sweep: a mistake in the request beyond that, not a plan.
@@ -20,8 +19,6 @@ MOST_VALUES, MOST_POINTS = 1_000_000, 100_000_000
 
 #: Combinations of words and switches whose parameters are kept, as each takes milliseconds to check.
 _KEPT = 64
-
-_STEP = re.compile(r"([^.\[\]]+)|\[(\d+)\]")
 
 Path = tuple[str | int, ...]
 
@@ -136,23 +133,11 @@ def _listed(text: str) -> list[Any]:
 def checked(scene: Scene, option: str, key: str, value: Any) -> Any:
     """The value that the scene's parameter takes for ``value``, in its declared unit. Raises RequestError."""
     path = path_of(option, key)
-    schema, current = type(scene.parameters), scene.parameters.model_dump()
-    if any(isinstance(step, int) for step in path):
-        parameters = declared.validate(schema, _placed(current, path, value, option, key), option)
-    else:
-        parameters = declared.validate(schema, current, "", {key: value}, option)
+    parameters = declared.validate(type(scene.parameters), scene.parameters.model_dump(), "", {key: value}, option)
     found = at(parameters, path)
     if isinstance(found, Group):
         raise RequestError(f"{option} {key}: is a group of parameters, not one")
     return found
-
-
-def path_of(option: str, key: str) -> Path:
-    """``"air.wind[0]"`` as ``("air", "wind", 0)``."""
-    steps = tuple(name or int(number) for name, number in _STEP.findall(key))
-    if "".join(f"[{step}]" if isinstance(step, int) else f".{step}" for step in steps) != f".{key}":
-        raise RequestError(f"{option} {key}: a key is written like launch.speed, or air.wind[0] for one of a list")
-    return steps
 
 
 def at(node: Any, path: Path) -> Any:
@@ -178,21 +163,6 @@ def result_label(scene: Scene, name: str) -> str:
     """A number of the result with its unit, for charts: ``"flight time (s)"``."""
     unit = scene.units.get(name.removesuffix("_error"))
     return name.replace("_", " ") + (f" ({unit})" if unit else "")
-
-
-def _placed(node: Any, path: Path, value: Any, option: str, key: str) -> Any:
-    """Nested tables and lists with ``value`` at ``path``."""
-    if not path:
-        return value
-    head, *rest = path
-    if isinstance(head, int):
-        if not isinstance(node, list | tuple):
-            raise RequestError(f"{option} {key}: is not a list, so it has no [{head}]")
-        if head >= len(node):
-            raise RequestError(f"{option} {key}: there is no [{head}]; the list has {len(node)}, the first is [0]")
-        return [*node[:head], _placed(node[head], tuple(rest), value, option, key), *node[head + 1 :]]
-    inner = node.get(head) if isinstance(node, Mapping) else None
-    return {**(node or {}), head: _placed(inner, tuple(rest), value, option, key)}
 
 
 # ---------------------------------------------------------------------------------------------------------------------
@@ -235,12 +205,7 @@ class Varied:
                 self._bases.clear()
             parameters = self._scene.parameters
             for key, value in changes.items():
-                path = path_of("over", key)
-                current, schema = parameters.model_dump(), type(parameters)
-                if any(isinstance(step, int) for step in path):
-                    parameters = declared.validate(schema, _placed(current, path, value, "over", key), "over")
-                else:
-                    parameters = declared.validate(schema, current, "", {key: value}, "over")
+                parameters = declared.validate(type(parameters), parameters.model_dump(), "", {key: value}, "over")
             self._bases[name] = parameters
         return self._bases[name]
 

@@ -12,11 +12,12 @@ import numpy as np
 
 from sandbox import parameters as declared
 from sandbox.errors import RequestError
-from sandbox.lab.axes import Axis, Values, at, label, path_of, result_label
+from sandbox.lab.axes import Axis, Values, at, label, result_label
 from sandbox.lab.chart import chart, check_installed
 from sandbox.lab.plan import FLAGS, HANGS, Plan, records
 from sandbox.lab.row_file import cell, rows
 from sandbox.lab.tables import significant
+from sandbox.parameters import path_of
 
 #: Words that a legend has room for; rarer ones go together.
 _MOST_WORDS, _OTHERS = 8, "others"
