@@ -82,9 +82,9 @@ class Impacts:
         friction = restitution = 1.0
         while self._energy(cluster) > most and restitution > 0.0:
             if friction > 0.0:
-                friction = _less(friction)
+                friction = 0.5 * friction if friction > 1e-3 else 0.0
             else:
-                restitution = _less(restitution)
+                restitution = 0.9 * restitution if restitution > 1e-2 else 0.0
             for moving, before in zip(cluster, start, strict=True):
                 moving.vx, moving.vy, moving.spin = before.vx, before.vy, before.spin
             self._contacts.exchange(cluster, [_weaker(contact, friction, restitution) for contact in found])
@@ -222,10 +222,6 @@ class Impacts:
             impulse = -min(most, stopping) if upward > 0.0 else min(most, stopping)
             for index, ball in balls:
                 after[index] = rub_over(ball, after[index], contact.nx, contact.ny, impulse)
-
-
-def _less(share: float) -> float:
-    return 0.5 * share if share > 1e-3 else 0.0
 
 
 def _weaker(contact: Contact, friction: float, restitution: float) -> Contact:
