@@ -45,8 +45,10 @@ def record(run: Any, until: float | None = None, times: Sequence[float] | None =
     kept["events"] = [
         [event.t, event.kind, event.ball, event.partner, event.speed] for event in run.events if event.t <= end
     ]
+    # A run may end by an impact: its last state is the one after it, whatever rounding says of the time.
+    when = [run.duration if abs(t - run.duration) <= TOLERANCE else t for t in times]
     kept["states"] = {
-        ball.name: [[t, *(float(value) for value in run.state(ball.name, t))] for t in times]
+        ball.name: [[t, *map(float, run.state(ball.name, at))] for t, at in zip(times, when, strict=True)]
         for ball in run.setup.balls
     }
     return _rounded(kept)

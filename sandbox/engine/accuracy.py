@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from math import inf
 
 from sandbox.errors import RequestError
 from sandbox.physics.integrators import INTEGRATORS
@@ -56,9 +57,13 @@ def resolve(
     integrator: str | None = None,
     step: float | None = None,
 ) -> Accuracy:
-    """The accuracy that a level means, with single choices replaced. Raises RequestError for an unknown name."""
+    """The accuracy that a level means, with single choices replaced. Raises RequestError for an unknown name,
+    and for a size that is not positive."""
     if level not in LEVELS:
         raise RequestError(f"accuracy.level: {level!r} is not one of {', '.join(LEVELS)}")
+    for what, value, unit in (("tolerance", tolerance, "m"), ("step", step, "s")):
+        if value is not None and not 0.0 < value < inf:
+            raise RequestError(f"accuracy.{what}: {value} {unit} must be positive")
     accuracy = LEVELS[level]
     if tolerance is not None:
         accuracy = replace(accuracy, tolerance=tolerance, settle=settle_for(tolerance))

@@ -10,7 +10,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import cos, sin, sqrt
+from math import cos, sin
+from typing import Any
 
 import pymunk
 
@@ -27,8 +28,8 @@ _OVERLAP = 1e-6
 #: Solver rounds. One contact of round shapes is exact after one; a cluster of 16 balls needs 50 for 1e-7 m/s.
 _ROUNDS, _CLUSTER_ROUNDS = 1, 200
 
-#: Smallest factor of a pair coefficient: pymunk multiplies the two shapes' values, so zero is approached, not used.
-_SMALLEST = 1e-12
+#: pymunk's type of the balls' shapes; the planes have its own, 0.
+_BALL = 1
 
 
 @dataclass(slots=True)
@@ -71,34 +72,46 @@ class Contacts:
         self._discs: list[pymunk.Circle] = []
         self._planes: list[pymunk.Segment] = []
         self.normal_impulses: list[float] = []  # N s, of the contacts of the last exchange
+        self._answers: dict[frozenset[int], Bounce] = {}  # of balls that touch, by the ids of their shapes
         self._spread = 100.0 * max(ball.radius for ball in balls)  # m, between balls that take no part
         for index, ball in enumerate(balls):
             body = pymunk.Body(ball.mass, ball.inertia)
             disc = pymunk.Circle(body, ball.radius)
+            disc.elasticity = disc.friction = 1.0  # pymunk multiplies them by those of the planes
+            disc.collision_type = _BALL
             self._space.add(body, disc)
             self._bodies.append(body)
             self._discs.append(disc)
             self._park(index)
+        if len(balls) > 1:
+            self._space.on_collision(_BALL, _BALL, pre_solve=self._answer)
+
+    def _answer(self, arbiter: pymunk.Arbiter, space: pymunk.Space, data: Any) -> None:
+        """Each two balls have restitution and friction of their own, which the product of two values cannot give."""
+        bounce = self._answers.get(frozenset(id(shape) for shape in arbiter.shapes))
+        if bounce is None:  # near enough for the overlap, and no contact
+            arbiter.process_collision = False
+        else:
+            arbiter.restitution, arbiter.friction = bounce.restitution, bounce.friction
 
     def exchange(self, cluster: Sequence[Moving], contacts: Sequence[Contact]) -> None:
         """Give each ball of the cluster its velocity and spin after the impact."""
-        mutual = next((c.bounce for c in contacts if c.second is not None), Bounce(1.0, 1.0))
-        elasticity = sqrt(max(mutual.restitution, _SMALLEST))
-        friction = sqrt(max(mutual.friction, _SMALLEST))
         origin = cluster[0]
         scale = 1.0 - _OVERLAP
         for moving in cluster:
-            body, disc = self._bodies[moving.index], self._discs[moving.index]
-            disc.elasticity = elasticity
-            disc.friction = friction
+            body = self._bodies[moving.index]
             body.position = (scale * (moving.x - origin.x), scale * (moving.y - origin.y))
             body.velocity = (moving.vx, moving.vy)
             body.angular_velocity = moving.spin
         planes = 0
+        self._answers.clear()
         for contact in contacts:
             if contact.second is None:
-                self._lay_plane(planes, cluster[contact.first], contact, elasticity, friction)
+                self._lay_plane(planes, cluster[contact.first], contact)
                 planes += 1
+            else:
+                pair = (self._discs[cluster[place].index] for place in (contact.first, contact.second))
+                self._answers[frozenset(map(id, pair))] = contact.bounce
         self._space.iterations = _ROUNDS if len(contacts) == 1 else _CLUSTER_ROUNDS
         self._space.step(_INSTANT)
         self.normal_impulses = self._read_impulses(cluster, contacts)
@@ -137,7 +150,7 @@ class Contacts:
             impulses.append(by_shapes.get(frozenset((id(disc), id(other))), 0.0))
         return impulses
 
-    def _lay_plane(self, number: int, moving: Moving, contact: Contact, elasticity: float, friction: float) -> None:
+    def _lay_plane(self, number: int, moving: Moving, contact: Contact) -> None:
         radius = self._balls[moving.index].radius
         nx, ny = contact.nx, contact.ny
         if contact.bounce.tilt != 0.0:
@@ -157,8 +170,8 @@ class Contacts:
             plane = self._planes[number]
             plane.unsafe_set_endpoints(a, b)
             self._space.reindex_shape(plane)
-        plane.elasticity = contact.bounce.restitution / elasticity
-        plane.friction = contact.bounce.friction / friction
+        plane.elasticity = contact.bounce.restitution
+        plane.friction = contact.bounce.friction
 
     def _park(self, index: int) -> None:
         body = self._bodies[index]

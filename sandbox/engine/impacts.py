@@ -37,6 +37,7 @@ class Impacts:
         self._tracks = tracks
         self._contacts = contacts
         self._slowest_hop = slowest_hop  # m/s, at which balls on cloth part at least
+        self._heaviest = max(ball.mass for ball in setup.balls)  # kg
 
     def exchange(self, t: float, seeds: Sequence[int]) -> tuple[dict[int, State], list[Hit]]:
         """The states after the impact at t of all balls that touch those of ``seeds``, directly or through others."""
@@ -68,21 +69,29 @@ class Impacts:
         return after, hits
 
     def _exchange_without_gain(self, cluster: Sequence[Moving], found: Sequence[Contact]) -> None:
-        """Exchange impulses. Where several contacts close at once, restitution beside friction can gain energy (Kane's
-        paradox: the slip turns over while the normal speeds are forced back): friction then counts for less, down to
-        nothing."""
-        if len(found) == 1:
-            self._contacts.exchange(cluster, found)
-            return
+        """Exchange impulses. Where several contacts close at once, the speeds with which they are to part may ask for
+        energy that is not there. Restitution beside friction is known for it as Kane's paradox (the slip turns over
+        while the normal speeds are forced back): friction then counts for less, down to nothing. If it is not that,
+        as where a light ball is squeezed between a wall and a heavy one, restitution does: without either nothing is
+        gained."""
         start = [replace(moving) for moving in cluster]
         self._contacts.exchange(cluster, found)
-        most, share = (1.0 + _GAIN) * self._energy(start), 1.0
-        while self._energy(cluster) > most and share > 0.0:
-            share = 0.5 * share if share > 1e-3 else 0.0
+        if len(found) == 1:
+            return
+        most = (1.0 + _GAIN) * self._energy(start) + self._hops(found)
+        friction = restitution = 1.0
+        while self._energy(cluster) > most and restitution > 0.0:
+            if friction > 0.0:
+                friction = 0.5 * friction if friction > 1e-3 else 0.0
+            else:
+                restitution = 0.9 * restitution if restitution > 1e-2 else 0.0
             for moving, before in zip(cluster, start, strict=True):
                 moving.vx, moving.vy, moving.spin = before.vx, before.vy, before.spin
-            less = [replace(c, bounce=c.bounce._replace(friction=share * c.bounce.friction)) for c in found]
-            self._contacts.exchange(cluster, less)
+            self._contacts.exchange(cluster, [_weaker(contact, friction, restitution) for contact in found])
+
+    def _hops(self, found: Sequence[Contact]) -> float:
+        """The energy in J that the slowest hops of balls on cloth may take: at most their speed at each contact."""
+        return len(found) * self._heaviest * self._slowest_hop**2
 
     def _energy(self, cluster: Sequence[Moving]) -> float:
         """Kinetic energy in J, that of turning in the plane included."""
@@ -185,7 +194,7 @@ class Impacts:
         flat, upward = slip
         if upward != 0.0:
             bounce = bounce._replace(friction=bounce.friction * abs(flat) / hypot(flat, upward))
-        if approach > 0.0 and bounce.restitution * approach < self._slowest_hop:
+        if approach > STILL and bounce.restitution * approach < self._slowest_hop:
             bounce = bounce._replace(restitution=self._slowest_hop / approach)
         return bounce
 
@@ -213,3 +222,10 @@ class Impacts:
             impulse = -min(most, stopping) if upward > 0.0 else min(most, stopping)
             for index, ball in balls:
                 after[index] = rub_over(ball, after[index], contact.nx, contact.ny, impulse)
+
+
+def _weaker(contact: Contact, friction: float, restitution: float) -> Contact:
+    """The contact with shares of its friction and of its restitution."""
+    bounce = contact.bounce
+    less = bounce._replace(restitution=restitution * bounce.restitution, friction=friction * bounce.friction)
+    return replace(contact, bounce=less)

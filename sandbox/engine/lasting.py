@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from math import hypot
 
 from sandbox.engine.arc import Arc
 from sandbox.engine.motion import PINNED, RESTING, ROLLING, SLIDING, Contact, Mover, rolling
@@ -29,28 +30,26 @@ class InPlane(Mover):
         A ball stays on a surface if it is pressed on and would not bounce higher than ``height`` (m). A bounce below
         that is taken from the state; so is the overlap, of at most CONTACT, that the surface was found with.
         """
-        x, y, vx, vy, spin = state
-        near = track.near(x, y)
+        near = track.near(*state[:2])
         if not near:
             return state, None
         fx, fy, torque = self.force(t, state)
-        mass = self.ball.mass
-        kept: list[Near] = []
-        for obstacle, touching in near:
-            nx, ny = touching.nx, touching.ny
-            along = vx * ny - vy * nx
-            press = -(fx * nx + fy * ny) / mass - touching.curvature * along * along  # m/s^2
-            lowest = max(height, obstacle.surface.lowest_bounce)
-            if vx * nx + vy * ny <= leaves_at(press, lowest):
-                kept.append((obstacle, touching))
+        kept, hardest = self._kept(near, state, fx, fy, height)
         if not kept:
             return state, None
-        for _, touching in kept:
-            leaving = vx * touching.nx + vy * touching.ny
-            vx -= leaving * touching.nx
-            vy -= leaving * touching.ny
-        if any(_sine(touching, kept[0][1]) > _FLUSH for _, touching in kept[1:]):
+        x, y, vx, vy, spin = state
+        first = min(kept, key=lambda near: vx * near[1].nx + vy * near[1].ny)[1]
+        together = [(obstacle, touching) for obstacle, touching in kept if _sine(touching, first) <= _FLUSH]
+        if len(together) < len(kept) and hypot(vx, vy) <= leaves_at(hardest, height):
             vx = vy = 0.0  # held in two directions
+        else:  # along the surface that the ball leaves least; it may go off the others, but not into them
+            kept = together
+            for _, touching in kept:
+                leaving = vx * touching.nx + vy * touching.ny
+                vx -= leaving * touching.nx
+                vy -= leaving * touching.ny
+            if any(vx * other.nx + vy * other.ny < -_STILL and _sine(other, first) > _FLUSH for _, other in near):
+                return state, None
         state = (x, y, vx, vy, spin)
 
         held: list[Contact] = []
@@ -73,6 +72,22 @@ class InPlane(Mover):
         if not held:
             return state, None
         return _wedged(self, state, kept, held, fx, fy)
+
+    def _kept(
+        self, near: Sequence[Near], state: State, fx: float, fy: float, height: float
+    ) -> tuple[list[Near], float]:
+        """The surfaces off which the ball would bounce no higher than ``height`` or than their own lowest bounce, and
+        how hard (m/s^2) it is pressed on one of them at most."""
+        _, _, vx, vy, _ = state
+        kept, hardest = [], 0.0
+        for obstacle, touching in near:
+            nx, ny = touching.nx, touching.ny
+            along = vx * ny - vy * nx
+            press = -(fx * nx + fy * ny) / self.ball.mass - touching.curvature * along * along
+            if vx * nx + vy * ny <= leaves_at(press, max(height, obstacle.surface.lowest_bounce)):
+                kept.append((obstacle, touching))
+                hardest = max(hardest, press)
+        return kept, hardest
 
     def conclude(self, state: State, contact: Contact | None, reason: str) -> State:
         """The state at the end of an arc: put back on a round surface, whose path the arc only follows closely; just

@@ -127,11 +127,12 @@ class Outlines:
         reached = (across.min(axis=0) <= reach) & (across.max(axis=0) >= -reach)
         for side in (1.0, -1.0):
             gap = side * across - reach + SKIN
-            some = np.flatnonzero(reached & (gap.max(axis=0) > -NOISE))
+            beside = side * across[0] > 0.0
+            some = np.flatnonzero(reached & ((gap.max(axis=0) > -NOISE) | beside))
             if not len(some):
                 continue
             gap = gap[:, some]
-            u, doubtful = _closing(gap, within[some] & (side * across[0, some] > 0.0))
+            u, doubtful = _closing(gap, (within & beside)[some])
             there = evaluate(along[:, some], np.where(np.isfinite(u), u, 0.0))
             missed = np.isfinite(u) & ((there < 0.0) | (there > length[some]))
             u[missed] = np.inf

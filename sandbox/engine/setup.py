@@ -54,7 +54,8 @@ class Ball:
         for what, value in (("mass", self.mass), ("radius", self.radius), ("inertia_factor", self.inertia_factor)):
             if not (isfinite(value) and value > 0.0):
                 raise ValueError(f"ball {self.name!r}: {what} = {value} must be positive")
-        for what, values in (("position", self.position), ("velocity", self.velocity), ("spin", (self.spin,))):
+        state = {"position": self.position, "velocity": self.velocity, "spin": (self.spin,)}
+        for what, values in {**state, "rolling_spin": self.rolling_spin}.items():
             if not all(map(isfinite, values)):
                 raise ValueError(f"ball {self.name!r}: {what} = {values} must be finite")
         for force in (*self.forces, *self.torques):
@@ -203,5 +204,5 @@ class Setup:
         for name in names:
             if names.count(name) > 1:
                 raise ValueError(f"two balls are named {name!r}: each needs a name of its own")
-        if not self.duration > 0.0:
-            raise ValueError(f"duration = {self.duration} s must be positive")
+        if not 0.0 < self.duration < inf:
+            raise ValueError(f"duration = {self.duration} s must be positive, and end")

@@ -37,8 +37,9 @@ _MOST_IMPACTS = 200_000
 _MOST_FAINT = 1_000
 _FAINT = 1e-4
 
-#: Deepest overlap at the start that is pushed apart, as a share of the radius; deeper is an error in the scene.
-_SLIGHT = 0.02
+#: Deepest overlap at the start that is pushed apart, as a share of the radius; deeper is an error in the scene. And how
+#: often it is tried, as one push may lead to another.
+_SLIGHT, _MOST_PUSHES = 0.02, 200
 
 #: Steps in one run beyond which its forces are declared too stiff: some 5 s of computing.
 _MOST_STEPS = 100_000
@@ -75,7 +76,7 @@ class Simulation:
         for ball in setup.balls:
             if ball.radius not in obstacles:
                 obstacles[ball.radius] = [Obstacle(surface, ball.radius) for surface in setup.surfaces]
-            x, y = _clear_of(ball, obstacles[ball.radius])
+            x, y = _clear_of(ball, ball.position, obstacles[ball.radius])
             mover: Motion
             state: State = (x, y, *map(float, (*ball.velocity, ball.spin)))
             if setup.cloth is None:
@@ -99,7 +100,7 @@ class Simulation:
         t, ended = self._loop(t)
         for track in self._tracks:
             if not track.caught:
-                track.keep(t)
+                track.finish(t)
         self._numerics.wall_s += perf_counter() - started
         arcs = {track.ball.name: track.path for track in self._tracks}
         return Run(self._setup, self._accuracy, arcs, self._events, self._numerics, t, ended)
@@ -273,38 +274,55 @@ class Simulation:
     # ------------------------------------------------------------------ the start, and errors
 
     def _separate_balls(self) -> None:
-        for i, first in enumerate(self._tracks):
-            for second in self._tracks[i + 1 :]:
-                dx, dy = first.state[0] - second.state[0], first.state[1] - second.state[1]
-                reach = first.ball.radius + second.ball.radius
-                distance = (dx * dx + dy * dy) ** 0.5
-                if distance < (1.0 - _SLIGHT) * reach:
-                    raise RequestError(
-                        f"balls {first.ball.name!r} and {second.ball.name!r} overlap at the start by "
-                        f"{reach - distance:.3g} m: move one of them"
-                    )
-                if distance < reach - CONTACT:
-                    share = 0.5 * (reach - distance) / distance
-                    for track, sign in ((first, share), (second, -share)):
-                        x, y, *rest = track.state
-                        track.state = (x + sign * dx, y + sign * dy, *rest)
+        """Push slight overlaps of balls apart, and what that pushes into a surface out again, as far as there is room.
+        Raises RequestError for a deep overlap."""
+        for _ in range(_MOST_PUSHES):
+            pushed = False
+            for i, first in enumerate(self._tracks):
+                for second in self._tracks[i + 1 :]:
+                    pushed |= _push_apart(first, second)
+            if not pushed:
+                return
+            for track in self._tracks:
+                track.begin(*_clear_of(track.ball, track.state[:2], track.obstacles))
 
     def _stalled(self, t: float, index: int) -> RunError:
         track = self._tracks[index]
         x, y = track.arc.state(t)[:2]
         where = f"t = {t:.6g} s, ball {track.ball.name!r} at ({x:.4g}, {y:.4g}) m"
-        last = next((event for event in reversed(self._events) if event.ball == track.ball.name), None)
+        name = track.ball.name
+        last = next((event for event in reversed(self._events) if name in (event.ball, event.partner)), None)
         if last is None or (last.t < t - _STANDSTILL and self._faint <= _MOST_FAINT):
             return Diverged(f"{where}: the velocity changes too fast for any step; look for a force that is not smooth")
+        other = last.partner if last.ball == name else last.ball
         return Stalled(
-            f'{where}: events without end, last with {last.partner!r}; a heap of balls needs accuracy.method = "plain"'
+            f'{where}: events without end, last with {other!r}; a heap of balls needs accuracy.method = "plain"'
         )
 
 
-def _clear_of(ball: Ball, obstacles: Sequence[Obstacle]) -> tuple[float, float]:
-    """Where the ball starts: pushed out of a slight overlap. Raises RequestError for a deep one, naming both."""
-    x, y = map(float, ball.position)
-    for _ in range(20):
+def _push_apart(first: Track, second: Track) -> bool:
+    """Part two balls that overlap slightly at the start; whether they did."""
+    dx, dy = first.state[0] - second.state[0], first.state[1] - second.state[1]
+    reach = first.ball.radius + second.ball.radius
+    distance = (dx * dx + dy * dy) ** 0.5
+    if distance < (1.0 - _SLIGHT) * reach:
+        raise RequestError(
+            f"balls {first.ball.name!r} and {second.ball.name!r} overlap at the start by {reach - distance:.3g} m: "
+            "move one of them"
+        )
+    if distance >= reach - CONTACT:
+        return False
+    share = 0.5 * (reach - distance) / distance
+    first.begin(first.state[0] + share * dx, first.state[1] + share * dy)
+    second.begin(second.state[0] - share * dx, second.state[1] - share * dy)
+    return True
+
+
+def _clear_of(ball: Ball, place: Sequence[float], obstacles: Sequence[Obstacle]) -> tuple[float, float]:
+    """Where a ball at ``place`` (m) starts: pushed out of a slight overlap. Raises RequestError for a deep one, naming
+    both."""
+    x, y = map(float, place)
+    for _ in range(_MOST_PUSHES):
         deepest = min(
             ((obstacle.near(x, y), obstacle) for obstacle in obstacles), key=lambda near: near[0].gap, default=None
         )

@@ -153,7 +153,7 @@ class Obstacle:
         first = None
         for side in (1.0, -1.0):
             gap = [side * d - self.reach + SKIN for d in across]
-            if max(gap) <= -NOISE:
+            if max(gap) <= -NOISE and side * across[0] <= 0.0:
                 continue  # wholly beyond the line
             for u in _closings(gap, side * across[0] > 0.0 and self._within(arc.x[0], arc.y[0], CONTACT)):
                 if first is not None and u >= first:

@@ -11,6 +11,9 @@ from sandbox.engine.setup import Ball
 from sandbox.engine.touch import CONTACT, Obstacle, Touching
 from sandbox.physics.integrators import State
 
+#: Difference in m/s and rad/s that is rounding.
+_SAME = 1e-9
+
 Near = tuple[Obstacle, Touching]
 
 
@@ -43,17 +46,31 @@ class Track:
         self.catches = catches
         self.state = state
         self.contact: Contact | None = None
-        self.arc = still(0.0, 0.0, state)
+        self.arc = still(0.0, 0.0, state)  # what it does at the moment
         self.path: list[Arc] = []
         self.version = 0  # of the arc: what was foreseen for an earlier one no longer holds
         self.rests = False
         self.caught = False
+
+    def begin(self, x: float, y: float) -> None:
+        """Start at (x, y), in m."""
+        self.state = (x, y, *self.state[2:])
+        self.arc = still(0.0, 0.0, self.state)
 
     def keep(self, t: float) -> None:
         """Add what was travelled of the arc until t to the path."""
         arc = self.arc.until(t)
         if arc.t1 > arc.t0 or not self.path:
             self.path.append(arc)
+
+    def finish(self, t: float) -> None:
+        """Add the rest of the path: the run is over at t. What an impact at t did is kept, though nothing follows."""
+        self.keep(t)
+        last, before = self.arc.until(t), self.path[-1]
+        if last.t1 == last.t0 and any(
+            abs(a - b) > _SAME for a, b in zip(last.start[2:], before.state(t)[2:], strict=True)
+        ):
+            self.path.append(last)
 
     def near(self, x: float, y: float) -> list[Near]:
         """The surfaces that the ball touches at (x, y), each at its nearest feature."""

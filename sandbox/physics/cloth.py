@@ -61,6 +61,11 @@ class Cloth:
     spinning: float = 0.0127
     gravity: float = 9.81  # m/s^2
 
+    def __post_init__(self) -> None:
+        for what in ("sliding", "rolling", "spinning", "gravity"):
+            if not 0.0 <= getattr(self, what) < inf:
+                raise ValueError(f"cloth: {what} = {getattr(self, what)} must be no less than 0")
+
     def phase(self, state: ClothState, radius: float) -> Phase:
         """What a ball of ``radius`` m does from ``state`` on, until it changes its manner of motion or loses its spin.
 

@@ -23,7 +23,8 @@ from typing import Any, Literal
 from pydantic import Field
 
 from sandbox.controls import Controls, Spin, Spread
-from sandbox.engine.run import Run
+from sandbox.engine.on_cloth import slowest_hop
+from sandbox.engine.run import Event, Run
 from sandbox.engine.setup import Ball, Bounce, Setup, Vector
 from sandbox.engine.touch import Obstacle
 from sandbox.errors import RequestError
@@ -263,7 +264,7 @@ UNITS = {"rest_time": "s"}
 def result(run: Run, parameters: Parameters) -> dict[str, Any]:
     """What the shot came to; lengths in m, times in s.
 
-    ``rails`` counts the impacts of all balls on the cushions' noses; those on the pockets' jaws stand in the events
+    ``rails`` counts the meetings of all balls with the cushions' noses; those on the pockets' jaws stand in the events
     alone. ``touches`` is what the struck ball met, in order, with jaws and pocket. ``rest_time`` is None where the shot
     did not come to rest. ``point`` is a carom's, on a table without pockets: how many cushions the struck ball met
     before the last of the other balls, None where it did not meet them all. ``scored`` is whether there is a point, or
@@ -280,7 +281,7 @@ def result(run: Run, parameters: Parameters) -> dict[str, Any]:
         "point": point,
         "scored": point is not None or (bool(caught) and cue not in caught),
         "first_contact": next((name for name in touches if name in balls), None),
-        "rails": sum(event.kind == "impact" and event.partner.endswith(" cushion") for event in run.events),
+        "rails": sum(event.partner.endswith(" cushion") for event in _meetings(run)),
         "rest_time": run.duration if run.ended == "rest" else None,
         "positions": {name: list(run.state(name, run.duration)[:2]) for name in balls if name not in caught},
         "touches": touches,
@@ -321,9 +322,22 @@ def _free_spot(taken: Sequence[Vector], parameters: Parameters) -> Vector:
 
 def _touches(run: Run, ball: str) -> Iterator[str]:
     """Names of what a ball met: other balls, cushions and jaws, and the pocket it fell into."""
-    for event in run.events:
-        if event.kind in ("impact", "caught") and ball in (event.ball, event.partner):
+    for event in _meetings(run):
+        if ball in (event.ball, event.partner):
             yield event.partner if event.ball == ball else event.ball
+
+
+def _meetings(run: Run) -> Iterator[Event]:
+    """Impacts, and balls that are caught. What the cloth presses together hops, which counts as one meeting."""
+    assert run.setup.cloth is not None
+    hop = 1.001 * slowest_hop(run.setup.cloth, run.accuracy.settle)
+    last: dict[str, str] = {}  # what each ball met last
+    for event in run.events:
+        if event.kind not in ("impact", "caught"):
+            continue
+        if event.speed > hop or last.get(event.ball) != event.partner:
+            yield event
+        last[event.ball], last[event.partner] = event.partner, event.ball
 
 
 def card(result: dict[str, Any], parameters: Parameters) -> list[tuple[str, str]]:

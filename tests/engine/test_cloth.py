@@ -1,6 +1,7 @@
 """Balls on cloth in the engine: impacts in three dimensions of spin, pockets, pushes, and both methods."""
 
-from math import pi
+from itertools import permutations
+from math import exp, pi
 
 import numpy as np
 import pytest
@@ -105,6 +106,45 @@ def test_three_balls_at_one_instant_gain_no_energy(friction, restitution):
     book = ledger(run)
     assert sum(book.impacts.values()) <= 1e-6 * book.start
     assert book.end > 0.9 * book.start
+
+
+@pytest.mark.parametrize("order", list(permutations(("cue", "1", "2"))))
+def test_the_order_in_which_balls_are_listed_changes_nothing(order):
+    """Side spin makes the slip, and with it the friction, another at each of two balls that are struck at once."""
+    balls = {
+        "cue": ball("cue", (-0.2, 0.0), (3.0, 0.0), 40.0),
+        "1": ball("1", (0.0, 0.03)),
+        "2": ball("2", (0.0, -0.03)),
+    }
+    law = lambda normal, slip: Bounce(0.95, 0.01 + 0.1 * exp(-slip))  # noqa: E731
+    ends = []
+    for names in (order, ("cue", "1", "2")):
+        run = simulate(Setup([balls[n] for n in names], cloth=CLOTH, duration=0.2, between_balls=law), resolve())
+        ends.append([run.state(name, 0.2) for name in balls])
+    assert np.allclose(ends[0], ends[1], atol=1e-7)
+
+
+@pytest.mark.parametrize("drift", [1e-12, 1e-8, 1e-4])
+@pytest.mark.parametrize("order", ["ABC", "CBA"])
+def test_a_faint_touch_beside_a_hard_one_is_no_spring(order, drift):
+    balls = {
+        "A": rolling("A", (0.0, 0.0), (drift, 0.0)),
+        "B": ball("B", (2 * R, 0.0)),
+        "C": rolling("C", (4 * R, 0.0), (-5.0, 0.0)),
+    }
+    setup = Setup([balls[name] for name in order], cloth=CLOTH, duration=1.0, between_balls=of(0.95, 0.05))
+    run = simulate(setup, resolve())
+    assert max(abs(run.state(name, 1e-9)[2]) for name in "ABC") < 5.0
+    assert run.state("C", 1e-9)[2] == pytest.approx(1.5, abs=0.01)
+
+
+@pytest.mark.parametrize("mutual", [0.0, 0.5, 1.0])
+@pytest.mark.parametrize("wall", [0.8, 1.0])
+def test_a_light_ball_squeezed_between_a_wall_and_a_heavy_one_gains_no_energy(wall, mutual):
+    light, heavy = Ball("light", 0.1, R, (0.0, R), (0.0, -2.0)), Ball("heavy", 10.0, R, (0.0, 3 * R), (0.0, -1.0))
+    floor = Surface("floor", Segment((-1.0, 0.0), (1.0, 0.0)), wall, 0.0)
+    book = ledger(simulate(Setup([light, heavy], [floor], duration=0.01, between_balls=of(mutual, 0.0)), resolve()))
+    assert 0.1 * book.start < book.end <= (1 + 1e-6) * book.start
 
 
 def test_a_slip_too_small_to_square_is_no_trouble():

@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from sandbox.engine import simulate
-from sandbox.engine.accuracy import resolve
+from sandbox.engine.accuracy import LEVELS, resolve
 from sandbox.engine.setup import Ball, Bounce, Circle, Segment, Setup, Surface
 from sandbox.engine.simulation import Stalled
 from sandbox.engine.touch import Obstacle
@@ -146,6 +146,36 @@ def test_a_ball_between_two_slopes_comes_to_rest_touching_both():
     assert (x, y) == pytest.approx((0.0, 0.05 * 2**0.5), abs=1e-6)
 
 
+@pytest.mark.parametrize("level", LEVELS)
+@pytest.mark.parametrize("lowest_bounce", [0.0, 0.005])
+@pytest.mark.parametrize("slope", [1e-5, 1e-3, 0.02])
+def test_a_rolling_ball_goes_up_where_a_slope_begins(slope, lowest_bounce, level):
+    """It rolls on as far as its speed takes it, less the little that the meeting costs: v^2 / (10/7 g) upward."""
+    ground = [
+        Surface("flat", Segment((-9.0, 0.0), (0.0, 0.0)), 0.3, 0.4, lowest_bounce=lowest_bounce),
+        Surface("slope", Segment((0.0, 0.0), (2e5, 2e5 * slope)), 0.3, 0.4, lowest_bounce=lowest_bounce),
+    ]
+    run = simulate(Setup([ball((-1.0, 0.05), (1.0, 0.0), -20.0)], ground, duration=2.0), resolve(level))
+    t = run.duration - next(event.t for event in run.events if event.partner == "slope")
+    assert run.state("ball", run.duration)[0] == pytest.approx(t - 0.5 * 5 / 7 * G * slope * t**2, abs=0.03)
+
+
+@pytest.mark.parametrize("turned", [False, True])
+@pytest.mark.parametrize("restitution", [0.0, 0.7])
+def test_a_valley_with_one_soft_side_holds_the_ball(restitution, turned):
+    """The bounce that the soft side swallows must not become a push into the other."""
+    valley = [
+        Surface("soft", Segment((-2.0, 0.3), (0.0, 0.0)), restitution, 0.2, lowest_bounce=0.005),
+        Surface("hard", Segment((0.0, 0.0), (2.0, 0.3)), 0.3, 0.0),
+    ]
+    setup = Setup([ball((-1.0, 0.4), radius=0.02)], valley[::-1] if turned else valley, duration=20.0)
+    run = simulate(setup, resolve())
+    assert run.ended == "rest"
+    assert run.state("ball", 20.0)[:2] == pytest.approx((0.0, 0.02 * hypot(1.0, 0.15)), abs=1e-5)
+    gaps = [Obstacle(s, 0.02).near(*run.state("ball", t)[:2]).gap for s in valley for t in np.linspace(0, 20, 2000)]
+    assert min(gaps) > -1e-9
+
+
 def test_spin_of_a_wedged_ball_dies():
     """In a V of 45 deg both sides carry m g / sqrt 2, so the spin slows by mu 2 (g / sqrt 2) r m / I."""
     valley = [
@@ -192,6 +222,17 @@ def test_slight_overlap_is_pushed_out_and_a_deep_one_refused():
         simulate(Setup([ball((0.0, 0.03))], [floor], duration=0.5), resolve())
     with pytest.raises(RequestError, match="'a' and 'b' overlap"):
         simulate(Setup([ball((0.0, 0.0), name="a"), ball((0.05, 0.0), name="b")], duration=0.5), resolve())
+
+
+@pytest.mark.parametrize("overlap", [1e-9, 1e-6, 5e-4])
+def test_balls_that_overlap_slightly_are_pushed_apart_and_out_of_the_wall(overlap):
+    wall = Surface("wall", Segment((-0.05, -1.0), (-0.05, 1.0)), 0.5, 0.5)
+    row = [ball((k * (0.1 - overlap), 0.0), gravity=0.0, name=f"{k}") for k in range(4)]
+    run = simulate(Setup(row, [wall], duration=0.1), resolve())
+    for t in (0.0, 0.1):
+        places = [run.state(b.name, t)[0] for b in row]
+        assert places[0] >= -1e-9
+        assert np.diff(places).min() >= 0.1 - 1e-9
 
 
 def test_no_room_between_surfaces_is_an_error():

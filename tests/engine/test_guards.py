@@ -13,6 +13,7 @@ from sandbox.engine.ledger import ledger
 from sandbox.engine.motion import Diverged
 from sandbox.engine.setup import Ball, Bounce, Bounds, Segment, Setup, Surface
 from sandbox.errors import RequestError, RunError
+from sandbox.physics.cloth import Cloth
 from sandbox.physics.coefficients import constant
 from sandbox.physics.forces import Drag, Gravity
 from sandbox.physics.integrators import INTEGRATORS
@@ -156,6 +157,7 @@ def test_no_energy_from_nowhere(restitution, friction, level):
         ({"radius": 0.0}, "ball 'cue': radius = 0.0 must be positive"),
         ({"inertia_factor": nan}, "ball 'cue': inertia_factor = nan must be positive"),
         ({"velocity": (inf, 0.0)}, "ball 'cue': velocity"),
+        ({"rolling_spin": (nan, 0.0)}, "ball 'cue': rolling_spin"),
         ({"forces": [Gravity]}, "ball 'cue': 'Gravity' is no force"),
     ],
 )
@@ -201,3 +203,22 @@ def test_a_law_of_bouncing_that_cannot_be_is_a_named_error(bounce):
     pair = [Ball("a", 1.0, 0.1, (0.0, 0.0), (1.0, 0.0)), Ball("b", 1.0, 0.1, (1.0, 0.0))]
     with pytest.raises(RunError, match=r"'[ab]' with Bounce"):
         simulate(Setup(pair, between_balls=lambda normal, slip: bounce), resolve())
+
+
+def test_a_run_without_end_is_refused():
+    with pytest.raises(ValueError, match="duration = inf s"):
+        Setup([shot()], duration=inf)
+
+
+@pytest.mark.parametrize("what", ["sliding", "rolling", "spinning", "gravity"])
+@pytest.mark.parametrize("value", [-0.1, nan, inf])
+def test_cloth_does_not_push(what, value):
+    with pytest.raises(ValueError, match=f"cloth: {what} = "):
+        Cloth(**{what: value})
+
+
+@pytest.mark.parametrize("what", ["tolerance", "step"])
+@pytest.mark.parametrize("value", [0.0, -1.0, nan])
+def test_sizes_of_errors_and_steps_are_positive(what, value):
+    with pytest.raises(RequestError, match=f"accuracy.{what}: {value} .* must be positive"):
+        resolve(**{what: value})

@@ -153,3 +153,18 @@ def test_balls_that_touch_the_struck_one_are_booked_under_its_impact():
     book = ledger(simulate(Setup(balls, duration=1.0), resolve()))
     assert abs(book.residue) < 1e-9
     assert sum(book.impacts.values()) <= 1e-12
+
+
+@pytest.mark.parametrize("restitution", [0.0, 0.5])
+def test_what_the_last_impact_did_is_in_the_path(restitution):
+    """A ball that falls on soft ground rests there, and one that is stopped at its landing has bounced."""
+    floor = Surface("floor", Segment((-50.0, 0.0), (50.0, 0.0)), restitution, 0.4)
+    ball = Ball("ball", 0.2, 0.05, (0.0, 1.05), forces=[Gravity(0.2, G)])
+    landed = lambda event: event.kind == "impact"  # noqa: E731
+    run = simulate(Setup([ball], [floor], duration=5.0, until=landed), resolve())
+    speed = (2 * G) ** 0.5
+    assert run.before("ball", run.duration)[3] == pytest.approx(-speed, rel=1e-6)
+    assert run.state("ball", run.duration)[3] == pytest.approx(restitution * speed, abs=1e-6)
+    book = ledger(run)
+    assert book.end == pytest.approx(0.5 * 0.2 * (restitution * speed) ** 2, abs=1e-6)
+    assert abs(book.residue) < 1e-6

@@ -657,3 +657,11 @@ def test_what_cannot_be_is_refused_by_name_and_place(balls: list[Any], overrides
 def test_balls_that_touch_and_balls_frozen_to_a_cushion_are_welcome():
     run = shot(spot("cue", -0.2, 0.0), spot("1", 0.3, 0.635 - R), spot("2", 0.3 + 2.0 * R, 0.635 - R), cue__speed=1.0)
     assert run.result["positions"]["1"] == pytest.approx([0.3, 0.635 - R], abs=1e-9)
+
+
+def test_a_ball_that_is_pressed_on_a_dead_cushion_met_it_once():
+    """It hops there as long as its roll presses it on."""
+    run = shot(spot("cue", 0.8, 0.0), rack="none", table__kind="carom", cue__speed=2.0, cushion__restitution=0.0)
+    assert sum(event.kind == "impact" for event in run.events) > 10
+    assert run.result["rails"] == 1
+    assert run.result["touches"] == ["foot cushion"]
