@@ -72,7 +72,7 @@ class Quantity:
         try:
             return self._number(item)
         except ValueError as error:
-            raise ValueError(f"{_shown(item)} {error}") from None
+            raise ValueError(f"{shown(item)} {error}") from None
 
     def _number(self, value: Any) -> float:
         if isinstance(value, str):
@@ -508,7 +508,7 @@ def _explained(
         return f"{prefix}{key}: unknown key{_suggestion('.'.join(plain), schema, values)}"
     if error["type"] == "missing":
         return f"{prefix}{key}: missing"
-    return f"{prefix}{key} = {_shown(error['input'])}: {_problem(error)}" if key else f"{prefix}{_problem(error)}"
+    return f"{prefix}{key} = {shown(error['input'])}: {_problem(error)}" if key else f"{prefix}{_problem(error)}"
 
 
 def _path(loc: tuple[int | str, ...], values: Any, missing: bool) -> tuple[str, tuple[str, ...]]:
@@ -587,7 +587,7 @@ def _problem(error: Any) -> str:
             return error["msg"][:1].lower() + error["msg"][1:]
 
 
-def _shown(value: Any) -> str:
+def shown(value: Any) -> str:
     """A value as a TOML file would write it, shortened."""
     try:
         text = json.dumps(value, ensure_ascii=False, default=str)

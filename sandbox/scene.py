@@ -398,14 +398,20 @@ def _preset(name: str, folder: Path, preset: str) -> Path:
 
 def _scene_of_file(path: Path) -> tuple[str, Path]:
     """Name and folder of the scene that a scene file is for; the nearest wins: around it, beside it, by its name."""
-    name = declared.read_toml(path).get("scene")
-    name = name.partition("/")[0] if isinstance(name, str) else ""
+    values = declared.read_toml(path)
+    written = values.get("scene")
     parent = path.resolve().parent
     around = parent.parent if parent.name == "presets" else parent
     if (around / "scene.py").is_file():
         return around.name, around
-    if not _is_word(name):
+    if "scene" not in values:
         raise RequestError(f'{path}: needs a line that names its scene, such as scene = "golf"')
+    name, slash, preset = written.partition("/") if isinstance(written, str) else ("", "", "")
+    if not _is_word(name) or (slash and not _is_word(preset)):
+        raise RequestError(
+            f'{path}: scene = {declared.shown(written)}: must be the name of a scene or preset, such as "golf" or '
+            '"golf/moon"; a scene of your own stands beside this file'
+        )
     beside = parent / name
     folder = beside if (beside / "scene.py").is_file() else _built_in(name) or _installed(name)
     if folder is None:
@@ -489,7 +495,13 @@ def _module(folder: Path, name: str) -> ModuleType:
         # Two folders of one name may be in use at once.
         package += "_" + hashlib.sha256(str(folder).encode()).hexdigest()[:12]
     _package(package, folder)
-    return importlib.import_module(f"{package}.{name}")
+    try:
+        return importlib.import_module(f"{package}.{name}")
+    except (SyntaxError, ValueError):  # of NUL bytes Python says neither where nor always as a SyntaxError
+        file = folder / f"{name}.py"
+        if b"\0" in file.read_bytes():
+            raise RequestError(f"{file}: not a text file, it holds NUL bytes") from None
+        raise
 
 
 def _package(name: str, folder: Path) -> None:

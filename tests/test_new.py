@@ -48,7 +48,7 @@ def scene(call) -> Path:
 def change(file: Path, old: str, new: str) -> None:
     source = file.read_text("utf-8")
     assert old in source
-    file.write_text(source.replace(old, new, 1), "utf-8")
+    file.write_bytes(source.replace(old, new, 1).encode("utf-8", "surrogateescape"))
 
 
 def pytest_in(folder: Path, *args: str) -> subprocess.CompletedProcess[str]:
@@ -269,6 +269,7 @@ def test_its_golden_test(scene: Path):
     [
         ("scene.py", "radians(launch.angle)", "radians(launch.angel)", "AttributeError: 'Launch' object has no"),
         ("scene.py", "def build(", "def build((", "SyntaxError: "),
+        ("scene.py", "def build(", "\udcff\ndef build(", "SyntaxError: "),
         ("scene.py", "x, _ = position", "x = position[2]", "IndexError: tuple index out of range"),
         ("scene.py", "landing.x - floor.mat)", "landing.x - floor.matt)", "AttributeError: 'Floor' object has no"),
         ("scene.py", "result['apex']:.2f", "result['apx']:.2f", "KeyError: 'apx'"),
@@ -291,6 +292,13 @@ def test_a_failure_shows_the_users_lines_and_nothing_of_ours(
     files = [line.split('"')[1] for line in err.splitlines() if line.startswith("  File ")]
     assert set(files) == {str(scene / file)}
     assert not Path("poster.png").exists()
+
+
+@pytest.mark.parametrize("file", ["scene.py", "picture.py"])
+def test_a_file_with_nul_bytes_is_named(call, scene: Path, file: str):
+    (scene / file).write_bytes((scene / file).read_bytes() + b"\0")
+    expected = f"error: {scene / file}: not a text file, it holds NUL bytes\n"
+    assert call("run", f"./{NAME}", "--poster", "poster.png") == (2, "", expected)
 
 
 @pytest.mark.parametrize(

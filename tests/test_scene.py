@@ -249,8 +249,10 @@ def test_what_cannot_be_found_is_refused(source: str, expected: str):
     [
         ("", 'needs a line that names its scene, such as scene = "golf"'),
         ("gravity = 3", 'needs a line that names its scene, such as scene = "golf"'),
-        ("scene = 3", "needs a line that names its scene"),
-        ('scene = "../golf"', "needs a line that names its scene"),
+        ("scene = 3", 'scene = 3: must be the name of a scene or preset, such as "golf" or "golf/moon"'),
+        ('scene = ""', 'scene = "": must be the name of a scene'),
+        ('scene = "../golf"', 'scene = "../golf": must be the name of a scene'),
+        ('scene = "golf/"', 'scene = "golf/": must be the name of a scene'),
         ('scene = "golff"', "unknown scene golff; did you mean golf?"),
         ("scene = ", "broken TOML"),
     ],
