@@ -78,13 +78,15 @@ def _hits(run: Run) -> dict[tuple[str, float], str]:
     balls = {ball.name for ball in run.setup.balls}
     hits: dict[tuple[str, float], str] = {}
     for event in run.events:
-        if event.kind == "impact" and event.partner in balls:
-            both = " and ".join(sorted((event.ball, event.partner)))
-            for ball in balls:  # others that touch these take part, without an approach of their own
-                hits.setdefault((ball, event.t), both)
-            hits[event.ball, event.t] = hits[event.partner, event.t] = both
-        elif event.kind == "impact":
-            hits[event.ball, event.t] = event.partner
+        if event.kind != "impact":
+            continue
+        mutual = event.partner in balls
+        what = " and ".join(sorted((event.ball, event.partner))) if mutual else event.partner
+        for ball in balls:  # others that touch these take part, without an approach of their own
+            hits.setdefault((ball, event.t), what)
+        hits[event.ball, event.t] = what
+        if mutual:
+            hits[event.partner, event.t] = what
     return hits
 
 

@@ -145,6 +145,7 @@ def test_a_light_ball_squeezed_between_a_wall_and_a_heavy_one_gains_no_energy(wa
     floor = Surface("floor", Segment((-1.0, 0.0), (1.0, 0.0)), wall, 0.0)
     book = ledger(simulate(Setup([light, heavy], [floor], duration=0.01, between_balls=of(mutual, 0.0)), resolve()))
     assert 0.1 * book.start < book.end <= (1 + 1e-6) * book.start
+    assert abs(book.residue) < 1e-9
 
 
 def test_a_slip_too_small_to_square_is_no_trouble():
