@@ -414,13 +414,12 @@ def whole(
     """
     found: dict[str, Any] = {}
     for key, value in changes.items():
-        if not isinstance(key, str):
-            raise RequestError(f"{changed_by} {key!r}: a key is a text, such as launch.speed")
-        if "[" not in key:
+        if isinstance(key, str) and "[" not in key:
             found[key] = value
             continue
+        steps = path_of(changed_by, key)
         name = key.partition("[")[0]
-        path = path_of(changed_by, key)[len(name.split(".")) :]
+        path = steps[len(name.split(".")) :]
         node: Any = validate(schema, values, source, found, changed_by)
         if name in known_keys(schema, node.model_dump()):  # else it is refused as any other
             for part in name.split("."):
@@ -435,6 +434,8 @@ _STEP = re.compile(r"([^.\[\]]+)|\[(\d+)\]")
 
 def path_of(option: str, key: str) -> tuple[str | int, ...]:
     """``"air.wind[0]"`` as ``("air", "wind", 0)``."""
+    if not isinstance(key, str):
+        raise RequestError(f"{option} {key!r}: a key is a text, such as launch.speed")
     steps = tuple(name or int(number) for name, number in _STEP.findall(key))
     if "".join(f"[{step}]" if isinstance(step, int) else f".{step}" for step in steps) != f".{key}":
         raise RequestError(f"{option} {key}: a key is written like launch.speed, or air.wind[0] for one of a list")

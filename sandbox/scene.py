@@ -151,11 +151,12 @@ def _revived(name: str, preset: str | None, folder: Path, values: dict[str, Any]
 # ---------------------------------------------------------------------------------------------------------------------
 
 
-def simulate(scene: Scene) -> Run:
+def simulate(scene: Scene | str | Path) -> Run:
     """Run the scene to its end at the accuracy that its parameters ask for; ``run.result`` holds its numbers."""
     from sandbox.engine.accuracy import resolve
 
-    return _simulate_at(scene, resolve(**scene.parameters.accuracy.model_dump()))
+    chosen = scene if isinstance(scene, Scene) else load(scene)
+    return _simulate_at(chosen, resolve(**chosen.parameters.accuracy.model_dump()))
 
 
 def _simulate_at(scene: Scene, accuracy: Accuracy) -> Run:
@@ -176,10 +177,11 @@ class Check:
     changed: dict[str, tuple[Any, Any]] = field(default_factory=dict)  # what else differs: in the run, in the finer one
 
 
-def check(scene: Scene, run: Run | None = None) -> Check:
+def check(scene: Scene | str | Path, run: Run | None = None) -> Check:
     """Estimate the errors of the scene's result: run it again, finer, and compare."""
-    run = run or simulate(scene)
-    return compare(run, _simulate_at(scene, run.accuracy.finer()))
+    chosen = scene if isinstance(scene, Scene) else load(scene)
+    run = run or simulate(chosen)
+    return compare(run, _simulate_at(chosen, run.accuracy.finer()))
 
 
 def compare(run: Run, finer: Run) -> Check:
@@ -294,6 +296,8 @@ def _listed(name: str, folder: Path) -> Iterator[Listing]:
 
 def _find(source: str | Path) -> tuple[str, Path, Path | None]:
     """Name of the scene, its folder, and the scene file to read (None for a folder without one)."""
+    if not isinstance(source, str | Path):
+        raise RequestError(f"{_shortened(repr(source))} is no scene: name one as text, or give the path of its file")
     try:
         return _named(source) if isinstance(source, str) else _at(source)
     except OSError as error:  # a name too long, a folder that may not be entered

@@ -36,6 +36,37 @@ def refusal(*args: Any) -> str:
     return str(refused.value)
 
 
+# What Python asks for ------------------------------------------------------------------------------------------------
+
+
+def test_a_scene_may_be_named_wherever_one_is_asked_for():
+    assert sandbox.simulate("golf/putt").result == sandbox.simulate(sandbox.load("golf/putt")).result
+    assert sandbox.check(DROP).errors == sandbox.check(sandbox.load(DROP)).errors != {}
+
+
+@pytest.mark.parametrize(
+    ("ask", "expected"),
+    [
+        (lambda: sandbox.simulate("golff"), "unknown scene golff; did you mean golf?"),
+        (lambda: sandbox.simulate(DROP).state("bal", 1), "there is no ball 'bal'; there are 'ball'"),
+        (lambda: sandbox.simulate(DROP).trajectory("bal"), "there is no ball 'bal'"),
+        (lambda: next(sandbox.simulate(DROP).crossings("bal", (0, 0), (1, 0))), "there is no ball 'bal'"),
+        (lambda: sandbox.simulate(DROP).trajectory(every=0), "every = 0: must be more than 0 s"),
+        (lambda: sandbox.simulate(DROP).trajectory(every=-1), "every = -1: must be more than 0 s"),
+        (lambda: sandbox.load(5), "5 is no scene: name one as text"),
+        (lambda: sandbox.load("golf", {5: 1}), "override 5: a key is a text, such as launch.speed"),
+        (lambda: sandbox.sweep("golf", {5: [1, 2]}), "over 5: a key is a text, such as launch.speed"),
+        (lambda: sandbox.sweep("golf", {"launch.angle": 5}), "over launch.angle: 5 is neither a list of values nor a"),
+        (lambda: sandbox.aim("golf", {"launch.angle": 5}, {"carry": 200}), "vary launch.angle: 5 is neither a list"),
+        (lambda: sandbox.aim("golf", {"gravity": (1, 2, 3)}, {"carry": 200}), "vary gravity: only numbers have a ra"),
+    ],
+)
+def test_what_python_asks_wrongly_is_said_in_a_line(ask: Any, expected: str):
+    with pytest.raises(RequestError) as refused:
+        ask()
+    assert expected in str(refused.value)
+
+
 # The scenes that come with it ---------------------------------------------------------------------------------------
 
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from sandbox.engine.arc import Arc
 from sandbox.engine.bernstein import downward_crossings
+from sandbox.errors import RequestError
 from sandbox.physics.integrators import State
 
 if TYPE_CHECKING:
@@ -74,8 +75,15 @@ class Run:
         """
         return self._full_state(ball, t)[:5]
 
+    def _path(self, ball: str) -> list[Arc] | ArcRows:
+        """The arcs of a ball. Raises RequestError for one that is not there."""
+        try:
+            return self.arcs[ball]
+        except (KeyError, TypeError):
+            raise RequestError(f"there is no ball {ball!r}; there are {', '.join(map(repr, self.arcs))}") from None
+
     def _full_state(self, ball: str, t: float) -> State:
-        arcs = self.arcs[ball]
+        arcs = self._path(ball)
         index = bisect_right(arcs, t, key=lambda arc: arc.t0) - 1
         return arcs[max(index, 0)].state(t)
 
@@ -90,14 +98,14 @@ class Run:
 
     def before(self, ball: str, t: float) -> State:
         """The state of a ball just before time t, which differs from ``state`` where there is an impact at t."""
-        arcs = self.arcs[ball]
+        arcs = self._path(ball)
         index = bisect_left(arcs, t, key=lambda arc: arc.t1)
         return (arcs[index].state(t) if index < len(arcs) and arcs[index].t1 == t else self._full_state(ball, t))[:5]
 
     def angle(self, ball: str, t: float) -> float:
         """How far a ball has turned since the start, in rad, counter-clockwise."""
         turned = 0.0
-        for arc in self.arcs[ball]:
+        for arc in self._path(ball):
             if arc.t0 >= t:
                 break
             part = arc.until(t)
@@ -112,7 +120,9 @@ class Run:
         """
         import numpy as np
 
-        times = {0.0, self.duration, *(arc.t0 for arc in self.arcs[ball])}
+        if not every > 0.0:
+            raise RequestError(f"every = {every}: must be more than 0 s")
+        times = {0.0, self.duration, *(arc.t0 for arc in self._path(ball))}
         times.update(float(t) for t in np.arange(0.0, self.duration, every))
         return np.array([(t, *self.state(ball, t)) for t in sorted(times)])
 
@@ -123,7 +133,7 @@ class Run:
         """
         px, py = point
         nx, ny = normal
-        path = self.arcs[ball]
+        path = self._path(ball)
         for arc in path if isinstance(path, list) else path.passing(px, py, nx, ny):
             ahead = [(x - px) * nx + (y - py) * ny for x, y in zip(arc.x, arc.y, strict=True)]
             for u in downward_crossings(ahead):
@@ -134,7 +144,7 @@ class Run:
         """Time and state at which a ball's centre is highest."""
         first = self.state(ball, 0.0)
         best = (0.0, first)
-        path = self.arcs[ball]
+        path = self._path(ball)
         for arc in path if isinstance(path, list) else path.topmost():
             if max(arc.y) <= best[1][1]:
                 continue

@@ -204,9 +204,9 @@ def aim(
     chosen = scene if isinstance(scene, Scene) else load(scene)
     spans = []
     for key, given in vary.items():
-        axis = as_axis(chosen, key, tuple(given), "vary")
+        axis = as_axis(chosen, key, tuple(given) if isinstance(given, list) else given, "vary")
         if not isinstance(axis, Span):
-            raise RequestError(f"vary {key}: only numbers have a range")
+            raise RequestError(f"vary {key}: only numbers have a range, (low, high), and this is {given!r}")
         spans.append(axis)
     return search(chosen, spans, [as_target(name, value, scene=chosen) for name, value in target.items()], progress)
 

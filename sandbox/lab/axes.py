@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -77,12 +77,15 @@ def parse_span(scene: Scene, option: str, text: str) -> Span:
 
 def as_axis(scene: Scene, key: str, given: Any, option: str = "over") -> Axis:
     """An axis from Python: a pair as a tuple is a span, any other sequence or array its values."""
+    given = given.tolist() if isinstance(given, np.ndarray) else given
+    if isinstance(given, str | Mapping) or not isinstance(given, Iterable):
+        raise RequestError(f"{option} {key}: {given!r} is neither a list of values nor a range (low, high)")
     if isinstance(given, tuple) and len(given) == 2 and not isinstance(given[0], bool):
         low, high = (checked(scene, option, key, end) for end in given)
         if isinstance(low, float) and isinstance(high, float):
             return span(option, key, low, high)
         return Values(key, (low, high))
-    values = list(given.tolist() if isinstance(given, np.ndarray) else given)
+    values = list(given)
     if not values:
         raise RequestError(f"{option} {key}: no values")
     if len(values) > 2 and all(isinstance(value, int | float) and not isinstance(value, bool) for value in values):
