@@ -16,6 +16,13 @@ CARD, ENERGY = palette("card"), palette("energy")
 
 #: Points of a line; width of the card, where there is room and beside a table, and height of a strip, px on 720 rows.
 SAMPLES, WIDTH, NARROW, STRIP = 200, 280, 170, 46
+#: The card is no wider than this share of the picture, if what stands on it is not.
+SHARE = 0.22
+#: Before the largest value of all, of either sign.
+PEAK = "peak "
+
+#: Name, unit, values over time, and digits after the point.
+Strip = tuple[str, str, np.ndarray, int]
 
 
 class Charts:
@@ -29,7 +36,7 @@ class Charts:
         times = np.union1d(np.linspace(0.0, end, SAMPLES), [t for hit in hits for t in (max(0.0, hit - 1e-6), hit)])
         self.times = times
         x, y, vx, vy, spin = np.array([shot.run.state(shot.ball, float(t)) for t in times]).T
-        self.strips = [("speed", "m/s", np.hypot(vx, vy), 2)]
+        self.strips: list[Strip] = [("speed", "m/s", np.hypot(vx, vy), 2)]
         if shot.upright:
             self.strips.append(("height", "m", y, 2))
         else:
@@ -45,8 +52,21 @@ class Charts:
         unit, gap, letters = sheet.unit, sheet.gap, sheet.lettering
         row = letters.height("small") + gap // 2
         tall = round(STRIP * unit)
-        wide = WIDTH if self.shot.upright else NARROW
-        rect = pygame.Rect(0, 0, round(wide * unit), len(self.strips) * (row + tall + gap) + 3 * gap)
+        shown = [
+            float(values[np.abs(values).argmax()] if t is None else np.interp(t, self.times, values))
+            for _, _, values, _ in self.strips
+        ]
+        texts = [_told(value, strip) for value, strip in zip(shown, self.strips, strict=True)]
+        written = max(
+            letters.width(strip[0], "small") + letters.width(_told(value, strip), "small", bold=True)
+            for strip in self.strips
+            for value in (strip[2].min(), strip[2].max())
+        )
+        wide = min((WIDTH if self.shot.upright else NARROW) * unit, SHARE * sheet.size[0])
+        wide = max(round(wide), written + 5 * gap)
+        rect = pygame.Rect(0, 0, wide, len(self.strips) * (row + tall + gap) + 3 * gap)
+        if t is None and wide >= written + letters.width(PEAK, "small", bold=True) + 5 * gap:
+            texts = [PEAK + text for text in texts]
         if self.shot.upright:
             rect.topright = sheet.frame.right, round(top)
             if rect.colliderect(avoid):
@@ -55,7 +75,7 @@ class Charts:
             rect.bottomleft = sheet.frame.left, round(sheet.frame.bottom - sheet.card_height() - gap)
         sheet.painter.panel(rect, CARD["background"], 0.85, 10 * unit)
         end = max(self.shot.run.duration, 1e-9)
-        for number, (name, name_of_unit, values, digits) in enumerate(self.strips):
+        for number, (name, _, values, _) in enumerate(self.strips):
             y = rect.top + 1.5 * gap + number * (row + tall + gap)
             plot = pygame.Rect(rect.left + 2 * gap, round(y) + row, rect.width - 4 * gap, tall)
             low, high = min(0.0, float(values.min())), float(values.max())
@@ -65,11 +85,14 @@ class Charts:
             sheet.surface.fill(ENERGY["rule"], (plot.left, round(plot.bottom - 1 + low * scale), plot.width, 1))
             for a, b in pairwise(np.column_stack([columns, rows])):
                 pygame.draw.aaline(sheet.surface, CARD["accent"], a, b, 2)
-            shown = float(values[np.abs(values).argmax()]) if t is None else float(np.interp(t, self.times, values))
-            text = ("most " if t is None else "") + signed(f"{shown:.{digits}f}") + f" {name_of_unit}"
             letters.write(sheet.surface, name, "small", (plot.left, y), CARD["quiet"])
-            letters.write(sheet.surface, text, "small", (plot.right, y), CARD["text"], "topright", bold=True)
+            letters.write(sheet.surface, texts[number], "small", (plot.right, y), CARD["text"], "topright", bold=True)
             if t is not None:
                 at = plot.left + plot.width * t / end
                 sheet.surface.fill(CARD["quiet"], (round(at), plot.top, 1, plot.height))
-                sheet.painter.disc((at, plot.bottom - 1 - (shown - low) * scale), 4 * unit, CARD["text"])
+                sheet.painter.disc((at, plot.bottom - 1 - (shown[number] - low) * scale), 4 * unit, CARD["text"])
+
+
+def _told(value: float, strip: Strip) -> str:
+    _, unit, _, digits = strip
+    return signed(f"{value:.{digits}f}") + f" {unit}"

@@ -90,9 +90,11 @@ def _accuracy(app: App) -> None:
     if app.shot is None:
         return
     checked = check(app.shot.scene, app.shot.run)
-    errors = [f"{name} ± {error:.1g}" for name, error in checked.errors.items() if error > 0][:4]
+    units = app.shot.scene.units
+    errors = [f"{name} ± {error:.1g} {units.get(name, '')}" for name, error in checked.errors.items() if error > 0]
     changed = [f"{name} would be {finer}" for name, (_, finer) in checked.changed.items()]
-    told = ", ".join(changed or errors) or "no difference to a finer run"
+    told = ", ".join(text.strip() for text in changed or errors[:4]) or "no difference to a finer run"
+    told = told.replace("_", " ")
     app.tell(f"accuracy {level}: {1e3 * app.shot.run.numerics.wall_s:.1f} ms a run; {told}")
 
 

@@ -153,7 +153,7 @@ class Session:
 
     def _with(self, changes: Mapping[str, Any]) -> Scene:
         values = self.base.parameters.model_dump()
-        parameters = declared.validate(type(self.base.parameters), values, "", changes, "")
+        parameters = declared.validate(type(self.base.parameters), values, "", changes, "the window's")
         return replace(self.base, parameters=parameters)
 
     def change(self, changes: Mapping[str, Any]) -> None:

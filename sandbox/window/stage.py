@@ -197,9 +197,9 @@ def headline(sheet: Canvas, text: str, note: str, colour: Colour) -> pygame.Rect
     text, note = letters.cut(text, size, room, bold=True), letters.cut(note, "small", room)
     width = max(letters.width(text, size, bold=True), letters.width(note, "small"))
     height = letters.height(size) + (letters.height("small") + sheet.gap if note else 0)
-    rect = pygame.Rect(sheet.frame.left, sheet.frame.top, width + 2 * inset, height + 2 * inset)
+    rect = pygame.Rect(sheet.frame.left, sheet.frame.top, width + 2 * inset, height + inset)
     sheet.painter.panel(rect, CARD["background"], CARD["opacity"], 10 * sheet.unit)
-    at = sheet.write(text, size, (rect.left + inset, rect.top + inset), colour, bold=True)
+    at = sheet.write(text, size, (rect.left + inset, rect.top + sheet.gap), colour, bold=True)
     if note:
         sheet.write(note, "small", (at.left, at.bottom + sheet.gap), CARD["quiet"])
     return rect

@@ -211,7 +211,7 @@ def test_what_cannot_be_is_said_and_the_last_good_parameters_stay(player):
     assert not player.app.change({"launch.speed": -3.0})
     text, bad, _ = player.app.message
     assert bad
-    assert "launch.speed = -3.0: must be from 0 to 340 m/s" in text
+    assert text == "the window's launch.speed = -3.0: must be from 0 to 340 m/s"
     assert player.app.session.scene is before
     player.frames(3)
 

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import re
 from concurrent.futures import wait
+from itertools import combinations
 from math import hypot
 
 import numpy as np
@@ -12,9 +14,11 @@ import pytest
 from sandbox.picture.sheet import Sheet
 from sandbox.window import commands
 from sandbox.window.beside import Varied
+from sandbox.window.charts import Charts
 from sandbox.window.fan import SHOTS, Fan, _short
 from sandbox.window.keys import BINDINGS, LISTED, listed
 from sandbox.window.measure import reading
+from sandbox.window.scale import Canvas
 from sandbox.window.session import Session
 
 PUTT = "golf/putt"
@@ -205,6 +209,22 @@ def test_the_charts_show_the_state_at_the_time(player, monkeypatch):
     assert sum(text == f"{y:.2f} m" for text in written) == 2
 
 
+@pytest.mark.parametrize("size", [(640, 400), (960, 1080), (1280, 720)])
+@pytest.mark.parametrize("source", ["golf", "billiards"])
+def test_what_is_written_on_the_charts_does_not_overlap(shot_of, monkeypatch, size, source):
+    from sandbox.picture.lettering import Lettering
+
+    placed = []
+    write = Lettering.write
+    monkeypatch.setattr(Lettering, "write", lambda self, *a, **k: placed.append(write(self, *a, **k)))
+    charts = Charts(shot_of(Session(source)))
+    for t in (None, 0.5):
+        charts.draw(Canvas(pygame.Surface(size)), 20.0, t, pygame.Rect(0, 0, 0, 0))
+        assert len(placed) == 6
+        assert not any(a.colliderect(b) for a, b in combinations(placed, 2))
+        placed.clear()
+
+
 def test_where_the_energy_goes_lies_over_the_picture_until_a_click(player):
     player = player(PUTT)
     plain = picture(player)
@@ -276,4 +296,5 @@ def test_accuracy_tells_its_cost_and_its_error(player):
     text = player.app.message[0]
     assert text.startswith("accuracy precise: ")
     assert " ms a run; " in text
-    assert "carry ± " in text
+    assert re.search(r"carry ± [-e.0-9]+ m, total ± [-e.0-9]+ m,", text)
+    assert "flight time ± " in text
