@@ -80,13 +80,21 @@ def draw_in_frame(sheet: Sheet, ghost: Ghost, points: np.ndarray, at: tuple[floa
     sheet.surface.set_clip(None)
 
 
-def draw_ghost(sheet: Sheet, ghost: Ghost, points: np.ndarray, trace: np.ndarray) -> None:
-    """A ghost's path (px, shape (n, 2)) and its label: where there is room, far from the picture's own ``trace``."""
+def draw_ghost(sheet: Sheet, ghost: Ghost, points: np.ndarray) -> None:
+    """A ghost's path (px, shape (n, 2)); no label will be placed on it."""
     points = points[apart(points, FINEST)]
     width = max(2.5, 4.5 * sheet.unit)
     sheet.painter.line(points, width, ghost.colour_on(sheet), TRACE["earlier"])
     sheet.painter.disc(points[-1], 1.3 * width, ghost.light, 0.9)
     sheet.labels.take_path(points, 3 * sheet.unit)
+
+
+def label_ghost(sheet: Sheet, ghost: Ghost, points: np.ndarray, trace: np.ndarray) -> None:
+    """What a ghost is called, beside its path (px, shape (n, 2)), far from the picture's own ``trace``.
+
+    The last thing to be written: the picture's own labels come first.
+    """
+    points = points[apart(points, FINEST)]
     away = np.hypot(*(points[:, None] - trace[None, :: max(1, len(trace) // 100)]).T).min(axis=0)
     far_first = points[np.argsort(-away, kind="stable")[:: max(1, len(points) // ANCHORS)]]
     directions = [(cos(turn), -sin(turn)) for turn in np.linspace(pi / 2, 5 * pi / 2, 9)]

@@ -146,21 +146,18 @@ def mark_impacts(sheet: Sheet, camera: Camera, marks: Iterable[Mark], labelled: 
         sheet.labels.take_path([at], 4 * sheet.unit)
     for at, found in places:
         if labelled(found[0]):
-            speeds = ", ".join(f"{mark.speed:.1f}" for mark in found)
-            for text in (f"{speeds} m/s", speeds):
-                if label_mark(sheet, at, found[0].towards, text):
-                    break
+            label_mark(sheet, at, found[0].towards, ", ".join(f"{mark.speed:.1f}" for mark in found) + " m/s")
 
 
-def label_mark(sheet: Sheet, at: tuple[float, float], towards: tuple[float, float], text: str) -> bool:
-    """A text on a dark chip beside a mark, rather on the side of what was struck (``towards``); False: no room."""
+def label_mark(sheet: Sheet, at: tuple[float, float], towards: tuple[float, float], text: str) -> None:
+    """A text on a dark chip beside a mark, rather on the side of what was struck (``towards``), if there is room."""
     spots = []
     for far in (9, 16, 25, 36, 50):
         for turn in (0.0, 0.6, -0.6, 1.2, -1.2, 1.9, -1.9, pi):
             across = cos(turn) * towards[0] - sin(turn) * towards[1]
             down = -sin(turn) * towards[0] - cos(turn) * towards[1]
             spots.append((at[0] + across * far * sheet.unit, at[1] + down * far * sheet.unit, across, down))
-    return chip(sheet, text, spots)
+    chip(sheet, text, spots)
 
 
 def chip(

@@ -13,7 +13,7 @@ import pygame
 from sandbox.engine.setup import Circle, Segment
 from sandbox.picture.ball import Look, least_radius, mark_radius, seams
 from sandbox.picture.camera import Area, Box, Camera
-from sandbox.picture.ghosts import Ghost, draw_ghost, draw_in_frame, ghosts_of
+from sandbox.picture.ghosts import Ghost, draw_ghost, draw_in_frame, ghosts_of, label_ghost
 from sandbox.picture.painter import Painter, blank, from_colours
 from sandbox.picture.palette import palette
 from sandbox.picture.path import Path, draw_trace
@@ -86,14 +86,17 @@ class Picture:
         numbers = self.numbers() if over else self.live(t)
         if numbers:
             sheet.columns(self.card_row, numbers, [ghost.row if over else ghost.live(t) for ghost in self.ghosts])
+        for ghost in self.ghosts if over and not self.several else ():
+            there, here = (self.camera.pixels(picture.paths[0].points) for picture in (ghost.picture, self))
+            label_ghost(sheet, ghost, there, here)
         return sheet.surface
 
     def _ghost(self, sheet: Sheet, ghost: Ghost, t: float) -> None:
-        """Another run, pale: its path and its label, or in a frame where its balls are."""
-        for i, path in enumerate(ghost.picture.paths):
+        """Another run, pale: its path, and in a frame where its balls are."""
+        for path in ghost.picture.paths:
             points = self.camera.pixels(path.points)
             if t >= self.run.duration and not self.several:
-                draw_ghost(sheet, ghost, points, self.camera.pixels(self.paths[i].points))
+                draw_ghost(sheet, ghost, points)
                 continue
             x, y = path.run.state(path.name, min(t, path.run.duration))[:2]
             draw_in_frame(sheet, ghost, points, self.camera.pixel(x, y), 0.0)

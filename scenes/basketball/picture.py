@@ -16,7 +16,7 @@ from sandbox.picture.camera import Area, Box, Camera
 from sandbox.picture.chase import Chase
 from sandbox.picture.depth import Eye
 from sandbox.picture.figures import REACHING, SHOOTING, draw_figure
-from sandbox.picture.ghosts import draw_ghost, draw_in_frame, ghosts_of
+from sandbox.picture.ghosts import draw_ghost, draw_in_frame, ghosts_of, label_ghost
 from sandbox.picture.kept import Kept
 from sandbox.picture.lettering import Labels
 from sandbox.picture.painter import Painter, around_corners, rounded
@@ -152,8 +152,9 @@ class Picture:
         self._place(sheet, eye, self.net.fullest)
         self.trace = self.path.traced(camera)
         self._bounce(sheet, camera)
-        for ghost in self.ghosts:
-            draw_ghost(sheet, ghost, camera.pixels(ghost.picture.path.points), self.trace)
+        others = [(ghost, camera.pixels(ghost.picture.path.points)) for ghost in self.ghosts]
+        for ghost, points in others:
+            draw_ghost(sheet, ghost, points)
         draw_trace(sheet, self.trace, COURT["trace"])
         every = self._balls(sheet, camera)
         self._before(sheet, eye, self.net.fullest)
@@ -175,6 +176,8 @@ class Picture:
             notes.append(f"ball drawn {times(factor)} its size")
         sheet.headline(self.verdict(), notes, right - sheet.frame.left - 2 * sheet.gap)
         sheet.columns(self.rows_at.card, self.numbers(), [ghost.row for ghost in self.ghosts])
+        for ghost, points in others:
+            label_ghost(sheet, ghost, points, self.trace)
         return sheet.surface
 
     def _place(self, sheet: Sheet, eye: Eye, t: float) -> None:

@@ -13,7 +13,7 @@ import pygame
 from sandbox.picture import sphere
 from sandbox.picture.ball import SMALLEST
 from sandbox.picture.camera import Camera
-from sandbox.picture.ghosts import draw_ghost, draw_in_frame, ghosts_of
+from sandbox.picture.ghosts import draw_ghost, draw_in_frame, ghosts_of, label_ghost
 from sandbox.picture.painter import Painter
 from sandbox.picture.palette import Colour, mix, palette
 from sandbox.picture.path import Path, apart, draw_mark, label_mark
@@ -145,11 +145,13 @@ class Picture:
             if name != self.struck:
                 self._trace(painter, path, QUIET * unit, self.colours[name])
         every = 0.0
-        for ghost in self.ghosts:
-            if ghost.picture.struck in ghost.picture.paths:
-                own = self.paths.get(self.struck, np.zeros((1, 3)))[:, 1:]
-                points = ghost.picture.paths[ghost.picture.struck][:, 1:]
-                draw_ghost(sheet, ghost, camera.pixels(points), camera.pixels(own))
+        others = [
+            (ghost, camera.pixels(ghost.picture.paths[ghost.picture.struck][:, 1:]))
+            for ghost in self.ghosts
+            if ghost.picture.struck in ghost.picture.paths
+        ]
+        for ghost, points in others:
+            draw_ghost(sheet, ghost, points)
         if self.struck in self.paths:
             self._trace(painter, self.paths[self.struck], LOUD * unit, self.colours[self.struck])
             every = self._marks(painter)
@@ -161,6 +163,9 @@ class Picture:
         notes += [f"a dot every {every:g} s"] if every else []
         sheet.headline(self.verdict(), [*notes, *self._notes()], right - sheet.frame.left - 3 * sheet.gap)
         sheet.columns(self.card_row, self.numbers(), [ghost.row for ghost in self.ghosts])
+        own = camera.pixels(self.paths.get(self.struck, np.zeros((1, 3)))[:, 1:])
+        for ghost, points in others:
+            label_ghost(sheet, ghost, points, own)
         return sheet.surface
 
     def _notes(self) -> list[str]:

@@ -12,10 +12,10 @@ import pygame
 
 from sandbox.picture.ball import enlarged, least_radius, mark_radius
 from sandbox.picture.camera import Area, Box, Camera, Follow
-from sandbox.picture.ghosts import draw_ghost, draw_in_frame, ghosts_of
+from sandbox.picture.ghosts import draw_ghost, draw_in_frame, ghosts_of, label_ghost
 from sandbox.picture.painter import Painter
 from sandbox.picture.palette import palette
-from sandbox.picture.path import Mark, Path, apart, mark_impacts
+from sandbox.picture.path import Mark, Path, apart, chip, mark_impacts
 from sandbox.picture.sheet import Entry, Sheet, metres, nice, roughly, signed, times, yards
 from sandbox.picture.vectors import Vectors
 
@@ -141,8 +141,9 @@ class Picture:
         self.trace = path[apart(path, 1.5)]
         sheet.labels.take_path(self.trace, 4 * self.unit)
         sheet.labels.take(pygame.Rect(0, course.base, self.size[0], self.size[1]))  # distances and ruler
-        for ghost in self.ghosts:
-            draw_ghost(sheet, ghost, self._lifted(course, camera, ghost.picture.path[:, 1:3]), self.trace)
+        others = [(ghost, self._lifted(course, camera, ghost.picture.path[:, 1:3])) for ghost in self.ghosts]
+        for ghost, points in others:
+            draw_ghost(sheet, ghost, points)
         self._apex(sheet, camera)
         if flag:
             above = [(flag.centerx, flag.top - lift * self.unit, "midbottom") for lift in (8, 14)]
@@ -164,6 +165,8 @@ class Picture:
         notes = [ghost.note for ghost in self.ghosts] + notes
         sheet.headline(self.verdict(), notes, right - sheet.frame.left - 2 * sheet.gap)
         sheet.columns(self.rows_at.card, self.numbers(), [ghost.row for ghost in self.ghosts])
+        for ghost, points in others:
+            label_ghost(sheet, ghost, points, self.trace)
         return sheet.surface
 
     @property
@@ -179,11 +182,13 @@ class Picture:
         ground = camera.pixel(top[1], self.poster_course.height(top[1]))[1]
         if ground - y < 44 * unit:
             return
-        sheet.painter.dashes(
-            [(x, y + 10 * unit), (x, ground - 4 * unit)], 1.3 * unit, sheet.ink, 4 * unit, 5 * unit, 0.5
-        )
-        text = f"apex {metres(self.run.result['apex'])}"
-        sheet.label(text, "small", [(x, y - lift * unit, "midbottom") for lift in (12, 18, 24)], sheet.ink, bold=True)
+        text, middle = f"apex {metres(self.run.result['apex'])}", (y + ground) / 2
+        above = [(x, y - lift * unit, "midbottom") for lift in (12, 18, 24)]
+        beside = [(x + side * 10 * unit, middle, side, 0.0) for side in (1.0, -1.0)]
+        if sheet.label(text, "small", above, sheet.ink, bold=True) or chip(sheet, text, beside):
+            ends = [(x, y + 10 * unit), (x, ground - 4 * unit)]
+            sheet.painter.dashes(ends, 1.3 * unit, sheet.ink, 4 * unit, 5 * unit, 0.5)
+            sheet.labels.take_path([(x, row) for row in np.linspace(y, ground, 20)], 2 * unit)
 
     def _lifted(self, course: Course, camera: Camera, points: np.ndarray) -> np.ndarray:
         """Path in px for points in m, raised so that balls drawn too large along it lie on the ground and not in it."""

@@ -13,7 +13,7 @@ import pygame
 
 from sandbox.picture.ball import enlarged, least_radius, mark_radius
 from sandbox.picture.camera import Camera, Follow
-from sandbox.picture.ghosts import draw_ghost, draw_in_frame, ghosts_of
+from sandbox.picture.ghosts import draw_ghost, draw_in_frame, ghosts_of, label_ghost
 from sandbox.picture.painter import Painter
 from sandbox.picture.palette import mix, palette
 from sandbox.picture.path import MOST_SAMPLES, Path, apart, chip, draw_trace, mark_impacts
@@ -114,8 +114,9 @@ class Picture:
         self.trace = self.path.traced(camera)
         sheet.labels.take_path(self.trace, 4 * self.unit)
         self._straight_line(sheet, camera)
-        for ghost in self.ghosts:
-            draw_ghost(sheet, ghost, camera.pixels(ghost.picture.path.points), self.trace)
+        others = [(ghost, camera.pixels(ghost.picture.path.points)) for ghost in self.ghosts]
+        for ghost, points in others:
+            draw_ghost(sheet, ghost, points)
         draw_trace(sheet, self.trace, PITCH["trace"])
         sheet.scale_bar(camera, sheet.frame.left, self.bar_row, 0.3 * sheet.frame.width)
         sheet.labels.take(pygame.Rect(0, self.card_row, *self.size))
@@ -132,6 +133,8 @@ class Picture:
             notes.append(f"ball drawn {times(factor)} its size")
         sheet.headline(self.verdict(), notes, right - sheet.frame.left - 2 * sheet.gap)
         sheet.columns(self.card_row, self.numbers(), [ghost.row for ghost in self.ghosts])
+        for ghost, points in others:
+            label_ghost(sheet, ghost, points, self.trace)
         return sheet.surface
 
     @property

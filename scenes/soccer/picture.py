@@ -13,7 +13,7 @@ import pygame
 from sandbox.picture.ball import enlarged, least_radius, mark_radius
 from sandbox.picture.camera import Area, Box, Camera
 from sandbox.picture.chase import Chase
-from sandbox.picture.ghosts import draw_ghost, draw_in_frame, ghosts_of
+from sandbox.picture.ghosts import draw_ghost, draw_in_frame, ghosts_of, label_ghost
 from sandbox.picture.painter import Painter
 from sandbox.picture.palette import mix, palette
 from sandbox.picture.path import Path, apart, chip, draw_trace, mark_impacts
@@ -113,8 +113,9 @@ class Picture:
         stadium.draw(painter, eye)
         stadium.behind(painter, eye)
         self.trace = self.path.traced(camera)
-        for ghost in self.ghosts:
-            draw_ghost(sheet, ghost, camera.pixels(ghost.picture.path.points), self.trace)
+        others = [(ghost, camera.pixels(ghost.picture.path.points)) for ghost in self.ghosts]
+        for ghost, points in others:
+            draw_ghost(sheet, ghost, points)
         draw_trace(sheet, self.trace, GROUND["trace"])
         stadium.before(painter, eye)
         self._distances(sheet, camera)
@@ -135,6 +136,8 @@ class Picture:
             notes.append(f"ball drawn {times(factor)} its size")
         sheet.headline(self.verdict(), notes, right - sheet.frame.left - 2 * sheet.gap)
         sheet.columns(self.rows_at.card, self.numbers(), [ghost.row for ghost in self.ghosts])
+        for ghost, points in others:
+            label_ghost(sheet, ghost, points, self.trace)
         return sheet.surface
 
     def _in_sight(self, camera: Camera, x: float) -> bool:

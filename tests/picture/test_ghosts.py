@@ -1,5 +1,6 @@
 """Two runs over each other, in a poster and in frames."""
 
+import re
 from functools import cache
 
 import numpy as np
@@ -44,6 +45,26 @@ def test_both_are_told_and_nothing_overlaps(pair, size):
         assert value in written
     assert entries[0][1] in written
     assert_legible(picture.sheet)
+
+
+@pytest.mark.parametrize(
+    ("pair", "size"),
+    [
+        (("golf", "golf/headwind"), (1280, 720)),
+        (("golf", "golf/moon"), (1280, 720)),
+        (("golf/topped", "golf"), (640, 400)),
+        (("soccer/goal-kick-in-a-gale", "soccer"), (640, 400)),
+    ],
+    ids=str,
+)
+def test_speeds_have_their_unit(pair, size):
+    picture = compared(pair, size)
+    picture.poster()
+    written = [text for text, _ in picture.sheet.written]
+    inside = [text for text, rect in picture.sheet.written if rect.bottom < picture.rows_at.base]
+    assert not [text for text in inside if re.fullmatch(r"[\d., ]+", text)]
+    if pair[1] == "golf/headwind":  # whose path lies where the apex is usually told
+        assert "apex 31.4 m" in written
 
 
 @pytest.mark.parametrize("pair", PAIRS, ids=str)
