@@ -140,6 +140,7 @@ class Golden:
         run = subject if hasattr(subject, "setup") else None
         image = _as_image(subject, until)
         png, text = self.folder / f"{name}.png", self.folder / f"{name}.json"
+        self._mend(name, {png: _damaged_picture(png), text: None if run is None else _damaged_run(text)})
         expected = _read(png)
         drawing = _changed_drawing(expected, image)
         physics = None if run is None else _changed_physics(text, run, until)
@@ -155,6 +156,14 @@ class Golden:
             _fail(f"{name} has no golden {what} at {path}; make it with pytest --golden-update")
         else:
             _fail(*_told(name, run, physics, drawing), *self._shown(name, expected, image, drawing), HOW_TO_ACCEPT)
+
+    def _mend(self, name: str, damage: dict[Path, str | None]) -> None:
+        """Have damaged files made anew, or say which they are and how to."""
+        for path, what in damage.items():
+            if what is not None and self.update:
+                path.unlink()
+            elif what is not None:
+                _fail(f"{name}: {path} is damaged: {what}", "fetch it again, or make it anew: pytest --golden-update")
 
     def _write_run(self, name: str, path: Path, run: Any, until: float | None, change: str) -> None:
         chaos = record.diverges(run, until)
@@ -217,6 +226,26 @@ def _changed_physics(path: Path, run: Any, until: float | None) -> str | None:
     found = ["same motion, another result" if first is None else f"the physics changed: first at {first[1]}", *results]
     shown = found if len(found) <= MOST_TOLD else [*found[: MOST_TOLD - 1], f"{len(found) - MOST_TOLD + 1} more"]
     return "; ".join(shown)
+
+
+def _damaged_picture(path: Path) -> str | None:
+    """What is wrong with a golden picture; None where it is whole or not there."""
+    try:
+        _read(path)
+    except (OSError, SyntaxError, ValueError):  # Pillow's own words for any of it are no clearer
+        return "no picture, or only a part of one"
+    return None
+
+
+def _damaged_run(path: Path) -> str | None:
+    """What is wrong with what is kept of a golden run; None where it is whole or not there."""
+    if not path.exists():
+        return None
+    try:
+        kept = json.loads(path.read_text("utf-8"))
+    except ValueError as error:
+        return f"no JSON: {error}"
+    return None if isinstance(kept, dict) and {"states", "events"} <= set(kept) else "not what is kept of a run"
 
 
 def _as_image(subject: Any, until: float | None) -> Image.Image:

@@ -162,6 +162,25 @@ class TestRuns:
         (scene_project.path / "golden" / "it.json").unlink()
         again(scene_project).stdout.fnmatch_lines(["*it has no golden run*it.json*pytest --golden-update*"])
 
+    @pytest.mark.parametrize(
+        ("name", "content", "told"),
+        [
+            ("it.json", "<<<<<<< HEAD\n", "no JSON: Expecting value: line 1 column 1*"),
+            ("it.json", "[]", "not what is kept of a run"),
+            ("it.png", "", "no picture, or only a part of one"),
+            ("it.png", None, "no picture, or only a part of one"),
+        ],
+    )
+    def test_a_damaged_file_is_named_and_made_anew(self, scene_project, name: str, content: str | None, told: str):
+        again(scene_project, "--golden-update")
+        file = scene_project.path / "golden" / name
+        whole = file.read_bytes()
+        file.write_bytes(whole[:60] if content is None else content.encode())
+        result = again(scene_project)
+        result.stdout.fnmatch_lines([f"it: *{name} is damaged: {told}", "*make it anew: pytest --golden-update"])
+        again(scene_project, "--golden-update").stdout.fnmatch_lines([f"*{name}: new"])
+        assert file.read_bytes() == whole
+
     def test_says_that_the_physics_changed_and_where_first(self, scene_project, monkeypatch):
         result = self.changed(scene_project, monkeypatch, '{"floor.restitution": 0.79}')
         result.assert_outcomes(failed=1)
