@@ -84,7 +84,7 @@ class Charts:
             rows = plot.bottom - 1 - (values - low) * scale
             sheet.surface.fill(ENERGY["rule"], (plot.left, round(plot.bottom - 1 + low * scale), plot.width, 1))
             for a, b in pairwise(np.column_stack([columns, rows])):
-                pygame.draw.aaline(sheet.surface, CARD["accent"], a, b, 2)
+                pygame.draw.aaline(sheet.surface, CARD["accent"], a, b, max(2, round(1.6 * unit)))
             letters.write(sheet.surface, name, "small", (plot.left, y), CARD["quiet"])
             letters.write(sheet.surface, texts[number], "small", (plot.right, y), CARD["text"], "topright", bold=True)
             if t is not None:

@@ -192,10 +192,10 @@ class Menu:
 
 
 def draw_message(sheet: Sheet, text: str, bad: bool) -> None:
-    """A message over the bottom of the picture, in as many lines as it needs, six at most."""
+    """A message over the bottom of the picture, in as many lines as it needs, ten at most."""
     letters, gap = sheet.lettering, sheet.gap
     room = round(0.8 * sheet.size[0])
-    lines = [line for part in text.splitlines() for line in letters.wrapped(part, "small", room)][-6:]
+    lines = [line for part in text.splitlines() for line in letters.wrapped(part, "small", room)][-10:]
     row = letters.height("small") + gap // 2
     width = max(letters.width(line, "small") for line in lines)
     rect = pygame.Rect(0, 0, width + 6 * gap, row * len(lines) + 3 * gap)
