@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from math import cos, dist, pi, sin
+from math import cos, pi, sin
 from typing import Any
 
 import numpy as np
@@ -21,8 +21,6 @@ LIGHTER = 0.45
 ANCHORS = 12
 #: The path of a ghost in a frame has so many points at most.
 MOST_POINTS = 480
-#: Colours no further apart than this, in levels, are too much alike for two traces.
-ALIKE = 100
 
 
 @dataclass(frozen=True)
@@ -56,13 +54,10 @@ class Ghost:
         return f"{self.label}: {self.picture.verdict()[0].lower()}{self.picture.verdict()[1:]}"
 
 
-def ghosts_of(kind: Any, runs: Mapping[str, Any], size: tuple[int, int], trace: Colour | None = None) -> list[Ghost]:
-    """Ghosts for runs of a scene by their labels, in other colours than the picture's own trace.
-
-    ``kind`` is the scene's class of pictures.
-    """
-    own = trace or TRACE["colours"][0]
-    colours = [colour for colour in TRACE["colours"] if colour != own and (trace is None or dist(colour, own) > ALIKE)]
+def ghosts_of(
+    kind: Any, runs: Mapping[str, Any], size: tuple[int, int], colours: Sequence[Colour] = TRACE["colours"][1:]
+) -> list[Ghost]:
+    """Ghosts for runs of a scene by their labels; ``kind`` is the scene's class of pictures."""
     return [
         Ghost(label, kind(run, run.scene.parameters, size), colours[i % len(colours)])
         for i, (label, run) in enumerate(runs.items())

@@ -50,7 +50,7 @@ class Picture:
         self, run: Any, parameters: Any, size: tuple[int, int] = (1280, 720), ghosts: Mapping[str, Any] | None = None
     ):
         self.run, self.parameters, self.size = run, parameters, size
-        self.ghosts = ghosts_of(Picture, ghosts or {}, size, COURT["trace"])
+        self.ghosts = ghosts_of(Picture, ghosts or {}, size, COURT["earlier"])
         floor = next((event.t for event in run.events if event.partner == "floor"), run.duration)
         self.path = Path(run, "ball", floor)
         self.radius = self.path.radius

@@ -43,7 +43,7 @@ class Picture:
         self, run: Any, parameters: Any, size: tuple[int, int] = (1280, 720), ghosts: Mapping[str, Any] | None = None
     ):
         self.run, self.parameters, self.size = run, parameters, size
-        self.ghosts = ghosts_of(Picture, ghosts or {}, size, PITCH["trace"])
+        self.ghosts = ghosts_of(Picture, ghosts or {}, size, PITCH["earlier"])
         touched = next((e.t for e in run.events if "ball" in (e.ball, e.partner)), run.duration)
         until = run.duration if run.result["goal"] else min(run.duration, touched + AFTERMATH)
         self.path = Path(run, "ball", until)

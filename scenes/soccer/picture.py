@@ -45,7 +45,7 @@ class Picture:
         self, run: Any, parameters: Any, size: tuple[int, int] = (1280, 720), ghosts: Mapping[str, Any] | None = None
     ):
         self.run, self.parameters, self.size = run, parameters, size
-        self.ghosts = ghosts_of(Picture, ghosts or {}, size, GROUND["trace"])
+        self.ghosts = ghosts_of(Picture, ghosts or {}, size, GROUND["earlier"])
         self.path = Path(run, "ball", self._settled(run))
         self.radius = self.path.radius
         self.wind: tuple[float, float] = parameters.air.wind
