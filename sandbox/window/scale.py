@@ -28,14 +28,15 @@ class Canvas(Sheet):
         self.gap = max(3, round(6 * self.unit))
         self.lettering = Lettering(tall)
 
+    def ended(self, text: str, size: str, room: float, bold: bool = False) -> str:
+        """As much of a text as ``room`` px hold, up to a comma where there is one."""
+        while ", " in text and self.lettering.width(text, size, bold) > room:
+            text = text.rpartition(", ")[0]
+        return self.lettering.cut(text, size, room, bold)
+
     def numbers(self, entries: Sequence[Entry]) -> None:
-        """The card along the bottom; a number that is too long for it ends at the last comma there is room for."""
+        """The card along the bottom; of a number that is too long for it the beginning."""
         room = self.frame.width - 6 * self.gap
-
-        def shortened(entry: Entry) -> Entry:
-            value = entry[1]
-            while ", " in value and self.lettering.width(value, "medium", bold=True) > room:
-                value = value.rpartition(", ")[0]
-            return (entry[0], value) if value != entry[1] else entry
-
-        self.columns(self.frame.bottom - self.card_height(), [shortened(entry) for entry in entries])
+        ended = [self.ended(entry[1], "medium", room, bold=True) for entry in entries]
+        kept = [e if text == e[1] else (e[0], text) for e, text in zip(entries, ended, strict=True)]
+        self.columns(self.frame.bottom - self.card_height(), kept)

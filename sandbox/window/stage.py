@@ -150,6 +150,7 @@ class Stage:
         sheet.painter.disc(hand, 8.5 * sheet.unit, CARD["shadow"], 0.8)
         sheet.painter.disc(hand, 6.5 * sheet.unit, CARD["accent"])
         below = pull[1] >= 0
+        text = sheet.ended(text, "small", sheet.frame.width - 4 * sheet.gap)
         rect = sheet.lettering.rect(
             text, "small", (hand[0], hand[1] + (20 if below else -20) * sheet.unit), "midtop" if below else "midbottom"
         )

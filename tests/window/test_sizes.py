@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from itertools import combinations
+from typing import Any
 
 import pygame
 import pytest
@@ -22,6 +23,20 @@ SIZES = [
 ]
 TITLES = ("golf", "billiards/three-rail-carom *", "soccer-curl/roberto-carlos-1997 *")
 WORDS = ("see", "keep", "more", "panel", "help")
+
+
+@pytest.fixture
+def written(monkeypatch) -> list[tuple[str, pygame.Rect]]:
+    """Every text from here on, with where it is written."""
+    texts: list[tuple[str, pygame.Rect]] = []
+    write = Lettering.write
+
+    def noted(self: Lettering, surface: pygame.Surface, text: str, *arguments: Any, **named: Any) -> pygame.Rect:
+        texts.append((text, write(self, surface, text, *arguments, **named)))
+        return texts[-1][1]
+
+    monkeypatch.setattr(Lettering, "write", noted)
+    return texts
 
 
 def bar_of(size: tuple[int, int], title: str, duration: float, t: float | None = None) -> Bar:
@@ -63,6 +78,21 @@ class TestTheBar:
             assert bar_of(size, "golf", 15.86).places == bar_of(size, "golf", 15.86, 3.0).places
 
 
+@pytest.mark.parametrize("pull", [False, True])
+def test_long_numbers_end_where_their_room_does(player, written, pull):
+    player = player("soccer-curl", (480, 400))
+    player.key(pygame.K_TAB)
+    if pull:
+        player.pull((-60, 40), let_go=False)
+    written.clear()
+    player.app.view.draw()
+    numbers = [(text, rect) for text, rect in written if "m/s" in text]
+    assert len(numbers) == 1 + pull
+    for text, rect in numbers:
+        assert player.app.shot.card[0][1].startswith(text.removesuffix(" ..."))
+        assert player.app.area.contains(rect)
+
+
 @pytest.mark.parametrize("size", [(480, 376), (640, 373), (960, 1000), (1200, 373), (1280, 672)])
 def test_every_scene_and_preset_can_be_seen_in_the_menu(size):
     menu = overlay.Menu(list(listings()))
@@ -74,17 +104,10 @@ def test_every_scene_and_preset_can_be_seen_in_the_menu(size):
 
 
 @pytest.mark.parametrize("size", [(480, 376), (480, 920), (640, 373), (960, 1000), (1200, 373), (1280, 672)])
-def test_every_key_can_be_seen_in_the_help(size, monkeypatch):
-    placed = []
-    write = Lettering.write
-
-    def noted(self, *arguments, **named):
-        placed.append(write(self, *arguments, **named))
-        return placed[-1]
-
-    monkeypatch.setattr(Lettering, "write", noted)
+def test_every_key_can_be_seen_in_the_help(size, written):
     sheet = Canvas(pygame.Surface(size))
     overlay.draw_help(sheet)
+    placed = [rect for _, rect in written]
     assert len(placed) > 80
     assert all(sheet.surface.get_rect().contains(rect) for rect in placed)
     assert not any(a.inflate(0, -2).colliderect(b.inflate(0, -2)) for a, b in combinations(placed, 2))
