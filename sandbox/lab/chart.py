@@ -17,8 +17,8 @@ from sandbox.lab.tables import length, significant
 if TYPE_CHECKING:
     from sandbox.lab.trade import Point, Trade
 
-#: Size in inches, and dots per inch.
-_SIZE, _DOTS = (9.6, 6.0), 130
+#: Size in inches, and dots per inch; and what is drawn on: left, bottom, width and height as shares of it.
+_SIZE, _DOTS, _FRAME = (9.6, 6.0), 130, (0.02, 0.02, 0.96, 0.96)
 
 #: Errors in m that are marked.
 _TARGETS = (0.1, 0.01, 0.001, 0.0001)
@@ -125,13 +125,14 @@ def chart(path: Path, title: str, about: str) -> Iterator[tuple[Any, dict[str, A
     import matplotlib
     from matplotlib import font_manager
     from matplotlib.figure import Figure
+    from matplotlib.layout_engine import ConstrainedLayoutEngine
 
     colours = tomllib.loads((resources.folder("assets") / "palette.toml").read_text("utf-8"))
     for file in sorted((resources.folder("assets") / "fonts").glob("*.ttf")):
         font_manager.fontManager.addfont(str(file))
     ink, quiet_ink, quiet = (colours["card"][name] for name in ("ink", "ink_quiet", "quiet"))
     with matplotlib.rc_context({"font.family": ["Noto Sans", "sans-serif"]}):
-        figure = Figure(figsize=_SIZE, dpi=_DOTS, facecolor="white", layout="constrained")
+        figure = Figure(figsize=_SIZE, dpi=_DOTS, facecolor="white", layout=ConstrainedLayoutEngine(rect=_FRAME))
         axes = figure.subplots()
         axes.set_title(f"{about}\n", loc="left", fontsize=10, color=quiet_ink)
         axes.annotate(title, (0, 1), xytext=(0, 36), xycoords="axes fraction", textcoords="offset points",

@@ -147,12 +147,19 @@ def _about(plan: Plan) -> str:
 
 
 def _own(plan: Plan) -> list[float] | None:
-    """The scene's own values along the axes, if they are numbers inside them."""
-    own = [at(plan.scene.parameters, path_of("over", key)) for key in plan.keys]
-    for axis, value in zip(plan.axes, own, strict=True):
+    """Where the scene's own values stand along the axes, if they are numbers inside them or words of theirs."""
+    own: list[float] = []
+    for axis in plan.axes:
+        value = at(plan.scene.parameters, path_of("over", axis.key))
+        if isinstance(axis, Values) and not _has_numbers(axis):
+            if value not in axis.values:
+                return None
+            own.append(float(axis.values.index(value)))
+            continue
         ends = axis.values if isinstance(axis, Values) else (axis.low, axis.high)
         if not isinstance(value, float) or not min(ends) <= value <= max(ends):
             return None
+        own.append(value)
     return own
 
 
