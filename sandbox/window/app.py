@@ -421,8 +421,8 @@ class App:
             overlay.draw_message(sheet, f"{self.session.title} cannot be drawn: {type(error).__name__}: {error}", True)
         if self.panel is not None:
             self.panel.draw(self.canvas)
-        self.view.draw_over(self.canvas, self.area.height)
         self.bar.draw(self.canvas, self._shown(), self.pointer.at)
+        self.view.draw_over(self.canvas, self.area.height)
         if self.canvas is not self.screen:
             self.screen.blit(self.canvas, (0, 0))
 

@@ -115,9 +115,11 @@ class Choices:
 
 
 def draw_note(sheet: Sheet, lines: Sequence[tuple[str, Colour]], top: float, avoid: pygame.Rect) -> float:
-    """A small card at the right with a line each, off what is to be avoided; returns where there is room below it."""
+    """A small card at the right with its lines, off what is to be avoided; returns where there is room below it."""
     letters, gap = sheet.lettering, sheet.gap
     row = letters.height("small") + gap // 2
+    room = sheet.frame.width - 4 * gap
+    lines = [(part, colour) for text, colour in lines for part in letters.wrapped(text, "small", room)]
     width = max(letters.width(text, "small") for text, _ in lines)
     rect = pygame.Rect(0, 0, width + 4 * gap, len(lines) * row + 2 * gap)
     rect.topright = sheet.frame.right, round(top)

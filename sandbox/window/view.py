@@ -233,7 +233,7 @@ class View:
         app, top = self.app, float(sheet.frame.top)
         if "cost" in self.on:
             text = (
-                f"frame {1e3 * app.frame_cost:.1f} ms   run {1e3 * app.cost:.1f} ms, "
+                f"frame {1e3 * app.frame_cost:.1f} ms; run {1e3 * app.cost:.1f} ms, "
                 f"{app.session.value('accuracy.level')}"
             )
             top = overlay.draw_note(sheet, [(text, CARD["accent"])], top, self.head)

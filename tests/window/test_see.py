@@ -262,6 +262,16 @@ class TestTheLists:
         player.key(pygame.K_ESCAPE)
         assert player.app.view.choices is None
 
+    def test_it_stays_open_while_the_window_changes(self, player):
+        player = player(PUTT)
+        player.button("more")
+        player.key(pygame.K_TAB)
+        assert player.app.panel is not None
+        player.screen = pygame.display.set_mode((900, 600), pygame.RESIZABLE)
+        player.send(pygame.VIDEORESIZE, size=(900, 600), w=900, h=600)
+        foot = max(place.bottom for place, _ in player.app.view.choices.places)
+        assert 0 < player.app.bar.rect.top - foot < 20
+
     def test_what_is_shown_is_switched_by_mouse(self, player):
         player = player(PUTT)
         player.button("see")
