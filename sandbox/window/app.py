@@ -15,16 +15,17 @@ import pygame
 from sandbox.errors import RunError, SandboxError
 from sandbox.lab.workers import Processes
 from sandbox.picture.palette import palette
+from sandbox.picture.sheet import rows_of
 from sandbox.window import commands, overlay, replay
 from sandbox.window.ahead import PATIENCE, Ahead, ready, steady
 from sandbox.window.bar import HEIGHT, Bar, Shown
 from sandbox.window.beside import predicted, warmed
+from sandbox.window.canvas import Canvas
 from sandbox.window.fan import Fan
 from sandbox.window.keys import command_for
 from sandbox.window.playback import Playback
 from sandbox.window.pointer import Pointer
 from sandbox.window.recorded import run_of
-from sandbox.window.scale import Canvas, rows
 from sandbox.window.session import Session, Shot
 from sandbox.window.sound import Sound
 from sandbox.window.view import View
@@ -168,9 +169,9 @@ class App:
         width, height = (max(a, b) for a, b in zip(self.laid_out, SMALLEST, strict=True))
         fits = (width, height) == self.laid_out
         self.canvas: pygame.Surface = self.screen if fits else pygame.Surface((width, height))
-        unit = rows((width, height)) / 720
-        tall = round(HEIGHT * unit)
-        self.bar = Bar(pygame.Rect(0, height - tall, width, tall), rows((width, height)))
+        rows = rows_of((width, height))
+        unit, tall = rows / 720, round(HEIGHT * rows / 720)
+        self.bar = Bar(pygame.Rect(0, height - tall, width, tall), rows)
         wide = 0
         if self.has_panel:
             from sandbox.window.panel import (  # it brings pygame_gui, which takes its time

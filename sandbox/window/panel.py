@@ -22,7 +22,7 @@ from pygame_gui.elements import (
 
 from sandbox.parameters import Parameter, walk
 from sandbox.picture.lettering import Lettering
-from sandbox.window.scale import rows
+from sandbox.picture.sheet import rows_of
 from sandbox.window.session import Session
 from sandbox.window.theme import NAMED, theme
 
@@ -82,7 +82,7 @@ class Panel:
         group: str = FAVOURITES,
     ) -> None:
         self.session, self.change, self.reset, self.rect = session, change, reset, rect
-        self.unit, self.lettering = max(LEAST_UNIT, rows(size) / 720), Lettering(rows(size))
+        self.unit, self.lettering = max(LEAST_UNIT, rows_of(size) / 720), Lettering(rows_of(size))
         self.manager = pygame_gui.UIManager(size, theme(self.unit))
         self.group = group
         self._build()

@@ -12,8 +12,8 @@ import pygame
 from sandbox.picture.camera import Camera
 from sandbox.picture.painter import blank
 from sandbox.picture.palette import Colour, palette
+from sandbox.window.canvas import Canvas
 from sandbox.window.path import few
-from sandbox.window.scale import Canvas
 from sandbox.window.session import Shot
 
 CARD, TRACE = palette("card"), palette("trace")

@@ -13,10 +13,10 @@ from sandbox.picture.palette import palette
 from sandbox.picture.vectors import Vectors
 from sandbox.window import aim, overlay
 from sandbox.window.ahead import ready
+from sandbox.window.canvas import Canvas
 from sandbox.window.charts import Charts
 from sandbox.window.measure import NEAR, draw_reading, reading, state_entries
 from sandbox.window.playback import Playback
-from sandbox.window.scale import Canvas
 from sandbox.window.session import Shot
 from sandbox.window.stage import Stage, headline
 

@@ -14,11 +14,11 @@ import pytest
 from sandbox.picture.sheet import Sheet
 from sandbox.window import commands
 from sandbox.window.beside import Varied
+from sandbox.window.canvas import Canvas
 from sandbox.window.charts import Charts
 from sandbox.window.fan import SHOTS, Fan, _short
 from sandbox.window.keys import BINDINGS, LISTED, listed
 from sandbox.window.measure import reading
-from sandbox.window.scale import Canvas
 from sandbox.window.session import Session
 
 PUTT = "golf/putt"

@@ -9,10 +9,11 @@ import pygame
 import pytest
 
 from sandbox.picture.lettering import Lettering
+from sandbox.picture.sheet import rows_of
 from sandbox.scene import listings
 from sandbox.window import overlay
 from sandbox.window.bar import HEIGHT, HINTS, LEAST, Bar, Shown
-from sandbox.window.scale import Canvas, rows
+from sandbox.window.canvas import Canvas
 
 #: From half as wide as high to three times as wide.
 SIZES = [
@@ -41,8 +42,8 @@ def written(monkeypatch) -> list[tuple[str, pygame.Rect]]:
 
 def bar_of(size: tuple[int, int], title: str, duration: float, t: float | None = None) -> Bar:
     """The bar of such a window, drawn."""
-    surface = pygame.Surface((size[0], round(HEIGHT * rows(size) / 720)))
-    bar = Bar(surface.get_rect(), rows(size))
+    surface = pygame.Surface((size[0], round(HEIGHT * rows_of(size) / 720)))
+    bar = Bar(surface.get_rect(), rows_of(size))
     bar.draw(surface, Shown(title, False, t, duration, (0.5, 1.0), 1 / 16, WORDS), (-1, -1))
     return bar
 

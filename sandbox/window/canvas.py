@@ -1,4 +1,4 @@
-"""How large letters and lines are in a window: as large as both its sides allow."""
+"""A part of the window as a sheet to draw on."""
 
 from __future__ import annotations
 
@@ -6,27 +6,14 @@ from collections.abc import Sequence
 
 import pygame
 
-from sandbox.picture.lettering import Lettering
 from sandbox.picture.sheet import Entry, Sheet
-
-#: Width over height below which it is the width that decides.
-SQUAREST = 4 / 3
-
-
-def rows(size: tuple[int, int]) -> int:
-    """The height in px for which things are made: in a tall window less than it has."""
-    return min(size[1], round(size[0] / SQUAREST))
 
 
 class Canvas(Sheet):
-    """A sheet on a part of the window."""
+    """A sheet on a surface of the window."""
 
     def __init__(self, surface: pygame.Surface) -> None:
         super().__init__(surface.get_size(), surface=surface)
-        tall = rows(self.size)
-        self.unit = tall / 720
-        self.gap = max(3, round(6 * self.unit))
-        self.lettering = Lettering(tall)
 
     def ended(self, text: str, size: str, room: float, bold: bool = False) -> str:
         """As much of a text as ``room`` px hold, up to a comma where there is one."""
