@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import _thread
 import signal
 import sys
+import threading
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from io import TextIOWrapper
 from pathlib import Path
+from types import FrameType
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
@@ -214,6 +217,8 @@ def run(
     }
     _check_outputs(outputs, fps)
     pixels = None if size is None else _parse_size(size)
+    if size is not None and all(path is None for option, path in outputs.items() if option != "--trajectory"):
+        raise RequestError(f"--size {size}: goes with a picture, such as --poster F.png")
     try:
         done = simulate(chosen)
     except RequestError as error:  # what only the scene itself can see: two balls in one place
@@ -288,7 +293,7 @@ def _comparable(scene: Scene, source: str, accuracy: str | None) -> Scene:
 
 def _check_outputs(outputs: dict[str, Path | None], fps: int | None) -> None:
     """Refuse what could not be written before any work is done."""
-    from sandbox.files import check_file, check_folder
+    from sandbox.files import check_apart, check_file, check_folder
 
     suffixes = {"--trajectory": ".csv", "--gif": ".gif", "--webp": ".webp"}
     for option, path in outputs.items():
@@ -296,6 +301,7 @@ def _check_outputs(outputs: dict[str, Path | None], fps: int | None) -> None:
             check_folder(option, path)
         elif path is not None:
             check_file(option, path, suffixes.get(option, ".png"))
+    check_apart(outputs)
     if fps is not None and all(outputs[option] is None for option in ("--frames", "--gif", "--webp")):
         raise RequestError(f"--fps {fps}: goes with --frames, --gif or --webp")
 
@@ -422,9 +428,13 @@ def sweep(
     accuracy: Level = None,
     samples: Annotated[
         int | None,
-        typer.Option(metavar="N", parser=_whole("--samples", 1), help="So many random points in place of a grid."),
+        typer.Option(
+            metavar="N", parser=_whole("--samples", 1), help="So many random points: within ranges, from lists."
+        ),
     ] = None,
-    seed: Annotated[int, typer.Option(metavar="N", parser=_whole("--seed", 0), help="Which random points.")] = 0,
+    seed: Annotated[
+        int | None, typer.Option(metavar="N", parser=_whole("--seed", 0), help="Which random points.  [default: 0]")
+    ] = None,
     check: Annotated[bool, typer.Option("--check", help="Run each point again, finer, and add its errors.")] = False,
     plot: Annotated[
         Path | None, typer.Option(metavar="F.png", help="A map over two parameters, a curve over one.")
@@ -447,8 +457,8 @@ def sweep(
 ) -> None:
     """Run a scene once for each point of a grid, or for random points, and write a row for each.
 
-    Ctrl-C keeps the rows that are done; the same command again goes on from there. A point that fails is a row with
-    its error.
+    Ctrl-C keeps the rows that are done; the same command again goes on from there. What another sweep left in the file
+    is kept as F.csv~. A point that fails is a row with its error.
 
     \b
     Examples:
@@ -463,8 +473,10 @@ def sweep(
     from sandbox.progress import bar
 
     chosen = _load(scene, set_, accuracy)
-    plan = Plan(chosen, tuple(parse_axis(chosen, "--over", text) for text in over), samples or 0, seed, check)
+    plan = Plan(chosen, tuple(parse_axis(chosen, "--over", text) for text in over), samples or 0, seed or 0, check)
     check_file("--out", out, ".csv")
+    if seed is not None and samples is None:
+        raise RequestError(f"--seed {seed}: goes with --samples")
     if of is not None and plot is None:
         raise RequestError(f"--of {of}: goes with --plot")
     if plot is not None:
@@ -609,7 +621,7 @@ def main(args: list[str] | None = None) -> int:
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, TextIOWrapper):
             stream.reconfigure(errors="replace")  # a terminal without "±" shows "?"
-    if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
+    if args is None and signal.getsignal(signal.SIGINT) is signal.default_int_handler:
         signal.signal(signal.SIGINT, _Interrupts())
     try:
         code: int = app(args, prog_name="sandbox", standalone_mode=False) or 0
@@ -639,16 +651,30 @@ def _asked(error: typer.TyperException, args: list[str] | None) -> str:
 
 
 class _Interrupts:
-    """Ctrl-C, once: another signal within a second is the same one, sent to the process and to its group."""
+    """Ctrl-C, once: another signal at the same time is the same one, sent to the process and to its group."""
 
     def __init__(self) -> None:
         self.last = -1.0
 
-    def __call__(self, number: int, frame: object) -> None:
+    def __call__(self, number: int, frame: FrameType | None) -> None:
         now = time.monotonic()
-        if now - self.last > 1.0:
-            self.last = now
-            raise KeyboardInterrupt
+        if now - self.last < 0.3:
+            return
+        if _swallows(frame):
+            threading.Timer(0.01, _thread.interrupt_main).start()  # which comes here again
+            return
+        self.last = now
+        raise KeyboardInterrupt
+
+
+def _swallows(frame: FrameType | None) -> bool:
+    """Whether an exception would be lost here: cffi prints what a callback of pymunk raises, and goes on."""
+    while frame is not None:
+        file, function = frame.f_code.co_filename, frame.f_code.co_name
+        if "pymunk" in file and (file.endswith("_callbacks.py") or function.endswith("free")):
+            return True
+        frame = frame.f_back
+    return False
 
 
 def _say(text: str) -> None:
@@ -668,4 +694,6 @@ def _say(text: str) -> None:
 
 def _fail(message: str, code: int) -> int:
     typer.echo(message if code == STOPPED else f"error: {message}".rstrip(), err=True)
+    if code == STOPPED and isinstance(signal.getsignal(signal.SIGINT), _Interrupts):
+        signal.signal(signal.SIGINT, signal.SIG_IGN)  # while Python puts things away
     return code

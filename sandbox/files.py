@@ -19,6 +19,8 @@ def reason(error: OSError) -> str:
 
 def check_file(option: str, path: Path, suffix: str) -> None:
     """Raise RequestError if the file for ``option`` could not be written, before any work is done for it."""
+    if path == Path():
+        raise RequestError(f'{option}: "" and "." are no files; name one, such as out{suffix}')
     if path.is_dir():
         raise RequestError(f"{option} {path}: is a folder; name a file in it, such as {path / ('out' + suffix)}")
     if _is_device(path):
@@ -35,6 +37,16 @@ def check_folder(option: str, path: Path) -> None:
     if path.exists() and not path.is_dir():
         raise RequestError(f"{option} {path}: is a file, and a folder is needed")
     _check_folder(option, next(folder for folder in (path, *path.absolute().parents) if folder.exists()))
+
+
+def check_apart(outputs: Mapping[str, Path | None]) -> None:
+    """Raise RequestError if two of the files, by their options, are one; a device may be."""
+    first: dict[str, str] = {}
+    for option, path in outputs.items():
+        if path is not None and not _is_device(path):
+            other = first.setdefault(os.path.realpath(path), option)
+            if other != option:
+                raise RequestError(f"{option} {path}: is the file of {other} too; name another")
 
 
 def _check_folder(option: str, folder: Path) -> None:

@@ -19,7 +19,7 @@ import pytest
 from PIL import Image
 
 import sandbox
-from sandbox.cli import main
+from sandbox.cli import _Interrupts, main
 
 DROP = Path(__file__).parent / "scenes" / "drop"
 COMMAND = [sys.executable, "-c", "import sys; from sandbox.cli import main; sys.exit(main())"]
@@ -333,6 +333,7 @@ def test_one_of_a_list_may_be_set(call, monkeypatch):
         (["run", "golf", "--frames", "frames", "--fps", "12.5"], "--fps 12.5: must be a whole number from 1 to 240"),
         (["sweep", "golf", "--jobs", "0"], "--jobs 0: must be a whole number of 1 or more processes"),
         (["run", "golf", "--size", "720p"], "--size 720p: must be width and height in px, such as 1280x720"),
+        (["run", "golf", "--size", "640x360"], "--size 640x360: goes with a picture, such as --poster F.png"),
         (["run", "golf", "--size", "16x9"], "--size 16x9: must be between 320x180 and 7680x4320 px"),
         (["run", "golf", "--compare", "golff"], "unknown scene golff; did you mean golf?"),
         (["run", "golf", "--compare", "soccer"], "--compare soccer: is soccer, and only golf can"),
@@ -381,7 +382,9 @@ def test_an_unreadable_file_is_refused(call, tmp_path: Path):
     ("args", "expected"),
     [
         (["--trajectory", "missing/path.csv"], "--trajectory: there is no folder missing; make it first"),
-        (["--trajectory", "."], "--trajectory .: is a folder; name a file in it"),
+        (["--trajectory", ".."], "--trajectory ..: is a folder; name a file in it"),
+        (["--poster", ""], '--poster: "" and "." are no files; name one, such as out.png'),
+        (["--poster", "shot.png", "--energy", "./shot.png"], "--energy shot.png: is the file of --poster too"),
         (["--trajectory", "path.txt"], "--trajectory path.txt: its name must end in .csv"),
         (["--trajectory", "file/path.csv"], "--trajectory: there is no folder file"),
         (["--trajectory", "/proc/path.csv"], "--trajectory: cannot write into /proc"),
@@ -542,6 +545,18 @@ def test_ctrl_c_ends_with_a_line_and_130(drop: Path, tmp_path: Path):
     process.send_signal(signal.SIGINT)
     assert process.communicate(timeout=30) == ("", "stopped\n")
     assert process.returncode == 130
+
+
+def test_ctrl_c_is_not_lost_in_a_callback():
+    """cffi prints what a callback raises, and goes on."""
+    raised_in_callback = compile("signal.raise_signal(signal.SIGINT)", "site/pymunk/_callbacks.py", "exec")
+    before = signal.signal(signal.SIGINT, _Interrupts())
+    try:
+        exec(raised_in_callback)
+        with pytest.raises(KeyboardInterrupt):
+            time.sleep(10.0)
+    finally:
+        signal.signal(signal.SIGINT, before)
 
 
 def test_frames_that_were_not_finished_leave_no_folder(call, drop: Path, tmp_path: Path):

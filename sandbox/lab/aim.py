@@ -217,13 +217,15 @@ def search(scene: Scene, spans: Sequence[Span], targets: Sequence[Target], progr
         import scipy  # noqa: F401
     except ImportError:
         raise RequestError("sandbox aim needs scipy, which is not installed: pip install scipy") from None
-    if len({span.key for span in spans}) < len(spans) or len({target.name for target in targets}) < len(targets):
-        raise RequestError("a parameter or a target is named twice")
+    for option, names in (("--vary", [span.key for span in spans]), ("--target", [each.name for each in targets])):
+        twice = next((name for name in names if names.count(name) > 1), None)
+        if twice is not None:
+            raise RequestError(f"{option} {twice}: is named twice")
     numbers = [target.is_number for target in targets]
     if not (len(spans) == len(targets) == 1 or (len(spans) == len(targets) == 2 and all(numbers))):
         raise RequestError(
-            f"{len(spans)} parameters and {len(targets)} targets: one goes with one, or two with two that are numbers; "
-            "sandbox sweep shows what others do"
+            f"{_count(spans, 'parameter')} and {_count(targets, 'target')}: one goes with one, or two with two "
+            "that are numbers; sandbox sweep shows what others do"
         )
     shots = _Shots(scene, spans, targets, progress)
     jumps: list[tuple[Try, Try]] = []
@@ -236,6 +238,10 @@ def search(scene: Scene, spans: Sequence[Span], targets: Sequence[Target], progr
     nearest = None if solutions else shots.nearest()
     tries = shots.tries
     return Aim(scene, tuple(spans), tuple(targets), solutions, nearest, jumps, tries, shots.failures)
+
+
+def _count(things: Sequence[Any], name: str) -> str:
+    return f"{len(things)} {name}" + ("" if len(things) == 1 else "s")
 
 
 # ---------------------------------------------------------------------------------------------------------------------

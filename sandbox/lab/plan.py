@@ -58,8 +58,8 @@ class Plan:
         for axis in self.axes:
             if isinstance(axis, Span) and not self.samples:
                 raise RequestError(
-                    f"{axis.key}: a grid needs a number of points, {axis.key}={axis.low:g}:{axis.high:g}:N; "
-                    "or say how many random samples to take"
+                    f"--over {axis.key}={axis.low:g}:{axis.high:g}: a grid needs a number of points, "
+                    f"{axis.low:g}:{axis.high:g}:N; or --samples, how many at random"
                 )
         if self.size > MOST_POINTS:
             raise RequestError(f"{self.size:,} points are too many; the most is {MOST_POINTS:,}")

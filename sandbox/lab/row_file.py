@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import filecmp
 import json
 import math
 import os
@@ -22,8 +23,9 @@ class RowFile:
 
     Until then a small file beside it, with ``.resume`` at the end of its name, tells what the rows belong to. Opened
     again with the same ``fingerprint``, rows are added to those that are there (``done``, a number); a finished file
-    begins anew, and the unfinished rows of another sweep raise RequestError. A line that was cut off by a crash is
-    dropped. Devices such as /dev/stdout are simply written to.
+    begins anew, and the unfinished rows of another sweep raise RequestError. What a finished file held is kept beside
+    it (``before``), with ``~`` at the end of its name, until the same rows stand in the new one. A line that was cut
+    off by a crash is dropped. Devices such as /dev/stdout are simply written to.
     """
 
     def __init__(self, path: Path, fingerprint: str) -> None:
@@ -33,6 +35,8 @@ class RowFile:
         self._is_device = path.exists() and not path.is_file()
         self._mark = path.with_name(path.name + ".resume")
         self._columns: list[str] = []
+        self._target = path.resolve() if path.is_symlink() else path  # the file behind a link, not the link
+        self.before = self._target.with_name(f"{self._target.name}~")
 
     def __enter__(self) -> RowFile:
         with _writing(self.path):
@@ -40,6 +44,8 @@ class RowFile:
                 self._file = self.path.open("a", encoding="utf-8", newline="")
                 return self
             if not self._is_device:
+                if self._target.is_file() and self._target.stat().st_size and not self._mark.exists():
+                    self._target.replace(self.before)
                 self._mark.write_text(self._fingerprint + "\n", "utf-8")
             self._file = self.path.open("w", encoding="utf-8", newline="")
         return self
@@ -52,6 +58,8 @@ class RowFile:
         """All rows are there."""
         if not self._is_device:
             self._mark.unlink(missing_ok=True)
+            if self.before.is_file() and filecmp.cmp(self.path, self.before, shallow=False):
+                self.before.unlink()
 
     def append(self, records: Sequence[Mapping[str, Any]]) -> None:
         """Add rows; they are in the system's hands when this returns. New columns are blank in earlier rows.

@@ -132,14 +132,18 @@ class Written:
     failures: int  # among the new points
     first_error: str
     seconds: float  # for the new points
+    before: Path | None = None  # where the rows are that were in the file, of another sweep
 
     def as_text(self) -> str:
-        """How many points, how fast, and what went wrong."""
+        """How many points, how fast, what went wrong, and what was there before."""
         new = self.points - self.resumed
         before = f", {self.resumed:,} of them before" if self.resumed else ""
-        lines = [f"{self.points:,} points{before}; {new:,} in {self.seconds:.1f} s, {new / self.seconds:,.0f}/s"]
+        points = "1 point" if self.points == 1 else f"{self.points:,} points"
+        lines = [f"{points}{before}; {new:,} in {self.seconds:.1f} s, {new / self.seconds:,.0f}/s"]
         if self.failures:
             lines.append(f"{self.failures:,} failed, first with: {self.first_error}")
+        if self.before is not None:
+            lines.append(f"the rows that were there before are in {self.before}")
         return "\n".join(lines)
 
 
@@ -167,7 +171,8 @@ def sweep_to_file(plan: Plan, path: Path, staff: Workers, progress: Progress = _
             kept = f"{file.done:,} of {plan.size:,} points are kept in {path}"
             raise Interrupted(f"stopped: {kept}; the same command goes on from there") from None
         file.finish()
-    return Written(plan.size, resumed, failures, first_error, perf_counter() - began)
+    before = file.before if file.before.is_file() else None
+    return Written(plan.size, resumed, failures, first_error, perf_counter() - began, before)
 
 
 # ---------------------------------------------------------------------------------------------------------------------

@@ -12,7 +12,8 @@ from PIL import Image
 
 from sandbox.cli import main
 from sandbox.errors import RequestError, RunError
-from sandbox.lab.aim import Target, aim, as_target, parse_target
+from sandbox.lab.aim import Target, aim, as_target, parse_target, search
+from sandbox.lab.axes import parse_span
 from sandbox.scene import load
 
 DROP = Path(__file__).parents[1] / "scenes" / "drop"
@@ -147,7 +148,7 @@ def test_targets_have_units():
         ({"launch.height": (1, 2)}, {"bounces": True}, "is a number, such as bounces="),
         ({"launch.height": (1, 2)}, {"bounced": 1.0}, "is true or false; write bounced=true"),
         ({"launch.height": (1, 2)}, {"bouncd": True}, "did you mean bounced?"),
-        ({"launch.height": (1, 2)}, {"bounced": True, "bounces": 2.0}, "one goes with one, or two with two"),
+        ({"launch.height": (1, 2)}, {"bounced": True, "bounces": 2.0}, "1 parameter and 2 targets: one goes"),
         ({"launch.height": (1, 2)}, {"final_height": float("nan")}, "cannot be aimed at"),
         ({"launch.height": (1, 2)}, {}, "one goes with one, or two with two"),
     ],
@@ -156,6 +157,17 @@ def test_requests_that_make_no_sense_are_told(vary, target, told):
     with pytest.raises(RequestError) as refused:
         aim(DROP, vary, target)
     assert told in str(refused.value)
+
+
+def test_what_is_named_twice_is_told():
+    scene = load(DROP)
+    height, bounces = parse_span(scene, "--vary", "launch.height=1:2"), parse_target("bounces=2")
+    for spans, targets, told in (
+        ([height, height], [bounces, bounces], "--vary launch.height: is named twice"),
+        ([height], [bounces, bounces], "--target bounces: is named twice"),
+    ):
+        with pytest.raises(RequestError, match=told):
+            search(scene, spans, targets)
 
 
 def test_a_range_in_which_nothing_runs_is_an_error():

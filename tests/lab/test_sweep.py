@@ -128,7 +128,7 @@ def test_random_points_are_the_same_however_they_are_taken(drop):
     ("texts", "more", "told"),
     [
         ((), {}, "nothing to sweep over"),
-        (("launch.height=1:2",), {}, "a grid needs a number of points"),
+        (("launch.height=1:2",), {}, "--over launch.height=1:2: a grid needs a number of points, 1:2:N"),
         (("launch.height=1:2:2", "launch.height=3,4"), {}, "swept over twice"),
         (("launch.height=1:2:1000000", "launch.speed=1:2:1000000"), {}, "too many"),
     ],
@@ -271,6 +271,19 @@ def test_another_sweep_begins_anew_but_never_over_one_that_was_interrupted(drop,
     assert whole(other, path) == whole(other, tmp_path / "fresh.csv")
     changed = Plan(load(DROP, {"gravity": 1.0}), other.axes)
     assert changed.fingerprint != other.fingerprint
+
+
+def test_what_another_sweep_found_is_kept_and_the_same_rows_are_not(drop, tmp_path):
+    path, before = tmp_path / "rows.csv", tmp_path / "rows.csv~"
+    first, other = grid(drop, "launch.height=0.5:2:3"), grid(drop, "launch.height=0.5:2:4")
+    found = whole(first, path)
+    assert whole(first, path) == found
+    assert not before.exists()
+    with workers(1) as staff:
+        done = sweep_to_file(other, path, staff)
+    assert (before.read_bytes(), done.before) == (found, before)
+    assert f"the rows that were there before are in {before}" in done.as_text()
+    assert path.read_bytes() == whole(other, tmp_path / "fresh.csv") != found
 
 
 def test_a_changed_scene_begins_anew(tmp_path):
@@ -453,7 +466,9 @@ def test_rows_on_stdout(tmp_path):
         (["--over", "launch.speed=1:2:3", "--out", "x.csv", "--plot", "x.jpg"], "must end in .png"),
         (["--over", "launch.speed=1:2:3", "--out", "x.csv", "--plot", "x.png", "--of", "aped"], "did you mean apex?"),
         (["--over", "launch.speed=1:2:1", "--out", "x.csv", "--plot", "x.png"], "two values or more"),
-        (["--over", "launch.speed=1:2:3", "--out", "x.csv", "--samples", "0"], "--samples"),
+        (["--over", "launch.speed=1:2:3", "--out", "x.csv", "--samples", "0"], "--samples 0: must be a whole number"),
+        (["--over", "launch.speed=1:2:3", "--out", "x.csv", "--seed", "2"], "--seed 2: goes with --samples"),
+        (["--over", "launch.speed=1:2:3", "--out", "x.csv", "--plot", "x.png", "--of", "xyz"], "refined_steps\n"),
         (["--out", "x.csv"], "--over"),
         (["--over", "launch.speed=1:2:3"], "--out"),
     ],
