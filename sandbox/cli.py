@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import _thread
+import os
 import signal
 import sys
 import threading
@@ -661,7 +661,7 @@ class _Interrupts:
         if now - self.last < 0.3:
             return
         if _swallows(frame):
-            threading.Timer(0.01, _thread.interrupt_main).start()  # which comes here again
+            threading.Timer(0.01, os.kill, (os.getpid(), number)).start()  # which comes here again
             return
         self.last = now
         raise KeyboardInterrupt
