@@ -96,11 +96,10 @@ class Processes:
         return isinstance(error, BrokenProcessPool)
 
     def close(self, abandon: bool) -> None:
-        processes = list((self._pool._processes or {}).values())
-        self._pool.shutdown(wait=not abandon, cancel_futures=True)
         if abandon:  # ProcessPoolExecutor.terminate_workers is for Python 3.14 and later
-            for process in processes:
+            for process in list((self._pool._processes or {}).values()):
                 process.terminate()
+        self._pool.shutdown(cancel_futures=True)
 
 
 @contextmanager
