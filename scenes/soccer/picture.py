@@ -131,7 +131,9 @@ class Picture:
         if not self._in_sight(camera, self.parameters.goal.distance):
             notes.append(f"the goal is {roughly(self.parameters.goal.distance)} away")
         elif (factor := stadium.enlarged(camera)) > 1:
-            notes.append(f"players and goal drawn {times(factor)} their size")
+            wall, goal = self.parameters.wall.present, self.parameters.goal.present
+            who = "players and goal" if wall and goal else "goal" if goal else "players"
+            notes.append(f"{who} drawn {times(factor)} {'its' if who == 'goal' else 'their'} size")
         if (factor := enlarged(self.radius, camera, self.rows)) > 1:
             notes.append(f"ball drawn {times(factor)} its size")
         sheet.headline(self.verdict(), notes, right - sheet.frame.left - 2 * sheet.gap)

@@ -288,7 +288,7 @@ def _stands(size: tuple[int, int], foot: int) -> pygame.Surface:
     sheet = Sheet(size)
     text = sheet.top_row - sheet.gap
     head = min(max(top - 74 * unit, text + 20 * unit), top - 30 * unit)  # lamps under the headline
-    for x in np.array([0.14, 0.47, 0.80]) * width if text < head else ():
+    for x in np.array([0.14, 0.47, 0.80]) * width if text < head - 13 * unit else ():
         _mast(painter, (x, top), head, unit)
     stands.fill(upper, (0, top, width, foot - top))
     _roof(painter, top, width, unit)

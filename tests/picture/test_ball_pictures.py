@@ -128,6 +128,14 @@ def test_the_ball_turns(name):
         del picture.run.angle
 
 
+def test_a_note_names_what_is_seen_to_be_larger():
+    """In the gale there is no wall, and the kicker is behind the path."""
+    picture = picture_of("soccer, in a gale")
+    picture.poster()
+    assert "goal drawn 1.1 times its size" in texts(picture)
+    assert "players" not in texts(picture)
+
+
 def test_the_lens_goes_where_it_would_hide_the_ring():
     picture = picture_of("basketball, brick", (1280, 720))
     corner = picture.lens.left + 20, picture.lens.bottom - 20
