@@ -46,6 +46,8 @@ CALLS = {
     "result": (("run", "parameters"),),
     "card": (("result", "parameters"),),
     "Picture": (("run", "parameters", "size"), ("run", "parameters")),
+    "Picture.poster": (("self",),),
+    "Picture.frame": (("self", "t"),),
 }
 
 
@@ -78,7 +80,10 @@ class Scene:
         if not (self.folder / "picture.py").is_file():
             return importlib.import_module(PLAIN_PICTURE)
         module = _module(self.folder, "picture")
-        _check_calls(self.folder / "picture.py", "Picture", getattr(module, "Picture", None))
+        picture = getattr(module, "Picture", None)
+        _check_calls(self.folder / "picture.py", "Picture", picture)
+        for name in ("poster", "frame") if isinstance(picture, type) else ():
+            _check_calls(self.folder / "picture.py", f"Picture.{name}", getattr(picture, name, None))
         return module
 
     def picture(self, run: Run, size: tuple[int, int] | None = None, ghosts: Mapping[str, Run] | None = None) -> Any:

@@ -317,6 +317,13 @@ def test_a_file_with_nul_bytes_is_named(call, scene: Path, file: str):
         ("scene.py", "def card(", "def cart(", "a scene offers Parameters, build, result, card; card is missing"),
         ("picture.py", "class Picture", "class Pictures", "Picture(run, parameters, size) is missing"),
         ("picture.py", "size: tuple[int, int] = (1280, 720)", "size", "Picture is called as Picture(run, parameters)"),
+        ("picture.py", "def poster(", "def postr(", "picture.py: Picture.poster(self) is missing"),
+        (
+            "picture.py",
+            "def frame(self, t",
+            "def frame(self, x, t",
+            "Picture.frame is called as Picture.frame(self, t)",
+        ),
         (
             "picture.py",
             "return self.frame(self.run.duration)",
