@@ -276,7 +276,7 @@ def _changes(settings: list[str] | None, accuracy: str | None) -> dict[str, Any]
     changes = dict(parse_assignment(text) for text in settings or [])
     if accuracy is not None:
         if accuracy not in LEVELS:
-            raise RequestError(f'--accuracy {accuracy}: must be "fast", "balanced" or "precise"')
+            raise RequestError(f"--accuracy {accuracy}: must be {', '.join(LEVELS[:-1])} or {LEVELS[-1]}")
         changes["accuracy.level"] = accuracy
     return changes
 

@@ -19,7 +19,9 @@ import pytest
 from PIL import Image
 
 import sandbox
+from sandbox import cli
 from sandbox.cli import _Interrupts, main
+from sandbox.engine import accuracy
 
 DROP = Path(__file__).parent / "scenes" / "drop"
 COMMAND = [sys.executable, "-c", "import sys; from sandbox.cli import main; sys.exit(main())"]
@@ -287,6 +289,10 @@ def test_settings_and_accuracy_stand_over_the_file(call, tmp_path: Path):
     assert json.loads(call("run", DROP, "--accuracy", "fast", "--json").out)["accuracy"]["level"] == "fast"
 
 
+def test_every_level_may_be_asked_for():
+    assert set(cli.LEVELS) == set(accuracy.LEVELS)
+
+
 def test_one_of_a_list_may_be_set(call, monkeypatch):
     wind = ["--set", "air.wind=[1,2]", "--set", "air.wind[0]=11 mph"]
     spot = ["--set", "balls[0].x=0.1"]
@@ -326,7 +332,7 @@ def test_one_of_a_list_may_be_set(call, monkeypatch):
         (["run", "golf", "--set", "launch.speed[0]=3"], "--set launch.speed[0]: is not a list"),
         (["run", "golf", "--set", "air.wind[x]=3"], "--set air.wind[x]: a key is written like launch.speed, or air.wi"),
         (["run", "golf", "--set", "ball.drag.model=ideal"], "ball.drag"),
-        (["run", "golf", "--accuracy", "best"], '--accuracy best: must be "fast", "balanced" or "precise"'),
+        (["run", "golf", "--accuracy", "best"], "--accuracy best: must be fast, balanced or precise"),
         (["run", "golf", "--set", "accuracy.level=best"], 'must be "fast", "balanced" or "precise"'),
         (["run", "golf", "--fps", "30"], "--fps 30: goes with --frames, --gif or --webp"),
         (["run", "golf", "--frames", "frames", "--fps", "0"], "--fps 0: must be a whole number from 1 to 240 frames"),
