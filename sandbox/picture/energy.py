@@ -149,7 +149,7 @@ def energy_chart(run: Any, size: tuple[int, int] = (1280, 720)) -> pygame.Surfac
     sheet.surface.fill(ENERGY["ground"])
     energy = course(run)
     bands, given = _bands(energy), _given(energy)
-    titles = [sheet.lettering.height(name) for name in ("large", "small")]
+    titles = [sheet.lettering.height(name) for name in (sheet.head, "small")]
     top, bottom = sheet.frame.top + sum(titles) + 4 * sheet.gap, sheet.frame.bottom - sheet.card_height()
     names = (f"{name} {joules(values[-1])}" for name, values, _ in [*bands, *given])
     labels = max((sheet.lettering.width(name, "small", bold=True) for name in names), default=0) + 3 * sheet.gap
@@ -246,7 +246,7 @@ def _colours(energy: Course) -> dict[str, Colour]:
 
 def _hatch(sheet: Sheet, columns: np.ndarray, low: np.ndarray, high: np.ndarray, colour: Colour) -> None:
     """Upright lines between two curves in px."""
-    apart = HATCH * sheet.unit
+    apart = max(4.0, HATCH * sheet.unit)
     for x in np.arange(columns[0] + apart, columns[-1], apart):
         foot, head = (float(np.interp(x, columns, rows)) for rows in (low, high))
         if foot - head >= 1.0:
@@ -268,7 +268,7 @@ def _axes(sheet: Sheet, plot: pygame.Rect, duration: float, levels: Mapping[floa
         sheet.surface.fill(ENERGY["rule"], (plot.left, round(row), plot.width, thin))
         sheet.write(joules(level), "small", (plot.left - sheet.gap, row), sheet.quiet_ink, "midright")
     wide = plot.width / max(duration, 1e-9)
-    step = nice(80 * sheet.unit / wide)
+    step = nice(max(80 * sheet.unit, sheet.lettering.width("000.0 s ", "small")) / wide)
     for i in range(int(duration / step + 1e-9) + 1):
         column = round(plot.left + i * step * wide)
         sheet.surface.fill(sheet.quiet_ink, (column, plot.bottom, thin, round(5 * sheet.unit)))
