@@ -54,10 +54,14 @@ class Ghost:
         return f"{self.label}: {self.picture.verdict()[0].lower()}{self.picture.verdict()[1:]}"
 
 
-def ghosts_of(
-    kind: Any, runs: Mapping[str, Any], size: tuple[int, int], colours: Sequence[Colour] = TRACE["colours"][1:]
-) -> list[Ghost]:
+def colours_beside(kind: Any) -> Sequence[Colour]:
+    """Of other runs on pictures of this class: its own ``EARLIER`` where the usual ones would be hard to see."""
+    return getattr(kind, "EARLIER", TRACE["colours"][1:])
+
+
+def ghosts_of(kind: Any, runs: Mapping[str, Any], size: tuple[int, int]) -> list[Ghost]:
     """Ghosts for runs of a scene by their labels; ``kind`` is the scene's class of pictures."""
+    colours = colours_beside(kind)
     return [
         Ghost(label, kind(run, run.scene.parameters, size), colours[i % len(colours)])
         for i, (label, run) in enumerate(runs.items())

@@ -46,11 +46,14 @@ TRAIL = 0.5
 class Picture:
     """Draws one shot at ``size`` px: as a poster, or as it is at a time t."""
 
+    #: Colours of other runs.
+    EARLIER = COURT["earlier"]
+
     def __init__(
         self, run: Any, parameters: Any, size: tuple[int, int] = (1280, 720), ghosts: Mapping[str, Any] | None = None
     ):
         self.run, self.parameters, self.size = run, parameters, size
-        self.ghosts = ghosts_of(Picture, ghosts or {}, size, COURT["earlier"])
+        self.ghosts = ghosts_of(Picture, ghosts or {}, size)
         floor = next((event.t for event in run.events if event.partner == "floor"), run.duration)
         self.path = Path(run, "ball", floor)
         self.radius = self.path.radius

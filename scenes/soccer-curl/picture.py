@@ -39,11 +39,14 @@ TRAIL = 0.4
 class Picture:
     """Draws one kick at ``size`` px: as a poster, or as it is at a time t."""
 
+    #: Colours of other runs.
+    EARLIER = PITCH["earlier"]
+
     def __init__(
         self, run: Any, parameters: Any, size: tuple[int, int] = (1280, 720), ghosts: Mapping[str, Any] | None = None
     ):
         self.run, self.parameters, self.size = run, parameters, size
-        self.ghosts = ghosts_of(Picture, ghosts or {}, size, PITCH["earlier"])
+        self.ghosts = ghosts_of(Picture, ghosts or {}, size)
         touched = next((e.t for e in run.events if "ball" in (e.ball, e.partner)), run.duration)
         until = run.duration if run.result["goal"] else min(run.duration, touched + AFTERMATH)
         self.path = Path(run, "ball", until)

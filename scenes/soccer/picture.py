@@ -41,11 +41,14 @@ LEAST_LABELLED = 1.5
 class Picture:
     """Draws one kick at ``size`` px: as a poster, or as it is at a time t."""
 
+    #: Colours of other runs.
+    EARLIER = GROUND["earlier"]
+
     def __init__(
         self, run: Any, parameters: Any, size: tuple[int, int] = (1280, 720), ghosts: Mapping[str, Any] | None = None
     ):
         self.run, self.parameters, self.size = run, parameters, size
-        self.ghosts = ghosts_of(Picture, ghosts or {}, size, GROUND["earlier"])
+        self.ghosts = ghosts_of(Picture, ghosts or {}, size)
         self.path = Path(run, "ball", self._settled(run))
         self.radius = self.path.radius
         self.wind: tuple[float, float] = parameters.air.wind

@@ -2,6 +2,7 @@
 
 import re
 from functools import cache
+from math import dist
 
 import numpy as np
 import pytest
@@ -9,6 +10,8 @@ from PIL import ImageChops
 
 import sandbox
 from sandbox.picture.frames import to_image
+from sandbox.picture.ghosts import colours_beside
+from sandbox.picture.palette import palette
 from tests.picture.legible import assert_legible
 
 PAIRS = [
@@ -110,3 +113,11 @@ def test_a_picture_that_shows_one_run_alone_says_so():
     run = sandbox.simulate(scene)
     with pytest.raises(sandbox.RequestError, match="drop shows one run alone"):
         scene.picture(run, None, {"other": run})
+
+
+def test_other_runs_are_unlike_the_run_and_the_hall():
+    picture = compared(("basketball", "basketball/hook"))
+    court = palette("basketball")
+    for colour in (court["trace"], *court["wall"], *court["floor"]):
+        assert dist(picture.ghosts[0].light, colour) > 90  # of 442 levels from black to white
+    assert [ghost.colour for ghost in picture.ghosts] == list(colours_beside(type(picture)))[:1]
