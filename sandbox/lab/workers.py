@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterator
 from concurrent.futures import Future, ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
+from threading import Thread
 from typing import Any, Protocol
 
 from sandbox.errors import RequestError
@@ -81,7 +82,7 @@ class Processes:
         self._pool = self._fresh()
 
     def _fresh(self) -> ProcessPoolExecutor:
-        return ProcessPoolExecutor(self.width, multiprocessing.get_context("spawn"))
+        return ProcessPoolExecutor(self.width, multiprocessing.get_context("spawn"), initializer=_end_with_parent)
 
     def submit(self, work: Callable[..., Any], *args: Any) -> Future[Any]:
         with _undisturbed():
@@ -100,6 +101,18 @@ class Processes:
             for process in list((self._pool._processes or {}).values()):
                 process.terminate()
         self._pool.shutdown(cancel_futures=True)
+
+
+def _end_with_parent() -> None:
+    """A process whose parent was killed would wait for work for ever."""
+    parent = multiprocessing.parent_process()
+
+    def follow() -> None:
+        if parent is not None:
+            parent.join()
+        os._exit(1)
+
+    Thread(target=follow, daemon=True).start()
 
 
 @contextmanager

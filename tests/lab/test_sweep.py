@@ -388,6 +388,16 @@ def test_a_killed_process_loses_nothing(tmp_path):
     assert not any(row["error"] for row in rows)
 
 
+def test_processes_end_with_the_one_that_began_them():
+    """However that ends: they hold its output open as long as they live."""
+    code = (
+        "import os; from sandbox.lab.workers import Processes; processes = Processes(1);"
+        "print(processes.submit(os.getppid).result() == os.getpid(), flush=True); os._exit(0)"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60)
+    assert done.stdout == "True\n"
+
+
 def test_a_point_that_kills_its_process_is_a_row(tmp_path):
     deadly = (
         "    import os, signal\n    if parameters.launch.height == 1.0:\n        os.kill(os.getpid(), signal.SIGKILL)\n"
