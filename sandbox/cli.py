@@ -186,7 +186,8 @@ def run(
     size: Annotated[
         str | None,
         typer.Option(
-            metavar="WxH", help="Size of pictures in px; the frames of a strip are half of it.  [default: 1280x720]"
+            metavar="WxH",
+            help="Size of pictures in px; the frames of a strip are half of it, at least 320x180.  [default: 1280x720]",
         ),
     ] = None,
 ) -> None:
@@ -308,7 +309,7 @@ def _check_outputs(outputs: dict[str, Path | None], fps: int | None) -> None:
 
 def _parse_size(text: str) -> tuple[int, int]:
     """``"1280x720"``."""
-    low, high = (320, 180), (7680, 4320)
+    low, high = SIZES
     sides = text.lower().split("x")
     if len(sides) != 2 or not all(side.isdecimal() and len(side) < 6 for side in sides):
         raise RequestError(f"--size {text}: must be width and height in px, such as 1280x720")
@@ -350,7 +351,8 @@ def _draw(
             elif option == "--strip":
                 from sandbox.picture.strip import film_strip
 
-                frames.save_png(film_strip(scene.picture(done, (width // 2, height // 2), ghosts), done), path)
+                half = max(SIZES[0][0], width // 2), max(SIZES[0][1], height // 2)
+                frames.save_png(film_strip(scene.picture(done, half, ghosts), done), path)
             elif option == "--energy":
                 from sandbox.picture.energy import energy_chart
 
@@ -611,6 +613,9 @@ def _json(value: Any) -> str:
 # The way out
 # ---------------------------------------------------------------------------------------------------------------------
 
+
+#: Smallest and largest pictures, in px.
+SIZES = (320, 180), (7680, 4320)
 
 #: Exit code after Ctrl-C.
 STOPPED = 130

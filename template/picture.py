@@ -18,7 +18,7 @@ from sandbox.picture.camera import Area, Box, Camera
 from sandbox.picture.figures import SHOOTING, draw_figure
 from sandbox.picture.painter import Painter, blank, from_colours
 from sandbox.picture.path import Path, draw_trace
-from sandbox.picture.sheet import Sheet, metres
+from sandbox.picture.sheet import Sheet, metres, rows_of
 
 WALL, FLOOR = ((207, 221, 224), (247, 236, 214)), ((176, 122, 74), (92, 58, 40))  # from the top down
 WINDOW, MAT, AIR, SHADOW = (255, 250, 236), (38, 139, 120), (96, 160, 190), (40, 24, 16)
@@ -31,7 +31,7 @@ class Picture:
 
     def __init__(self, run: Any, parameters: Any, size: tuple[int, int] = (1280, 720)):
         self.run, self.parameters, self.size = run, parameters, size
-        self.unit = size[1] / 720  # what 1 px is on a picture of 720 rows
+        self.unit = rows_of(size) / 720  # what 1 px is on a picture of 720 rows
         self.path, floor = Path(run), parameters.floor
         points = self.path.points  # m
         left, right = min(-0.5, points[:, 0].min()), max(points[:, 0].max(), floor.mat + floor.mat_length)

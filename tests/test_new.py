@@ -276,7 +276,12 @@ def test_its_golden_test(scene: Path):
         ("scene.py", "duration=20.0)", "duration=20.0, until=lambda event: event.foo)", "AttributeError: 'Event'"),
         ("scene.py", "Fan(parameters.fan),", "Fan,", "ValueError: ball 'ball': 'Fan' is no force"),
         ("scene.py", "ball.mass,\n        ball.radius,", "-1.0,\n        ball.radius,", "mass = -1.0 must be positive"),
-        ("picture.py", "self.unit = size[1]", "self.unit = sise[1]", "NameError: name 'sise' is not defined"),
+        (
+            "picture.py",
+            "self.unit = rows_of(size)",
+            "self.unit = rows_of(sise)",
+            "NameError: name 'sise' is not defined",
+        ),
         ("picture.py", "frame(self.run.duration)", "frame(self.run.durations)", "AttributeError: 'Run' object has no"),
         ("picture.py", "import pygame\n", "import pygam\n", "ModuleNotFoundError: No module named 'pygam'"),
     ],

@@ -10,6 +10,7 @@ import numpy as np
 import pygame
 
 from sandbox.picture.camera import Camera
+from sandbox.picture.ghosts import colours_beside
 from sandbox.picture.painter import blank
 from sandbox.picture.palette import Colour, palette
 from sandbox.window.canvas import Canvas
@@ -84,8 +85,9 @@ class Stage:
         kept = tuple(id(shot) for shot in shown)
         if self._ghosts is None or self._ghosts[0] != kept:
             layer = blank(self.size, transparent=True)
+            colours = colours_beside(type(self.picture))
             for index, shot in enumerate(shown):
-                colour = TRACE["colours"][1 + index % (len(TRACE["colours"]) - 1)]
+                colour = colours[index % len(colours)]
                 draw_line(layer, self._line(shot, shot.ball), 2, colour)
             layer.set_alpha(round(255 * (TRACE["earlier"] + 0.15)))
             self._ghosts = kept, layer
