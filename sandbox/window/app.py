@@ -101,6 +101,9 @@ class App:
 
     def run(self) -> None:
         """Until the window is closed."""
+        self.tick(0.0)
+        pygame.display.flip()
+        self.runs.submit(warmed, self.session.source)  # the process starts while the first frame is looked at
         steady()
         clock = pygame.time.Clock()
         while self.running:
@@ -451,7 +454,6 @@ def play(source: str, changes: Mapping[str, Any] | None = None) -> None:
 
     recorded, runs = source.endswith(replay.SUFFIX), Processes(1)
     try:
-        runs.submit(warmed, source)  # it takes as long to start as this one does to open the window
         session = replay.read(Path(source))[0] if recorded else Session(source, changes)
         with opened(SIZE, f"Sports sandbox: {session.title}") as screen:
             app = App(session, screen, runs, Sound())
