@@ -120,7 +120,7 @@ def cheapest(found: dict[str, Trade]) -> list[str]:
 
 def verdicts(found: dict[str, Trade]) -> list[str]:
     maps = {name: one.verdicts for name, one in found.items() if one.verdicts is not None}
-    methods = list(dict.fromkeys(method for one in maps.values() for method in one.changed))
+    methods = max((list(one.changed) for one in maps.values()), key=len)  # a scene may lack what is too slow there
     rows = [
         [f"`{name}`", str(one.shots), *(_share(one.changed.get(method)) for method in methods)]
         for name, one in maps.items()
