@@ -160,7 +160,7 @@ def simulate(scene: Scene | str | Path) -> Run:
     """Run the scene to its end at the accuracy that its parameters ask for; ``run.result`` holds its numbers."""
     from sandbox.engine.accuracy import resolve
 
-    chosen = scene if isinstance(scene, Scene) else load(scene)
+    chosen = as_scene(scene)
     return _simulate_at(chosen, resolve(**chosen.parameters.accuracy.model_dump()))
 
 
@@ -184,7 +184,7 @@ class Check:
 
 def check(scene: Scene | str | Path, run: Run | None = None) -> Check:
     """Estimate the errors of the scene's result: run it again, finer, and compare."""
-    chosen = scene if isinstance(scene, Scene) else load(scene)
+    chosen = as_scene(scene)
     run = run or simulate(chosen)
     return compare(run, _simulate_at(chosen, run.accuracy.finer()))
 
@@ -245,6 +245,11 @@ def load(source: str | Path, overrides: Mapping[str, Any] | None = None, *, over
     parameters = declared.validate(schema, values, where, overrides, overrides_from)
     elsewhere = file is not None and folder not in file.resolve().parents
     return Scene(name, preset, parameters, folder, _first_comment(file) if file is not None and elsewhere else "")
+
+
+def as_scene(scene: Scene | str | Path) -> Scene:
+    """The scene itself, or the one that is named."""
+    return scene if isinstance(scene, Scene) else load(scene)
 
 
 def _preset_values(name: str, folder: Path, preset: str, where: str) -> dict[str, Any]:

@@ -58,6 +58,14 @@ class Contact:
     forward: float  # sign of the motion of the first ball along (ny, -nx)
 
 
+#: Two shapes that touch, whichever is the first: the ids of both.
+_Pair = frozenset[int]
+
+
+def _pair(first: pymunk.Shape, second: pymunk.Shape) -> _Pair:
+    return frozenset((id(first), id(second)))
+
+
 class Contacts:
     """The Space in which impulses are exchanged; one for each run."""
 
@@ -72,7 +80,7 @@ class Contacts:
         self._discs: list[pymunk.Circle] = []
         self._planes: list[pymunk.Segment] = []
         self.normal_impulses: list[float] = []  # N s, of the contacts of the last exchange
-        self._answers: dict[frozenset[int], Bounce] = {}  # of balls that touch, by the ids of their shapes
+        self._answers: dict[_Pair, Bounce] = {}  # of balls that touch
         self._spread = 100.0 * max(ball.radius for ball in balls)  # m, between balls that take no part
         for index, ball in enumerate(balls):
             body = pymunk.Body(ball.mass, ball.inertia)
@@ -88,7 +96,7 @@ class Contacts:
 
     def _answer(self, arbiter: pymunk.Arbiter, space: pymunk.Space, data: Any) -> None:
         """Each two balls have restitution and friction of their own, which the product of two values cannot give."""
-        bounce = self._answers.get(frozenset(id(shape) for shape in arbiter.shapes))
+        bounce = self._answers.get(_pair(*arbiter.shapes))
         if bounce is None:  # near enough for the overlap, and no contact
             arbiter.process_collision = False
         else:
@@ -110,8 +118,8 @@ class Contacts:
                 self._lay_plane(planes, cluster[contact.first], contact)
                 planes += 1
             else:
-                pair = (self._discs[cluster[place].index] for place in (contact.first, contact.second))
-                self._answers[frozenset(map(id, pair))] = contact.bounce
+                first, second = (self._discs[cluster[place].index] for place in (contact.first, contact.second))
+                self._answers[_pair(first, second)] = contact.bounce
         self._space.iterations = _ROUNDS if len(contacts) == 1 else _CLUSTER_ROUNDS
         self._space.step(_INSTANT)
         self.normal_impulses = self._read_impulses(cluster, contacts)
@@ -133,12 +141,12 @@ class Contacts:
             vx, vy = self._bodies[moving.index].velocity
             gain = (vx - moving.vx) * contact.nx + (vy - moving.vy) * contact.ny
             return [self._balls[moving.index].mass * gain]
-        by_shapes: dict[frozenset[int], float] = {}
+        by_shapes: dict[_Pair, float] = {}
 
         def read(arbiter: pymunk.Arbiter) -> None:
             jx, jy = arbiter.total_impulse
             nx, ny = arbiter.normal
-            by_shapes[frozenset(id(shape) for shape in arbiter.shapes)] = abs(jx * nx + jy * ny)
+            by_shapes[_pair(*arbiter.shapes)] = abs(jx * nx + jy * ny)
 
         for moving in cluster:
             self._bodies[moving.index].each_arbiter(read)
@@ -147,7 +155,7 @@ class Contacts:
         for contact in contacts:
             disc = self._discs[cluster[contact.first].index]
             other = next(planes) if contact.second is None else self._discs[cluster[contact.second].index]
-            impulses.append(by_shapes.get(frozenset((id(disc), id(other))), 0.0))
+            impulses.append(by_shapes.get(_pair(disc, other), 0.0))
         return impulses
 
     def _lay_plane(self, number: int, moving: Moving, contact: Contact) -> None:

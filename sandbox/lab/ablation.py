@@ -12,6 +12,7 @@ from typing import Any, NamedTuple
 from sandbox import parameters as declared
 from sandbox.engine import simulate
 from sandbox.engine.accuracy import LEVELS
+from sandbox.engine.ledger import cause
 from sandbox.engine.run import Run
 from sandbox.engine.setup import Ball, Bounce, Setup, Surface
 from sandbox.errors import SandboxError
@@ -232,15 +233,7 @@ def _at_launch(setup: Setup, kind: type) -> float:
 
 def _terms(setup: Setup) -> list[str]:
     """Names of all forces and torques, each once."""
-    return list(dict.fromkeys(_name(term) for ball in setup.balls for term in (*ball.forces, *ball.torques)))
-
-
-def _name(term: object) -> str:
-    """``SpinDecay`` is "spin decay", ``Magnus`` "lift"; a function goes by its own name."""
-    if isinstance(term, Magnus):
-        return "lift"
-    name = str(getattr(term, "__name__", type(term).__name__))
-    return "".join(f" {c.lower()}" if c.isupper() else c for c in name).strip().replace("_", " ")
+    return list(dict.fromkeys(cause(term) for ball in setup.balls for term in (*ball.forces, *ball.torques)))
 
 
 def _without(setup: Setup, name: str) -> Setup:
@@ -250,8 +243,8 @@ def _without(setup: Setup, name: str) -> Setup:
 def _without_term(ball: Ball, name: str) -> Ball:
     return replace(
         ball,
-        forces=[force for force in ball.forces if _name(force) != name],
-        torques=[torque for torque in ball.torques if _name(torque) != name],
+        forces=[force for force in ball.forces if cause(force) != name],
+        torques=[torque for torque in ball.torques if cause(torque) != name],
     )
 
 

@@ -23,7 +23,7 @@ from sandbox import units
 from sandbox.errors import RequestError, RunError
 from sandbox.lab.axes import Span, as_axis
 from sandbox.lab.runs import runs
-from sandbox.scene import Scene, compare, load
+from sandbox.scene import Scene, as_scene, compare
 
 #: Points of the first look at a range, at one number, and along each of two.
 _LOOK, _LOOK_EACH = 129, 21
@@ -201,7 +201,7 @@ def aim(
     met, the widest first, each with its middle, which forgives most. Raises RequestError for a request that makes no
     sense, and RunError where not one run in the range came to its end.
     """
-    chosen = scene if isinstance(scene, Scene) else load(scene)
+    chosen = as_scene(scene)
     spans = []
     for key, given in vary.items():
         axis = as_axis(chosen, key, tuple(given) if isinstance(given, list) else given, "vary")

@@ -19,7 +19,7 @@ from sandbox.lab.axes import Values, as_axis
 from sandbox.lab.plan import Plan, Record, failed, records
 from sandbox.lab.row_file import RowFile
 from sandbox.lab.workers import Call, Cluster, InTurn, Processes, Workers, cores
-from sandbox.scene import Scene, load
+from sandbox.scene import Scene, as_scene
 
 #: Time in s that one call to a worker should take: progress is seen, and Ctrl-C obeyed, a few times a second.
 _CALL = 0.3
@@ -108,7 +108,7 @@ def sweep(
     ``check`` repeats each run finer and adds estimated errors. ``jobs`` above 1 uses so many processes (the calling
     script then needs ``if __name__ == "__main__":``), ``scheduler`` the workers of a Dask scheduler.
     """
-    chosen = scene if isinstance(scene, Scene) else load(scene)
+    chosen = as_scene(scene)
     axes = tuple(as_axis(chosen, key, given) for key, given in over.items())
     plan = Plan(chosen, axes, samples, seed, check)
     found: list[Record] = []

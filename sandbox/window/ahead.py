@@ -31,7 +31,7 @@ class Ahead:
     def __init__(self) -> None:
         sys.setswitchinterval(TURNS)
         self.work: SimpleQueue[tuple[Future[Any], Callable[[], Any]] | None] = SimpleQueue()
-        Thread(target=self._go_on, name="runs", daemon=True).start()
+        Thread(target=self._go_on, name="ahead", daemon=True).start()
 
     def submit(self, work: Callable[..., Any], *args: Any) -> Future[Any]:
         """Do it as soon as what was asked for before is done."""

@@ -34,7 +34,7 @@ def predicted(scene: Scene) -> tuple[dict[str, Any], float]:
     return plain(run), perf_counter() - started
 
 
-class Varied(NamedTuple):
+class FanShot(NamedTuple):
     """What a fan shows of one of its shots."""
 
     points: np.ndarray  # shape (n, 3): t in s, x and y in m
@@ -44,15 +44,15 @@ class Varied(NamedTuple):
 
 def varied(
     scene: Scene, keys: Sequence[str], points: Sequence[Sequence[float]], told: str | None
-) -> tuple[list[Varied | None], float]:
+) -> tuple[list[FanShot | None], float]:
     """Shots with other values at the keys, None for one that fails, and how long they took, in s; ``told`` is the
     name of the result whose value is wanted."""
     started = perf_counter()
-    found: list[Varied | None] = []
+    found: list[FanShot | None] = []
     for run in runs(scene, keys, points):
         if isinstance(run, Exception):
             found.append(None)
             continue
         shot, value = Shot(scene, run), run.result.get(told) if told else None
-        found.append(Varied(shot.track(shot.ball), shot.scored, value if isinstance(value, float) else None))
+        found.append(FanShot(shot.track(shot.ball), shot.scored, value if isinstance(value, float) else None))
     return found, perf_counter() - started

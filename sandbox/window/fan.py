@@ -15,7 +15,7 @@ from sandbox.picture.camera import Camera
 from sandbox.picture.painter import Painter, blank
 from sandbox.picture.palette import Colour, palette
 from sandbox.picture.sheet import Sheet
-from sandbox.window.beside import Varied, varied
+from sandbox.window.beside import FanShot, varied
 from sandbox.window.path import few
 from sandbox.window.session import Shot
 
@@ -45,9 +45,9 @@ class Fan:
         self.known = {p.key: p for p in declared.walk(shot.scene.parameters)}
         self.spread = {key: width * sigma for key, sigma in self._sigmas().items()}
         self.draws = np.random.default_rng(1).standard_normal((SHOTS, len(self.spread)))
-        self.shots: list[Varied] = []
+        self.shots: list[FanShot] = []
         self.failed = 0
-        self.work: Future[tuple[list[Varied | None], float]] | None = None
+        self.work: Future[tuple[list[FanShot | None], float]] | None = None
         self.next = FIRST
         self.layer: pygame.Surface | None = None
         self.camera: Camera | None = None
@@ -79,7 +79,7 @@ class Fan:
             points = [self._point(draws) for draws in self.draws[done : done + self.next]]
             self.work = runs.submit(varied, self.shot.scene, list(self.spread), points, told)
 
-    def _take(self, work: Future[tuple[list[Varied | None], float]]) -> None:
+    def _take(self, work: Future[tuple[list[FanShot | None], float]]) -> None:
         try:
             found, seconds = work.result()
         except Exception:  # the process was killed, and another will take its place
@@ -111,7 +111,7 @@ class Fan:
         sheet.surface.blit(self.layer, (0, 0))
 
     @staticmethod
-    def _add(layer: pygame.Surface, shot: Varied, camera: Camera, unit: float) -> None:
+    def _add(layer: pygame.Surface, shot: FanShot, camera: Camera, unit: float) -> None:
         pixels = np.clip(camera.pixels(shot.points[:, 1:]), -2000, 6000)
         pixels = few(pixels)
         colour: Colour = CARD["good"] if shot.scored else CARD["text"]

@@ -41,8 +41,8 @@ class View:
         self.choices: overlay.Choices | None = None
         self.energy: tuple[Shot, pygame.Surface] | None = None
         self.stage: Stage | None = None
-        self.composing: Future[Stage] | None = None  # the next one
         self.composed = 0.0  # s since then
+        self.composing: Future[Stage] | None = None  # the next one
         self.head = pygame.Rect(0, 0, 0, 0)  # where the headline is
         self._told: Shot | None = None
         self.told_for = 0.0  # s since its words were chosen

@@ -13,7 +13,7 @@ import pytest
 
 from sandbox.picture.sheet import Sheet
 from sandbox.window import commands
-from sandbox.window.beside import Varied
+from sandbox.window.beside import FanShot
 from sandbox.window.canvas import Canvas
 from sandbox.window.charts import Charts
 from sandbox.window.fan import SHOTS, Fan, _short
@@ -77,7 +77,7 @@ class TestTheFan:
         session = Session("basketball", {} if made else {"launch.speed": 5.0})
         shot = shot_of(session)
         fan = Fan(shot)
-        fan.shots = [Varied(shot.track(shot.ball), shot.scored, None)] * 3
+        fan.shots = [FanShot(shot.track(shot.ball), shot.scored, None)] * 3
         sheet = Sheet((640, 360))
         fan.draw(sheet, fan.shot.scene.picture(fan.shot.run, (640, 360)).camera)
         drawn = pygame.surfarray.array3d(fan.layer)[pygame.surfarray.array_alpha(fan.layer) > 60].astype(int)
