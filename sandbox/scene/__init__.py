@@ -1,0 +1,21 @@
+"""Scenes: what one is, how it is found, how it is run, and how far its result is to be trusted."""
+
+from sandbox.scene.checking import Check, check, compare
+from sandbox.scene.finding import Listing, as_scene, listings, listings_in, listings_of, load, parameters_of
+from sandbox.scene.running import simulate
+from sandbox.scene.scene import Scene
+
+__all__ = [
+    "Check",
+    "Listing",
+    "Scene",
+    "as_scene",
+    "check",
+    "compare",
+    "listings",
+    "listings_in",
+    "listings_of",
+    "load",
+    "parameters_of",
+    "simulate",
+]

@@ -1,0 +1,206 @@
+"""A scene: its numbers, and what its modules offer.
+
+A scene is a folder with a ``scene.py`` that offers ``Parameters``, ``build``, ``result`` and ``card``, a scene file
+``<name>.toml``, presets in ``presets/*.toml`` and, if it likes, a ``picture.py``.
+"""
+
+from __future__ import annotations
+
+import ast
+import importlib
+import inspect
+import os
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from itertools import takewhile
+from pathlib import Path
+from types import ModuleType
+from typing import TYPE_CHECKING, Any
+
+from sandbox import parameters as declared
+from sandbox.controls import Controls, controls_of
+from sandbox.errors import RequestError, RunError
+from sandbox.scene.modules import module_in
+
+if TYPE_CHECKING:
+    from sandbox.engine.run import Run
+    from sandbox.engine.setup import Setup
+
+#: Draws any scene that has no picture.py.
+PLAIN_PICTURE = "sandbox.picture.plain"
+OFFERS = ("Parameters", "build", "result", "card")
+#: How the functions of a scene, and its picture, are called.
+CALLS = {
+    "build": (("parameters",),),
+    "result": (("run", "parameters"),),
+    "card": (("result", "parameters"),),
+    "Picture": (("run", "parameters", "size"), ("run", "parameters")),
+    "Picture.poster": (("self",),),
+    "Picture.frame": (("self", "t"),),
+}
+
+
+@dataclass(frozen=True)
+class Scene:
+    """A sport with all its numbers, ready to run."""
+
+    name: str
+    preset: str | None
+    parameters: Any  # the scene's own Parameters
+    folder: Path
+    note: str = field(default="", compare=False)  # the first comment of a scene file that stands elsewhere
+
+    @property
+    def module(self) -> ModuleType:
+        """The scene's ``scene.py``."""
+        return module_in(self.folder, "scene")
+
+    @property
+    def about(self) -> str:
+        """What it is, in a line: of the preset if there is one, of a scene file elsewhere, else of the scene."""
+        if self.preset is not None:
+            return first_comment(self.folder / "presets" / f"{self.preset}.toml")
+        return self.note or docstring(self.folder / "scene.py")
+
+    def picture_module(self) -> ModuleType:
+        """The scene's ``picture.py``, or a plain one for a scene without; imported when first asked for: it brings
+        pygame with it."""
+        os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")  # its greeting on stdout, which belongs to --json
+        if not (self.folder / "picture.py").is_file():
+            return importlib.import_module(PLAIN_PICTURE)
+        module = module_in(self.folder, "picture")
+        picture = getattr(module, "Picture", None)
+        _check_calls(self.folder / "picture.py", "Picture", picture)
+        for name in ("poster", "frame") if isinstance(picture, type) else ():
+            _check_calls(self.folder / "picture.py", f"Picture.{name}", getattr(picture, name, None))
+        return module
+
+    def picture(self, run: Run, size: tuple[int, int] | None = None, ghosts: Mapping[str, Run] | None = None) -> Any:
+        """The scene's picture of a run, with ``poster()`` and ``frame(t)``; ``size`` in px, or what the scene likes.
+
+        ``ghosts`` are other runs of the scene by what they are called, to be drawn pale behind this one. Raises
+        RequestError where the scene's picture shows none.
+        """
+        picture = self.picture_module().Picture
+        chosen: dict[str, Any] = {} if size is None else {"size": size}
+        if ghosts:
+            if "ghosts" not in inspect.signature(picture).parameters:
+                raise RequestError(f"{self.name} shows one run alone: its Picture has no parameter ghosts")
+            chosen["ghosts"] = ghosts
+        return picture(run, self.parameters, **chosen)
+
+    def build(self) -> Setup:
+        """The setup that the engine simulates."""
+        from sandbox.engine.setup import Setup
+
+        setup = self.module.build(self.parameters)
+        if not isinstance(setup, Setup):
+            raise self._wrong("build", "a Setup", setup)
+        return setup
+
+    def result(self, run: Run) -> dict[str, Any]:
+        """The numbers and the verdict that the scene reads from a run."""
+        result = self.module.result(run, self.parameters)
+        if not isinstance(result, dict):
+            raise self._wrong("result", "a dict", result)
+        missing = controls_of(self.module).missing(result)
+        if missing is not None:
+            raise RunError(f"{shown(self.folder / 'scene.py')}: CONTROLS {missing}")
+        return result
+
+    def card(self, result: dict[str, Any]) -> list[tuple[str, str]]:
+        """The result for people: labels and texts."""
+        rows = self.module.card(result, self.parameters)
+        if not isinstance(rows, list) or not all(isinstance(row, tuple) and len(row) == 2 for row in rows):
+            raise self._wrong("card", "a list of pairs of label and text", rows)
+        return rows
+
+    @property
+    def units(self) -> Mapping[str, str]:
+        """The units of the result's numbers, by their names, as far as the scene names them in ``UNITS``."""
+        units: Mapping[str, str] = getattr(self.module, "UNITS", {})
+        return units
+
+    def _wrong(self, function: str, expected: str, value: Any) -> RunError:
+        """A scene's function handed back something else: mostly a forgotten return."""
+        file = shown(self.folder / "scene.py")
+        return RunError(f"{file}: {function} must return {expected}, and returned {shortened(repr(value))}")
+
+    @property
+    def title(self) -> str:
+        """``golf`` or ``golf/driver``."""
+        return f"{self.name}/{self.preset}" if self.preset else self.name
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        # By value, so that a process that never imported this scene's module can read it.
+        return _revived, (self.name, self.preset, self.folder, self.parameters.model_dump())
+
+
+def _revived(name: str, preset: str | None, folder: Path, values: dict[str, Any]) -> Scene:
+    return Scene(name, preset, parameters_class(folder).model_validate(values), folder)
+
+
+def parameters_class(folder: Path) -> type[declared.Group]:
+    module = module_in(folder, "scene")
+    missing = [name for name in OFFERS if not callable(getattr(module, name, None))]
+    if missing:
+        raise RequestError(f"{folder / 'scene.py'}: a scene offers {', '.join(OFFERS)}; {missing[0]} is missing")
+    for name in OFFERS[1:]:
+        _check_calls(folder / "scene.py", name, getattr(module, name))
+    parameters = module.Parameters
+    if not (isinstance(parameters, type) and issubclass(parameters, declared.Group)):
+        raise RequestError(f"{folder / 'scene.py'}: Parameters must be a sandbox.parameters.Group")
+    accuracy = parameters.model_fields.get("accuracy")
+    if accuracy is None or not isinstance(accuracy.default, declared.Accuracy):
+        raise RequestError(
+            f'{folder / "scene.py"}: Parameters needs a line accuracy: Accuracy = group(Accuracy(), "...")'
+        )
+    controls = getattr(module, "CONTROLS", Controls())
+    if not isinstance(controls, Controls):
+        raise RequestError(f"{folder / 'scene.py'}: CONTROLS must be a sandbox.controls.Controls")
+    mistake = controls.mistake(parameters)
+    if mistake is not None:
+        raise RequestError(f"{folder / 'scene.py'}: CONTROLS {mistake}")
+    return parameters
+
+
+def _check_calls(file: Path, name: str, function: Any) -> None:
+    """Raise RequestError unless the function can be called as the sandbox is going to."""
+    for arguments in CALLS[name]:
+        call = f"{name}({', '.join(arguments)})"
+        if not callable(function):
+            raise RequestError(f"{file}: {call} is missing")
+        try:
+            inspect.signature(function).bind(*arguments)
+        except TypeError as error:
+            raise RequestError(f"{file}: {name} is called as {call}: {error}") from None
+
+
+def docstring(file: Path) -> str:
+    """The first line of a module's docstring, without importing the module."""
+    try:
+        return (ast.get_docstring(ast.parse(file.read_bytes())) or "").partition("\n")[0]
+    except (SyntaxError, ValueError, OSError):
+        return ""
+
+
+def first_comment(file: Path) -> str:
+    """The first comment of a scene file that is meant for people, before all keys."""
+    try:
+        lines = file.read_text(encoding="utf-8").splitlines()
+    except (UnicodeDecodeError, OSError):
+        return ""
+    head = takewhile(lambda line: not line.strip() or line.startswith("#"), lines)
+    return next((line.lstrip("# ").rstrip() for line in head if line.startswith("# ")), "")
+
+
+def shown(path: Path) -> str:
+    """A path as short as it can be said from the current folder."""
+    try:
+        return str(path.resolve().relative_to(Path.cwd()))
+    except (ValueError, OSError):
+        return str(path)
+
+
+def shortened(text: str) -> str:
+    return text if len(text) <= 80 else text[:77] + "..."
