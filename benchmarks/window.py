@@ -25,11 +25,11 @@ os.environ |= {"SDL_VIDEODRIVER": "dummy", "SDL_AUDIODRIVER": "dummy"}
 
 import pygame
 
-from sandbox.lab.workers import Processes
 from sandbox.scene import listings
 from sandbox.window.ahead import steady
 from sandbox.window.app import App
 from sandbox.window.session import Session
+from sandbox.workers import Processes
 
 SIZE, FRAME = (1280, 720), 1 / 60  # px, s
 #: The mouse is this far from the ball in px, and swings so far, in px along and in rad, so many times.

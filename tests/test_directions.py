@@ -1,4 +1,4 @@
-"""Who may look into which room: ``physics <- engine <- scene <- picture, lab <- window <- cli``."""
+"""Which room may import which: ``physics <- engine <- scene <- picture, lab, workers <- window <- cli``."""
 
 from __future__ import annotations
 
@@ -14,6 +14,7 @@ ROOT = Path(__file__).resolve().parent.parent
 FLOORS = {
     "errors": 0,
     "physics": 1,
+    "workers": 1,
     "engine": 2,
     "units": 3,
     "files": 3,
@@ -125,6 +126,7 @@ def test_scenes_use_what_a_scene_may(path: Path):
         ("picture", "from pymunk import Space"),
         ("picture", "import sandbox.lab"),
         ("lab", "import pygame"),
+        ("workers", "from sandbox.lab.plan import Plan"),
         ("errors", "import sandbox.units"),
         ("cli", "import scenes.golf.scene"),
         ("cli", "load('golf')"),

@@ -13,11 +13,11 @@ from PIL import Image
 
 import sandbox
 from sandbox.cli import main as program
-from sandbox.lab.workers import Processes
 from sandbox.picture.frames import to_image
 from sandbox.window import aim
 from sandbox.window.app import App
 from sandbox.window.session import Session
+from sandbox.workers import Processes
 
 HERE = Path(__file__).resolve().parent
 

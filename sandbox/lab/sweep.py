@@ -18,8 +18,8 @@ from sandbox.errors import RequestError, RunError
 from sandbox.lab.axes import Values, as_axis
 from sandbox.lab.plan import Plan, Record, failed, records
 from sandbox.lab.row_file import RowFile
-from sandbox.lab.workers import Call, Cluster, InTurn, Processes, Workers, cores
 from sandbox.scene import Scene, as_scene
+from sandbox.workers import Call, Cluster, InTurn, Processes, Workers, cores
 
 #: Time in s that one call to a worker should take: progress is seen, and Ctrl-C obeyed, a few times a second.
 _CALL = 0.3

@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import pygame
 
 from sandbox.errors import RunError, SandboxError
-from sandbox.lab.workers import Processes
 from sandbox.picture.palette import palette
 from sandbox.picture.sheet import rows_of
 from sandbox.window import commands, overlay, replay
@@ -30,6 +29,7 @@ from sandbox.window.session import Session, Shot
 from sandbox.window.sound import Sound
 from sandbox.window.view import View
 from sandbox.window.watch import Watch
+from sandbox.workers import Processes
 
 if TYPE_CHECKING:
     from sandbox.scene import Scene

@@ -20,7 +20,7 @@ from sandbox.window.path import few
 from sandbox.window.session import Shot
 
 if TYPE_CHECKING:
-    from sandbox.lab.workers import Processes
+    from sandbox.workers import Processes
 
 CARD, TRACE = palette("card"), palette("trace")
 

@@ -391,7 +391,7 @@ def test_a_killed_process_loses_nothing(tmp_path):
 def test_processes_end_with_the_one_that_began_them():
     """However that ends: they hold its output open as long as they live."""
     code = (
-        "import os; from sandbox.lab.workers import Processes; processes = Processes(1);"
+        "import os; from sandbox.workers import Processes; processes = Processes(1);"
         "print(processes.submit(os.getppid).result() == os.getpid(), flush=True); os._exit(0)"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60)

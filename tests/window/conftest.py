@@ -11,10 +11,10 @@ os.environ.setdefault("SDL_AUDIODRIVER", "dummy")
 import pygame
 import pytest
 
-from sandbox.lab.workers import Processes
 from sandbox.scene import simulate
 from sandbox.window.app import App
 from sandbox.window.session import Session, Shot
+from sandbox.workers import Processes
 
 FRAME = 1 / 60  # s
 

@@ -1,0 +1,9 @@
+"""Who computes: this process, other processes of this machine, or a cluster; each through one ``submit``."""
+
+from __future__ import annotations
+
+from sandbox.workers.cluster import Cluster
+from sandbox.workers.pool import Call, InTurn, Workers, cores
+from sandbox.workers.processes import Processes
+
+__all__ = ["Call", "Cluster", "InTurn", "Processes", "Workers", "cores"]
