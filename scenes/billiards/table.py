@@ -199,8 +199,8 @@ def cushions(table: Table, restitution: float, friction: float) -> list[Surface]
     x, y = 0.5 * table.length, 0.5 * table.width
     if not table.pockets:
         lines = {
-            "left cushion": Segment((-x, y), (x, y)),
-            "right cushion": Segment((-x, -y), (x, -y)),
+            "left long cushion": Segment((-x, y), (x, y)),
+            "right long cushion": Segment((-x, -y), (x, -y)),
             "head cushion": Segment((-x, -y), (-x, y)),
             "foot cushion": Segment((x, -y), (x, y)),
         }
@@ -215,14 +215,14 @@ def cushions(table: Table, restitution: float, friction: float) -> list[Surface]
     for sx, sy in product((-1.0, 1.0), (-1.0, 1.0)):
         end, flank = ("head" if sx < 0.0 else "foot"), ("right" if sy < 0.0 else "left")
         near, far = 0.5 * side.mouth + side.tangent, x - cut - corner.tangent
-        noses.append((f"{flank} cushion", Segment((sx * near, sy * y), (sx * far, sy * y))))
+        noses.append((f"{flank} long cushion", Segment((sx * near, sy * y), (sx * far, sy * y))))
         for (ax, ay), (bx, by), radius, name in (
-            (*_facing(0.5 * side.mouth, y, -1.0, side), side.jaw_radius, f"side {flank} jaw"),
-            (*_facing(x - cut, y, 1.0, corner), corner.jaw_radius, f"{end} {flank} jaw"),
+            (*_facing(0.5 * side.mouth, y, -1.0, side), side.jaw_radius, f"{flank} side jaw"),
+            (*_facing(x - cut, y, 1.0, corner), corner.jaw_radius, f"{flank} {end} corner jaw"),
         ):
             jaws.append((name, Segment((sx * ax, sy * ay), (sx * bx, sy * by), radius)))
         (ay, ax), (by, bx) = _facing(y - cut, x, 1.0, corner)
-        jaws.append((f"{end} {flank} jaw", Segment((sx * ax, sy * ay), (sx * bx, sy * by), corner.jaw_radius)))
+        jaws.append((f"{flank} {end} corner jaw", Segment((sx * ax, sy * ay), (sx * bx, sy * by), corner.jaw_radius)))
     return [Surface(name, shape, restitution, friction) for name, shape in (*noses, *jaws)]
 
 
@@ -247,10 +247,10 @@ def catches(table: Table) -> list[Catch]:
     x, y = 0.5 * table.length + out, 0.5 * table.width + out
     side_y = 0.5 * table.width + side.shelf + side.hole_radius
     return [
-        Catch("head left pocket", (-x, y), corner.hole_radius),
-        Catch("head right pocket", (-x, -y), corner.hole_radius),
-        Catch("side left pocket", (0.0, side_y), side.hole_radius),
-        Catch("side right pocket", (0.0, -side_y), side.hole_radius),
-        Catch("foot left pocket", (x, y), corner.hole_radius),
-        Catch("foot right pocket", (x, -y), corner.hole_radius),
+        Catch("left head corner pocket", (-x, y), corner.hole_radius),
+        Catch("right head corner pocket", (-x, -y), corner.hole_radius),
+        Catch("left side pocket", (0.0, side_y), side.hole_radius),
+        Catch("right side pocket", (0.0, -side_y), side.hole_radius),
+        Catch("left foot corner pocket", (x, y), corner.hole_radius),
+        Catch("right foot corner pocket", (x, -y), corner.hole_radius),
     ]

@@ -76,7 +76,7 @@ class TestEveryShot:
 @pytest.mark.parametrize(
     ("name", "words"),
     [
-        ("bank", "The 1 into the side left pocket"),
+        ("bank", "The 1 into the left side pocket"),
         ("carom", "Point, after 3 cushions"),
         ("snooker", "nothing potted"),
         ("one ball", "Hits no ball"),

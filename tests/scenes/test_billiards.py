@@ -262,8 +262,8 @@ def test_noses_mouths_and_cut_angles_are_those_of_the_wpa():
     found = surfaces(table__corner_jaw_radius=0.0, table__side_jaw_radius=0.0)
     nose = {s.name: s.shape for s in found if s.name in ("foot cushion", "head cushion")}
     assert nose["foot cushion"].a[0] - nose["head cushion"].a[0] == pytest.approx(100 * inch)
-    left = [s.shape for s in found if s.name == "left cushion"]
-    right = [s.shape for s in found if s.name == "right cushion"]
+    left = [s.shape for s in found if s.name == "left long cushion"]
+    right = [s.shape for s in found if s.name == "right long cushion"]
     assert left[0].a[1] - right[0].a[1] == pytest.approx(50 * inch)
     ahead = next(shape for shape in left if shape.a[0] > 0.0)
     side_mouth, corner_mouth = (
@@ -272,7 +272,7 @@ def test_noses_mouths_and_cut_angles_are_those_of_the_wpa():
     )
     assert 4.5 * inch <= corner_mouth <= 4.625 * inch
     assert 5.0 * inch <= side_mouth <= 5.125 * inch
-    for name, point, cut in (("side left jaw", ahead.a, 104.0), ("foot left jaw", ahead.b, 142.0)):
+    for name, point, cut in (("left side jaw", ahead.a, 104.0), ("left foot corner jaw", ahead.b, 142.0)):
         jaw = next(
             s.shape for s in found if s.name == name and hypot(s.shape.a[0] - point[0], s.shape.a[1] - point[1]) < 1e-9
         )
@@ -308,7 +308,7 @@ def test_holes_begin_where_the_shelf_ends():
     """From the middle of the mouth outwards: 1 to 2.25 in at the corners, 0 to 0.375 in at the sides (WPA)."""
     inch = 0.0254
     holes = {catch.name: catch for catch in sandbox.load("billiards").build().catches}
-    side, corner = holes["side left pocket"], holes["foot right pocket"]
+    side, corner = holes["left side pocket"], holes["right foot corner pocket"]
     assert side.center[0] == 0.0
     assert side.center[1] - 0.635 - side.radius == pytest.approx(0.1875 * inch)
     assert corner.center[0] - 1.27 == pytest.approx(-corner.center[1] - 0.635)
@@ -347,7 +347,7 @@ def test_a_ball_in_the_mouth_of_a_pocket_drops_and_none_leaves_the_table(kind: s
 
 
 @pytest.mark.parametrize("sideways", [0.0, 0.010, -0.010])
-@pytest.mark.parametrize(("pocket", "towards"), [("foot left pocket", 45.0), ("side right pocket", -90.0)])
+@pytest.mark.parametrize(("pocket", "towards"), [("left foot corner pocket", 45.0), ("right side pocket", -90.0)])
 def test_a_ball_that_comes_straight_drops_even_off_the_middle(pocket: str, towards: float, sideways: float):
     a = radians(towards)
     corner = (1.27, 0.635) if towards == 45.0 else (0.0, -0.635)
@@ -367,7 +367,7 @@ def test_a_ball_may_hang_in_the_jaws_and_be_laid_out_there_again():
 
 def test_a_ball_that_meets_a_point_of_a_pocket_is_thrown_back():
     run = shot(spot("cue", 0.0635, 0.0), cue__speed=3.0, cue__angle=90.0)
-    assert run.result["touches"][0] in ("left cushion", "side left jaw")
+    assert run.result["touches"][0] in ("left long cushion", "left side jaw")
     assert not run.result["scratch"]
 
 
@@ -518,12 +518,12 @@ def preset(name: str) -> dict[str, Any]:
 @pytest.mark.parametrize(
     ("name", "pocket"),
     [
-        ("stop", "foot left pocket"),
-        ("draw", "foot left pocket"),
-        ("follow", "foot left pocket"),
-        ("cut", "foot right pocket"),
-        ("bank", "side left pocket"),
-        ("kick", "foot left pocket"),
+        ("stop", "left foot corner pocket"),
+        ("draw", "left foot corner pocket"),
+        ("follow", "left foot corner pocket"),
+        ("cut", "right foot corner pocket"),
+        ("bank", "left side pocket"),
+        ("kick", "left foot corner pocket"),
     ],
 )
 def test_the_shots_pot_their_ball_and_keep_the_cue_ball(name: str, pocket: str):
@@ -549,13 +549,13 @@ def test_stop_draw_and_follow_leave_the_cue_ball_where_their_names_say():
 
 def test_the_bank_and_the_kick_go_off_the_right_cushion():
     run = sandbox.simulate(sandbox.load("billiards/bank"))
-    assert [e.partner for e in run.events if e.ball == "1" and e.kind == "impact"][:2] == ["cue", "right cushion"]
-    assert preset("kick")["touches"][:2] == ["right cushion", "1"]
+    assert [e.partner for e in run.events if e.ball == "1" and e.kind == "impact"][:2] == ["cue", "right long cushion"]
+    assert preset("kick")["touches"][:2] == ["right long cushion", "1"]
 
 
 def test_the_carom_makes_three_cushions_between_the_balls():
     result = preset("three-rail-carom")
-    assert result["touches"][:5] == ["red", "foot cushion", "left cushion", "right cushion", "yellow"]
+    assert result["touches"][:5] == ["red", "foot cushion", "left long cushion", "right long cushion", "yellow"]
     assert result["potted"] == []
     assert (result["point"], result["scored"]) == (3, True)
 
@@ -611,7 +611,7 @@ def test_a_scratch_and_the_order_of_potting(struck: str, other: str):
 
 def test_rails_are_impacts_on_noses_and_jaws_stand_among_the_touches():
     result = shot(spot("cue", 0.9, 0.56), cue__speed=1.0, cue__angle=10.0).result
-    assert result["touches"] == ["left cushion", "foot left jaw", "foot left pocket"]
+    assert result["touches"] == ["left long cushion", "left foot corner jaw", "left foot corner pocket"]
     assert result["rails"] == 1
     result = shot(spot("cue", 0.0, 0.2), spot("4", 0.5, 0.2), cue__speed=2.0, cue__follow=-0.2).result
     assert (set(result["touches"]), result["rails"]) == ({"4"}, 1)  # its rail is the object ball's
@@ -630,12 +630,12 @@ def test_any_ball_may_be_the_cue_ball():
     [
         ([spot("cue", 0, 0), spot("1", 0.05, 0)], {}, '"cue" at (0, 0) m and "1" at (0.05, 0) m overlap by 7.15 mm'),
         ([spot("cue", 0, 0), spot("1", 1.5, 0)], {}, 'ball "1" at (1.5, 0) m is off the table'),
-        ([spot("cue", 0.05, 0.62)], {}, "overlaps the side left jaw"),
+        ([spot("cue", 0.05, 0.62)], {}, "overlaps the left side jaw"),
         ([spot("cue", 0.9, 0.68)], {}, 'ball "cue" at (0.9, 0.68) m is off the table'),
         ([spot("cue", 1.20, 0.70)], {}, 'ball "cue" at (1.2, 0.7) m is off the table'),
-        ([spot("cue", 0.0, 0.68)], {}, "is over the hole of the side left pocket"),
-        ([spot("cue", 0.5, 0.62)], {}, "overlaps the left cushion by 13.6 mm"),
-        ([spot("cue", 1.265, 0.63)], {}, "is over the hole of the foot left pocket"),
+        ([spot("cue", 0.0, 0.68)], {}, "is over the hole of the left side pocket"),
+        ([spot("cue", 0.5, 0.62)], {}, "overlaps the left long cushion by 13.6 mm"),
+        ([spot("cue", 1.265, 0.63)], {}, "is over the hole of the left foot corner pocket"),
         ([spot("cue", 0, 0), spot("cue", 0.5, 0)], {}, 'balls: two are named "cue"'),
         ([spot("white", 0, 0)], {}, 'cue.ball = "cue": there is no such ball on the table; there are white'),
         ([spot("1", 0, 0)], {"rack": "nine-ball"}, 'balls: "1" is in the rack already'),
