@@ -15,3 +15,9 @@ class RequestError(SandboxError):
 
 class RunError(SandboxError):
     """The run could not be completed: diverged, stalled, left the world."""
+
+
+class Stopped(SandboxError):
+    """Ctrl-C, with something to say about what is kept."""
+
+    exit_code = 130

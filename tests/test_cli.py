@@ -19,8 +19,8 @@ import pytest
 from PIL import Image
 
 import sandbox
-from sandbox import cli
-from sandbox.cli import _Interrupts, main
+from sandbox.cli import arguments, main
+from sandbox.cli.interrupts import Interrupts
 from sandbox.engine import accuracy
 
 DROP = Path(__file__).parent / "scenes" / "drop"
@@ -290,7 +290,7 @@ def test_settings_and_accuracy_stand_over_the_file(call, tmp_path: Path):
 
 
 def test_every_level_may_be_asked_for():
-    assert set(cli.LEVELS) == set(accuracy.LEVELS)
+    assert set(arguments.LEVELS) == set(accuracy.LEVELS)
 
 
 def test_one_of_a_list_may_be_set(call, monkeypatch):
@@ -556,7 +556,7 @@ def test_ctrl_c_ends_with_a_line_and_130(drop: Path, tmp_path: Path):
 def test_ctrl_c_is_not_lost_in_a_callback():
     """cffi prints what a callback raises, and goes on."""
     raised_in_callback = compile("signal.raise_signal(signal.SIGINT)", "site/pymunk/_callbacks.py", "exec")
-    before = signal.signal(signal.SIGINT, _Interrupts())
+    before = signal.signal(signal.SIGINT, Interrupts())
     try:
         exec(raised_in_callback)
         with pytest.raises(KeyboardInterrupt):

@@ -22,7 +22,7 @@ from PIL import Image
 from typer.testing import CliRunner
 
 import sandbox.physics
-from sandbox.cli import app
+from sandbox.cli.program import app
 from sandbox.parameters import walk
 from sandbox.physics.coefficients import GOLF_DRAG, GOLF_LIFT, SOCCER_DRAG, SOCCER_LIFT
 from sandbox.physics.integrators import INTEGRATORS
@@ -157,7 +157,7 @@ COMMANDS = sorted(set(re.findall(r"(?:^    |`)sandbox ((?!COMMAND)[a-z].*?)(?:`|
 
 
 def test_the_readme_has_all_commands():
-    commands = {command.name or getattr(command.callback, "__name__", "") for command in app.registered_commands}
+    commands = {command.name for command in app.registered_commands}
     assert {command.split()[0] for command in COMMANDS} == commands
 
 

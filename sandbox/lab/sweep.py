@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from sandbox.errors import RequestError, RunError
+from sandbox.errors import RequestError, Stopped
 from sandbox.lab.axes import Values, as_axis
 from sandbox.lab.plan import Plan, Record, failed, records
 from sandbox.lab.row_file import RowFile
@@ -147,16 +147,10 @@ class Written:
         return "\n".join(lines)
 
 
-class Interrupted(RunError):
-    """Ctrl-C; what was done is kept."""
-
-    exit_code = 130
-
-
 def sweep_to_file(plan: Plan, path: Path, staff: Workers, progress: Progress = _silent) -> Written:
     """All rows of the plan as CSV, from where an interrupted sweep into the same file stopped.
 
-    Raises Interrupted on Ctrl-C, and RunError where the file cannot be written to its end; both keep what is done.
+    Raises Stopped on Ctrl-C, and RunError where the file cannot be written to its end; both keep what is done.
     """
     failures, first_error, began = 0, "", perf_counter()
     with RowFile(path, plan.fingerprint) as file:
@@ -169,7 +163,7 @@ def sweep_to_file(plan: Plan, path: Path, staff: Workers, progress: Progress = _
                 first_error = first_error or "".join(errors[:1])
         except KeyboardInterrupt:
             kept = f"{file.done:,} of {plan.size:,} points are kept in {path}"
-            raise Interrupted(f"stopped: {kept}; the same command goes on from there") from None
+            raise Stopped(f"stopped: {kept}; the same command goes on from there") from None
         file.finish()
     before = file.before if file.before.is_file() else None
     return Written(plan.size, resumed, failures, first_error, perf_counter() - began, before)

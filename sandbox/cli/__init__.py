@@ -1,0 +1,30 @@
+"""The ``sandbox`` program. This file imports next to nothing, so that Ctrl-C is heard from the start."""
+
+from __future__ import annotations
+
+import sys
+
+from sandbox.cli.interrupts import Interrupts
+
+#: Exit code after Ctrl-C; after SIGTERM it is 143.
+STOPPED = 130
+
+
+def main(args: list[str] | None = None) -> int:
+    """Run one command; what goes wrong becomes a line on stderr and an exit code.
+
+    Called as the program (without ``args``), Ctrl-C and SIGTERM both stop it, and all it began is put away first.
+    """
+    interrupts = Interrupts()
+    try:
+        if args is None:
+            interrupts.begin()
+        from sandbox.cli.program import call
+
+        code = call(args)
+    except KeyboardInterrupt:
+        if sys.stderr is not None:
+            sys.stderr.write("stopped\n")
+        code = STOPPED
+    interrupts.end()
+    return interrupts.code if code == STOPPED else code

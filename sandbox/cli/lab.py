@@ -1,0 +1,237 @@
+"""The commands that measure: ``aim``, ``sweep``, ``trade``, ``stress``, ``validate``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from sandbox.cli.arguments import Level, OptionalScene, SceneArgument, Settings, changes, load, loaded, whole
+from sandbox.cli.outputs import writing
+from sandbox.cli.say import json_text, say
+from sandbox.errors import RequestError, RunError
+
+
+def aim(
+    scene: SceneArgument,
+    vary: Annotated[
+        list[str], typer.Option(metavar="KEY=LO:HI", help="A number and its range; once or twice.", show_default=False)
+    ],
+    target: Annotated[
+        list[str],
+        typer.Option(metavar="NAME=VALUE", help="A result and what it shall be; once or twice.", show_default=False),
+    ],
+    set_: Settings = None,
+    accuracy: Level = None,
+    as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object in place of the card.")] = False,
+    show: Annotated[Path | None, typer.Option(metavar="F.png", help="Write a picture of the tries.")] = None,
+) -> None:
+    """Find the values that give a result: all of them in the range, each with its numerical error.
+
+    A target that is true or false, or a word, has intervals: the widest first, with the middle, which forgives most.
+    That there is no solution is an answer too: it is said, with how near it got, and the exit code is 0.
+
+    \b
+    Examples:
+      sandbox aim golf --vary launch.angle=2:75 --target carry=200
+      sandbox aim basketball --vary launch.speed=6:10 --target made=true --show tries.png
+      sandbox aim golf --vary launch.angle=2:60 --vary launch.speed=40:90 --target carry="219 yd" --target apex=30
+    """
+    from sandbox.files import check_file
+    from sandbox.lab.aim import parse_target, search
+    from sandbox.lab.axes import parse_span
+    from sandbox.progress import bar
+
+    chosen = load(scene, set_, accuracy)
+    spans = [parse_span(chosen, "--vary", text) for text in vary]
+    targets = [parse_target(text, chosen) for text in target]
+    if show is not None:
+        from sandbox.lab.chart import check_installed
+
+        check_file("--show", show, ".png")
+        check_installed("--show")
+    with bar("aim") as progress:
+        found = search(chosen, spans, targets, progress)
+    from sandbox.lab import aim_report
+
+    if show is not None:
+        with writing("--show", show):
+            aim_report.draw(found, show)
+    if as_json:
+        say(aim_report.as_json(found))
+    else:
+        written = [] if show is None else [f"wrote {show}"]
+        say("\n".join([*aim_report.as_text(found), *written]))
+
+
+def sweep(
+    scene: SceneArgument,
+    over: Annotated[
+        list[str],
+        typer.Option(
+            metavar="KEY=LO:HI:N", help="A parameter and its values, also as KEY=A,B,C; repeatable.", show_default=False
+        ),
+    ],
+    out: Annotated[Path, typer.Option(metavar="F.csv", help="One row for each point.", show_default=False)],
+    set_: Settings = None,
+    accuracy: Level = None,
+    samples: Annotated[
+        int | None,
+        typer.Option(
+            metavar="N", parser=whole("--samples", 1), help="So many random points: within ranges, from lists."
+        ),
+    ] = None,
+    seed: Annotated[
+        int | None, typer.Option(metavar="N", parser=whole("--seed", 0), help="Which random points.  [default: 0]")
+    ] = None,
+    check: Annotated[bool, typer.Option("--check", help="Run each point again, finer, and add its errors.")] = False,
+    plot: Annotated[
+        Path | None, typer.Option(metavar="F.png", help="A map over two parameters, a curve over one.")
+    ] = None,
+    of: Annotated[str | None, typer.Option(metavar="NAME", help="The result that --plot shows.")] = None,
+    parquet: Annotated[
+        Path | None, typer.Option(metavar="F.parquet", help="The rows once more; needs pyarrow.")
+    ] = None,
+    jobs: Annotated[
+        int | None,
+        typer.Option(
+            metavar="N",
+            parser=whole("--jobs", 1, unit="processes"),
+            help="Processes.  [default: one for each core that saves time]",
+        ),
+    ] = None,
+    scheduler: Annotated[
+        str | None, typer.Option(metavar="ADDRESS", help="Have the workers of a Dask scheduler compute.")
+    ] = None,
+) -> None:
+    """Run a scene once for each point of a grid, or for random points, and write a row for each.
+
+    Ctrl-C keeps the rows that are done; the same command again goes on from there. What another sweep left in the file
+    is kept as F.csv~. A point that fails is a row with its error.
+
+    \b
+    Examples:
+      sandbox sweep basketball --over launch.speed=6:9:61 --over launch.angle=35:75:41 --out map.csv --plot map.png
+      sandbox sweep golf --over launch.angle=5:40:71 --over ball.drag.model=tour-fit,usga --out carry.csv
+      sandbox sweep golf --over launch.speed="160 mph:180 mph" --over air.wind[0]=-8:8 --samples 5000 --out wind.csv
+    """
+    from sandbox.files import check_file
+    from sandbox.lab.axes import parse_axis
+    from sandbox.lab.plan import Plan
+    from sandbox.lab.sweep import jobs_that_pay, sweep_to_file, workers
+    from sandbox.progress import bar
+
+    chosen = load(scene, set_, accuracy)
+    plan = Plan(chosen, tuple(parse_axis(chosen, "--over", text) for text in over), samples or 0, seed or 0, check)
+    check_file("--out", out, ".csv")
+    if seed is not None and samples is None:
+        raise RequestError(f"--seed {seed}: goes with --samples")
+    if of is not None and plot is None:
+        raise RequestError(f"--of {of}: goes with --plot")
+    if plot is not None:
+        from sandbox.lab.maps import check_plot
+
+        check_file("--plot", plot, ".png")
+        check_plot(plan, of)
+    if parquet is not None:
+        from sandbox.lab.parquet import check_installed, write_parquet
+
+        check_file("--parquet", parquet, ".parquet")
+        check_installed("--parquet")
+    with workers(jobs or jobs_that_pay(plan), scheduler) as staff, bar("sweep") as progress:
+        done = sweep_to_file(plan, out, staff, progress)
+    if plot is not None:
+        from sandbox.lab.maps import draw_sweep
+
+        with writing("--plot", plot):
+            draw_sweep(plan, out, plot, of)
+    if parquet is not None:
+        with writing("--parquet", parquet):
+            write_parquet(plan, out, parquet)
+    if str(out) != "/dev/stdout":
+        written = [f"wrote {path}" for path in (out, plot, parquet) if path is not None]
+        say("\n".join([done.as_text(), *written]))
+    if done.failures == done.points - done.resumed > 0:
+        raise RunError(f"every point failed, first with: {done.first_error}")
+
+
+def trade(
+    scene: SceneArgument,
+    set_: Settings = None,
+    accuracy: Level = None,
+    as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object in place of the tables.")] = False,
+    plot: Annotated[
+        Path | None, typer.Option(metavar="F.png", help="Draw error against speed, a curve for each method.")
+    ] = None,
+) -> None:
+    """Measure speed against accuracy for a scene: every method, the levels, and what each part of the model is worth.
+
+    Takes half a minute, on a machine that does nothing else.
+
+    \b
+    Examples:
+      sandbox trade golf
+      sandbox trade basketball/rattle --plot rattle.png
+      sandbox trade my-shot.toml --set air.wind=[-8,0] --json
+    """
+    from sandbox.files import check_file
+    from sandbox.lab import chart
+    from sandbox.lab import trade as lab
+    from sandbox.progress import bar
+
+    chosen = load(scene, set_, accuracy)
+    if plot is not None:
+        check_file("--plot", plot, ".png")
+        chart.check_installed("--plot")
+    with bar("trade") as progress:
+        found = lab.trade(chosen, progress)
+    if plot is not None:
+        with writing("--plot", plot):
+            chart.draw_trade(found, plot)
+    say(json_text(lab.as_dict(found)) if as_json else "\n".join(lab.as_text(found)))
+
+
+def stress(
+    scene: OptionalScene = None,
+    set_: Settings = None,
+    accuracy: Level = None,
+    as_json: Annotated[bool, typer.Option("--json", help="Print one JSON list in place of the tables.")] = False,
+) -> None:
+    """Run a scene, or all of them, at the extremes by every method, and tell what happened at each.
+
+    \b
+    Examples:
+      sandbox stress             # all scenes, and setups of no scene
+      sandbox stress golf
+      sandbox stress golf/driver --accuracy fast --json
+    """
+    from sandbox.lab import stress as lab
+    from sandbox.progress import bar
+
+    scenes = loaded(scene, set_, accuracy)
+    with bar("stress") as progress:
+        outcomes = lab.stress(scenes, accuracy or "balanced", with_bare=scene is None, progress=progress)
+    say(json_text(lab.as_dicts(outcomes)) if as_json else "\n".join(lab.as_text(outcomes)))
+
+
+def validate(
+    scene: OptionalScene = None,
+    set_: Settings = None,
+    accuracy: Level = None,
+    as_json: Annotated[bool, typer.Option("--json", help="Print one JSON list in place of the tables.")] = False,
+) -> None:
+    """Show published numbers beside ours, with their sources, for a scene or for all of them.
+
+    \b
+    Examples:
+      sandbox validate
+      sandbox validate golf --set ball.drag.model=usga --set ball.lift.model=usga
+    """
+    from sandbox.lab import validate as lab
+    from sandbox.progress import bar
+
+    changed = changes(set_, accuracy)
+    with bar("validate") as progress:
+        rows = lab.validate(scene, changed, progress)
+    say(json_text(lab.as_dicts(rows)) if as_json else "\n".join(lab.as_text(rows)))

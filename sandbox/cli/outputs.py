@@ -1,0 +1,152 @@
+"""The files that a run can be written as: one table of options, with what each holds and who writes it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from sandbox.errors import RequestError, RunError
+
+if TYPE_CHECKING:
+    from sandbox.engine.run import Run
+
+#: Smallest and largest pictures, in px, and what is drawn where nothing is asked.
+SMALLEST, LARGEST, USUAL = (320, 180), (7680, 4320), (1280, 720)
+
+Size = tuple[int, int]
+
+
+@dataclass(frozen=True)
+class Drawn:
+    """A run to be written, and how its pictures were asked for; ``rate`` is in frames per second."""
+
+    run: Run
+    size: Size | None = None
+    rate: int | None = None
+    ghosts: Mapping[str, Run] | None = None
+
+    @cached_property
+    def picture(self) -> Any:
+        """The scene's picture, made once for all files."""
+        return self.run.scene.picture(self.run, self.size, self.ghosts)
+
+
+@dataclass(frozen=True)
+class Output:
+    """One kind of file: its option, its suffix ("" for a folder of files), and the function that writes it."""
+
+    option: str
+    suffix: str
+    write: Callable[[Drawn, Path], None]
+    is_picture: bool = True
+    moves: bool = False
+
+
+def _trajectory(drawn: Drawn, path: Path) -> None:
+    from sandbox import report
+
+    report.write_trajectory(drawn.run, path)
+
+
+def _poster(drawn: Drawn, path: Path) -> None:
+    from sandbox.picture.frames import save_poster
+
+    save_poster(drawn.picture, path)
+
+
+def _strip(drawn: Drawn, path: Path) -> None:
+    from sandbox.picture.frames import save_png
+    from sandbox.picture.strip import film_strip
+
+    width, height = drawn.size or USUAL
+    half = max(SMALLEST[0], width // 2), max(SMALLEST[1], height // 2)
+    save_png(film_strip(drawn.run.scene.picture(drawn.run, half, drawn.ghosts), drawn.run), path)
+
+
+def _energy(drawn: Drawn, path: Path) -> None:
+    from sandbox.picture.energy import energy_chart
+    from sandbox.picture.frames import save_png
+
+    save_png(energy_chart(drawn.run, drawn.size or USUAL), path)
+
+
+def _animation(saver: str, rate: int) -> Callable[[Drawn, Path], None]:
+    """Writes with a function of sandbox.picture.frames; ``rate`` where none was asked for."""
+
+    def write(drawn: Drawn, path: Path) -> None:
+        from sandbox.files import no_empty_folder
+        from sandbox.picture import frames
+        from sandbox.progress import bar
+
+        with no_empty_folder(path), bar(saver.removeprefix("save_")) as progress:
+            getattr(frames, saver)(drawn.picture, drawn.run, path, drawn.rate or rate, progress)
+
+    return write
+
+
+#: In the order in which they are written.
+OUTPUTS = (
+    Output("--trajectory", ".csv", _trajectory, is_picture=False),
+    Output("--poster", ".png", _poster),
+    Output("--strip", ".png", _strip),
+    Output("--energy", ".png", _energy),
+    Output("--gif", ".gif", _animation("save_gif", 25), moves=True),
+    Output("--webp", ".webp", _animation("save_webp", 25), moves=True),
+    Output("--frames", "", _animation("save_frames", 60), moves=True),
+)
+
+
+def asked(paths: Mapping[str, Path | None], size: str | None, rate: int | None) -> dict[Output, Path]:
+    """The outputs that were asked for, by their options. Raises RequestError, before any work is done, for one that
+    could not be written, and for a size or rate that nothing would have."""
+    from sandbox.files import check_apart, check_file, check_folder
+
+    chosen = {output: path for output in OUTPUTS if (path := paths[output.option]) is not None}
+    for output, path in chosen.items():
+        if output.suffix:
+            check_file(output.option, path, output.suffix)
+        else:
+            check_folder(output.option, path)
+    check_apart(paths)
+    if rate is not None and not any(output.moves for output in chosen):
+        raise RequestError(f"--fps {rate}: goes with --frames, --gif or --webp")
+    if size is not None and not any(output.is_picture for output in chosen):
+        raise RequestError(f"--size {size}: goes with a picture, such as --poster F.png")
+    return chosen
+
+
+def write(outputs: Mapping[Output, Path], drawn: Drawn) -> None:
+    """Write all of them."""
+    for output, path in outputs.items():
+        with writing(output.option, path):
+            output.write(drawn, path)
+
+
+def read_size(text: str) -> Size:
+    """``"1280x720"``."""
+    sides = text.lower().split("x")
+    if len(sides) != 2 or not all(side.isdecimal() and len(side) < 6 for side in sides):
+        raise RequestError(f"--size {text}: must be width and height in px, such as 1280x720")
+    width, height = int(sides[0]), int(sides[1])
+    if not (SMALLEST[0] <= width <= LARGEST[0] and SMALLEST[1] <= height <= LARGEST[1]):
+        bounds = " and ".join(f"{across}x{up}" for across, up in (SMALLEST, LARGEST))
+        raise RequestError(f"--size {text}: must be between {bounds} px")
+    return width, height
+
+
+@contextmanager
+def writing(option: str, path: Path) -> Iterator[None]:
+    """A disk that is full, or a folder that went away, in one line."""
+    from sandbox.files import reason
+    from sandbox.tracebacks import of_user_code
+
+    try:
+        yield
+    except OSError as error:
+        if of_user_code(error) is not None:
+            raise
+        raise RunError(f"{option} {path}: cannot be written: {reason(error)}") from None

@@ -1,0 +1,77 @@
+"""The commands about scenes themselves: ``list``, ``schema``, ``new``, ``play``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from sandbox.cli.arguments import Level, SceneArgument, Settings, changes
+from sandbox.cli.say import say
+
+
+def list_scenes(
+    scene: Annotated[
+        str | None, typer.Argument(metavar="[SCENE]", help="Only this scene and its presets.", show_default=False)
+    ] = None,
+) -> None:
+    """Show the scenes and presets there are, those in this folder too."""
+    from sandbox.scene import listings, listings_in, listings_of
+
+    found = [*listings(), *listings_in(Path())] if scene is None else listings_of(scene)
+    width = max((len(listing.name) for listing in found), default=0)
+    for listing in found:
+        say(f"{listing.name:{width}}  {listing.about}".rstrip())
+
+
+def schema(scene: SceneArgument) -> None:
+    """Print the JSON schema of a scene's file: every key with its unit, bounds and meaning.
+
+    \b
+    Example:
+      sandbox schema golf > golf.schema.json     # an editor then completes and checks golf.toml
+    """
+    import json
+
+    from sandbox.parameters import json_schema
+    from sandbox.scene import parameters_of
+
+    name, parameters = parameters_of(scene)
+    say(json.dumps(json_schema(parameters, name), indent=2))
+
+
+def new_scene(
+    name: Annotated[Path, typer.Argument(metavar="NAME", help="The folder to make: its name is the scene's.")],
+) -> None:
+    """Write a scene of your own: one that works, to change.
+
+    \b
+    Example:
+      sandbox new volleyball
+      sandbox run ./volleyball
+    """
+    from sandbox import new
+
+    files = new.new_scene(name)
+    say("\n".join([*(f"wrote {file}" for file in files), "", *new.next_steps(name)]))
+
+
+def play(scene: SceneArgument, set_: Settings = None, accuracy: Level = None) -> None:
+    """Open the window: pull back from the ball, let go, and see. H lists the keys.
+
+    \b
+    Examples:
+      sandbox play golf
+      sandbox play basketball/free-throw
+    """
+    from sandbox.window.app import play as play_in_window
+
+    changed = changes(set_, accuracy)
+    if any("[" in key for key in changed):  # the window keeps what was changed by whole parameters
+        from sandbox.parameters import whole
+        from sandbox.scene import load
+
+        parameters = load(scene).parameters
+        changed = whole(type(parameters), parameters.model_dump(), scene, changed, "--set")
+    play_in_window(scene, changed)
