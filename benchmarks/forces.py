@@ -38,7 +38,7 @@ from sandbox.engine import simulate, simulate_many
 from sandbox.engine.accuracy import Accuracy, resolve
 from sandbox.engine.run import Run
 from sandbox.engine.setup import HOLLOW_SPHERE, Ball, Bounds, Force, Segment, Setup, Surface
-from sandbox.physics.coefficients import constant
+from sandbox.physics.coefficients import Constant
 from sandbox.physics.forces import Drag, Gravity
 
 COUNTS = (1, 16, 100, 1_000)
@@ -62,7 +62,7 @@ class Flown(NamedTuple):
 
 def balls(count: int) -> list[Ball]:
     """Thrown upwards, each a little otherwise, in a row."""
-    forces: list[Force] = [Gravity(MASS, GRAVITY), Drag(RADIUS, DENSITY, constant(DRAG))]
+    forces: list[Force] = [Gravity(MASS, GRAVITY), Drag(RADIUS, DENSITY, Constant(DRAG))]
     angles = (radians(50.0 + 30.0 * i / count) for i in range(count))
     return [
         Ball(

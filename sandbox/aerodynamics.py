@@ -8,7 +8,7 @@ from typing import Any, Literal
 from sandbox.engine.setup import Force
 from sandbox.parameters import Group, choice, quantity, vector
 from sandbox.physics.air import LogWind, UniformWind
-from sandbox.physics.coefficients import Coefficient, constant, spin_ratio_lift
+from sandbox.physics.coefficients import Coefficient, Constant, Scaled, spin_ratio_lift
 from sandbox.physics.forces import Drag, Magnus, Wind
 
 
@@ -93,21 +93,17 @@ def aerodynamic_forces(
     lift_coefficient = _coefficient(lift, models or {})
     if lift_coefficient is not None:
         if lift_share != 1.0:
-            lift_coefficient = _scaled(lift_coefficient, lift_share)
+            lift_coefficient = Scaled(lift_coefficient, lift_share)
         along_ground = lift.velocity == "ground"
         forces.append(Magnus(radius, air.density, lift_coefficient, wind, along_ground=along_ground))
     return forces
-
-
-def _scaled(coefficient: Coefficient, share: float) -> Coefficient:
-    return lambda reynolds, spin_ratio: share * coefficient(reynolds, spin_ratio)
 
 
 def _coefficient(chosen: Any, models: Mapping[str, Coefficient]) -> Coefficient | None:
     if isinstance(chosen, NoDrag | NoLift):
         return None
     if isinstance(chosen, ConstantDrag | ConstantLift):
-        return constant(chosen.coefficient)
+        return Constant(chosen.coefficient)
     if isinstance(chosen, SpinRatioLift):
         return spin_ratio_lift
     return models[chosen.model]

@@ -12,7 +12,8 @@ from sandbox.errors import RunError
 from sandbox.files import plain, written_whole
 
 if TYPE_CHECKING:
-    from sandbox.engine.run import Event, Run
+    from sandbox.engine.event import Event
+    from sandbox.engine.run import Run
     from sandbox.scene import Check, Scene
 
 #: Events shown on a card; a ball that rolls through a rack has hundreds.

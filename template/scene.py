@@ -6,6 +6,7 @@ Leaves out: everything sideways; how the fan's air spreads as it rises.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from math import cos, hypot, pi, radians, sin
 from typing import Any
 
@@ -82,6 +83,7 @@ CONTROLS = Controls(
 # -------------------------------------------------------------------------------------------------------------- build
 
 
+@dataclass(frozen=True)
 class Fan:
     """A force of our own: upwards, ``F = push / (1 + ((x - place) / width)^2)``.
 
@@ -89,12 +91,13 @@ class Fan:
     floats for one ball, arrays when a sweep lets many fly at once. So use arithmetic that works on both.
     """
 
-    def __init__(self, fan: FanParameters) -> None:
-        self.fan = fan
+    place: float  # m
+    width: float  # m
+    push: float  # N
 
     def __call__(self, t: float, position: Any, velocity: Any, spin: Any) -> tuple[Any, Any]:
         x, _ = position
-        return 0.0, self.fan.push / (1.0 + ((x - self.fan.place) / self.fan.width) ** 2)
+        return 0.0, self.push / (1.0 + ((x - self.place) / self.width) ** 2)
 
 
 def build(parameters: Parameters) -> Setup:
@@ -112,7 +115,7 @@ def build(parameters: Parameters) -> Setup:
         forces=[
             Gravity(ball.mass, parameters.gravity),
             *aerodynamic_forces(parameters.air, ball.radius, ball.drag, ball.lift),
-            Fan(parameters.fan),
+            Fan(parameters.fan.place, parameters.fan.width, parameters.fan.push),
         ],
     )
     ground = Surface(

@@ -102,7 +102,7 @@ def test_every_section_says_what_it_stands_on():
     """A source, or whose choice it is, in every section of a model that stands for something measured."""
     for section in re.split(r"^### ", PHYSICS.partition("# The engine")[0], flags=re.MULTILINE)[1:]:
         title = section.partition("\n")[0]
-        if not re.search(r"`(Gravity|UniformWind|constant)`", title):
+        if not re.search(r"`(Gravity|UniformWind|Constant)`", title):
             assert re.search(r"Source|\*[Oo]urs\*|\(\d{4}|\b(19|20)\d\d\b", section), title
 
 

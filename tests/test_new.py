@@ -274,7 +274,12 @@ def test_its_golden_test(scene: Path):
         ("scene.py", "landing.x - floor.mat)", "landing.x - floor.matt)", "AttributeError: 'Floor' object has no"),
         ("scene.py", "result['apex']:.2f", "result['apx']:.2f", "KeyError: 'apx'"),
         ("scene.py", "duration=20.0)", "duration=20.0, until=lambda event: event.foo)", "AttributeError: 'Event'"),
-        ("scene.py", "Fan(parameters.fan),", "Fan,", "ValueError: ball 'ball': 'Fan' is no force"),
+        (
+            "scene.py",
+            "Fan(parameters.fan.place, parameters.fan.width, parameters.fan.push),",
+            "Fan,",
+            "ValueError: ball 'ball': 'Fan' is no force",
+        ),
         ("scene.py", "ball.mass,\n        ball.radius,", "-1.0,\n        ball.radius,", "mass = -1.0 must be positive"),
         (
             "picture.py",
@@ -335,8 +340,8 @@ def test_a_file_with_nul_bytes_is_named(call, scene: Path, file: str):
             "self.frame(0.0)",
             "poster() must return a pygame.Surface, and returned None",
         ),
-        ("scene.py", "return 0.0, self.fan.push", "0.0, self.fan.push", "must return"),
-        ("scene.py", "return 0.0, self.fan.push", "return self.fan.push", "must return"),
+        ("scene.py", "return 0.0, self.push", "0.0, self.push", "must return"),
+        ("scene.py", "return 0.0, self.push", "return self.push", "must return"),
         ("scene.py", "velocity: Any, spin: Any)", "velocity: Any)", "is called with"),
         ("scene.py", "CONTROLS = Controls(", "CONTROLS = dict(", "CONTROLS must be a sandbox.controls.Controls"),
         (

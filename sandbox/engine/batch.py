@@ -18,15 +18,16 @@ from sandbox.engine.accuracy import Accuracy
 from sandbox.engine.arc import Arc, through
 from sandbox.engine.arc_rows import COLUMNS, ArcRows
 from sandbox.engine.bernstein_many import until
+from sandbox.engine.event import Event
 from sandbox.engine.impacts import STILL
 from sandbox.engine.lanes import Lanes
 from sandbox.engine.lasting import leaves_at
 from sandbox.engine.motion import FIRST_STEP, LOCAL_SHARE, LONGEST, SPIN_WEIGHT
 from sandbox.engine.outlines import Outlines
-from sandbox.engine.run import Event, Numerics, Run
+from sandbox.engine.run import Numerics, Run
 from sandbox.engine.setup import Bounce, Setup, Surface, possible
 from sandbox.engine.simulation import Simulation
-from sandbox.engine.stacking import Stack, structure
+from sandbox.engine.stacking import Alike, chosen, stacked
 from sandbox.physics.integrators import INTEGRATORS, Acceleration, State
 
 #: Fewer shots than this are quicker one at a time: a round of arrays costs as much as some thirty steps.
@@ -48,21 +49,15 @@ def simulate_many(setups: Sequence[Setup], accuracy: Accuracy) -> Iterator[Run |
     As ``simulate`` one by one, to rounding; much quicker for setups that are alike. Forces are called with arrays,
     shape (n,), for time, position, velocity and spin; where one cannot take them, its shots run one at a time.
     """
-    groups: dict[Hashable, tuple[list[int], list[list[float]]]] = {}
+    groups: dict[Hashable, list[int]] = {}
+    alike = Alike()
     for number, setup in enumerate(setups):
         if flies_in_batches(setup, accuracy):
-            floats: list[float] = []
-            try:
-                kind = _kind(setup, floats)
-            except ValueError:
-                continue  # a function refers to what is not there yet
-            members, numbers = groups.setdefault(kind, ([], []))
-            members.append(number)
-            numbers.append(floats)
+            groups.setdefault(_kind(setup, alike), []).append(number)
     batch_of: dict[int, Iterator[Run | Exception]] = {}
-    for members, numbers in groups.values():
+    for members in groups.values():
         if len(members) >= _FEWEST:
-            batch = _Batch([setups[member] for member in members], numbers, accuracy)
+            batch = _Batch([setups[member] for member in members], accuracy)
             try:
                 batch.fly()
             except _OnlyFloats:
@@ -79,11 +74,11 @@ def _one(setup: Setup, accuracy: Accuracy) -> Run | Exception:
         return error
 
 
-def _kind(setup: Setup, floats: list[float]) -> Hashable:
-    """Setups of one kind differ in numbers only; ``floats`` receives those of the forces."""
+def _kind(setup: Setup, alike: Alike) -> Hashable:
+    """What setups of one batch have in common: they differ in numbers only, and in their laws of impacts."""
     ball = setup.balls[0]
     shapes = tuple((type(surface.shape), surface.name) for surface in setup.surfaces)
-    return ball.name, shapes, len(setup.patches), structure((tuple(ball.forces), tuple(ball.torques)), floats)
+    return ball.name, shapes, len(setup.patches), alike.key((tuple(ball.forces), tuple(ball.torques)))
 
 
 def _answer(surface: Surface, approach: float, along: float) -> Bounce | None:
@@ -121,13 +116,13 @@ class _Left(NamedTuple):
 class _Batch:
     """Shots that fly together. Arrays have one entry for each shot still in flight, or rows of them."""
 
-    def __init__(self, setups: Sequence[Setup], numbers: Sequence[Sequence[float]], accuracy: Accuracy) -> None:
+    def __init__(self, setups: Sequence[Setup], accuracy: Accuracy) -> None:
         self._setups = setups
         self._accuracy = accuracy
         self._local_error = accuracy.tolerance * LOCAL_SHARE
         self._step = INTEGRATORS[accuracy.integrator].step
         balls = [setup.balls[0] for setup in setups]
-        self._stack = Stack((tuple(balls[0].forces), tuple(balls[0].torques)), numbers)
+        self._stack = stacked([(tuple(ball.forces), tuple(ball.torques)) for ball in balls])
         self._outlines = Outlines(setups)
         self._lanes = Lanes()
         self._events: list[list[Event]] = [[] for _ in setups]
@@ -182,7 +177,7 @@ class _Batch:
 
     def _gather(self) -> None:
         """What belongs to the shots in flight."""
-        self._forces, self._torques = self._stack.of(self._shot)
+        self._forces, self._torques = chosen(self._stack, self._shot)
         self._m = self._mass[self._shot]
         self._inertia = self._factor[self._shot] * self._m * self._radius[self._shot] ** 2
 

@@ -17,8 +17,9 @@ import pymunk
 
 from sandbox.engine.accuracy import Accuracy
 from sandbox.engine.arc import Arc
+from sandbox.engine.event import Event
 from sandbox.engine.motion import Diverged, misused
-from sandbox.engine.run import Event, Numerics, Run
+from sandbox.engine.run import Numerics, Run
 from sandbox.engine.setup import Ball, Bounce, Circle, Setup, Surface, possible
 from sandbox.physics.cloth import ClothState
 from sandbox.physics.integrators import State

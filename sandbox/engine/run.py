@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from sandbox.engine.arc import Arc
 from sandbox.engine.bernstein import downward_crossings
+from sandbox.engine.event import Event
 from sandbox.errors import RequestError
 from sandbox.physics.integrators import State
 
@@ -18,23 +19,6 @@ if TYPE_CHECKING:
     from sandbox.engine.accuracy import Accuracy
     from sandbox.engine.arc_rows import ArcRows
     from sandbox.engine.setup import Setup, Vector
-
-
-@dataclass(frozen=True, slots=True)
-class Event:
-    """Something that happened to a ball at one instant.
-
-    ``kind`` is ``"impact"`` (``speed`` is the normal approach speed in m/s), ``"contact"`` (from here on it slides or
-    rolls on the surface), ``"leave"`` (it lost the surface), ``"rest"``, or a kind of the scene's own.
-    """
-
-    t: float  # s
-    kind: str
-    ball: str
-    partner: str  # name of the surface or of the other ball; "" where there is none
-    speed: float  # m/s
-    x: float  # m, the ball's centre
-    y: float  # m
 
 
 @dataclass(slots=True)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 from sandbox.errors import RunError
 
 if TYPE_CHECKING:
-    from sandbox.engine.run import Event
+    from sandbox.engine.event import Event
     from sandbox.physics.cloth import Cloth
 
 Vector = tuple[float, float]
@@ -166,8 +166,18 @@ class Patch(NamedTuple):
         return min(x) <= self.right and max(x) >= self.left and min(y) <= self.top and max(y) >= self.bottom
 
 
+@dataclass(frozen=True)
+class Always:
+    """The same bounce at any speed."""
+
+    bounce: Bounce
+
+    def __call__(self, normal_speed: float, slip_speed: float) -> Bounce:
+        return self.bounce
+
+
 #: Elastic and frictionless: what two balls do where a scene says nothing.
-ELASTIC = Bounce(1.0, 0.0)
+ELASTIC = Always(Bounce(1.0, 0.0))
 
 
 class Bounds(NamedTuple):
@@ -183,6 +193,7 @@ class Bounds(NamedTuple):
 class Setup:
     """One run's beginning. It is over when all balls rest, when ``until(event)`` is true, or after ``duration`` s.
 
+    It is data: made of dataclasses, tuples and functions of a module, it can be pickled, compared and stacked.
     ``between_balls(normal_speed, slip_speed)`` says how two balls answer each other. With ``cloth`` the balls are
     seen from above, sliding and rolling on it in closed form; their own forces play no part then.
     """
@@ -191,7 +202,7 @@ class Setup:
     surfaces: Sequence[Surface] = ()
     duration: float = 60.0  # s
     until: Callable[[Event], bool] | None = None
-    between_balls: Callable[[float, float], Bounce] = lambda normal_speed, slip_speed: ELASTIC
+    between_balls: Callable[[float, float], Bounce] = ELASTIC
     cloth: Cloth | None = None
     catches: Sequence[Catch] = ()
     bounds: Bounds = Bounds()

@@ -14,11 +14,12 @@ from time import perf_counter
 from sandbox.engine.accuracy import Accuracy
 from sandbox.engine.arc import Arc, still
 from sandbox.engine.contacts import Contacts
+from sandbox.engine.event import Event
 from sandbox.engine.impacts import Impacts
 from sandbox.engine.lasting import InPlane
 from sandbox.engine.motion import RESTING, Contact, Diverged, Mover
 from sandbox.engine.on_cloth import OnCloth, slowest_hop
-from sandbox.engine.run import Event, Numerics, Run
+from sandbox.engine.run import Numerics, Run
 from sandbox.engine.setup import Ball, Circle, Setup, Surface
 from sandbox.engine.touch import CONTACT, Obstacle, balls_touch
 from sandbox.engine.track import Motion, Track

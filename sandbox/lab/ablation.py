@@ -252,12 +252,22 @@ def _on_surfaces(setup: Setup, change: Callable[[Surface], Surface]) -> Setup:
     return replace(setup, surfaces=[change(surface) for surface in setup.surfaces])
 
 
+@dataclass(frozen=True)
+class _LawWithout:
+    """A law of impacts that leaves one thing out."""
+
+    law: Callable[[float, float], Bounce]
+    field: str
+
+    def __call__(self, normal_speed: float, slip_speed: float) -> Bounce:
+        return self.law(normal_speed, slip_speed)._replace(**{self.field: 0.0})
+
+
 def _without_field(field: str) -> Callable[[Surface], Surface]:
     def change(surface: Surface) -> Surface:
-        law = surface.law
-        if field != "friction" or law is None:
+        if field != "friction" or surface.law is None:
             return replace(surface, **{field: 0.0})  # type: ignore[arg-type]
-        return replace(surface, friction=0.0, law=lambda normal, along: law(normal, along)._replace(friction=0.0))
+        return replace(surface, friction=0.0, law=_LawWithout(surface.law, "friction"))
 
     return change
 
@@ -271,19 +281,11 @@ def _without_law(surface: Surface) -> Surface:
 
 
 def _without_tilt(surface: Surface) -> Surface:
-    law = surface.law
-    if law is None:
-        return surface
-    return replace(surface, law=lambda normal, along: law(normal, along)._replace(tilt=0.0))
+    return surface if surface.law is None else replace(surface, law=_LawWithout(surface.law, "tilt"))
 
 
 def _without_throw(setup: Setup) -> Setup:
-    law = setup.between_balls
-
-    def smooth(normal_speed: float, slip_speed: float) -> Bounce:
-        return law(normal_speed, slip_speed)._replace(friction=0.0)
-
-    return replace(setup, between_balls=smooth)
+    return replace(setup, between_balls=_LawWithout(setup.between_balls, "friction"))
 
 
 def _on_cloth(setup: Setup, field: str) -> Setup:

@@ -12,7 +12,7 @@ from sandbox import parameters as declared
 from sandbox.engine.setup import Ball, Bounce, Circle, Force, Segment, Setup, Surface
 from sandbox.lab.ablation import with_changes
 from sandbox.lab.verdicts import aimed_by
-from sandbox.physics.coefficients import constant
+from sandbox.physics.coefficients import Constant
 from sandbox.physics.forces import Drag, Gravity, Magnus
 from sandbox.scene import Scene
 
@@ -215,7 +215,7 @@ def _spinning(rpm: float, friction: float) -> Setup:
 def _bullet() -> Setup:
     """9 mm and 8 g at 340 m/s: water takes half its speed within 35 cm."""
     radius, density = 0.0045, 1000.0
-    drag, lift = Drag(radius, density, constant(0.5)), Magnus(radius, density, constant(0.1))
+    drag, lift = Drag(radius, density, Constant(0.5)), Magnus(radius, density, Constant(0.1))
     forces: list[Force] = [Gravity(0.008, 9.81), drag, lift]
     return _lone(Ball("ball", 0.008, radius, (0.0, 1.0), (340.0, 0.0), 100.0, forces=forces), [], 5.0)
 

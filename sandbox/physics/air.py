@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field
 from typing import Any
 
 from sandbox.physics.elementwise import clip, log
@@ -20,16 +21,18 @@ def viscosity(temperature: float) -> float:
 VISCOSITY = viscosity(288.15)
 
 
+@dataclass(frozen=True)
 class UniformWind:
     """The same wind everywhere, at all times, in m/s."""
 
-    def __init__(self, x: float, y: float) -> None:
-        self._velocity = (x, y)
+    x: float
+    y: float
 
     def __call__(self, t: float, position: Any) -> tuple[Any, Any]:
-        return self._velocity
+        return self.x, self.y
 
 
+@dataclass(frozen=True)
 class LogWind:
     """Wind that grows with height over rough ground: ``w(y) = w_ref ln(1 + y/y0) / ln(1 + y_ref/y0)``.
 
@@ -39,15 +42,18 @@ class LogWind:
     keeps it finite at the ground.
     """
 
-    def __init__(
-        self, reference: tuple[float, float], reference_height: float, roughness: float, ceiling: float = 100.0
-    ) -> None:
-        scale = float(log(1.0 + reference_height / roughness))
-        self._x = reference[0] / scale
-        self._y = reference[1] / scale
-        self._roughness = roughness
-        self._ceiling = ceiling
+    reference: tuple[float, float]  # m/s
+    reference_height: float  # m
+    roughness: float  # m
+    ceiling: float = 100.0  # m
+    _x: float = field(init=False, repr=False)
+    _y: float = field(init=False, repr=False)
+
+    def __post_init__(self) -> None:
+        scale = log(1.0 + self.reference_height / self.roughness)
+        object.__setattr__(self, "_x", self.reference[0] / scale)
+        object.__setattr__(self, "_y", self.reference[1] / scale)
 
     def __call__(self, t: float, position: Any) -> tuple[Any, Any]:
-        profile = log(1.0 + clip(position[1], 0.0, self._ceiling) / self._roughness)
+        profile = log(1.0 + clip(position[1], 0.0, self.ceiling) / self.roughness)
         return self._x * profile, self._y * profile

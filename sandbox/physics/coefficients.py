@@ -11,6 +11,7 @@ formula was read in a quotation, not in the paper.
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from typing import Any
 
 from sandbox.physics.elementwise import clip, exp, sin
@@ -19,13 +20,25 @@ from sandbox.physics.elementwise import clip, exp, sin
 Coefficient = Callable[[Any, Any], Any]
 
 
-def constant(value: float) -> Coefficient:
+@dataclass(frozen=True)
+class Constant:
     """The same at any speed and spin."""
 
-    def coefficient(reynolds: Any, spin_ratio: Any) -> Any:
-        return value
+    value: float
 
-    return coefficient
+    def __call__(self, reynolds: Any, spin_ratio: Any) -> Any:
+        return self.value
+
+
+@dataclass(frozen=True)
+class Scaled:
+    """``share`` times another coefficient."""
+
+    coefficient: Coefficient
+    share: float
+
+    def __call__(self, reynolds: Any, spin_ratio: Any) -> Any:
+        return self.share * self.coefficient(reynolds, spin_ratio)
 
 
 def spin_ratio_lift(reynolds: Any, spin_ratio: Any) -> Any:

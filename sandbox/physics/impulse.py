@@ -1,4 +1,4 @@
-"""The textbook collision formulas, in closed form: what pymunk's contacts are checked against."""
+"""A club head meets a ball, in closed form."""
 
 from __future__ import annotations
 

@@ -13,6 +13,7 @@ middle of the ring to 5.1 cm beyond it.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from itertools import pairwise
 from math import atan2, cos, degrees, hypot, pi, radians, sin
 from typing import Any
@@ -138,6 +139,7 @@ TIRED = 3.0
 BRACKET_SHARE = 0.5
 
 
+@dataclass(frozen=True)
 class NetDrag:
     """The net around a ball that passes through: ``F = -m k (4 vx, vy)`` inside a box below the ring, k in 1/s.
 
@@ -151,11 +153,11 @@ class NetDrag:
     #: The way in m over which the net takes hold, and lets go.
     EDGE = 0.05
 
-    def __init__(self, mass: float, damping: float, middle: Vector, half_width: float, length: float) -> None:
-        self._strength = mass * damping
-        self._middle = middle
-        self._half_width = half_width
-        self._length = length
+    mass: float  # kg
+    damping: float  # 1/s
+    middle: Vector  # m
+    half_width: float  # m
+    length: float  # m
 
     @classmethod
     def patch(cls, middle: Vector, half_width: float, length: float) -> Patch:
@@ -165,12 +167,12 @@ class NetDrag:
 
     def __call__(self, t: float, position: Any, velocity: Any, spin: Any) -> tuple[Any, Any]:
         x, y = position
-        depth = self._middle[1] - y
-        inside = self._half_width - abs(x - self._middle[0])
+        depth = self.middle[1] - y
+        inside = self.half_width - abs(x - self.middle[0])
         hold = (
-            _smooth(depth / self.EDGE) * _smooth((self._length - depth) / self.EDGE) * _smooth(1.0 + inside / self.EDGE)
+            _smooth(depth / self.EDGE) * _smooth((self.length - depth) / self.EDGE) * _smooth(1.0 + inside / self.EDGE)
         )
-        k = -self._strength * hold
+        k = -self.mass * self.damping * hold
         return self.HOLD * k * velocity[0], k * velocity[1]
 
 

@@ -16,6 +16,7 @@ from __future__ import annotations
 
 import random
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from itertools import combinations
 from math import cos, hypot, pi, radians, sin, sqrt
 from typing import Any, Literal
@@ -25,7 +26,7 @@ from pydantic import Field
 from sandbox.controls import Controls, Spin, Spread
 from sandbox.engine.on_cloth import slowest_hop
 from sandbox.engine.run import Event, Run
-from sandbox.engine.setup import Ball, Bounce, Setup, Vector
+from sandbox.engine.setup import Always, Ball, Bounce, Setup, Vector
 from sandbox.engine.touch import Obstacle
 from sandbox.errors import RequestError
 from sandbox.parameters import Accuracy, Group, choice, either, group, groups, quantity
@@ -249,9 +250,18 @@ def struck(parameters: Parameters) -> tuple[Vector, float, Vector]:
 
 def _between_balls(ball: BallParameters) -> Callable[[float, float], Bounce]:
     if ball.friction_law == "speed":
-        return lambda normal_speed, slip_speed: Bounce(ball.restitution, friction_by_speed(slip_speed))
-    always = Bounce(ball.restitution, ball.friction)
-    return lambda normal_speed, slip_speed: always
+        return SlowerThrowsMore(ball.restitution)
+    return Always(Bounce(ball.restitution, ball.friction))
+
+
+@dataclass(frozen=True)
+class SlowerThrowsMore:
+    """Two balls whose friction falls with the speed of the one surface over the other."""
+
+    restitution: float
+
+    def __call__(self, normal_speed: float, slip_speed: float) -> Bounce:
+        return Bounce(self.restitution, friction_by_speed(slip_speed))
 
 
 # ------------------------------------------------------------------------------------------------------------- result

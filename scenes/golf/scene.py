@@ -12,7 +12,7 @@ moisture of the grass.
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from math import atan2, cos, degrees, hypot, inf, pi, radians, sin, sqrt
 from typing import Any, Literal
@@ -25,6 +25,7 @@ from sandbox.errors import RequestError
 from sandbox.parameters import Accuracy, Group, choice, either, group, groups, quantity, vectors
 from sandbox.physics import coefficients
 from sandbox.physics.forces import Drag, Gravity, Magnus, SpinDecay
+from sandbox.physics.impulse import club_on_ball
 from sandbox.physics.turf import penner_bounce, penner_restitution, stimp_resistance
 
 RPM = pi / 30.0  # rad/s
@@ -220,16 +221,13 @@ def build(parameters: Parameters) -> Setup:
 def launched(parameters: Parameters) -> tuple[tuple[float, float], float]:
     """Velocity (m/s) and spin (rad/s, counter-clockwise) of the ball as it leaves the tee."""
     if parameters.start == "club":
-        # here, not above: it brings pymunk, which reading a scene does not need
-        from sandbox.engine.strike import strike
-
         club, ball = parameters.club, parameters.ball
         if club.loft - club.attack > 90.0:
             raise RequestError(
                 f"club.attack = {club.attack:g} deg: with club.loft = {club.loft:g} deg "
                 "the face moves away from the ball"
             )
-        struck = strike(
+        struck = club_on_ball(
             club.speed,
             radians(club.loft),
             club.mass,
@@ -251,13 +249,13 @@ def _is_in_water(event: Event) -> bool:
 
 def _drag_coefficient(drag: GolfDrag | ConstantDrag) -> coefficients.Coefficient:
     if isinstance(drag, ConstantDrag):
-        return coefficients.constant(drag.coefficient)
+        return coefficients.Constant(drag.coefficient)
     return coefficients.GOLF_DRAG[drag.model]
 
 
 def _lift_coefficient(lift: GolfLift | SpinRatioLift | ConstantLift) -> coefficients.Coefficient:
     if isinstance(lift, ConstantLift):
-        return coefficients.constant(lift.coefficient)
+        return coefficients.Constant(lift.coefficient)
     if isinstance(lift, SpinRatioLift):
         return coefficients.spin_ratio_lift
     return coefficients.GOLF_LIFT[lift.model]
@@ -338,16 +336,25 @@ def _course(parameters: Parameters) -> list[Surface]:
     return surfaces
 
 
+@dataclass(frozen=True)
+class PennerTurf:
+    """How turf answers an impact: Penner's restitution times ``bounce``, and a tilt times ``give``."""
+
+    bounce: float
+    friction: float
+    give: float
+
+    def __call__(self, normal_speed: float, tangential_speed: float) -> Bounce:
+        restitution, tilt = penner_bounce(normal_speed, tangential_speed, self.give)
+        return Bounce(min(1.0, self.bounce * restitution), self.friction, tilt)
+
+
 def _turf(parameters: Parameters, kind: str, a: tuple[float, float], b: tuple[float, float]) -> Surface:
     if kind == "water":
         return Surface("water", Segment(a, b), 0.0, 0.0)
     turf: Turf | Green = getattr(parameters.ground, kind)
     resistance = stimp_resistance(turf.stimp) if isinstance(turf, Green) else turf.resistance
-
-    def law(normal_speed: float, tangential_speed: float) -> Bounce:
-        restitution, tilt = penner_bounce(normal_speed, tangential_speed, turf.give)
-        return Bounce(min(1.0, turf.bounce * restitution), turf.friction, tilt)
-
+    law = PennerTurf(turf.bounce, turf.friction, turf.give)
     slow = min(1.0, turf.bounce * penner_restitution(0.0))
     return Surface(kind, Segment(a, b), slow, turf.friction, resistance, LOWEST_BOUNCE, law)
 

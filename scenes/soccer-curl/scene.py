@@ -27,7 +27,7 @@ from sandbox.aerodynamics import (
 )
 from sandbox.controls import Controls, Spin, Spread
 from sandbox.engine.run import Event, Run
-from sandbox.engine.setup import HOLLOW_SPHERE, Ball, Bounce, Circle, Segment, Setup, Surface, Vector
+from sandbox.engine.setup import HOLLOW_SPHERE, Always, Ball, Bounce, Circle, Segment, Setup, Surface, Vector
 from sandbox.errors import RequestError
 from sandbox.parameters import Accuracy, Group, choice, either, group, quantity, switch
 from sandbox.physics.coefficients import SOCCER_DRAG, SOCCER_LIFT
@@ -168,7 +168,7 @@ def build(parameters: Parameters) -> Setup:
         _pitch(parameters),
         duration=min(LONGEST, PATIENCE * needed + MOMENT),
         until=_is_over,
-        between_balls=lambda normal_speed, tangential_speed: Bounce(keeper.restitution, keeper.friction),
+        between_balls=Always(Bounce(keeper.restitution, keeper.friction)),
     )
 
 

@@ -11,6 +11,7 @@ published for soccer), the dipping free kick would come 1.2 cm higher to the goa
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from itertools import pairwise
 from math import cos, hypot, pi, radians, sin
 from typing import Any, Literal
@@ -144,13 +145,6 @@ def build(parameters: Parameters) -> Setup:
     forces = aerodynamic_forces(parameters.air, ball.radius, ball.drag, ball.lift, SOCCER_DRAG | SOCCER_LIFT)
     if parameters.gravity > 0.0:
         forces.append(Gravity(ball.mass, parameters.gravity))
-    beyond = _beyond(parameters)
-
-    def out_of_play(event: Event) -> bool:
-        if event.partner == "boards":
-            return True
-        return event.partner == "ground" and not BOARDS_BEHIND < event.x < beyond
-
     kicked = Ball(
         "ball",
         ball.mass,
@@ -161,7 +155,19 @@ def build(parameters: Parameters) -> Setup:
         inertia_factor=HOLLOW_SPHERE,
         forces=forces,
     )
-    return Setup([kicked], _pitch(parameters), duration=LONGEST, until=out_of_play)
+    return Setup([kicked], _pitch(parameters), duration=LONGEST, until=OutOfPlay(_beyond(parameters)))
+
+
+@dataclass(frozen=True)
+class OutOfPlay:
+    """The ball reaches the boards, or the ground on their other side."""
+
+    beyond: float  # m, place of the boards behind the goal
+
+    def __call__(self, event: Event) -> bool:
+        if event.partner == "boards":
+            return True
+        return event.partner == "ground" and not BOARDS_BEHIND < event.x < self.beyond
 
 
 def _check(parameters: Parameters) -> None:

@@ -7,7 +7,7 @@ from math import cos, pi, radians, sin
 import numpy as np
 
 from sandbox.engine.setup import HOLLOW_SPHERE, Ball, Circle, Segment, Setup, Surface
-from sandbox.physics.coefficients import constant
+from sandbox.physics.coefficients import Constant
 from sandbox.physics.forces import Drag, Gravity, Magnus
 from tests.engine.reference import Bar, Disc
 
@@ -43,8 +43,8 @@ def setup(speed: float, angle: float, spin: float, duration: float) -> Setup:
         inertia_factor=HOLLOW_SPHERE,
         forces=[
             Gravity(MASS, GRAVITY),
-            Drag(RADIUS, DENSITY, constant(DRAG)),
-            Magnus(RADIUS, DENSITY, constant(LIFT)),
+            Drag(RADIUS, DENSITY, Constant(DRAG)),
+            Magnus(RADIUS, DENSITY, Constant(LIFT)),
         ],
     )
     return Setup([ball], SURFACES, duration=duration)

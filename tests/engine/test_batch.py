@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections import OrderedDict
+import pickle
 from collections.abc import Callable
-from functools import lru_cache, partial
+from dataclasses import dataclass, field, replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -19,16 +20,17 @@ from sandbox.engine.accuracy import Accuracy, resolve
 from sandbox.engine.arc import Arc, through
 from sandbox.engine.arc_rows import ArcRows
 from sandbox.engine.contacts import Contact, Contacts, Moving
+from sandbox.engine.event import Event
 from sandbox.engine.lanes import Lanes
 from sandbox.engine.outlines import Outlines
-from sandbox.engine.run import Event, Numerics, Run
+from sandbox.engine.run import Numerics, Run
 from sandbox.engine.setup import Ball, Bounce, Bounds, Circle, Patch, Segment, Setup, Surface
-from sandbox.engine.stacking import Stack, structure
+from sandbox.engine.stacking import Alike, chosen, stacked
 from sandbox.engine.touch import Obstacle
 from sandbox.errors import RunError
-from sandbox.physics.coefficients import constant
+from sandbox.physics.coefficients import Constant
 from sandbox.physics.forces import Drag, Gravity
-from sandbox.scene import load
+from sandbox.scene import listings, load
 
 #: Positions and times before the first impact, in m and s.
 EQUAL = 1e-9
@@ -38,7 +40,7 @@ POST = Surface("post", Circle((3.0, 1.0), 0.1), 0.6, 0.3)
 
 
 def thrown(speed: float = 5.0, angle: float = 0.6, extra: Any = None, **others: Any) -> Setup:
-    forces = [Gravity(0.6, 9.81), Drag(0.12, 1.2, constant(0.5)), *([] if extra is None else [extra])]
+    forces = [Gravity(0.6, 9.81), Drag(0.12, 1.2, Constant(0.5)), *([] if extra is None else [extra])]
     velocity = (speed * math.cos(angle), speed * math.sin(angle))
     ball = Ball("ball", 0.6, 0.12, (0.0, 2.0), velocity, -5.0, forces=forces)
     return Setup([ball], [FLOOR, POST], **{"duration": 4.0, **others})
@@ -415,69 +417,81 @@ def test_a_side_that_is_first_passed_beyond_its_end_is_touched_after_all():
         assert u == pytest.approx(math.inf if expected is None else expected, abs=1e-12)
 
 
+@dataclass(frozen=True)
 class Spring:
-    def __init__(self, stiffness: float, law: Any, places: dict[str, Any]) -> None:
-        self.stiffness = stiffness
-        self.law = law
-        self.places = places
+    stiffness: float
+    law: Any
+    far: tuple[float, float]
 
     def __call__(self, x: Any) -> Any:
-        return self.stiffness * self.law(x) + self.places["far"][1]
+        return self.stiffness * self.law(x) + self.far[1]
 
 
-def spring(stiffness: float, power: float, far: float) -> Spring:
-    def law(x: Any, offset: float = far, *, shift: float = 2.0 * far) -> Any:
-        return power * x + offset + shift
+@dataclass(frozen=True)
+class Power:
+    factor: float
+    squared: float = field(init=False)
 
-    return Spring(stiffness, law, {"far": (1.0, far)})
+    def __post_init__(self) -> None:
+        if not self.factor >= 0.0:
+            raise ValueError(self.factor)
+        object.__setattr__(self, "squared", self.factor**2)
+
+    def __call__(self, x: Any) -> Any:
+        return self.squared * x
 
 
-def test_what_is_built_alike_is_stacked():
-    springs = [spring(1.0 + i, 2.0 * i, 0.1 * i) for i in range(5)]
-    numbers: list[list[float]] = [[] for _ in springs]
-    kinds = {structure(one, floats) for one, floats in zip(springs, numbers, strict=True)}
-    assert len(kinds) == 1
-    stack = Stack(springs[0], numbers)
-    chosen = np.array([3, 1])
+def test_data_is_stacked_field_by_field_and_unstacked_again():
+    springs = [Spring(1.0 + i, Power(2.0 * i), (1.0, 0.1 * i)) for i in range(5)]
+    alike = Alike()
+    assert len({alike.key(spring) for spring in springs}) == 1
+    stack = stacked(springs)
     x = np.array([0.5, 0.7])
-    assert stack.of(chosen)(x).tolist() == [springs[3](0.5), springs[1](0.7)]
-    assert springs[0](0.5) == 0.0  # left as it was
+    some = chosen(stack, np.array([3, 1]))
+    assert some(x).tolist() == [springs[3](0.5), springs[1](0.7)]
+    assert stack.far[0] == 1.0  # the same everywhere: a number still
+    for place, spring in enumerate(springs):
+        assert chosen(stack, np.intp(place)) == spring
+
+
+def test_what_does_not_differ_is_not_copied():
+    one = Spring(1.0, Power(2.0), (1.0, 3.0))
+    assert stacked([one, Spring(1.0, one.law, (1.0, 3.0))]).law is one.law
+    assert stacked([one, one]) is one
+    assert chosen(one, np.array([0])) is one
 
 
 class Pull:
     def __init__(self, stiffness: float) -> None:
         self.stiffness = stiffness
 
-    def back(self, x: Any) -> Any:
-        return -self.stiffness * x
 
-
-class Row(list[float]):
-    pass
-
-
-def test_what_cannot_be_looked_into_is_alike_only_if_it_is_one():
-    makers = (
-        lambda k: Pull(k).back,
-        lambda k: partial(pow, k),
-        lambda k: Row([k]),
-        lambda k: OrderedDict(k=k),
-        lambda k: lru_cache(lambda x: k * x),
-    )
-    for make in makers:
+def test_what_is_no_data_is_alike_only_if_it_is_one():
+    for make in (Pull, lambda k: partial(pow, k), lambda k: lambda x: k * x, lambda k: {"k": k}, lambda k: {k}):
         one, other = make(1.0), make(2.0)
-        assert structure(one, []) != structure(other, [])
-        numbers: list[float] = []
-        assert structure(one, numbers) == structure(one, [])
-        assert numbers == []
-        assert Stack(one, [[], []]).of(np.array([0, 1])) is one
-    assert structure(np, []) == structure(np, [])  # and not all that is in it
+        alike = Alike()
+        assert alike.key((one,)) != alike.key((other,))
+        assert alike.key((one,)) == alike.key((one,))
 
 
-def test_what_is_built_otherwise_is_not():
-    assert structure(spring(1.0, 2.0, 3.0), []) != structure(Spring(1.0, abs, {"far": (1.0, 3.0)}), [])
-    assert structure((1, 2.0), []) != structure((2, 2.0), [])  # only floats may differ
-    assert structure([1.0], []) != structure([1.0, 1.0], [])
+def test_what_is_built_otherwise_is_not_alike():
+    alike = Alike()
+    spring = Spring(1.0, Power(1.0), (1.0, 3.0))
+    for other in (Spring(1.0, abs, (1.0, 3.0)), replace(spring, far=(1.0, 3.0, 2.0)), replace(spring, stiffness="1.0")):
+        assert alike.key(spring) != alike.key(other)
+    assert alike.key((True, "a")) != alike.key((False, "a"))
+    assert alike.key((1, 2.0)) == alike.key((2, 2))  # whole numbers are numbers
+
+
+@pytest.mark.parametrize("name", [listing.name for listing in listings()])
+def test_setups_of_all_scenes_are_data(name: str):
+    """They can be pickled, compared and stacked."""
+    setup = load(name).build()
+    again = load(name).build()
+    assert pickle.loads(pickle.dumps(setup)) == setup == again
+    alike = Alike()
+    assert alike.key(setup) == alike.key(again)
+    assert stacked([setup, again]) == setup
 
 
 def test_rows_are_the_arcs_they_were_made_from():

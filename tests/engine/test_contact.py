@@ -14,7 +14,7 @@ from sandbox.engine.setup import Ball, Bounce, Circle, Segment, Setup, Surface
 from sandbox.engine.simulation import Stalled
 from sandbox.engine.touch import Obstacle
 from sandbox.errors import RequestError
-from sandbox.physics.coefficients import constant
+from sandbox.physics.coefficients import Constant
 from sandbox.physics.forces import Drag, Gravity
 
 G = 9.81
@@ -54,7 +54,7 @@ def inside(run, half, radius):
 def test_nothing_leaves_a_box_with_thin_walls(speed, direction, spin, radius, density, level):
     forces = [Gravity(0.3, G)]
     if density:
-        forces.append(Drag(radius, density, constant(0.4)))
+        forces.append(Drag(radius, density, Constant(0.4)))
     shot = Ball("ball", 0.3, radius, (0.1, -0.2), (speed * cos(direction), speed * sin(direction)), spin, forces=forces)
     run = simulate(Setup([shot], box(0.5), duration=0.3), resolve(level))
     assert inside(run, 0.5, radius)

@@ -9,7 +9,7 @@ import pytest
 from sandbox.engine import simulate
 from sandbox.engine.accuracy import resolve
 from sandbox.engine.setup import DISC, HOLLOW_SPHERE, SOLID_SPHERE, Ball, Bounce, Circle, Segment, Setup, Surface
-from sandbox.physics.coefficients import constant
+from sandbox.physics.coefficients import Constant
 from sandbox.physics.forces import Drag, Gravity, Magnus
 
 G = 9.81
@@ -63,7 +63,7 @@ def test_vacuum_range():
 
 def drag_of_a_falling_ball():
     mass, radius, density, cd = 0.145, 0.0366, 1.2, 0.4
-    forces = [Gravity(mass, G), Drag(radius, density, constant(cd))]
+    forces = [Gravity(mass, G), Drag(radius, density, Constant(cd))]
     terminal = sqrt(2 * mass * G / (density * cd * pi * radius**2))
     return mass, radius, forces, terminal
 
@@ -89,7 +89,7 @@ def test_thrown_up_it_returns_slower():
 def test_constant_lift_flies_a_circle_even_with_drag():
     """Radius 2 m / (rho A Cl) at any speed: after an arc length s the direction has turned by s / radius."""
     mass, radius, density, cl, cd = 0.1, 0.05, 1.2, 0.3, 0.2
-    lift, drag = Magnus(radius, density, constant(cl)), Drag(radius, density, constant(cd))
+    lift, drag = Magnus(radius, density, Constant(cl)), Drag(radius, density, Constant(cd))
     run = fly(Ball("ball", mass, radius, (0.0, 0.0), (30.0, 0.0), spin=50.0, forces=[lift, drag]), 3.0)
     circle = 2 * mass / (density * pi * radius**2 * cl)
     for t in (0.5, 1.7, 3.0):

@@ -14,7 +14,7 @@ from sandbox.engine.motion import Diverged
 from sandbox.engine.setup import Ball, Bounce, Bounds, Segment, Setup, Surface
 from sandbox.errors import RequestError, RunError
 from sandbox.physics.cloth import Cloth
-from sandbox.physics.coefficients import constant
+from sandbox.physics.coefficients import Constant
 from sandbox.physics.forces import Drag, Gravity
 from sandbox.physics.integrators import INTEGRATORS
 
@@ -54,7 +54,7 @@ def test_an_error_in_a_users_force_comes_out_with_its_own_traceback(accuracy):
 def bullet_in_water(velocity=(300.0, 0.0)):
     """1 g, 1 cm across, drag coefficient 0.5 at 1,000 kg/m^3: the drag's own time is 8 microseconds at first."""
     return Ball(
-        "bullet", 1e-3, 0.005, (0.0, 0.0), velocity, forces=[Gravity(1e-3, G), Drag(0.005, 1000.0, constant(0.5))]
+        "bullet", 1e-3, 0.005, (0.0, 0.0), velocity, forces=[Gravity(1e-3, G), Drag(0.005, 1000.0, Constant(0.5))]
     )
 
 
@@ -76,7 +76,7 @@ def test_stiff_drag_is_stable_and_never_turns_the_motion_round(accuracy):
 def test_stiff_drag_at_a_fixed_step_takes_smaller_steps_where_it_must():
     run = simulate(Setup([bullet_in_water()], duration=0.5), resolve(integrator="rk4", step=1 / 60))
     assert run.numerics.refined_steps > 5
-    calm = simulate(Setup([shot(Drag(0.05, 1.2, constant(0.5)))], duration=0.5), resolve(integrator="rk4", step=1 / 60))
+    calm = simulate(Setup([shot(Drag(0.05, 1.2, Constant(0.5)))], duration=0.5), resolve(integrator="rk4", step=1 / 60))
     assert calm.numerics.refined_steps == 0
 
 
@@ -102,7 +102,7 @@ def test_a_users_own_force_of_position_and_time_beside_ours():
     def updraft(t, position, velocity, spin):
         return 0.0, 4.0 * np.exp(-((position[0] - 4.0) ** 2)) * (1.0 + sin(3.0 * t))
 
-    drag = Drag(0.05, 1.2, constant(0.5))
+    drag = Drag(0.05, 1.2, Constant(0.5))
     floor = Surface("floor", Segment((-50.0, 0.0), (50.0, 0.0)), 0.6, 0.3)
     with_it, without = (
         simulate(Setup([shot(*forces)], [floor], duration=2.0), resolve("precise")).state("cue", 2.0)

@@ -9,7 +9,7 @@ from sandbox.engine import simulate
 from sandbox.engine.accuracy import resolve
 from sandbox.engine.ledger import ledger
 from sandbox.engine.setup import Ball, Bounce, Segment, Setup, Surface
-from sandbox.physics.coefficients import constant
+from sandbox.physics.coefficients import Constant
 from sandbox.physics.forces import Drag, Gravity, Magnus, SpinDecay
 from tests.engine import shots
 
@@ -20,7 +20,7 @@ G = 9.81
 def bouncing():
     floor = Surface("floor", Segment((-50.0, 0.0), (50.0, 0.0)), 0.6, 0.4, 0.05)
     inertia = 0.4 * 0.2 * 0.05**2
-    forces = [Gravity(0.2, G), Drag(0.05, 1.2, constant(0.4)), Magnus(0.05, 1.2, constant(0.2))]
+    forces = [Gravity(0.2, G), Drag(0.05, 1.2, Constant(0.4)), Magnus(0.05, 1.2, Constant(0.2))]
     ball = Ball("ball", 0.2, 0.05, (0.0, 1.0), (6.0, 3.0), 20.0, forces=forces,
                 torques=[SpinDecay(inertia, 0.05, 1e-3)])  # fmt: skip
     return simulate(Setup([ball], [floor], duration=30.0), resolve("precise"))

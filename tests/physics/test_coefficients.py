@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from sandbox.physics.coefficients import (
     GOLF_DRAG,
     GOLF_LIFT,
-    constant,
+    Constant,
     lyu_drag,
     lyu_lift,
     power_law_golf_drag,
@@ -53,7 +53,7 @@ def test_there_is_no_lift_without_spin(name: str, reynolds: float):
     assert GOLF_LIFT[name](reynolds, 0.0) == 0.0
 
 
-@pytest.mark.parametrize("model", [*GOLF_DRAG.values(), *GOLF_LIFT.values(), spin_ratio_lift, constant(0.3)])
+@pytest.mark.parametrize("model", [*GOLF_DRAG.values(), *GOLF_LIFT.values(), spin_ratio_lift, Constant(0.3)])
 def test_floats_and_arrays_agree(model):
     reynolds, spin_ratio = (grid.ravel() for grid in np.meshgrid(np.linspace(0.0, 4e5, 41), np.linspace(0.0, 2.0, 41)))
     together = np.broadcast_to(model(reynolds, spin_ratio), reynolds.shape)
@@ -83,7 +83,7 @@ def test_lift_that_would_start_with_a_jump_rises_over_the_first_spin(model, edge
 
 
 def test_simple_models():
-    assert constant(0.25)(1e5, 0.3) == 0.25
+    assert Constant(0.25)(1e5, 0.3) == 0.25
     assert spin_ratio_lift(1e5, 0.3) == 0.3
 
 

@@ -10,7 +10,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from sandbox.physics.air import LogWind, UniformWind
-from sandbox.physics.coefficients import constant, spin_ratio_lift, tour_fit_drag, tour_fit_lift
+from sandbox.physics.coefficients import Constant, spin_ratio_lift, tour_fit_drag, tour_fit_lift
 from sandbox.physics.forces import Drag, Gravity, Magnus, SpinDecay
 
 RADIUS, DENSITY = 0.021335, 1.2
@@ -28,7 +28,7 @@ def test_gravity():
 
 def test_drag_by_its_formula():
     """F = -1/2 rho Cd A |u| u."""
-    fx, fy = Drag(RADIUS, DENSITY, constant(0.3))(0.0, HERE, (30.0, -40.0), 0.0)
+    fx, fy = Drag(RADIUS, DENSITY, Constant(0.3))(0.0, HERE, (30.0, -40.0), 0.0)
     size = 0.5 * DENSITY * 0.3 * pi * RADIUS**2 * 50.0
     assert (fx, fy) == pytest.approx((-size * 30.0, size * 40.0))
 
@@ -40,7 +40,7 @@ def test_lift_by_its_formula():
 
 
 def test_a_cross_section_of_its_own():
-    usual, half = Drag(RADIUS, DENSITY, constant(0.3)), Drag(RADIUS, DENSITY, constant(0.3), area=0.5 * pi * RADIUS**2)
+    usual, half = Drag(RADIUS, DENSITY, Constant(0.3)), Drag(RADIUS, DENSITY, Constant(0.3), area=0.5 * pi * RADIUS**2)
     assert half(0.0, HERE, (30.0, 0.0), 0.0)[0] == pytest.approx(0.5 * usual(0.0, HERE, (30.0, 0.0), 0.0)[0])
 
 

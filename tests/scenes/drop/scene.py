@@ -5,6 +5,7 @@ Models: gravity, bounces. Leaves out: air.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any, Literal
 
 from sandbox.engine.setup import Ball, Segment, Setup, Surface
@@ -59,14 +60,15 @@ class Parameters(Group):
     accuracy: Accuracy = group(Accuracy(), "speed against accuracy")
 
 
+@dataclass(frozen=True)
 class Gravity:
     """Force in N on a mass in kg."""
 
-    def __init__(self, mass: float, gravity: float):
-        self.weight = -mass * gravity
+    mass: float
+    gravity: float
 
     def __call__(self, t: float, position: Any, velocity: Any, spin: Any) -> tuple[Any, Any]:
-        return 0.0 * velocity[0], self.weight + 0.0 * velocity[1]
+        return 0.0 * velocity[0], -self.mass * self.gravity + 0.0 * velocity[1]
 
 
 def build(parameters: Parameters) -> Setup:
