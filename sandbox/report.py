@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 import json
 import re
 from dataclasses import asdict
@@ -10,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from sandbox.errors import RunError
 from sandbox.files import plain, written_whole
+from sandbox.text import csv_text, one_line
 
 if TYPE_CHECKING:
     from sandbox.engine.event import Event
@@ -66,10 +68,11 @@ def _event(event: Event) -> dict[str, Any]:
 def write_trajectory(run: Run, path: Path) -> None:
     """The path of every ball as CSV: ``t,ball,x,y,vx,vy,spin`` in s, m, m/s and rad/s."""
     with written_whole(path) as file:
-        file.write("t,ball,x,y,vx,vy,spin\n")
+        rows = csv.writer(file, lineterminator="\n")
+        rows.writerow(("t", "ball", "x", "y", "vx", "vy", "spin"))
         for ball in run.setup.balls:
-            for t, *state in run.trajectory(ball.name).tolist():
-                file.write(f"{t!r},{ball.name},{','.join(map(repr, state))}\n")
+            name = csv_text(ball.name)
+            rows.writerows((t, name, *state) for t, *state in run.trajectory(ball.name).tolist())
 
 
 def card(scene: Scene, run: Run, check: Check | None = None, other: tuple[str, Run] | None = None) -> list[str]:
@@ -77,7 +80,7 @@ def card(scene: Scene, run: Run, check: Check | None = None, other: tuple[str, R
 
     ``other`` is a run to compare with and what it is called: its values stand beside ours.
     """
-    rows = scene.card(run.result)
+    rows = _lines(scene.card(run.result))
     if check is not None:
         rows = [(label, _with_error(text, check.errors.get(label.replace(" ", "_")))) for label, text in rows]
     width = max((len(label) for label, _ in rows), default=0)
@@ -95,9 +98,14 @@ def card(scene: Scene, run: Run, check: Check | None = None, other: tuple[str, R
     ]
 
 
+def _lines(rows: list[tuple[str, str]]) -> list[tuple[str, str]]:
+    """Labels and texts, each on one line whatever a scene hands back."""
+    return [(one_line(str(label)), one_line(str(text))) for label, text in rows]
+
+
 def _beside(rows: list[tuple[str, str]], title: str, called: str, other: Run) -> list[tuple[str, str]]:
     """Rows with two columns, each below its name."""
-    values = dict(other.scene.card(other.result))
+    values = dict(_lines(other.scene.card(other.result)))
     rows = [("", title), *rows]
     values[""] = called
     width = max(len(text) for _, text in rows)
@@ -116,7 +124,7 @@ def _events(run: Run) -> list[str]:
 def _event_line(event: Event, several: bool) -> str:
     ball = f"{event.ball} " if several else ""
     speed = f"at {event.speed:.1f} m/s" if event.kind == "impact" else ""
-    return f"  {event.t:8.2f} s  {ball}{event.kind:8} {event.partner:10} {speed}".rstrip()
+    return one_line(f"  {event.t:8.2f} s  {ball}{event.kind:8} {event.partner:10} {speed}".rstrip())
 
 
 def _numerics(run: Run) -> str:

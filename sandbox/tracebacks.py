@@ -9,7 +9,7 @@ from pathlib import Path
 from sandbox import resources
 
 
-def of_user_code(error: Exception) -> str | None:
+def of_user_code(error: BaseException) -> str | None:
     """The traceback from the first line of a user's own code on, without lines of ours; None if it was all ours."""
     frames = traceback.extract_tb(error.__traceback__)
     first = next((index for index, frame in enumerate(frames) if not _is_ours(frame.filename)), None)

@@ -69,6 +69,11 @@ def assert_refused(outcome: Outcome, expected: str, code: int = 2) -> None:
     assert "Traceback" not in outcome.err
 
 
+def read_rows(file: Path) -> list[dict[str, str]]:
+    with file.open(newline="") as lines:
+        return list(csv.DictReader(lines))
+
+
 def full_disk(folder: Path) -> Path:
     """A device without room. root gets one of its own: a mistake in the code under test could replace the system's."""
     if not Path("/dev/full").is_char_device():
@@ -197,8 +202,7 @@ def test_trajectory(call, tmp_path: Path):
     file = tmp_path / "path.csv"
     code, out, _ = call("run", DROP, "--trajectory", file)
     assert (code, out.splitlines()[-1]) == (0, f"wrote {file}")
-    with file.open(newline="") as lines:
-        rows = list(csv.DictReader(lines))
+    rows = read_rows(file)
     assert list(rows[0]) == ["t", "ball", "x", "y", "vx", "vy", "spin"]
     assert {row["ball"] for row in rows} == {"ball"}
     run = sandbox.simulate(sandbox.load(DROP))
@@ -464,6 +468,14 @@ def test_a_link_is_written_through(call, tmp_path: Path):
         ("duration=parameters.duration", "length=parameters.duration", "TypeError: "),
         ('"m/s", low=0, high=340', '"furlong", low=0, high=340', "KeyError: "),
         ("import Accuracy", "import Accuracies, Accuracy", "ImportError: cannot import name 'Accuracies'"),
+        ("class Launch", "raise SystemExit(0)\nclass Launch", "ExitCalled: sys.exit(0)"),
+        ("    ball = Ball(", "    exit(0)\n    ball = Ball(", "ExitCalled: sys.exit(0)"),
+        (
+            "        return 0.0 * velocity[0]",
+            "        raise SystemExit('well')\n        return 0",
+            "ExitCalled: sys.exit('we",
+        ),
+        ("friction=0.5)", "friction=0.5, law=lambda *_: exit(0))", "ExitCalled: sys.exit(0)"),
     ],
 )
 def test_a_failure_in_a_users_scene_shows_the_users_lines_only(call, drop: Path, old: str, new: str, expected: str):
@@ -475,6 +487,99 @@ def test_a_failure_in_a_users_scene_shows_the_users_lines_only(call, drop: Path,
     assert str(drop / "scene.py") in err
     files = [line.split('"')[1] for line in err.splitlines() if line.startswith("  File ")]
     assert set(files) == {str(drop / "scene.py")}
+
+
+def test_a_picture_that_calls_exit_has_failed(call, drop: Path, tmp_path: Path):
+    source = (drop / "picture.py").read_text("utf-8")
+    (drop / "picture.py").write_text(source.replace("return self.frame", "raise SystemExit(0); return self.frame"))
+    code, _, err = call("run", drop, "--poster", tmp_path / "drop.png")
+    assert (code, err.splitlines()[0]) == (1, "error: your scene failed")
+    assert "picture.py" in err
+
+
+@pytest.mark.parametrize("jobs", [1, 2])
+def test_exit_in_a_sweep_fails_its_points(call, drop: Path, tmp_path: Path, jobs: int):
+    change(drop, BUILD, f"{BUILD}    if parameters.launch.height < 1.5: raise SystemExit(0)\n")
+    out = tmp_path / "rows.csv"
+    assert call("sweep", drop, "--over", "launch.height=1,2", "--out", out, "--jobs", jobs).code == 0
+    errors = [row["error"] for row in read_rows(out)]
+    assert "sys.exit(0)" in errors[0]
+    assert errors[1] == ""
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "expected"),
+    [
+        (
+            "duration=parameters.duration)",
+            "duration=parameters.duration, until=lambda: True)",
+            "until(event): too many",
+        ),
+        ("friction=0.5)", "friction=0.5, law=lambda: None)", "law(normal_speed, tangential_speed): too many"),
+        ("friction=0.5)", "friction=0.5, law=lambda *_: None)", "must return a Bounce of numbers, such as Bounce(rest"),
+        ("friction=0.5)", "friction=0.5, law=lambda *_: (0.5, 0.5))", "and returned (0.5, 0.5)"),
+        ("friction=0.5)", "friction=0.5, law=lambda *_: 'hard')", "and returned 'hard'"),
+        (
+            '    return {\n        "b',
+            '    loop = []\n    loop.append(loop)\n    return {"loop": loop, "b',
+            "result must return",
+        ),
+        (
+            "        return 0.0 * velocity[0],",
+            "        return 1j,",
+            "Gravity is called with (t, position, velocity, spin)",
+        ),
+        ("        return 0.0 * velocity[0],", "        return 10**400,", "int too large to convert to float"),
+    ],
+)
+@pytest.mark.parametrize("command", ["run", "sweep"])
+def test_what_a_scene_hands_over_wrongly_is_said_in_a_line(
+    call, drop: Path, tmp_path: Path, command: str, old: str, new: str, expected: str
+):
+    change(drop, old, new)
+    more = ["--over", "launch.height=1:2:30", "--jobs", 1, "--out", tmp_path / "rows.csv"] if command == "sweep" else []
+    outcome = call(command, drop, *more)
+    assert_refused(outcome._replace(out=""), expected, code=1)
+
+
+def test_labels_of_a_card_may_be_anything(call, drop: Path):
+    change(drop, '("bounces", str', "(5, str")
+    code, out, err = call("run", drop)
+    assert (code, err) == (0, "")
+    assert "\n  5 " in out
+
+
+# Text from files ----------------------------------------------------------------------------------------------------
+
+
+EVIL = "\x1b[2J\x9b31m\u202e"  # clear the screen, red, from right to left
+
+
+def test_nothing_from_a_file_reaches_the_terminal_as_an_order(call, drop: Path, tmp_path: Path):
+    change(drop, '"""A ball', f'"""{EVIL}A ball')
+    change(drop, '("bounces", str', f'("boun{EVIL}ces\\nsplit", str')
+    change(drop, '"ball",', f'"b{EVIL}all\\nsplit",')
+    change(drop, 'run.state("ball"', f'run.state("b{EVIL}all\\nsplit"')
+    key = EVIL.encode("ascii", "backslashreplace").decode().replace("\\x9b", "\\u009b").replace("\x1b", "\\u001b")
+    (tmp_path / "shot.toml").write_text(f'scene = "golf"\n"{key}" = 3\n')
+    outcomes = [call("run", drop), call("run", drop, "--json"), call("list", drop), call("run", tmp_path / "shot.toml")]
+    for code, out, err in outcomes:
+        assert not set(EVIL[:1] + EVIL[4] + EVIL[-1]) & set(out + err), (code, out, err)
+    assert json.loads(outcomes[1].out)["events"][0]["ball"] == f"b{EVIL}all\nsplit"
+    assert any(
+        line.startswith("  boun") and line.split("split")[1].strip() == "1" for line in outcomes[0].out.splitlines()
+    )
+
+
+def test_a_name_in_a_csv_is_one_cell_that_computes_nothing(call, drop: Path, tmp_path: Path):
+    for name in ("'=1+1,\\n2'", "'-b\\\"a'"):
+        copy = Path(shutil.copytree(drop, tmp_path / f"copy{len(name)}"))
+        change(copy, '"ball",', f"{name},")
+        change(copy, 'run.state("ball"', f"run.state({name}")
+        file = tmp_path / "path.csv"
+        assert call("run", copy, "--trajectory", file).code == 0
+        names = {row["ball"] for row in read_rows(file)}
+        assert names == {"'" + " ".join(eval(name).split())}
 
 
 def test_a_bug_of_ours_is_not_hidden(call, monkeypatch):

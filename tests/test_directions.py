@@ -16,6 +16,7 @@ FLOORS = {
     "physics": 1,
     "workers": 1,
     "engine": 2,
+    "text": 3,
     "units": 3,
     "files": 3,
     "resources": 3,

@@ -12,6 +12,7 @@ import sandbox
 from sandbox.cli import lab, run, scenes
 from sandbox.cli.say import say
 from sandbox.errors import SandboxError, Stopped
+from sandbox.text import printable
 
 app = typer.Typer(
     name="sandbox",
@@ -70,11 +71,11 @@ def call(args: list[str] | None) -> int:
     except typer.TyperException as error:  # unknown command, missing argument, bad option
         return _fail(f"{error.format_message()}\n{_asked(error, args)} --help shows how to ask", error.exit_code)
     except Stopped as error:
-        typer.echo(str(error), err=True)
+        typer.echo(printable(str(error)), err=True)
         return error.exit_code
     except SandboxError as error:
         return _fail(str(error), error.exit_code)
-    except Exception as error:
+    except (Exception, SystemExit) as error:
         from sandbox.tracebacks import of_user_code
 
         text = of_user_code(error)
@@ -93,5 +94,5 @@ def _asked(error: typer.TyperException, args: list[str] | None) -> str:
 
 
 def _fail(message: str, code: int) -> int:
-    typer.echo(f"error: {message}".rstrip(), err=True)
+    typer.echo(printable(f"error: {message}".rstrip()), err=True)
     return code

@@ -8,6 +8,7 @@ from typing import Any
 import typer
 
 from sandbox.errors import RunError
+from sandbox.text import printable
 
 
 def say(text: str) -> None:
@@ -15,7 +16,7 @@ def say(text: str) -> None:
     if sys.stdout is None:
         raise RunError("stdout cannot be written: it is closed")
     try:
-        typer.echo(text)
+        typer.echo(printable(text))
         sys.stdout.flush()
     except BrokenPipeError:
         raise typer.Exit(1) from None

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from sandbox.engine.blame import blamed
+
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
@@ -15,13 +17,14 @@ if TYPE_CHECKING:
 def simulate(setup: Setup, accuracy: Accuracy) -> Run:
     """Run a setup to its end. Raises RunError where that cannot be done, with the time, the ball and the quantity."""
     # here, not above: they bring pymunk, which reading a scene does not need
-    if accuracy.method == "plain":
-        from sandbox.engine.plain import PlainSimulation
+    with blamed(setup):
+        if accuracy.method == "plain":
+            from sandbox.engine.plain import PlainSimulation
 
-        return PlainSimulation(setup, accuracy).run()
-    from sandbox.engine.simulation import Simulation
+            return PlainSimulation(setup, accuracy).run()
+        from sandbox.engine.simulation import Simulation
 
-    return Simulation(setup, accuracy).run()
+        return Simulation(setup, accuracy).run()
 
 
 def simulate_many(setups: Sequence[Setup], accuracy: Accuracy) -> Iterator[Run | Exception]:

@@ -18,6 +18,7 @@ from sandbox.engine.accuracy import Accuracy
 from sandbox.engine.arc import Arc, through
 from sandbox.engine.arc_rows import COLUMNS, ArcRows
 from sandbox.engine.bernstein_many import until
+from sandbox.engine.blame import blamed
 from sandbox.engine.event import Event
 from sandbox.engine.impacts import STILL
 from sandbox.engine.lanes import Lanes
@@ -87,7 +88,7 @@ def _answer(surface: Surface, approach: float, along: float) -> Bounce | None:
         return Bounce(surface.restitution, surface.friction)
     try:
         return possible(surface.law(approach, abs(along)), surface.name)
-    except Exception:
+    except FAILURES:
         return None
 
 
@@ -96,8 +97,12 @@ def _over(setup: Setup, event: Event) -> str:
     then says."""
     try:
         return "until" if setup.until is not None and setup.until(event) else ""
-    except Exception:
+    except FAILURES:
         return "after"
+
+
+#: What a scene's own function may end in.
+FAILURES = (Exception, SystemExit)
 
 
 class _OnlyFloats(Exception):
@@ -193,8 +198,10 @@ class _Batch:
                 fy = fy + py
             for turn in self._torques:
                 torque = torque + turn(t, (x, y), (vx, vy), spin)
-        except Exception as error:
+        except FAILURES as error:
             raise _OnlyFloats from error
+        if any(np.iscomplexobj(value) for value in (fx, fy, torque)):
+            raise _OnlyFloats
         return fx / self._m, fy / self._m, torque / self._inertia
 
     def _now(self) -> np.ndarray:
@@ -216,10 +223,10 @@ class _Batch:
                 forces = [force(*now) for force in ball.forces]
                 torques = [torque(*now) for torque in ball.torques]
                 ax, ay = sum(fx for fx, _ in forces) / ball.mass, sum(fy for _, fy in forces) / ball.mass
-                alone.append((ax, ay, sum(torques) / ball.inertia))
+                alone.append(tuple(map(float, (ax, ay, sum(torques) / ball.inertia))))
                 size = sum(abs(fx) + abs(fy) for fx, fy in forces) / ball.mass
                 sizes.append(max(size, sum(map(abs, torques)) / ball.inertia))
-            except Exception as error:
+            except FAILURES as error:
                 raise _OnlyFloats from error
         agree = np.abs(together - np.array(alone).T) <= _ROUNDING * np.array(sizes)
         if not (agree | np.isnan(together)).all():
@@ -444,7 +451,8 @@ class _Batch:
             arcs = {setup.balls[0].name: ArcRows(rows)}
             return Run(setup, self._accuracy, arcs, events, numerics, left.t, left.how)
         try:
-            simulation = Simulation(setup, self._accuracy, numerics)
-            return simulation.take_over(left.t, left.state, list(ArcRows(rows)), events, left.wanted, left.how)
+            with blamed(setup):
+                simulation = Simulation(setup, self._accuracy, numerics)
+                return simulation.take_over(left.t, left.state, list(ArcRows(rows)), events, left.wanted, left.how)
         except Exception as error:
             return error

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from math import isfinite
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from sandbox.engine.accuracy import Accuracy
 from sandbox.engine.arc import Arc, still, through
@@ -105,7 +105,9 @@ class Mover:
                 fy += py
             for cause in self.ball.torques:
                 torque += cause(t, position, velocity, spin)
-        except (TypeError, ValueError) as error:
+            if not isinstance(fx + fy + torque, float):
+                raise not_a_number(self.ball, t, position, velocity, spin)
+        except (TypeError, ValueError, OverflowError) as error:
             raise misused(cause, error) from None
         return fx, fy, torque
 
@@ -252,16 +254,29 @@ class Mover:
 
 
 def misused(cause: object, error: Exception) -> Exception:
-    """What to raise where calling a force or torque, or taking in what it returned, failed: an error from inside it
+    """What to raise where calling a force or torque, or adding what it returned, failed: an error from inside it
     as it is, else one that says how it is called.
     """
     inside = error.__traceback__ is not None and error.__traceback__.tb_next is not None
-    if inside:
-        return error
+    return error if inside else RunError(f"{_rule(cause)}: {error}")
+
+
+def not_a_number(ball: Ball, t: float, position: Any, velocity: Any, spin: float) -> RunError:
+    """What to raise where the forces and torques on a ball do not add up to real numbers."""
+    for cause in (*ball.forces, *ball.torques):
+        found = cause(t, position, velocity, spin)
+        parts = found if isinstance(found, tuple | list) else (found,)
+        if not all(isinstance(part, int | float) for part in parts):
+            returned = " ".join(repr(found).split())
+            return RunError(f"t = {t:.6g} s, ball {ball.name!r}: {_rule(cause)}, and returned {returned:.60}")
+    return RunError(f"t = {t:.6g} s, ball {ball.name!r}: the sum of its forces and torques is not a real number")
+
+
+def _rule(cause: object) -> str:
+    """How a force or torque is called, for a sentence."""
     name = getattr(cause, "__name__", type(cause).__name__)
-    return RunError(
-        f"{name} is called with (t, position, velocity, spin) and must return (fx, fy) in N, a torque one number in "
-        f"N m: {error}"
+    return (
+        f"{name} is called with (t, position, velocity, spin) and must return (fx, fy) in N, a torque one number in N m"
     )
 
 

@@ -18,7 +18,7 @@ import pymunk
 from sandbox.engine.accuracy import Accuracy
 from sandbox.engine.arc import Arc
 from sandbox.engine.event import Event
-from sandbox.engine.motion import Diverged, misused
+from sandbox.engine.motion import Diverged, misused, not_a_number
 from sandbox.engine.run import Numerics, Run
 from sandbox.engine.setup import Ball, Bounce, Circle, Setup, Surface, possible
 from sandbox.physics.cloth import ClothState
@@ -210,7 +210,9 @@ class PlainSimulation:
                         fy += py
                     for cause in ball.torques:
                         torque += cause(self._t, position, velocity, spin)
-                except (TypeError, ValueError) as error:
+                    if not isinstance(fx + fy + torque, float):
+                        raise not_a_number(ball, self._t, position, velocity, spin)
+                except (TypeError, ValueError, OverflowError) as error:
                     raise misused(cause, error) from None
                 ax, ay = fx / ball.mass, fy / ball.mass
                 if tracked.touched != self._steps:

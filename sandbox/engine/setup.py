@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from math import hypot, inf, isfinite
+from numbers import Real
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 from sandbox.errors import RunError
@@ -54,6 +55,8 @@ class Ball:
         for what, value in (("mass", self.mass), ("radius", self.radius), ("inertia_factor", self.inertia_factor)):
             if not (isfinite(value) and value > 0.0):
                 raise ValueError(f"ball {self.name!r}: {what} = {value} must be positive")
+        for what in ("position", "velocity", "rolling_spin"):
+            _check_pair(f"ball {self.name!r}: {what}", getattr(self, what))
         state = {"position": self.position, "velocity": self.velocity, "spin": (self.spin,)}
         for what, values in {**state, "rolling_spin": self.rolling_spin}.items():
             if not all(map(isfinite, values)):
@@ -72,6 +75,12 @@ class Ball:
         return self.inertia_factor * self.mass * self.radius * self.radius
 
 
+def _check_pair(what: str, pair: Vector) -> None:
+    """Raise ValueError unless it has two numbers."""
+    if len(pair) != 2:
+        raise ValueError(f"{what} = {pair} must be two numbers, (x, y)")
+
+
 @dataclass(frozen=True)
 class Segment:
     """A straight piece from a to b, rounded by ``radius`` (half its thickness); touched from either side."""
@@ -81,6 +90,8 @@ class Segment:
     radius: float = 0.0  # m
 
     def __post_init__(self) -> None:
+        _check_pair("segment: a", self.a)
+        _check_pair("segment: b", self.b)
         if not all(map(isfinite, (*self.a, *self.b, self.radius))) or self.radius < 0.0:
             raise ValueError(f"{self}: points must be finite, and the radius no less than 0")
 
@@ -97,6 +108,7 @@ class Circle:
     radius: float  # m
 
     def __post_init__(self) -> None:
+        _check_pair("circle: center", self.center)
         if not all(map(isfinite, (*self.center, self.radius))) or self.radius < 0.0:
             raise ValueError(f"{self}: the centre must be finite, and the radius no less than 0")
 
@@ -111,6 +123,11 @@ class Bounce(NamedTuple):
 
 def possible(bounce: Bounce, partner: str) -> Bounce:
     """The bounce off ``partner`` as it is, if it can be. Raises RunError if not: Chipmunk would end the program."""
+    if not isinstance(bounce, Bounce) or not all(isinstance(value, Real) for value in bounce):
+        raise RunError(
+            f"a ball meets {partner!r}: the scene's law must return a Bounce of numbers, such as "
+            f"Bounce(restitution=0.7, friction=0.3), and returned {bounce!r:.60}"
+        )
     if 0.0 <= bounce.restitution < inf and 0.0 <= bounce.friction < inf and isfinite(bounce.tilt):
         return bounce
     raise RunError(f"no ball bounces off {partner!r} with {bounce}: look at the scene's law for it")
@@ -149,6 +166,9 @@ class Catch:
     name: str
     center: Vector  # m
     radius: float  # m
+
+    def __post_init__(self) -> None:
+        _check_pair(f"catch {self.name!r}: center", self.center)
 
 
 class Patch(NamedTuple):

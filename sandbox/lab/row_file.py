@@ -14,6 +14,7 @@ from typing import Any
 
 from sandbox.errors import RequestError, RunError
 from sandbox.files import reason
+from sandbox.text import csv_text
 
 _BLOCK = 1 << 20  # bytes
 
@@ -154,7 +155,7 @@ def cell(value: Any) -> str:
     if isinstance(value, float):
         return "" if math.isnan(value) else repr(value)
     if isinstance(value, str):
-        return " ".join(value.splitlines())
+        return csv_text(value)
     if isinstance(value, list | tuple | dict):
         return json.dumps(value, ensure_ascii=False, default=str)
     return str(value)

@@ -22,13 +22,13 @@ def runs(
 
     Shots that are alike fly together. ``finer`` runs with half the steps, to estimate errors by.
     """
-    varied, module = Varied(scene, keys), scene.module
-    built: list[tuple[Any, Accuracy, Setup] | Exception] = []
+    varied = Varied(scene, keys)
+    built: list[tuple[Scene, Accuracy, Setup] | Exception] = []
     for values in points:
         try:
-            parameters = varied.parameters(values)
-            accuracy = resolve(**parameters.accuracy.model_dump())
-            built.append((parameters, accuracy.finer() if finer else accuracy, module.build(parameters)))
+            point = varied.scene(values)
+            accuracy = resolve(**point.parameters.accuracy.model_dump())
+            built.append((point, accuracy.finer() if finer else accuracy, point.build()))
         except Exception as error:
             built.append(error)
     setups: dict[Accuracy, list[Setup]] = {}
@@ -37,14 +37,14 @@ def runs(
             setups.setdefault(made[1], []).append(made[2])
     found = {accuracy: simulate_many(alike, accuracy) for accuracy, alike in setups.items()}
     for made in built:
-        yield made if isinstance(made, Exception) else _finished(next(found[made[1]]), module, made[0])
+        yield made if isinstance(made, Exception) else _finished(next(found[made[1]]), made[0])
 
 
-def _finished(run: Run | Exception, module: Any, parameters: Any) -> Run | Exception:
+def _finished(run: Run | Exception, scene: Scene) -> Run | Exception:
     if isinstance(run, Exception):
         return run
     try:
-        run.result = module.result(run, parameters)
+        run.result = scene.result(run)
     except Exception as error:
         return error
     return run
@@ -53,8 +53,7 @@ def _finished(run: Run | Exception, module: Any, parameters: Any) -> Run | Excep
 def fly_together(scene: Scene, keys: Sequence[str], values: Sequence[Any]) -> bool:
     """Whether the engine takes many runs of this kind at once, judged by the one with these values."""
     try:
-        parameters = Varied(scene, keys).parameters(values)
-        setup = scene.module.build(parameters)
-        return flies_in_batches(setup, resolve(**parameters.accuracy.model_dump()))
+        point = Varied(scene, keys).scene(values)
+        return flies_in_batches(point.build(), resolve(**point.parameters.accuracy.model_dump()))
     except Exception:
         return False  # its row will say why

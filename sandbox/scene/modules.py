@@ -11,7 +11,7 @@ from pathlib import Path
 from types import ModuleType
 
 from sandbox import resources
-from sandbox.errors import RequestError
+from sandbox.errors import RequestError, no_exit
 
 #: Scene folders are imported as packages below this name, which nothing else can have taken.
 NAMESPACE = "sandbox_scenes"
@@ -25,9 +25,10 @@ def module_in(folder: Path, name: str) -> ModuleType:
     if folder.parent != built_in:
         # Two folders of one name may be in use at once.
         package += "_" + hashlib.sha256(str(folder).encode()).hexdigest()[:12]
-    _package(package, folder)
     try:
-        return importlib.import_module(f"{package}.{name}")
+        with no_exit():
+            _package(package, folder)
+            return importlib.import_module(f"{package}.{name}")
     except (SyntaxError, ValueError):  # of NUL bytes Python says neither where nor always as a SyntaxError
         file = folder / f"{name}.py"
         if b"\0" in file.read_bytes():

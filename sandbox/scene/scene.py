@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any
 
 from sandbox import parameters as declared
 from sandbox.controls import Controls, controls_of
-from sandbox.errors import RequestError, RunError
+from sandbox.errors import RequestError, RunError, no_exit
 from sandbox.scene.modules import module_in
 
 if TYPE_CHECKING:
@@ -93,16 +93,20 @@ class Scene:
         """The setup that the engine simulates."""
         from sandbox.engine.setup import Setup
 
-        setup = self.module.build(self.parameters)
+        with no_exit():
+            setup = self.module.build(self.parameters)
         if not isinstance(setup, Setup):
             raise self._wrong("build", "a Setup", setup)
         return setup
 
     def result(self, run: Run) -> dict[str, Any]:
         """The numbers and the verdict that the scene reads from a run."""
-        result = self.module.result(run, self.parameters)
+        with no_exit():
+            result = self.module.result(run, self.parameters)
         if not isinstance(result, dict):
             raise self._wrong("result", "a dict", result)
+        if _is_circular(result):
+            raise self._wrong("result", "values that do not contain themselves", result)
         missing = controls_of(self.module).missing(result)
         if missing is not None:
             raise RunError(f"{shown(self.folder / 'scene.py')}: CONTROLS {missing}")
@@ -134,6 +138,14 @@ class Scene:
     def __reduce__(self) -> tuple[Any, ...]:
         # By value, so that a process that never imported this scene's module can read it.
         return _revived, (self.name, self.preset, self.folder, self.parameters.model_dump())
+
+
+def _is_circular(value: Any, around: tuple[int, ...] = ()) -> bool:
+    """Whether a list, tuple or dict contains itself."""
+    if not isinstance(value, Mapping | list | tuple):
+        return False
+    inside = value.values() if isinstance(value, Mapping) else value
+    return id(value) in around or any(_is_circular(item, (*around, id(value))) for item in inside)
 
 
 def _revived(name: str, preset: str | None, folder: Path, values: dict[str, Any]) -> Scene:

@@ -11,7 +11,7 @@ from sandbox.engine import simulate, simulate_many
 from sandbox.engine.accuracy import LEVELS, resolve
 from sandbox.engine.ledger import ledger
 from sandbox.engine.motion import Diverged
-from sandbox.engine.setup import Ball, Bounce, Bounds, Segment, Setup, Surface
+from sandbox.engine.setup import Ball, Bounce, Bounds, Catch, Circle, Segment, Setup, Surface
 from sandbox.errors import RequestError, RunError
 from sandbox.physics.cloth import Cloth
 from sandbox.physics.coefficients import Constant
@@ -49,6 +49,44 @@ def test_an_error_in_a_users_force_comes_out_with_its_own_traceback(accuracy):
     with pytest.raises(ZeroDivisionError) as caught:
         simulate(Setup([shot(broken)], duration=1.0), accuracy)
     assert caught.traceback[-1].name == "broken"
+
+
+@pytest.mark.parametrize("accuracy", [resolve(), PLAIN], ids=["exact", "plain"])
+@pytest.mark.parametrize(
+    "value", [1j, 10**400, "1", None, np.ones((2, 1)), np.ones(2)], ids=lambda value: str(type(value).__name__)
+)
+def test_a_force_that_is_no_number_is_named(accuracy, value):
+    def wind(t, position, velocity, spin):
+        return (value if t > 0.3 else 0.0), 0.0
+
+    for simulated in (
+        lambda setup: simulate(setup, accuracy),
+        lambda setup: raised(next(iter(simulate_many([setup] * 30, accuracy)))),
+    ):
+        with pytest.raises(RunError, match=r"wind is called with \(t, position, velocity, spin\) and must return"):
+            simulated(
+                Setup([shot(wind)], [Surface("floor", Segment((-9.0, -9.0), (9.0, -9.0)), 0.5, 0.5)], duration=1.0)
+            )
+
+
+def raised(run):
+    if isinstance(run, Exception):
+        raise run
+
+
+@pytest.mark.parametrize(
+    "make",
+    [
+        lambda three: Ball("cue", 1.0, 0.1, three),
+        lambda three: Ball("cue", 1.0, 0.1, (0.0, 0.0), three),
+        lambda three: Segment(three, (0.0, 1.0)),
+        lambda three: Circle(three, 1.0),
+        lambda three: Catch("pocket", three, 1.0),
+    ],
+)
+def test_a_point_has_two_numbers(make):
+    with pytest.raises(ValueError, match=r"\(1.0, 2.0, 3.0\) must be two numbers, \(x, y\)"):
+        make((1.0, 2.0, 3.0))
 
 
 def bullet_in_water(velocity=(300.0, 0.0)):
