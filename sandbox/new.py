@@ -46,7 +46,7 @@ def new_scene(folder: Path) -> list[Path]:
 
 def next_steps(folder: Path) -> list[str]:
     """What to try in the new scene, a line each."""
-    shown = folder if folder.is_absolute() or len(folder.parts) > 1 else f"./{folder}"
+    shown = folder if folder.is_absolute() or folder.parts[0] == ".." else f"./{folder}"
     return [
         "now try:",
         f"  sandbox run {shown} --poster {folder.name}.png",

@@ -294,8 +294,9 @@ def every_key(schema: type[Group], prefix: str = "") -> Iterator[str]:
 def json_schema(schema: type[Group], scene: str) -> dict[str, Any]:
     """JSON schema of the scene file of ``scene``; numbers may be strings with a unit."""
     body = _relaxed(schema.model_json_schema())
+    path = r"|\.\.?(/.*)?|/.+"  # of a scene of one's own
     named = {
-        "anyOf": [{"const": scene}, {"type": "string", "pattern": f"^{scene}/[A-Za-z0-9_-]+$"}],
+        "anyOf": [{"const": scene}, {"type": "string", "pattern": f"^({scene}/[A-Za-z0-9_-]+{path})$"}],
         "description": "the scene that this file is for, or the preset that it begins from",
     }
     properties = {"scene": named, **body["properties"]}

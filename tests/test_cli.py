@@ -126,7 +126,7 @@ def test_schema_is_json(call):
     code, out, err = call("schema", "golf")
     assert (code, err) == (0, "")
     assert {"const": "golf"} in json.loads(out)["properties"]["scene"]["anyOf"]
-    assert call("schema", DROP / "drop.toml").out == call("schema", DROP).out
+    assert call("schema", DROP / "moon").out == call("schema", DROP).out
 
 
 def test_what_only_the_scene_can_refuse_names_the_file(call, tmp_path: Path):
@@ -152,7 +152,7 @@ def test_the_card_shows_what_a_player_wants_to_know(call):
 
 
 def test_the_card_names_the_preset(call):
-    assert call("run", DROP / "presets" / "moon.toml").out.startswith("drop/moon: The same drop on the moon.")
+    assert call("run", DROP / "moon").out.startswith("drop/moon: The same drop on the moon.")
 
 
 def test_check_adds_errors_and_the_verdict(call):
@@ -414,7 +414,7 @@ def test_an_output_that_cannot_be_written_is_refused_before_the_run(
     change(drop, BUILD, f"{BUILD}    1 / 0\n")
     monkeypatch.chdir(tmp_path)
     Path("file").touch()
-    assert_refused(call("run", "drop", *args), expected)
+    assert_refused(call("run", "./drop", *args), expected)
     assert sorted(path.name for path in tmp_path.iterdir()) == ["drop", "file"]
 
 

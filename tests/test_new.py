@@ -153,13 +153,14 @@ def test_it_runs_and_draws(call, scene: Path):
 
 
 def test_it_is_found_in_all_ways(call, scene: Path):
-    wanted = [f"./{NAME}", f"{NAME}/{NAME}.toml", scene, f"{NAME}/"]
+    Path("shot.toml").write_text(f'scene = "./{NAME}"')
+    wanted = [f"./{NAME}", scene, f"./{NAME}/", "shot.toml"]
     outcomes = [json.loads(call("run", source, "--json").out) for source in wanted]
     assert all(outcome["result"] == outcomes[0]["result"] for outcome in outcomes)
-    presets = [f"./{NAME}/still", f"{NAME}/still", f"{NAME}/presets/still.toml"]
+    presets = [f"./{NAME}/still", f"{scene}/still"]
     outcomes = [json.loads(call("run", source, "--json").out) for source in presets]
-    assert [outcome["preset"] for outcome in outcomes] == ["still"] * 3
-    assert "did you mean volleyball/still?" in call("run", f"{NAME}/stil").err
+    assert [outcome["preset"] for outcome in outcomes] == ["still"] * 2
+    assert "did you mean volleyball/still?" in call("run", f"./{NAME}/stil").err
 
 
 def test_it_is_listed_where_it_stands(call, scene: Path):

@@ -16,7 +16,7 @@ import sandbox
 from sandbox import resources
 from sandbox.errors import RequestError
 from sandbox.parameters import read_toml, walk
-from sandbox.scene import listings
+from sandbox.scene import listings, reference
 from sandbox.units import KIND_OF
 
 DROP = Path(__file__).parent / "scenes" / "drop"
@@ -53,7 +53,7 @@ def test_a_scene_may_be_named_wherever_one_is_asked_for():
         (lambda: next(sandbox.simulate(DROP).crossings("bal", (0, 0), (1, 0))), "there is no ball 'bal'"),
         (lambda: sandbox.simulate(DROP).trajectory(every=0), "every = 0: must be more than 0 s"),
         (lambda: sandbox.simulate(DROP).trajectory(every=-1), "every = -1: must be more than 0 s"),
-        (lambda: sandbox.load(5), "5 is no scene: name one as text"),
+        (lambda: sandbox.load(5), "5 is not a scene: give its name as text"),
         (lambda: sandbox.load("golf", {5: 1}), "override 5: a key is a text, such as launch.speed"),
         (lambda: sandbox.sweep("golf", {5: [1, 2]}), "over 5: a key is a text, such as launch.speed"),
         (lambda: sandbox.sweep("golf", {"launch.angle": 5}), "over launch.angle: 5 is neither a list of values nor a"),
@@ -142,33 +142,98 @@ def test_a_folder_without_a_scene_file_takes_the_defaults(drop: Path):
 
 def test_a_preset_is_read_alone(drop: Path):
     (drop / "drop.toml").write_text('scene = "drop"\n[launch]\nheight = 3.0')
-    scene = sandbox.load(drop / "presets" / "moon.toml")
+    scene = sandbox.load(drop / "moon")
     assert (scene.name, scene.preset) == ("drop", "moon")
     assert scene.parameters.gravity == 1.62
     assert scene.parameters.launch.height == 2.0
     assert scene.about == "The same drop on the moon."
 
 
-def test_a_scene_file_beside_a_folder_of_its_scene(drop: Path):
-    (drop.parent / "shot.toml").write_text('scene = "drop"\ngravity = 3.7')
+@pytest.mark.parametrize("named", ["./drop", "./drop/moon", "../{}/drop", "{}/drop"])
+def test_a_scene_file_may_name_a_folder_by_its_path(drop: Path, named: str):
+    path = named.format(drop.parent if named.startswith("{") else drop.parent.name)
+    (drop.parent / "shot.toml").write_text(f'scene = "{path}"\nlaunch.height = 3.7')
     scene = sandbox.load(drop.parent / "shot.toml")
     assert (scene.name, scene.preset, scene.folder) == ("drop", None, drop)
-    assert scene.parameters.gravity == 3.7
+    assert scene.parameters.launch.height == 3.7
+    assert scene.parameters.gravity == (1.62 if path.endswith("moon") else 9.81)
 
 
-def test_a_scene_file_beside_scene_py_need_not_name_it(drop: Path):
-    (drop / "high.toml").write_text("launch.height = 50")
+def test_a_scene_file_in_its_folder_may_say_so(drop: Path):
+    (drop / "high.toml").write_text('scene = "."\nlaunch.height = 50')
+    (drop / "presets" / "low.toml").write_text('scene = ".."\nlaunch.height = 0.5')
     assert sandbox.load(drop / "high.toml").parameters.launch.height == 50
+    assert sandbox.load(drop / "presets" / "low.toml").preset == sandbox.load(drop / "low").preset == "low"
 
 
 def test_a_relative_path_is_enough(drop: Path, monkeypatch: pytest.MonkeyPatch):
     monkeypatch.chdir(drop.parent)
-    assert sandbox.load("drop").folder == drop
+    assert sandbox.load("./drop").folder == sandbox.load(Path("drop")).folder == drop
     monkeypatch.chdir(drop)
-    assert sandbox.load(".") == sandbox.load("drop.toml") == sandbox.load("presets/../drop.toml")
+    assert sandbox.load(".") == sandbox.load("../drop") == sandbox.load(drop)
+    (drop / "drop.toml").write_text('scene = "."')
     assert refusal("drop.toml", {"launch.speed": -1}) == "override launch.speed = -1: must be from 0 to 340 m/s"
     (drop / "drop.toml").write_text("gravity = -1")
-    assert refusal(str(drop / "drop.toml")) == "drop.toml: gravity = -1: must be from 0 to 30 m/s^2"
+    assert refusal(".") == "drop.toml: gravity = -1: must be from 0 to 30 m/s^2"
+
+
+# Opening data runs no code ------------------------------------------------------------------------------------------
+
+
+@pytest.fixture
+def trap(drop: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A folder full of scenes whose code must not run; they are called like one that is built in, and otherwise."""
+    place = drop.parent / "downloads"
+    place.mkdir()
+    for name in ("golf", "drop"):
+        (shutil.copytree(drop, place / name) / "scene.py").write_text("raise AssertionError('this ran')")
+    for file in ("scene.py", "presets.py", "sandbox.py"):
+        (place / file).write_text("raise AssertionError('this ran')")
+    (place / "presets").mkdir()
+    monkeypatch.chdir(place)
+    return place
+
+
+@pytest.mark.parametrize("where", ["shot.toml", "golf/shot.toml", "golf/presets/shot.toml", "presets/shot.toml"])
+@pytest.mark.parametrize("named", ["golf", "golf/moon"])
+def test_a_name_is_that_of_an_installed_scene_whatever_stands_beside(trap: Path, where: str, named: str):
+    (trap / where).write_text(f'scene = "{named}"')
+    assert sandbox.load(where).folder == sandbox.load(trap / where).folder == SCENES / "golf"
+    assert sandbox.load(named).folder == SCENES / "golf"
+
+
+@pytest.mark.parametrize(
+    ("source", "expected"),
+    [
+        ("drop", "unknown scene drop; for the one in this folder write ./drop"),
+        ("drop/moon", "unknown scene drop/moon; for the one in this folder write ./drop/moon"),
+        ("drop/drop.toml", "a file alone does not run the scene.py of its folder: ask for ./drop"),
+        ("drop/presets/moon.toml", "a file alone does not run the scene.py of its folder: ask for ./drop/moon"),
+        ("shot.toml", 'for the folder beside this file write scene = "./drop"'),
+        ("bare.toml", "needs a line that names its scene"),
+    ],
+)
+def test_a_name_or_a_file_never_runs_code_that_was_not_asked_for(trap: Path, source: str, expected: str):
+    (trap / "shot.toml").write_text('scene = "drop"')
+    (trap / "bare.toml").write_text("gravity = 3")
+    assert expected in refusal(source)
+
+
+def test_a_path_runs_the_code_it_names(trap: Path):
+    (trap / "shot.toml").write_text('scene = "./golf"')
+    for source in ("./drop", "./golf", "shot.toml", trap / "golf", "."):
+        with pytest.raises(AssertionError, match="this ran"):
+            sandbox.load(source)
+
+
+def test_a_reference_leads_back_to_its_scene(drop: Path, tmp_path: Path):
+    places = [tmp_path, drop, drop / "presets", tmp_path / "a" / "b"]
+    for place in places:
+        place.mkdir(parents=True, exist_ok=True)
+        for folder in (drop, SCENES / "golf"):
+            (place / "shot.toml").write_text(f'scene = "{reference(folder, place)}"')
+            assert sandbox.load(place / "shot.toml").folder == folder
+    assert reference(SCENES / "golf", tmp_path) == "golf"
 
 
 def test_a_scene_may_import_its_neighbours(drop: Path):
@@ -231,11 +296,11 @@ def test_a_scene_file_elsewhere_says_what_it_is(tmp_path: Path):
 def test_a_preset_begins_from_no_other(drop: Path):
     preset = next((drop / "presets").glob("*.toml"))
     preset.write_text(f'scene = "drop/{preset.stem}"')
-    assert "but here it is a file for drop" in refusal(preset)
+    assert "but here it is a file for drop" in refusal(drop / preset.stem)
 
 
 def test_a_scene_can_be_sent_to_another_process(drop: Path):
-    scene = sandbox.load(drop / "presets" / "moon.toml", {"launch.height": 3, "ball.drag.model": "constant"})
+    scene = sandbox.load(drop / "moon", {"launch.height": 3, "ball.drag.model": "constant"})
     assert pickle.loads(pickle.dumps(scene)) == scene
     code = "import pickle, sys; print(pickle.load(sys.stdin.buffer).parameters)"
     process = subprocess.run([sys.executable, "-c", code], input=pickle.dumps(scene), capture_output=True, check=True)
@@ -282,7 +347,8 @@ def test_what_cannot_be_found_is_refused(source: str, expected: str):
         ("gravity = 3", 'needs a line that names its scene, such as scene = "golf"'),
         ("scene = 3", 'scene = 3: must be the name of a scene or preset, such as "golf" or "golf/moon"'),
         ('scene = ""', 'scene = "": must be the name of a scene'),
-        ('scene = "../golf"', 'scene = "../golf": must be the name of a scene'),
+        ('scene = "../golf"', 'scene = "../golf": there is no scene.py in that folder'),
+        ('scene = "a/b/c"', 'scene = "a/b/c": must be the name of a scene'),
         ('scene = "golf/"', 'scene = "golf/": must be the name of a scene'),
         ('scene = "golff"', "unknown scene golff; did you mean golf?"),
         ("scene = ", "broken TOML"),
@@ -298,7 +364,6 @@ def test_a_file_that_names_no_scene_is_refused(tmp_path: Path, content: str, exp
 def test_a_file_for_another_scene_is_refused(drop: Path):
     (drop / "drop.toml").write_text('scene = "golf"')
     assert 'scene = "golf", but here it is a file for drop' in refusal(drop)
-    assert 'scene = "golf", but here it is a file for drop' in refusal(drop / "drop.toml")
 
 
 @pytest.mark.parametrize(

@@ -1,7 +1,17 @@
 """Scenes: what one is, how it is found, how it is run, and how far its result is to be trusted."""
 
 from sandbox.scene.checking import Check, check, compare
-from sandbox.scene.finding import Listing, as_scene, listings, listings_in, listings_of, load, parameters_of
+from sandbox.scene.finding import (
+    Listing,
+    as_scene,
+    is_installed,
+    listings,
+    listings_in,
+    listings_of,
+    load,
+    parameters_of,
+    reference,
+)
 from sandbox.scene.running import simulate
 from sandbox.scene.scene import Scene
 
@@ -12,10 +22,12 @@ __all__ = [
     "as_scene",
     "check",
     "compare",
+    "is_installed",
     "listings",
     "listings_in",
     "listings_of",
     "load",
     "parameters_of",
+    "reference",
     "simulate",
 ]

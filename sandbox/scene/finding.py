@@ -1,9 +1,15 @@
 """Finding scenes: those that come with the sandbox, with an installed package (entry point group ``sandbox.scenes``),
-and those that stand anywhere on disk."""
+and those that stand anywhere on disk.
+
+Opening data runs no code but that of installed scenes: a name, on the command line or in a file, is always theirs. A
+``scene.py`` of one's own runs only where its folder is given as a path: ``./volleyball``, ``../volleyball`` or an
+absolute one; on the command line, or as ``scene = "./volleyball"`` in a scene file, from where that file stands.
+"""
 
 from __future__ import annotations
 
 import importlib.util
+import os
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -18,6 +24,17 @@ from sandbox.scene.scene import Scene, docstring, first_comment, parameters_clas
 ENTRY_POINTS = "sandbox.scenes"
 
 
+@dataclass(frozen=True)
+class Found:
+    """What a name or a path leads to."""
+
+    name: str
+    folder: Path
+    file: Path | None  # the scene file to read; None for a folder without one
+    base: str = ""  # the preset that the file begins from
+    preset: str | None = None  # which preset the file is
+
+
 def load(source: str | Path, overrides: Mapping[str, Any] | None = None, *, overrides_from: str = "override") -> Scene:
     """The scene named by ``source``, with ``overrides`` (by keys such as ``"air.wind"``, or ``"air.wind[0]"`` for one
     of a list) over its scene file.
@@ -25,22 +42,20 @@ def load(source: str | Path, overrides: Mapping[str, Any] | None = None, *, over
     ``source`` is a scene (``"golf"``), a preset (``"golf/driver"``), or a path to a scene file or a scene's folder.
     Raises RequestError for what cannot be found, read or accepted; ``overrides_from`` names the overrides in it.
     """
-    name, folder, file = _find(source)
-    values: dict[str, Any] = {}
-    where = shown(folder) if file is None else shown(file)
-    preset = file.stem if file is not None and file.resolve().parent == folder / "presets" else None
+    found = _find(source)
+    file, folder = found.file, found.folder
+    where = shown(folder if file is None else file)
     schema = parameters_class(folder)
+    values: dict[str, Any] = {}
     if file is not None:
         values = declared.read_toml(file)
-        written = str(values.pop("scene", name))
-        based_on = written.removeprefix(f"{name}/")
-        if written != name and (based_on == written or preset is not None):
-            raise RequestError(f'{where}: scene = "{written}", but here it is a file for {name}')
-        if written != name:
-            values = declared.over(schema, _preset_values(name, folder, based_on, where), values)
+        values.pop("scene", None)
+        if found.base:
+            values = declared.over(schema, _preset_values(found, where), values)
     parameters = declared.validate(schema, values, where, overrides, overrides_from)
     elsewhere = file is not None and folder not in file.resolve().parents
-    return Scene(name, preset, parameters, folder, first_comment(file) if file is not None and elsewhere else "")
+    note = first_comment(file) if file is not None and elsewhere else ""
+    return Scene(found.name, found.preset, parameters, folder, note)
 
 
 def as_scene(scene: Scene | str | Path) -> Scene:
@@ -48,10 +63,10 @@ def as_scene(scene: Scene | str | Path) -> Scene:
     return scene if isinstance(scene, Scene) else load(scene)
 
 
-def _preset_values(name: str, folder: Path, preset: str, where: str) -> dict[str, Any]:
+def _preset_values(found: Found, where: str) -> dict[str, Any]:
     """What stands in the preset that a scene file begins from."""
     try:
-        values = declared.read_toml(_preset(name, folder, preset))
+        values = declared.read_toml(_preset(found.name, found.folder, found.base))
     except RequestError as error:
         raise RequestError(f"{where}: {error}") from None
     values.pop("scene", None)
@@ -60,8 +75,28 @@ def _preset_values(name: str, folder: Path, preset: str, where: str) -> dict[str
 
 def parameters_of(source: str | Path) -> tuple[str, type[declared.Group]]:
     """Name and Parameters class of the scene that ``source`` names; of a file only the key ``scene`` matters."""
-    name, folder, _ = _find(source)
-    return name, parameters_class(folder)
+    found = _find(source)
+    return found.name, parameters_class(found.folder)
+
+
+def is_installed(source: str) -> bool:
+    """Whether ``source`` names a scene, or a preset of one, that came with the sandbox or an installed package; all
+    else is a path."""
+    name = source.partition("/")[0]
+    return installed_folder(name) is not None
+
+
+def installed_folder(name: str) -> Path | None:
+    """The folder of a scene that came with the sandbox or an installed package; None for any other name."""
+    return _built_in(name) or _from_package(name)
+
+
+def reference(folder: Path, place: Path) -> str:
+    """How a scene file in ``place`` names the scene in ``folder``: by its name if it is installed, else by a path."""
+    if installed_folder(folder.name) == folder:
+        return folder.name
+    path = Path(os.path.relpath(folder, place.resolve())).as_posix()
+    return path if path.startswith("../") or path in (".", "..") else f"./{path}"
 
 
 @dataclass(frozen=True)
@@ -88,10 +123,11 @@ def listings_in(place: Path) -> Iterator[Listing]:
 
 def listings_of(source: str) -> list[Listing]:
     """The scene that ``source`` names, followed by its presets."""
-    name, folder, _ = _find(source)
-    if (_built_in(name) or _installed(name)) != folder:
-        name = shown(folder) if Path(shown(folder)).is_absolute() else f"./{shown(folder)}"
-    return list(_listed(name, folder))
+    found = _find(source)
+    name = found.name
+    if installed_folder(name) != found.folder:
+        name = shown(found.folder) if Path(shown(found.folder)).is_absolute() else f"./{shown(found.folder)}"
+    return list(_listed(name, found.folder))
 
 
 def _listed(name: str, folder: Path) -> Iterator[Listing]:
@@ -100,40 +136,70 @@ def _listed(name: str, folder: Path) -> Iterator[Listing]:
         yield Listing(f"{name}/{preset.stem}", first_comment(preset))
 
 
-def _find(source: str | Path) -> tuple[str, Path, Path | None]:
-    """Name of the scene, its folder, and the scene file to read (None for a folder without one)."""
+def _find(source: str | Path) -> Found:
+    """The scene that is meant, and the scene file to read."""
     if not isinstance(source, str | Path):
-        raise RequestError(f"{shortened(repr(source))} is no scene: name one as text, or give the path of its file")
+        raise RequestError(f"{shortened(repr(source))} is not a scene: give its name as text, or the path of its file")
     try:
         return _named(source) if isinstance(source, str) else _at(source)
     except OSError as error:  # a name too long, a folder that may not be entered
         raise RequestError(f"{shortened(str(source))}: cannot be read: {reason(error)}") from None
+    except ValueError:
+        raise RequestError(f"{shortened(repr(source))}: a name or path has no NUL character") from None
 
 
-def _named(source: str) -> tuple[str, Path, Path | None]:
+def _named(source: str) -> Found:
     name, _, preset = source.partition("/")
-    folder = _built_in(name) or _installed(name)
+    folder = installed_folder(name)
     if folder is not None and not preset:
-        return name, folder, _default_file(folder)
+        return Found(name, folder, _default_file(folder))
     if folder is not None and _is_word(preset):
-        return name, folder, _preset(name, folder, preset)
+        return Found(name, folder, _preset(name, folder, preset), preset=preset)
     if not source:
         raise RequestError(_unknown('""'))
-    return _at(Path(source))
+    path = Path(source)
+    if not _is_path(source) and path.suffix != ".toml":
+        here = path if (path / "scene.py").is_file() else path.parent
+        if here != Path() and (here / "scene.py").is_file():
+            raise RequestError(f"unknown scene {shortened(source)}; for the one in this folder write ./{source}")
+        if not path.exists():
+            raise RequestError(_unknown(source))
+    return _at(path)
 
 
-def _at(path: Path) -> tuple[str, Path, Path | None]:
+def _is_path(text: str) -> bool:
+    """Whether a text is a path and not a name: ``.``, ``..``, ``./volleyball``, ``../volleyball``, ``/scenes/golf``."""
+    return text in (".", "..") or text.startswith(("./", "../")) or Path(text).is_absolute()
+
+
+def _at(path: Path) -> Found:
     if (path / "scene.py").is_file():
-        folder = path.resolve()
-        return folder.name, folder, _default_file(path)
+        return _in_folder(path)
     if path.is_file() or (path.suffix == ".toml" and not path.is_dir()):
-        return *_scene_of_file(path), path
+        return _of_file(path)
     if (path.parent / "scene.py").is_file() and not path.exists():  # ./volleyball/float, as golf/driver
-        folder = path.parent.resolve()
-        return folder.name, folder, _preset(folder.name, path.parent, path.name)
+        return _in_folder(path.parent, path.name)
     if path.is_dir():
         raise RequestError(f"{path}: a folder without scene.py is not a scene")
     raise RequestError(_unknown(str(path)))
+
+
+def _in_folder(path: Path, preset: str = "") -> Found:
+    """The scene in a folder that was given by its path, or a preset of it."""
+    folder = path.resolve()
+    file = _preset(folder.name, path, preset) if preset else _default_file(path)
+    if file is not None:
+        written = declared.read_toml(file).get("scene", folder.name)
+        if written != folder.name and not _leads_to(folder, file, written):
+            raise RequestError(
+                f"{shown(file)}: scene = {declared.shown(written)}, but here it is a file for {folder.name}"
+            )
+    return Found(folder.name, folder, file, preset=preset or None)
+
+
+def _leads_to(folder: Path, file: Path, written: Any) -> bool:
+    """Whether what a scene file says of its scene is a path to this folder."""
+    return isinstance(written, str) and _is_path(written) and (file.parent / written).resolve() == folder
 
 
 def _is_word(name: str) -> bool:
@@ -154,7 +220,7 @@ def _built_in(name: str) -> Path | None:
     return folder if (folder / "scene.py").is_file() else None
 
 
-def _installed(name: str) -> Path | None:
+def _from_package(name: str) -> Path | None:
     """The folder of a scene that another installed package offers."""
     if not _is_word(name):
         return None
@@ -202,24 +268,53 @@ def _preset(name: str, folder: Path, preset: str) -> Path:
     raise RequestError(f"{name} has no preset {preset}; {hint}")
 
 
-def _scene_of_file(path: Path) -> tuple[str, Path]:
-    """Name and folder of the scene that a scene file is for; the nearest wins: around it, beside it, by its name."""
+def _of_file(path: Path) -> Found:
+    """The scene that a scene file is for. A name is that of an installed scene, whatever stands beside the file; a
+    path is the user's own."""
     values = declared.read_toml(path)
-    written = values.get("scene")
-    parent = path.resolve().parent
-    around = parent.parent if parent.name == "presets" else parent
-    if (around / "scene.py").is_file():
-        return around.name, around
     if "scene" not in values:
-        raise RequestError(f'{path}: needs a line that names its scene, such as scene = "golf"')
+        raise RequestError(f'{path}: needs a line that names its scene, such as scene = "golf"{_own_folder(path)}')
+    written = values["scene"]
+    if isinstance(written, str) and _is_path(written):
+        return _by_path(path, written)
     name, slash, preset = written.partition("/") if isinstance(written, str) else ("", "", "")
     if not _is_word(name) or (slash and not _is_word(preset)):
         raise RequestError(
             f'{path}: scene = {declared.shown(written)}: must be the name of a scene or preset, such as "golf" or '
-            '"golf/moon"; a scene of your own stands beside this file'
+            '"golf/moon", or the path of a scene of your own, such as "./volleyball"'
         )
-    beside = parent / name
-    folder = beside if (beside / "scene.py").is_file() else _built_in(name) or _installed(name)
+    folder = installed_folder(name)
     if folder is None:
-        raise RequestError(f"{path}: {_unknown(name)}")
-    return name, folder
+        own = path.parent / name
+        if (own / "scene.py").is_file():
+            raise RequestError(f'{path}: {_unknown(name)}; for the folder beside this file write scene = "./{written}"')
+        raise RequestError(f"{path}: {_unknown(name)}{_own_folder(path)}")
+    is_preset = path.resolve().parent == folder / "presets"
+    if is_preset and preset:
+        raise RequestError(f'{path}: scene = "{written}", but here it is a file for {name}')
+    return Found(name, folder, path, preset, path.stem if is_preset else None)
+
+
+def _by_path(path: Path, written: str) -> Found:
+    """The scene of a scene file that says where its folder is."""
+    place = path.parent / written
+    base = "" if (place / "scene.py").is_file() else place.name
+    folder = (place.parent if base else place).resolve()
+    if not (folder / "scene.py").is_file():
+        raise RequestError(f"{path}: scene = {declared.shown(written)}: there is no scene.py in that folder")
+    if base:
+        _preset(folder.name, folder, base)
+    is_preset = path.resolve().parent == folder / "presets"
+    return Found(folder.name, folder, path, base, path.stem if is_preset else None)
+
+
+def _own_folder(path: Path) -> str:
+    """How to ask for a file in the folder of a scene of one's own, as the end of a sentence; empty for any other."""
+    parent = path.parent
+    folder = parent.parent if parent.name == "presets" else parent
+    if not (folder / "scene.py").is_file():
+        return ""
+    shortest = shown(folder)
+    own = shortest if Path(shortest).is_absolute() or shortest == "." else f"./{shortest}"
+    name = f"{own}/{path.stem}" if parent.name == "presets" else own
+    return f"; a file alone does not run the scene.py of its folder: ask for {name}"

@@ -12,6 +12,7 @@ import pygame
 from sandbox.errors import RunError
 from sandbox.files import reason, written_whole
 from sandbox.picture.frames import save_gif, save_png
+from sandbox.scene import reference
 from sandbox.window.session import Session, Shot
 
 FOLDER = Path("out")
@@ -62,8 +63,9 @@ def scene_file(session: Session) -> Path:
     except OSError as error:
         raise RunError(f"{session.file}: cannot be read: {reason(error)}") from None
     if not re.search(r"(?m)^\s*scene\s*=", text):  # a preset, whose folder says what it is for
-        text = f'scene = "{session.base.name}"\n\n{text}'
+        text = f'scene = ""\n\n{text}'
     document = tomlkit.parse(text)
+    document["scene"] = _named(session, str(document["scene"]), path.parent)
     for key, value in session.changes.items():
         _put(document, key.split("."), value)
     try:
@@ -72,6 +74,15 @@ def scene_file(session: Session) -> Path:
     except OSError as error:
         raise RunError(f"{path}: cannot be written: {reason(error)}") from None
     return path
+
+
+def _named(session: Session, written: str, place: Path) -> str:
+    """What a scene file in ``place`` says of its scene; the preset that the session's own file begins from stays."""
+    scene = session.base
+    own = reference(scene.folder, place)
+    begins_from = written.rpartition("/")[2]
+    names_a_preset = begins_from != written and (scene.folder / "presets" / f"{begins_from}.toml").is_file()
+    return f"{own}/{begins_from}" if names_a_preset else own
 
 
 def _put(table: Any, path: list[str], value: Any) -> None:

@@ -120,7 +120,7 @@ def scene_project(pytester, monkeypatch):
         import sandbox
 
         def test_it(golden):
-            golden.check("it", sandbox.simulate(sandbox.load("drop", json.loads(os.environ.get("CHANGES", "{}")))))
+            golden.check("it", sandbox.simulate(sandbox.load("./drop", json.loads(os.environ.get("CHANGES", "{}")))))
         """
     )
     return pytester
