@@ -5,12 +5,14 @@ from __future__ import annotations
 import csv
 import json
 import re
+from collections.abc import Mapping
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from sandbox.errors import RunError
 from sandbox.files import plain, written_whole
+from sandbox.scene.checking import NUDGE
 from sandbox.text import csv_text, one_line
 
 if TYPE_CHECKING:
@@ -20,6 +22,9 @@ if TYPE_CHECKING:
 
 #: Events shown on a card; a ball that rolls through a rack has hundreds.
 EVENTS_SHOWN = 6
+
+#: Longest value in a sentence, in letters; a list of what a ball touched may have hundreds.
+LONGEST_WORD = 40
 
 
 def as_json(scene: Scene, run: Run, check: Check | None = None, other: Run | None = None) -> str:
@@ -47,6 +52,13 @@ def as_json(scene: Scene, run: Run, check: Check | None = None, other: Run | Non
     if check is not None:
         report["errors"] = check.errors
         report["changed"] = {name: list(pair) for name, pair in check.changed.items()}
+        report["nudges"] = {
+            "size_m": NUDGE,
+            "runs": check.nudges,
+            "spread": check.spread,
+            "chaotic": sorted(check.chaotic),
+            "changed": check.unsettled,
+        }
     try:
         return json.dumps(plain(report), allow_nan=False, ensure_ascii=False)
     except TypeError as error:  # what a scene's result holds beside numbers, words and lists of them
@@ -94,7 +106,7 @@ def card(scene: Scene, run: Run, check: Check | None = None, other: tuple[str, R
         *_events(run),
         "",
         f"  {_numerics(run)}",
-        *([] if check is None else _verdict(check)),
+        *([] if check is None else _verdict(check, scene.units)),
     ]
 
 
@@ -151,15 +163,25 @@ def _with_error(text: str, error: float | None) -> str:
     return f"{match[0]} {amount.rstrip()}{text[match.end() :]}"
 
 
-def _verdict(check: Check) -> list[str]:
-    """Whether anything but a number hangs on the accuracy."""
-    if not check.changed:
-        return ["  checked against a finer run: nothing but the numbers moves, by no more than their ±"]
-    return [
-        f"  hangs on the accuracy: {name} is {_word(here)} here and {_word(finer)} in a finer run"
+def _verdict(check: Check, units: Mapping[str, str]) -> list[str]:
+    """What depends on the accuracy, and what on where exactly the balls start."""
+    away = f"{check.nudges} runs from starts {NUDGE:g} m away"
+    lines = [
+        f"  depends on the accuracy: {name} is {_word(here)} here and {_word(finer)} in a finer run"
         for name, (here, finer) in check.changed.items()
     ]
+    lines += [
+        f"  chaotic: {name.replace('_', ' ')} differs by up to {spread:.2g} {units.get(name, '')}".rstrip()
+        + f" in {away}"
+        for name, spread in check.chaotic.items()
+    ]
+    lines += [
+        f"  chaotic: {name.replace('_', ' ')} is another in {len(others)} of {away}, such as {_word(others[0])}"
+        for name, others in check.unsettled.items()
+    ]
+    return lines or [f"  checked against a finer run and {away}: only the numbers move, by no more than their ±"]
 
 
 def _word(value: Any) -> str:
-    return json.dumps(plain(value), ensure_ascii=False, default=str)
+    text = json.dumps(plain(value), ensure_ascii=False, default=str)
+    return text if len(text) <= LONGEST_WORD else text[: LONGEST_WORD - 3] + "..."

@@ -158,7 +158,7 @@ def test_the_card_names_the_preset(call):
 def test_check_adds_errors_and_the_verdict(call):
     out = call("run", DROP, "--check").out
     assert "1.21 m ± less than 0.001 mm  (above the floor)" in out
-    assert "nothing but the numbers moves" in out
+    assert "only the numbers move" in out
     report = json.loads(call("run", DROP, "--check", "--json").out)
     assert set(report["errors"]) == {"bounces", "first_touch", "final_height"}
     assert report["changed"] == {}
@@ -166,7 +166,7 @@ def test_check_adds_errors_and_the_verdict(call):
 
 def test_check_tells_when_the_verdict_hangs_on_the_accuracy(call, drop: Path):
     change(drop, '"bounces"', '"in": run.accuracy.tolerance < 5e-4, "bounces"')
-    assert "hangs on the accuracy: in is false here and true in a finer run" in call("run", drop, "--check").out
+    assert "depends on the accuracy: in is false here and true in a finer run" in call("run", drop, "--check").out
 
 
 # JSON and CSV -------------------------------------------------------------------------------------------------------

@@ -10,6 +10,15 @@ from sandbox.physics.integrators import INTEGRATORS
 
 METHODS = ("exact", "plain")
 
+#: Overlap in m at which two shapes count as touching. Positive, so that a ball rolling across the seam of two flush
+#: surfaces, off by rounding only (1e-13 m at 1 km), touches nothing. An impact on a round shape multiplies it by ten
+#: or more.
+SKIN = 2e-11
+
+#: Lowest hop in m that is followed where the cloth presses a ball against another or a cushion, as it can while the
+#: ball slides.
+LOWEST_HOP = 1e-6
+
 
 @dataclass(frozen=True)
 class Accuracy:
@@ -18,7 +27,8 @@ class Accuracy:
     ``method`` is "exact" (fly by an integrator, stop at the exact time of impact, let pymunk push) or "plain" (stock
     pymunk at a fixed step). ``tolerance`` is the error aimed at, in m; an integrator with error control chooses its
     steps by it, one without uses ``step``. ``settle`` is the height in m below which a bounce counts as lasting
-    contact.
+    contact, ``hop`` that to which a ball hops at least where the cloth presses it against something, and ``skin`` the
+    overlap in m at which two shapes count as touching.
     """
 
     level: str
@@ -27,15 +37,25 @@ class Accuracy:
     tolerance: float  # m
     step: float  # s
     settle: float  # m
+    hop: float = LOWEST_HOP  # m
+    skin: float = SKIN  # m
 
     def finer(self) -> Accuracy:
-        """The same with half the step, or a tolerance that leads to about half the step."""
-        return replace(self, step=self.step / 2, tolerance=self.tolerance / 32, settle=self.settle / 1024)
+        """The same with half the step, or a tolerance that leads to about half the step; and with less of what no step
+        governs: low bounces, low hops, and the overlap at a contact."""
+        return replace(
+            self,
+            step=self.step / 2,
+            tolerance=self.tolerance / 32,
+            settle=self.settle / 1024,
+            hop=self.hop / 4,
+            skin=self.skin / 4,
+        )
 
 
 #: Chosen by measurement (``sandbox trade``): the error after several impacts stays below the level's promise.
 LEVELS = {
-    "fast": Accuracy("fast", "exact", "dormand-prince", tolerance=1e-1, step=1 / 60, settle=1e-4),
+    "fast": Accuracy("fast", "exact", "dormand-prince", tolerance=1e-1, step=1 / 60, settle=1e-4, hop=1e-4),
     "balanced": Accuracy("balanced", "exact", "dormand-prince", tolerance=1e-3, step=1 / 240, settle=1e-8),
     "precise": Accuracy("precise", "exact", "dormand-prince", tolerance=1e-5, step=1 / 960, settle=1e-12),
 }

@@ -128,7 +128,7 @@ class _Batch:
         self._step = INTEGRATORS[accuracy.integrator].step
         balls = [setup.balls[0] for setup in setups]
         self._stack = stacked([(tuple(ball.forces), tuple(ball.torques)) for ball in balls])
-        self._outlines = Outlines(setups)
+        self._outlines = Outlines(setups, accuracy.skin)
         self._lanes = Lanes()
         self._events: list[list[Event]] = [[] for _ in setups]
         self._left: dict[int, _Left] = {}

@@ -10,18 +10,14 @@ from sandbox.engine.track import Track
 from sandbox.physics.cloth import Cloth
 from sandbox.physics.integrators import State
 
-#: Lowest bounce in m that is followed where the cloth presses a ball against another or a cushion, as it can while the
-#: ball slides.
-_LOWEST_HOP = 1e-6
 
-
-def slowest_hop(cloth: Cloth, settle: float) -> float:
-    """Speed in m/s with which what the cloth presses together parts at least, for an accuracy's ``settle`` (m).
+def slowest_hop(cloth: Cloth, hop: float) -> float:
+    """Speed in m/s with which what the cloth presses together parts at least, for an accuracy's ``hop`` (m).
 
     A steady push is then a run of even hops, and not an endless series of ever smaller ones. The energy that the first
     hop of such a run may add is half the reduced mass times this squared: 2e-7 J for pool balls at "balanced".
     """
-    return float((2.0 * cloth.sliding * cloth.gravity * max(_LOWEST_HOP, settle)) ** 0.5)
+    return float((2.0 * cloth.sliding * cloth.gravity * hop) ** 0.5)
 
 
 class OnCloth:

@@ -11,10 +11,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from sandbox.engine.accuracy import SKIN
 from sandbox.engine.arc import Arc
 from sandbox.engine.bernstein_many import evaluate, first_downward_crossing, squared_length, without_root_at_start
 from sandbox.engine.setup import Circle, Setup
-from sandbox.engine.touch import CONTACT, NOISE, SKIN, Obstacle
+from sandbox.engine.touch import CONTACT, NOISE, Obstacle
 
 #: First crossing of each path, and where it is not plain; both of shape (paths,).
 Crossings = tuple[np.ndarray, np.ndarray]
@@ -37,8 +38,9 @@ class Outlines:
     Inside, arrays have shape (surfaces, shots).
     """
 
-    def __init__(self, setups: Sequence[Setup]) -> None:
+    def __init__(self, setups: Sequence[Setup], skin: float = SKIN) -> None:
         self._setups = setups
+        self._skin = skin
         places = [
             [
                 (*shape.center, *shape.center, shape.radius + setup.balls[0].radius)
@@ -95,11 +97,12 @@ class Outlines:
         )
         if len(path):
             at, xs, ys = (what, shots[path]), x[:, path], y[:, path]
-            u, unclear = _round(xs - self._ax[at], ys - self._ay[at], self._reach[at])
+            u, unclear = _round(xs - self._ax[at], ys - self._ay[at], self._reach[at] - self._skin)
             straight = np.flatnonzero(~self._round[at])
             if len(straight):
                 some = (what[straight], shots[path[straight]])
-                corner = _round(xs[:, straight] - self._bx[some], ys[:, straight] - self._by[some], self._reach[some])
+                radius = self._reach[some] - self._skin
+                corner = _round(xs[:, straight] - self._bx[some], ys[:, straight] - self._by[some], radius)
                 for other, doubtful in (corner, self._side(some, xs[:, straight], ys[:, straight])):
                     u[straight] = np.minimum(u[straight], other)
                     unclear[straight] |= doubtful
@@ -113,7 +116,7 @@ class Outlines:
         key = (surface, shot)
         if key not in self._obstacles:
             setup = self._setups[shot]
-            self._obstacles[key] = Obstacle(setup.surfaces[surface], setup.balls[0].radius)
+            self._obstacles[key] = Obstacle(setup.surfaces[surface], setup.balls[0].radius, self._skin)
         return self._obstacles[key]
 
     def _side(self, at: tuple[np.ndarray, np.ndarray], x: np.ndarray, y: np.ndarray) -> Crossings:
@@ -126,7 +129,7 @@ class Outlines:
         within = (along[0] >= -CONTACT) & (along[0] <= length + CONTACT)
         reached = (across.min(axis=0) <= reach) & (across.max(axis=0) >= -reach)
         for side in (1.0, -1.0):
-            gap = side * across - reach + SKIN
+            gap = side * across - reach + self._skin
             beside = side * across[0] > 0.0
             some = np.flatnonzero(reached & ((gap.max(axis=0) > -NOISE) | beside))
             if not len(some):
@@ -143,10 +146,9 @@ class Outlines:
         return first, unclear
 
 
-def _round(dx: np.ndarray, dy: np.ndarray, reach: np.ndarray) -> Crossings:
-    """Where paths, given from the middle of a round feature, come within ``reach`` of it."""
-    first, unclear = np.full(len(reach), np.inf), np.zeros(len(reach), dtype=bool)
-    radius = reach - SKIN
+def _round(dx: np.ndarray, dy: np.ndarray, radius: np.ndarray) -> Crossings:
+    """Where paths, given from the middle of a round feature, come within ``radius`` of it."""
+    first, unclear = np.full(len(radius), np.inf), np.zeros(len(radius), dtype=bool)
     apart = (dx.min(axis=0) > radius) | (dx.max(axis=0) < -radius)
     apart |= (dy.min(axis=0) > radius) | (dy.max(axis=0) < -radius)
     # the control points all lie beyond a tangent of the circle: no touch

@@ -66,17 +66,18 @@ class Simulation:
         self._names = {ball.name for ball in setup.balls}
         self._tracks = self._laid_out()
         self._separate_balls()
-        slowest = 0.0 if setup.cloth is None else slowest_hop(setup.cloth, accuracy.settle)
+        slowest = 0.0 if setup.cloth is None else slowest_hop(setup.cloth, accuracy.hop)
         self._impacts = Impacts(setup, self._tracks, Contacts(setup.balls, self._numerics), slowest)
 
     def _laid_out(self) -> list[Track]:
         setup = self._setup
         obstacles: dict[float, list[Obstacle]] = {}
-        catches = [Obstacle(Surface(c.name, Circle(c.center, c.radius), 0.0, 0.0), 0.0) for c in setup.catches]
+        skin = self._accuracy.skin
+        catches = [Obstacle(Surface(c.name, Circle(c.center, c.radius), 0.0, 0.0), 0.0, skin) for c in setup.catches]
         tracks = []
         for ball in setup.balls:
             if ball.radius not in obstacles:
-                obstacles[ball.radius] = [Obstacle(surface, ball.radius) for surface in setup.surfaces]
+                obstacles[ball.radius] = [Obstacle(surface, ball.radius, skin) for surface in setup.surfaces]
             x, y = _clear_of(ball, ball.position, obstacles[ball.radius])
             mover: Motion
             state: State = (x, y, *map(float, (*ball.velocity, ball.spin)))
@@ -264,7 +265,7 @@ class Simulation:
             a, b, c, d = neighbour.arc.box()
             if left <= c + reach and right >= a - reach and bottom <= d + reach and top >= b - reach:
                 self._numerics.queries += 1
-                pair_at = balls_touch(arc, neighbour.arc, reach, t)
+                pair_at = balls_touch(arc, neighbour.arc, reach, t, self._accuracy.skin)
                 if pair_at is not None and pair_at <= at:
                     self._push(pair_at, "touch", index, other)
 

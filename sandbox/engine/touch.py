@@ -12,14 +12,10 @@ from collections.abc import Iterable, Sequence
 from math import hypot, sqrt
 from typing import NamedTuple
 
+from sandbox.engine.accuracy import SKIN
 from sandbox.engine.arc import Arc
 from sandbox.engine.bernstein import downward_crossings, elevate, evaluate, piece, product, without_root_at_start
 from sandbox.engine.setup import Circle, Surface
-
-#: Overlap in m at which two shapes count as touching. Positive, so that a ball rolling across the seam of two flush
-#: surfaces, off by rounding only (1e-13 m at 1 km), touches nothing. An impact on a round shape multiplies it by ten
-#: or more.
-SKIN = 2e-11
 
 #: Largest gap in m at which shapes are taken to be in contact when an impact or a new contact is sorted out.
 CONTACT = 1e-10
@@ -57,11 +53,12 @@ class Touching(NamedTuple):
 
 
 class Obstacle:
-    """A surface, prepared for one ball radius."""
+    """A surface, prepared for one ball radius; touched where a ball overlaps it by ``skin`` (m)."""
 
-    def __init__(self, surface: Surface, radius: float) -> None:
+    def __init__(self, surface: Surface, radius: float, skin: float = SKIN) -> None:
         shape = surface.shape
         self.surface = surface
+        self._skin = skin
         self.reach = shape.radius + radius  # m, from the ball's centre to the shape's middle line when they touch
         self._a, b = (shape.center, shape.center) if isinstance(shape, Circle) else (shape.a, shape.b)
         self._b = b
@@ -142,7 +139,7 @@ class Obstacle:
         (left, bottom, right, top), (x, y), reach = arc.box(), center, self.reach
         if x - reach > right or x + reach < left or y - reach > top or y + reach < bottom:
             return None
-        return _round(arc.x, arc.y, center, reach)
+        return _round(arc.x, arc.y, center, reach - self._skin)
 
     def _side(self, arc: Arc) -> float | None:
         ax, ay = self._a
@@ -152,7 +149,7 @@ class Obstacle:
             return None
         first = None
         for side in (1.0, -1.0):
-            gap = [side * d - self.reach + SKIN for d in across]
+            gap = [side * d - self.reach + self._skin for d in across]
             if max(gap) <= -NOISE and side * across[0] <= 0.0:
                 continue  # wholly beyond the line
             for u in _closings(gap, side * across[0] > 0.0 and self._within(arc.x[0], arc.y[0], CONTACT)):
@@ -167,9 +164,8 @@ class Obstacle:
         return -margin <= self._along(x, y) <= self._length + margin
 
 
-def _round(xs: Sequence[float], ys: Sequence[float], center: Point, reach: float) -> float | None:
-    """First u at which a path comes within ``reach`` of a point."""
-    radius = reach - SKIN
+def _round(xs: Sequence[float], ys: Sequence[float], center: Point, radius: float) -> float | None:
+    """First u at which a path comes within ``radius`` of a point."""
     cx, cy = center
     dx = [x - cx for x in xs]
     dy = [y - cy for y in ys]
@@ -200,9 +196,10 @@ def _closings(gap: list[float], starts_beside: bool) -> Iterable[float]:
     return downward_crossings(gap)
 
 
-def balls_touch(first: Arc, second: Arc, reach: float, t: float) -> float | None:
-    """The first time from t on, while both arcs last, at which two centres come within ``reach`` of each other, or
-    None.
+def balls_touch(first: Arc, second: Arc, reach: float, t: float, skin: float = SKIN) -> float | None:
+    """The first time from t on, while both arcs last, at which two balls overlap by ``skin``, or None.
+
+    ``reach`` is the distance in m of their centres when they touch.
     """
     until = min(first.t1, second.t1)
     if until <= t:
@@ -212,7 +209,7 @@ def balls_touch(first: Arc, second: Arc, reach: float, t: float) -> float | None
     degree = max(len(xs), len(us)) - 1
     dx = [a - b for a, b in zip(elevate(xs, degree), elevate(us, degree), strict=True)]
     dy = [a - b for a, b in zip(elevate(ys, degree), elevate(vs, degree), strict=True)]
-    u = _round(dx, dy, (0.0, 0.0), reach)
+    u = _round(dx, dy, (0.0, 0.0), reach - skin)
     return None if u is None else t + u * (until - t)
 
 

@@ -11,10 +11,9 @@ from dataclasses import dataclass, replace
 from math import hypot
 
 from sandbox.engine import simulate
-from sandbox.engine.accuracy import LEVELS, Accuracy
+from sandbox.engine.accuracy import LEVELS, SKIN, Accuracy
 from sandbox.engine.run import Run
 from sandbox.engine.setup import Ball, Setup
-from sandbox.engine.touch import SKIN
 from sandbox.errors import RequestError
 from sandbox.physics.forces import Gravity
 from sandbox.scene import Scene
@@ -148,7 +147,7 @@ def _nudged_ball(ball: Ball) -> Ball:
 
 def _check(time: float) -> Accuracy:
     step = max(_CHECK_STEP, time / _CHECK_STEPS)
-    return replace(REFERENCE, level="check", integrator="rk4", step=step, settle=_CHECK_SETTLE)
+    return replace(REFERENCE.finer(), level="check", integrator="rk4", step=step, settle=_CHECK_SETTLE)
 
 
 def _size(run: Run, time: float) -> float:

@@ -1,49 +1,116 @@
-"""How far a result is to be trusted: a second run, finer, and where the two differ."""
+"""How far a result is to be trusted: the run again, finer, and again from starts that differ by a nanometre."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from sandbox.errors import RunError
 from sandbox.scene.finding import as_scene
 from sandbox.scene.running import simulate, simulate_at
 from sandbox.scene.scene import Scene
 
 if TYPE_CHECKING:
     from sandbox.engine.run import Run
+    from sandbox.engine.setup import Setup
+
+#: How far in m every ball is moved for a nudged run, each its own way, and how many such runs there are. Nobody places
+#: a ball to a nanometre.
+NUDGE, NUDGES = 1e-9, 8
+
+#: How far in m every ball is moved for the finer run: below what the method resolves (its contact skin), so that
+#: motion known in closed form is checked as well.
+_ROUNDING = 1e-11
+
+#: A number is chaotic where a nudge grows by this factor or more: a nanometre to a millimetre.
+_CHAOTIC = 1e6
+
+#: Angle in rad by which the direction of one nudge is turned from the last: the golden angle, so that they spread.
+_TURN = math.pi * (3.0 - math.sqrt(5.0))
 
 
 @dataclass(frozen=True)
 class Check:
-    """How far a result is to be trusted, by a second run at a finer accuracy."""
+    """How far a result is to be trusted, by runs that ought to agree with it."""
 
     finer: Run
     errors: dict[str, float] = field(default_factory=dict)  # estimated, for each number of the result, in its unit
     changed: dict[str, tuple[Any, Any]] = field(default_factory=dict)  # what else differs: in the run, in the finer one
+    #: How far each number moves at most where every ball starts a nanometre elsewhere, in its unit.
+    spread: dict[str, float] = field(default_factory=dict)
+    #: What else such nudges change, and what it is in each of them that differs.
+    unsettled: dict[str, list[Any]] = field(default_factory=dict)
+    nudges: int = 0  # runs from nudged starts
+
+    @property
+    def chaotic(self) -> dict[str, float]:
+        """The numbers that a nudge of a nanometre moves by 1e6 times as much or more, and how far."""
+        return {name: spread for name, spread in self.spread.items() if spread >= _CHAOTIC * NUDGE}
 
 
 def check(scene: Scene | str | Path, run: Run | None = None) -> Check:
-    """Estimate the errors of the scene's result: run it again, finer, and compare."""
+    """Estimate the errors of the scene's result: run it again, finer, and from nudged starts, and compare.
+
+    The error of a number is the largest difference to any of those runs.
+    """
     chosen = as_scene(scene)
     run = run or simulate(chosen)
-    return compare(run, simulate_at(chosen, run.accuracy.finer()))
+    setup = nudged(chosen.build(), _ROUNDING, 0)
+    outcome = compare(run, simulate_at(chosen, run.accuracy.finer(), setup))
+    spread: dict[str, float] = {}
+    unsettled: dict[str, list[Any]] = {}
+    for result in _nudged_results(chosen, run):
+        apart, changed = _differences(run.result, result)
+        for name, difference in apart.items():
+            spread[name] = max(difference, spread.get(name, 0.0))
+        for name, (_, other) in changed.items():
+            unsettled.setdefault(name, []).append(other)
+    errors = {name: max(error, spread.get(name, 0.0)) for name, error in outcome.errors.items()}
+    return replace(outcome, errors=errors, spread=spread, unsettled=unsettled, nudges=NUDGES)
 
 
 def compare(run: Run, finer: Run) -> Check:
     """The estimated errors of a run's result, by those of a finer run of the same scene."""
-    outcome = Check(finer)
-    for name, value in run.result.items():
-        other = outcome.finer.result.get(name)
+    return Check(finer, *_differences(run.result, finer.result))
+
+
+def nudged(setup: Setup, distance: float, turn: int) -> Setup:
+    """The setup with every ball moved by ``distance`` (m), each its own way; ``turn`` chooses among the ways."""
+    balls = []
+    for place, ball in enumerate(setup.balls):
+        angle = _TURN * (turn * len(setup.balls) + place + 1)
+        x, y = ball.position
+        position = (x + distance * math.cos(angle), y + distance * math.sin(angle))
+        balls.append(replace(ball, position=position))
+    return replace(setup, balls=balls)
+
+
+def _nudged_results(scene: Scene, run: Run) -> Iterator[Mapping[str, Any]]:
+    """The results from nudged starts; of a run that fails, that it does."""
+    for turn in range(NUDGES):
+        try:
+            yield simulate_at(scene, run.accuracy, nudged(scene.build(), NUDGE, turn)).result
+        except RunError as error:
+            yield dict.fromkeys(run.result, f"no result: {error}")
+
+
+def _differences(
+    result: Mapping[str, Any], other: Mapping[str, Any]
+) -> tuple[dict[str, float], dict[str, tuple[Any, Any]]]:
+    """How far the numbers of two results are apart, and what else differs."""
+    apart: dict[str, float] = {}
+    changed: dict[str, tuple[Any, Any]] = {}
+    for name, value in result.items():
         form, numbers = _taken_apart(value)
-        other_form, other_numbers = _taken_apart(other)
+        other_form, other_numbers = _taken_apart(other.get(name))
         if form != other_form:
-            outcome.changed[name] = (value, other)
+            changed[name] = value, other.get(name)
         elif numbers:
-            outcome.errors[name] = max(abs(a - b) for a, b in zip(numbers, other_numbers, strict=True))
-    return outcome
+            apart[name] = max(abs(a - b) for a, b in zip(numbers, other_numbers, strict=True))
+    return apart, changed
 
 
 def _taken_apart(value: Any) -> tuple[Any, list[float]]:

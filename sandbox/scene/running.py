@@ -11,6 +11,7 @@ from sandbox.scene.scene import Scene
 if TYPE_CHECKING:
     from sandbox.engine.accuracy import Accuracy
     from sandbox.engine.run import Run
+    from sandbox.engine.setup import Setup
 
 
 def simulate(scene: Scene | str | Path) -> Run:
@@ -21,10 +22,11 @@ def simulate(scene: Scene | str | Path) -> Run:
     return simulate_at(chosen, resolve(**chosen.parameters.accuracy.model_dump()))
 
 
-def simulate_at(scene: Scene, accuracy: Accuracy) -> Run:
+def simulate_at(scene: Scene, accuracy: Accuracy, setup: Setup | None = None) -> Run:
+    """Run the scene at an accuracy; ``setup`` is one like the scene's own, to be run in its place."""
     from sandbox.engine import simulate as run_setup
 
-    run = run_setup(scene.build(), accuracy)
+    run = run_setup(setup or scene.build(), accuracy)
     run.scene = scene
     run.result = scene.result(run)
     return run

@@ -93,6 +93,7 @@ def _accuracy(app: App) -> None:
     units = app.shot.scene.units
     errors = [f"{name} ± {error:.1g} {units.get(name, '')}" for name, error in checked.errors.items() if error > 0]
     changed = [f"{name} would be {finer}" for name, (_, finer) in checked.changed.items()]
+    changed += [f"{name} is chaotic" for name in (*checked.chaotic, *checked.unsettled)]
     told = ", ".join(text.strip() for text in changed or errors[:4]) or "no difference to a finer run"
     told = told.replace("_", " ")
     app.tell(f"accuracy {level}: {1e3 * app.shot.run.numerics.wall_s:.1f} ms a run; {told}")

@@ -340,7 +340,7 @@ def _touches(run: Run, ball: str) -> Iterator[str]:
 def _meetings(run: Run) -> Iterator[Event]:
     """Impacts, and balls that are caught. What the cloth presses together hops, which counts as one meeting."""
     assert run.setup.cloth is not None
-    hop = 1.001 * slowest_hop(run.setup.cloth, run.accuracy.settle)
+    hop = 1.001 * slowest_hop(run.setup.cloth, run.accuracy.hop)
     last: dict[str, str] = {}  # what each ball met last
     for event in run.events:
         if event.kind not in ("impact", "caught"):

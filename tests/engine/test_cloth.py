@@ -81,7 +81,7 @@ def test_a_steady_push_is_a_run_of_even_hops_and_ends():
         a, b = (np.array([run.state(name, t)[0] for t in times]) for name in ("a", "b"))
         assert b.max() <= 1e-9
         assert (b - a).min() >= 2 * R - 1e-9
-        hop = 0.5 * 0.5 * M * slowest_hop(CLOTH, resolve(level).settle) ** 2
+        hop = 0.5 * 0.5 * M * slowest_hop(CLOTH, resolve(level).hop) ** 2
         assert sum(ledger(run).impacts.values()) <= 10 * hop
 
 
