@@ -156,6 +156,9 @@ def _with_error(text: str, error: float | None) -> str:
     match = re.match(r"[-+]?[\d.]+(?: ([^\s(]+))?", text)
     if error is None or match is None or (error == 0.0 and re.match(r"[-+]?\d+(?![\d.])", text)):
         return text  # a count that is the same in both runs is not "less than 0.001" off
+    count = re.match(r"[-+]?\d+(?![\d.])", text)
+    if count is not None and error == int(error):  # of cushions, not of metres
+        return f"{count[0]} ± {error:.0f}{text[count.end() :]}"
     unit = match[1] or ""
     if unit == "m" and error < 0.1:
         error, unit = error * 1e3, "mm"

@@ -22,7 +22,10 @@ def run(
     accuracy: Level = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object in place of the result card.")] = False,
     check: Annotated[
-        bool, typer.Option("--check", help="Run again, finer, and estimate the error of each number.")
+        bool,
+        typer.Option(
+            "--check", help="Run again, finer and from starts 1 nm away: the error of each number, and what is chaotic."
+        ),
     ] = False,
     trajectory: Annotated[
         Path | None, typer.Option(metavar="F.csv", help="Write the path of every ball: t,ball,x,y,vx,vy,spin.")
