@@ -17,6 +17,7 @@ from sandbox import resources
 from sandbox.errors import RequestError
 from sandbox.parameters import read_toml, walk
 from sandbox.scene import listings, reference
+from sandbox.scene.finding import folder_of, is_installed
 from sandbox.units import KIND_OF
 
 DROP = Path(__file__).parent / "scenes" / "drop"
@@ -234,6 +235,8 @@ def test_a_reference_leads_back_to_its_scene(drop: Path, tmp_path: Path):
             (place / "shot.toml").write_text(f'scene = "{reference(folder, place)}"')
             assert sandbox.load(place / "shot.toml").folder == folder
     assert reference(SCENES / "golf", tmp_path) == "golf"
+    assert (folder_of("golf/moon"), folder_of(str(drop)), folder_of("golff")) == (SCENES / "golf", drop, None)
+    assert (is_installed(SCENES / "golf"), is_installed(drop)) == (True, False)
 
 
 def test_a_scene_may_import_its_neighbours(drop: Path):

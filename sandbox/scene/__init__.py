@@ -4,7 +4,6 @@ from sandbox.scene.checking import Check, check, compare
 from sandbox.scene.finding import (
     Listing,
     as_scene,
-    is_installed,
     listings,
     listings_in,
     listings_of,
@@ -22,7 +21,6 @@ __all__ = [
     "as_scene",
     "check",
     "compare",
-    "is_installed",
     "listings",
     "listings_in",
     "listings_of",

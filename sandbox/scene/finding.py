@@ -79,11 +79,17 @@ def parameters_of(source: str | Path) -> tuple[str, type[declared.Group]]:
     return found.name, parameters_class(found.folder)
 
 
-def is_installed(source: str) -> bool:
-    """Whether ``source`` names a scene, or a preset of one, that came with the sandbox or an installed package; all
-    else is a path."""
-    name = source.partition("/")[0]
-    return installed_folder(name) is not None
+def folder_of(source: str | Path) -> Path | None:
+    """The folder of the scene that ``source`` names, without importing anything from it; None where there is none."""
+    try:
+        return _find(source).folder
+    except RequestError:
+        return None
+
+
+def is_installed(folder: Path) -> bool:
+    """Whether a scene came with the sandbox or with an installed package."""
+    return installed_folder(folder.name) == folder or folder in _named_folders().values()
 
 
 def installed_folder(name: str) -> Path | None:
