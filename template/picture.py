@@ -47,7 +47,7 @@ class Picture:
         sheet, path, over = Sheet(self.size), self.path, t >= self.run.duration
         sheet.surface.blit(self.standing, (0, 0))
         draw_trace(sheet, self.camera.pixels(path.points[path.samples[:, 0] <= t]), TRACE)
-        every, times = path.even_times(self.camera, self._radius(self.camera))
+        every, times = path.even_times()
         for s in (time for time in times if time < t):
             self._ball(sheet.painter, self.camera, s, 0.75)
         self.draw_balls(sheet.painter, self.camera, t)

@@ -4,14 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from math import cos, pi, sin
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from sandbox.engine.run import Run
+from sandbox.errors import RequestError
 from sandbox.picture.palette import Colour, mix, palette
 from sandbox.picture.path import FINEST, apart, chip
 from sandbox.picture.sheet import CARD, Entry, Sheet
+
+if TYPE_CHECKING:
+    from sandbox.picture.view import View
 
 TRACE = palette("trace")
 
@@ -25,11 +31,22 @@ MOST_POINTS = 480
 
 @dataclass(frozen=True)
 class Ghost:
-    """Another run: what it is called, its own picture, and its colour."""
+    """Another run: what it is called, its own picture, its colour, and how far it is moved (m) to lie over this one."""
 
     label: str
     picture: Any  # of the same class as the picture that it is drawn on
     colour: Colour
+    shift: tuple[float, float] = (0.0, 0.0)
+
+    @cached_property
+    def points(self) -> np.ndarray:
+        """Its path where it is drawn, in m, shape (n, 2)."""
+        return self.picture.path.points + self.shift
+
+    def at(self, t: float) -> np.ndarray:
+        """Its ball where it is drawn at time t in s, in m, shape (1, 2)."""
+        x, y, *_ = self.picture.run.state(self.picture.ball, min(t, self.picture.run.duration))
+        return np.array([(x + self.shift[0], y + self.shift[1])])
 
     @property
     def row(self) -> tuple[Colour, list[Entry]]:
@@ -51,12 +68,30 @@ class Ghost:
 
     @property
     def note(self) -> str:
-        return f"{self.label}: {self.picture.verdict()[0].lower()}{self.picture.verdict()[1:]}"
+        verdict = self.picture.verdict()
+        return f"{self.label}: {verdict[0].lower()}{verdict[1:]}"
 
 
 def colours_beside(kind: Any) -> Sequence[Colour]:
     """Of other runs on pictures of this class: its own ``EARLIER`` where the usual ones would be hard to see."""
     return getattr(kind, "EARLIER", TRACE["colours"][1:])
+
+
+def ghosts_on(picture: View[Any], runs: Mapping[str, Run]) -> list[Ghost]:
+    """Ghosts on a picture for runs of the same scene by their labels, laid over it where its ``datum`` says.
+
+    Raises RequestError where they cannot be: from the side, all share one ground.
+    """
+    kind, colours, ghosts = type(picture), colours_beside(type(picture)), []
+    (x, y), what = picture.datum
+    for i, (label, run) in enumerate(runs.items()):
+        assert run.scene is not None
+        other = kind(run, run.scene.parameters, picture.size)
+        (there_x, there_y), _ = other.datum
+        if picture.ONE_GROUND and there_y != y:
+            raise RequestError(f"{label}: {what} is at {there_y:g} m, and here at {y:g} m: these cannot be compared")
+        ghosts.append(Ghost(label, other, colours[i % len(colours)], (x - there_x, y - there_y)))
+    return ghosts
 
 
 def ghosts_of(kind: Any, runs: Mapping[str, Any], size: tuple[int, int]) -> list[Ghost]:
@@ -68,14 +103,14 @@ def ghosts_of(kind: Any, runs: Mapping[str, Any], size: tuple[int, int]) -> list
     ]
 
 
-def draw_in_frame(sheet: Sheet, ghost: Ghost, points: np.ndarray, at: tuple[float, float], top: float) -> None:
-    """A ghost's path (px, shape (n, 2)) as a thin line, and where its ball is (px); nothing above the row ``top``."""
+def draw_in_frame(sheet: Sheet, ghost: Ghost, points: np.ndarray, at: Sequence[float]) -> None:
+    """A ghost's path (px, shape (n, 2)) as a thin line, and where its ball is (px); kept out of the header."""
     colour = ghost.colour_on(sheet)
-    sheet.surface.set_clip((0, round(top), *sheet.size))
+    sheet.surface.set_clip((0, sheet.top_row, *sheet.size))
     if len(points) > 1:
         kept = np.unique(np.linspace(0, len(points) - 1, MOST_POINTS).astype(int))
         sheet.painter.thread(points[kept], sheet.unit, colour)
-    sheet.painter.disc(at, max(2.5, 5 * sheet.unit), colour, 0.9)
+    sheet.painter.disc((at[0], at[1]), max(2.5, 5 * sheet.unit), colour, 0.9)
     sheet.surface.set_clip(None)
 
 

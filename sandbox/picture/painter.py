@@ -70,6 +70,15 @@ def from_colours(colours: np.ndarray) -> pygame.Surface:
     return surface
 
 
+@lru_cache(maxsize=8)
+def soil(size: tuple[int, int], colours: tuple[Colour, ...]) -> pygame.Surface:
+    """The ground cut open: three colours, from the top down."""
+    top, middle, low = (np.array(colour, float) for colour in colours)
+    share = np.linspace(0, 2, size[1])[:, None]
+    column = np.where(share < 1, top + (middle - top) * share, middle + (low - middle) * (share - 1))
+    return from_colours(np.broadcast_to(column, (*size, 3)))
+
+
 @lru_cache(maxsize=2048)
 def _disc(radius: float, width: float, phase: Point, colour: Colour) -> pygame.Surface:
     """A disc, or with ``width`` > 0 a ring, whose centre lies ``phase`` px past the middle pixel's centre."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
-from math import cos, floor, hypot, pi, sin
+from math import ceil, cos, hypot, pi, sin
 from typing import Any
 
 import numpy as np
@@ -21,20 +21,23 @@ SAMPLING, MOST_SAMPLES = 1 / 120, 5000
 #: Points of a trace are this far apart, in px.
 FINEST = 1.5
 #: At most so many balls are drawn along a path, or along that part of it that matters.
-BALLS = 20
-#: Impacts at less than this, in m/s, are not marked.
-LEAST_IMPACT = 0.3
+BALLS = 14
 
 
 @dataclass(frozen=True)
 class Mark:
-    """One impact of a ball: where it was touched, in m, which way from its middle, and how fast it came, in m/s."""
+    """One impact of a ball: where it was touched, in m, and which way from its middle.
+
+    ``speed`` is how fast the two came together, whatever the direction, ``hardness`` the part of it that was towards
+    each other; in m/s.
+    """
 
     t: float
     partner: str
     at: tuple[float, float]
     towards: tuple[float, float]
     speed: float
+    hardness: float
 
 
 class Path:
@@ -54,30 +57,20 @@ class Path:
         points = camera.pixels(self.points)
         return points[apart(points, FINEST)]
 
-    def even_times(self, camera: Camera, radius: float, span: float | None = None) -> tuple[float, list[float]]:
-        """The time between balls drawn with ``radius`` px along the path, and the times that have room for one.
+    def even_times(self, span: float | None = None) -> tuple[float, list[float]]:
+        """The time between balls along the path, and the times of all of them but the one at its end; in s.
 
-        In s; before the end, which has a ball of its own. Over ``span`` s, or the whole path, there are BALLS at most.
+        Over ``span`` s, or the whole path, there are BALLS at most.
         """
         every = nice(max(self.until if span is None else span, 0.01) / BALLS)
-        ends = [camera.pixel(*self.run.state(self.name, t)[:2]) for t in (self.until, 0.0)]
-        times, last = [], ends[1]
-        for i in range(floor(self.until / every) + 1):
-            at = camera.pixel(*self.run.state(self.name, i * every)[:2])
-            far = hypot(at[0] - last[0], at[1] - last[1]), hypot(at[0] - ends[0][0], at[1] - ends[0][1])
-            if (i == 0 or far[0] > 2.3 * radius) and far[1] > 3 * radius:
-                times.append(i * every)
-                last = at
-        return every, times
+        return every, [i * every for i in range(max(1, ceil(self.until / every - 1e-9)))]
 
     def marks(self) -> Iterator[Mark]:
         """The impacts along the path."""
         for event in self.run.events:
             if event.kind == "impact" and self.name in (event.ball, event.partner) and event.t <= self.until + 1e-9:
                 other = event.partner if event.ball == self.name else event.ball
-                mark = self._mark(event, other)
-                if mark.speed >= LEAST_IMPACT:
-                    yield mark
+                yield self._mark(event, other)
 
     def _mark(self, event: Any, other: str) -> Mark:
         x, y, *_ = self.run.state(self.name, event.t)
@@ -85,7 +78,11 @@ class Path:
         away = hypot(near[0] - x, near[1] - y) or 1.0
         towards = (near[0] - x) / away, (near[1] - y) / away
         at = x + towards[0] * self.radius, y + towards[1] * self.radius
-        return Mark(event.t, other, at, towards, event.speed)
+        vx, vy = self.run.before(self.name, event.t)[2:4]
+        if any(ball.name == other for ball in self.run.setup.balls):
+            other_vx, other_vy = self.run.before(other, event.t)[2:4]
+            vx, vy = vx - other_vx, vy - other_vy
+        return Mark(event.t, other, at, towards, hypot(vx, vy), event.speed)
 
     def _nearest_points(self, x: float, y: float, other: str, t: float) -> Iterator[tuple[float, float]]:
         """Of each thing with that name, the point nearest to (x, y), in m; a ball's or circle's is its middle."""
@@ -115,10 +112,10 @@ def apart(points: np.ndarray, least: float) -> list[int]:
     return [*kept, len(points) - 1]
 
 
-def draw_trace(sheet: Sheet, points: np.ndarray, colour: Colour) -> None:
-    """The path as a thick line with a thin dark rim; no label will be placed on it."""
+def draw_trace(sheet: Sheet, points: np.ndarray, colour: Colour, share: float = 1.0) -> None:
+    """The path as a thick line with a thin dark rim, or a ``share`` as thick; no label will be placed on it."""
     sheet.labels.take_path(points, 4 * sheet.unit)
-    width = max(2.5, 4.5 * sheet.unit)
+    width = share * max(2.5, 4.5 * sheet.unit)
     sheet.painter.trace(points, width, colour, TRACE["rim"], max(0.75, sheet.unit))
 
 
@@ -130,8 +127,10 @@ def draw_mark(sheet: Sheet, at: tuple[float, float]) -> None:
     sheet.painter.disc(at, 0.4 * radius, CARD["background"])
 
 
-def mark_impacts(sheet: Sheet, camera: Camera, marks: Iterable[Mark], labelled: Callable[[Mark], bool]) -> None:
-    """Impacts as marks with their speed; those at one place share a label, the first first."""
+def mark_impacts(
+    sheet: Sheet, camera: Camera, marks: Iterable[Mark], labelled: Callable[[Mark], bool] = lambda mark: True
+) -> None:
+    """Impacts as marks with the speed at which the ball came; those at one place share a label, the first first."""
     places: list[tuple[tuple[float, float], list[Mark]]] = []
     for mark in marks:
         at = camera.pixel(*mark.at)

@@ -218,7 +218,7 @@ class Picture:
         """The ball at even times, and where it came down; returns the time between in s."""
         true = self.radius * camera.scale
         radius = max(true, self._smallest)
-        every, times = self.path.even_times(camera, radius)
+        every, times = self.path.even_times()
         for t in [*times, self.path.until]:
             x, y, *_ = self.run.state("ball", t)
             large = radius > true and t == self.path.until
@@ -351,7 +351,9 @@ class Picture:
         columns = 0.1 * self.size[0], self.lens.left - 40 * self.unit if self.composed[1] else 0.9 * self.size[0]
         box = Box(-THROWER, 0.0, hall.back + STAND, 1.25 * hall.top)
         near = Camera.fit(box, Area(columns[0], self.rows_at.top, columns[1], hall.base))
-        return Chase(self.run, "ball", near if near.scale > home.scale else home, columns, self.rows_at.top)
+        return Chase(
+            self.run, "ball", near if near.scale > home.scale else home, columns, self.rows_at.top, np.zeros_like
+        )
 
     def frame(self, t: float) -> pygame.Surface:
         """The scene at time t in s, seen by a camera that follows the ball."""
@@ -371,7 +373,7 @@ class Picture:
         for ghost in self.ghosts:
             other = ghost.picture
             place = camera.pixel(*other.run.state("ball", min(t, other.run.duration))[:2])
-            draw_in_frame(sheet, ghost, camera.pixels(other.path.points), place, self.rows_at.top)
+            draw_in_frame(sheet, ghost, camera.pixels(other.path.points), place)
         self._trail(sheet, camera, t, 0.7 * radius)
         self.vectors.draw(sheet, at, radius, t)
         BALL.draw(painter, at, radius, self.run.angle("ball", t), unit, radius > true)
@@ -384,7 +386,7 @@ class Picture:
                 self._frame_lens(sheet, t)
         if any(self.wind):
             right = sheet.wind(*self.wind, right, sheet.frame.top).left
-        notes = [f"beside {ghost.label}" for ghost in self.ghosts]
+        notes = [f"compared with {ghost.label}" for ghost in self.ghosts]
         notes += ["ball drawn larger than it is"] if radius > true else []
         if t >= self.decided:
             sheet.headline(self.verdict(), notes, right - sheet.frame.left - 2 * sheet.gap)

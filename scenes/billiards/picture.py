@@ -311,7 +311,7 @@ class Picture:
             other = ghost.picture
             if other.struck in other.paths:
                 place = camera.pixel(*other.run.state(other.struck, min(t, other.run.duration))[:2])
-                draw_in_frame(sheet, ghost, camera.pixels(other.paths[other.struck][:, 1:]), place, self.head_row)
+                draw_in_frame(sheet, ghost, camera.pixels(other.paths[other.struck][:, 1:]), place)
         self._earlier(painter, t)
         for name in self.paths:
             self._trail(painter, name, t, radius)
@@ -320,7 +320,7 @@ class Picture:
         self.draw_balls(painter, camera, t)
         right = self._head(sheet, t)
         headline = self.verdict() if t >= self.run.duration else self._story(t)
-        notes = [*self._notes(), *(f"beside {ghost.label}" for ghost in self.ghosts)]
+        notes = [*self._notes(), *(f"compared with {ghost.label}" for ghost in self.ghosts)]
         sheet.headline(headline, notes, right - sheet.frame.left - 3 * sheet.gap)
         sheet.columns(self.card_row, self.live(t), [ghost.live(t) for ghost in self.ghosts])
         return sheet.surface

@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-from functools import cached_property, lru_cache
+from functools import lru_cache
 from math import ceil, floor, sin
-from typing import Any
 
 import numpy as np
 import pygame
 
+from sandbox.engine.setup import Segment, Setup
 from sandbox.picture.ball import Look
 from sandbox.picture.camera import Box, Camera
+from sandbox.picture.depth import Eye
 from sandbox.picture.landscape import Landscape
-from sandbox.picture.painter import OVERSAMPLING, Painter, blank
+from sandbox.picture.painter import OVERSAMPLING, Painter, Point, blank, soil
 from sandbox.picture.palette import Colour, mix, palette
 from sandbox.picture.sheet import rows_of
 
@@ -22,69 +23,50 @@ MOON = GOLF | palette("moon")
 FLAGSTICK = 2.13  # m
 #: How much smaller things look at the far side of the fairway than on the line of play.
 FAR = 0.42
-#: The horizon's height above the line of play, px on 720 rows.
-FIELD = 58
 #: The field's stripes differ little, so a lower factor than for other shapes will do.
 FIELD_OVERSAMPLING = 2
 
 
 class Course:
-    """The place that the ball flies over, for pictures on which the lowest ground is ``base`` px from the top."""
+    """The place that the ball flies over, for pictures of one size."""
 
-    def __init__(self, setup: Any, pin: float, size: tuple[int, int], base: int, moon: bool = False):
-        self.pin, self.size, self.base, self.moon = pin, size, base, moon
+    def __init__(self, setup: Setup, pin: float, size: tuple[int, int], moon: bool = False):
+        self.pin, self.size, self.moon = pin, size, moon
         self.colours = MOON if moon else GOLF
         self.unit = rows_of(size) / 720
-        self.horizon = base - round(FIELD * self.unit)
-        turf = [s for s in setup.surfaces if s.name != "cup"]
-        line = sorted({point for s in turf for point in (s.shape.a, s.shape.b)})
-        self.line = np.array(line, float)  # m, the ground from left to right
+        lines = [(s.name, s.shape.a, s.shape.b) for s in setup.surfaces if isinstance(s.shape, Segment)]
+        turf = [line for line in lines if line[0] != "cup"]
+        self.line = np.array(sorted({point for _, *ends in turf for point in ends}), float)  # m, from left to right
         self.pieces = _pieces(turf)
-        corners = [point for s in setup.surfaces if s.name == "cup" for point in (s.shape.a, s.shape.b)]
+        corners = [point for name, *ends in lines if name == "cup" for point in ends]
         self.cup = Box(*np.min(corners, axis=0), *np.max(corners, axis=0)) if corners else None
 
-    def height(self, x: float) -> float:
+    def heights(self, x: np.ndarray) -> np.ndarray:
         """Height of the ground in m at x, across the cup too."""
-        return float(np.interp(x, self.line[:, 0], self.line[:, 1]))
-
-    def lowest_and_highest(self, left: float, right: float) -> tuple[float, float]:
-        """Of the ground between two places, in m."""
-        heights = self.between(left, right)[:, 1]
-        return float(heights.min()), float(heights.max())
+        return np.interp(x, self.line[:, 0], self.line[:, 1])
 
     def between(self, left: float, right: float) -> np.ndarray:
         """The ground's line from one place to another, in m."""
         inner = self.line[(self.line[:, 0] > left) & (self.line[:, 0] < right)]
-        return np.array([(left, self.height(left)), *inner, (right, self.height(right))])
+        (low, high) = self.heights(np.array([left, right]))
+        return np.array([(left, low), *inner, (right, high)])
 
     @property
-    def landscape(self) -> Landscape:
-        return _landscape(self.size, self.horizon, self.moon)
-
-    @cached_property
-    def soil(self) -> pygame.Surface:
-        """The ground cut open along the line of play, darker with depth."""
-        rows = self.size[1] - self.base
-        top, middle, low = (np.array(colour, float) for colour in self.colours["soil"])
-        share = np.linspace(0, 2, rows)[:, None]
-        column = np.where(share < 1, top + (middle - top) * share, middle + (low - middle) * (share - 1))
-        soil = blank((self.size[0], rows))
-        pygame.surfarray.blit_array(soil, np.broadcast_to(column.round().astype(np.uint8), (self.size[0], rows, 3)))
-        return soil
+    def cup_depth(self) -> float:
+        """In m; 0 where there is no cup."""
+        return 0.0 if self.cup is None else self.cup.top - self.cup.bottom
 
     # The ground
 
-    def draw(self, painter: Painter, camera: Camera, stripe: float, moved: float = 0.0) -> int:
-        """Landscape, field and ground; mown stripes are ``stripe`` m wide; the eye has ``moved`` px to the right.
-
-        Returns the row of the lowest ground in sight; there is nothing but soil below it.
-        """
-        self.landscape.draw(painter.surface, moved)
+    def draw(self, painter: Painter, eye: Eye, stripe: float, moved: float = 0.0) -> None:
+        """Landscape, field and ground; mown stripes are ``stripe`` m wide; the eye has ``moved`` px to the right."""
+        camera, horizon, base = eye.camera, round(eye.level), round(eye.camera.anchor[1])
+        _landscape(self.size, horizon, self.moon).draw(painter.surface, moved)
         low, high = camera.world(0, 0)[0], camera.world(self.size[0], 0)[0]
         outline = camera.pixels(self.between(low, high))
-        deepest = min(self.size[1], max(self.base, round(outline[:, 1].max())))
-        self._field(painter.surface, camera, stripe, deepest)
-        painter.surface.blit(self.soil, (0, deepest))
+        deepest = min(self.size[1], max(base, round(outline[:, 1].max())))
+        self._field(painter.surface, eye, base, stripe, deepest)
+        painter.surface.blit(soil((self.size[0], self.size[1] - base), tuple(self.colours["soil"])), (0, deepest))
         if outline[:, 1].min() < deepest - 1:
             under = np.add(outline, (0, self._turf_depth / 2))  # so that its rough edge is hidden
             pygame.draw.polygon(
@@ -101,19 +83,19 @@ class Course:
                     self._turf(painter, camera, *band, light)
             elif name in ("bunker", "water"):
                 self._hollow(painter, camera, a, b, self.colours[name])
-        return deepest
+        self._hole(painter, camera)
 
-    def _field(self, surface: pygame.Surface, camera: Camera, stripe: float, deepest: int) -> None:
+    def _field(self, surface: pygame.Surface, eye: Eye, base: int, stripe: float, deepest: int) -> None:
         """The ground behind the line of play, from the horizon to row ``deepest``: rough, before it mown fairway."""
-        larger = FIELD_OVERSAMPLING
-        width, rows = self.size[0], deepest - self.horizon
-        field = self._field_drawn.subsurface((0, 0, width * larger, rows * larger))
-        line = (self.base - self.horizon) * larger  # the row where things are as large as on the line of play
+        larger, camera, horizon = FIELD_OVERSAMPLING, eye.camera, round(eye.level)
+        width, rows = self.size[0], deepest - horizon
+        line = (base - horizon) * larger  # the row where things are as large as on the line of play
+        field = _far_rough(self.size, horizon, base, self.moon).subsurface((0, 0, width * larger, rows * larger))
         top, bottom = round(line * FAR), rows * larger
-        middle = camera.world(width / 2, 0)[0]
+        middle = camera.world(eye.centre, 0)[0]
 
         def column(x: float, row: float) -> float:
-            return (width / 2 + (x - middle) * camera.scale * row / line) * larger
+            return (eye.centre + (x - middle) * camera.scale * row / line) * larger
 
         def across(a: float, b: float, colour: Colour) -> None:
             """A strip from one side of the fairway to the other."""
@@ -138,17 +120,7 @@ class Course:
                     pygame.draw.polygon(
                         field, self.colours[name], [*zip(x, edge, strict=True), (x[-1], bottom), (x[0], bottom)]
                     )
-        surface.blit(pygame.transform.smoothscale(field, (width, rows)), (0, self.horizon))
-
-    @cached_property
-    def _field_drawn(self) -> pygame.Surface:
-        """Where the field is drawn, larger; the far rough is on it already, paler with distance."""
-        rows = self.size[1] - self.horizon
-        field = blank((self.size[0] * FIELD_OVERSAMPLING, rows * FIELD_OVERSAMPLING))
-        far = round((self.base - self.horizon) * FAR * FIELD_OVERSAMPLING)
-        for row in range(far):
-            field.fill(mix(self.colours["rough_far"], self.colours["rough"], row / far), (0, row, field.get_width(), 1))
-        return field
+        surface.blit(pygame.transform.smoothscale(field, (width, rows)), (0, horizon))
 
     def _light(self, camera: Camera, stripe: float) -> Colour:
         """The lighter stripes' colour; it goes over into the darker one's where stripes are too narrow to see."""
@@ -179,45 +151,60 @@ class Course:
         x, y = (left + right) / 2 + np.cos(turn) * (right - left) / 2, np.sin(turn) ** 0.7 * deep
         painter.polygon([*outline, *zip(x, y + np.interp(x, [left, right], [top, end]), strict=True)], colour)
 
-    # The hole and the ball
+    # The hole
 
-    def hole(self, painter: Painter, camera: Camera, t: float, wind: float) -> pygame.Rect | None:
-        """Cup and flag, larger than they are where they would be too small to see; the flag flutters in the wind (m/s).
+    def _hole(self, painter: Painter, camera: Camera) -> None:
+        """The cup, and a shadow at the flagstick's foot; larger than it is where it would be too small to see."""
+        if self.cup is None:
+            return
+        unit, (x, ground), (_, foot) = self.unit, self._foot(camera), camera.pixel(0, self.cup.bottom)
+        if (self.cup.right - self.cup.left) * camera.scale <= 10 * unit:
+            painter.shadow((x, ground + 3 * unit), 7 * unit, 2.5 * unit, self.colours["cup"], 0.9)
+            return
+        left, right = (round(camera.pixel(edge, 0)[0]) for edge in (self.cup.left, self.cup.right))
+        deep, thin = round(foot - ground), max(1, round(1.6 * unit))
+        painter.surface.fill(self.colours["liner"], (left, round(ground), right - left, deep))
+        painter.surface.fill(self.colours["cup"], (left + thin, round(ground), right - left - 2 * thin, deep - thin))
 
-        Returns the place that the flag takes.
-        """
-        unit = self.unit
-        x, ground = camera.pixel(self.pin, self.height(self.pin))
-        tall = min(max(FLAGSTICK * camera.scale, 66 * unit), 190 * unit)
-        cloth = 30 * unit
-        if not -cloth < x < self.size[0] + cloth:
-            return None
-        foot = ground
-        if self.cup is not None and (self.cup.right - self.cup.left) * camera.scale > 10 * unit:
-            left, right = (round(camera.pixel(edge, 0)[0]) for edge in (self.cup.left, self.cup.right))
-            foot = camera.pixel(0, self.cup.bottom)[1]
-            deep = round(foot - ground)
-            painter.surface.fill(self.colours["liner"], (left, round(ground), right - left, deep))
-            thin = max(1, round(1.6 * unit))
-            painter.surface.fill(
-                self.colours["cup"], (left + thin, round(ground), right - left - 2 * thin, deep - thin)
-            )
-        elif self.cup is not None:
-            foot += 3 * unit
-            painter.shadow((x, foot), 7 * unit, 2.5 * unit, self.colours["cup"], 0.9)
+    def _foot(self, camera: Camera) -> tuple[float, float]:
+        """Where the flagstick meets the ground, in px."""
+        return camera.pixel(self.pin, float(self.heights(np.array(self.pin))))
+
+    def flag_box(self, camera: Camera) -> pygame.Rect:
+        """The place that the flag takes."""
+        x, ground = self._foot(camera)
+        tall, cloth = min(max(FLAGSTICK * camera.scale, 66 * self.unit), 190 * self.unit), 30 * self.unit
+        return pygame.Rect(round(x - cloth), round(ground - tall), round(2 * cloth), round(tall))
+
+    def flag(self, painter: Painter, camera: Camera, t: float, wind: float) -> None:
+        """The flag, larger than it is where it would be too small to see; it flutters in the wind (m/s)."""
+        unit, box, (x, ground) = self.unit, self.flag_box(camera), self._foot(camera)
+        if not box.colliderect(painter.surface.get_rect()):
+            return
+        deep = self.cup_depth * camera.scale
+        foot, top = ground + (deep if deep > 10 * unit else 3 * unit if deep else 0.0), ground - box.height
         painter.shadow((x + 12 * unit, ground - unit), 16 * unit, 2.5 * unit, CARD["shadow"], 0.3)
         pole = max(2.0, 2.6 * unit)
-        painter.line([(x, foot), (x, ground - tall)], pole + 1.4 * unit, CARD["shadow"], 0.3)
-        painter.line([(x, foot), (x, ground - tall)], pole, self.colours["pole"])
-        side = -1 if wind < 0 else 1
+        painter.line([(x, foot), (x, top)], pole + 1.4 * unit, CARD["shadow"], 0.3)
+        painter.line([(x, foot), (x, top)], pole, self.colours["pole"])
         share = np.linspace(0, 1, 9)
-        along = x + side * cloth * share
-        wave = ground - tall + np.array([1.6 * unit * s * sin(5 * s - 9 * t) for s in share])
+        along = x + (-1 if wind < 0 else 1) * 30 * unit * share
+        wave = top + np.array([1.6 * unit * s * sin(5 * s - 9 * t) for s in share])
         upper, lower = wave + 9 * unit * share, wave + (19 - 9 * share) * unit
         painter.polygon(
             [*zip(along, upper, strict=True), *zip(along[::-1], lower[::-1], strict=True)], self.colours["flag"]
         )
-        return pygame.Rect(round(x - cloth), round(ground - tall), round(2 * cloth), round(tall))
+
+
+@lru_cache(maxsize=4)
+def _far_rough(size: tuple[int, int], horizon: int, base: int, moon: bool) -> pygame.Surface:
+    """Where the field is drawn, larger; the far rough is on it already, paler with distance."""
+    colours = MOON if moon else GOLF
+    field = blank((size[0] * FIELD_OVERSAMPLING, (size[1] - horizon) * FIELD_OVERSAMPLING))
+    far = round((base - horizon) * FAR * FIELD_OVERSAMPLING)
+    for row in range(far):
+        field.fill(mix(colours["rough_far"], colours["rough"], row / far), (0, row, field.get_width(), 1))
+    return field
 
 
 @lru_cache(maxsize=4)
@@ -226,10 +213,10 @@ def _landscape(size: tuple[int, int], horizon: int, moon: bool) -> Landscape:
     return Landscape(size, horizon, MOON if moon else GOLF)
 
 
-def _pieces(turf: list[Any]) -> list[tuple[str, float, float]]:
+def _pieces(turf: list[tuple[str, Point, Point]]) -> list[tuple[str, float, float]]:
     """Kind and ends in m of each stretch of ground, from left to right; the two sides of the cup make one."""
     merged: list[tuple[str, float, float]] = []
-    for a, b, name in sorted((s.shape.a[0], s.shape.b[0], s.name) for s in turf):
+    for a, b, name in sorted((a[0], b[0], name) for name, a, b in turf):
         start = merged.pop()[1] if merged and merged[-1][0] == name else a
         merged.append((name, start, b))
     return merged

@@ -205,7 +205,7 @@ class Picture:
         largest = max(true, self._smallest)
         radius = max(true, mark_radius(self.rows))
         span = max(self.run.result["flight_time"] or 0.0, LEAST_SPAN * self.path.until)
-        every, moments = self.path.even_times(camera, radius, span)
+        every, moments = self.path.even_times(span)
         for t in [*moments, self.path.until]:
             x, y, *_ = self.run.state("ball", t)
             last = t == self.path.until
@@ -333,7 +333,7 @@ class Picture:
         for ghost in self.ghosts:
             other = ghost.picture
             place = camera.pixel(*other.run.state("ball", min(t, other.run.duration))[:2])
-            draw_in_frame(sheet, ghost, camera.pixels(other.path.points), place, self.top_row)
+            draw_in_frame(sheet, ghost, camera.pixels(other.path.points), place)
         self._trail(sheet, camera, t, radius)
         painter.shadow((at[0] + 0.5 * radius, at[1] + 0.6 * radius), 1.1 * radius, 0.9 * radius, CARD["shadow"], 0.5)
         self.vectors.draw(sheet, at, radius, t)
@@ -343,7 +343,7 @@ class Picture:
         right = sheet.frame.right
         if any(self.wind):
             right = sheet.wind(*self.wind, right, sheet.frame.top).left
-        notes = [f"beside {ghost.label}" for ghost in self.ghosts]
+        notes = [f"compared with {ghost.label}" for ghost in self.ghosts]
         notes += ["ball drawn larger than it is"] if large else []
         if t >= self.path.until:
             sheet.headline(self.verdict(), notes, right - sheet.frame.left - 2 * sheet.gap)

@@ -164,7 +164,7 @@ class Picture:
         largest = max(true, self._smallest)
         radius = max(true, mark_radius(self.rows))
         span = max(self.run.result["flight_time"] or 0.0, LEAST_SPAN * self.path.until)
-        every, moments = self.path.even_times(camera, radius, span)
+        every, moments = self.path.even_times(span)
         for t in [*moments, self.path.until]:
             x, y, *_ = self.run.state("ball", t)
             last = t == self.path.until
@@ -273,7 +273,7 @@ class Picture:
             ahead = 0.25 if self.parameters.launch.angle <= 90 else 0.75
             home = Camera((0.0, 0.0), (ahead * width, self.stadium.base), width / NEAREST_VIEW)
             columns = 0.25 * width, 0.6 * width
-        return Chase(self.run, "ball", home, columns, self.rows_at.top)
+        return Chase(self.run, "ball", home, columns, self.rows_at.top, np.zeros_like)
 
     def frame(self, t: float) -> pygame.Surface:
         """The scene at time t in s, seen by a camera that follows the ball."""
@@ -293,7 +293,7 @@ class Picture:
             other = ghost.picture
             there = other.run.state("ball", min(t, other.run.duration))
             place = self._spot(camera, there[0], there[1], true)
-            draw_in_frame(sheet, ghost, camera.pixels(other.path.points), place, self.rows_at.top)
+            draw_in_frame(sheet, ghost, camera.pixels(other.path.points), place)
         self._trail(sheet, camera, t, radius)
         self.vectors.draw(sheet, at, radius, t)
         BALL.draw(painter, at, radius, self.run.angle("ball", t), unit, radius > true)
@@ -302,7 +302,7 @@ class Picture:
         right = sheet.frame.right
         if any(self.wind):
             right = sheet.wind(*self.wind, right, sheet.frame.top).left
-        notes = [f"beside {ghost.label}" for ghost in self.ghosts]
+        notes = [f"compared with {ghost.label}" for ghost in self.ghosts]
         notes += ["ball drawn larger than it is"] if radius > true else []
         if t >= self.path.until:
             sheet.headline(self.verdict(), notes, right - sheet.frame.left - 2 * sheet.gap)

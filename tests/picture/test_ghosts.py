@@ -79,7 +79,7 @@ def test_frames_show_both_at_the_same_time(pair):
         t = share * run.duration
         assert picture.frame(t).get_size() == (640, 360)
         written = [text for text, _ in picture.sheet.written]
-        assert "beside the other" in " ".join(written)
+        assert "compared with the other" in " ".join(written)
         assert {f"{t:.2f} s", f"{min(t, other.duration):.2f} s"} <= set(written)
         assert_legible(picture.sheet)
     shown = to_image(picture.frame(0.1 * run.duration)).copy()
@@ -95,7 +95,8 @@ def test_the_camera_shows_both_paths(pair):
     run = run_of(pair[1])
     ball = picture.ghosts[0].picture.struck if hasattr(picture, "struck") else run.setup.balls[0].name
     end = run.duration if run.caught_at(ball) is None else run.caught_at(ball)
-    points = np.array([picture.camera.pixel(*run.state(ball, t)[:2]) for t in np.linspace(0.0, 0.9 * end, 50)])
+    points = np.array([run.state(ball, t)[:2] for t in np.linspace(0.0, 0.9 * end, 50)]) + picture.ghosts[0].shift
+    points = picture.camera.pixels(points)
     inside = (points >= 0).all(axis=1) & (points <= picture.size).all(axis=1)
     assert inside.mean() > 0.9
 

@@ -1,0 +1,225 @@
+"""Pictures from the side: the plane of play with its ground, and what lies behind it in central perspective."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cached_property
+from typing import ClassVar, NamedTuple
+
+import numpy as np
+import pygame
+
+from sandbox.picture.ball import enlarged, mark_radius
+from sandbox.picture.camera import Area, Box, Camera
+from sandbox.picture.chase import Chase
+from sandbox.picture.depth import Eye
+from sandbox.picture.painter import Painter
+from sandbox.picture.palette import Colour
+from sandbox.picture.sheet import CARD, Entry, Sheet, SideRows, metres
+from sandbox.picture.view import P, View
+
+#: The picture shows at least so many radii of the ball along the ground.
+LEAST_WIDTH = 60
+#: A flight that rises at least so much, in px on 720 rows, and at most over this share of the room is drawn twice as
+#: high, where the ball is drawn at least so many times its size.
+LEAST_RISE, LOW_FLIGHT, LARGE_BALL = 24, 0.45, 3
+#: Columns, as shares of the width, between which frames keep the ball: where all is in sight, and on its way.
+AT_HOME, ON_ITS_WAY = (0.1, 0.9), (0.25, 0.45)
+#: A shadow is half as dark where the ball is so high over the ground, in px on 720 rows.
+SHADOW_FADES = 80
+
+
+class Length(NamedTuple):
+    """A distance along the ground, from ``start`` to ``end`` in m, and what is written on it."""
+
+    text: str
+    start: float
+    end: float
+    colour: Colour = CARD["text"]
+
+
+class SideView(View[P]):
+    """A run seen from the side: x along the ground, y up."""
+
+    ONE_GROUND = True
+
+    # What a scene may say
+
+    #: What the ruler counts below, besides metres above.
+    SECOND_UNIT: ClassVar[str] = "yd"
+    #: Rows of distances between ground and ruler.
+    LENGTHS: ClassVar[int] = 2
+    #: Free px on 720 rows between header and path.
+    HEADROOM: ClassVar[float] = 24
+    #: Whether a low flight may be drawn higher than it is.
+    STRETCHES: ClassVar[bool] = False
+    #: The place is left out of the poster when the path would take up less than this share of it.
+    LEAST_PATH: ClassVar[float] = 0.15
+    #: What a frame's headline counts, besides m.
+    FROM: ClassVar[str] = "from the start"
+    #: The eye is so many px (on 720 rows) above the ground, and looks at this share of the picture's width.
+    LEVEL: ClassVar[float] = 150
+    ASIDE: ClassVar[float] = 0.25
+
+    @property
+    def company(self) -> Box | None:
+        """What must be seen besides the path, in m, such as who strikes the ball."""
+        return None
+
+    @property
+    def target(self) -> Box | None:
+        """What is seen, in m, unless the path would be too small then."""
+        return None
+
+    @property
+    def near_view(self) -> float:
+        """Frames show this much of the world's length in m, where the poster shows more."""
+        return 36.0
+
+    def ground(self, x: np.ndarray) -> np.ndarray:
+        """Height of the ground in m, at places in m."""
+        return np.zeros_like(x)
+
+    def lengths(self) -> Sequence[Length]:
+        """Distances to be drawn along the ground; the first is drawn lowest."""
+        return ()
+
+    # The same for all
+
+    @cached_property
+    def rows_at(self) -> SideRows:
+        """Where things are, in px from the top."""
+        return self.sheet.side_rows(len(self.ghosts), self.LENGTHS)
+
+    def base(self, rows: SideRows, scale: float) -> int:
+        """The row of the ground, in px, of a picture with ``scale`` px/m."""
+        return rows.base
+
+    @property
+    def area(self) -> Area:
+        """Where on the poster the path is, in px."""
+        side, rows, subject = 0.085 * self.size[0], self.rows_at, self.subject
+        base = self.base(rows, (self.size[0] - 2 * side) / (subject.right - subject.left))
+        return Area(side, rows.top + self.HEADROOM * self.unit, self.size[0] - side, base)
+
+    @cached_property
+    def subject(self) -> Box:
+        """What the poster shows, in m."""
+        (left, bottom), (right, top) = self.points.min(axis=0), self.points.max(axis=0)
+        short = max(0.0, LEAST_WIDTH * self.radius - (right - left)) / 2
+        seen = _joined(Box(left - short, bottom, right + short, top + self.radius), self.company)
+        wide = _joined(seen, self.target)
+        if max(seen.right - seen.left, seen.top) >= self.LEAST_PATH * (wide.right - wide.left):
+            seen = wide
+        heights = self.ground(np.linspace(seen.left, seen.right, 500))
+        return seen._replace(bottom=float(heights.min()), top=max(seen.top, float(heights.max())))
+
+    @cached_property
+    def camera(self) -> Camera:
+        """Shows the whole path and what belongs to it; a low flight higher than it is, where the scene allows it."""
+        camera, area = Camera.fit(self.subject, self.area), self.area
+        rise, room = (self.subject.top - self.subject.bottom) * camera.scale, area.bottom - area.top
+        low = LEAST_RISE * self.unit < rise < LOW_FLIGHT * room
+        if self.STRETCHES and low and enlarged(self.radius, camera, self.rows) > LARGE_BALL:
+            return Camera.fit(self.subject, area, stretch=2.0)
+        return camera
+
+    def eye(self, camera: Camera) -> Eye:
+        """Sees the place in central perspective, the plane of play as the camera shows it."""
+        level = camera.anchor[1] - self.LEVEL * self.unit
+        return Eye(camera, self.ASIDE * self.size[0], level, self.size[0] / camera.scale)
+
+    @cached_property
+    def home(self) -> Camera:
+        """Where the camera of the frames is at first: the poster's, or nearer."""
+        width, scale = self.size[0], self.size[0] / self.near_view
+        if self.camera.scale >= scale:
+            return self.camera
+        ahead = ON_ITS_WAY[0] if self._forward else 1 - ON_ITS_WAY[0]
+        (x, *_), base = self.path.points[0], self.base(self.sheet.side_rows(len(self.ghosts), 0), scale)
+        return Camera((float(x), self._under(x)), (ahead * width, base), scale)
+
+    @property
+    def _forward(self) -> bool:
+        """Whether the ball sets off to the right."""
+        return self.run.state(self.ball, 0.0)[2] >= 0.0
+
+    @cached_property
+    def columns(self) -> tuple[float, float]:
+        """Where frames keep the ball, in px."""
+        low, high = AT_HOME if self.home == self.camera else ON_ITS_WAY
+        if self.home != self.camera and not self._forward:
+            low, high = 1 - high, 1 - low
+        return low * self.size[0], high * self.size[0]
+
+    @cached_property
+    def chase(self) -> Chase:
+        return Chase(self.run, self.ball, self.home, self.columns, self.rows_at.top, self.ground)
+
+    def view(self, t: float) -> Camera:
+        return self.chase.camera(t)
+
+    def moved(self, camera: Camera) -> float:
+        """How far to the right the eye has gone from where it was at first, in px of that distance."""
+        return 0.0 if camera == self.camera else (camera.at[0] - self.home.at[0]) * self.home.scale
+
+    @property
+    def card_row(self) -> float:
+        return self.rows_at.card
+
+    def position(self, t: float) -> list[Entry]:
+        x, y, *_ = self.run.state(self.ball, t)
+        return [("height", metres(max(0.0, y - self.radius - self._under(x))))]
+
+    def progress(self, t: float) -> tuple[str, str]:
+        return metres(self.run.state(self.ball, t)[0] - self.path.points[0, 0]), self.FROM
+
+    def _under(self, x: float) -> float:
+        return float(self.ground(np.array([x]))[0])
+
+    def spots(self, camera: Camera, points: np.ndarray, radius: float) -> np.ndarray:
+        """On the path, raised so that balls which are drawn too large along it lie on the ground and not in it."""
+        spots, ground = camera.pixels(points), self.ground(points[:, 0])
+        rows = camera.pixels(np.column_stack([points[:, 0], ground]))[:, 1]
+        raised = spots[:, 1] - max(0.0, mark_radius(self.rows) - self.radius * camera.scale)
+        spots[:, 1] = np.where(points[:, 1] > ground, np.minimum(raised, rows - radius), spots[:, 1])
+        return spots
+
+    def shadow(
+        self, painter: Painter, camera: Camera, place: tuple[float, float], at: tuple[float, float], radius: float
+    ) -> None:
+        """On the ground, the wider and fainter the higher the ball."""
+        x, y = place
+        ground = self._under(x)
+        height = y - self.radius - ground
+        if height < -0.5 * self.radius:
+            return
+        near = 1 / (1 + max(0.0, height) * camera.scale * camera.stretch / (SHADOW_FADES * self.unit))
+        below = at[0], camera.pixel(x, ground)[1] + self.unit
+        painter.shadow(below, radius * (2.2 - near), 0.35 * radius, CARD["shadow"], 0.15 + 0.45 * near)
+
+    def scale(self, sheet: Sheet, camera: Camera) -> None:
+        """The ruler, on dark ground of its own where it would stand on bright turf."""
+        row, (over, under) = self.rows_at.ruler, sheet.ruler_heights()
+        left, right = (camera.world(px, 0.0)[0] for px in (sheet.frame.left, sheet.frame.right))
+        lowest = camera.pixel(0.0, float(self.ground(np.linspace(left, right, 60)).min()))[1]
+        if lowest > row - over:
+            backing = pygame.Rect(sheet.frame.left, row - over, sheet.frame.width, over + under)
+            sheet.painter.panel(backing, CARD["background"], 0.5, 10 * self.unit)
+        sheet.ruler(camera, row, self.SECOND_UNIT)
+
+    def dimensions(self, sheet: Sheet, camera: Camera) -> None:
+        """The distances along the ground, as far as they are seen; nothing else is written under it."""
+        for row, length in zip(self.rows_at.lengths, self.lengths(), strict=False):
+            start, end = camera.pixel(length.start, 0)[0], camera.pixel(length.end, 0)[0]
+            if min(start, end) >= 0 and max(start, end) <= self.size[0] and abs(end - start) > 4:
+                sheet.dimension(length.text, row, start, end, length.colour)
+        sheet.labels.take(pygame.Rect(0, round(camera.anchor[1]), *self.size))
+
+
+def _joined(box: Box, other: Box | None) -> Box:
+    """What holds both."""
+    if other is None:
+        return box
+    low = min(box.left, other.left), min(box.bottom, other.bottom)
+    return Box(*low, max(box.right, other.right), max(box.top, other.top))

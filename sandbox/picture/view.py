@@ -1,0 +1,411 @@
+"""What the pictures of all scenes share: poster, frames, other runs, balls, marks, headline and card.
+
+A scene's ``Picture`` is a :class:`~sandbox.picture.side.SideView` or a view from above that says what its place looks
+like, and adds the one or two drawings that are the sport's own. Whatever may differ is a constant or a method in the
+section "What a scene may say"; everything else is the same for all.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from functools import cached_property
+from math import atan2, degrees, dist, hypot, inf, pi
+from typing import ClassVar, Generic, TypeVar
+
+import numpy as np
+import pygame
+
+from sandbox.engine.run import Run
+from sandbox.parameters import Group
+from sandbox.picture.ball import Look, enlarged, least_radius, mark_radius
+from sandbox.picture.camera import Camera
+from sandbox.picture.ghosts import draw_ghost, draw_in_frame, ghosts_on, label_ghost
+from sandbox.picture.painter import Painter
+from sandbox.picture.palette import Colour, palette
+from sandbox.picture.path import Mark, Path, apart, draw_trace, mark_impacts
+from sandbox.picture.sheet import Entry, Sheet, metres, signed, times
+from sandbox.picture.vectors import Vectors
+
+TRACES = palette("trace")["colours"]
+
+#: In frames the ball is at least so much larger than it has to be to be seen.
+LARGER = 1.3
+
+P = TypeVar("P", bound=Group)
+
+
+class View(Generic[P]):
+    """One run of a scene at ``size`` px: whole, as a poster, or as it is at a time t.
+
+    ``ghosts`` are other runs of the scene by what they are called, drawn pale behind this one.
+    """
+
+    # What a scene may say
+
+    #: How the ball looks.
+    LOOK: ClassVar[Look]
+    #: Colours of the path, of the thin line of it that stays behind in frames, and of other runs.
+    TRACE: ClassVar[Colour] = TRACES[0]
+    FAINT: ClassVar[Colour] = TRACES[0]
+    EARLIER: ClassVar[Sequence[Colour]] = TRACES[1:]
+    #: s of path that the trail behind the ball shows.
+    TRAIL: ClassVar[float] = 0.5
+    #: Impacts are marked that are at least so hard, in m/s, and as a share of the hardest.
+    LEAST_IMPACT: ClassVar[float] = 0.3
+    SOFT: ClassVar[float] = 0.0
+    #: Of impacts that are nearer to each other than this, in px on 720 rows, the first alone is marked.
+    APART: ClassVar[float] = 0.0
+
+    #: Whether all runs stand on the same ground, so that one cannot be moved up or down to lie over another.
+    ONE_GROUND: ClassVar[bool] = False
+
+    @property
+    def on_dark(self) -> bool:
+        """Whether text stands on dark ground."""
+        return True
+
+    @property
+    def ball(self) -> str:
+        """The ball that is played: its path is the picture's."""
+        return self.run.setup.balls[0].name
+
+    @property
+    def balls(self) -> list[str]:
+        """All that are drawn as balls."""
+        return [ball.name for ball in self.run.setup.balls]
+
+    @cached_property
+    def told(self) -> float:
+        """When the story is told, in s: the path ends there, and the verdict is in."""
+        return self.run.duration
+
+    @cached_property
+    def span(self) -> float:
+        """The time in s over which the balls along the path are spread: mostly that of the flight."""
+        return self.told
+
+    @property
+    def moment(self) -> float:
+        """The time in s at which the poster shows what moves besides the balls."""
+        return 0.0
+
+    @property
+    def datum(self) -> tuple[tuple[float, float], str]:
+        """The point in m that runs have in common when they are compared, and what it is."""
+        return (0.0, 0.0), "the start"
+
+    def progress(self, t: float) -> tuple[str, str]:
+        """Headline and note of a frame at time t in s, before the verdict is in."""
+        return f"{t:.2f} s", ""
+
+    def live(self, t: float) -> list[Entry]:
+        """What a frame's card says at time t in s."""
+        _, _, vx, vy, spin = self.run.state(self.ball, t)
+        speed = hypot(vx, vy)
+        return [
+            ("time", f"{t:.2f} s"),
+            *self.position(t),
+            ("speed", f"{speed:.1f} m/s"),
+            ("direction", signed(f"{degrees(atan2(vy, vx)):.0f}") + "°" if speed > 0.01 else "–"),
+            ("spin", spin_text(spin)),
+            *self.vectors.entries(t),
+        ]
+
+    def position(self, t: float) -> list[Entry]:
+        """Of the ball, for the frame's card."""
+        x, y, *_ = self.run.state(self.ball, t)
+        return [("x", metres(x)), ("y", metres(y))]
+
+    def remarks(self, camera: Camera) -> list[str]:
+        """What of the place is not drawn as it is, or not seen."""
+        return []
+
+    def backdrop(self, painter: Painter, camera: Camera) -> None:
+        """What stands still, all of it behind the ball."""
+
+    def behind(self, painter: Painter, camera: Camera, t: float) -> None:
+        """What moves behind the ball, at time t in s."""
+
+    def before(self, painter: Painter, camera: Camera, t: float) -> None:
+        """What hides the ball, at time t in s."""
+
+    def landmarks(self, sheet: Sheet, camera: Camera) -> None:
+        """What the place is labelled with, whatever the shot."""
+
+    def annotate(self, sheet: Sheet, camera: Camera) -> None:
+        """What only this sport draws on its poster."""
+
+    def inset(self, sheet: Sheet, camera: Camera, t: float | None) -> pygame.Rect | None:
+        """Draw a small picture in the upper right corner, at time t in s or on the poster; where it is."""
+        return None
+
+    # What a view from the side and one from above say
+
+    @property
+    def camera(self) -> Camera:
+        """The poster's camera."""
+        raise NotImplementedError
+
+    def view(self, t: float) -> Camera:
+        """The camera of ``frame(t)``."""
+        return self.camera
+
+    @property
+    def card_row(self) -> float:
+        """Where the card begins, in px from the top."""
+        return self.sheet.card_row(len(self.ghosts))
+
+    def spots(self, camera: Camera, points: np.ndarray, radius: float) -> np.ndarray:
+        """Where in px balls of ``radius`` px are drawn for points in m, both of shape (n, 2)."""
+        return camera.pixels(points)
+
+    def shadow(
+        self, painter: Painter, camera: Camera, place: tuple[float, float], at: tuple[float, float], radius: float
+    ) -> None:
+        """Of a ball at ``place`` (m) that is drawn at ``at`` with ``radius`` (px)."""
+
+    def scale(self, sheet: Sheet, camera: Camera) -> None:
+        """A ruler or a scale bar."""
+
+    def dimensions(self, sheet: Sheet, camera: Camera) -> None:
+        """The lengths that the run came to, on its poster."""
+
+    # The same for all
+
+    def __init__(
+        self, run: Run, parameters: P, size: tuple[int, int] = (1280, 720), ghosts: Mapping[str, Run] | None = None
+    ) -> None:
+        self.run, self.parameters, self.size = run, parameters, size
+        self.sheet = Sheet(size, self.on_dark)  # the one drawn last
+        self.unit, self.rows = self.sheet.unit, self.sheet.rows
+        self.paths = {name: Path(run, name, self.told) for name in self.balls}
+        self.path = self.paths[self.ball]
+        self.radius = self.path.radius
+        self.ghosts = ghosts_on(self, ghosts or {})
+        self._standing: tuple[Camera, pygame.Surface] | None = None
+
+    @property
+    def wind(self) -> tuple[float, float]:
+        """In m/s, along and up; none for a scene without air."""
+        wind: tuple[float, float] = getattr(getattr(self.parameters, "air", None), "wind", (0.0, 0.0))
+        return wind
+
+    @cached_property
+    def vectors(self) -> Vectors:
+        """Velocity and forces of the ball that is played."""
+        return Vectors(self.run, self.ball)
+
+    @cached_property
+    def points(self) -> np.ndarray:
+        """All places in m that must be seen: of every path, and of the other runs'; shape (n, 2)."""
+        own = [path.points for path in self.paths.values()]
+        return np.concatenate([*own, *(ghost.points for ghost in self.ghosts)])
+
+    def stage(self) -> pygame.Surface:
+        """The place alone, as the poster's camera sees it."""
+        sheet = Sheet(self.size, self.on_dark)
+        self.backdrop(sheet.painter, self.camera)
+        return sheet.surface
+
+    def draw_balls(self, painter: Painter, camera: Camera, t: float) -> None:
+        """All that moves, at time t in s, on the stage that the camera sees."""
+        self.behind(painter, camera, t)
+        placed = self._placed(camera, t, 1.0)
+        self._shadows(painter, camera, placed, t)
+        for name, (at, radius) in placed.items():
+            self.draw_ball(painter, camera, name, t, at, radius)
+        self.before(painter, camera, t)
+
+    def measure(self, sheet: Sheet, camera: Camera) -> None:
+        """What the place is measured by: ruler or scale bar, and the labels that hold for any shot."""
+        self.scale(sheet, camera)
+        self.landmarks(sheet, camera)
+
+    def notes(self, camera: Camera) -> list[str]:
+        """What is not drawn as it is."""
+        notes = self.remarks(camera)
+        if camera.stretch != 1:
+            notes.insert(0, f"heights drawn {camera.stretch:g} times as large as lengths")
+        if (factor := enlarged(self.radius, camera, self.rows)) > 1:
+            notes.append(f"ball drawn {times(factor)} its size")
+        return notes
+
+    def poster(self) -> pygame.Surface:
+        """The whole run in one picture."""
+        sheet = self.sheet = Sheet(self.size, self.on_dark)
+        camera, painter = self.camera, sheet.painter
+        self.backdrop(painter, camera)
+        self.behind(painter, camera, self.moment)
+        traces = {name: self._trace(camera, path.points) for name, path in self.paths.items()}
+        self.trace = traces.pop(self.ball)
+        others = [(ghost, self._trace(camera, ghost.points)) for ghost in self.ghosts]
+        for ghost, points in others:
+            draw_ghost(sheet, ghost, points)
+        for name, points in traces.items():
+            draw_trace(sheet, points, self.colour_of(name), 0.6)
+        draw_trace(sheet, self.trace, self.TRACE)
+        every = self.strobe(sheet, camera)
+        self.before(painter, camera, self.moment)
+        self.dimensions(sheet, camera)
+        self.measure(sheet, camera)
+        self.annotate(sheet, camera)
+        mark_impacts(sheet, camera, self.impacts(camera))
+        room = self._room(sheet, camera, None)
+        notes = [*(ghost.note for ghost in self.ghosts), *self.aligned, *every, *self.notes(camera)]
+        sheet.headline(self.verdict(), notes, room)
+        sheet.columns(self.card_row, self.numbers(), [ghost.row for ghost in self.ghosts])
+        for ghost, points in others:
+            label_ghost(sheet, ghost, points, self.trace)
+        return sheet.surface
+
+    def frame(self, t: float) -> pygame.Surface:
+        """The scene at time t in s."""
+        t = min(max(t, 0.0), self.run.duration)
+        sheet = self.sheet = Sheet(self.size, self.on_dark)
+        camera, painter = self.view(t), sheet.painter
+        sheet.surface.blit(self._still(camera), (0, 0))
+        self.behind(painter, camera, t)
+        placed = self._placed(camera, t, LARGER)
+        self._shadows(painter, camera, placed, t)
+        for ghost in self.ghosts:
+            points = self.spots(camera, ghost.points, 0.0)
+            draw_in_frame(sheet, ghost, points, self.spots(camera, ghost.at(t), 0.0)[0])
+        self.trails(sheet, camera, t)
+        if self.ball in placed:
+            self.vectors.draw(sheet, *placed[self.ball], t)
+        for name, (at, radius) in placed.items():
+            self.draw_ball(painter, camera, name, t, at, radius)
+        self.before(painter, camera, t)
+        self.scale(sheet, camera)
+        room = self._room(sheet, camera, t)
+        over = t >= self.told
+        headline, *notes = (self.verdict(),) if over else self.progress(t)
+        notes += [*(f"compared with {ghost.label}" for ghost in self.ghosts), *self.aligned]
+        if any(radius > 1.001 * self.paths[name].radius * camera.scale for name, (_, radius) in placed.items()):
+            notes.append("ball drawn larger than it is")
+        sheet.headline(headline, [note for note in notes if note], room)
+        sheet.columns(self.card_row, self.live(t), [ghost.live(t) for ghost in self.ghosts])
+        return sheet.surface
+
+    # Parts of the two
+
+    @property
+    def aligned(self) -> list[str]:
+        """To note where the other runs were moved to lie over this one."""
+        return [f"aligned at {self.datum[1]}"] if any(any(ghost.shift) for ghost in self.ghosts) else []
+
+    def verdict(self) -> str:
+        """What happened, in one line."""
+        verdict = dict(self._card).get("verdict") or f"{self.run.duration:.2f} s"
+        return verdict[:1].upper() + verdict[1:]
+
+    def numbers(self) -> list[Entry]:
+        """The run's numbers, the most important first."""
+        return [(label, text) for label, text in self._card if label != "verdict"]
+
+    @cached_property
+    def _card(self) -> list[tuple[str, str]]:
+        return self.run.scene.card(self.run.result) if self.run.scene is not None else []
+
+    def look_of(self, name: str) -> Look:
+        """How a ball looks."""
+        return self.LOOK
+
+    def colour_of(self, name: str) -> Colour:
+        """Of a ball's path."""
+        others = [other for other in self.balls if other != self.ball]
+        return self.TRACE if name == self.ball else self.EARLIER[others.index(name) % len(self.EARLIER)]
+
+    def draw_ball(
+        self, painter: Painter, camera: Camera, name: str, t: float, at: tuple[float, float], radius: float
+    ) -> None:
+        """A ball at time t in s, with a ring around it that says so where it is drawn larger than it is."""
+        larger = radius > 1.001 * self.paths[name].radius * camera.scale
+        self.look_of(name).draw(painter, at, radius, self.run.angle(name, t), self.unit, larger)
+
+    def impacts(self, camera: Camera) -> list[Mark]:
+        """The impacts that are marked."""
+        marks, marked = list(self.path.marks()), list[Mark]()
+        least = max([self.LEAST_IMPACT, *(self.SOFT * mark.hardness for mark in marks)])
+        for mark in (mark for mark in marks if mark.hardness >= least):
+            far = dist(mark.at, marked[-1].at) * camera.scale if marked else inf
+            if far >= self.APART * self.unit:
+                marked.append(mark)
+        return marked
+
+    def strobe(self, sheet: Sheet, camera: Camera) -> list[str]:
+        """All balls where they are in the end, and a lone one at even times; what to note of that."""
+        if len(self.paths) == 1:
+            every, moments = self.path.even_times(self.span)
+            radius = max(self.radius * camera.scale, mark_radius(self.rows))
+            places = self.spots(camera, np.array([self.run.state(self.ball, t)[:2] for t in moments]), radius)
+            for t, at in zip(moments, places, strict=True):
+                self.look_of(self.ball).draw(sheet.painter, at, radius, self.run.angle(self.ball, t), self.unit)
+        placed = self._placed(camera, self.told, 1.0)
+        self._shadows(sheet.painter, camera, placed, self.told)
+        for name, (at, radius) in placed.items():
+            self.draw_ball(sheet.painter, camera, name, self.told, at, radius)
+        return [f"a ball every {every:g} s"] if len(self.paths) == 1 else []
+
+    def trails(self, sheet: Sheet, camera: Camera, t: float) -> None:
+        """Where the balls have been: a thin line, and a thick one of late; kept out of the header."""
+        sheet.surface.set_clip((0, sheet.top_row, *self.size))
+        for name, path in self.paths.items():
+            radius = max(path.radius * camera.scale, least_radius(self.rows))
+            colour, faint = (self.TRACE, self.FAINT) if name == self.ball else (self.colour_of(name),) * 2
+            here = self.run.state(name, t)[:2]
+            if t <= self.told:
+                earlier = self.spots(camera, np.array([*path.points[path.samples[:, 0] < t], here]), 0.0)
+                sheet.painter.thread(earlier[apart(earlier, 3.0)], self.unit, faint)
+            moments = np.linspace(max(0.0, t - self.TRAIL), t, 25)
+            late = self.spots(camera, np.array([self.run.state(name, s)[:2] for s in moments]), 0.0)
+            if np.ptp(late, axis=0).max() > 2:
+                sheet.painter.fading(late[apart(late, 2.0)], 1.1 * radius, colour, 0.9)
+        sheet.surface.set_clip(None)
+
+    def _placed(self, camera: Camera, t: float, larger: float) -> dict[str, tuple[tuple[float, float], float]]:
+        """Of each ball that is there at time t in s, where it is drawn and with what radius, in px."""
+        placed = {}
+        for name in self.present(t):
+            radius = max(self.paths[name].radius * camera.scale, larger * least_radius(self.rows))
+            x, y = self.spots(camera, np.array([self.run.state(name, t)[:2]]), radius)[0]
+            placed[name] = (float(x), float(y)), radius
+        return placed
+
+    def present(self, t: float) -> list[str]:
+        """The balls that have not been caught at time t in s."""
+        caught = {name: self.run.caught_at(name) for name in self.balls}
+        return [name for name, at in caught.items() if at is None or t < at]
+
+    def _shadows(
+        self, painter: Painter, camera: Camera, placed: Mapping[str, tuple[tuple[float, float], float]], t: float
+    ) -> None:
+        for name, (at, radius) in placed.items():
+            self.shadow(painter, camera, self.run.state(name, t)[:2], at, radius)
+
+    def _trace(self, camera: Camera, points: np.ndarray) -> np.ndarray:
+        """A path in px, in as many points as can be told apart."""
+        traced = self.spots(camera, points, 0.0)
+        return traced[apart(traced, 1.5)]
+
+    def _still(self, camera: Camera) -> pygame.Surface:
+        """What stands still; kept while the camera does."""
+        if self._standing is None or self._standing[0] != camera:
+            sheet = Sheet(self.size, self.on_dark)
+            self.backdrop(sheet.painter, camera)
+            self._standing = camera, sheet.surface
+        return self._standing[1]
+
+    def _room(self, sheet: Sheet, camera: Camera, t: float | None) -> float:
+        """Draw what is in the upper right corner; how much room that leaves for the headline, in px."""
+        inset = self.inset(sheet, camera, t)
+        right = sheet.frame.right if inset is None else inset.left - 2 * sheet.gap
+        if any(self.wind):
+            right = sheet.wind(*self.wind, right, sheet.frame.top).left - 2 * sheet.gap
+        return right - sheet.frame.left
+
+
+def spin_text(spin: float) -> str:
+    """A spin in rad/s for people: backspin is positive."""
+    rpm = spin * 30 / pi
+    return f"{abs(rpm):.0f} rpm {'top' if rpm < 0 else 'back'}" if abs(rpm) >= 0.5 else "none"
