@@ -1,8 +1,8 @@
 """Golf in side view: from the tee, through the air, over the turf, to rest or into the cup.
 
 Models: gravity; drag and Magnus lift with coefficients by Reynolds number and spin ratio; wind, even or growing with
-height; spin decay; the strike of the club head, as a collision; bounces on turf that gives way (Penner 2002), sliding,
-rolling, slopes, water, and a cup with real walls, which a fast ball skips over.
+height; spin decay; the strike of the club head, a collision with springs along and across the face; bounces on turf
+that gives way (Penner 2002), sliding, rolling, slopes, water, and a cup with real walls, which a fast ball skips over.
 
 Leaves out, with what it is worth in carry on the default drive: the fading of lift below the drag crisis (2.6 m if half
 of it went), air that thins with height (0.2 m), buoyancy (0.1 m), the turning Earth (less than 0.05 m). And, not
@@ -24,8 +24,8 @@ from sandbox.engine.setup import SOLID_SPHERE, Ball, Bounce, Bounds, Force, Segm
 from sandbox.errors import RequestError
 from sandbox.parameters import Accuracy, Group, choice, either, group, groups, quantity, vectors
 from sandbox.physics import coefficients
+from sandbox.physics.club import Head, strike
 from sandbox.physics.forces import Drag, Gravity, Magnus, SpinDecay
-from sandbox.physics.impulse import club_on_ball
 from sandbox.physics.turf import penner_bounce, penner_restitution, stimp_resistance
 
 RPM = pi / 30.0  # rad/s
@@ -51,7 +51,11 @@ class Club(Group):
     loft: float = quantity(10.5, "deg", 0, 80, "angle of the face from the vertical")
     attack: float = quantity(0.0, "deg", -45, 45, "way of the head above the horizontal; negative hits down")
     restitution: float = quantity(0.83, "", 0, 1, "of head and ball")
-    friction: float = quantity(0.6, "", 0, 10, "of face and ball; with too little the ball slides up the face")
+    friction: float = quantity(0.4, "", 0, 10, "of face and ball; with too little the ball slides up the face")
+    stiffness: float = quantity(1.0, "", 0.1, 100, "of the ball along the face over that across it")
+    depth: float = quantity("42.3 mm", "m", 0, 0.2, "of the head's centre of mass behind the face")
+    inertia: float = quantity(2.843e-4, "kg m^2", 1e-5, 1, "of the head about the axis from heel to toe")
+    height: float = quantity(0.0, "m", -0.03, 0.03, "of the place that is hit above the one before the centre of mass")
 
 
 class GolfDrag(Group):
@@ -227,16 +231,9 @@ def launched(parameters: Parameters) -> tuple[tuple[float, float], float]:
                 f"club.attack = {club.attack:g} deg: with club.loft = {club.loft:g} deg "
                 "the face moves away from the ball"
             )
-        struck = club_on_ball(
-            club.speed,
-            radians(club.loft),
-            club.mass,
-            ball.mass,
-            ball.radius,
-            club.restitution,
-            radians(club.attack),
-            club.friction,
-        )
+        head = Head(club.mass, club.restitution, club.friction, club.stiffness, club.depth, club.inertia)
+        loft, attack = radians(club.loft), radians(club.attack)
+        struck = strike(head, club.speed, loft, attack, club.height, ball.mass, ball.radius)
         return (struck.vx, struck.vy), struck.spin
     launch = parameters.launch
     angle = radians(launch.angle)

@@ -21,8 +21,8 @@ from sandbox.engine.run import Run
 from sandbox.errors import RequestError
 from sandbox.lab.validate import PUBLISHED
 from sandbox.physics import coefficients
+from sandbox.physics.club import Head, strike
 from sandbox.physics.forces import Magnus
-from sandbox.physics.impulse import club_on_ball
 from sandbox.physics.turf import STIMPMETER_SPEED
 
 YARD, FOOT, RPM = 0.9144, 0.3048, pi / 30.0
@@ -182,8 +182,9 @@ def test_a_shot_to_the_left_is_the_mirror_image_of_one_to_the_right():
 
 
 @pytest.mark.parametrize("loft", [10.5, 34.0, 46.0])
-def test_a_club_gives_the_launch_of_the_closed_form(loft: float):
-    club = club_on_ball(45.0, radians(loft), 0.25, 0.04593, RADIUS, 0.8, radians(-3.0))
+def test_a_club_gives_the_launch_of_its_law(loft: float):
+    head = Head(0.25, 0.8, 0.4, 1.0, 0.0423, 2.843e-4)
+    club = strike(head, 45.0, radians(loft), radians(-3.0), 0.0, 0.04593, RADIUS)
     speed, angle = hypot(club.vx, club.vy), degrees(atan2(club.vy, club.vx))
     struck = {"start": "club", "club__speed": 45.0, "club__mass": 0.25, "club__loft": loft}
     by_club = play(**struck, club__restitution=0.8, club__attack=-3.0).result
