@@ -1,28 +1,35 @@
-"""A pytest plugin that compares runs and pictures with golden ones kept beside the tests.
+"""A pytest plugin that compares runs and pictures with golden ones in a folder near the tests.
 
     def test_my_scene(golden):
         golden.check("my_scene", sandbox.simulate(sandbox.load("my_scene.toml")))
 
-The golden picture is ``golden/my_scene.png`` in the folder of the test or the nearest one above it. Beside it
-``my_scene.json`` keeps what happened in the run, so that a failure can say whether the physics changed or the drawing.
-A picture (a pygame surface or a Pillow image) may be checked alone, too. ``pytest --golden-update`` makes and rewrites
-golden files and lists them for review; on CI, where the variable CI is set, nothing is ever written.
+The golden picture is ``golden/my_scene.png`` in the folder of the test or the nearest one above it; ``my_scene.json``
+keeps what happened in the run, so that a failure can say whether the physics changed or the drawing. A picture (a
+pygame surface or a Pillow image) may be checked alone, too. ``pytest --golden-update`` makes and rewrites golden files
+and lists them for review; on CI, where the variable CI is set, nothing is ever written.
 
 Of a chaotic run only the beginning is the same on another processor: ``golden.check("break", run, until=0.3)`` shows it
 at that time in s and keeps what happened until then.
 
-The comparison is our own. Pixelmatch was tried: it forgives what it takes for anti-aliasing, and that is where a small
-white ball on a pale sky differs when it is larger by a pixel all around (it counts 0 pixels, this counts 44); and it
-takes 0.8 s for 640x360.
+What is noticed in a picture: a pixel has changed if a channel is more than ROUNDING_LEVELS away from every level that
+its golden level can stand for, as golden pictures keep 6 bits. So a colour that is off by 6 levels or more is noticed
+wherever more than STRAY_PIXELS pixels of it are together, a shade that runs over many levels from 4 on; a level or two
+everywhere, which is what another machine's rounding does, never is. The comparison is our own. Pixelmatch was tried: it
+forgives what it takes for anti-aliasing, and that is where a small white ball on a pale sky differs when it is larger
+by a pixel all around (it counts 0 pixels, this counts 44); and it takes 0.8 s for 640x360.
 """
 
 from __future__ import annotations
 
+import hashlib
 import io
 import json
 import os
+import shutil
+import tempfile
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
 
@@ -30,14 +37,18 @@ import pytest
 
 from sandbox import record
 from sandbox.errors import RunError
+from sandbox.text import printable
 
 if TYPE_CHECKING:
     import numpy as np
     from PIL import Image
 
-#: A pixel has changed when a channel differs by more than this, of 255. Another machine's rounding moves it by 1 or 2,
-#: a ball moved by a quarter of a pixel by 20 and more.
-ROUNDING_LEVELS = 8
+#: Bits of each colour that a golden picture keeps; a level of it stands for those from LOWEST to HIGHEST around it.
+KEPT_BITS = 6
+LOWEST, HIGHEST = -(1 << (7 - KEPT_BITS)), (1 << (7 - KEPT_BITS)) - 1
+#: Levels, of 255, by which another machine's rounding may move a pixel; a ball moved by a quarter of a pixel moves it
+#: by 20 and more.
+ROUNDING_LEVELS = 2
 #: So many changed pixels may stand within NEIGHBOURHOOD px of each other: an edge pixel or two that was rounded the
 #: other way. A ball of 7 px that is moved by half a pixel changes a dozen.
 STRAY_PIXELS = 3
@@ -45,8 +56,6 @@ NEIGHBOURHOOD = 9
 #: Share of all pixels that may have changed, strays all over the picture.
 STRAY_SHARE = 0.0005
 
-#: Bits of each colour that a golden picture keeps.
-KEPT_BITS = 6
 #: Of a run the picture is drawn this large, in px: its PNG takes less than 60 kB.
 SIZE = (480, 270)
 #: So many changes of a run are told.
@@ -85,23 +94,32 @@ def compare(expected: Image.Image, actual: Image.Image) -> Difference:
 
     if expected.size != actual.size:
         raise ValueError(f"it is {actual.width}x{actual.height}, the golden one {expected.width}x{expected.height}")
-    levels = _levels(expected, actual)
-    changed = levels > ROUNDING_LEVELS
+    difference = _difference(expected, actual)
+    changed = _changed(difference)
     # Sums over squares, from the sums over all that is above and to the left.
     reach = NEIGHBOURHOOD // 2
     sums = np.pad(np.pad(changed, reach).cumsum(0).cumsum(1), ((1, 0), (1, 0)))
     near = sums[NEIGHBOURHOOD:, NEIGHBOURHOOD:] - sums[:-NEIGHBOURHOOD, NEIGHBOURHOOD:]
     near = near - sums[NEIGHBOURHOOD:, :-NEIGHBOURHOOD] + sums[:-NEIGHBOURHOOD, :-NEIGHBOURHOOD]
     row, column = np.unravel_index(int(near.argmax()), near.shape)
-    return Difference(float(changed.mean()), int(levels.max()), int(near.max()), (int(column), int(row)))
+    largest = int(np.abs(difference).max())
+    return Difference(float(changed.mean()), largest, int(near.max()), (int(column), int(row)))
 
 
-def _levels(expected: Image.Image, actual: Image.Image) -> np.ndarray:
-    """Largest difference of the three channels at each pixel, shape (height, width)."""
+def _difference(expected: Image.Image, actual: Image.Image) -> np.ndarray:
+    """By how many levels each channel is higher than expected, shape (height, width, 3)."""
     import numpy as np
 
     a, b = (np.asarray(image.convert("RGB")).astype(np.int16) for image in (expected, actual))
-    return np.abs(a - b).max(axis=2)
+    return b - a
+
+
+def _changed(difference: np.ndarray) -> np.ndarray:
+    """Which pixels have changed by more than rounding, shape (height, width)."""
+    import numpy as np
+
+    higher, lower = difference > HIGHEST + ROUNDING_LEVELS, difference < LOWEST - ROUNDING_LEVELS
+    return np.any(higher | lower, axis=2)
 
 
 def side_by_side(expected: Image.Image, actual: Image.Image) -> Image.Image:
@@ -111,9 +129,9 @@ def side_by_side(expected: Image.Image, actual: Image.Image) -> Image.Image:
 
     images = [expected.convert("RGB"), actual.convert("RGB")]
     if expected.size == actual.size:
-        levels = _levels(expected, actual)
+        changed = _changed(_difference(expected, actual))
         pale = 170 + np.asarray(expected.convert("L"))[:, :, None] // 3 * np.ones(3, np.uint8)
-        pale[levels > ROUNDING_LEVELS] = (220, 20, 20)
+        pale[changed] = (220, 20, 20)
         images.append(Image.fromarray(pale.astype(np.uint8)))
     sheet = Image.new(
         "RGB", (sum(i.width for i in images) + 8 * (len(images) - 1), max(i.height for i in images)), "white"
@@ -128,8 +146,12 @@ def side_by_side(expected: Image.Image, actual: Image.Image) -> Image.Image:
 class Golden:
     """The fixture: compares runs and pictures with the golden ones of one test."""
 
-    def __init__(self, folder: Path, report: Path, update: bool, tell: Callable[[str], None]):
-        self.folder, self.report, self.update, self.tell = folder, report, update, tell
+    def __init__(
+        self, folder: Path, report: Path, update: bool, tell: Callable[[str], None], claim: Callable[[Path], str | None]
+    ):
+        """``claim`` takes a golden file for this test, and gives the test that has it already, or None."""
+        self.folder, self.report, self.update, self.tell, self.claim = folder, report, update, tell, claim
+        self.checked: set[str] = set()
 
     def check(self, name: str, subject: Any, until: float | None = None) -> None:
         """Fail unless the subject is like the golden one of that name.
@@ -137,6 +159,13 @@ class Golden:
         The subject is a run of a scene, of which the poster is drawn, or with ``until`` the frame at that time in s; or
         it is a picture.
         """
+        if until is not None and not (isfinite(until) and until > 0.0):
+            _fail(f"{name}: until = {until}: must be a time of more than 0 s")
+        other = self.claim(self.folder / name)
+        if other is not None:
+            _fail(f"{name} is the golden name of {other} too: each test needs a name of its own")
+        update = self.update and name not in self.checked  # a second check in one test has to be like the first
+        self.checked.add(name)
         run = subject if hasattr(subject, "setup") else None
         image = _as_image(subject, until)
         png, text = self.folder / f"{name}.png", self.folder / f"{name}.json"
@@ -146,7 +175,7 @@ class Golden:
         physics = None if run is None else _changed_physics(text, run, until)
         if drawing is None and physics is None:
             return
-        if self.update:
+        if update:
             if physics is not None:
                 self._write_run(name, text, run, until, physics)
             if drawing is not None:
@@ -155,7 +184,11 @@ class Golden:
             what, path = ("picture", png) if expected is None else ("run", text)
             _fail(f"{name} has no golden {what} at {path}; make it with pytest --golden-update")
         else:
-            _fail(*_told(name, run, physics, drawing), *self._shown(name, expected, image, drawing), HOW_TO_ACCEPT)
+            _fail(
+                *_kind_of_change(name, text, run, until, physics, drawing),
+                *self._shown(name, expected, image, drawing),
+                HOW_TO_ACCEPT,
+            )
 
     def _mend(self, name: str, damage: dict[Path, str | None]) -> None:
         """Have damaged files made anew, or say which they are and how to."""
@@ -169,7 +202,7 @@ class Golden:
         chaos = record.diverges(run, until)
         if chaos is not None:
             _fail(
-                f"{name} hangs on rounding from t = {chaos:.3g} s on, another processor would not get the same; "
+                f"{name} depends on rounding from t = {chaos:.3g} s on, another processor would not get the same; "
                 f"keep what is before that: golden.check({name!r}, run, until={0.8 * chaos:.2g})"
             )
         self._write(path, record.as_text(record.record(run, until)).encode(), change)
@@ -187,18 +220,34 @@ class Golden:
             yield f"expected, actual and difference, side by side: {path}"
 
 
-def _told(name: str, run: Any, physics: str | None, drawing: str | None) -> Iterator[str]:
+def _kind_of_change(
+    name: str, path: Path, run: Any, until: float | None, physics: str | None, drawing: str | None
+) -> Iterator[str]:
     """What kind of change it is, a line each."""
     if physics is not None:
         yield f"{name} is not like its golden run: {physics}"
         if drawing is not None:
             yield f"the drawing: {drawing}"
+        return
+    small = None if run is None else _difference_below_tolerance(path, run, until)
+    if small is not None:
+        yield f"{name}: the run differs from its golden run by less than the tolerance of {record.TOLERANCE:g}: {small}"
+        yield f"the picture shows it: {drawing}"
     else:
         yield f"{name} is not like its golden picture: {'same physics, the drawing changed: ' if run else ''}{drawing}"
 
 
+def _difference_below_tolerance(path: Path, run: Any, until: float | None) -> str | None:
+    """The first number of a run that has other digits than the golden one, in words; None where there is none."""
+    expected = json.loads(path.read_text("utf-8"))
+    actual = record.record(run, until, record.times_of(expected))
+    first = record.first_change(expected, actual, tolerance=0.0)
+    results = record.changed_results(expected, actual, tolerance=0.0)
+    return first[1] if first is not None else next(iter(results), None)
+
+
 def _fail(*lines: str) -> NoReturn:
-    pytest.fail("\n".join(lines), pytrace=False)
+    pytest.fail(printable("\n".join(lines)), pytrace=False)
 
 
 def _changed_drawing(expected: Image.Image | None, actual: Image.Image) -> str | None:
@@ -245,7 +294,7 @@ def _damaged_run(path: Path) -> str | None:
         kept = json.loads(path.read_text("utf-8"))
     except ValueError as error:
         return f"no JSON: {error}"
-    return None if isinstance(kept, dict) and {"states", "events"} <= set(kept) else "not what is kept of a run"
+    return record.damage(kept)
 
 
 def _as_image(subject: Any, until: float | None) -> Image.Image:
@@ -319,6 +368,45 @@ def pytest_configure(config: pytest.Config) -> None:
         raise pytest.UsageError("--golden-update: golden files are never written on CI, and the variable CI is set")
 
 
+@pytest.hookimpl(optionalhook=True)
+def pytest_configure_node(node: Any) -> None:
+    """Tell a process of pytest-xdist where the tests of all of them claim their golden files."""
+    node.workerinput["golden_claims"] = str(_claims_folder(node.config))
+
+
+def pytest_unconfigure(config: pytest.Config) -> None:
+    folder = config.stash.get(_CLAIMS, None)
+    if folder is not None and not hasattr(config, "workerinput"):
+        shutil.rmtree(folder, ignore_errors=True)
+
+
+#: A folder with a file for each golden name, which holds the test that uses it.
+_CLAIMS = pytest.StashKey[Path]()
+
+
+def _claims_folder(config: pytest.Config) -> Path:
+    """Where golden names are claimed, by the tests of all processes; made when it is first asked for."""
+    if _CLAIMS not in config.stash:
+        given = getattr(config, "workerinput", {}).get("golden_claims")
+        config.stash[_CLAIMS] = Path(given or tempfile.mkdtemp(prefix="golden-"))
+    return config.stash[_CLAIMS]
+
+
+def _claimed(folder: Path, path: Path, test: str) -> str | None:
+    """Claim a golden file for a test; the test that has claimed it already, or None."""
+    claim = folder / hashlib.sha256(str(path).encode()).hexdigest()
+    own = folder / f"{claim.name}.{os.getpid()}"
+    own.write_text(test, "utf-8")
+    try:
+        claim.hardlink_to(own)  # whole, and only where there is none
+    except FileExistsError:
+        other = claim.read_text("utf-8")
+        return None if other == test else other
+    finally:
+        own.unlink()
+    return None
+
+
 @pytest.fixture
 def golden(request: pytest.FixtureRequest) -> Golden:
     """Compares runs and pictures with golden ones: ``golden.check("name", run)``."""
@@ -327,9 +415,12 @@ def golden(request: pytest.FixtureRequest) -> Golden:
         # Kept with the test's report, which is how it gets home from another process.
         request.node.user_properties.append(("golden", line))
 
+    def claim(path: Path) -> str | None:
+        return _claimed(_claims_folder(request.config), path, request.node.nodeid)
+
     config = request.config
     folder = _folder_for(request.path, config.rootpath)
-    return Golden(folder, config.rootpath / REPORT, bool(config.getoption("--golden-update")), tell)
+    return Golden(folder, config.rootpath / REPORT, bool(config.getoption("--golden-update")), tell, claim)
 
 
 def pytest_terminal_summary(terminalreporter: Any) -> None:

@@ -12,7 +12,7 @@ from sandbox.files import plain
 #: Two numbers are the same when they differ by no more than this, in s, m, m/s or rad/s, or by this share of
 #: themselves. Rounding on another processor stays below 1e-9, unless the scene is chaotic; a force that is wrong by one
 #: part in ten thousand moves a ball by millimetres.
-TOLERANCE, RELATIVE_TOLERANCE = 1e-6, 1e-6
+TOLERANCE = 1e-6
 #: Numbers are kept to this many digits, so that files differ only where the tolerances see it.
 DIGITS = 9
 #: States along the run: so many for each ball, of many balls fewer.
@@ -37,8 +37,8 @@ def record(run: Any, until: float | None = None, times: Sequence[float] | None =
     """
     end = run.duration if until is None else min(until, run.duration)
     if times is None:
-        count = max(6, min(SAMPLES, MOST_STATES // len(run.setup.balls)))
-        times = [end * i / (count - 1) for i in range(count)]
+        count = _samples(len(run.setup.balls))
+        times = _rounded([end * i / (count - 1) for i in range(count)])  # as the file will have them
     kept: Record = {} if until is None else {"until": until}
     if until is None:
         kept |= {"ended": run.ended, "duration": run.duration, "result": plain(run.result)}
@@ -52,6 +52,36 @@ def record(run: Any, until: float | None = None, times: Sequence[float] | None =
         for ball in run.setup.balls
     }
     return _rounded(kept)
+
+
+def _samples(balls: int) -> int:
+    """How many states are kept of each of so many balls."""
+    return max(6, min(SAMPLES, MOST_STATES // max(1, balls)))
+
+
+def damage(kept: Any) -> str | None:
+    """What is missing from a record that was read from a file, in words; None where it is whole."""
+    if not isinstance(kept, dict) or not {"states", "events"} <= set(kept):
+        return "not a record of a run"
+    states, events = kept["states"], kept["events"]
+    if not isinstance(states, dict) or not states or not isinstance(events, list):
+        return "it has no states or no list of events"
+    if "until" not in kept and not {"ended", "duration", "result"} <= set(kept):
+        return "ended, duration or result is missing"
+    if not all(isinstance(row, list) and len(row) == 5 for row in events):
+        return "an event is not a row of time, kind, ball, partner and speed"
+    end = kept.get("duration")
+    for ball, rows in states.items():
+        if not isinstance(rows, list) or len(rows) != _samples(len(states)):
+            found = len(rows) if isinstance(rows, list) else 0
+            return f"{ball} has {found} states, of {_samples(len(states))} that were kept"
+        if not all(isinstance(row, list) and len(row) == len(COLUMNS) and all(map(_is_number, row)) for row in rows):
+            return f"a state of {ball} is not a row of {', '.join(COLUMNS)}"
+        last = rows[-1][0] if end is None else end
+        spread = [last * i / (len(rows) - 1) for i in range(len(rows))]
+        if not all(_same(row[0], t) for row, t in zip(rows, spread, strict=True)):
+            return f"the times of {ball} are not spread evenly from 0 to the end"
+    return None
 
 
 def times_of(kept: Record) -> list[float]:
@@ -83,25 +113,26 @@ def _lines(opening: str, rows: Iterator[str], closing: str, deep: int = 1) -> st
     return f"{opening}\n{inner}\n{' ' * deep}{closing}" if inner else opening + closing
 
 
-def first_change(expected: Record, actual: Record) -> tuple[float, str] | None:
+def first_change(expected: Record, actual: Record, tolerance: float = TOLERANCE) -> tuple[float, str] | None:
     """Time in s and description of the first difference in how the balls moved; None where there is none."""
-    return min([*_changed_states(expected, actual), *_changed_events(expected, actual)], default=None)
+    changes = [*_changed_states(expected, actual, tolerance), *_changed_events(expected, actual, tolerance)]
+    return min(changes, default=None)
 
 
-def changed_results(expected: Record, actual: Record) -> list[str]:
+def changed_results(expected: Record, actual: Record, tolerance: float = TOLERANCE) -> list[str]:
     """What else differs, each in words: results, how the run ended."""
     found = []
     before, after = ({**kept.get("result", {}), "ended": kept.get("ended")} for kept in (expected, actual))
     for name in [*before, *(name for name in after if name not in before)]:
         if name not in after or name not in before:
             found.append(f"{name} is {'new' if name in after else 'gone'}")
-        elif not _same(before[name], after[name]):
+        elif not _same(before[name], after[name], tolerance):
             found.append(f"{name} is {_word(after[name])}, was {_word(before[name])}")
     return found
 
 
 def diverges(run: Any, until: float | None = None) -> float | None:
-    """The time in s from which a run hangs on rounding: of two that begin ``NUDGE`` apart. None where it does not."""
+    """The time in s from which a run depends on rounding: of two that begin ``NUDGE`` apart. None where it does not."""
     from sandbox.engine import simulate
 
     balls = [
@@ -114,7 +145,7 @@ def diverges(run: Any, until: float | None = None) -> float | None:
     return None if change is None else change[0]
 
 
-def _changed_states(expected: Record, actual: Record) -> Iterator[tuple[float, str]]:
+def _changed_states(expected: Record, actual: Record, tolerance: float) -> Iterator[tuple[float, str]]:
     """For each ball the first number that is another."""
     for ball, rows in expected["states"].items():
         others = actual["states"].get(ball)
@@ -122,7 +153,7 @@ def _changed_states(expected: Record, actual: Record) -> Iterator[tuple[float, s
             yield 0.0, f"t = 0 s, {ball} is gone"
             continue
         for row, other in zip(rows, others, strict=True):
-            column = next((i for i in range(1, len(row)) if not _same(row[i], other[i])), None)
+            column = next((i for i in range(1, len(row)) if not _same(row[i], other[i], tolerance)), None)
             if column is not None:
                 name = COLUMNS[column]
                 yield (
@@ -133,7 +164,7 @@ def _changed_states(expected: Record, actual: Record) -> Iterator[tuple[float, s
     yield from ((0.0, f"t = 0 s, {ball} is new") for ball in actual["states"] if ball not in expected["states"])
 
 
-def _changed_events(expected: Record, actual: Record) -> Iterator[tuple[float, str]]:
+def _changed_events(expected: Record, actual: Record, tolerance: float) -> Iterator[tuple[float, str]]:
     """The first event that is another, is missing or is new."""
     before, after = expected["events"], actual["events"]
     for old, new in zip(before, after, strict=False):
@@ -142,7 +173,7 @@ def _changed_events(expected: Record, actual: Record) -> Iterator[tuple[float, s
             yield t, f"t = {t:.3g} s: {_event(new)}, was {_event(old)}"
             return
         for column, name in ((0, "t"), (4, "speed")):
-            if not _same(old[column], new[column]):
+            if not _same(old[column], new[column], tolerance):
                 yield (
                     min(old[0], new[0]),
                     f"t = {old[0]:.3g} s, {_event(old)}, {name} is {_amounts(new[column], old[column], UNITS[name])}",
@@ -164,14 +195,18 @@ def _amounts(now: float, then: float, unit: str) -> str:
     return f"{now:.{digits}g} {unit}, was {then:.{digits}g} {unit}"
 
 
-def _same(a: Any, b: Any) -> bool:
-    numbers = [isinstance(value, int | float) and not isinstance(value, bool) for value in (a, b)]
-    if all(numbers):
-        return abs(a - b) <= TOLERANCE + RELATIVE_TOLERANCE * max(abs(a), abs(b))
+def _is_number(value: Any) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool)
+
+
+def _same(a: Any, b: Any, tolerance: float = TOLERANCE) -> bool:
+    """Whether two values differ by no more than ``tolerance``, or by that share of themselves."""
+    if _is_number(a) and _is_number(b):
+        return abs(a - b) <= tolerance + tolerance * max(abs(a), abs(b))
     if isinstance(a, list) and isinstance(b, list):
-        return len(a) == len(b) and all(map(_same, a, b))
+        return len(a) == len(b) and all(_same(one, other, tolerance) for one, other in zip(a, b, strict=True))
     if isinstance(a, dict) and isinstance(b, dict):
-        return a.keys() == b.keys() and all(_same(a[key], b[key]) for key in a)
+        return a.keys() == b.keys() and all(_same(a[key], b[key], tolerance) for key in a)
     return type(a) is type(b) and a == b
 
 

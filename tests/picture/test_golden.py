@@ -10,11 +10,10 @@ import pytest
 from PIL import Image
 
 import sandbox
-from sandbox.golden import NEIGHBOURHOOD, ROUNDING_LEVELS, _coarser, compare
+from sandbox.golden import LOWEST, NEIGHBOURHOOD, ROUNDING_LEVELS, _coarser, compare
 from sandbox.picture.frames import to_image
 from sandbox.picture.painter import Painter, blank
 from sandbox.record import (
-    RELATIVE_TOLERANCE,
     SAMPLES,
     TOLERANCE,
     as_text,
@@ -75,6 +74,34 @@ def test_what_a_golden_picture_keeps_of_the_colours_is_no_change():
     assert (difference.largest, difference.share) == (2, 0.0)
 
 
+@pytest.mark.parametrize("level", range(96, 104))
+@pytest.mark.parametrize("shift", [-7, -6, 6, 7])
+def test_a_sky_or_a_line_of_another_colour_fails(level: int, shift: int):
+    """By so few levels, wherever in a golden level's range the colour lies; and in one channel alone."""
+    before = Image.new("RGB", (160, 90), (level, 90, 200))
+    sky = Image.new("RGB", (160, 90), (level + shift, 90, 200))
+    assert compare(_coarser(before), sky).matters
+    trace = before.copy()
+    trace.paste((level + shift, 90, 200), (20, 45, 140, 46))
+    assert compare(_coarser(before), trace).matters
+
+
+def test_a_shade_that_is_off_by_four_levels_fails():
+    shade = np.broadcast_to(np.linspace(90, 160, 90).round()[:, None, None], (90, 160, 3)).astype(np.uint8)
+    for shift in (-4, 4):
+        other = (shade.astype(int) + shift).astype(np.uint8)
+        assert compare(_coarser(Image.fromarray(shade)), Image.fromarray(other)).matters
+
+
+@pytest.mark.parametrize("rounding", [-ROUNDING_LEVELS, -1, 1, ROUNDING_LEVELS])
+def test_rounding_the_other_way_everywhere_passes(rounding: int):
+    every = np.arange(2, 254, dtype=np.uint8).reshape(-1, 6)
+    image = Image.fromarray(np.repeat(every[:, :, None], 3, axis=2))
+    other = Image.fromarray((np.asarray(image).astype(int) + rounding).astype(np.uint8))
+    difference = compare(_coarser(image), other)
+    assert (difference.share, difference.matters) == (0.0, False)
+
+
 def test_many_single_pixels_fail_together():
     other = ball()
     for x in range(NEIGHBOURHOOD, 160, 2 * NEIGHBOURHOOD):
@@ -85,7 +112,7 @@ def test_many_single_pixels_fail_together():
 def test_a_line_of_text_in_another_colour_fails():
     other = ball()
     for x in range(100, 104):
-        other.putpixel((x, 80), tuple(level - ROUNDING_LEVELS - 1 for level in SKY))
+        other.putpixel((x, 80), tuple(level + LOWEST - ROUNDING_LEVELS - 1 for level in SKY))
     assert compare(ball(), other).matters
 
 
@@ -166,7 +193,7 @@ class TestRuns:
         ("name", "content", "told"),
         [
             ("it.json", "<<<<<<< HEAD\n", "no JSON: Expecting value: line 1 column 1*"),
-            ("it.json", "[]", "not what is kept of a run"),
+            ("it.json", "[]", "not a record of a run"),
             ("it.png", "", "no picture, or only a part of one"),
             ("it.png", None, "no picture, or only a part of one"),
         ],
@@ -180,6 +207,49 @@ class TestRuns:
         result.stdout.fnmatch_lines([f"it: *{name} is damaged: {told}", "*make it anew: pytest --golden-update"])
         again(scene_project, "--golden-update").stdout.fnmatch_lines([f"*{name}: new"])
         assert file.read_bytes() == whole
+
+    @pytest.mark.parametrize(
+        ("spoil", "told"),
+        [
+            (lambda kept: kept["states"]["ball"].clear(), "ball has 0 states, of 24 that were kept"),
+            (lambda kept: kept["states"]["ball"].pop(), "ball has 23 states, of 24 that were kept"),
+            (lambda kept: kept["states"]["ball"].pop(5), "ball has 23 states, of 24 that were kept"),
+            (lambda kept: kept["states"]["ball"][3].pop(), "a state of ball is not a row of t, x, y, vx, vy, spin"),
+            (lambda kept: kept["states"]["ball"][3].__setitem__(1, None), "a state of ball is not a row of t, x, *"),
+            (lambda kept: kept["states"]["ball"][3].__setitem__(0, 0.0), "the times of ball are not spread evenly *"),
+            (lambda kept: kept["states"].clear(), "it has no states or no list of events"),
+            (lambda kept: kept["events"][0].pop(), "an event is not a row of *"),
+            (lambda kept: kept.pop("result"), "ended, duration or result is missing"),
+        ],
+    )
+    def test_rows_that_are_gone_are_named(self, scene_project, spoil, told: str):
+        again(scene_project, "--golden-update")
+        file = scene_project.path / "golden" / "it.json"
+        whole = file.read_bytes()
+        kept = json.loads(whole)
+        spoil(kept)
+        file.write_text(json.dumps(kept))
+        again(scene_project).stdout.fnmatch_lines([f"it: *it.json is damaged: {told}"])
+        again(scene_project, "--golden-update").assert_outcomes(passed=1)
+        assert file.read_bytes() == whole
+
+    @pytest.mark.parametrize("key", ["events", "result"])
+    def test_what_was_emptied_is_a_change(self, scene_project, key: str):
+        again(scene_project, "--golden-update")
+        file = scene_project.path / "golden" / "it.json"
+        kept = json.loads(file.read_bytes())
+        kept[key].clear()
+        file.write_text(json.dumps(kept))
+        again(scene_project).assert_outcomes(failed=1)
+
+    def test_a_difference_below_the_tolerance_that_shows_is_called_so(self, scene_project, monkeypatch):
+        """A picture that shows the eighth digit of gravity."""
+        picture = scene_project.path / "drop" / "picture.py"
+        shows = "surface.fill((9, 9, 9 + 100 * (self.run.scene.parameters.gravity > 9.81)), (2, 2, 9, 9)); return surface"
+        picture.write_text(picture.read_text().replace("return surface", shows))
+        result = self.changed(scene_project, monkeypatch, '{"gravity": 9.8100001}')
+        told = "*it: the run differs from its golden run by less than the tolerance of 1e-06: t = 0.0*, ball, vy is *"
+        result.stdout.fnmatch_lines([told, "the picture shows it: *of the pixels changed*"])
 
     def test_says_that_the_physics_changed_and_where_first(self, scene_project, monkeypatch):
         result = self.changed(scene_project, monkeypatch, '{"floor.restitution": 0.79}')
@@ -252,7 +322,7 @@ def test_a_chaotic_run_is_kept_until_it_diverges(pytester, monkeypatch):
     )
     result = again(pytester, "--golden-update")
     result.assert_outcomes(failed=1)
-    result.stdout.fnmatch_lines(["*it hangs on rounding from t = 0.1* s on*golden.check('it', run, until=0.1*"])
+    result.stdout.fnmatch_lines(["*it depends on rounding from t = 0.1* s on*golden.check('it', run, until=0.1*"])
     monkeypatch.setenv("UNTIL", "0.12")
     again(pytester, "--golden-update").assert_outcomes(passed=1)
     again(pytester).assert_outcomes(passed=1)
@@ -271,7 +341,7 @@ class TestRecords:
         kept = self.records()
         other = copy.deepcopy(kept)
         for row in other["states"]["ball"]:
-            row[1:] = [value * (1 + 0.5 * RELATIVE_TOLERANCE) for value in row[1:]]
+            row[1:] = [value * (1 + 0.5 * TOLERANCE) for value in row[1:]]
         assert first_change(kept, other) is None
 
     @pytest.mark.parametrize(("column", "name"), [(1, "x"), (2, "y"), (3, "vx"), (4, "vy"), (5, "spin")])
@@ -279,7 +349,7 @@ class TestRecords:
         kept = self.records()
         other = copy.deepcopy(kept)
         row = other["states"]["ball"][7]
-        row[column] += 3 * (TOLERANCE + RELATIVE_TOLERANCE * abs(row[column]))
+        row[column] += 3 * (TOLERANCE + TOLERANCE * abs(row[column]))
         t, told = first_change(kept, other)
         assert t == row[0]
         assert f"ball, {name} is" in told
@@ -308,6 +378,30 @@ class TestRecords:
 
 
 class TestThePlugin:
+    @pytest.mark.parametrize("processes", ["0", "2"])
+    @pytest.mark.parametrize("options", [[], ["--golden-update"]])
+    def test_two_tests_of_one_name_are_refused(self, project, processes: str, options: list[str]):
+        second = (project.path / "test_it.py").read_text().replace('"white"', '"black"')
+        (project.path / "test_other.py").write_text(second.replace("test_it", "test_more"))
+        result = run(project, f"--numprocesses={processes}", *options)
+        assert result.parseoutcomes()["failed"] >= 1
+        result.stdout.re_match_lines([r"(E +)?it is the golden name of test_\w+.py::test_\w+ too: each test needs .*"])
+        assert len(list((project.path / "golden").glob("*"))) == (1 if options else 0)
+
+    def test_a_second_check_in_one_test_is_compared_with_the_first(self, project):
+        text = (project.path / "test_it.py").read_text()
+        twice = text + '\n    golden.check("it", Image.new("RGB", (40, 30), "black"))\n'
+        (project.path / "test_it.py").write_text(twice)
+        run(project, "--golden-update").assert_outcomes(failed=1)
+
+    @pytest.mark.parametrize("until", ["-1", "0.0", "float('nan')", "float('inf')"])
+    def test_a_time_that_is_none_is_refused(self, project, until: str):
+        test = project.path / "test_it.py"
+        test.write_text(test.read_text().replace('"white")))', f'"white")), until={until})'))
+        result = run(project, "--golden-update")
+        result.assert_outcomes(failed=1)
+        result.stdout.fnmatch_lines(["*it: until = *: must be a time of more than 0 s"])
+
     def test_a_missing_picture_fails_and_says_how_to_make_it(self, project):
         result = run(project)
         result.assert_outcomes(failed=1)
