@@ -245,7 +245,9 @@ class TestRuns:
     def test_a_difference_below_the_tolerance_that_shows_is_called_so(self, scene_project, monkeypatch):
         """A picture that shows the eighth digit of gravity."""
         picture = scene_project.path / "drop" / "picture.py"
-        shows = "surface.fill((9, 9, 9 + 100 * (self.run.scene.parameters.gravity > 9.81)), (2, 2, 9, 9)); return surface"
+        shows = (
+            "surface.fill((9, 9, 9 + 100 * (self.run.scene.parameters.gravity > 9.81)), (2, 2, 9, 9)); return surface"
+        )
         picture.write_text(picture.read_text().replace("return surface", shows))
         result = self.changed(scene_project, monkeypatch, '{"gravity": 9.8100001}')
         told = "*it: the run differs from its golden run by less than the tolerance of 1e-06: t = 0.0*, ball, vy is *"
