@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 
 import sandbox
+from sandbox.record import first_change, record
 from sandbox.scene import listings
 
 #: Scenes and presets, and until when (s) rounding has no say in them; None where it never has.
@@ -32,6 +33,22 @@ RUNS = {
 @pytest.mark.parametrize("name", RUNS)
 def test_run(golden, name: str):
     golden.check(name.replace("/", "-"), sandbox.simulate(sandbox.load(name)), until=RUNS[name])
+
+
+#: A kick that clips the keeper: in no preset does the ball meet him.
+OFF_THE_KEEPER = {"keeper.offset": -1.9}
+
+
+def test_off_the_keeper(golden):
+    golden.check("soccer-curl-off-the-keeper", sandbox.simulate(sandbox.load("soccer-curl", OFF_THE_KEEPER)))
+
+
+@pytest.mark.parametrize("key", ["restitution", "friction", "mass", "radius"])
+def test_a_thousandth_more_of_what_the_keeper_is_would_be_noticed(key: str):
+    before = sandbox.load("soccer-curl", OFF_THE_KEEPER)
+    more = 1.001 * getattr(before.parameters.keeper, key)
+    after = sandbox.load("soccer-curl", {**OFF_THE_KEEPER, f"keeper.{key}": more})
+    assert first_change(record(sandbox.simulate(before)), record(sandbox.simulate(after))) is not None
 
 
 def test_every_scene_is_here():

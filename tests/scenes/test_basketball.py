@@ -279,3 +279,12 @@ def test_the_card_speaks_to_players():
     assert card["shot"] == "7.61 m/s at 53.7°, 4.2 rev/s of backspin"
     assert card["touches"] == "rim back, rim front, backboard, rim front, rim back, rim back"
     assert card["verdict"] == "in, off the rim"
+
+
+def test_a_ball_on_the_bracket_lies_half_a_tube_above_it():
+    """The bracket, from the back of the ring to the board, is half as thick as the tube: README's "assumed"."""
+    scene = sandbox.load("basketball")
+    hoop = scene.parameters.hoop
+    (bracket,) = [surface.shape for surface in scene.build().surfaces if surface.name == "bracket"]
+    assert bracket.radius == 0.5 * hoop.tube_radius
+    assert bracket.a[1] == bracket.b[1] == hoop.height

@@ -482,3 +482,14 @@ def fading_lift(parameters: Any, forces: list[Any]) -> list[Any]:
 def test_what_is_left_out_is_worth_what_the_docstring_says(effect: Any, metres: float):
     unchanged = carry_with(lambda parameters, forces: forces)
     assert carry_with(effect) - unchanged == pytest.approx(metres, rel=0.1, abs=0.01)
+
+
+# What a change of one number would be noticed by ----------------------------------------------------------------------
+
+
+def test_the_green_reaches_half_its_length_to_either_side_of_the_pin():
+    scene = sandbox.load("golf", {"pin.distance": 150.0, "ground.green.length": 30.0, "ground.strips": []})
+    greens = [surface.shape for surface in scene.build().surfaces if surface.name == "green"]
+    assert (min(green.a[0] for green in greens), max(green.b[0] for green in greens)) == (135.0, 165.0)
+    kinds = [scene.module.kind_at(scene.parameters, x) for x in (134.999, 135.001, 164.999, 165.001)]
+    assert kinds == ["fairway", "green", "green", "fairway"]

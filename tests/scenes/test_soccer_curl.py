@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import asin, cos, pi, radians
+from math import asin, cos, hypot, pi, radians
 from typing import Any
 
 import pytest
@@ -181,6 +181,28 @@ def test_a_keeper_hardly_moves_when_the_ball_meets_him():
     _, _, vx, vy, _ = run.state("keeper", run.duration)
     assert 0.0 < vx < 0.3
     assert abs(vy) < 0.3
+
+
+@pytest.mark.parametrize(("restitution", "friction"), [(0.3, 0.5), (0.5, 0.3), (0.3, 0.05)])
+def test_the_keeper_answers_by_his_restitution_and_friction(restitution: float, friction: float):
+    """Two bodies, rigid and with Coulomb's friction: n is the normal, m their common mass,
+    J_n = (1 + e) m v_n and J_t = min(mu J_n, what it takes to stop the slip)."""
+    run = kick(keeper__offset=-1.9, keeper__restitution=restitution, keeper__friction=friction, wall__present=False)
+    hit = next(event for event in run.events if "keeper" in (event.ball, event.partner))
+    (x, y, vx, vy, spin), after = run.before("ball", hit.t), run.state("ball", hit.t)
+    kx, ky, ku, kv, turn = run.before("keeper", hit.t)
+    ball, keeper = run.setup.balls
+    reach = hypot(x - kx, y - ky)
+    nx, ny = (x - kx) / reach, (y - ky) / reach
+    approach = -((vx - ku) * nx + (vy - kv) * ny)
+    slip = (vx - ku) * ny - (vy - kv) * nx + ball.radius * spin + keeper.radius * turn
+    common = 1.0 / (1.0 / ball.mass + 1.0 / keeper.mass)
+    push = (1.0 + restitution) * common * approach
+    yielding = sum(1.0 / b.mass + b.radius**2 / b.inertia for b in (ball, keeper))
+    rub = min(friction * push, abs(slip) / yielding)
+    away = push * nx / ball.mass - rub * ny / ball.mass * (1 if slip > 0 else -1)
+    assert approach == pytest.approx(hit.speed)
+    assert after[2] == pytest.approx(vx + away, rel=1e-6)
 
 
 def test_a_goal_narrower_than_the_ball_is_never_scored():
