@@ -26,10 +26,11 @@ os.environ |= {"SDL_VIDEODRIVER": "dummy", "SDL_AUDIODRIVER": "dummy"}
 import pygame
 
 from sandbox.scene import listings
-from sandbox.window.ahead import steady
 from sandbox.window.app import App
+from sandbox.window.background import steady
+from sandbox.window.game import Game
 from sandbox.window.session import Session
-from sandbox.workers import Processes
+from sandbox.window.worker import Worker
 
 SIZE, FRAME = (1280, 720), 1 / 60  # px, s
 #: The mouse is this far from the ball in px, and swings so far, in px along and in rad, so many times.
@@ -44,7 +45,7 @@ def timed(
         before(frame)
         started, used = perf_counter(), process_time()
         app.tick(FRAME)
-        spent, current = perf_counter() - started, app.awaited is None and not app.stale
+        spent, current = perf_counter() - started, app.game.settled
         sleep(max(0.0, FRAME - spent))
         yield spent, process_time() - used, current
 
@@ -54,14 +55,16 @@ def post(kind: int, at: tuple[int, int]) -> None:
     pygame.event.post(pygame.event.Event(kind, pos=at, **values))
 
 
-def measure(source: str, frames: int, runs: Processes) -> dict[str, dict[str, float]]:
+def measure(source: str, frames: int, worker: Worker) -> dict[str, dict[str, float]]:
     """For each thing that a player does: median and 95th percentile in ms, and shares of frames."""
-    app = App(Session(source), pygame.display.set_mode(SIZE), runs)
-    app.tick(FRAME)
-    assert app.stage is not None
-    assert app.shot is not None
-    x, y = (round(value) for value in app.stage.ball_at(app.shot))
-    angle = radians(app.session.value(app.session.controls.angle) or 0.0)
+    game = Game(Session(source), worker)
+    app = App(game, pygame.display.set_mode(SIZE))
+    while not app.view.complete:
+        app.tick(FRAME)
+    assert app.view.stage is not None
+    assert game.shot is not None
+    x, y = (round(value) for value in app.view.stage.ball_at(game.shot))
+    angle = radians(game.session.value(game.session.controls.angle) or 0.0)
     post(pygame.MOUSEBUTTONDOWN, (x, y))
     app.tick(FRAME)
     steady()
@@ -72,17 +75,17 @@ def measure(source: str, frames: int, runs: Processes) -> dict[str, dict[str, fl
         post(pygame.MOUSEMOTION, (round(x - length * cos(towards)), round(y + length * sin(towards))))
 
     found = {"aiming": told(timed(app, frames, pull))}
-    app.view.on.add("fan")
+    game.fan_wanted = True
     found["with a fan"] = told(timed(app, frames))
-    app.view.on.discard("fan")
+    game.fan_wanted = False
     post(pygame.MOUSEBUTTONUP, (x, y))
     found["watching"] = told(timed(app, frames))
     app.view.on.add("view")
     found["near the ball"] = told(timed(app, frames))
-    if app.playback is not None:
-        app.playback.playing = False
+    if game.playback is not None:
+        game.playback.playing = False
     found["paused"] = told(timed(app, frames // 2))
-    app.ahead.close()
+    app.close()
     return found
 
 
@@ -108,11 +111,11 @@ def main() -> None:
     sources = arguments.scenes or [item.name for item in listings() if "/" not in item.name or item.name in hard]
     pygame.display.init()
     rows: dict[str, dict[str, dict[str, float]]] = {}
-    runs = Processes(1)
+    worker = Worker()
     head = f"{'':<26} {'':<14} {'median':>9} {'95 %':>9} {'processor':>10} {'share':>6} {'in time':>8} {'path':>6}"
     sys.stdout.write(head + "\n")
     for source in sources:
-        rows[source] = measure(source, arguments.frames, runs)
+        rows[source] = measure(source, arguments.frames, worker)
         for number, (name, row) in enumerate(rows[source].items()):
             share = row["processor_ms"] / FRAME / 1e3
             path = f"{row['path']:>6.0%}" if name == "aiming" else ""
@@ -120,7 +123,7 @@ def main() -> None:
                 f"{'' if number else source:<26} {name:<14} {row['median_ms']:>6.1f} ms {row['p95_ms']:>6.1f} ms "
                 f"{row['processor_ms']:>7.1f} ms {share:>6.0%} {row['in_time']:>8.0%} {path}\n"
             )
-    runs.close(abandon=False)
+    worker.close()
     if arguments.json:
         arguments.json.write_text(json.dumps(rows, indent=1))
 

@@ -16,8 +16,9 @@ from sandbox.cli import main as program
 from sandbox.picture.frames import to_image
 from sandbox.window import aim
 from sandbox.window.app import App
+from sandbox.window.game import Game
 from sandbox.window.session import Session
-from sandbox.workers import Processes
+from sandbox.window.worker import Worker
 
 HERE = Path(__file__).resolve().parent
 
@@ -68,22 +69,26 @@ def compare() -> None:
 def window() -> None:
     """The window while a free throw is aimed, with its fan and the panel open: by events, without a display."""
     pygame.display.init()
-    runs = Processes(1)
-    app = App(Session("basketball"), pygame.display.set_mode(WINDOW), runs, patience=60.0)
-    app.tick(FRAME)
+    worker = Worker()
+    game = Game(Session("basketball"), worker, patience=60.0)
+    app = App(game, pygame.display.set_mode(WINDOW))
+    view = app.view
+    while not view.complete:
+        app.tick(FRAME)
     for key in (pygame.K_TAB, pygame.K_f):
         post(app, pygame.KEYDOWN, key=key, mod=0, unicode="", scancode=0)
-    x, y = (round(value) for value in app.stage.ball_at(app.shot))
-    across, down = aim.pull_of(app.session, app.area.height, app.stage.camera.stretch)
+    x, y = (round(value) for value in view.stage.ball_at(game.shot))
+    pull = aim.Pull((x, y), game.session.changes, aim.strongest(game.session), view.area.height, 1.0)
+    across, down = pull.vector_of(game.session)
     post(app, pygame.MOUSEBUTTONDOWN, pos=(x, y), button=1)
     for share in (0.4, 0.7, 1.0):
         place = round(x + share * across), round(y + share * down)
         post(app, pygame.MOUSEMOTION, pos=place, rel=(0, 0), buttons=(1, 0, 0))
-    while app.fan is None or not app.fan.complete or app.fan.drawn < len(app.fan.shots):
+    while game.fan is None or not game.fan.complete or view.busy:
         app.tick(FRAME)
-    app.ahead.close()
-    runs.close(abandon=False)
-    to_image(app.screen).save(HERE / "window.jpg", quality=QUALITY, subsampling=0, optimize=True, progressive=True)
+    app.close()
+    worker.close()
+    to_image(view.screen).save(HERE / "window.jpg", quality=QUALITY, subsampling=0, optimize=True, progressive=True)
 
 
 def post(app: App, kind: int, **values: object) -> None:

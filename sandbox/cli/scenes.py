@@ -57,13 +57,24 @@ def new_scene(
     say("\n".join([*(f"wrote {file}" for file in files), "", *new.next_steps(name)]))
 
 
-def play(scene: SceneArgument, set_: Settings = None, accuracy: Level = None) -> None:
-    """Open the window: pull back from the ball, let go, and see. H lists the keys.
+def play(
+    scene: SceneArgument,
+    set_: Settings = None,
+    accuracy: Level = None,
+    scene_of_replay: Annotated[
+        str | None, typer.Option("--scene", metavar="FOLDER", help="the scene that a replay is of")
+    ] = None,
+) -> None:
+    """Open the window: pull back anywhere, let go, and see. H lists the keys.
+
+    A replay file is played in its place. It never runs code of its own: of a scene that is not installed, --scene
+    says which to take.
 
     \b
     Examples:
       sandbox play golf
       sandbox play basketball/free-throw
+      sandbox play --scene ./volleyball out/volleyball-1.replay.json
     """
     from sandbox.window.app import play as play_in_window
 
@@ -74,4 +85,4 @@ def play(scene: SceneArgument, set_: Settings = None, accuracy: Level = None) ->
 
         parameters = load(scene).parameters
         changed = whole(type(parameters), parameters.model_dump(), scene, changed, "--set")
-    play_in_window(scene, changed)
+    play_in_window(scene, changed, scene_of_replay)

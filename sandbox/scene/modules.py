@@ -5,8 +5,11 @@ from __future__ import annotations
 import hashlib
 import importlib
 import importlib.util
+import linecache
 import re
 import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from types import ModuleType
 
@@ -19,12 +22,8 @@ NAMESPACE = "sandbox_scenes"
 
 def module_in(folder: Path, name: str) -> ModuleType:
     """``folder/name.py``, imported as part of a package, so that relative imports and pickling work in it."""
-    built_in = resources.folder("scenes")
-    _package(NAMESPACE, built_in)
-    package = f"{NAMESPACE}.{re.sub(r'[^0-9A-Za-z_]', '_', folder.name)}"
-    if folder.parent != built_in:
-        # Two folders of one name may be in use at once.
-        package += "_" + hashlib.sha256(str(folder).encode()).hexdigest()[:12]
+    _package(NAMESPACE, resources.folder("scenes"))
+    package = _package_of(folder)
     try:
         with no_exit():
             _package(package, folder)
@@ -34,6 +33,38 @@ def module_in(folder: Path, name: str) -> ModuleType:
         if b"\0" in file.read_bytes():
             raise RequestError(f"{file}: not a text file, it holds NUL bytes") from None
         raise
+
+
+def forget(folder: Path) -> dict[str, ModuleType]:
+    """Have the modules of a scene's folder read again when they are next asked for; returns what they were."""
+    package = _package_of(folder)
+    names = [name for name in sys.modules if name == package or name.startswith(f"{package}.")]
+    for file in folder.glob("*.py"):  # two versions of the same length, saved within a second, look alike to Python
+        Path(importlib.util.cache_from_source(str(file))).unlink(missing_ok=True)
+    importlib.invalidate_caches()
+    linecache.checkcache()
+    return {name: sys.modules.pop(name) for name in names}
+
+
+@contextmanager
+def read_again(folder: Path) -> Iterator[None]:
+    """The modules of a scene's folder as they stand in its files now; as they were, if that fails."""
+    before = forget(folder)
+    try:
+        yield
+    except BaseException:
+        forget(folder)
+        sys.modules.update(before)
+        raise
+
+
+def _package_of(folder: Path) -> str:
+    """Name of the package that a scene's folder is imported as."""
+    package = f"{NAMESPACE}.{re.sub(r'[^0-9A-Za-z_]', '_', folder.name)}"
+    if folder.parent != resources.folder("scenes"):
+        # Two folders of one name may be in use at once.
+        package += "_" + hashlib.sha256(str(folder).encode()).hexdigest()[:12]
+    return package
 
 
 def _package(name: str, folder: Path) -> None:

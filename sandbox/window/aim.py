@@ -1,54 +1,90 @@
-"""The slingshot: a pull in px becomes the parameters of a shot."""
+"""The slingshot: a pull in px becomes the parameters of a shot; and what keys and the wheel change."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from math import atan2, cos, degrees, hypot, radians, sin
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from sandbox.parameters import Parameter
-
-if TYPE_CHECKING:
-    from sandbox.window.session import Session
+from sandbox.window.session import Changes, Session
 
 #: A full pull, as a share of the stage's height.
 FULL = 0.42
 #: A shorter pull in px is a click and no shot.
 LEAST = 8.0
-#: What one press of a key changes: the angle in deg, the speed as a share of the strongest shot; finer with Shift.
+#: A full pull gives this many times the speed that the shot, or that of the scene file, has; and at least this share of
+#: the strongest shot.
+TIMES, WEAKEST = 2.0, 0.005
+#: What one press of a key changes: the angle in deg, the speed as a share of a full pull; finer with Shift.
 TURN, PUSH, FINER = 1.0, 0.01, 0.1
 
 
-def pulled(session: Session, pull: tuple[float, float], height: float, stretch: float) -> dict[str, Any] | None:
-    """The changes that a pull (px, y down) on a stage of ``height`` px asks for; None where it is no shot.
-
-    The ball goes the other way. ``stretch`` is how many times heights are drawn as large as lengths.
-    """
+def strongest(session: Session) -> float:
+    """The speed of a full pull, in the speed's unit: it suits the shot, as the same hand putts and drives."""
     controls = session.controls
-    length = hypot(*pull)
-    if length < LEAST or session.parameter(controls.speed) is None or session.parameter(controls.angle) is None:
-        return None
-    share = min(1.0, (length - LEAST) / (FULL * height - LEAST))
-    # More than in proportion, so that soft shots have room too.
-    return {
-        **controls.also,
-        controls.speed: _within(session.parameter(controls.speed), round(controls.strongest * share**1.5, 2)),
-        controls.angle: _turned(
-            session.parameter(controls.angle), round(degrees(atan2(pull[1] / stretch, -pull[0])), 2)
-        ),
-    }
+    speeds = [session.value(controls.speed), session.base_value(controls.speed)]
+    speed = max((value for value in speeds if isinstance(value, float)), default=0.0)
+    return min(controls.strongest, max(TIMES * speed, WEAKEST * controls.strongest))
 
 
-def pull_of(session: Session, height: float, stretch: float) -> tuple[float, float]:
-    """The pull that would give the shot as it stands."""
-    controls = session.controls
-    speed, angle = session.value(controls.speed), session.value(controls.angle)
-    if not isinstance(speed, float) or not isinstance(angle, float):
-        return (0.0, 0.0)
-    share = min(1.0, max(0.0, speed / controls.strongest)) ** (2 / 3)
-    length = LEAST + share * (FULL * height - LEAST)
-    along, up = cos(radians(angle)), sin(radians(angle)) * stretch
-    scale = length / (hypot(along, up) or 1.0)
-    return (-along * scale, up * scale)
+@dataclass
+class Pull:
+    """A pull of the mouse, which may start anywhere; what it means stays the same until it ends."""
+
+    start: tuple[int, int]  # px
+    before: Changes  # what was changed until then
+    strongest: float  # of a full pull
+    height: float  # of the stage, px
+    stretch: float  # how many times heights are drawn as large as lengths
+    vector: tuple[float, float] = (0.0, 0.0)  # px, y down
+
+    @property
+    def length(self) -> float:
+        """In px."""
+        return hypot(*self.vector)
+
+    @property
+    def drawn(self) -> tuple[float, float]:
+        """As much of it as counts, in px."""
+        shorter = min(1.0, FULL * self.height / max(self.length, 1e-9))
+        return self.vector[0] * shorter, self.vector[1] * shorter
+
+    @property
+    def shoots(self) -> bool:
+        """Whether it is long enough for a shot."""
+        return self.length >= LEAST
+
+    @property
+    def share(self) -> float:
+        """Of a full pull, from 0 to 1."""
+        return min(1.0, max(0.0, (self.length - LEAST) / (FULL * self.height - LEAST)))
+
+    def changes(self, session: Session) -> dict[str, Any] | None:
+        """The changes that the pull asks for; None where it is not a shot. The ball goes the other way."""
+        controls = session.controls
+        speed, angle = session.parameter(controls.speed), session.parameter(controls.angle)
+        if not self.shoots or speed is None or angle is None:
+            return None
+        along, down = self.vector
+        # More than in proportion, so that soft shots have room too.
+        return {
+            **controls.also,
+            controls.speed: _within(speed, float(f"{self.strongest * self.share**1.5:.4g}")),
+            controls.angle: _turned(angle, round(degrees(atan2(down / self.stretch, -along)), 2)),
+        }
+
+    def vector_of(self, session: Session) -> tuple[float, float]:
+        """The pull that would give the shot as it stands."""
+        controls = session.controls
+        speed, angle = session.value(controls.speed), session.value(controls.angle)
+        if not isinstance(speed, float) or not isinstance(angle, float):
+            return (0.0, 0.0)
+        share = min(1.0, max(0.0, speed / self.strongest)) ** (2 / 3)
+        length = LEAST + share * (FULL * self.height - LEAST)
+        along, up = cos(radians(angle)), sin(radians(angle)) * self.stretch
+        scale = length / (hypot(along, up) or 1.0)
+        return (-along * scale, up * scale)
 
 
 def nudged(session: Session, turn: int = 0, push: int = 0, fine: bool = False) -> dict[str, Any]:
@@ -59,8 +95,8 @@ def nudged(session: Session, turn: int = 0, push: int = 0, fine: bool = False) -
     if turn and angle is not None:
         changes[controls.angle] = _turned(angle, round(angle.value + turn * TURN * finer, 3))
     if push and speed is not None:
-        step = PUSH * controls.strongest * finer
-        changes[controls.speed] = _within(speed, round(speed.value + push * step, 4))
+        step = float(f"{PUSH * strongest(session) * finer:.1g}")
+        changes[controls.speed] = _within(speed, round(speed.value + push * step, 6))
     return {**controls.also, **changes} if changes else {}
 
 
@@ -76,15 +112,13 @@ def spun(session: Session, which: int, notches: int, fine: bool = False) -> dict
     return {**session.controls.also, spin.key: _within(parameter, value)}
 
 
-def _within(parameter: Parameter | None, value: float) -> float:
-    assert parameter is not None
+def _within(parameter: Parameter, value: float) -> float:
     low, high = parameter.low, parameter.high
     return value if low is None or high is None else min(max(value, low), high)
 
 
-def _turned(parameter: Parameter | None, angle: float) -> float:
+def _turned(parameter: Parameter, angle: float) -> float:
     """An angle within the parameter's bounds, by whole turns where that helps."""
-    assert parameter is not None
     for turned in (angle, angle - 360.0, angle + 360.0):
         if turned == _within(parameter, turned):
             return turned

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from itertools import pairwise
 from math import pi
+from typing import Any
 
 import numpy as np
 import pygame
 
 from sandbox.picture.palette import palette
 from sandbox.picture.sheet import Sheet, signed
-from sandbox.window.session import Shot
+from sandbox.window.shot import Shot
 
 CARD, ENERGY = palette("card"), palette("energy")
 
@@ -28,7 +29,8 @@ Strip = tuple[str, str, np.ndarray, int]
 class Charts:
     """The strips of one shot."""
 
-    def __init__(self, shot: Shot) -> None:
+    def __init__(self, shot: Shot, picture: Any = None) -> None:
+        """``picture`` knows where the ground is, where it does: heights are those of the ball above it."""
         self.shot = shot
         end = shot.run.duration
         #: A moment before each impact, and the impact, so that steps are upright.
@@ -38,7 +40,7 @@ class Charts:
         x, y, vx, vy, spin = np.array([shot.run.state(shot.ball, float(t)) for t in times]).T
         self.strips: list[Strip] = [("speed", "m/s", np.hypot(vx, vy), 2)]
         if shot.upright:
-            self.strips.append(("height", "m", y, 2))
+            self.strips.append(("height", "m", heights(shot, picture, x, y), 2))
         else:
             way = np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(x), np.diff(y)))])
             self.strips.append(("way", "m", way, 2))
@@ -91,6 +93,15 @@ class Charts:
                 at = plot.left + plot.width * t / end
                 sheet.surface.fill(CARD["quiet"], (round(at), plot.top, 1, plot.height))
                 sheet.painter.disc((at, plot.bottom - 1 - (shown[number] - low) * scale), 4 * unit, CARD["text"])
+
+
+def heights(shot: Shot, picture: Any, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    """How high the played ball is above the ground at places in m, as the pictures say it."""
+    ground = getattr(picture, "ground", None)
+    if ground is None:
+        return y
+    radius = next(ball.radius for ball in shot.run.setup.balls if ball.name == shot.ball)
+    return np.asarray(np.maximum(0.0, y - radius - ground(x)))
 
 
 def _told(value: float, strip: Strip) -> str:

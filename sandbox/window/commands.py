@@ -6,201 +6,183 @@ from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 from threading import Thread
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import pygame
 
 from sandbox.engine.accuracy import LEVELS
-from sandbox.scene import check, listings
-from sandbox.window import aim, fan, keep, overlay, replay
+from sandbox.scene import listings
+from sandbox.window import aim, export, overlay, replay
+from sandbox.window.game import Game
 from sandbox.window.keys import LISTED
-from sandbox.window.session import Shot
-
-if TYPE_CHECKING:
-    from sandbox.window.app import App
+from sandbox.window.shot import Shot
+from sandbox.window.view import View
+from sandbox.window.worker import trusted
 
 #: What is shown or not: each is switched by the command of its name.
-SWITCHES = ("view", "ghosts", "fan", "arrows", "charts", "cost", "help", "tape")
+SWITCHES = ("view", "ghosts", "arrows", "charts", "cost", "help", "tape")
+#: Of the picture: how many times larger one step shows it, and by how many px one moves it.
+ZOOM, PAN = 1.25, 60.0
+
+NO_SHOTS = "no shots yet: pull back and let go"
 
 
-def do(app: App, command: str, fine: bool = False) -> None:
+def do(view: View, command: str, fine: bool = False) -> None:
     """What a key or a button asks for; ``fine`` with Shift."""
-    if command in SWITCHES:
-        app.view.on ^= {command}
-    elif command in FINE:
-        app.change(FINE[command](app, fine))
+    view.changed = True
+    if command in NUDGES:
+        view.game.nudge(NUDGES[command](view.game, fine))
     elif command in PANEL:
-        if app.panel is None:
-            app.open_panel(True)
-        elif not app.trying(lambda: PANEL[command](app.panel, fine)):
-            app.panel.refresh(everything=True)
+        if view.panel is None:
+            view.open_panel(True)
+        elif not view.game.trying(lambda: PANEL[command](view.panel, fine)):
+            view.panel.refresh(everything=True)
+    elif command in SWITCHES:
+        if command == "help" and "help" not in view.on:
+            view.close_overlays()
+        view.on ^= {command}
     else:
-        COMMANDS[command](app)
+        COMMANDS[command](view)
 
 
-def _watching(app: App, action: str, *arguments: Any) -> None:
+def _watching(view: View, action: str, *arguments: Any) -> None:
     """Something that only a shot that is being watched can do."""
-    if app.playback is not None:
-        getattr(app.playback, action)(*arguments)
+    if view.game.playback is not None:
+        getattr(view.game.playback, action)(*arguments)
 
 
-def _go(app: App) -> None:
-    if app.playback is None:
-        app.shoot()
+def _go(view: View) -> None:
+    if view.game.playback is None:
+        view.game.shoot()
     else:
-        app.playback.toggle()
+        view.game.playback.toggle()
 
 
-def _other_shot(app: App, by: int) -> None:
-    if not app.session.shots:
-        app.tell("no shots yet: pull back from the ball and let go")
-        return
-    now = app.chosen if app.playback is not None else len(app.session.shots)
-    app.watch(min(max(now + by, 0), len(app.session.shots) - 1))
-
-
-def _other_preset(app: App, by: int) -> None:
+def _other_preset(view: View, by: int) -> None:
     names = [listing.name for listing in listings()]
-    now = names.index(app.session.title) if app.session.title in names else 0
-    app.open(names[(now + by) % len(names)])
+    source = view.game.session.source
+    now = names.index(source) if source in names else 0
+    view.game.open(names[(now + by) % len(names)])
 
 
-def _open_list(app: App, group: str) -> None:
-    opened = app.view.choices
-    app.view.choices = None if opened is not None and opened.group == group.lower() else overlay.Choices(group)
+def _open_list(view: View, group: str) -> None:
+    again = view.choices is not None and view.choices.group == group.lower()
+    view.close_overlays()
+    view.choices = None if again else overlay.Choices(group)
 
 
-def _menu(app: App) -> None:
-    app.view.menu = None if app.view.menu is not None else overlay.Menu(list(listings()))
+def _menu(view: View) -> None:
+    again = view.menu is not None
+    view.close_overlays()
+    view.menu = None if again else overlay.Menu(list(listings()), view.game.opened)
 
 
-def _spread(app: App, factor: float) -> None:
-    """Make the fan wider, and show it."""
-    app.fan_width = min(max(app.fan_width * factor, 1 / fan.WIDEST), fan.WIDEST)
-    app.view.on.add("fan")
+def _fan(view: View) -> None:
+    view.game.fan_wanted = not view.game.fan_wanted
 
 
-def _accuracy(app: App) -> None:
+def _accuracy(view: View) -> None:
     """The next level, with what it costs and how far its result is off."""
-    levels = list(LEVELS)
-    level = levels[(levels.index(app.session.value("accuracy.level")) + 1) % len(levels)]
-    if not app.change({"accuracy.level": level}):
-        return
-    app.settle()
-    if app.shot is None:
-        return
-    checked = check(app.shot.scene, app.shot.run)
-    units = app.shot.scene.units
-    errors = [f"{name} ± {error:.1g} {units.get(name, '')}" for name, error in checked.errors.items() if error > 0]
-    changed = [f"{name} would be {finer}" for name, (_, finer) in checked.changed.items()]
-    changed += [f"{name} is chaotic" for name in (*checked.chaotic, *checked.unsettled)]
-    told = ", ".join(text.strip() for text in changed or errors[:4]) or "no difference to a finer run"
-    told = told.replace("_", " ")
-    app.tell(f"accuracy {level}: {1e3 * app.shot.run.numerics.wall_s:.1f} ms a run; {told}")
+    game, levels = view.game, list(LEVELS)
+    level = levels[(levels.index(game.session.value("accuracy.level")) + 1) % len(levels)]
+    if game.change({"accuracy.level": level}):
+        game.tell(f"accuracy {level} ...")
+        result = game.worker.submit(trusted, game.session.scene)
+        game.ask(result, lambda said: game.tell(f"accuracy {level}: {said}"))
 
 
-def _energy(app: App) -> None:
+def _energy(view: View) -> None:
     """The energy of the shot that is shown, over the picture; or not any more."""
+    shot, again = view.game.shot, view.energy is not None
+    view.close_overlays()
+    if shot is not None and not again:
+        view.energy = shot, view.background.submit(_energy_chart, shot, view.area.size)
+
+
+def _energy_chart(shot: Shot, size: tuple[int, int]) -> pygame.Surface:
     from sandbox.picture.energy import energy_chart
 
-    view, shot = app.view, app.shot
-    if view.energy is not None or shot is None:
-        view.energy = None
-    else:
-        view.energy = shot, energy_chart(shot.run, app.area.size)
+    return energy_chart(shot.run, size)
 
 
-def _back(app: App) -> None:
+def _back(view: View) -> None:
     """Close what is open, or stop what is going on."""
-    view = app.view
-    if view.menu is not None or view.choices is not None:
-        view.menu = view.choices = None
-    elif "help" in view.on or view.energy is not None:
-        view.on.discard("help")
-        view.energy = None
-    elif app.pointer.pull is not None:
-        app.pointer.give_up()
-    elif app.pointer.tape is not None:
+    game = view.game
+    if view.close_overlays() or (view.panel is not None and view.panel.close_lists()):
+        return
+    if game.pull is not None:
+        game.give_up_pull()
+    elif view.tape is not None or "tape" in view.on:
         view.on.discard("tape")
-        app.pointer.tape = None
+        view.tape = None
+    elif not game.stop():
+        game.aim_again()
+
+
+def _sound(view: View) -> None:
+    if view.sound is None or not view.sound.there:
+        view.game.tell("no sound: there is no sound device")
     else:
-        app.back_to_aiming()
+        view.sound.on = not view.sound.on
+        view.game.tell("sound on" if view.sound.on else "sound off")
 
 
-def _rack(app: App) -> None:
-    if app.session.laid:
-        app.begin_again()
-    else:
-        app.tell("the balls are where they began")
-
-
-def _sound(app: App) -> None:
-    if app.sound is not None:
-        app.sound.on = not app.sound.on
-        app.tell("sound on" if app.sound.on else "sound off")
-
-
-def _full_screen(app: App) -> None:
-    """The whole display, or the window again as it was."""
-    if pygame.display.is_fullscreen():
-        pygame.display.set_mode(app.windowed, pygame.RESIZABLE)
-    else:
-        app.windowed = app.laid_out
-        pygame.display.set_mode((0, 0), pygame.FULLSCREEN)
-    app.resized()
-
-
-def _keep(app: App, write: Callable[[], Path]) -> None:
+def _export(view: View, write: Callable[[], Path]) -> None:
     """Write a file, and say where it is."""
-    app.trying(lambda: app.tell(f"wrote {write()}"))
+    view.game.trying(lambda: view.game.tell(f"wrote {write()}"))
 
 
-def _with_shot(app: App, action: Callable[[Shot], object]) -> None:
+def _with_shot(view: View, action: Callable[[Shot], object]) -> None:
     """Do something with the shot that is watched, or the last."""
-    shots = app.session.shots
-    if shots:
-        app.trying(lambda: action(shots[app.chosen]))
+    game = view.game
+    shot = game.shot if game.playback is not None else game.shots[-1] if game.shots else None
+    if shot is None:
+        game.tell(NO_SHOTS)
     else:
-        app.tell("no shots yet: pull back from the ball and let go")
+        game.trying(lambda: action(shot))
 
 
-def _save_replay(app: App, shot: Shot) -> Path:
-    path = keep.free(app.session.title, replay.SUFFIX)
-    replay.save(shot, app.session.source, path)
+def _save_replay(view: View, shot: Shot) -> Path:
+    path = export.free(view.game.session.title, replay.SUFFIX)
+    replay.save(shot, path)
     return path
 
 
-def _open_replay(app: App) -> None:
+def _open_replay(view: View) -> None:
     """The newest file of those that the window wrote."""
-    found = sorted(keep.FOLDER.glob(f"*{replay.SUFFIX}"), key=lambda path: path.stat().st_mtime)
+    found = sorted(export.FOLDER.glob(f"*{replay.SUFFIX}"), key=lambda path: path.stat().st_mtime)
     if found:
-        app.open(str(found[-1]))
+        view.game.open(str(found[-1]))
     else:
-        app.tell(f"no replays in {keep.FOLDER} yet")
+        view.game.tell(f"no replays in {export.FOLDER} yet")
 
 
-def _animate(app: App, shot: Shot) -> None:
-    if app.writer is not None and app.writer.is_alive():
-        app.tell("the animation before is still being written")
+def _animate(view: View, shot: Shot) -> None:
+    if view.exporter is not None and view.exporter.is_alive():
+        view.game.tell("the animation before is still being written")
         return
-    app.tell("writing the animation ...")
-    title = app.session.title
-    app.writer = Thread(target=lambda: _keep(app, lambda: keep.animation(shot, title)), daemon=True)
-    app.writer.start()
+    view.game.tell("writing the animation ...")
+    title = view.game.session.title
+    view.exporter = Thread(target=lambda: _export(view, lambda: export.animation(shot, title)), daemon=True)
+    view.exporter.start()
 
 
-def _copy(app: App) -> None:
-    command = app.session.command()
+def _copy(view: View) -> None:
+    command = view.game.session.command()
     try:
         pygame.scrap.put_text(command)
     except pygame.error:  # there is no clipboard
-        app.tell(command)
+        view.game.tell(command)
     else:
-        app.tell(f"copied: {command}")
+        view.game.tell(f"copied: {command}")
 
 
-def _quit(app: App) -> None:
-    app.running = False
+def _zoom(view: View, factor: float) -> None:
+    view.zoom(factor, view.at if view.area.collidepoint(view.at) else view.area.center)
+
+
+def _quit(view: View) -> None:
+    view.game.running = False
 
 
 #: Commands for the panel, which is opened first.
@@ -214,47 +196,56 @@ PANEL: dict[str, Callable[[Any, bool], object]] = {
     "group_up": lambda panel, fine: panel.turn(-1),
 }
 
-#: Commands that change the shot, finely with Shift: from the window to the changes.
-FINE: dict[str, Callable[[App, bool], dict[str, Any]]] = {
-    "turn_left": lambda app, fine: aim.nudged(app.session, turn=1, fine=fine),
-    "turn_right": lambda app, fine: aim.nudged(app.session, turn=-1, fine=fine),
-    "stronger": lambda app, fine: aim.nudged(app.session, push=1, fine=fine),
-    "weaker": lambda app, fine: aim.nudged(app.session, push=-1, fine=fine),
-    "spin_up": lambda app, fine: aim.spun(app.session, 0, 1, fine),
-    "spin_down": lambda app, fine: aim.spun(app.session, 0, -1, fine),
-    "other_up": lambda app, fine: aim.spun(app.session, 1, 1, fine),
-    "other_down": lambda app, fine: aim.spun(app.session, 1, -1, fine),
+#: Commands that change the aim, finely with Shift: from the game to the changes.
+NUDGES: dict[str, Callable[[Game, bool], dict[str, Any]]] = {
+    "turn_left": lambda game, fine: aim.nudged(game.session, turn=1, fine=fine),
+    "turn_right": lambda game, fine: aim.nudged(game.session, turn=-1, fine=fine),
+    "stronger": lambda game, fine: aim.nudged(game.session, push=1, fine=fine),
+    "weaker": lambda game, fine: aim.nudged(game.session, push=-1, fine=fine),
+    "spin_up": lambda game, fine: aim.spun(game.session, 0, 1, fine),
+    "spin_down": lambda game, fine: aim.spun(game.session, 0, -1, fine),
+    "other_up": lambda game, fine: aim.spun(game.session, 1, 1, fine),
+    "other_down": lambda game, fine: aim.spun(game.session, 1, -1, fine),
 }
 
-COMMANDS: dict[str, Callable[[App], object]] = {
+COMMANDS: dict[str, Callable[[View], object]] = {
     "go": _go,
-    "again": lambda app: app.back_to_aiming(goes_on=True),
-    "restart": lambda app: _watching(app, "restart"),
-    "step": lambda app: _watching(app, "step", 1),
-    "step_back": lambda app: _watching(app, "step", -1),
-    "slower": lambda app: _watching(app, "change_rate", -1),
-    "faster": lambda app: _watching(app, "change_rate", 1),
-    "previous_shot": lambda app: _other_shot(app, -1),
-    "next_shot": lambda app: _other_shot(app, 1),
-    "wider": lambda app: _spread(app, 2.0),
-    "narrower": lambda app: _spread(app, 0.5),
-    "energy": lambda app: app.trying(lambda: _energy(app)),
-    "accuracy": lambda app: app.trying(lambda: _accuracy(app)),
-    "save_scene": lambda app: _keep(app, lambda: keep.scene_file(app.session)),
+    "again": lambda view: view.game.aim_again(goes_on=True),
+    "restart": lambda view: _watching(view, "restart"),
+    "step": lambda view: _watching(view, "step", 1),
+    "step_back": lambda view: _watching(view, "step", -1),
+    "slower": lambda view: _watching(view, "change_rate", -1),
+    "faster": lambda view: _watching(view, "change_rate", 1),
+    "previous_shot": lambda view: view.game.watch_other(-1),
+    "next_shot": lambda view: view.game.watch_other(1),
+    "fan": _fan,
+    "wider": lambda view: view.game.widen_fan(2.0),
+    "narrower": lambda view: view.game.widen_fan(0.5),
+    "energy": _energy,
+    "accuracy": lambda view: view.game.trying(lambda: _accuracy(view)),
+    "zoom_in": lambda view: _zoom(view, ZOOM),
+    "zoom_out": lambda view: _zoom(view, 1 / ZOOM),
+    "pan_left": lambda view: view.pan(PAN, 0),
+    "pan_right": lambda view: view.pan(-PAN, 0),
+    "pan_up": lambda view: view.pan(0, PAN),
+    "pan_down": lambda view: view.pan(0, -PAN),
+    "fit": lambda view: view.look(None),
+    "save_scene": lambda view: _export(view, lambda: export.scene_file(view.game.session)),
     "copy": _copy,
-    "screenshot": lambda app: _keep(app, lambda: keep.screenshot(app.canvas, app.session.title)),
-    "animation": lambda app: _with_shot(app, lambda shot: _animate(app, shot)),
-    "save_replay": lambda app: _with_shot(app, lambda shot: _keep(app, lambda: _save_replay(app, shot))),
-    "compare": lambda app: _with_shot(app, lambda shot: app.tell(replay.compared(shot))),
+    "screenshot": lambda view: _export(view, lambda: export.screenshot(view.canvas, view.game.session.title)),
+    "animation": lambda view: _with_shot(view, lambda shot: _animate(view, shot)),
+    "save_replay": lambda view: _with_shot(view, lambda shot: _export(view, lambda: _save_replay(view, shot))),
+    "compare": lambda view: _with_shot(view, view.game.compare),
     "open_replay": _open_replay,
     "menu": _menu,
-    "next_preset": lambda app: _other_preset(app, 1),
-    "previous_preset": lambda app: _other_preset(app, -1),
-    "panel": lambda app: app.open_panel(not app.has_panel),
-    "reset": lambda app: app.reset(),
-    "rack": _rack,
+    "next_preset": lambda view: _other_preset(view, 1),
+    "previous_preset": lambda view: _other_preset(view, -1),
+    "panel": lambda view: view.open_panel(not view.panel_wanted),
+    "reset": lambda view: view.game.reset(),
+    "undo": lambda view: view.game.undo(),
+    "rack": lambda view: view.game.begin_again(),
     "sound": _sound,
-    "fullscreen": _full_screen,
+    "fullscreen": lambda view: view.toggle_full_screen(),
     "back": _back,
     "quit": _quit,
     **{group.lower(): partial(_open_list, group=group) for group in LISTED},

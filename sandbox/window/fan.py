@@ -1,28 +1,16 @@
-"""A fan: the same shot varied at random by a stated spread, drawn as a cloud, with the share of them that scores."""
+"""A fan: the same shot varied at random by a stated spread, and the share of such shots that score."""
 
 from __future__ import annotations
 
 from concurrent.futures import Future
 from math import sqrt
-from typing import TYPE_CHECKING
 
 import numpy as np
-import pygame
 
 from sandbox import parameters as declared
 from sandbox.controls import Spread, controls_of
-from sandbox.picture.camera import Camera
-from sandbox.picture.painter import Painter, blank
-from sandbox.picture.palette import Colour, palette
-from sandbox.picture.sheet import Sheet
-from sandbox.window.beside import FanShot, varied
-from sandbox.window.path import few
-from sandbox.window.session import Shot
-
-if TYPE_CHECKING:
-    from sandbox.workers import Processes
-
-CARD, TRACE = palette("card"), palette("trace")
+from sandbox.window.shot import Shot
+from sandbox.window.worker import FanShot, Worker, varied
 
 SHOTS = 200
 #: Where a scene states no spread: of the speed, as a share of it, and of the angle, in deg.
@@ -31,14 +19,10 @@ SPEED, ANGLE = 0.01, 0.5
 WIDEST = 16.0
 #: Shots are computed so many at first, and then so many as take this long, in s: another aim must not wait for more.
 FIRST, AT_ONCE = 8, 0.05
-#: So many paths are drawn in one frame; the others in the next.
-PER_FRAME = 6
-#: Opacity of a path, of 255: where many go, it is dense.
-FAINT, FAINT_MISS = 70, 50
 
 
 class Fan:
-    """Shots around one of them. ``go_on`` after each frame has them computed; ``draw`` shows those there are."""
+    """Shots around one of them; ``advance`` after each frame has them computed."""
 
     def __init__(self, shot: Shot, width: float = 1.0) -> None:
         self.shot, self.width = shot, width
@@ -49,9 +33,6 @@ class Fan:
         self.failed = 0
         self.work: Future[tuple[list[FanShot | None], float]] | None = None
         self.next = FIRST
-        self.layer: pygame.Surface | None = None
-        self.camera: Camera | None = None
-        self.drawn = 0
 
     def _sigmas(self) -> dict[str, float]:
         """Standard deviation of each parameter that a player does not hit exactly, in its unit."""
@@ -67,7 +48,7 @@ class Fan:
     def complete(self) -> bool:
         return len(self.shots) + self.failed >= SHOTS or not self.spread
 
-    def go_on(self, runs: Processes) -> None:
+    def advance(self, worker: Worker) -> None:
         """Take the shots that were computed, and have more of them computed."""
         if self.work is not None and self.work.done():
             self._take(self.work)
@@ -77,12 +58,12 @@ class Fan:
             controls = controls_of(self.shot.scene.module)
             told = controls.tells[0] if controls.tells is not None else None
             points = [self._point(draws) for draws in self.draws[done : done + self.next]]
-            self.work = runs.submit(varied, self.shot.scene, list(self.spread), points, told)
+            self.work = worker.submit(varied, self.shot.scene, list(self.spread), points, told)
 
     def _take(self, work: Future[tuple[list[FanShot | None], float]]) -> None:
         try:
             found, seconds = work.result()
-        except Exception:  # the process was killed, and another will take its place
+        except BaseException:  # the process was killed, and another will take its place
             self.failed += 1
             return
         good = [shot for shot in found if shot is not None]
@@ -99,33 +80,7 @@ class Fan:
             values.append(value if low is None or high is None else min(max(value, low), high))
         return values
 
-    # Drawing
-
-    def draw(self, sheet: Sheet, camera: Camera) -> None:
-        """The cloud under the path; those that score in the colour of success."""
-        if self.layer is None or self.camera != camera or self.layer.get_size() != sheet.size:
-            self.layer, self.camera, self.drawn = blank(sheet.size, transparent=True), camera, 0
-        for shot in self.shots[self.drawn : self.drawn + PER_FRAME]:
-            self._add(self.layer, shot, camera, sheet.unit)
-            self.drawn += 1
-        sheet.surface.blit(self.layer, (0, 0))
-
-    @staticmethod
-    def _add(layer: pygame.Surface, shot: FanShot, camera: Camera, unit: float) -> None:
-        pixels = np.clip(camera.pixels(shot.points[:, 1:]), -2000, 6000)
-        pixels = few(pixels)
-        colour: Colour = CARD["good"] if shot.scored else CARD["text"]
-        low, high = pixels.min(axis=0) - 2, pixels.max(axis=0) + 3
-        box = pygame.Rect(*low.astype(int), *(high - low).astype(int)).clip(layer.get_rect())
-        if box.width and box.height and len(pixels) > 1:
-            line = blank(box.size, transparent=True)
-            line.fill((*colour, 0))
-            faint = FAINT if shot.scored else FAINT_MISS
-            pygame.draw.lines(line, (*colour, faint), False, pixels - box.topleft, max(1, round(1.6 * unit)))
-            layer.blit(line, box)
-        Painter(layer).disc(tuple(pixels[-1]), 2.2 * unit, colour, 0.75)
-
-    def told(self) -> tuple[str, str]:
+    def summary(self) -> tuple[str, str]:
         """How many score, and by what the shots differ."""
         count = len(self.shots)
         name = controls_of(self.shot.scene.module).scores

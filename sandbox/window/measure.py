@@ -11,8 +11,8 @@ import pygame
 
 from sandbox.picture.camera import Camera
 from sandbox.picture.palette import palette
-from sandbox.picture.sheet import Sheet, metres, signed
-from sandbox.window.session import Shot
+from sandbox.picture.sheet import Entry, Sheet, metres, signed
+from sandbox.window.shot import Shot
 
 CARD = palette("card")
 
@@ -62,12 +62,12 @@ def state_entries(shot: Shot, ball: str, t: float) -> list[tuple[str, str]]:
     return [("speed", f"{speed:.2f} m/s"), *places, ("direction", way), ("spin", turning)]
 
 
-def draw_reading(sheet: Sheet, shot: Shot, read: Reading) -> None:
+def draw_reading(sheet: Sheet, shot: Shot, read: Reading, entries: Sequence[Entry]) -> None:
     """A mark on the trace, and beside it what the ball does there."""
     unit = sheet.unit
     sheet.painter.disc(read.at, 7 * unit, CARD["background"], 0.9)
     sheet.painter.disc(read.at, 5 * unit, CARD["text"])
-    rows = [("time", f"{read.t:.3f} s"), *state_entries(shot, read.ball, read.t)]
+    rows = [("time", f"{read.t:.3f} s"), *((e[0], e[1]) for e in entries if e[0] != "time")]
     if len(shot.movers) > 1:
         rows.insert(0, ("ball", read.ball))
     draw_rows(sheet, rows, read.at)

@@ -1,10 +1,11 @@
-"""What lies over everything for a while: the list of keys, the list of scenes, a message."""
+"""What lies over everything for a while: the list of keys, the list of scenes, messages."""
 
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
 from itertools import groupby
 from math import ceil
+from pathlib import Path
 
 import pygame
 
@@ -53,7 +54,7 @@ def draw_help(sheet: Sheet) -> None:
     if head:
         letters.write(sheet.surface, "Keys", "medium", (left, top), CARD["text"], bold=True)
         at = (rect.right - between, top + letters.height("medium") / 2)
-        text = "Or by mouse: pull back from the ball, and let go."
+        text = "Or by mouse: pull back anywhere, and let go."
         letters.write(sheet.surface, text, "small", at, CARD["quiet"], "midright")
     for column, room, width in zip(columns, keys, wide, strict=True):
         y = float(top + head)
@@ -133,43 +134,48 @@ def draw_note(sheet: Sheet, lines: Sequence[tuple[str, Colour]], top: float, avo
 
 
 class Menu:
-    """Scenes and presets to choose from, by mouse; and which of them each place on the window is."""
+    """Scenes and presets to choose from, by mouse or key: those that are installed, in a column for each sport, and
+    files of one's own in a column before them."""
 
-    def __init__(self, listings: list[Listing]) -> None:
-        self.listings = listings
+    def __init__(self, listings: Sequence[Listing], own: Sequence[str] = ()) -> None:
+        by_scene = groupby(listings, lambda item: item.name.partition("/")[0])
+        self.columns = [[(item.name, item.name.partition("/")[2] or item.name, item.about) for item in rows]
+                        for _, rows in by_scene]  # fmt: skip
+        known = {name for column in self.columns for name, *_ in column}
+        files = [(source, Path(source).name, source) for source in own if source not in known]
+        if files:
+            self.columns.insert(0, files)
         self.places: list[tuple[pygame.Rect, str]] = []
         self.chosen = ""  # by key
 
     def draw(self, sheet: Sheet, current: str, mouse: tuple[int, int]) -> None:
         letters, unit, gap = sheet.lettering, sheet.unit, sheet.gap
-        groups = [(name, list(rows)) for name, rows in groupby(self.listings, lambda item: item.name.partition("/")[0])]
         row = round(letters.height("small") + 0.9 * gap)
-        most = max(len(rows) for _, rows in groups)
-        width = min(sheet.size[0] - 4 * gap, round(236 * unit) * len(groups) + 6 * gap)
+        most = max(map(len, self.columns))
+        width = min(sheet.size[0] - 4 * gap, round(236 * unit) * len(self.columns) + 6 * gap)
         head = letters.height("medium") + letters.height("small") + 7 * gap
         if most * row + head + 4 * gap > sheet.size[1]:  # a small window
             row = letters.height("small")
         rect = _card(sheet, width, most * row + head + 4 * gap)
-        each = (rect.width - 6 * gap) // len(groups)
+        each = (rect.width - 6 * gap) // len(self.columns)
         letters.write(
             sheet.surface, "What shall we play?", "medium", (rect.left + 3 * gap, rect.top + 2 * gap), CARD["text"],
             bold=True,
         )  # fmt: skip
         about = ""
         self.places.clear()
-        for number, (_, rows) in enumerate(groups):
+        for number, rows in enumerate(self.columns):
             top = rect.top + head
-            for item in rows:
-                scene = "/" not in item.name
+            for name, text, said in rows:
+                scene = text == name
                 place = pygame.Rect(rect.left + 3 * gap + number * each, top, each - gap, row)
-                self.places.append((place, item.name))
+                self.places.append((place, name))
                 colour: Colour = CARD["text"] if scene else CARD["quiet"]
-                if place.collidepoint(mouse) or item.name == self.chosen:
+                if place.collidepoint(mouse) or name == self.chosen:
                     sheet.painter.panel(place.inflate(gap, 0), CARD["quiet"], 0.25, 5 * unit)
-                    about, colour = item.about, CARD["text"]
-                if item.name == current:
+                    about, colour = said, CARD["text"]
+                if name == current:
                     colour = CARD["accent"]
-                text = item.name if scene else item.name.partition("/")[2]
                 at = (place.left, place.centery)
                 text = letters.cut(text, "small", place.width, bold=scene)
                 letters.write(sheet.surface, text, "small", at, colour, "midleft", bold=scene)
@@ -179,9 +185,7 @@ class Menu:
 
     def move(self, across: int, down: int, current: str) -> None:
         """Choose by key: so many columns and rows on, from what is played."""
-        columns = [
-            [item.name for item in rows] for _, rows in groupby(self.listings, lambda i: i.name.partition("/")[0])
-        ]
+        columns = [[name for name, *_ in rows] for rows in self.columns]
         start = self.chosen or current
         column = next((i for i, names in enumerate(columns) if start in names), 0)
         row = columns[column].index(start) if start in columns[column] else 0
@@ -193,18 +197,20 @@ class Menu:
         return next((name for rect, name in self.places if rect.collidepoint(position)), None)
 
 
-def draw_message(sheet: Sheet, text: str, bad: bool) -> None:
-    """A message over the bottom of the picture, in as many lines as it needs, ten at most."""
+def draw_messages(sheet: Sheet, messages: Sequence[tuple[str, bool]]) -> None:
+    """Messages over the bottom of the picture, each with whether it is bad, in up to ten lines."""
     letters, gap = sheet.lettering, sheet.gap
-    room = round(0.8 * sheet.size[0])
-    lines = [line for part in text.splitlines() for line in letters.wrapped(part, "small", room)][-10:]
-    row = letters.height("small") + gap // 2
-    width = max(letters.width(line, "small") for line in lines)
-    rect = pygame.Rect(0, 0, width + 6 * gap, row * len(lines) + 3 * gap)
-    rect.midbottom = sheet.size[0] // 2, sheet.frame.bottom - sheet.card_height() - 2 * gap
-    sheet.painter.panel(rect, CARD["background"], 0.95, 8 * sheet.unit)
-    stripe = pygame.Rect(rect.left, rect.top + gap, max(3, gap // 2), rect.height - 2 * gap)
-    sheet.surface.fill(CARD["bad"] if bad else CARD["good"], stripe)
-    for number, line in enumerate(lines):
-        at = (rect.left + 3 * gap, rect.top + 1.5 * gap + number * row)
-        letters.write(sheet.surface, line, "small", at, CARD["text"])
+    room, row = round(0.8 * sheet.size[0]), letters.height("small") + gap // 2
+    foot = sheet.frame.bottom - sheet.card_height() - 2 * gap
+    for text, bad in reversed(messages):
+        lines = [line for part in text.splitlines() for line in letters.wrapped(part, "small", room)][-10:]
+        width = max(letters.width(line, "small") for line in lines)
+        rect = pygame.Rect(0, 0, width + 6 * gap, row * len(lines) + 3 * gap)
+        rect.midbottom = sheet.size[0] // 2, foot
+        sheet.painter.panel(rect, CARD["background"], 0.95, 8 * sheet.unit)
+        stripe = pygame.Rect(rect.left, rect.top + gap, max(3, gap // 2), rect.height - 2 * gap)
+        sheet.surface.fill(CARD["bad"] if bad else CARD["good"], stripe)
+        for number, line in enumerate(lines):
+            at = (rect.left + 3 * gap, rect.top + 1.5 * gap + number * row)
+            letters.write(sheet.surface, line, "small", at, CARD["text"])
+        foot = rect.top - gap

@@ -5,6 +5,7 @@ from __future__ import annotations
 import warnings
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
+from time import perf_counter
 from typing import Any
 
 import pygame
@@ -23,6 +24,7 @@ from pygame_gui.elements import (
 from sandbox.parameters import Parameter, walk
 from sandbox.picture.lettering import Lettering
 from sandbox.picture.sheet import rows_of
+from sandbox.window.background import PATIENCE
 from sandbox.window.session import Session
 from sandbox.window.theme import NAMED, theme
 
@@ -76,16 +78,21 @@ class Panel:
         self,
         size: tuple[int, int],
         rect: pygame.Rect,
-        session: Session,
+        session: Callable[[], Session],
         change: Callable[[Mapping[str, Any]], bool],
         reset: Callable[[str | None], object],
         group: str = FAVOURITES,
+        patience: float = PATIENCE,
     ) -> None:
-        self.session, self.change, self.reset, self.rect = session, change, reset, rect
+        self._session, self.change, self.reset, self.rect = session, change, reset, rect
         self.unit, self.lettering = max(LEAST_UNIT, rows_of(size) / 720), Lettering(rows_of(size))
         self.manager = pygame_gui.UIManager(size, theme(self.unit))
-        self.group = group
+        self.group, self.patience = group, patience
         self._build()
+
+    @property
+    def session(self) -> Session:
+        return self._session()
 
     # The elements
 
@@ -121,14 +128,26 @@ class Panel:
         )
         self.rows: list[Row] = []
         self.chosen: int | None = None  # the row that keys change
-        self.wide, y = inner - gap, 0
+        self.wide, self._foot = inner - gap, 0
+        self._waiting = [row for parameter in groups[self.group] for row in self._rows_of(parameter)]
+        self._add_rows()
+
+    @property
+    def complete(self) -> bool:
+        """Whether all rows are there."""
+        return not self._waiting
+
+    def _add_rows(self) -> None:
+        """Make as many rows as there is time for in a frame; the others come with the next."""
+        started = perf_counter()
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", UserWarning)  # a long name is cut off, and its tooltip tells the rest
-            for parameter in groups[self.group]:
-                for row in self._rows_of(parameter):
-                    y = self._place(row, y) + gap
-                    self.rows.append(row)
-        self.container.set_scrollable_area_dimensions((self.wide, y))
+            while self._waiting and perf_counter() - started < self.patience:
+                row = self._waiting.pop(0)
+                self._foot = self._place(row, self._foot) + round(10 * self.unit)
+                self.rows.append(row)
+        if self.complete:
+            self.container.set_scrollable_area_dimensions((self.wide, self._foot))
 
     def _groups(self) -> dict[str, list[Parameter]]:
         """Parameters by heading, what is worth a slider first."""
@@ -364,7 +383,18 @@ class Panel:
             if row.switch is not None:
                 row.switch.set_text("on" if value else "off")
 
+    def close_lists(self) -> bool:
+        """Close a list of words that is open; whether one was."""
+        lists = [self.chooser, *(row.choice for row in self.rows if row.choice is not None)]
+        opened = [choice for choice in lists if choice.current_state is choice.menu_states["expanded"]]
+        for choice in opened:
+            if choice.current_state is not None:
+                choice.current_state.target_state, choice.current_state.should_transition = "closed", True
+        return bool(opened)
+
     def update(self, dt: float) -> None:
+        if not self.complete:
+            self._add_rows()
         self.refresh()
         self.manager.update(dt)
 

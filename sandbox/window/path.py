@@ -1,4 +1,4 @@
-"""The path of a ball as points, quickly: for a line that is drawn anew in every frame."""
+"""The path of a ball as points, quickly: for a line that is drawn in every frame."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ def moves(run: Run, ball: str) -> bool:
     return any(len(arc.x) > 1 or len(arc.y) > 1 for arc in run.arcs[ball])
 
 
-def few(pixels: np.ndarray) -> np.ndarray:
+def simplify(pixels: np.ndarray) -> np.ndarray:
     """As few of the points (px, shape (n, 2)) as give the same line to the eye: more where it bends, and each corner.
 
     Pieces of a smooth line that are short show where they meet.

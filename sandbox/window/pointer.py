@@ -1,121 +1,140 @@
-"""What the mouse does: pull the ball back, drag the time line, lay the tape, press buttons."""
+"""What the mouse does: pull, drag the time line, lay the tape, zoom and move the picture, press buttons."""
 
 from __future__ import annotations
-
-from math import hypot
-from typing import TYPE_CHECKING, Any
 
 import pygame
 
 from sandbox.window import aim, commands
 from sandbox.window.measure import Tape
-
-if TYPE_CHECKING:
-    from sandbox.window.app import App
+from sandbox.window.view import View
 
 Place = tuple[int, int]  # px
+
+#: One notch of the wheel shows the picture so many times as large.
+NOTCH = 1.15
 
 
 class Pointer:
     """The mouse over one window."""
 
-    def __init__(self, app: App) -> None:
-        self.app = app
-        self.at: Place = (-1, -1)
-        self.start: Place | None = None  # where the button went down for a pull
-        self.before: dict[str, Any] = {}  # what was changed until then
-        self.pull: tuple[float, float] | None = None  # px, while it is down
+    def __init__(self, view: View) -> None:
+        self.view = view
         self.scrubbing = False  # the time line is dragged
-        self.tape: Tape | None = None
         self.laying = False  # the tape is dragged
+        self.panning = False  # the picture is dragged
+        self.pressed: Place | None = None  # where the button went down on a shot that is watched to its end
 
     @property
-    def pulling(self) -> bool:
-        """Whether the pull is long enough for a shot."""
-        return self.pull is not None and hypot(*self.pull) >= aim.LEAST
+    def at(self) -> Place:
+        return self.view.at
 
-    def let_go(self) -> None:
-        """Leave what was begun."""
-        self.start, self.pull, self.scrubbing, self.laying = None, None, False, False
-
-    def give_up(self) -> None:
-        """Leave a pull: the aim is what it was before."""
-        self.let_go()
-        self.app.restore(self.before)
+    @property
+    def dragging(self) -> bool:
+        """Whether a button is held for something that goes on outside of where it began."""
+        return self.scrubbing or self.laying or self.panning or self.view.game.pull is not None
 
     def handle(self, event: pygame.event.Event) -> None:
         """One event of the mouse."""
         match event.type:
             case pygame.MOUSEMOTION:
-                self.at = event.pos
-                self._moved(event.pos)
+                self._moved(self.view.at, event.pos)
             case pygame.MOUSEBUTTONDOWN if event.button == pygame.BUTTON_LEFT:
-                self.at = event.pos
+                self.view.at = event.pos
                 self._pressed(event.pos)
             case pygame.MOUSEBUTTONDOWN if event.button == pygame.BUTTON_RIGHT:
                 self._lay(event.pos)
+            case pygame.MOUSEBUTTONDOWN if event.button == pygame.BUTTON_MIDDLE:
+                self.view.at, self.panning = event.pos, self.view.area.collidepoint(event.pos)
             case pygame.MOUSEBUTTONUP if event.button == pygame.BUTTON_LEFT:
                 self._released()
-            case pygame.MOUSEBUTTONUP if event.button == pygame.BUTTON_RIGHT:
-                self.laying = False
+            case pygame.MOUSEBUTTONUP if event.button in (pygame.BUTTON_RIGHT, pygame.BUTTON_MIDDLE):
+                self.laying = self.panning = False
             case pygame.MOUSEWHEEL:
-                other = bool(pygame.key.get_mods() & pygame.KMOD_SHIFT) or event.x != 0
-                self.app.change(aim.spun(self.app.session, int(other), event.y or event.x))
+                self._turned(event)
+
+    def _turned(self, event: pygame.event.Event) -> None:
+        """The wheel: with Ctrl the size of the picture, else spin."""
+        held = pygame.key.get_mods()
+        if held & pygame.KMOD_CTRL:
+            self.view.zoom(NOTCH**event.y, self.at)
+        else:
+            other = bool(held & pygame.KMOD_SHIFT) or event.x != 0
+            session = self.view.game.session
+            self.view.game.nudge(aim.spun(session, int(other), event.y or event.x))
 
     def _pressed(self, at: Place) -> None:
-        app, view = self.app, self.app.view
-        on_bar = app.bar.command_at(at)
+        view, game = self.view, self.view.game
+        on_bar = view.bar.command_at(at)
         if view.menu is not None:
             name = view.menu.name_at(at)
-            view.menu = None
+            view.close_overlays()
             if name is not None:
-                app.open(name)
+                game.open(name)
         elif view.choices is not None and on_bar != view.choices.group:
             command = view.choices.command_at(at)
             if command is None or not view.choices.stays:
                 view.choices = None
             if command is not None:
-                commands.do(app, command)
+                commands.do(view, command)
         elif "help" in view.on or view.energy is not None:
-            view.on.discard("help")
-            view.energy = None
-        elif app.bar.rect.collidepoint(at):
-            share = app.bar.share_at(at)
+            view.close_overlays()
+        elif view.bar.rect.collidepoint(at):
+            share = view.bar.share_at(at)
             if on_bar is not None:
-                commands.do(app, on_bar)
-            elif share is not None and app.playback is not None:
+                commands.do(view, on_bar)
+            elif share is not None and game.playback is not None:
                 self.scrubbing = True
-                app.playback.playing = False
-                app.playback.seek(share * app.playback.duration)
-        elif app.area.collidepoint(at):
+                game.playback.playing = False
+                self._scrub(at)
+        elif view.area.collidepoint(at):
             if "tape" in view.on:
                 self._lay(at)
+            elif pygame.key.get_mods() & pygame.KMOD_CTRL:
+                self.panning = True
+            elif game.playback is None:
+                self._begin_pull(at)
+            elif game.playback.over:
+                self.pressed = at
             else:
-                app.back_to_aiming(goes_on=True)
-                self.start, self.pull, self.before = at, (0.0, 0.0), dict(app.session.changes)
+                game.tell("Enter to aim again, Space to pause")
+
+    def _begin_pull(self, at: Place) -> None:
+        stage = self.view.stage
+        stretch = stage.camera.stretch if stage is not None and stage.camera is not None else 1.0
+        self.view.game.begin_pull(at, self.view.area.height, stretch)
+
+    def _scrub(self, at: Place) -> None:
+        playback = self.view.game.playback
+        if playback is not None:
+            playback.seek(self.view.bar.share(at) * playback.duration)
+            self.view.changed = True
 
     def _lay(self, at: Place) -> None:
-        camera = self.app.view.camera
-        if camera is not None and self.app.area.collidepoint(at):
+        camera = self.view.camera
+        if camera is not None and self.view.area.collidepoint(at):
             place = camera.world(*at)
-            self.tape, self.laying = Tape(place, place), True
+            self.view.tape, self.laying = Tape(place, place), True
 
-    def _moved(self, at: Place) -> None:
-        app = self.app
-        camera = app.view.camera
-        if self.laying and self.tape is not None and camera is not None:
-            self.tape.end = camera.world(*at)
-        elif self.scrubbing and app.playback is not None:
-            app.playback.seek(app.bar.share(at) * app.playback.duration)
-        elif self.start is not None and app.stage is not None:
-            self.pull = (float(at[0] - self.start[0]), float(at[1] - self.start[1]))
-            stretch = app.stage.camera.stretch if app.stage.camera is not None else 1.0
-            changes = aim.pulled(app.session, self.pull, app.area.height, stretch)
-            if changes is not None:
-                app.change(changes)
+    def _moved(self, before: Place, at: Place) -> None:
+        view, game = self.view, self.view.game
+        camera, view.at = view.camera if self.laying else None, at
+        if camera is not None and view.tape is not None:
+            view.tape.end = camera.world(*at)
+        elif self.scrubbing:
+            self._scrub(at)
+        elif self.panning:
+            view.pan(at[0] - before[0], at[1] - before[1])
+        elif self.pressed is not None:
+            # a shot that was watched to its end is left by a pull, and not by a mere click
+            if abs(at[0] - self.pressed[0]) + abs(at[1] - self.pressed[1]) >= aim.LEAST:
+                game.aim_again(goes_on=True)
+                self._begin_pull(self.pressed)
+                self.pressed = None
+                game.pull_to(at)
+        else:
+            game.pull_to(at)
 
     def _released(self) -> None:
-        shoots = self.start is not None and self.pulling
-        self.let_go()
-        if shoots:
-            self.app.shoot()
+        self.scrubbing = self.laying = self.panning = False
+        self.pressed = None
+        self.view.game.release()

@@ -5,22 +5,27 @@ from __future__ import annotations
 import hashlib
 import json
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from sandbox.errors import RequestError, RunError
 from sandbox.files import reason, written_whole
-from sandbox.scene import load, simulate
-from sandbox.window.recorded import plain, run_of
-from sandbox.window.session import Session, Shot
+from sandbox.scene import load
+from sandbox.scene.finding import folder_of, is_installed
+from sandbox.window.run_data import plain, run_of
+from sandbox.window.session import Session
+from sandbox.window.shot import Shot
+
+if TYPE_CHECKING:
+    from sandbox.engine.run import Run
 
 FORMAT, VERSION = "sandbox replay", 2
 SUFFIX = ".replay.json"
 
 
-def save(shot: Shot, source: str, path: Path) -> None:
-    """Write a shot; ``source`` is what its scene was loaded by."""
+def save(shot: Shot, path: Path) -> None:
+    """Write a shot."""
     body = {
-        "scene": source,
+        "scene": shot.source,
         "changes": shot.changes,
         "parameters": shot.scene.parameters.model_dump(mode="json"),
         "run": _plain(plain(shot.run)),
@@ -43,8 +48,12 @@ def _sum(body: dict[str, Any]) -> str:
     return hashlib.sha256(text.encode()).hexdigest()
 
 
-def read(path: Path) -> tuple[Session, Shot]:
-    """The shot of a file with its session. Raises RequestError where it is damaged or of another version."""
+def read(path: Path, scene: str | None = None, running: Path | None = None) -> tuple[Session, Shot]:
+    """The shot of a file with its session. Raises RequestError where it is damaged or of another version.
+
+    A file from somebody else runs no code: its scene is one of those that are installed, or the ``scene`` that the
+    player names, or the one in the folder whose code is ``running`` already.
+    """
     try:
         record = json.loads(path.read_text("utf-8"))
     except OSError as error:
@@ -59,26 +68,36 @@ def read(path: Path) -> tuple[Session, Shot]:
     if not isinstance(body, dict) or _sum(body) != record.get("check"):
         raise RequestError(f"{path}: damaged: its contents are not those that were written")
     try:
-        session = Session(body["scene"], body["changes"])
-        scene = load(body["scene"], body["parameters"])
-        shot = Shot(scene, run_of(scene, body["run"]), dict(body["changes"]))
+        source = scene if scene is not None else _allowed(str(body["scene"]), path, running)
+        session = Session(source, body["changes"])
+        recorded = load(source, body["parameters"])
+        shot = Shot(recorded, run_of(recorded, body["run"]), dict(body["changes"]), source, recorded=True)
     except (KeyError, IndexError, TypeError, ValueError) as error:
         raise RequestError(f"{path}: damaged: {type(error).__name__} {error}") from None
-    session.shots.append(shot)
     return session, shot
 
 
-def compared(shot: Shot) -> str:
-    """Simulate a replayed shot again; in words, how far the two are apart."""
-    again = simulate(shot.scene)
-    if again.arcs.keys() != shot.run.arcs.keys():
+def _allowed(source: str, path: Path, running: Path | None) -> str:
+    """A recorded scene whose code may run. Raises RequestError."""
+    folder = folder_of(source)
+    if folder is None or not (is_installed(folder) or folder == running):
+        raise RequestError(
+            f"{path}: is of {source}, which is not an installed scene; sandbox play --scene FOLDER {path} plays it "
+            "with the code of the scene in FOLDER"
+        )
+    return source
+
+
+def compared(recorded: Run, again: Run) -> str:
+    """In words, how far a recorded run and the same shot, simulated again, are apart."""
+    if again.arcs.keys() != recorded.arcs.keys():
         return "simulated again there are other balls"
     apart = 0.0
-    times = [shot.run.duration * i / 500 for i in range(501)]
+    times = [recorded.duration * i / 500 for i in range(501)]
     for ball in again.arcs:
         for t in times:
-            a, b = shot.run.state(ball, t), again.state(ball, t)
+            a, b = recorded.state(ball, t), again.state(ball, t)
             apart = max(apart, ((a[0] - b[0]) ** 2 + (a[1] - b[1]) ** 2) ** 0.5)
-    if apart == 0.0 and _plain(again.result) == _plain(shot.run.result):
+    if apart == 0.0 and _plain(again.result) == _plain(recorded.result):
         return "simulated again it is the same to the last bit"
     return f"simulated again it is up to {apart:.2g} m away"

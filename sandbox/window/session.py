@@ -1,122 +1,51 @@
-"""What is being played, without a picture: the scene, what was changed in it, and the shots so far."""
+"""A scene file with what was changed over it, and the way back."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
-from functools import cached_property
+from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
-
-import numpy as np
+from typing import Any, NamedTuple
 
 from sandbox import parameters as declared
 from sandbox.controls import Controls, controls_of
-from sandbox.errors import SandboxError
-from sandbox.physics.forces import Gravity
 from sandbox.scene import Scene, load
-from sandbox.window.path import moves, points
+from sandbox.scene.modules import read_again
+from sandbox.window.shot import Shot, place_of, value_at
 
-if TYPE_CHECKING:
-    from sandbox.engine.run import Run
-
-
-@dataclass(frozen=True)
-class Shot:
-    """A scene and its run."""
-
-    scene: Scene
-    run: Run
-    changes: dict[str, Any] = field(default_factory=dict)  # over the scene file
-
-    @cached_property
-    def ball(self) -> str:
-        """Name of the ball that is played."""
-        ball = controls_of(self.scene.module).ball
-        names = [b.name for b in self.run.setup.balls]
-        named = _at(self.scene.parameters, ball) or ball
-        return named if named in names else names[0]
-
-    @cached_property
-    def scored(self) -> bool:
-        return bool(self.run.result.get(controls_of(self.scene.module).scores))
-
-    @cached_property
-    def upright(self) -> bool:
-        """Whether y is height: seen from above, no weight pulls along the picture."""
-        return any(isinstance(force, Gravity) for ball in self.run.setup.balls for force in ball.forces)
-
-    @cached_property
-    def movers(self) -> list[str]:
-        """Names of the balls that leave their place, the played one last."""
-        others = [b.name for b in self.run.setup.balls if b.name != self.ball and moves(self.run, b.name)]
-        return [*others, self.ball]
-
-    def track(self, ball: str) -> np.ndarray:
-        """Points along a ball's path, shape (n, 3): t in s, x and y in m."""
-        if ball not in self._tracks:
-            self._tracks[ball] = points(self.run, ball)
-        return self._tracks[ball]
-
-    @cached_property
-    def _tracks(self) -> dict[str, np.ndarray]:
-        return {}
-
-    @cached_property
-    def card(self) -> list[tuple[str, str]]:
-        """The result for people, without the verdict."""
-        return [entry for entry in self._card if entry[0] != "verdict"]
-
-    @cached_property
-    def verdict(self) -> str:
-        """What happened, in a line."""
-        text = next((text for label, text in self._card if label == "verdict"), self.run.ended)
-        return text[:1].upper() + text[1:]
-
-    @cached_property
-    def _card(self) -> list[tuple[str, str]]:
-        return list(self.scene.module.card(self.run.result, self.scene.parameters))
+#: So many changes can be undone.
+UNDOABLE = 100
 
 
-def _toml(value: Any) -> str:
-    """A value as TOML writes it on a line."""
-    import tomlkit
+class Changes(NamedTuple):
+    """What was changed over the scene file."""
 
-    if isinstance(value, Mapping):
-        return "{" + ", ".join(f"{key} = {_toml(item)}" for key, item in value.items()) + "}"
-    if isinstance(value, list | tuple):
-        return "[" + ", ".join(map(_toml, value)) + "]"
-    return str(tomlkit.item(value).as_string())
+    values: dict[str, Any]  # by key
+    positions: frozenset[str]  # the keys that were changed because a shot began where one before it ended
 
-
-def _at(parameters: Any, key: str) -> Any:
-    """What stands at a dotted key; None where nothing does."""
-    for part in key.split("."):
-        parameters = getattr(parameters, part, None)
-    return parameters
+    @property
+    def moved(self) -> dict[str, Any]:
+        """What was changed at these keys."""
+        return {key: self.values.get(key) for key in self.positions}
 
 
 class Session:
-    """One scene file with changes over it; raises SandboxError where a scene or a change will not do."""
+    """One scene file with changes over it. Raises SandboxError for a scene or a change that is invalid."""
 
     def __init__(self, source: str, changes: Mapping[str, Any] | None = None) -> None:
-        self.shots: list[Shot] = []
         self._declared: dict[str, declared.Parameter] = {}  # walking takes longer than a frame has
         self.open(source, changes)
 
     def open(self, source: str, changes: Mapping[str, Any] | None = None) -> None:
-        """Play another scene; this one stays where the other will not do."""
+        """Play another scene; if that is invalid, this one stays."""
         base = load(source)
         scene = load(source, changes or {}, overrides_from="--set")
-        scene.build()  # what makes no sense together is told now
-        other = not self.shots or self.shots[-1].scene.folder != scene.folder
+        scene.build()  # reports values that are invalid together
         self.source, self.base, self.scene = source, base, scene
-        self.changes: dict[str, Any] = dict(changes or {})
-        self.laid: set[str] = set()  # what was changed so that a shot goes on from the one before
-        self.fresh = 0  # of the shots, the first that began where the next one does
+        self.changes = Changes(dict(changes or {}), frozenset())
+        self.undoable: list[tuple[frozenset[str], Changes]] = []  # what each change was of, and what was before it
+        self._place: tuple[Scene | None, tuple[Any, ...]] = (None, ())
         self._declared.clear()
-        if other:
-            self.shots.clear()
 
     @property
     def controls(self) -> Controls:
@@ -133,12 +62,27 @@ class Session:
         return file if file.is_file() else None
 
     @property
+    def files(self) -> list[Path]:
+        """All files that the scene is made from: the scene file, its scene's own, and the code."""
+        folder = self.base.folder
+        files = [self.file, folder / f"{folder.name}.toml", *sorted(folder.glob("*.py"))]
+        return list(dict.fromkeys(file for file in files if file is not None))
+
+    @property
     def title(self) -> str:
+        """``golf``, ``golf/putt``, or the name of a file of one's own."""
+        path = Path(self.source)
+        if path.suffix == ".toml" and path.is_file():
+            return path.name
         return f"{self.base.name}/{self.base.preset}" if self.base.preset else self.base.name
 
     def value(self, key: str) -> Any:
         """The value of a parameter now; None for a key that the scene does not know."""
-        return _at(self.scene.parameters, key)
+        return value_at(self.scene.parameters, key)
+
+    def base_value(self, key: str) -> Any:
+        """The value of a parameter in the scene file."""
+        return value_at(self.base.parameters, key)
 
     def parameter(self, key: str) -> declared.Parameter | None:
         """A parameter with its value now."""
@@ -147,76 +91,109 @@ class Session:
         found = self._declared.get(key)
         return found._replace(value=self.value(key)) if found is not None else None
 
-    def changed(self, changes: Mapping[str, Any]) -> Scene:
-        """The scene with further changes, which are not kept."""
-        return self._with({**self.changes, **changes})
+    @property
+    def place(self) -> tuple[Any, ...]:
+        """What the scene is apart from what a player aims with."""
+        if self._place[0] is not self.scene:
+            self._place = self.scene, place_of(self.scene)
+        return self._place[1]
 
-    def _with(self, changes: Mapping[str, Any]) -> Scene:
-        values = self.base.parameters.model_dump()
-        parameters = declared.validate(type(self.base.parameters), values, "", changes, "the window's")
+    # Changing
+
+    def _with(self, values: Mapping[str, Any]) -> Scene:
+        parameters = declared.validate(
+            type(self.base.parameters), self.base.parameters.model_dump(), "", values, "the window's"
+        )
         return replace(self.base, parameters=parameters)
 
-    def change(self, changes: Mapping[str, Any]) -> None:
-        """Keep the changes."""
-        self.scene = self.changed(changes)
-        self.changes |= changes
+    def _set(self, changes: Changes, what: frozenset[str]) -> None:
+        """Take over other changes; ``what`` says of what, and a run of changes of the same is undone at once."""
+        scene = self._with(changes.values)
+        same = what and self.undoable and self.undoable[-1][0] == what
+        if changes.values != self.changes.values and not same:
+            self.undoable.append((what, self.changes))
+            del self.undoable[:-UNDOABLE]
+        self.scene, self.changes = scene, changes
+
+    def change(self, values: Mapping[str, Any]) -> None:
+        """Keep these changes too."""
+        self._set(Changes({**self.changes.values, **values}, self.changes.positions), frozenset(values))
+
+    def end_change(self) -> None:
+        """What is changed from here on is undone by itself, even if it is of the same keys."""
+        if self.undoable:
+            self.undoable[-1] = frozenset(), self.undoable[-1][1]
 
     def reset(self, key: str | None = None) -> None:
         """Back to the file: one parameter, or all of them."""
-        kept = {} if key is None else {k: v for k, v in self.changes.items() if k != key}
-        before, self.changes = self.changes, kept
-        try:
-            self.scene = self.changed({})
-        except SandboxError:
-            self.changes = before
-            raise
-        self.laid.intersection_update(kept)
+        values = {} if key is None else {k: v for k, v in self.changes.values.items() if k != key}
+        self._set(Changes(values, self.changes.positions & values.keys()), frozenset())
 
-    def go_on(self, shot: Shot) -> bool:
-        """Let the next shot begin where one of them ended, where the scene knows how; whether it does."""
-        if self.controls.goes_on is None:
+    def restore(self, changes: Changes) -> None:
+        """These changes and no others, as they once were."""
+        self.scene, self.changes = self._with(changes.values), changes
+
+    def undo(self) -> bool:
+        """Take back the last change; whether there was one."""
+        if not self.undoable:
             return False
-        changes = dict(self.controls.goes_on(shot.run, shot.scene.parameters))
-        self.change(changes)
-        self.laid.update(changes)
-        self.fresh = len(self.shots)
+        _, before = self.undoable[-1]
+        self.restore(before)
+        self.undoable.pop()
         return True
 
-    def restore(self, changes: Mapping[str, Any]) -> None:
-        """These changes and no others."""
-        self.scene, self.changes = self._with(changes), dict(changes)
+    def go_on(self, shot: Shot) -> bool:
+        """Let the next shot begin where the balls of one came to rest, in scenes that offer it; whether they do."""
+        if self.controls.goes_on is None:
+            return False
+        values = dict(self.controls.goes_on(shot.run, shot.scene.parameters))
+        positions = self.changes.positions | values.keys()
+        self._set(Changes({**self.changes.values, **values}, positions), frozenset())
+        return True
 
     def begin_again(self) -> None:
         """Take back what ``go_on`` changed."""
-        self.restore({key: value for key, value in self.changes.items() if key not in self.laid})
-        self.laid.clear()
-        self.fresh = len(self.shots)
+        values = {key: value for key, value in self.changes.values.items() if key not in self.changes.positions}
+        self._set(Changes(values, frozenset()), frozenset())
 
-    def reload(self) -> None:
-        """Read the scene file again. What was changed here stays changed, where it is still the same scene."""
+    def reload(self, code: bool = False) -> None:
+        """Read the scene file again, and with ``code`` the scene's modules too. What was changed here stays changed,
+        where it is still the same scene."""
+        if code:
+            with read_again(self.base.folder):
+                self.reload()
+                self.scene.picture_module()
+            return
         base = load(self.source)
         if base.folder != self.base.folder:
             self.open(self.source)
             return
         before, self.base = self.base, base
         try:
-            scene = self.changed({})
+            scene = self._with(self.changes.values)
             scene.build()
-        except SandboxError:
+        except BaseException:
             self.base = before
             raise
         self.scene = scene
-
-    @property
-    def recent(self) -> list[Shot]:
-        """The shots that began where the next one does."""
-        return self.shots[self.fresh :]
+        self._declared.clear()
 
     def command(self) -> str:
-        """The command line that plays this."""
+        """The command line that runs this."""
         import shlex
 
         settings = []
-        for key, value in self.changes.items():
+        for key, value in self.changes.values.items():
             settings += ["--set", f"{key}={value if isinstance(value, str) else _toml(value)}"]
         return shlex.join(["sandbox", "run", self.source, *settings])
+
+
+def _toml(value: Any) -> str:
+    """A value as TOML writes it on a line."""
+    import tomlkit
+
+    if isinstance(value, Mapping):
+        return "{" + ", ".join(f"{key} = {_toml(item)}" for key, item in value.items()) + "}"
+    if isinstance(value, list | tuple):
+        return "[" + ", ".join(map(_toml, value)) + "]"
+    return str(tomlkit.item(value).as_string())

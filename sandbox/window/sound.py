@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import os
+from collections.abc import Iterator
+from contextlib import contextmanager
+
 import numpy as np
 import pygame
 
@@ -26,17 +30,36 @@ def knock(pitch: float) -> np.ndarray:
     return np.ascontiguousarray(np.column_stack([samples, samples]))
 
 
+@contextmanager
+def _no_stderr() -> Iterator[None]:
+    """Without what libraries write there by themselves: ALSA reports each device that it does not find."""
+    try:
+        kept, nothing = os.dup(2), os.open(os.devnull, os.O_WRONLY)
+    except OSError:  # stderr is closed
+        yield
+        return
+    try:
+        os.dup2(nothing, 2)
+        yield
+    finally:
+        os.dup2(kept, 2)
+        os.close(kept)
+        os.close(nothing)
+
+
 class Sound:
     """The loudspeaker, if there is one."""
 
     def __init__(self) -> None:
-        self.on = True
         self.knocks: list[pygame.mixer.Sound] = []
         try:
-            pygame.mixer.init(RATE, -16, 2, 512)
+            with _no_stderr():
+                pygame.mixer.init(RATE, -16, 2, 512)
             self.knocks = [pygame.sndarray.make_sound(knock(pitch)) for pitch in (DULL, BRIGHT)]
         except (pygame.error, NotImplementedError, ImportError):
-            self.on = False
+            pass
+        self.there = bool(self.knocks)  # whether there is a device
+        self.on = self.there
 
     def impact(self, speed: float, of_balls: bool) -> None:
         """An impact at a normal speed in m/s."""

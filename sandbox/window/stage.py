@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from itertools import pairwise
 from math import hypot
 from typing import Any
@@ -12,14 +13,16 @@ import pygame
 from sandbox.picture.camera import Camera
 from sandbox.picture.ghosts import colours_beside
 from sandbox.picture.painter import blank
-from sandbox.picture.palette import Colour, palette
+from sandbox.picture.palette import Colour, mix, palette
+from sandbox.picture.path import chip
+from sandbox.picture.sheet import Sheet
 from sandbox.window.canvas import Canvas
-from sandbox.window.path import few
-from sandbox.window.session import Shot
+from sandbox.window.path import simplify
+from sandbox.window.shot import Shot
 
 CARD, TRACE = palette("card"), palette("trace")
 
-#: So much of the stage, on every side, a path may use before the view is composed anew.
+#: A path that comes so near to an edge of the stage, as a share of its size, has it composed anew.
 EDGE = 0.02
 #: Where a line bends by more than this, in rad, it has a round joint.
 JOINT = 0.2
@@ -29,27 +32,87 @@ INSIDE, FILLED = 1.2, 0.9
 NARROW = 3.0
 #: Pieces of a line lie over each other by so much, in px, or a gap would show where they meet.
 OVERLAP = 0.35
+#: The camera goes nearer once the shot could be shown so many times as large.
+NEARER = 1.35
+#: Of the earlier shots so many are shown, this opaque (of 255); how much lighter than its line a label is; and a label
+#: may stand at so many places of its line.
+SHOWN, EARLIER, LIGHTER, PLACES = 5, 215, 0.45, 9
 #: Contacts nearer to each other than this, in px, are marked once; and at most so many.
 NEAR, MOST_CONTACTS = 14, 24
 
 
 class Stage:
-    """Shows shots of ``size`` px from where the picture of one of them, the composed one, stands."""
+    """The place of one shot, composed for its parameters at ``size`` px; and what is drawn on it."""
 
-    def __init__(self, shot: Shot, size: tuple[int, int], before: Stage | None = None) -> None:
-        """``before`` is the stage of the same place so far: its backdrop is kept where the camera is the same."""
-        self.shot, self.size = shot, size
+    def __init__(
+        self,
+        shot: Shot,
+        size: tuple[int, int],
+        code: int = 0,
+        chosen: Camera | None = None,
+        before: Stage | None = None,
+    ) -> None:
+        """Composed by the scene's code as it was read for the ``code``-th time.
+
+        The camera is the ``chosen`` one if there is one, and else shows all of the shot; but that of ``before``, the
+        stage so far, stays where it serves as well, or each little change of an aim would shift the picture.
+        """
+        self.shot, self.size, self.code, self.chosen = shot, size, code, chosen
         self.picture: Any = shot.scene.picture(shot.run, size)
         #: None for a scene whose picture offers no stage: then its poster is shown, and nothing over it.
         self.camera: Camera | None = None
+        self.whole: Camera | None = None  # the camera that the picture has by itself
+        self.turns = False  # whether the picture can show the place by another
+        self.notes: list[str] = []  # what is not drawn as it is
+        self.foot_of_wind = 0  # px
         if all(hasattr(self.picture, name) for name in ("stage", "camera", "draw_balls")):
-            self.camera = self.picture.camera
-            same = before is not None and before.camera == self.camera
-            self.backdrop: pygame.Surface = before.backdrop if before is not None and same else self.picture.stage()
+            self.camera = self.whole = self.picture.camera
+            self._turn_to(chosen or self._camera_of(before) or self.camera)
+            self.backdrop: pygame.Surface = self.picture.stage()
+            self._label()
         else:
             self.backdrop = self.picture.poster()
         self._ghosts: tuple[Any, pygame.Surface] | None = None
-        self._lines: dict[str, tuple[Shot, np.ndarray]] = {}  # whole lines drawn last, by ball, in px
+        self._lines: dict[str, tuple[Any, np.ndarray]] = {}  # whole lines drawn last, by ball, in px
+
+    def _camera_of(self, before: Stage | None) -> Camera | None:
+        """The camera so far, if it shows the same place, all of the shot, and this not too small."""
+        if before is None or before.camera is None or before.chosen is not None or self.camera is None:
+            return None
+        if before.size != self.size or before.shot.place != self.shot.place or before.code != self.code:
+            return None
+        near = self.camera.scale <= NEARER * before.camera.scale and before.camera.stretch == self.camera.stretch
+        return before.camera if near and before.holds(self.shot) else None
+
+    def _turn_to(self, camera: Camera) -> None:
+        """Have the picture show the place by a camera, where it can."""
+        try:
+            self.picture.camera = camera
+        except AttributeError:  # it is computed each time
+            return
+        self.camera, self.turns = camera, True
+
+    def _label(self) -> None:
+        """What is measured on the place: ruler, labels, the wind; and what is not drawn as it is."""
+        picture, camera = self.picture, self.camera
+        sheet = Sheet(self.size, getattr(picture, "on_dark", False), self.backdrop)
+        if hasattr(picture, "measure"):
+            picture.measure(sheet, camera)
+        if hasattr(picture, "notes"):
+            self.notes = list(picture.notes(camera))
+        along, up = getattr(picture, "wind", (0.0, 0.0))
+        if along or up:
+            self.foot_of_wind = sheet.wind(along, up, sheet.frame.right, sheet.frame.top).bottom + sheet.gap
+
+    def shows(self, shot: Shot, code: int, chosen: Camera | None) -> bool:
+        """Whether it was composed for a shot, as the scene's code is now and as the camera was chosen."""
+        return self.shot.run is shot.run and (self.code, self.chosen) == (code, chosen)
+
+    def is_place_of(self, shot: Shot, code: int) -> bool:
+        """Whether a shot differs from the composed one only in what a player aims with."""
+        if self.code != code or self.camera is None:
+            return False
+        return self.shot.place == shot.place
 
     def holds(self, shot: Shot) -> bool:
         """Whether the path of another shot stays in sight."""
@@ -77,20 +140,40 @@ class Stage:
         sheet.surface.blit(self.backdrop, (0, 0))
         return sheet
 
-    def draw_ghosts(self, sheet: Canvas, ghosts: list[Shot]) -> None:
-        """Earlier shots, faintly; the last five."""
-        if self.camera is None or not ghosts:
+    def draw_ghosts(self, sheet: Canvas, ghosts: Sequence[Shot], before_save: Shot | None = None) -> None:
+        """Earlier shots, the last five, each with its number and result; and the one before the file was saved."""
+        shown = [*ghosts[-SHOWN:], *([before_save] if before_save is not None else [])]
+        if self.camera is None or not shown:
             return
-        shown = ghosts[-5:]
-        kept = tuple(id(shot) for shot in shown)
-        if self._ghosts is None or self._ghosts[0] != kept:
-            layer = blank(self.size, transparent=True)
+        key = tuple(id(shot) for shot in shown)
+        if self._ghosts is None or self._ghosts[0] != key:
+            layer = Sheet(self.size, surface=blank(self.size, transparent=True))
+            layer.frame = sheet.frame.copy()
+            layer.frame.height -= sheet.card_height() + sheet.gap
+            layer.labels.frame = layer.frame
             colours = colours_beside(type(self.picture))
-            for index, shot in enumerate(shown):
-                colour = colours[index % len(colours)]
-                draw_line(layer, self._line(shot, shot.ball), 2, colour)
-            layer.set_alpha(round(255 * (TRACE["earlier"] + 0.15)))
-            self._ghosts = kept, layer
+            lines = [self._line(shot, shot.ball) for shot in shown]
+            for index, (shot, line) in enumerate(zip(shown, lines, strict=True)):
+                colour = colours[(shot.number or index) % len(colours)]
+                draw_line(layer.surface, line, 4, TRACE["rim"])
+                draw_line(layer.surface, line, 2, colour)
+            layer.surface.set_alpha(EARLIER)
+            labels = Sheet(self.size, surface=blank(self.size, transparent=True))
+            labels.labels.frame = layer.frame
+            labels.labels.take(pygame.Rect(sheet.frame.topleft, (sheet.size[0] // 2, sheet.top_row)))
+            for index, (shot, line) in enumerate(zip(shown, lines, strict=True)):
+                colour = mix(colours[(shot.number or index) % len(colours)], CARD["text"], LIGHTER)
+                name = "before saving" if shot is before_save else str(shot.number)
+                first = shot.card[0][1] if shot.card else ""
+                text = sheet.ended(f"{name}:  {first}" if first else name, "small", 0.3 * sheet.size[0])
+                places = line[np.linspace(len(line) - 1, 0, min(len(line), PLACES)).round().astype(int)]
+                beyond = ((1.0, -1.0), (-1.0, -1.0), (1.0, 1.0), (-1.0, 1.0))
+                spots = [(x + 8 * a, y + 8 * d, a, d) for x, y in places.tolist() for a, d in beyond]
+                chip(labels, text, spots, colour)
+            both = blank(self.size, transparent=True)
+            both.blit(layer.surface, (0, 0))
+            both.blit(labels.surface, (0, 0))
+            self._ghosts = key, both
         sheet.surface.blit(self._ghosts[1], (0, 0))
 
     def draw_path(self, sheet: Canvas, shot: Shot, until: float | None = None) -> None:
@@ -102,27 +185,34 @@ class Stage:
             draw_line(sheet.surface, self._line(shot, ball, until), thin, CARD["text"])
         width, line = max(3, round(3.6 * sheet.unit)), self._line(shot, shot.ball, until)
         draw_line(sheet.surface, line, width + 2, TRACE["rim"])
-        draw_line(sheet.surface, line, width, TRACE["colours"][0])
+        draw_line(sheet.surface, line, width, getattr(self.picture, "TRACE", TRACE["colours"][0]))
         self._contacts(sheet, shot, until)
 
-    def draw_balls(self, sheet: Canvas, t: float, picture: Any = None) -> None:
-        """The balls at time t in s, by the ``picture`` of another shot or by the composed one's."""
+    def draw_balls(self, sheet: Canvas, t: float) -> None:
+        """The balls of the composed shot at time t in s."""
         if self.camera is not None:
-            (picture or self.picture).draw_balls(sheet.painter, self.camera, t)
+            self.picture.draw_balls(sheet.painter, self.camera, t)
+
+    def _pixels(self, points: np.ndarray) -> np.ndarray:
+        """Where points in m are drawn, in px; both of shape (n, 2)."""
+        assert self.camera is not None
+        if hasattr(self.picture, "spots"):  # where balls are drawn that are shown larger than they are
+            pixels: np.ndarray = self.picture.spots(self.camera, points, 0.0)
+            return pixels
+        return self.camera.pixels(points)
 
     def _line(self, shot: Shot, ball: str, until: float | None = None) -> np.ndarray:
         """Points of a ball's path in px, shape (n, 2); up to the time ``until`` (s), or all of it."""
-        assert self.camera is not None
-        kept = self._lines.get(ball)
-        if until is None and kept is not None and kept[0] is shot:
-            return kept[1]
+        last = self._lines.get(ball)
+        if until is None and last is not None and last[0] is shot.run:
+            return last[1]
         track = shot.track(ball)
         if until is not None:
             track = track[track[:, 0] <= until]
             track = np.vstack([track, (until, *shot.run.state(ball, until)[:2])])
-        line = few(np.clip(self.camera.pixels(track[:, 1:]), -4000, 8000))
+        line = simplify(np.clip(self._pixels(track[:, 1:]), -4000, 8000))
         if until is None:
-            self._lines[ball] = shot, line
+            self._lines[ball] = shot.run, line
         return line
 
     def _contacts(self, sheet: Canvas, shot: Shot, until: float | None) -> None:
@@ -131,24 +221,24 @@ class Stage:
         for event in shot.run.events:
             if event.kind != "impact" or event.ball != shot.ball or (until is not None and event.t > until):
                 continue
-            at = self.camera.pixel(event.x, event.y)
+            at = tuple(self._pixels(np.array([[event.x, event.y]]))[0].tolist())
             if all(hypot(at[0] - x, at[1] - y) >= NEAR * sheet.unit for x, y in marked):
                 marked.append(at)
         for at in marked[:MOST_CONTACTS]:
             sheet.painter.disc(at, 5.0 * sheet.unit, TRACE["rim"], 0.7)
             sheet.painter.disc(at, 3.6 * sheet.unit, CARD["accent"])
 
-    def draw_pull(self, sheet: Canvas, ball: tuple[float, float], pull: tuple[float, float], text: str) -> None:
-        """The rubber band from the ball to the hand, and what it will do."""
-        hand = ball[0] + pull[0], ball[1] + pull[1]
+    def draw_pull(self, sheet: Canvas, start: tuple[float, float], pull: tuple[float, float], text: str) -> None:
+        """The rubber band from where the pull began to the hand, and what it will do."""
+        hand = start[0] + pull[0], start[1] + pull[1]
         length = hypot(*pull)
         if length < 1:
             return
         across = -pull[1] / length * 6 * sheet.unit, pull[0] / length * 6 * sheet.unit
         for side in (-1, 1):
-            start = ball[0] + side * across[0], ball[1] + side * across[1]
-            pygame.draw.aaline(sheet.surface, CARD["shadow"], start, hand, max(3, round(4.5 * sheet.unit)))
-            pygame.draw.aaline(sheet.surface, CARD["accent"], start, hand, max(2, round(2.5 * sheet.unit)))
+            foot = start[0] + side * across[0], start[1] + side * across[1]
+            pygame.draw.aaline(sheet.surface, CARD["shadow"], foot, hand, max(3, round(4.5 * sheet.unit)))
+            pygame.draw.aaline(sheet.surface, CARD["accent"], foot, hand, max(2, round(2.5 * sheet.unit)))
         sheet.painter.disc(hand, 8.5 * sheet.unit, CARD["shadow"], 0.8)
         sheet.painter.disc(hand, 6.5 * sheet.unit, CARD["accent"])
         below = pull[1] >= 0
@@ -191,18 +281,20 @@ def draw_line(surface: pygame.Surface, points: np.ndarray, width: float, colour:
             pygame.draw.aaline(surface, colour, a, b)
 
 
-def headline(sheet: Canvas, text: str, note: str, colour: Colour) -> pygame.Rect:
-    """What happens, large on a dark card at the top left, and a line below it; returns where it is."""
+def headline(sheet: Canvas, text: str, notes: Sequence[str], colour: Colour) -> pygame.Rect:
+    """What happens, large on a dark card at the top left, and a line below it with as many notes as there is room for;
+    returns where it is."""
     letters, inset = sheet.lettering, 2 * sheet.gap
     room = sheet.frame.width - 2 * inset
     rooms = {"large": round(0.66 * sheet.size[0]), "medium": room}
     size = next((size for size in rooms if letters.width(text, size, bold=True) <= rooms[size]), "small")
-    text, note = letters.cut(text, size, room, bold=True), letters.cut(note, "small", room)
+    text = letters.cut(text, size, room, bold=True)
+    lines = ["   ·   ".join(notes[:count]) for count in range(len(notes), 0, -1)]
+    note = next((line for line in lines if letters.width(line, "small") <= room), letters.cut(lines[-1], "small", room))
     width = max(letters.width(text, size, bold=True), letters.width(note, "small"))
-    height = letters.height(size) + (letters.height("small") + sheet.gap if note else 0)
+    height = letters.height(size) + letters.height("small") + sheet.gap
     rect = pygame.Rect(sheet.frame.left, sheet.frame.top, width + 2 * inset, height + inset)
     sheet.painter.panel(rect, CARD["background"], CARD["opacity"], 10 * sheet.unit)
     at = sheet.write(text, size, (rect.left + inset, rect.top + sheet.gap), colour, bold=True)
-    if note:
-        sheet.write(note, "small", (at.left, at.bottom + sheet.gap), CARD["quiet"])
+    sheet.write(note, "small", (at.left, at.bottom + sheet.gap), CARD["quiet"])
     return rect

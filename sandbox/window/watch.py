@@ -1,35 +1,38 @@
-"""Notices when a file is saved."""
+"""Notices when one of some files is saved."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
 EVERY = 0.2  # s, between looks
 
 
 class Watch:
-    """Looks at a file's time and size now and then; a file that is away for a moment is an editor at work."""
+    """Looks at the time and size of files now and then; a file that is away for a moment is an editor at work."""
 
-    def __init__(self, file: Path | None) -> None:
-        self.file = file
-        self.seen = self._look()
+    def __init__(self, files: Sequence[Path]) -> None:
+        self.seen = {file: _state(file) for file in files}
         self.waited = 0.0
 
-    def _look(self) -> tuple[int, int] | None:
-        try:
-            found = self.file.stat() if self.file is not None else None
-        except OSError:
-            return None
-        return (found.st_mtime_ns, found.st_size) if found is not None else None
-
-    def saved(self, dt: float) -> bool:
-        """Whether the file changed since the last time that this was asked; ``dt`` s have passed since."""
+    def saved(self, dt: float) -> list[Path]:
+        """The files that changed since this was last asked; ``dt`` s have passed since."""
         self.waited += dt
         if self.waited < EVERY:
-            return False
+            return []
         self.waited = 0.0
-        now = self._look()
-        if now is None or now == self.seen:
-            return False
-        self.seen = now
-        return True
+        changed = []
+        for file, before in self.seen.items():
+            now = _state(file)
+            if now is not None and now != before:
+                self.seen[file] = now
+                changed.append(file)
+        return changed
+
+
+def _state(file: Path) -> tuple[int, int] | None:
+    try:
+        found = file.stat()
+    except OSError:
+        return None
+    return found.st_mtime_ns, found.st_size

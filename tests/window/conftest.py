@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import time
 from typing import Any
 
 os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
@@ -13,8 +14,10 @@ import pytest
 
 from sandbox.scene import simulate
 from sandbox.window.app import App
-from sandbox.window.session import Session, Shot
-from sandbox.workers import Processes
+from sandbox.window.game import Game
+from sandbox.window.session import Session
+from sandbox.window.shot import Shot
+from sandbox.window.worker import Worker
 
 FRAME = 1 / 60  # s
 
@@ -22,16 +25,29 @@ FRAME = 1 / 60  # s
 class Player:
     """Does with a window what a person would: every call is one event, and one frame."""
 
-    def __init__(self, runs: Processes, source: str, size: tuple[int, int] = (1280, 720)) -> None:
+    def __init__(self, worker: Worker, source: str, size: tuple[int, int] = (1280, 720)) -> None:
         pygame.display.init()
         self.screen = pygame.display.set_mode(size, pygame.RESIZABLE)
         pygame.event.clear()
-        self.app = App(Session(source), self.screen, runs, patience=60.0)  # this machine may be busy
-        self.frames(1)
+        self.game = Game(Session(source), worker, patience=60.0)  # this machine may be busy
+        self.app = App(self.game, self.screen)
+        self.view, self.pointer = self.app.view, self.app.pointer
+        self.settle()
 
     def frames(self, count: int = 1, dt: float = FRAME) -> None:
         for _ in range(count):
             self.app.tick(dt)
+
+    def settle(self) -> None:
+        """Frames until there is nothing left to compute or compose."""
+        end = time.monotonic() + 60.0
+        while time.monotonic() < end:
+            self.game.settle()
+            self.frames(1)
+            if not (self.view.busy or self.game.shooting or self.game.jobs):
+                break
+            time.sleep(0.001)
+        self.frames(1)
 
     def send(self, kind: int, **values: object) -> None:
         pygame.event.post(pygame.event.Event(kind, **values))
@@ -58,7 +74,7 @@ class Player:
 
     def pull(self, by: tuple[int, int], let_go: bool = True) -> None:
         """Pull the ball back by so many px."""
-        x, y = (round(value) for value in self.app.stage.ball_at(self.app.shot))
+        x, y = (round(value) for value in self.view.stage.ball_at(self.game.shot))
         self.press((x, y))
         for part in (0.3, 0.6, 1.0):
             self.move((round(x + part * by[0]), round(y + part * by[1])))
@@ -66,31 +82,31 @@ class Player:
             self.release((x + by[0], y + by[1]))
 
     def button(self, command: str) -> None:
-        self.click(self.app.bar.buttons[command].center)
+        self.click(self.view.bar.buttons[command].center)
 
 
 @pytest.fixture(scope="session")
 def shot_of():
     """Gives the shot of a session as it stands."""
-    return lambda session: Shot(session.scene, simulate(session.scene), dict(session.changes))
+    return lambda session: Shot(session.scene, simulate(session.scene), session.changes.values, session.source)
 
 
 @pytest.fixture(scope="session")
-def runs():
-    processes = Processes(1)
-    yield processes
-    processes.close(abandon=True)
+def worker():
+    one = Worker()
+    yield one
+    one.close()
 
 
 @pytest.fixture
-def player(runs):
+def player(worker):
     opened: list[Player] = []
 
     def open_one(*arguments: Any) -> Player:
-        opened.append(Player(runs, *arguments))
+        opened.append(Player(worker, *arguments))
         return opened[-1]
 
     yield open_one
     for one in opened:
-        one.app.ahead.close()
+        one.app.close()
     pygame.display.quit()

@@ -9,7 +9,7 @@ import pytest
 
 import sandbox
 from sandbox.parameters import parse_assignment
-from sandbox.window import keep
+from sandbox.window import export
 from sandbox.window.session import Session
 
 
@@ -17,9 +17,9 @@ from sandbox.window.session import Session
 def watched(player):
     """A shot that has come to rest."""
     player = player("billiards", (640, 400))
-    player.app.change({"cue.speed": 3.0, "cue.angle": 4.0})
+    player.game.change({"cue.speed": 3.0, "cue.angle": 4.0})
     player.key(pygame.K_SPACE)
-    player.app.playback.seek(1e9)
+    player.game.playback.seek(1e9)
     player.frames(1)
     return player
 
@@ -34,38 +34,38 @@ def laid_out(**balls: tuple[float, float]) -> dict[str, object]:
 
 
 def test_the_next_shot_begins_where_the_balls_rest(watched):
-    resting = watched.app.shot.run.result["positions"]
+    resting = watched.game.shot.run.result["positions"]
     watched.key(pygame.K_RETURN)
-    found = places(watched.app.session)
+    found = places(watched.game.session)
     assert found.keys() == resting.keys()
     for name, place in resting.items():
         assert found[name] == pytest.approx(place, abs=2e-5)
-    assert watched.app.shot.run.setup.balls[0].position in [tuple(place) for place in found.values()]
-    assert watched.app.session.recent == []
+    assert watched.game.shot.run.setup.balls[0].position in [tuple(place) for place in found.values()]
+    assert watched.game.recent == []
 
 
 def test_a_pull_after_the_end_goes_on_too(watched):
-    before = places(watched.app.session)
+    before = places(watched.game.session)
     watched.pull((-60, 20))
-    assert places(watched.app.session) != before
-    assert len(watched.app.session.shots) == 2
+    assert places(watched.game.session) != before
+    assert len(watched.game.shots) == 2
 
 
 def test_in_mid_shot_the_same_is_aimed_again(watched):
-    before = places(watched.app.session)
-    watched.app.playback.seek(0.5)
+    before = places(watched.game.session)
+    watched.game.playback.seek(0.5)
     watched.key(pygame.K_RETURN)
-    assert places(watched.app.session) == before
+    assert places(watched.game.session) == before
 
 
 def test_a_key_racks_again(watched):
-    before = places(watched.app.session)
+    before = places(watched.game.session)
     watched.key(pygame.K_RETURN)
     watched.key(pygame.K_b)
-    assert places(watched.app.session) == before
-    assert watched.app.session.changes == {"cue.speed": 3.0, "cue.angle": 4.0}
+    assert places(watched.game.session) == before
+    assert watched.game.session.changes.values == {"cue.speed": 3.0, "cue.angle": 4.0}
     watched.key(pygame.K_b)
-    assert "where they began" in watched.app.message[0]
+    assert "where they began" in watched.game.notices[-1][0]
 
 
 def test_potted_balls_stay_away_and_a_potted_cue_ball_is_spotted(shot_of):
@@ -85,11 +85,11 @@ def test_potted_balls_stay_away_and_a_potted_cue_ball_is_spotted(shot_of):
 def test_the_command_line_and_the_scene_file_know_where_the_balls_lie(watched, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     watched.key(pygame.K_RETURN)
-    session = watched.app.session
+    session = watched.game.session
     _, _, source, *settings = shlex.split(session.command())
     again = sandbox.load(source, dict(parse_assignment(text) for text in settings[1::2]))
     assert again.parameters == session.scene.parameters
-    assert sandbox.load(keep.scene_file(session)).parameters == session.scene.parameters
+    assert sandbox.load(export.scene_file(session)).parameters == session.scene.parameters
 
 
 def test_a_scratch_is_no_score(shot_of):

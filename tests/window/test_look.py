@@ -6,7 +6,7 @@ import numpy as np
 import pygame
 import pytest
 
-from sandbox.window.path import few
+from sandbox.window.path import simplify
 from sandbox.window.stage import draw_line
 
 SIZE = (640, 400)
@@ -22,10 +22,14 @@ def test_aiming(player, golden):
 def test_watching_with_an_earlier_shot(player, golden):
     player = player("golf/golf-game", SIZE)
     for pull in ((-70, 40), (-90, 26)):
+        player.key(pygame.K_RETURN)
+        player.settle()
         player.pull(pull)
-        player.key(pygame.K_SPACE)
     player.move((400, 100))
-    player.app.playback.seek(3.0)
+    player.game.playback.seek(3.0)
+    player.game.playback.playing = False
+    player.settle()
+    player.view.changed = True
     player.frames()
     golden.check("window-watching", player.screen)
 
@@ -64,7 +68,7 @@ def test_few_points_keep_to_the_line_and_to_its_corners():
     angles = np.linspace(0, np.pi, 400)
     arch = np.column_stack([300 - 200 * np.cos(angles), 300 - 200 * np.sin(angles)])
     path = np.vstack([arch, arch + np.array([400, 0])])  # a bounce between
-    points = few(path)
+    points = simplify(path)
     assert len(points) < 0.2 * len(path)
     assert np.hypot(*(points - (500, 300)).T).min() < 3
     between = (points[1:] + points[:-1]) / 2
@@ -75,11 +79,12 @@ def test_few_points_keep_to_the_line_and_to_its_corners():
 @pytest.mark.parametrize("source", ["golf", "basketball", "billiards", "soccer"])
 def test_a_shot_that_goes_nowhere_is_drawn(player, source):
     player = player(source, SIZE)
-    player.app.change({player.app.session.controls.speed: 0.0})
+    player.game.change({player.game.session.controls.speed: 0.0})
     player.key(pygame.K_w)
     player.key(pygame.K_o)
-    assert player.app.session.value(player.app.session.controls.speed) == 0.0
+    assert player.game.session.value(player.game.session.controls.speed) == 0.0
     for _ in ("aiming", "watching"):
-        player.app.view.draw()  # raises what the window would only tell
-        assert player.app.message is None
+        player.settle()
+        player.view._draw_picture()  # raises what the window would only report
+        assert not player.game.notices
         player.key(pygame.K_SPACE)

@@ -14,9 +14,9 @@ def test_it_plays(player, tmp_path: Path):
     player = player(str(tmp_path / "volleyball"))
     player.pull((-120, 160), let_go=False)
     aimed = pygame.surfarray.array3d(player.screen)
-    assert 45 < player.app.session.value("launch.angle") < 60
+    assert 45 < player.game.session.value("launch.angle") < 60
     player.release((5, 600))
-    assert len(player.app.session.shots) == 1
+    assert len(player.game.shots) == 1
     player.frames(90)
     assert (pygame.surfarray.array3d(player.screen) != aimed).any()
 
@@ -25,7 +25,7 @@ def test_saving_its_file_changes_the_path(player, tmp_path: Path):
     new_scene(tmp_path / "volleyball")
     file = tmp_path / "volleyball" / "volleyball.toml"
     player = player(str(tmp_path / "volleyball"))
-    before = player.app.shot.run.result["distance"]
+    before = player.game.shot.run.result["distance"]
     file.write_text(file.read_text("utf-8").replace("push = 4.0", "push = 0.0"), "utf-8")
     player.frames(120)
-    assert player.app.shot.run.result["distance"] < before - 1
+    assert player.game.shot.run.result["distance"] < before - 1

@@ -12,13 +12,13 @@ import pygame
 import pytest
 
 import sandbox
-from sandbox.new import new_scene
 from sandbox.scene import listings
 from sandbox.window import aim
-from sandbox.window.app import SMALLEST
+from sandbox.window.game import State
 from sandbox.window.keys import BINDINGS
 from sandbox.window.playback import LONGEST_FRAME, STEP
 from sandbox.window.session import Session
+from sandbox.window.view import SMALLEST
 
 
 class Slow:
@@ -42,21 +42,21 @@ def picture(player) -> np.ndarray:
 
 def test_a_pull_aims_opposite_and_shows_the_path_before_letting_go(player):
     player = player("golf")
-    before = player.app.shot
+    before = player.game.shot
     player.pull((-150, 60), let_go=False)
-    assert player.app.playback is None
-    assert player.app.shot is not before
-    angle = player.app.session.value("launch.angle")
-    stretch = player.app.stage.camera.stretch
+    assert player.game.playback is None
+    assert player.game.shot is not before
+    angle = player.game.session.value("launch.angle")
+    stretch = player.view.stage.camera.stretch
     assert angle == pytest.approx(np.degrees(np.arctan2(60 / stretch, 150)), abs=0.5)
-    assert player.app.shot.run.setup.balls[0].velocity[0] > 0
+    assert player.game.shot.run.setup.balls[0].velocity[0] > 0
 
 
 def test_letting_go_shoots_what_was_shown(player):
     player = player("golf")
     player.pull((-150, 60))
-    shot = player.app.session.shots[-1]
-    assert player.app.playback.playing
+    shot = player.game.shots[-1]
+    assert player.game.playback.playing
     again = sandbox.simulate(shot.scene)
     assert again.result == shot.run.result
 
@@ -64,23 +64,25 @@ def test_letting_go_shoots_what_was_shown(player):
 def test_a_longer_pull_is_stronger_and_escape_leaves_it(player):
     player = player("golf")
     speeds = []
-    before = player.app.shot.run.result
+    before = player.game.shot.run.result
     for length in (40, 120, 240):
         player.pull((-length, 0), let_go=False)
-        speeds.append(player.app.session.value("launch.speed"))
+        speeds.append(player.game.session.value("launch.speed"))
         player.key(pygame.K_ESCAPE)
-        assert player.app.shot.run.result == before
+        assert player.game.shot.run.result == before
     assert speeds == sorted(set(speeds))
-    assert not player.app.session.shots
+    assert not player.game.shots
     player.release((5, 5))
-    assert not player.app.session.shots
+    assert not player.game.shots
 
 
 @pytest.mark.parametrize("source", ["golf", "basketball", "billiards", "soccer", "soccer-curl"])
 def test_the_pull_of_a_shot_gives_that_shot(source):
     session = Session(source)
     controls = session.controls
-    again = aim.pulled(session, aim.pull_of(session, 672, 2.0), 672, 2.0)
+    pull = aim.Pull((0, 0), session.changes, aim.strongest(session), 672, 2.0)
+    pull.vector = pull.vector_of(session)
+    again = pull.changes(session)
     assert again[controls.speed] == pytest.approx(session.value(controls.speed), abs=0.01)
     assert again[controls.angle] == pytest.approx(session.value(controls.angle), abs=0.01)
 
@@ -88,12 +90,12 @@ def test_the_pull_of_a_shot_gives_that_shot(source):
 def test_a_click_is_no_shot(player):
     player = player("golf")
     player.click((400, 300))
-    assert not player.app.session.shots
+    assert not player.game.shots
 
 
 def test_wheel_and_keys_turn_push_and_spin(player):
     player = player("golf")
-    value = player.app.session.value
+    value = player.game.session.value
     for key, parameter, by in (
         (pygame.K_LEFT, "launch.angle", 1),
         (pygame.K_RIGHT, "launch.angle", -1),
@@ -116,49 +118,49 @@ class TestWatching:
         player.key(pygame.K_SPACE)
         player.frames(10)
         player.key(pygame.K_SPACE)
-        t = player.app.playback.t
+        t = player.game.playback.t
         assert t > 0
         player.frames(5)
-        assert player.app.playback.t == t
+        assert player.game.playback.t == t
 
     def test_steps_go_there_and_back(self, player):
         player = player("golf")
         player.key(pygame.K_SPACE)
         player.frames(5)
         player.key(pygame.K_PERIOD)
-        t = player.app.playback.t
+        t = player.game.playback.t
         player.key(pygame.K_PERIOD)
-        assert player.app.playback.t == pytest.approx(t + STEP)
+        assert player.game.playback.t == pytest.approx(t + STEP)
         player.key(pygame.K_COMMA)
-        assert player.app.playback.t == pytest.approx(t)
+        assert player.game.playback.t == pytest.approx(t)
         player.key(pygame.K_r)
-        assert player.app.playback.t < t
+        assert player.game.playback.t < t
 
     def test_slow_motion_goes_to_a_sixteenth_and_fast_to_eight(self, player):
         player = player("golf")
         player.key(pygame.K_SPACE)
         for _ in range(12):
             player.key(pygame.K_MINUS)
-        assert player.app.playback.rate == 1 / 16
+        assert player.game.playback.rate == 1 / 16
         for _ in range(12):
             player.key(pygame.K_EQUALS)
-        assert player.app.playback.rate == 8
+        assert player.game.playback.rate == 8
 
     def test_a_late_frame_slows_the_shot_and_skips_nothing(self, player):
         player = player("golf")
         player.key(pygame.K_SPACE)
-        t = player.app.playback.t
+        t = player.game.playback.t
         player.frames(1, dt=2.0)
-        assert player.app.playback.t == pytest.approx(t + LONGEST_FRAME)
+        assert player.game.playback.t == pytest.approx(t + LONGEST_FRAME)
 
     def test_the_time_line_can_be_dragged(self, player):
         player = player("golf")
         player.key(pygame.K_SPACE)
-        line = player.app.bar.line
+        line = player.view.bar.line
         player.press(line.center)
-        assert player.app.playback.t == pytest.approx(player.app.playback.duration / 2, rel=0.02)
+        assert player.game.playback.t == pytest.approx(player.game.playback.duration / 2, rel=0.02)
         player.move((line.right, line.centery))
-        assert player.app.playback.over
+        assert player.game.playback.over
         player.release((line.right, line.centery))
 
     def test_earlier_shots_can_be_seen_again(self, player):
@@ -166,53 +168,53 @@ class TestWatching:
         for length in (-100, -160):
             player.pull((length, 40))
             player.key(pygame.K_RETURN)
-        first, second = player.app.session.shots
+        first, second = player.game.shots
         player.key(pygame.K_p)
-        assert player.app.shot is second
+        assert player.game.shot is second
         player.key(pygame.K_p)
-        assert player.app.shot is first
+        assert player.game.shot is first
         player.key(pygame.K_n)
-        assert player.app.shot is second
+        assert player.game.shot is second
 
 
 class TestScenes:
     def test_presets_follow_each_other(self, player):
         player = player("golf")
         player.key(pygame.K_PAGEDOWN)
-        assert player.app.session.title.startswith("golf/")
+        assert player.game.session.title.startswith("golf/")
         player.key(pygame.K_PAGEUP)
-        assert player.app.session.title == "golf"
+        assert player.game.session.title == "golf"
 
     def test_the_menu_opens_another_scene_by_mouse(self, player):
         player = player("golf")
         player.button("menu")
-        rect = next(rect for rect, name in player.app.view.menu.places if name == "golf/putt")
+        rect = next(rect for rect, name in player.view.menu.places if name == "golf/putt")
         player.click(rect.center)
-        assert player.app.session.title == "golf/putt"
-        assert player.app.view.menu is None
+        assert player.game.session.title == "golf/putt"
+        assert player.view.menu is None
 
     def test_the_menu_opens_another_scene_by_key(self, player):
         player = player("golf")
         player.key(pygame.K_m)
         player.key(pygame.K_DOWN)
         golf = [listing.name for listing in listings() if listing.name.startswith("golf/")]
-        assert player.app.view.menu.chosen == golf[0]
+        assert player.view.menu.chosen == golf[0]
         player.key(pygame.K_UP)
         player.key(pygame.K_LEFT)
-        assert player.app.view.menu.chosen == "billiards"
+        assert player.view.menu.chosen == "billiards"
         player.key(pygame.K_RETURN)
-        assert player.app.session.title == "billiards"
-        assert player.app.view.menu is None
+        assert player.game.session.title == "billiards"
+        assert player.view.menu is None
 
 
 def test_what_cannot_be_is_said_and_the_last_good_parameters_stay(player):
     player = player("golf")
-    before = player.app.session.scene
-    assert not player.app.change({"launch.speed": -3.0})
-    text, bad, _ = player.app.message
+    before = player.game.session.scene
+    assert not player.game.change({"launch.speed": -3.0})
+    ((text, bad),) = player.game.notices
     assert bad
     assert text == "the window's launch.speed = -3.0: must be from 0 to 340 m/s"
-    assert player.app.session.scene is before
+    assert player.game.session.scene is before
     player.frames(3)
 
 
@@ -222,8 +224,8 @@ def test_any_size_is_drawn(player, size):
     player.screen = pygame.display.set_mode(size, pygame.RESIZABLE)
     player.send(pygame.VIDEORESIZE, size=size, w=size[0], h=size[1])
     assert picture(player).std() > 10
-    assert player.app.bar.rect.bottom == max(size[1], SMALLEST[1])
-    assert player.app.stage.size[0] == max(size[0], SMALLEST[0])
+    assert player.view.bar.rect.bottom == max(size[1], SMALLEST[1])
+    assert player.view.stage.size[0] == max(size[0], SMALLEST[0])
     player.pull((-60, 20))
     player.frames(3)
     player.key(pygame.K_h)
@@ -239,12 +241,12 @@ def test_every_key_does_something_harmless_in_every_state(player, tmp_path, monk
                 continue  # they have tests of their own
             if binding.group == "Panel" and state != "aiming":
                 continue  # it is the same panel
-            if state != "aiming" and player.app.playback is None:
-                player.app.shoot()
+            if state != "aiming" and player.game.playback is None:
+                player.game.shoot()
             if state == "over":
-                player.app.playback.seek(1e9)
+                player.game.playback.seek(1e9)
             player.send(pygame.KEYDOWN, key=binding.key, mod=binding.modifier, unicode="", scancode=0)
-            assert player.app.running
+            assert player.game.running
         for _ in range(5):
             player.key(pygame.K_ESCAPE)
 
@@ -255,75 +257,54 @@ def test_full_screen_and_back(player):
     for size in (display, (800, 500)):
         player.key(pygame.K_F11)
         player.frames(2)
-        assert player.app.canvas.get_size() == size
-        assert player.app.bar.rect.bottom == size[1]
+        assert player.view.canvas.get_size() == size
+        assert player.view.bar.rect.bottom == size[1]
 
 
 def test_the_key_for_leaving_leaves(player):
     player = player("golf/putt")
     player.key(pygame.K_q)
-    assert player.app.running
+    assert player.game.running
     player.key(pygame.K_q, pygame.KMOD_CTRL)
-    assert not player.app.running
+    assert not player.game.running
 
 
 class TestASlowRun:
     """A frame that does not wait for the path of its shot."""
 
-    def test_shows_the_path_before_until_it_is_there(self, player):
+    @pytest.fixture
+    def slow(self, player):
         player = player("golf/putt")
-        app = player.app
-        app.runs, app.patience = Slow(app.runs), 0.0
-        before = app.shot
-        player.key(pygame.K_UP)
-        player.frames(3)
-        assert app.shot is before
-        app.runs.let_go()
-        app.settle()
-        assert app.shot.scene is app.session.scene
+        player.game.worker, player.game.patience = Slow(player.game.worker), 0.0
+        return player
 
-    def test_letting_go_waits_for_it(self, player):
-        player = player("golf/putt")
-        player.app.patience = 0.0
-        player.key(pygame.K_UP)
-        player.key(pygame.K_SPACE)
-        assert player.app.session.shots[-1].scene is player.app.session.scene
+    def test_shows_the_path_before_until_it_is_there(self, slow):
+        before = slow.game.shot
+        slow.key(pygame.K_UP)
+        slow.frames(3)
+        assert slow.game.shot is before
+        slow.game.worker.let_go()
+        slow.game.settle()
+        assert slow.game.shot.scene is slow.game.session.scene
 
-    def test_one_that_never_ends_keeps_nobody_from_leaving(self):
-        code = (
-            "import time; from sandbox.window import app;"
-            "app.App.run = lambda self: (self.tick(0.02), self.runs.submit(time.sleep, 1000), self.change("
-            "{'launch.speed': 2.0}), self.tick(0.02));"
-            "app.play('golf/putt')"
-        )
-        subprocess.run([sys.executable, "-c", code], timeout=60, check=True)
-
-    def test_one_that_fails_leaves_the_last_good_shot(self, player, tmp_path):
-        new_scene(tmp_path / "picky")
-        file = tmp_path / "picky" / "scene.py"
-        code = file.read_text("utf-8")
-        begins = "def result(run: Run, parameters: Parameters) -> dict[str, Any]:\n"
-        assert begins in code
-        odd = f"{begins}    if parameters.launch.speed == 7.0:\n        raise Odd(7, 0)\n"
-        kind = "\n\nclass Odd(Exception):\n    def __init__(self, a, b):\n        super().__init__(a + b)\n"
-        file.write_text(code.replace(begins, odd) + kind, "utf-8")
-        player = player(str(file.parent))
-        before = player.app.shot
-        player.app.change({"launch.speed": 7.0})
-        player.frames()
-        assert player.app.shot is before
-        assert player.app.message[0] == "Odd: 7"
-        player.key(pygame.K_SPACE)
-        assert not player.app.session.shots
+    def test_a_shot_begins_as_soon_as_it_is_there(self, slow):
+        slow.key(pygame.K_UP)
+        slow.key(pygame.K_SPACE)
+        assert slow.game.state is State.AIMING
+        slow.game.worker.let_go()
+        slow.frames(2)
+        assert slow.game.state is State.WATCHING
+        assert slow.game.shots[-1].scene is slow.game.session.scene
 
     def test_a_process_that_is_killed_is_begun_again(self, player):
         player = player("golf/putt")
-        (process,) = player.app.runs._pool._processes.values()
+        (process,) = player.game.worker._processes._pool._processes.values()
         process.kill()
         process.join()
         player.key(pygame.K_UP)
         player.key(pygame.K_UP)
-        assert player.app.shot.scene is player.app.session.scene
+        player.settle()
+        assert player.game.shot.scene is player.game.session.scene
 
 
 def test_closing_in_mid_flight_ends_it(player):
@@ -331,7 +312,7 @@ def test_closing_in_mid_flight_ends_it(player):
     player.key(pygame.K_SPACE)
     pygame.event.post(pygame.event.Event(pygame.QUIT))
     player.app.run()
-    assert not player.app.running
+    assert not player.game.running
 
 
 def test_without_a_display_it_says_so(tmp_path):

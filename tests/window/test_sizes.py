@@ -86,12 +86,12 @@ def test_long_numbers_end_where_their_room_does(player, written, pull):
     if pull:
         player.pull((-60, 40), let_go=False)
     written.clear()
-    player.app.view.draw()
+    player.view.draw()
     numbers = [(text, rect) for text, rect in written if "m/s" in text]
     assert len(numbers) == 1 + pull
     for text, rect in numbers:
-        assert player.app.shot.card[0][1].startswith(text.removesuffix(" ..."))
-        assert player.app.area.contains(rect)
+        assert player.game.shot.card[0][1].startswith(text.removesuffix(" ..."))
+        assert player.view.area.contains(rect)
 
 
 @pytest.mark.parametrize("size", [(480, 376), (640, 373), (960, 1000), (1200, 373), (1280, 672)])
@@ -118,7 +118,7 @@ def test_every_key_can_be_seen_in_the_help(size, written):
 def test_the_letters_of_the_panel_fill_its_boxes(player, size):
     player = player("golf", size)
     player.key(pygame.K_TAB)
-    panel = player.app.panel
+    panel = player.view.panel
     panel.group = "accuracy"
     panel._build()
     choice = next(row.choice for row in panel.rows if row.choice is not None)
@@ -133,7 +133,7 @@ def test_the_letters_of_the_panel_fill_its_boxes(player, size):
 def test_the_list_of_groups_opens_over_the_sliders(player):
     player = player("golf")
     player.key(pygame.K_TAB)
-    panel = player.app.panel
+    panel = player.view.panel
     player.click(panel.chooser.rect.center)
     player.frames(3)
     opened = panel.chooser.current_state.options_selection_list.item_list_container

@@ -22,7 +22,7 @@ def file(tmp_path):
 
 
 def row(player, key: str):
-    return next(row for row in player.app.panel.rows if row.parameter.key == key)
+    return next(row for row in player.view.panel.rows if row.parameter.key == key)
 
 
 def drag(player, element, by: int) -> None:
@@ -40,40 +40,40 @@ class TestThePanel:
     def test_a_slider_changes_the_shot_at_once(self, player):
         player = player("golf")
         player.key(pygame.K_TAB)
-        before = player.app.shot.run.result["carry"]
+        before = player.game.shot.run.result["carry"]
         drag(player, row(player, "launch.speed").slider, 40)
-        assert player.app.session.value("launch.speed") > 80
-        assert player.app.shot.run.result["carry"] > before + 5
-        assert not player.app.session.shots
+        assert player.game.session.value("launch.speed") > 80
+        assert player.game.shot.run.result["carry"] > before + 5
+        assert not player.game.shots
 
     def test_one_reset_takes_back_one_parameter_and_the_other_all(self, player):
         player = player("golf")
         player.key(pygame.K_TAB)
-        player.app.change({"launch.speed": 50.0, "launch.angle": 20.0})
+        player.game.change({"launch.speed": 50.0, "launch.angle": 20.0})
         player.frames(2)
         player.click(row(player, "launch.speed").reset.rect.center)
         player.frames(2)
-        assert player.app.session.changes == {"launch.angle": 20.0}
-        player.click(player.app.panel.reset_all.rect.center)
+        assert player.game.session.changes.values == {"launch.angle": 20.0}
+        player.click(player.view.panel.reset_all.rect.center)
         player.frames(2)
-        assert player.app.session.changes == {}
-        assert player.app.session.value("launch.angle") == pytest.approx(10.4)
+        assert player.game.session.changes.values == {}
+        assert player.game.session.value("launch.angle") == pytest.approx(10.4)
 
     def test_a_field_takes_units_and_says_what_is_wrong(self, player):
         player = player("golf")
         player.key(pygame.K_TAB)
-        panel = player.app.panel
+        panel = player.view.panel
         panel._typed(row(player, "launch.speed"), "100 mph")
-        assert player.app.session.value("launch.speed") == pytest.approx(44.704)
+        assert player.game.session.value("launch.speed") == pytest.approx(44.704)
         panel._typed(row(player, "launch.speed"), "9000")
-        assert player.app.session.value("launch.speed") == pytest.approx(44.704)
-        assert "from 0 to 340 m/s" in player.app.message[0]
+        assert player.game.session.value("launch.speed") == pytest.approx(44.704)
+        assert "from 0 to 340 m/s" in player.game.notices[-1][0]
         assert row(player, "launch.speed").entry.get_text() == "44.704"
 
     def test_every_group_of_every_kind_of_parameter_can_be_shown(self, player):
         player = player("golf")
         player.key(pygame.K_TAB)
-        panel = player.app.panel
+        panel = player.view.panel
         groups = panel._groups()
         assert {"launch", "air", "ball.drag", "ground.green", "accuracy"} <= set(groups)
         for group in ("air", "ball.drag", "accuracy", "golf"):
@@ -86,9 +86,9 @@ class TestThePanel:
         player = player("golf")
         player.key(pygame.K_TAB)
         player.click(row(player, "launch.speed").entry.rect.center)
-        assert player.app.panel.typing
+        assert player.view.panel.typing
         player.key(pygame.K_SPACE)
-        assert player.app.playback is None
+        assert player.game.playback is None
 
 
 class TestThePanelByKey:
@@ -97,40 +97,40 @@ class TestThePanelByKey:
     def test_the_first_key_opens_it(self, player):
         player = player("golf")
         player.key(pygame.K_DOWN, pygame.KMOD_CTRL)
-        assert player.app.panel is not None
-        assert player.app.session.changes == {}
+        assert player.view.panel is not None
+        assert player.game.session.changes.values == {}
 
     def test_a_row_is_chosen_and_changed_and_taken_back(self, player):
         player = player("golf")
         player.key(pygame.K_TAB)
         for _ in range(2):
             player.key(pygame.K_DOWN, pygame.KMOD_CTRL)
-        row = player.app.panel.rows[player.app.panel.chosen]
+        row = player.view.panel.rows[player.view.panel.chosen]
         assert row.parameter.key == "launch.angle"
         low, high = row.slider.value_range
         player.key(pygame.K_RIGHT, pygame.KMOD_CTRL)
         player.key(pygame.K_LEFT, pygame.KMOD_CTRL | pygame.KMOD_SHIFT)
-        assert player.app.session.value("launch.angle") == pytest.approx(10.4 + 0.009 * (high - low), rel=1e-3)
-        assert float(row.entry.get_text()) == player.app.session.value("launch.angle")
+        assert player.game.session.value("launch.angle") == pytest.approx(10.4 + 0.009 * (high - low), rel=1e-3)
+        assert float(row.entry.get_text()) == player.game.session.value("launch.angle")
         player.key(pygame.K_BACKSPACE, pygame.KMOD_CTRL)
-        assert player.app.session.changes == {}
-        assert player.app.panel.chosen == 1
+        assert player.game.session.changes.values == {}
+        assert player.view.panel.chosen == 1
 
     def test_switches_and_words_too(self, player):
         player = player("soccer")
         player.key(pygame.K_TAB)
-        panel = player.app.panel
+        panel = player.view.panel
         panel.chosen = next(i for i, row in enumerate(panel.rows) if row.switch is not None)
         key = panel.rows[panel.chosen].parameter.key
-        before = player.app.session.value(key)
+        before = player.game.session.value(key)
         player.key(pygame.K_RIGHT, pygame.KMOD_CTRL)
-        assert player.app.session.value(key) is not before
+        assert player.game.session.value(key) is not before
         while panel.group != "ball.drag":
             player.key(pygame.K_PAGEDOWN, pygame.KMOD_CTRL)
         panel.chosen = next(i for i, row in enumerate(panel.rows) if row.choice is not None)
         parameter = panel.rows[panel.chosen].parameter
         player.key(pygame.K_RIGHT, pygame.KMOD_CTRL)
-        after = player.app.session.value(parameter.key)
+        after = player.game.session.value(parameter.key)
         assert after != parameter.value
         assert after in parameter.choices
 
@@ -139,61 +139,62 @@ class TestThePanelByKey:
         player.key(pygame.K_TAB)
         player.key(pygame.K_UP, pygame.KMOD_CTRL)
         player.frames(3)
-        label = player.app.panel.rows[player.app.panel.chosen].label
-        assert player.app.panel.chosen == len(player.app.panel.rows) - 1
-        assert label.rect.bottom <= player.app.panel.rect.bottom
+        label = player.view.panel.rows[player.view.panel.chosen].label
+        assert player.view.panel.chosen == len(player.view.panel.rows) - 1
+        assert label.rect.bottom <= player.view.panel.rect.bottom
 
 
 class TestSaving:
     def wait(self, player) -> None:
         player.frames(3, dt=0.11)
+        player.settle()
 
     def test_a_saved_file_is_read_and_the_old_path_stays(self, player, file):
         player = player(str(file))
-        before = player.app.shot
+        before = player.game.shot
         file.write_text(SCENE.replace("60.0", "70.0"), encoding="utf-8")
         self.wait(player)
-        assert player.app.session.value("launch.speed") == 70.0
-        assert player.app.before is before
-        assert player.app.shot.run.result["carry"] > before.run.result["carry"]
+        assert player.game.session.value("launch.speed") == 70.0
+        assert player.game.before_save is before
+        assert player.game.shot.run.result["carry"] > before.run.result["carry"]
 
     @pytest.mark.parametrize("broken", ["scene = [", SCENE.replace("60.0", "-1.0"), SCENE + "spin_up = 3\n"])
     def test_a_broken_file_shows_its_error_and_the_window_goes_on(self, player, file, broken):
         player = player(str(file))
-        before = player.app.session.scene
+        before = player.game.session.scene
         file.write_text(broken, encoding="utf-8")
         self.wait(player)
-        assert player.app.session.scene is before
-        assert player.app.message[1]
-        assert "mine.toml" in player.app.message[0]
+        assert player.game.session.scene is before
+        assert player.game.notices[-1][1]
+        assert "mine.toml" in player.game.notices[-1][0]
         player.frames(5, dt=10)
-        assert player.app.message is not None
+        assert player.game.notices
         file.write_text(SCENE.replace("60.0", "71.0"), encoding="utf-8")
         self.wait(player)
-        assert player.app.session.value("launch.speed") == 71.0
-        assert not player.app.message[1]
+        assert player.game.session.value("launch.speed") == 71.0
+        assert not player.game.notices[-1][1]
 
     def test_what_was_changed_in_the_window_stays_changed(self, player, file):
         player = player(str(file))
-        player.app.change({"launch.angle": 33.0})
+        player.game.change({"launch.angle": 33.0})
         file.write_text(SCENE.replace("60.0", "70.0"), encoding="utf-8")
         self.wait(player)
-        assert player.app.session.value("launch.angle") == 33.0
-        assert player.app.session.value("launch.speed") == 70.0
+        assert player.game.session.value("launch.angle") == 33.0
+        assert player.game.session.value("launch.speed") == 70.0
 
     def test_another_scene_in_the_file_is_opened_and_nothing_of_the_one_before_is_left(self, player, file):
         player = player(str(file))
         player.key(pygame.K_TAB)
-        player.app.change({"launch.angle": 33.0})
+        player.game.change({"launch.angle": 33.0})
         player.key(pygame.K_SPACE)
         file.write_text('scene = "soccer"\n', encoding="utf-8")
         self.wait(player)
-        app = player.app
-        assert app.message[0].startswith("read ")
-        assert app.session.title == "soccer"
-        assert app.shot.scene is app.session.scene
-        assert app.stage.shot is app.shot
-        assert app.playback is app.before is None
-        assert app.session.changes == {}
-        assert not app.session.shots
-        assert "wall.height" in {row.parameter.key for row in app.panel.rows}
+        game, view = player.game, player.view
+        assert game.notices[0][0].startswith("read ")
+        assert game.session.base.name == "soccer"
+        assert game.shot.scene is game.session.scene
+        assert view.stage.shot is game.shot
+        assert game.playback is game.before_save is None
+        assert game.session.changes.values == {}
+        assert not game.recent
+        assert "wall.height" in {row.parameter.key for row in view.panel.rows}

@@ -13,7 +13,8 @@ from sandbox.errors import RunError
 from sandbox.files import reason, written_whole
 from sandbox.picture.frames import save_gif, save_png
 from sandbox.scene import reference
-from sandbox.window.session import Session, Shot
+from sandbox.window.session import Session
+from sandbox.window.shot import Shot
 
 FOLDER = Path("out")
 FPS = 25
@@ -26,7 +27,7 @@ def free(stem: str, suffix: str) -> Path:
         FOLDER.mkdir(exist_ok=True)
     except OSError as error:
         raise RunError(f"{FOLDER}: cannot be made: {reason(error)}") from None
-    stem = stem.replace("/", "-")
+    stem = stem.replace("/", "-").removesuffix(".toml")
     number = 1
     while (path := FOLDER / f"{stem}-{number}{suffix}").exists():
         number += 1
@@ -66,7 +67,7 @@ def scene_file(session: Session) -> Path:
         text = f'scene = ""\n\n{text}'
     document = tomlkit.parse(text)
     document["scene"] = _named(session, str(document["scene"]), path.parent)
-    for key, value in session.changes.items():
+    for key, value in session.changes.values.items():
         _put(document, key.split("."), value)
     try:
         with written_whole(path) as file:

@@ -1,4 +1,4 @@
-"""What is done in other threads, and how long a frame waits for it."""
+"""Work in another thread, and how long a frame waits for what is done elsewhere."""
 
 from __future__ import annotations
 
@@ -25,30 +25,30 @@ def steady() -> None:
     gc.freeze()
 
 
-class Ahead:
-    """One thread that does one thing after the other beside the drawing. It keeps no program from ending."""
+class Background:
+    """One thread that does one thing after another while the window draws. The program may end before it is done."""
 
     def __init__(self) -> None:
         sys.setswitchinterval(TURNS)
-        self.work: SimpleQueue[tuple[Future[Any], Callable[[], Any]] | None] = SimpleQueue()
-        Thread(target=self._go_on, name="ahead", daemon=True).start()
+        self.queue: SimpleQueue[tuple[Future[Any], Callable[[], Any]] | None] = SimpleQueue()
+        Thread(target=self._work, name="background", daemon=True).start()
 
     def submit(self, work: Callable[..., Any], *args: Any) -> Future[Any]:
-        """Do it as soon as what was asked for before is done."""
+        """Do it once what was asked for before is done."""
         future: Future[Any] = Future()
-        self.work.put((future, partial(work, *args)))
+        self.queue.put((future, partial(work, *args)))
         return future
 
     def close(self) -> None:
         """End when what was asked for is done."""
-        self.work.put(None)
+        self.queue.put(None)
 
-    def _go_on(self) -> None:
-        while (item := self.work.get()) is not None:
+    def _work(self) -> None:
+        while (item := self.queue.get()) is not None:
             future, work = item
             try:
                 future.set_result(work())
-            except Exception as error:  # told where the result is asked for
+            except Exception as error:  # reported where the result is asked for
                 future.set_exception(error)
 
 

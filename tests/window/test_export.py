@@ -14,7 +14,7 @@ from PIL import Image
 import sandbox
 from sandbox.engine.ledger import ledger
 from sandbox.errors import RequestError
-from sandbox.window import keep, replay, sound
+from sandbox.window import export, replay, sound
 from sandbox.window.session import Session
 
 
@@ -29,7 +29,7 @@ def recorded(tmp_path, shot_of):
     session = Session("golf/putt", {"launch.speed": 2.5})
     shot = shot_of(session)
     path = tmp_path / f"putt{replay.SUFFIX}"
-    replay.save(shot, "golf/putt", path)
+    replay.save(shot, path)
     return shot, path
 
 
@@ -42,17 +42,17 @@ class TestReplays:
         assert again.run.events == shot.run.events
         assert again.run.result == shot.run.result
         assert again.scene.parameters == shot.scene.parameters
-        assert session.changes == {"launch.speed": 2.5}
+        assert session.changes.values == {"launch.speed": 2.5}
         assert ledger(again.run) == ledger(shot.run)
         assert again.run.numerics == shot.run.numerics
 
     def test_simulated_again_it_is_the_same(self, recorded):
-        assert "the same to the last bit" in replay.compared(replay.read(recorded[1])[1])
+        assert "the same to the last bit" in replay.compared(recorded[0].run, replay.read(recorded[1])[1].run)
 
     def test_another_shot_is_told_from_it(self, recorded, shot_of):
         _, shot = replay.read(recorded[1])
-        shot.run.arcs["ball"] = shot_of(Session("golf/putt", {"launch.speed": 2.4})).run.arcs["ball"]
-        assert "m away" in replay.compared(shot)
+        other = shot_of(Session("golf/putt", {"launch.speed": 2.4}))
+        assert "m away" in replay.compared(shot.run, other.run)
 
     @pytest.mark.parametrize(
         ("damage", "told"),
@@ -83,8 +83,8 @@ class TestReplays:
     def test_dropped_on_the_window_it_plays(self, player, recorded):
         player = player("golf")
         player.send(pygame.DROPFILE, file=str(recorded[1]))
-        assert player.app.playback.playing
-        assert player.app.session.title == "golf/putt"
+        assert player.game.playback.playing
+        assert player.game.session.title == "golf/putt"
         player.frames(5)
 
     def test_a_key_writes_one(self, player, elsewhere):
@@ -98,22 +98,23 @@ class TestReplays:
     def test_a_key_opens_the_newest(self, player, elsewhere):
         player = player("golf/putt")
         player.key(pygame.K_F7)
-        assert "no replays" in player.app.message[0]
+        assert "no replays" in player.game.notices[-1][0]
         player.key(pygame.K_SPACE)
         player.key(pygame.K_F5)
         player.key(pygame.K_PAGEDOWN)
-        assert player.app.session.title != "golf/putt"
+        assert player.game.session.title != "golf/putt"
         player.key(pygame.K_F7)
-        assert player.app.session.title == "golf/putt"
-        assert player.app.playback.playing
+        assert player.game.session.title == "golf/putt"
+        assert player.game.playback.playing
         player.key(pygame.K_F6)
-        assert "the same to the last bit" in player.app.message[0]
+        player.settle()
+        assert "the same to the last bit" in player.game.notices[-1][0]
 
 
 def test_a_scene_file_keeps_its_comments(elsewhere):
     session = Session("golf/putt")
     session.change({"launch.speed": 2.25, "air.wind": [1.0, 0.0], "accuracy.level": "fast"})
-    path = keep.scene_file(session)
+    path = export.scene_file(session)
     text = path.read_text("utf-8")
     original = session.file.read_text("utf-8")
     for line in original.splitlines():
@@ -140,7 +141,7 @@ def test_pictures_and_animations(player, elsewhere):
         assert image.size == (1280, 720)
     player.key(pygame.K_SPACE)
     player.key(pygame.K_F9)
-    player.app.writer.join(60)
+    player.view.exporter.join(60)
     with Image.open(elsewhere / "out" / "golf-putt-1.gif") as image:
         assert image.n_frames > 10
 

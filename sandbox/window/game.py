@@ -1,0 +1,460 @@
+"""What is played, without a picture: a scene file and its changes, the shot they give, the shots so far.
+
+A game aims (``shot`` is the path of the parameters as they stand, computed by the worker while they change), or a shot
+is watched, paused, or replayed from a recording. ``advance`` passes time and never waits for a run.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from concurrent.futures import CancelledError, Future
+from concurrent.futures.process import BrokenProcessPool
+from dataclasses import replace
+from enum import Enum
+from pathlib import Path
+from time import perf_counter
+from typing import Any, NamedTuple
+
+from sandbox.errors import SandboxError
+from sandbox.scene import Scene
+from sandbox.window import replay
+from sandbox.window.aim import Pull, strongest
+from sandbox.window.background import PATIENCE, ready
+from sandbox.window.fan import WIDEST, Fan
+from sandbox.window.playback import Playback
+from sandbox.window.run_data import run_of
+from sandbox.window.session import Changes, Session
+from sandbox.window.shot import Shot
+from sandbox.window.watch import Watch
+from sandbox.window.worker import Worker, computed, described, reread, warm_up
+
+#: How long a message stays, in s.
+MESSAGE = 6.0
+#: A fan is begun when the shot has not changed for so long, in s.
+STILL = 0.1
+#: After so many s a run that has not ended may be stopped; one whose parameters have changed since is.
+LONG = 2.0
+#: So many shots can be watched again.
+KEPT = 50
+
+
+class State(Enum):
+    """What a game does."""
+
+    AIMING = "aiming"
+    WATCHING = "watching"
+    PAUSED = "paused"
+    REPLAY = "replay"
+
+
+class Message(NamedTuple):
+    """A line for the player."""
+
+    text: str
+    bad: bool
+    left: float  # s that it stays
+
+
+class Pending(NamedTuple):
+    """A run that is computed."""
+
+    scene: Scene
+    changes: Changes
+    result: Future[tuple[dict[str, Any], float]]  # of worker.computed
+    since: float  # perf_counter, in s
+
+
+class Game:
+    """A session that is played. What changes what can be seen also changes ``revision``."""
+
+    def __init__(self, session: Session, worker: Worker, patience: float = PATIENCE) -> None:
+        """A frame waits for the path of what was changed where that takes no longer than ``patience`` s."""
+        self.session, self.worker, self.patience = session, worker, patience
+        self.running = True
+        self.revision = 0
+        self.code = 0  # how often the scene's code was read again
+        self.shot: Shot | None = None  # as aimed, or as watched
+        self.failure: str | None = None  # why the parameters as they stand have no shot
+        self.stale = True  # the shot is not that of the parameters, nor is one computed
+        self.pending: Pending | None = None
+        self.shooting = False  # the shot is watched as soon as it is computed
+        self.playback: Playback | None = None  # None while aiming
+        self.shots: list[Shot] = []  # the last ones, in order
+        self.count = 0  # all of them
+        self.start = 0  # which positions the next shot begins from
+        self.before_save: Shot | None = None  # the shot as it was before the scene file was saved
+        self.pull: Pull | None = None
+        self.fan: Fan | None = None
+        self.fan_wanted, self.fan_width = False, 1.0
+        self.still = 0.0  # s since the shot changed
+        self.cost = 0.0  # s, of the last run
+        self.message: Message | None = None
+        self.unreadable: str | None = None  # what is wrong with the files as they were saved last
+        self.opened: list[str] = [session.source]  # all scene files so far
+        self.jobs: list[tuple[Future[Any], Callable[[Any], object]]] = []
+        self.watch_files = Watch(session.files)
+        self.worker.submit(warm_up, session.source)
+
+    # -------------------------------------------------------------------------------------------------------- what is
+
+    @property
+    def state(self) -> State:
+        if self.playback is None:
+            return State.AIMING
+        if self.shot is not None and self.shot.recorded:
+            return State.REPLAY
+        return State.WATCHING if self.playback.playing else State.PAUSED
+
+    @property
+    def settled(self) -> bool:
+        """Whether the shot is that of the parameters, or known not to exist."""
+        return not self.stale and self.pending is None
+
+    @property
+    def busy(self) -> bool:
+        """Whether something is computed, or a shot goes on."""
+        playing = self.playback is not None and self.playback.playing
+        fan = self.fan_wanted and self.failure is None and (self.fan is None or not self.fan.complete)
+        return playing or not self.settled or bool(self.jobs) or fan
+
+    @property
+    def waited(self) -> float:
+        """How long the run that is computed has taken so far, in s."""
+        return perf_counter() - self.pending.since if self.pending is not None else 0.0
+
+    @property
+    def same_place(self) -> bool:
+        """Whether the shot and the parameters differ only in what a player aims with."""
+        return self.shot is not None and self.shot.place == self.session.place
+
+    @property
+    def recent(self) -> list[Shot]:
+        """The shots of this scene file that began where the next one does."""
+        return [shot for shot in self.shots if shot.source == self.session.source and shot.start == self.start]
+
+    @property
+    def notices(self) -> list[tuple[str, bool]]:
+        """What the player is told now: each text, and whether it is bad. An error stays for as long as it is true."""
+        found = [(text, True) for text in (self.failure, self.unreadable) if text is not None]
+        if self.playback is None and self.waited >= LONG:
+            found.append((f"still computing after {self.waited:.0f} s; Esc stops it", False))
+        if self.message is not None and self.message.text not in (self.failure, self.unreadable):
+            found.append((self.message.text, self.message.bad))
+        return found
+
+    def tell(self, text: str, bad: bool = False) -> None:
+        """Say something for a while."""
+        self.message = Message(text, bad, MESSAGE)
+        self.revision += 1
+
+    def trying(self, action: Callable[[], object]) -> bool:
+        """Do something that may fail because of what was asked for; the player is told, and the game goes on."""
+        try:
+            action()
+        except Exception as error:
+            self.tell(self.reason(error), bad=True)
+            return False
+        finally:
+            self.revision += 1
+        return True
+
+    def reason(self, error: BaseException) -> str:
+        """An error in a line or two."""
+        if isinstance(error, BrokenProcessPool):
+            return "the process that ran it was killed: out of memory?"
+        if isinstance(error, SandboxError) or not isinstance(error, Exception):
+            return str(error)
+        return described(error, self.session.base.folder)
+
+    # ----------------------------------------------------------------------------------------------------- time passes
+
+    def advance(self, dt: float, hold: bool = False) -> tuple[float, float]:
+        """Pass ``dt`` s; ``hold`` stops the clock of the shot that is watched, as it cannot be seen yet. Returns from
+        when to when, in s, that shot went on."""
+        if self.message is not None:
+            text, bad, left = self.message
+            self.message = Message(text, bad, left - dt) if left > dt else None
+            self.revision += self.message is None
+        files = self.watch_files.saved(dt)
+        if files:
+            self._reload(files)
+        self.still += dt
+        before = int(self.waited)
+        self._compute()
+        self._finish_jobs()
+        self._advance_fan()
+        self.revision += self.waited >= LONG and int(self.waited) != before
+        if self.playback is None or hold:
+            return 0.0, 0.0
+        start = self.playback.t
+        self.playback.advance(dt)
+        self.revision += self.playback.t != start
+        return start, self.playback.t
+
+    def settle(self) -> None:
+        """Wait until the shot is that of the parameters: for tests and programs, never in a window."""
+        while not self.settled:
+            self._begin_run()
+            self._take_run(None)
+
+    def ask(self, result: Future[Any], then: Callable[[Any], object]) -> None:
+        """Do something with a result once it is there."""
+        self.jobs.append((result, then))
+
+    def _finish_jobs(self) -> None:
+        for job in [job for job in self.jobs if job[0].done()]:
+            self.jobs.remove(job)
+            result, then = job
+            if not result.cancelled():
+                self.trying(lambda result=result, then=then: then(result.result()))  # type: ignore[misc]
+
+    # ------------------------------------------------------------------------------------------------------- the shot
+
+    def _compute(self) -> None:
+        """Have the scene run as it stands, and take the path that this frame shows."""
+        self._take_run(0.0)
+        if self.stale and self.waited >= LONG:  # what is computed is of no use any more
+            self._stop_worker()
+        if self._begin_run() and self.cost <= self.patience and self.shot is not None:
+            self._take_run(self.patience)
+
+    def _begin_run(self) -> bool:
+        """Have the scene run as it stands, once the run before has ended; whether there is one to wait for."""
+        if self.stale and self.pending is None:
+            self.stale, scene = False, self.session.scene
+            result = self.worker.submit(computed, scene)
+            self.pending = Pending(scene, self.session.changes, result, perf_counter())
+        return self.pending is not None
+
+    def _take_run(self, patience: float | None) -> None:
+        """Take what has been run."""
+        if self.pending is None or not ready(self.pending.result, patience):
+            return
+        (scene, changes, result, _), self.pending = self.pending, None
+        self.revision += 1
+        if self.playback is not None:
+            return
+        try:
+            record, cost = result.result()
+            shot = Shot(scene, run_of(scene, record), changes.values, self.session.source, self.start)
+        except (Exception, CancelledError) as error:
+            self.failure, self.shooting = self.reason(error), False
+            return
+        self.shot, self.cost, self.still, self.failure = shot, cost, 0.0, None
+        if self.shooting and not self.stale:
+            self._keep(shot)
+
+    def _stop_worker(self) -> None:
+        self.worker.stop()
+        self.pending, self.jobs = None, []
+        if self.fan is not None:
+            self.fan.work = None
+        self.revision += 1
+
+    def stop(self) -> bool:
+        """Stop a run that takes long; whether there was one."""
+        if self.waited < LONG:
+            return False
+        self._stop_worker()
+        self.stale = self.shooting = False
+        self.failure = "stopped: this run did not end; change something to compute it again"
+        return True
+
+    def change(self, values: Mapping[str, Any]) -> bool:
+        """Change parameters, and aim with them; whether they are valid."""
+        if not values:
+            return False
+        self.aim_again(goes_on=True)
+        return self._changing(lambda: self.session.change(values))
+
+    def _changing(self, action: Callable[[], object]) -> bool:
+        """Do what changes the parameters; whether they are valid."""
+        scene, changes = self.session.scene, self.session.changes
+        if not self.trying(action):
+            return False
+        self.stale = self.stale or self.session.scene is not scene
+        self.start += changes.moved != self.session.changes.moved
+        self.shooting = False
+        return True
+
+    def reset(self, key: str | None = None) -> None:
+        """Take back what was changed in the window: one parameter, or all of them."""
+        self.aim_again()
+        if self._changing(lambda: self.session.reset(key)) and key is None:
+            self.tell("all parameters as in the file; Ctrl Z takes that back")
+
+    def undo(self) -> None:
+        """Take back the last change."""
+        self.aim_again()
+        if not self.session.undoable:
+            self.tell("nothing to undo")
+        self._changing(self.session.undo)
+
+    def begin_again(self) -> None:
+        """The balls back where they were before any shot went on from another."""
+        if not self.session.changes.positions:
+            self.tell("the balls are where they began")
+            return
+        self.aim_again()
+        self._changing(self.session.begin_again)
+
+    # Aiming by hand
+
+    def begin_pull(self, at: tuple[int, int], height: float, stretch: float) -> None:
+        """The mouse begins a pull at a place (px) on a stage of ``height`` px."""
+        self.session.end_change()
+        self.pull = Pull(at, self.session.changes, strongest(self.session), height, stretch)
+
+    def pull_to(self, at: tuple[int, int]) -> None:
+        """The mouse pulls as far as a place (px)."""
+        if self.pull is None:
+            return
+        self.pull.vector = float(at[0] - self.pull.start[0]), float(at[1] - self.pull.start[1])
+        self.revision += 1
+        values = self.pull.changes(self.session)
+        if values is not None:
+            self.change(values)
+
+    def release(self) -> None:
+        """The mouse lets go: a pull that is long enough is a shot."""
+        pull, self.pull = self.pull, None
+        self.revision += 1
+        if pull is not None and pull.shoots:
+            self.session.end_change()
+            self.shoot()
+
+    def give_up_pull(self) -> None:
+        """Aim as before the pull."""
+        pull, self.pull = self.pull, None
+        if pull is not None:
+            self._changing(lambda: self.session.restore(pull.before))
+
+    # Shooting and watching
+
+    def shoot(self) -> None:
+        """Let go: the shot is watched, as soon as it is computed."""
+        self.pull, self.shooting = None, True
+        self.revision += 1
+        if self.settled and self.shot is not None and self.failure is None:
+            self._keep(self.shot)
+        elif self.settled:
+            self.shooting = False
+
+    def _keep(self, shot: Shot) -> None:
+        """Count a shot, and watch it."""
+        self.count += 1
+        self.shots.append(replace(shot, start=self.start, number=self.count))
+        del self.shots[:-KEPT]
+        self.watch(self.shots[-1])
+
+    def watch(self, shot: Shot) -> None:
+        """Play one of the shots so far from its start."""
+        self.shot, self.still, self.failure = shot, 0.0, None
+        self.stale = self.shooting = False
+        rate = self.playback.rate if self.playback is not None else 1.0
+        self.playback = Playback(shot.run.duration, rate)
+        self.revision += 1
+
+    def watch_other(self, by: int) -> None:
+        """Play the shot so many before or after the one that is watched."""
+        if not self.shots:
+            self.tell("no shots yet: pull back and let go")
+            return
+        now = self.shots.index(self.shot) if self.playback and self.shot in self.shots else len(self.shots)
+        self.watch(self.shots[min(max(now + by, 0), len(self.shots) - 1)])
+
+    def aim_again(self, goes_on: bool = False) -> None:
+        """Leave the shot that is watched; after its end the next may begin where it ended, in scenes that offer it."""
+        playback, shot = self.playback, self.shot
+        if playback is None:
+            return
+        self.playback, self.stale = None, True
+        self.revision += 1
+        ours = shot is not None and shot.source == self.session.source
+        if goes_on and playback.over and ours and self.session.controls.goes_on is not None:
+            assert shot is not None
+            if self._changing(lambda: self.session.go_on(shot)):
+                self.tell("from where the balls rest; B puts them back where they began")
+
+    # The fan
+
+    def _advance_fan(self) -> None:
+        """The fan of the shot that is shown, once it stands still."""
+        if not self.fan_wanted or self.shot is None or self.failure is not None:
+            self.fan = None
+            return
+        if self.fan is not None and (self.fan.shot is not self.shot or self.fan.width != self.fan_width):
+            self.fan = None
+        if self.fan is None and self.still >= STILL and self.settled:
+            self.fan = Fan(self.shot, self.fan_width)
+            self.revision += 1
+        if self.fan is not None and self.settled:
+            count = len(self.fan.shots)
+            self.fan.advance(self.worker)
+            self.revision += len(self.fan.shots) != count
+
+    def widen_fan(self, factor: float) -> None:
+        """Make the fan wider, and show it."""
+        self.fan_width = min(max(self.fan_width * factor, 1 / WIDEST), WIDEST)
+        self.fan_wanted = True
+
+    # ----------------------------------------------------------------------------------------------------- scene files
+
+    def open(self, source: str) -> None:
+        """Play another scene or preset, or watch a replay."""
+        if source.endswith(replay.SUFFIX):
+            self.trying(lambda: self.open_replay(Path(source)))
+        elif self.trying(lambda: self.session.open(source)):
+            self._opened()
+
+    def open_replay(self, path: Path, scene: str | None = None) -> None:
+        """Watch a recorded shot, of ``scene`` if that is given. Raises RequestError."""
+        self.session, shot = replay.read(path, scene, self.session.base.folder)
+        self._opened()
+        self._keep(shot)
+        self.tell(f"{path}: as it was recorded; F6 computes it again")
+
+    def _opened(self) -> None:
+        """The session is on another scene: nothing of the one before is left but its shots."""
+        self.playback = self.pull = self.before_save = self.fan = self.failure = self.unreadable = None
+        self.stale, self.shooting = True, False
+        self.start += 1
+        if self.session.source not in self.opened:
+            self.opened.append(self.session.source)
+        self.watch_files = Watch(self.session.files)
+        self.revision += 1
+
+    def _reload(self, files: list[Path]) -> None:
+        """Files were saved: aim by them, with the path as it was still drawn."""
+        before, folder = self.shot, self.session.base.folder
+        code = any(file.suffix == ".py" for file in files)
+        if code:
+            self.worker.submit(reread, folder)
+        self.revision += 1
+        try:
+            self.session.reload(code)
+        except Exception as error:
+            self.unreadable = self.reason(error)
+            return
+        self.unreadable, self.code = None, self.code + code
+        if self.session.base.folder != folder:
+            self._opened()
+        else:
+            self.aim_again()
+            self.before_save, self.stale = before, True
+        self.tell(f"read {', '.join(str(file) for file in files)} again")
+
+    def compare(self, shot: Shot) -> None:
+        """Compute a shot again, and say how far the two are apart."""
+
+        def then(result: tuple[dict[str, Any], float]) -> None:
+            self.tell(replay.compared(shot.run, run_of(shot.scene, result[0])))
+
+        self.ask(self.worker.submit(computed, shot.scene), then)
+
+    def nudge(self, values: Mapping[str, Any]) -> bool:
+        """Change what a player aims with, by key or wheel; while a shot is watched it is left alone."""
+        if self.playback is not None:
+            self.tell("Enter to aim again")
+            return False
+        return self.change(values)

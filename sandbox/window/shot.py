@@ -1,0 +1,107 @@
+"""A shot: a scene and its run."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from sandbox.controls import Controls, controls_of
+from sandbox.physics.forces import Gravity
+from sandbox.scene import Scene
+from sandbox.window.path import moves, points
+
+if TYPE_CHECKING:
+    from sandbox.engine.run import Run
+
+
+def value_at(parameters: Any, key: str) -> Any:
+    """The value at a dotted key; None where there is none."""
+    for part in key.split("."):
+        parameters = getattr(parameters, part, None)
+    return parameters
+
+
+def place_of(scene: Scene) -> tuple[Any, ...]:
+    """What a scene is apart from what a player aims with: equal for two scenes that are the same place."""
+    values = scene.parameters.model_dump()
+    for key in aimed_with(controls_of(scene.module)):
+        *groups, last = key.split(".")
+        node = values
+        for group in groups:
+            node = node.get(group, {})
+        node.pop(last, None)
+    return scene.folder, values
+
+
+def aimed_with(controls: Controls) -> set[str]:
+    """The keys that a player aims with: speed, angle, spins, and how the shot begins."""
+    return {controls.speed, controls.angle, *controls.also, *(spin.key for spin in controls.spins)}
+
+
+@dataclass(frozen=True, eq=False)
+class Shot:
+    """A scene and its run."""
+
+    scene: Scene
+    run: Run
+    changes: dict[str, Any] = field(default_factory=dict)  # over the scene file
+    source: str = ""  # the scene file, as it was opened
+    start: int = 0  # shots with the same number began from the same positions
+    number: int = 0  # counted from 1 in the order in which they were shot; 0 while it is only aimed
+    recorded: bool = False  # read from a replay
+
+    @cached_property
+    def place(self) -> tuple[Any, ...]:
+        """What the scene is apart from what a player aims with."""
+        return place_of(self.scene)
+
+    @cached_property
+    def ball(self) -> str:
+        """Name of the ball that is played."""
+        ball = controls_of(self.scene.module).ball
+        names = [b.name for b in self.run.setup.balls]
+        named = value_at(self.scene.parameters, ball) or ball
+        return named if named in names else names[0]
+
+    @cached_property
+    def scored(self) -> bool:
+        return bool(self.run.result.get(controls_of(self.scene.module).scores))
+
+    @cached_property
+    def upright(self) -> bool:
+        """Whether y is height: seen from above, no weight pulls along the picture."""
+        return any(isinstance(force, Gravity) for ball in self.run.setup.balls for force in ball.forces)
+
+    @cached_property
+    def movers(self) -> list[str]:
+        """Names of the balls that leave their place, the played one last."""
+        others = [b.name for b in self.run.setup.balls if b.name != self.ball and moves(self.run, b.name)]
+        return [*others, self.ball]
+
+    def track(self, ball: str) -> np.ndarray:
+        """Points along a ball's path, shape (n, 3): t in s, x and y in m."""
+        if ball not in self._tracks:
+            self._tracks[ball] = points(self.run, ball)
+        return self._tracks[ball]
+
+    @cached_property
+    def _tracks(self) -> dict[str, np.ndarray]:
+        return {}
+
+    @cached_property
+    def card(self) -> list[tuple[str, str]]:
+        """The result for people, without the verdict."""
+        return [entry for entry in self._card if entry[0] != "verdict"]
+
+    @cached_property
+    def verdict(self) -> str:
+        """What happened, in a line."""
+        text = next((text for label, text in self._card if label == "verdict"), self.run.ended)
+        return text[:1].upper() + text[1:]
+
+    @cached_property
+    def _card(self) -> list[tuple[str, str]]:
+        return list(self.scene.module.card(self.run.result, self.scene.parameters))

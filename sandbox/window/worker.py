@@ -1,0 +1,116 @@
+"""The process that runs scenes for the window, and what it computes: drawing has the window's own for itself."""
+
+from __future__ import annotations
+
+import traceback
+from collections.abc import Callable, Sequence
+from concurrent.futures import Future
+from contextlib import suppress
+from pathlib import Path
+from time import perf_counter
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from sandbox.errors import RunError, SandboxError
+from sandbox.lab.runs import runs
+from sandbox.scene import Scene, check, load, simulate
+from sandbox.scene.modules import forget
+from sandbox.window.run_data import plain
+from sandbox.window.shot import Shot
+from sandbox.workers import Processes
+
+
+class Worker:
+    """One process, which does one thing after another, and can be stopped whatever it does."""
+
+    def __init__(self) -> None:
+        self._processes = Processes(1)
+
+    def submit(self, work: Callable[..., Any], *args: Any) -> Future[Any]:
+        """Have ``work(*args)`` done after what was asked for before."""
+        return self._processes.submit(work, *args)
+
+    def stop(self) -> None:
+        """Drop all that is under way. Another process starts with the next call."""
+        self.close()
+        self._processes = Processes(1)
+
+    def close(self) -> None:
+        """Nothing more is asked for."""
+        self._processes.close(abandon=True)
+
+
+def warm_up(source: str) -> None:
+    """Import what runs of the scene need; a scene that is invalid is reported where it is opened."""
+    with suppress(Exception):
+        load(source).build()
+
+
+def reread(folder: Path) -> None:
+    """Take the code of a scene from its files as they are now."""
+    forget(folder)
+
+
+def computed(scene: Scene) -> tuple[dict[str, Any], float]:
+    """The data of a scene's run, and how long it took, in s. Raises SandboxError."""
+    started = perf_counter()
+    try:
+        run = simulate(scene)
+    except SandboxError:
+        raise
+    except Exception as error:  # a scene's own code, and maybe of a kind that the window's process does not know
+        raise RunError(described(error, scene.folder)) from None
+    return plain(run), perf_counter() - started
+
+
+def described(error: Exception, folder: Path) -> str:
+    """An error of a scene's own code in a line: the file and the line in the scene's folder, and what it says."""
+    said = str(error) if isinstance(error, SandboxError) else f"{type(error).__name__}: {error}".rstrip(": ")
+    if isinstance(error, SyntaxError) and error.filename:
+        return f"{_short(error.filename)}, line {error.lineno}: {type(error).__name__}: {error.msg}"
+    frames = traceback.extract_tb(error.__traceback__)
+    own = [frame for frame in frames if Path(frame.filename).resolve().is_relative_to(folder.resolve())]
+    return f"{_short(own[-1].filename)}, line {own[-1].lineno}: {said}" if own else said
+
+
+def _short(file: str) -> str:
+    """A path as short as it can be given from the current folder."""
+    path = Path(file).resolve()
+    return str(path.relative_to(Path.cwd())) if path.is_relative_to(Path.cwd()) else str(path)
+
+
+def trusted(scene: Scene) -> str:
+    """What a run of the scene costs, and how far its results are off, in a line."""
+    run = simulate(scene)
+    checked = check(scene, run)
+    units = scene.units
+    errors = [f"{name} ± {error:.1g} {units.get(name, '')}" for name, error in checked.errors.items() if error > 0]
+    changed = [f"{name} would be {finer}" for name, (_, finer) in checked.changed.items()]
+    changed += [f"{name} is chaotic" for name in (*checked.chaotic, *checked.unsettled)]
+    told = ", ".join(text.strip() for text in changed or errors[:4]) or "no difference to a finer run"
+    return f"{1e3 * run.numerics.wall_s:.1f} ms a run; {told.replace('_', ' ')}"
+
+
+class FanShot(NamedTuple):
+    """What a fan shows of one of its shots."""
+
+    points: np.ndarray  # shape (n, 3): t in s, x and y in m
+    scored: bool
+    value: float | None  # of what the scene says of its shots
+
+
+def varied(
+    scene: Scene, keys: Sequence[str], points: Sequence[Sequence[float]], told: str | None
+) -> tuple[list[FanShot | None], float]:
+    """Shots with other values at the keys, None for one that fails, and how long they took, in s; ``told`` is the
+    name of the result whose value is wanted."""
+    started = perf_counter()
+    found: list[FanShot | None] = []
+    for run in runs(scene, keys, points):
+        if isinstance(run, Exception):
+            found.append(None)
+            continue
+        shot, value = Shot(scene, run), run.result.get(told) if told else None
+        found.append(FanShot(shot.track(shot.ball), shot.scored, value if isinstance(value, float) else None))
+    return found, perf_counter() - started
