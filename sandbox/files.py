@@ -20,7 +20,8 @@ def reason(error: OSError) -> str:
 def check_file(option: str, path: Path, suffix: str) -> None:
     """Raise RequestError if the file for ``option`` could not be written, before any work is done for it."""
     if path == Path():
-        raise RequestError(f'{option}: "" and "." are no files; name one, such as out{suffix}')
+        raise RequestError(f'{option}: "" and "." are not files; name one, such as out{suffix}')
+    _check_name(option, path)
     if path.is_dir():
         raise RequestError(f"{option} {path}: is a folder; name a file in it, such as {path / ('out' + suffix)}")
     if _is_device(path):
@@ -34,6 +35,7 @@ def check_file(option: str, path: Path, suffix: str) -> None:
 
 def check_folder(option: str, path: Path) -> None:
     """Raise RequestError if the folder for ``option`` could not be made or written into."""
+    _check_name(option, path)
     if path.exists() and not path.is_dir():
         raise RequestError(f"{option} {path}: is a file, and a folder is needed")
     _check_folder(option, next(folder for folder in (path, *path.absolute().parents) if folder.exists()))
@@ -47,6 +49,22 @@ def check_apart(outputs: Mapping[str, Path | None]) -> None:
             other = first.setdefault(os.path.realpath(path), option)
             if other != option:
                 raise RequestError(f"{option} {path}: is the file of {other} too; name another")
+
+
+def _check_name(option: str, path: Path) -> None:
+    """Raise RequestError for a name that no file can have."""
+    try:
+        path.stat()
+    except (FileNotFoundError, NotADirectoryError):
+        pass  # a new file; or no folder to put it in, which is refused by its own check
+    except (OSError, ValueError) as error:
+        why = reason(error) if isinstance(error, OSError) else str(error)
+        raise RequestError(f"{option} {shortened(str(path))}: {why}") from None
+
+
+def shortened(text: str, most: int = 80) -> str:
+    """The text for a message: no longer than so many characters."""
+    return text if len(text) <= most else text[: most - 3] + "..."
 
 
 def _check_folder(option: str, folder: Path) -> None:
@@ -79,7 +97,7 @@ def written_whole(path: Path) -> Iterator[TextIO]:
             yield file
         return
     target = Path(os.path.realpath(path))  # the file behind a link, not the link
-    part = target.with_name(f".{target.name}.{os.getpid()}.part")
+    part = target.with_name(f".{target.name[:40]}.{os.getpid()}.part")  # a name may be as long as the system allows
     try:
         with part.open("w", encoding="utf-8", newline="") as file:
             yield file

@@ -395,8 +395,11 @@ def test_an_unreadable_file_is_refused(call, tmp_path: Path):
     [
         (["--trajectory", "missing/path.csv"], "--trajectory: there is no folder missing; make it first"),
         (["--trajectory", ".."], "--trajectory ..: is a folder; name a file in it"),
-        (["--poster", ""], '--poster: "" and "." are no files; name one, such as out.png'),
+        (["--poster", ""], '--poster: "" and "." are not files; name one, such as out.png'),
         (["--poster", "shot.png", "--energy", "./shot.png"], "--energy shot.png: is the file of --poster too"),
+        (["--poster", "x" * 300 + ".png"], "xxx...: file name too long"),
+        (["--trajectory", "x" * 300 + ".csv"], "xxx...: file name too long"),
+        (["--frames", "x" * 300], "xxx...: file name too long"),
         (["--trajectory", "path.txt"], "--trajectory path.txt: its name must end in .csv"),
         (["--trajectory", "file/path.csv"], "--trajectory: there is no folder file"),
         (["--trajectory", "/proc/path.csv"], "--trajectory: cannot write into /proc"),
@@ -425,6 +428,25 @@ def test_a_full_disk_is_told(call, tmp_path: Path):
     outcome = call("run", DROP, "--trajectory", device, "--json")
     assert_refused(outcome, f"--trajectory {device}: cannot be written: no space left on device", code=1)
     assert device.is_char_device()
+
+
+def test_a_name_may_be_as_long_as_the_system_allows(call, tmp_path: Path):
+    file = tmp_path / ("x" * 251 + ".csv")
+    assert call("run", DROP, "--trajectory", file).code == 0
+    assert [path.name for path in tmp_path.iterdir()] == [file.name]
+
+
+def test_frames_that_somebody_else_made_are_neither_overwritten_nor_removed(call, tmp_path: Path):
+    assert call("run", DROP, "--frames", tmp_path, "--fps", 10).code == 0
+    (tmp_path / "frame_99999.png").write_bytes(b"mine")
+    (tmp_path / "frame_1.png").write_bytes(b"of another kind")
+    before = {path.name: path.read_bytes() for path in tmp_path.iterdir()}
+    outcome = call("run", DROP, "--frames", tmp_path, "--fps", 5)
+    assert_refused(outcome, "frame_99999.png in it was not written by the sandbox; name another folder, or move it")
+    assert {path.name: path.read_bytes() for path in tmp_path.iterdir()} == before
+    (tmp_path / "frame_99999.png").unlink()
+    assert call("run", DROP, "--frames", tmp_path, "--fps", 5).code == 0  # fewer than before
+    assert len(list(tmp_path.glob("frame_?????.png"))) == 6
 
 
 def test_nothing_half_written_stays_behind(call, drop: Path, tmp_path: Path, monkeypatch):

@@ -54,6 +54,7 @@ def test_a_scene_may_be_named_wherever_one_is_asked_for():
         (lambda: next(sandbox.simulate(DROP).crossings("bal", (0, 0), (1, 0))), "there is no ball 'bal'"),
         (lambda: sandbox.simulate(DROP).trajectory(every=0), "every = 0: must be more than 0 s"),
         (lambda: sandbox.simulate(DROP).trajectory(every=-1), "every = -1: must be more than 0 s"),
+        (lambda: sandbox.simulate(DROP).trajectory(every=math.inf), "every = inf: must be more than 0 s, and finite"),
         (lambda: sandbox.load(5), "5 is not a scene: give its name as text"),
         (lambda: sandbox.load("golf", {5: 1}), "override 5: a key is a text, such as launch.speed"),
         (lambda: sandbox.sweep("golf", {5: [1, 2]}), "over 5: a key is a text, such as launch.speed"),

@@ -110,7 +110,10 @@ def asked(paths: Mapping[str, Path | None], size: str | None, rate: int | None) 
         if output.suffix:
             check_file(output.option, path, output.suffix)
         else:
+            from sandbox.picture.frames import check_frames_folder
+
             check_folder(output.option, path)
+            check_frames_folder(output.option, path)
     check_apart(paths)
     if rate is not None and not any(output.moves for output in chosen):
         raise RequestError(f"--fps {rate}: goes with --frames, --gif or --webp")

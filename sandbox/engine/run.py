@@ -5,6 +5,7 @@ from __future__ import annotations
 from bisect import bisect_left, bisect_right
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
+from math import inf
 from typing import TYPE_CHECKING, Any
 
 from sandbox.engine.arc import Arc
@@ -96,18 +97,21 @@ class Run:
             turned += (part.t1 - part.t0) * sum(part.spin) / len(part.spin)
         return turned
 
-    def trajectory(self, ball: str = "ball", every: float = 1 / 120) -> np.ndarray:
+    def trajectory(self, ball: str = "ball", every: float = 1 / 120, ends: bool = False) -> np.ndarray:
         """Samples of a ball's path, shape (samples, 6): t, x, y, vx, vy, spin in s, m, m/s, rad/s.
 
-        Every ``every`` seconds, and at the ends of all arcs, so that impacts are met exactly; the first row is the
-        start.
+        One every ``every`` seconds from the start on, none after the end. With ``ends`` also at the ends of all arcs,
+        among them every impact, and at the run's end; rows are uneven then.
         """
         import numpy as np
 
-        if not every > 0.0:
-            raise RequestError(f"every = {every}: must be more than 0 s")
-        times = {0.0, self.duration, *(arc.t0 for arc in self._path(ball))}
-        times.update(float(t) for t in np.arange(0.0, self.duration, every))
+        path = self._path(ball)
+        if not 0.0 < every < inf:
+            raise RequestError(f"every = {every}: must be more than 0 s, and finite")
+        count = int(self.duration / every * (1.0 + 1e-12)) + 1
+        times = {min(i * every, self.duration) for i in range(count)}
+        if ends:
+            times |= {0.0, self.duration, *(arc.t0 for arc in path)}
         return np.array([(t, *self.state(ball, t)) for t in sorted(times)])
 
     def crossings(self, ball: str, point: Vector, normal: Vector) -> Iterator[tuple[float, State]]:

@@ -19,7 +19,7 @@ import numpy as np
 import pygame
 from PIL import Image, ImageChops
 
-from sandbox.errors import RunError
+from sandbox.errors import RequestError, RunError
 from sandbox.files import written_whole
 
 #: zlib's level for frames, which are many and passing. Measured by ``python benchmarks/frames.py --levels``, mean over
@@ -41,6 +41,10 @@ FASTEST_GIF = 50
 LONGEST_TOLD = 60
 #: The last picture of an animation stays for so long, in s, before it begins again.
 PAUSE = 2.0
+
+#: What every frame says of itself, so that those of an earlier run are known from those that a user put there.
+OURS = b"Software\0sports sandbox, one of the frames of a run"
+FRAMES = "frame_[0-9][0-9][0-9][0-9][0-9].png"
 
 #: Left, top, right and bottom in px.
 Box = tuple[int, int, int, int]
@@ -99,6 +103,7 @@ def quick_png(image: Image.Image) -> bytes:
     lines[:, 1:] = np.asarray(image).reshape(height, 3 * width)
     parts = {
         b"IHDR": struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0),  # 8 bits of red, green and blue
+        b"tEXt": OURS,
         b"IDAT": zlib.compress(lines.data, FRAME_LEVEL),
         b"IEND": b"",
     }
@@ -118,9 +123,10 @@ def save_frames(picture: Picture, run: Any, folder: Path | str, fps: float, prog
     """Write frame_00000.png, frame_00001.png, ... into a folder, all or none; returns how many.
 
     Frames of an earlier run with higher numbers are removed, or a film made of the folder would end in two runs.
-    Raises OSError where the folder cannot be written.
+    Raises RequestError where the folder holds frames that somebody else made, OSError where it cannot be written.
     """
     folder = Path(folder)
+    check_frames_folder("--frames", folder)
     folder.mkdir(parents=True, exist_ok=True)
     times = frame_times(run.duration, fps)
     with tempfile.TemporaryDirectory(prefix=".frames-", dir=folder) as part:
@@ -135,10 +141,29 @@ def save_frames(picture: Picture, run: Any, folder: Path | str, fps: float, prog
         names = list(_in_threads(keep, drawn, len(times), progress))
         for name in names:
             (Path(part) / name).replace(folder / name)
-    for old in folder.glob("frame_[0-9][0-9][0-9][0-9][0-9].png"):
+    for old in folder.glob(FRAMES):
         if old.name > names[-1]:
             old.unlink()
     return len(names)
+
+
+def check_frames_folder(option: str, folder: Path) -> None:
+    """Raise RequestError if the folder has a file named like a frame that the sandbox did not write: it would be
+    overwritten, or end up in the same film."""
+    for file in sorted(folder.glob(FRAMES)):
+        if not _is_ours(file):
+            raise RequestError(
+                f"{option} {folder}: {file.name} in it was not written by the sandbox; name another folder, or move it"
+            )
+
+
+def _is_ours(file: Path) -> bool:
+    """Whether a file is a frame of an earlier run."""
+    try:
+        with file.open("rb") as opened:
+            return opened.read(8 + 25 + 8 + len(OURS)).endswith(b"tEXt" + OURS)
+    except OSError:
+        return False
 
 
 def save_gif(picture: Picture, run: Any, path: Path | str, fps: float, progress: Progress | None = None) -> int:

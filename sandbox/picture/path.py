@@ -47,7 +47,7 @@ class Path:
         self.run, self.name = run, name
         self.radius: float = next(ball.radius for ball in run.setup.balls if ball.name == name)
         self.until = run.duration if until is None else until
-        samples = run.trajectory(name, every=max(SAMPLING, run.duration / MOST_SAMPLES))
+        samples = run.trajectory(name, every=max(SAMPLING, run.duration / MOST_SAMPLES), ends=True)
         end = (self.until, *run.state(name, self.until))
         self.samples = np.array([*samples[samples[:, 0] < self.until], end])  # t, x, y, vx, vy, spin
         self.points = self.samples[:, 1:3]

@@ -26,8 +26,17 @@ def bouncing():
     return simulate(Setup([ball], [floor], duration=30.0), resolve("precise"))
 
 
-def test_trajectory_starts_at_the_start_and_meets_every_impact(bouncing):
-    path = bouncing.trajectory("ball", every=1 / 50)
+@pytest.mark.parametrize("every", [1 / 50, 1 / 120, 0.07])
+def test_rows_of_a_trajectory_are_even(bouncing, every):
+    path = bouncing.trajectory("ball", every=every)
+    assert np.diff(path[:, 0]) == pytest.approx(every, rel=1e-9)
+    assert path[0, 0] == 0.0
+    assert bouncing.duration - every < path[-1, 0] <= bouncing.duration
+    assert path[7, 1:].tolist() == list(bouncing.state("ball", 7 * every))
+
+
+def test_trajectory_meets_every_impact_where_that_is_asked(bouncing):
+    path = bouncing.trajectory("ball", every=1 / 50, ends=True)
     assert path.shape[1] == 6
     assert path[0] == pytest.approx([0.0, 0.0, 1.0, 6.0, 3.0, 20.0])
     assert (np.diff(path[:, 0]) > 0).all()
