@@ -18,7 +18,7 @@ import pymunk
 
 from sandbox.lab import chart
 from sandbox.lab.stress import FAILED, Outcome, stress, summary
-from sandbox.lab.tables import length, time
+from sandbox.lab.tables import length, length_above, time
 from sandbox.lab.trade import TARGETS, Trade, trade
 from sandbox.lab.validate import Compared, cells, validate
 from sandbox.scene import load
@@ -100,7 +100,8 @@ def machine() -> str:
 def levels(found: dict[str, Trade]) -> list[str]:
     rows = []
     for name, one in found.items():
-        cells = [f"{length(p.error_m)} in {time(p.wall_s)}" for p in one.levels.values()]
+        least = one.reference.error
+        cells = [f"{length_above(p.error_m, least)} in {time(p.wall_s)}" for p in one.levels.values()]
         speed = round(one.levels["balanced"].times_real_time, -1)
         at, chaos = one.reference.time, one.reference.diverges_at
         when = f"{at:.3g} s" if chaos is None else f"{at:.3g} s, chaotic from {chaos:.3g} s"

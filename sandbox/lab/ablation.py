@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from math import hypot, isclose
-from statistics import median
 from time import perf_counter
 from typing import Any, NamedTuple
 
@@ -17,7 +16,7 @@ from sandbox.engine.run import Run
 from sandbox.engine.setup import Ball, Bounce, Setup, Surface
 from sandbox.errors import SandboxError
 from sandbox.lab.reference import Reference, apart, looked_at, places, until
-from sandbox.lab.tables import length, significant, table
+from sandbox.lab.tables import length_above, significant, table
 from sandbox.lab.verdicts import verdict
 from sandbox.physics.forces import Drag, Magnus, SpinDecay
 from sandbox.scene import Scene
@@ -25,17 +24,15 @@ from sandbox.scene import Scene
 #: Shifts below this, in m, are nothing to a player.
 NOTHING = 1e-4
 
-#: Shifts below this, in m, are written as 0: they are errors of the reference.
-_LEAST = 1e-8
-
 #: Spin decay of a golf ball by radar, put in where a scene has none.
 _DECAY = 6e-5
 
 #: Speeds in m/s at which a surface is asked whether it gives way.
 _BOUNCE = (10.0, 10.0)
 
-#: Repeats for the time that a part costs.
-_REPEATS = 7
+#: Repeats for the time that a part costs. The shortest of them counts: whatever else the machine does takes time, and
+#: gives none.
+_REPEATS = 15
 
 #: Numbers of a result shown beside a part, and the relative change below which one is the same.
 _SHOWN, _SAME = 2, 1e-6
@@ -61,6 +58,8 @@ class Ablated:
     flight_m: float | None  # at the moment when the ball first touches anything, with the part or without
     verdict: tuple[str, str]  # with the part, and without
     saves: float | None  # share of the time that the scene takes at the level "balanced"
+    noise: float  # share of that time by which two of the shortest repeats differ
+    resolution_m: float  # error of the runs that are compared
     results: dict[str, tuple[float, float]]  # numbers of the result, with the part and without
     problem: str = ""
     idle: bool = False  # whether it is about touching, and nothing was touched
@@ -80,16 +79,18 @@ class Ablated:
             "nothing": self.is_nothing,
             "verdict": list(self.verdict),
             "saves": self.saves,
+            "saves_noise": self.noise,
+            "resolution_m": self.resolution_m,
             "results": {name: list(pair) for name, pair in self.results.items()},
             "problem": self.problem,
         }
 
     def cells(self) -> tuple[str, ...]:
         """A row for people."""
-        saves = "" if self.saves is None else f"{100.0 * self.saves:.0f} %"
+        saves = self._saves()
         if self.problem:
             return self.part, self.change, "", "", saves, f"cannot be run: {self.problem}"
-        shifts = _shift(self.flight_m), _shift(self.shift_m)
+        shifts = [length_above(shift, self.resolution_m) for shift in (self.flight_m, self.shift_m)]
         if self.is_nothing:
             return self.part, self.change, *shifts, saves, "nothing: it touches nothing" if self.idle else "nothing"
         shown = [
@@ -99,9 +100,11 @@ class Ablated:
             shown.append(_turned(*self.verdict))
         return self.part, self.change, *shifts, saves, ", ".join(shown)
 
-
-def _shift(metres: float | None) -> str:
-    return "0" if metres is not None and metres < _LEAST else length(metres)
+    def _saves(self) -> str:
+        if self.saves is None:
+            return ""
+        least = max(1.0, 100.0 * self.noise)
+        return f"{100.0 * self.saves:.0f} %" if 100.0 * abs(self.saves) >= least else f"< {least:.0f} %"
 
 
 def _turned(before: str, after: str) -> str:
@@ -124,23 +127,25 @@ def ablation(reference: Reference) -> list[Ablated]:
     names = [ball.name for ball in scene.build().balls]
     whole = _run(scene, scene.build())
     changes = list(variants(scene))
-    own_cost, *costs = _costs([Variant("", "", lambda: scene), *changes], reference.time)
+    (own_cost, noise), *costs = _costs([Variant("", "", lambda: scene), *changes], reference.time)
+    resolution = max(reference.error, reference.error_of(whole))
     rows = []
-    for change, cost in zip(changes, costs, strict=True):
+    for change, (cost, other_noise) in zip(changes, costs, strict=True):
         before = verdict(whole.result)
         saves = None if cost is None or own_cost is None else 1.0 - cost / own_cost
+        measured = saves, max(noise, other_noise), resolution
         try:
             other = change.scene()
             run = _run(other, change.setup(other))
         except SandboxError as error:
-            rows.append(Ablated(change.part, change.change, None, None, (before, ""), saves, {}, str(error)))
+            rows.append(Ablated(change.part, change.change, None, None, (before, ""), *measured, {}, str(error)))
             continue
         shift = apart(looked_at(scene, whole, reference.time), looked_at(other, run, reference.time))
         touch = min([reference.first_touch, *(event.t for event in run.events)])
         flight = apart(places(whole, names, touch), places(run, names, touch))
         turned, differences = (before, verdict(run.result)), _differences(whole, run)
         idle = change.touching and reference.first_touch >= reference.time
-        rows.append(Ablated(change.part, change.change, shift, flight, turned, saves, differences, idle=idle))
+        rows.append(Ablated(change.part, change.change, shift, flight, turned, *measured, differences, idle=idle))
     return rows
 
 
@@ -307,8 +312,9 @@ def _run(scene: Scene, setup: Setup) -> Run:
     return run
 
 
-def _costs(changes: list[Variant], time: float) -> list[float | None]:
-    """Seconds for each until ``time`` at "balanced", measured in turns; None where it cannot be completed."""
+def _costs(changes: list[Variant], time: float) -> list[tuple[float | None, float]]:
+    """Seconds for each until ``time`` at "balanced", the shortest of repeats that take turns, and their noise as a
+    share of it; None where it cannot be completed."""
     walls: list[list[float]] = [[] for _ in changes]
     failed = [False] * len(changes)
     for _ in range(_REPEATS):
@@ -322,7 +328,13 @@ def _costs(changes: list[Variant], time: float) -> list[float | None]:
                 walls[index].append(perf_counter() - started)
             except SandboxError:
                 failed[index] = True
-    return [None if bad else median(taken) for taken, bad in zip(walls, failed, strict=True)]
+    return [(None, 0.0) if bad else _shortest(taken) for taken, bad in zip(walls, failed, strict=True)]
+
+
+def _shortest(walls: list[float]) -> tuple[float, float]:
+    """The shortest of some times, and by what share of it the third shortest is longer."""
+    first, _, third, *_ = sorted(walls)
+    return first, third / first - 1.0
 
 
 def _differences(a: Run, b: Run) -> dict[str, tuple[float, float]]:

@@ -40,6 +40,13 @@ def length(metres: float | None) -> str:
     return _scaled(0.0 if metres is not None and abs(metres) < _ROUNDING else metres, _LENGTHS)
 
 
+def length_above(metres: float | None, least: float) -> str:
+    """The same, but what is less than ``least`` (m), and so cannot be told from nothing, as ``< 3.2 mm``."""
+    if metres is None or metres >= least or least <= _ROUNDING:
+        return length(metres)
+    return f"< {length(least)}"
+
+
 def time(seconds: float | None) -> str:
     """``0.0032`` as ``3.2 ms``."""
     return _scaled(seconds, _TIMES)

@@ -6,7 +6,6 @@ import gc
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
 from math import isfinite
-from statistics import median
 from time import perf_counter
 from typing import Any
 
@@ -16,7 +15,7 @@ from sandbox.errors import RunError
 from sandbox.lab.ablation import Ablated, ablation
 from sandbox.lab.ablation import as_text as ablation_text
 from sandbox.lab.reference import Reference, converge
-from sandbox.lab.tables import length, significant, table, time
+from sandbox.lab.tables import length, length_above, significant, table, time
 from sandbox.lab.verdicts import ShotMap, shot_map
 from sandbox.physics.integrators import INTEGRATORS
 from sandbox.scene import Scene
@@ -32,6 +31,9 @@ TARGETS = (0.1, 0.01, 0.001, 0.0001)
 
 #: A finer setting is left out where it would take longer than this, in s.
 _LONGEST = 1.0
+
+#: Growth of a nudge until the ball is looked at, beyond which a method that goes astray need not be unstable.
+_CHAOTIC = 1e3
 
 #: Share by which the same run may take longer another time.
 _NOISE = 0.1
@@ -50,7 +52,7 @@ class Point:
     setting: str
     accuracy: Accuracy
     error_m: float | None
-    wall_s: float  # median of the repeats
+    wall_s: float  # shortest of the repeats
     repeats: int
     force_evaluations: int
     times_real_time: float
@@ -144,14 +146,20 @@ class _Trial:
             self.error = self._reference.error_of(run)
             self.evaluations = run.numerics.force_evaluations
 
+    def _astray(self) -> str:
+        far, growth = "off by more than the length of the shot", self._reference.growth
+        if growth < _CHAOTIC:
+            return f"unstable: {far}"
+        return f"{far}, where small errors grow {significant(growth)} times"
+
     @property
     def wants_more(self) -> bool:
         return not self.problem and sum(self.walls) < _PATIENCE and len(self.walls) < _REPEATS
 
     def point(self) -> Point:
-        wall, error = median(self.walls), self.error
+        wall, error = min(self.walls), self.error
         stable = error is not None and isfinite(error) and error < max(self._reference.size, 1e-9)
-        problem = self.problem or ("" if stable else "off by more than the length of the shot")
+        problem = self.problem or ("" if stable else self._astray())
         return Point(
             self.method,
             self.setting,
@@ -244,19 +252,21 @@ def as_text(found: Trade) -> list[str]:
     """For people."""
     lines = [*_about(found.reference), ""]
     headings = ("method", "setting", "error", "time", "x real time", "forces", "")
-    lines += table(headings, [_row(point) for point in found.points], "llrrrrl")
+    least = found.reference.error
+    lines += table(headings, [_row(point, least) for point in found.points], "llrrrrl")
     lines += ["", "the levels"]
     rows = []
     for name, point in found.levels.items():
         behind = found.behind_front(name)
         aim = length(point.accuracy.tolerance)
         place = "" if behind is None else f"{significant(behind)} x the cheapest that is as accurate"
-        rows.append((name, aim, length(point.error_m), time(point.wall_s), significant(point.times_real_time), place))
+        error = length_above(point.error_m, least)
+        rows.append((name, aim, error, time(point.wall_s), significant(point.times_real_time), place))
     lines += table(("level", "aims at", "error", "time", "x real time", ""), rows, "lrrrrl")
     lines += ["", "the cheapest choice"]
     choices = [(target, best) for target in TARGETS if (best := found.best(target)) is not None]
     cells = [
-        (length(target), f"{best.method} {best.setting}", length(best.error_m), time(best.wall_s))
+        (length(target), f"{best.method} {best.setting}", length_above(best.error_m, least), time(best.wall_s))
         for target, best in choices
     ]
     lines += table(("for", "method", "error", "time"), cells, "llrr")
@@ -292,13 +302,13 @@ def _about(reference: Reference) -> list[str]:
     return [*lines, f"  growth     {growth}"]
 
 
-def _row(point: Point) -> tuple[str, ...]:
+def _row(point: Point, least: float) -> tuple[str, ...]:
     return (
         point.method,
         point.setting,
-        length(point.error_m),
+        length_above(point.error_m, least),
         time(point.wall_s),
         significant(point.times_real_time),
         str(point.force_evaluations),
-        "" if point.stable else f"unstable: {point.problem}",
+        point.problem,
     )
