@@ -116,7 +116,6 @@ def our_setup(shot: Shot) -> Any:
             "cue.angle": shot.angle,
             "cue.follow": shot.follow,
             "cue.english": shot.english,
-            "ball.friction_law": "speed",
             "ball.restitution": shot.restitution,
         },
     )

@@ -13,7 +13,7 @@ from sandbox.engine import simulate
 from sandbox.engine.accuracy import LEVELS
 from sandbox.engine.ledger import cause
 from sandbox.engine.run import Run
-from sandbox.engine.setup import Ball, Bounce, Setup, Surface
+from sandbox.engine.setup import Always, Ball, Bounce, Setup, Surface
 from sandbox.errors import SandboxError
 from sandbox.lab.reference import Reference, apart, looked_at, places, until
 from sandbox.lab.tables import length_above, significant, table
@@ -58,11 +58,11 @@ class Ablated:
     flight_m: float | None  # at the moment when the ball first touches anything, with the part or without
     verdict: tuple[str, str]  # with the part, and without
     saves: float | None  # share of the time that the scene takes at the level "balanced"
-    noise: float  # share of that time by which two of the shortest repeats differ
-    resolution_m: float  # error of the runs that are compared
     results: dict[str, tuple[float, float]]  # numbers of the result, with the part and without
     problem: str = ""
     idle: bool = False  # whether it is about touching, and nothing was touched
+    noise: float = 0.0  # share of the time by which the shortest repeats differ
+    resolution_m: float = 0.0  # error of the runs that are compared
 
     @property
     def is_nothing(self) -> bool:
@@ -103,7 +103,7 @@ class Ablated:
     def _saves(self) -> str:
         if self.saves is None:
             return ""
-        least = max(1.0, 100.0 * self.noise)
+        least = max(1.0, 200.0 * self.noise)
         return f"{100.0 * self.saves:.0f} %" if 100.0 * abs(self.saves) >= least else f"< {least:.0f} %"
 
 
@@ -133,19 +133,19 @@ def ablation(reference: Reference) -> list[Ablated]:
     for change, (cost, other_noise) in zip(changes, costs, strict=True):
         before = verdict(whole.result)
         saves = None if cost is None or own_cost is None else 1.0 - cost / own_cost
-        measured = saves, max(noise, other_noise), resolution
+        known = {"noise": max(noise, other_noise), "resolution_m": resolution}
         try:
             other = change.scene()
             run = _run(other, change.setup(other))
         except SandboxError as error:
-            rows.append(Ablated(change.part, change.change, None, None, (before, ""), *measured, {}, str(error)))
+            rows.append(Ablated(change.part, change.change, None, None, (before, ""), saves, {}, str(error), **known))
             continue
         shift = apart(looked_at(scene, whole, reference.time), looked_at(other, run, reference.time))
         touch = min([reference.first_touch, *(event.t for event in run.events)])
         flight = apart(places(whole, names, touch), places(run, names, touch))
         turned, differences = (before, verdict(run.result)), _differences(whole, run)
         idle = change.touching and reference.first_touch >= reference.time
-        rows.append(Ablated(change.part, change.change, shift, flight, turned, *measured, differences, idle=idle))
+        rows.append(Ablated(change.part, change.change, shift, flight, turned, saves, differences, idle=idle, **known))
     return rows
 
 
@@ -173,6 +173,8 @@ def variants(scene: Scene) -> Iterator[Variant]:
         yield changed("loss of low bounces", "only a tenth as high", lambda s: _on_surfaces(s, _with_lower_bounces))
     if len(setup.balls) > 1 and setup.between_balls(1.0, 1.0).friction > 0.0:
         yield changed("friction of balls (throw)", "left out", _without_throw)
+        if setup.between_balls(1.0, 0.1) != setup.between_balls(1.0, 1.0):
+            yield changed("friction of balls (throw)", "at any speed as at 1 m/s", _with_one_throw)
     if setup.cloth is not None:
         for field in ("sliding", "rolling", "spinning"):
             if getattr(setup.cloth, field) > 0.0:
@@ -193,9 +195,7 @@ def with_changes(scene: Scene, changes: dict[str, Any]) -> Scene:
 
 
 def _by_parameters(scene: Scene, setup: Setup) -> Iterator[Variant]:
-    parameters = list(declared.walk(scene.parameters))
-    values = {parameter.key: parameter.value for parameter in parameters}
-    laws = [(p.key, p.value, [word for word in p.choices if word != p.value]) for p in parameters if _is_law(p)]
+    values = {parameter.key: parameter.value for parameter in declared.walk(scene.parameters)}
 
     def changed(part: str, change: str, changes: dict[str, Any]) -> Variant:
         return Variant(part, change, lambda: with_changes(scene, changes))
@@ -208,9 +208,6 @@ def _by_parameters(scene: Scene, setup: Setup) -> Iterator[Variant]:
         if pull > 0.0 and unit > 0.0:
             changes = {f"ball.{key}.model": "constant", f"ball.{key}.coefficient": pull / unit}
             yield changed(part, f"{pull / unit:.3f} as at the start", changes)
-    for key, word, others in laws:
-        for other in others:
-            yield changed(key.rpartition(".")[2].replace("_", " "), f"{other} instead of {word}", {key: other})
     if values.get("air.density", 0.0) > 0.0:
         if values["air.wind"] == (0.0, 0.0):
             yield changed("wind", "put in, 1 m/s against", {"air.wind": (-1.0, 0.0)})
@@ -218,10 +215,6 @@ def _by_parameters(scene: Scene, setup: Setup) -> Iterator[Variant]:
             yield changed("wind", "left out", {"air.wind": (0.0, 0.0)})
         if values.get("ball.lift.model") == "none":
             yield changed("lift", "put in, as large as the spin ratio", {"ball.lift.model": "spin-ratio"})
-
-
-def _is_law(parameter: declared.Parameter) -> bool:
-    return parameter.key.endswith("_law") and bool(parameter.choices)
 
 
 def _at_launch(setup: Setup, kind: type) -> float:
@@ -291,6 +284,10 @@ def _without_tilt(surface: Surface) -> Surface:
 
 def _without_throw(setup: Setup) -> Setup:
     return replace(setup, between_balls=_LawWithout(setup.between_balls, "friction"))
+
+
+def _with_one_throw(setup: Setup) -> Setup:
+    return replace(setup, between_balls=Always(setup.between_balls(1.0, 1.0)))
 
 
 def _on_cloth(setup: Setup, field: str) -> Setup:

@@ -1,11 +1,10 @@
 """Billiards from above: pool, snooker and carom on cloth, with draw, follow and english.
 
 Models: sliding, rolling and spinning on cloth in closed form; the cue tip's offset, which gives follow, draw, stun and
-english; impacts of balls with restitution and friction, so that cuts and english throw the object ball and spin passes
-on; cushions with restitution and friction; jaws as real shapes, and pockets that take a ball whose centre is over the
+english; impacts of balls with restitution, and friction that falls with their speed, so that cuts and english throw the object
+ball and spin passes on; cushions with restitution and friction; jaws as real shapes, and pockets that take a ball whose centre is over the
 hole.
-Leaves out, with what it is worth: friction of balls that falls with their speed, unless the scene file asks for it
-(4 cm in where the balls of the preset cut come to rest); hops, as friction lifts a rolling ball that hits another
+Leaves out, with what it is worth: hops, as friction lifts a rolling ball that hits another
 straight on at 3 m/s by 1.1 mm for 0.03 s; squirt, as the ball leaves along the cue (2.7 deg at the most english, by a
 cue that pivots 0.3 m behind its tip). And, not measured: the elevated cue (swerve, masse, jump); the nose's height over
 the ball's centre, which changes how much of its roll a cushion takes; the cushions' give; the nap of the cloth; the
@@ -62,9 +61,8 @@ class BallParameters(Group):
     mass: float = quantity("6 oz", "kg", 0.001, 10, "mass")
     radius: float = quantity("1.125 in", "m", 0.002, 0.2, "radius")
     restitution: float = quantity(0.95, "", 0, 1, "of ball and ball")
-    friction: float = quantity(0.05, "", 0, 10, "of ball and ball")
-    friction_law: Literal["constant", "speed"] = choice(
-        "constant", "constant: as given by friction; speed: less the faster the surfaces rub, by Alciatore"
+    friction: float | None = quantity(
+        None, "", 0, 10, "of ball and ball; where left out, less the faster the surfaces rub (Alciatore)"
     )
 
 
@@ -249,7 +247,7 @@ def struck(parameters: Parameters) -> tuple[Vector, float, Vector]:
 
 
 def _between_balls(ball: BallParameters) -> Callable[[float, float], Bounce]:
-    if ball.friction_law == "speed":
+    if ball.friction is None:
         return SlowerThrowsMore(ball.restitution)
     return Always(Bounce(ball.restitution, ball.friction))
 

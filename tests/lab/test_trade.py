@@ -18,6 +18,7 @@ from sandbox.lab import trade as lab
 from sandbox.lab import verdicts
 from sandbox.lab.ablation import Ablated, ablation, variants, with_changes
 from sandbox.lab.reference import REFERENCE, Reference, converge
+from sandbox.lab.tables import length_above
 from sandbox.lab.verdicts import shot_map, verdict
 from sandbox.new import new_scene
 from sandbox.physics.forces import Drag
@@ -211,10 +212,19 @@ def test_throw_and_cloth_on_a_table():
     assert {"friction of balls (throw)", "rolling friction of the cloth"} <= names
 
 
-def test_another_law_is_tried_where_the_scene_has_one():
-    law = next(variant for variant in variants(load("billiards/cut")) if variant.part == "friction law")
-    assert law.change == "speed instead of constant"
-    assert law.scene().parameters.ball.friction_law == "speed"
+def test_throw_by_speed_is_tried_as_one_number():
+    changes = [variant.change for variant in variants(load("billiards/cut"))]
+    assert "at any speed as at 1 m/s" in changes
+    assert "at any speed as at 1 m/s" not in [
+        v.change for v in variants(load("billiards/cut", {"ball.friction": 0.05}))
+    ]
+
+
+@pytest.mark.parametrize(
+    ("metres", "least", "said"), [(2e-9, 1e-8, "< 10 nm"), (2e-8, 1e-8, "20 nm"), (0.0, 0.0, "0 nm")]
+)
+def test_what_the_reference_cannot_tell_is_less_than_its_error(metres: float, least: float, said: str):
+    assert length_above(metres, least) == said
 
 
 def test_changes_replace_a_model_whole():

@@ -186,7 +186,7 @@ def test_a_cut_shot_is_thrown_by_friction_until_the_balls_grip(cut: float, frict
 def test_a_slow_cut_is_thrown_more_than_a_fast_one(speed: float, expected: float):
     """With mu = .009951 + .108 exp(-1.088 s), s = v sin f: several degrees at 0.5 m/s, less than one at 5 m/s."""
     f = radians(45.0)
-    run = shot(*ghost(f, NEAR), cue__speed=speed, ball__friction_law="speed")
+    run = shot(*ghost(f, NEAR), cue__speed=speed)
     mu = 0.009951 + 0.108 * exp(-1.088 * speed * sin(f))
     assert friction_by_speed(speed * sin(f)) == pytest.approx(mu)
     assert degrees(thrown(run, f)) == pytest.approx(degrees(atan(mu)), rel=1e-4)
