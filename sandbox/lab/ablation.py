@@ -127,25 +127,51 @@ def ablation(reference: Reference) -> list[Ablated]:
     names = [ball.name for ball in scene.build().balls]
     whole = _run(scene, scene.build())
     changes = list(variants(scene))
-    (own_cost, noise), *costs = _costs([Variant("", "", lambda: scene), *changes], reference.time)
+    (own_cost, own_noise), *costs = _costs([Variant("", "", lambda: scene), *changes], reference.time)
     resolution = max(reference.error, reference.error_of(whole))
     rows = []
     for change, (cost, other_noise) in zip(changes, costs, strict=True):
         before = verdict(whole.result)
         saves = None if cost is None or own_cost is None else 1.0 - cost / own_cost
-        known = {"noise": max(noise, other_noise), "resolution_m": resolution}
+        noise = max(own_noise, other_noise)
         try:
             other = change.scene()
             run = _run(other, change.setup(other))
         except SandboxError as error:
-            rows.append(Ablated(change.part, change.change, None, None, (before, ""), saves, {}, str(error), **known))
+            rows.append(
+                Ablated(
+                    change.part,
+                    change.change,
+                    None,
+                    None,
+                    (before, ""),
+                    saves,
+                    {},
+                    str(error),
+                    noise=noise,
+                    resolution_m=resolution,
+                )
+            )
             continue
         shift = apart(looked_at(scene, whole, reference.time), looked_at(other, run, reference.time))
         touch = min([reference.first_touch, *(event.t for event in run.events)])
         flight = apart(places(whole, names, touch), places(run, names, touch))
         turned, differences = (before, verdict(run.result)), _differences(whole, run)
         idle = change.touching and reference.first_touch >= reference.time
-        rows.append(Ablated(change.part, change.change, shift, flight, turned, saves, differences, idle=idle, **known))
+        rows.append(
+            Ablated(
+                change.part,
+                change.change,
+                shift,
+                flight,
+                turned,
+                saves,
+                differences,
+                idle=idle,
+                noise=noise,
+                resolution_m=resolution,
+            )
+        )
     return rows
 
 

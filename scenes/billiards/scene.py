@@ -1,14 +1,14 @@
 """Billiards from above: pool, snooker and carom on cloth, with draw, follow and english.
 
 Models: sliding, rolling and spinning on cloth in closed form; the cue tip's offset, which gives follow, draw, stun and
-english; impacts of balls with restitution, and friction that falls with their speed, so that cuts and english throw the object
-ball and spin passes on; cushions with restitution and friction; jaws as real shapes, and pockets that take a ball whose centre is over the
-hole.
-Leaves out, with what it is worth: hops, as friction lifts a rolling ball that hits another
-straight on at 3 m/s by 1.1 mm for 0.03 s; squirt, as the ball leaves along the cue (2.7 deg at the most english, by a
-cue that pivots 0.3 m behind its tip). And, not measured: the elevated cue (swerve, masse, jump); the nose's height over
-the ball's centre, which changes how much of its roll a cushion takes; the cushions' give; the nap of the cloth; the
-pockets' depth, out of which a fast ball may rattle.
+english; impacts of balls with restitution, and with friction that falls with their speed, so that cuts and english
+throw the object ball and spin passes on; cushions with restitution and friction; jaws as real shapes, and pockets that
+take a ball whose centre is over the hole.
+Leaves out, with what it is worth: hops, as friction lifts a rolling ball that hits another straight on at 3 m/s by
+1.1 mm for 0.03 s; squirt, as the ball leaves along the cue (2.7 deg at the most english, by a cue that pivots 0.3 m
+behind its tip). And, not measured: the elevated cue (swerve, masse, jump); the nose's height over the ball's centre,
+which changes how much of its roll a cushion takes; the cushions' give; the nap of the cloth; the pockets' depth, out of
+which a fast ball may rattle.
 """
 
 from __future__ import annotations
