@@ -36,7 +36,5 @@ def simulate_many(setups: Sequence[Setup], accuracy: Accuracy) -> Iterator[Run |
 
 def flies_in_batches(setup: Setup, accuracy: Accuracy) -> bool:
     """Whether ``simulate_many`` is quicker with setups of this kind than ``simulate`` one by one."""
-    from sandbox.physics.integrators import INTEGRATORS
-
     one_at_a_time = setup.cloth is not None or setup.catches or len(setup.balls) > 1 or not setup.surfaces
-    return accuracy.method == "exact" and INTEGRATORS[accuracy.integrator].controls_error and not one_at_a_time
+    return accuracy.method == "exact" and not one_at_a_time

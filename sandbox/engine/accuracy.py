@@ -43,11 +43,12 @@ class Accuracy:
     def finer(self) -> Accuracy:
         """The same with half the step, or a tolerance that leads to about half the step; and with less of what no step
         governs: low bounces, low hops, and the overlap at a contact."""
+        share = 0.5 ** INTEGRATORS[self.integrator].order
         return replace(
             self,
             step=self.step / 2,
-            tolerance=self.tolerance / 32,
-            settle=self.settle / 1024,
+            tolerance=self.tolerance * share,
+            settle=self.settle * share * share,
             hop=self.hop / 4,
             skin=self.skin / 4,
         )

@@ -15,20 +15,20 @@ import numpy as np
 
 from sandbox.engine import flies_in_batches, simulate
 from sandbox.engine.accuracy import Accuracy
+from sandbox.engine.acting import acceleration, by_cause
 from sandbox.engine.arc import Arc, through
 from sandbox.engine.arc_rows import COLUMNS, ArcRows
 from sandbox.engine.bernstein_many import until
 from sandbox.engine.blame import blamed
 from sandbox.engine.event import Event
-from sandbox.engine.impacts import STILL
 from sandbox.engine.lanes import Lanes
-from sandbox.engine.lasting import leaves_at
-from sandbox.engine.motion import FIRST_STEP, LOCAL_SHARE, LONGEST, SPIN_WEIGHT
 from sandbox.engine.outlines import Outlines
 from sandbox.engine.run import Numerics, Run
-from sandbox.engine.setup import Bounce, Setup, Surface, possible
+from sandbox.engine.setup import Ball, Bounds, Patch, Setup
 from sandbox.engine.simulation import Simulation
 from sandbox.engine.stacking import Alike, chosen, stacked
+from sandbox.engine.step_control import LONGEST, StepControl, size, within
+from sandbox.engine.surfaces import STILL, answer, leaves_at, press
 from sandbox.physics.integrators import INTEGRATORS, Acceleration, State
 
 #: Fewer shots than this are quicker one at a time: a round of arrays costs as much as some thirty steps.
@@ -76,20 +76,13 @@ def _one(setup: Setup, accuracy: Accuracy) -> Run | Exception:
 
 
 def _kind(setup: Setup, alike: Alike) -> Hashable:
-    """What setups of one batch have in common: they differ in numbers only, and in their laws of impacts."""
-    ball = setup.balls[0]
-    shapes = tuple((type(surface.shape), surface.name) for surface in setup.surfaces)
-    return ball.name, shapes, len(setup.patches), alike.key((tuple(ball.forces), tuple(ball.torques)))
+    """What setups of one batch have in common: they differ in numbers only, and in their laws and ends."""
+    surfaces = [(surface.name, surface.shape) for surface in setup.surfaces]
+    return alike.key((_moving(setup), surfaces))
 
 
-def _answer(surface: Surface, approach: float, along: float) -> Bounce | None:
-    """Restitution, friction and tilt; None where the surface's law fails, which its shot alone then says."""
-    if surface.law is None:
-        return Bounce(surface.restitution, surface.friction)
-    try:
-        return possible(surface.law(approach, abs(along)), surface.name)
-    except FAILURES:
-        return None
+def _moving(setup: Setup) -> Moving:
+    return Moving(setup.balls[0], setup.patches, setup.bounds, setup.duration)
 
 
 def _over(setup: Setup, event: Event) -> str:
@@ -104,9 +97,21 @@ def _over(setup: Setup, event: Event) -> str:
 #: What a scene's own function may end in.
 FAILURES = (Exception, SystemExit)
 
+#: Shots whose forces are looked at one by one at the start; later it is one in each round.
+_WATCHED = 32
+
 
 class _OnlyFloats(Exception):
     """Forces that cannot take arrays, or answer otherwise than with floats."""
+
+
+class Moving(NamedTuple):
+    """What a flight needs of a setup; stacked, where many fly together."""
+
+    ball: Ball
+    patches: Sequence[Patch]
+    bounds: Bounds
+    duration: float  # s
 
 
 class _Left(NamedTuple):
@@ -124,41 +129,31 @@ class _Batch:
     def __init__(self, setups: Sequence[Setup], accuracy: Accuracy) -> None:
         self._setups = setups
         self._accuracy = accuracy
-        self._local_error = accuracy.tolerance * LOCAL_SHARE
-        self._step = INTEGRATORS[accuracy.integrator].step
-        balls = [setup.balls[0] for setup in setups]
-        self._stack = stacked([(tuple(ball.forces), tuple(ball.torques)) for ball in balls])
+        self._control = StepControl(accuracy)
+        self._method = INTEGRATORS[accuracy.integrator]
+        self._all = stacked([_moving(setup) for setup in setups])
         self._outlines = Outlines(setups, accuracy.skin)
         self._lanes = Lanes()
         self._events: list[list[Event]] = [[] for _ in setups]
         self._left: dict[int, _Left] = {}
         nothing = (np.zeros(0, dtype=int), np.zeros((COLUMNS, 0)))
         self._paths = [nothing]  # of each round: shots, and the rows of their arcs as columns
-
-        # of all shots
-        self._mass = np.array([ball.mass for ball in balls])
-        self._radius = np.array([ball.radius for ball in balls])
-        self._factor = np.array([ball.inertia_factor for ball in balls])
-        self._duration = np.array([setup.duration for setup in setups])
-        self._bounds = np.array([setup.bounds for setup in setups]).T
-        patches = [[tuple(patch) for patch in setup.patches] for setup in setups]
-        self._patches = np.array(patches).reshape(len(setups), -1, 5).transpose(1, 2, 0)  # (patches, 5, shots)
-
-        self._counts = np.zeros((4, len(setups)), dtype=int)  # steps, refined steps, impacts, queries
+        self._counts = np.zeros((4, len(setups)), dtype=int)  # of all shots
 
         # of those in flight
         self._shot = np.arange(len(setups))
         self._t = np.zeros(len(setups))
-        self._state = np.array([(*ball.position, *ball.velocity, ball.spin) for ball in balls], dtype=float).T
-        self._wanted = np.full(len(setups), FIRST_STEP)  # s, the next step
+        self._state = np.array([(*b.position, *b.velocity, b.spin) for b in (s.balls[0] for s in setups)], float).T
+        self._wanted = np.full(len(setups), self._control.first)  # s, the next step
         self._again = np.zeros(len(setups), dtype=bool)  # a step that was too long is tried again
-        self._gather()
+        self._now: Moving = self._all
 
     def fly(self) -> None:
         """All of them, to the end, or as far as they go here."""
         started = perf_counter()
         with np.errstate(all="ignore"):
-            self._check_forces(self._shot, self._now())
+            some = np.arange(0, len(self._shot), max(1, len(self._shot) // _WATCHED))
+            self._check_forces(some, np.array(self._acceleration(self._t, tuple(self._state))))
             self._begin()
             rounds = pieces = 0
             while len(self._shot) >= _FEWEST and pieces < _MOST_PIECES:
@@ -180,126 +175,77 @@ class _Batch:
 
     # ------------------------------------------------------------------ forces
 
-    def _gather(self) -> None:
-        """What belongs to the shots in flight."""
-        self._forces, self._torques = chosen(self._stack, self._shot)
-        self._m = self._mass[self._shot]
-        self._inertia = self._factor[self._shot] * self._m * self._radius[self._shot] ** 2
-
     def _acceleration(self, t: np.ndarray, state: State) -> Acceleration:
-        x, y, vx, vy, spin = state
         for array in (t := t.view(), *state):
             array.flags.writeable = False  # ``vx -= wind`` in a force leaves a float as it was, but not an array
-        fx = fy = torque = np.zeros(len(t))
         try:
-            for force in self._forces:
-                px, py = force(t, (x, y), (vx, vy), spin)
-                fx = fx + px
-                fy = fy + py
-            for turn in self._torques:
-                torque = torque + turn(t, (x, y), (vx, vy), spin)
-        except FAILURES as error:
+            ax, ay, alpha = acceleration(self._now.ball, t, state)
+            every = np.broadcast_to(ax, t.shape), np.broadcast_to(ay, t.shape), np.broadcast_to(alpha, t.shape)
+            if any(map(np.iscomplexobj, every)):
+                raise TypeError("complex numbers")
+        except FAILURES as error:  # among others, arrays of another shape
             raise _OnlyFloats from error
-        if any(np.iscomplexobj(value) for value in (fx, fy, torque)):
-            raise _OnlyFloats
-        return fx / self._m, fy / self._m, torque / self._inertia
-
-    def _now(self) -> np.ndarray:
-        """Accelerations as rows of an array."""
-        try:
-            return np.array(self._acceleration(self._t, tuple(self._state))).reshape(3, len(self._t))
-        except ValueError as error:
-            raise _OnlyFloats from error  # forces of another shape
+        return every
 
     def _check_forces(self, lanes: np.ndarray, together: np.ndarray) -> None:
         """Whether arrays, by which these lanes have these accelerations, give what floats give; not so where a force
         mixes shots up. Where they give no numbers the shot alone says why."""
-        alone, sizes = [], []
         for lane in lanes.tolist():
-            ball = self._setups[self._shot[lane]].balls[0]
-            x, y, vx, vy, spin = self._state[:, lane].tolist()
-            now = (float(self._t[lane]), (x, y), (vx, vy), spin)
+            ball, now = self._setups[self._shot[lane]].balls[0], tuple(self._state[:, lane].tolist())
             try:
-                forces = [force(*now) for force in ball.forces]
-                torques = [torque(*now) for torque in ball.torques]
-                ax, ay = sum(fx for fx, _ in forces) / ball.mass, sum(fy for _, fy in forces) / ball.mass
-                alone.append(tuple(map(float, (ax, ay, sum(torques) / ball.inertia))))
-                size = sum(abs(fx) + abs(fy) for fx, fy in forces) / ball.mass
-                sizes.append(max(size, sum(map(abs, torques)) / ball.inertia))
+                alone = np.array(acceleration(ball, float(self._t[lane]), now))
+                terms = by_cause(ball.forces, float(self._t[lane]), now)
+                size = sum(abs(fx) + abs(fy) for _, (fx, fy) in terms) / ball.mass + abs(alone[2])
             except FAILURES as error:
                 raise _OnlyFloats from error
-        agree = np.abs(together - np.array(alone).T) <= _ROUNDING * np.array(sizes)
-        if not (agree | np.isnan(together)).all():
-            raise _OnlyFloats
+            off = np.abs(together[:, lane] - alone)
+            if not ((off <= _ROUNDING * size) | np.isnan(off)).all():
+                raise _OnlyFloats
 
     # ------------------------------------------------------------------ a round: one step, or an impact, for each
 
     def _begin(self) -> None:
-        near = self._outlines.near(self._shot, self._state[0], self._state[1])
+        count, obstacle, near = self._outlines.near(self._shot, self._state[0], self._state[1])
         away = self._state[2] * near.nx + self._state[3] * near.ny
-        plain = (near.touching == 0) | ((near.touching == 1) & (near.gap >= -1e-12) & (away >= -STILL))
-        self._touched = np.where(near.touching == 1, near.obstacle, -1)  # surface that was just left, or -1
+        plain = (count == 0) | ((count == 1) & (near.gap >= -1e-12) & (away >= -STILL))
+        self._touched = np.where(count == 1, obstacle, -1)  # surface that was just left, or -1
         self._normal = np.array((near.nx, near.ny, near.curvature))
         self._go_on_with(plain)
 
     def _round(self, watched: int) -> None:
-        acceleration = self._now()
-        self._check_forces(np.array([watched]), acceleration[:, [watched]])
-        flying = self._leaving(acceleration)
+        known = np.array(self._acceleration(self._t, tuple(self._state)))
+        self._check_forces(np.array([watched]), known)
+        flying = self._leaving(known)
         if not flying.all():
-            acceleration = acceleration[:, flying]
+            known = known[:, flying]
             self._go_on_with(flying)
             if not len(self._shot):
                 return
         self._touched = np.full(len(self._shot), -1)
-        h = np.minimum(np.minimum(self._wanted, LONGEST), self._duration[self._shot] - self._t)
-        h = np.where(self._again, self._wanted, self._halved_for_patches(h, acceleration))
-        found = self._step(self._acceleration, self._t, tuple(self._state), tuple(acceleration), h)
-        after, last, error = map(np.array, found)
-        fits = self._judge(h, error)
-        accepted = np.flatnonzero(fits & self._makes_sense(after))
-        staying = ~fits & (self._wanted >= np.maximum(1e-15, 1e-15 * self._t))
-        staying[accepted] = True
-        self._wanted = np.where(staying, self._wanted, h)
-        for lane in np.flatnonzero(~staying).tolist():
-            self._leave(lane, "flight")  # which says what is wrong
-        if len(accepted):
-            staying[accepted[self._travel(accepted, h, acceleration, after, last)]] = False
-        if not staying.all():
-            self._go_on_with(staying)
-
-    def _judge(self, h: np.ndarray, error: np.ndarray) -> np.ndarray:
-        """Whether steps of length h are good enough; how long the next shall be, or the same again."""
-        off = np.abs(error[:4]).sum(axis=0) + SPIN_WEIGHT * self._radius[self._shot] * np.abs(error[4])
-        fits = off <= self._local_error
-        change = 0.9 * (self._local_error / off) ** 0.2
-        longer = h * np.where(off > 0.0, np.minimum(5.0, change), 5.0)
-        shorter = h * np.where(np.isfinite(off), np.maximum(0.2, change), 0.1)
-        longer = np.where(h >= self._wanted, longer, np.maximum(longer, self._wanted))
-        self._wanted = np.where(fits, longer, shorter)
+        before = tuple(self._state)
+        h = np.minimum(np.minimum(self._wanted, LONGEST), self._now.duration - self._t)
+        h = np.where(self._again, self._wanted, within(self._now.patches, h, before, tuple(known)))
+        after, last, error = self._method.step(self._acceleration, self._t, before, tuple(known), h)
+        last = self._acceleration(self._t + h, after) if last is None else last
+        off = None if error is None else size(error, self._now.ball.radius)
+        fits, following = self._control.judge(h, self._wanted, before, after, (tuple(known), last), off)
         self._again = ~fits
         self._counts[STEPS, self._shot] += 1
         self._counts[REFINED, self._shot] += ~fits
-        return fits
-
-    def _halved_for_patches(self, h: np.ndarray, acceleration: np.ndarray) -> np.ndarray:
-        x, y, vx, vy, _ = self._state
-        ax, ay, _ = acceleration
-        for patch in self._patches:
-            left, bottom, right, top, step = patch[:, self._shot]
-            while True:
-                half = 0.5 * h
-                xs, ys = (x, x + half * vx, x + h * (vx + half * ax)), (y, y + half * vy, y + h * (vy + half * ay))
-                crossed = (np.minimum.reduce(xs) <= right) & (np.maximum.reduce(xs) >= left)
-                crossed &= (np.minimum.reduce(ys) <= top) & (np.maximum.reduce(ys) >= bottom)
-                crossed &= h > step
-                if not crossed.any():
-                    break
-                h = np.where(crossed, np.maximum(half, step), h)
-        return h
+        ends = np.array(after), np.array(last)
+        accepted = np.flatnonzero(fits & self._makes_sense(ends[0]))
+        staying = ~fits & (following >= np.maximum(1e-15, 1e-15 * self._t))
+        staying[accepted] = True
+        self._wanted = np.where(staying, following, h)
+        for lane in np.flatnonzero(~staying).tolist():
+            self._leave(lane, "flight")  # which says what is wrong
+        if len(accepted):
+            staying[accepted[self._travel(accepted, h, known, *ends)]] = False
+        if not staying.all():
+            self._go_on_with(staying)
 
     def _makes_sense(self, state: np.ndarray) -> np.ndarray:
-        left, bottom, right, top = self._bounds[:, self._shot]
+        left, bottom, right, top = self._now.bounds
         x, y = state[:2]
         return np.isfinite(state).all(axis=0) & (left <= x) & (x <= right) & (bottom <= y) & (y <= top)
 
@@ -340,7 +286,7 @@ class _Batch:
         rows = np.vstack((t0, t1, start, x, y, velocity[:, 0], velocity[:, 1], spin, after))
         self._paths.append((shots, rows))
         self._t[lanes], self._state[:, lanes] = t1, after
-        leaving = t1 >= self._duration[shots]
+        leaving = t1 >= np.broadcast_to(self._now.duration, self._t.shape)[lanes]
         leaving[hits] = False
         for lane in lanes[leaving].tolist():
             self._leave(lane, "duration")
@@ -354,19 +300,19 @@ class _Batch:
         """Let pymunk turn the velocities of shots that have come to touch; which of them stay in the batch."""
         shots = self._shot[lanes]
         x, y, vx, vy, spin = self._state[:, lanes]
-        near = self._outlines.near(shots, x, y)
+        count, obstacle, near = self._outlines.near(shots, x, y)
         approach = -(vx * near.nx + vy * near.ny)
         along = vx * near.ny - vy * near.nx
-        plain = (near.touching == 1) & (approach > STILL)
+        plain = (count == 1) & (approach > STILL)
         answers = np.zeros((len(lanes), 3))  # restitution, friction, tilt
         for i in np.flatnonzero(plain).tolist():
             setup = self._setups[shots[i]]
-            surface, speed = setup.surfaces[near.obstacle[i]], float(approach[i])
-            answer = _answer(surface, speed, float(along[i]))
-            if answer is None:
-                plain[i] = False
+            surface, speed = setup.surfaces[obstacle[i]], float(approach[i])
+            try:
+                answers[i] = answer(surface, speed, float(along[i]))
+            except FAILURES:
+                plain[i] = False  # its shot alone says what is wrong with the surface's law
                 continue
-            answers[i] = answer
             t = float(self._t[lanes[i]])
             event = Event(t, "impact", setup.balls[0].name, surface.name, speed, float(x[i]), float(y[i]))
             self._events[shots[i]].append(event)
@@ -377,15 +323,15 @@ class _Batch:
             here = lanes[at]
             self._counts[IMPACTS, shots[at]] += 1
             nx, ny = near.nx[at], near.ny[at]
-            self._state[2:, here] = self._exchanged(shots[at], nx, ny, vx[at], vy[at], spin[at], answers[at])
-            self._touched[here] = near.obstacle[at]
+            self._state[2:, here] = self._exchanged(self._balls(here), nx, ny, vx[at], vy[at], spin[at], answers[at])
+            self._touched[here] = obstacle[at]
             self._normal = np.zeros((3, len(self._shot)))
             self._normal[:, here] = nx, ny, near.curvature[at]
         return plain
 
     def _exchanged(
         self,
-        shots: np.ndarray,
+        balls: tuple[np.ndarray, np.ndarray],
         nx: np.ndarray,
         ny: np.ndarray,
         vx: np.ndarray,
@@ -396,9 +342,9 @@ class _Batch:
         """Velocities (m/s) and spins (rad/s) after impacts on surfaces with these normals."""
         restitution, friction, tilt = answers.T
         tilt = np.where(vx * ny - vy * nx >= 0.0, tilt, -tilt)
-        c, s, r = np.cos(tilt), np.sin(tilt), self._radius[shots]
+        c, s, (r, factor) = np.cos(tilt), np.sin(tilt), balls
         nx, ny = c * nx - s * ny, c * ny + s * nx
-        pairs = np.array((restitution, friction, self._factor[shots])).T
+        pairs = np.array((restitution, friction, factor)).T
         level, up, spin = self._lanes.exchange((vx * ny - vy * nx) / r, (vx * nx + vy * ny) / r, spin, pairs)
         return r * (level * ny + up * nx), r * (up * ny - level * nx), spin
 
@@ -408,16 +354,15 @@ class _Batch:
         at = np.flatnonzero(self._touched >= 0)
         if not len(at):
             return flying
-        _, _, vx, vy, _ = self._state[:, at]
-        nx, ny, curvature = self._normal[:, at]
-        along = vx * ny - vy * nx
-        press = -(acceleration[0][at] * nx + acceleration[1][at] * ny) - curvature * along * along
-        away = vx * nx + vy * ny
-        for lane, pressed, speed in zip(at.tolist(), press.tolist(), away.tolist(), strict=True):
+        state, (nx, ny, curvature) = self._state[:, at], self._normal[:, at]
+        pressed = press(tuple(state), tuple(acceleration[:, at]), nx, ny, curvature)
+        away = state[2] * nx + state[3] * ny
+        lowest = [self._setups[self._shot[lane]].surfaces[self._touched[lane]].lowest_bounce for lane in at.tolist()]
+        stays = away <= leaves_at(pressed, np.maximum(self._accuracy.settle, lowest))
+        for lane, kept in zip(at.tolist(), stays.tolist(), strict=True):
             shot = self._shot[lane]
             setup = self._setups[shot]
-            lowest = setup.surfaces[self._touched[lane]].lowest_bounce
-            if speed <= leaves_at(pressed, max(self._accuracy.settle, lowest)):
+            if kept:
                 self._leave(lane, "after")
                 flying[lane] = False
             elif self._events[shot] and (how := _over(setup, self._events[shot][-1])):
@@ -432,8 +377,12 @@ class _Batch:
         self._wanted, self._again = self._wanted[staying], self._again[staying]
         self._touched = self._touched[staying]
         self._normal = self._normal[:, staying]
-        if len(self._shot):
-            self._gather()
+        self._now = chosen(self._all, self._shot)
+
+    def _balls(self, lanes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Radii in m and inertia factors."""
+        ball, shape = self._now.ball, self._t.shape
+        return np.broadcast_to(ball.radius, shape)[lanes], np.broadcast_to(ball.inertia_factor, shape)[lanes]
 
     def _leave(self, lane: int, how: str) -> None:
         state = tuple(self._state[:, lane].tolist())
@@ -445,7 +394,9 @@ class _Batch:
             return _one(setup, self._accuracy)
         steps, refined, impacts, queries = self._counts[:, number].tolist()
         seconds = self._seconds / len(self._setups)
-        numerics = Numerics(7 * steps, steps, refined, impacts, 2 * impacts, queries, seconds)
+        numerics = Numerics(
+            (self._method.evaluations + 1) * steps, steps, refined, impacts, 2 * impacts, queries, seconds
+        )
         left, events = self._left[number], self._events[number]
         if left.how in ("until", "duration"):
             arcs = {setup.balls[0].name: ArcRows(rows)}

@@ -9,16 +9,14 @@ from typing import NamedTuple
 
 from sandbox.engine.contacts import Contact, Contacts, Moving
 from sandbox.engine.on_cloth import looseness, rub_over, slip_over
-from sandbox.engine.setup import Ball, Bounce, Setup, possible
+from sandbox.engine.setup import Ball, Bounce, Setup
+from sandbox.engine.surfaces import STILL, answer, answer_of_balls
 from sandbox.engine.touch import CONTACT
 from sandbox.engine.track import Track
 from sandbox.physics.integrators import State
 
 #: Share of the energy that a cluster may gain in an impact: the rounding of Chipmunk's rounds.
 _GAIN = 1e-7
-
-#: Approach speed in m/s that is rounding, not an impact.
-STILL = 1e-9
 
 
 class Hit(NamedTuple):
@@ -140,11 +138,7 @@ class Impacts:
             along = vx * ny - vy * nx
             slip = (along + track.ball.radius * spin, self._upward(index, state, nx, ny))
             surface = obstacle.surface
-            bounce = (
-                Bounce(surface.restitution, surface.friction)
-                if surface.law is None or approach <= 0.0
-                else possible(surface.law(approach, abs(along)), surface.name)
-            )
+            bounce = answer(surface, approach, along)
             forward = 1.0 if along >= 0.0 else -1.0
             found.append(
                 Contact(place, None, nx, ny, self._shared(bounce, approach, slip), bounce.friction, approach, forward)
@@ -173,7 +167,7 @@ class Impacts:
         approach = (wx - vx) * nx + (wy - vy) * ny
         flat = (vx - wx) * ny - (vy - wy) * nx + a.radius * spin + b.radius * other_spin
         slip = (flat, self._upward(i, states[i], nx, ny) - self._upward(j, states[j], -nx, -ny))
-        bounce = possible(self._setup.between_balls(max(approach, 0.0), hypot(*slip)), b.name)
+        bounce = answer_of_balls(self._setup, approach, hypot(*slip), b.name)
         found.append(
             Contact(place, later, nx, ny, self._shared(bounce, approach, slip), bounce.friction, approach, 1.0)
         )

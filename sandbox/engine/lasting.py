@@ -6,10 +6,22 @@ from collections.abc import Sequence
 from math import hypot
 
 from sandbox.engine.arc import Arc
-from sandbox.engine.motion import PINNED, RESTING, ROLLING, SLIDING, Contact, Mover, rolling
-from sandbox.engine.touch import Obstacle, Touching
+from sandbox.engine.motion import (
+    PINNED,
+    RESTING,
+    ROLLING,
+    SLIDING,
+    Contact,
+    Mover,
+    friction_of_rolling,
+    on_surface,
+    rolling,
+)
+from sandbox.engine.setup import Ball
+from sandbox.engine.surfaces import leaves_at, press
+from sandbox.engine.touch import SIDE, Obstacle, Touching
 from sandbox.engine.track import Near, Track
-from sandbox.physics.integrators import State
+from sandbox.physics.integrators import Acceleration, State
 
 #: Speed in m/s, and acceleration in m/s^2, that is rounding.
 _STILL = 1e-10
@@ -33,8 +45,8 @@ class InPlane(Mover):
         near = track.near(*state[:2])
         if not near:
             return state, None
-        fx, fy, torque = self.force(t, state)
-        kept, hardest = self._kept(near, state, fx, fy, height)
+        applied = self.acceleration(t, state)
+        kept, hardest = _kept(near, state, applied, height)
         if not kept:
             return state, None
         x, y, vx, vy, spin = state
@@ -54,40 +66,24 @@ class InPlane(Mover):
 
         held: list[Contact] = []
         for obstacle, touching in kept:
-            mx, my = (vx, vy) if vx or vy else (fx, fy)  # where it is about to go
+            mx, my = (vx, vy) if vx or vy else applied[:2]  # where it is about to go
             place = obstacle.ahead(touching, x, y, mx, my)
-            contact = _way_of_moving(self, state, obstacle, place, fx, fy, torque)
+            contact = _way_of_moving(self.ball, state, obstacle, place, applied)
             if contact is None:
                 continue
             held.append(contact)
         held.sort(key=lambda contact: contact.touching.curvature)  # the next piece's side before this one's corner
         for contact in held:
-            (ax, ay, _), _, _ = self.on_surface(t, state, contact)
+            (ax, ay, _), _, _ = on_surface(self.ball, applied, state, contact)
             if contact.mode == RESTING:
                 ax = ay = 0.0
             if all(
                 ax * other.nx + ay * other.ny >= -1e-9 or _sine(other, contact.touching) <= _FLUSH for _, other in kept
             ):
-                return _on(self, state, contact), contact
+                return _on(self.ball, state, contact), contact
         if not held:
             return state, None
-        return _wedged(self, state, kept, held, fx, fy)
-
-    def _kept(
-        self, near: Sequence[Near], state: State, fx: float, fy: float, height: float
-    ) -> tuple[list[Near], float]:
-        """The surfaces off which the ball would bounce no higher than ``height`` or than their own lowest bounce, and
-        how hard (m/s^2) it is pressed on one of them at most."""
-        _, _, vx, vy, _ = state
-        kept, hardest = [], 0.0
-        for obstacle, touching in near:
-            nx, ny = touching.nx, touching.ny
-            along = vx * ny - vy * nx
-            press = -(fx * nx + fy * ny) / self.ball.mass - touching.curvature * along * along
-            if vx * nx + vy * ny <= leaves_at(press, max(height, obstacle.surface.lowest_bounce)):
-                kept.append((obstacle, touching))
-                hardest = max(hardest, press)
-        return kept, hardest
+        return _wedged(self.ball, state, kept, held, applied)
 
     def conclude(self, state: State, contact: Contact | None, reason: str) -> State:
         """The state at the end of an arc: put back on a round surface, whose path the arc only follows closely; just
@@ -96,9 +92,9 @@ class InPlane(Mover):
             return state
         x, y, vx, vy, spin = state
         nx, ny, _ = contact.touching.normal_at(x, y)
-        if contact.touching.center is not None and contact.mode in (SLIDING, ROLLING):
-            x = contact.touching.center[0] + contact.obstacle.reach * nx
-            y = contact.touching.center[1] + contact.obstacle.reach * ny
+        if contact.touching.feature != SIDE and contact.mode in (SLIDING, ROLLING):
+            x = contact.touching.center[0] + contact.obstacle.outline.reach * nx
+            y = contact.touching.center[1] + contact.obstacle.outline.reach * ny
             leaving = vx * nx + vy * ny
             vx -= leaving * nx
             vy -= leaving * ny
@@ -113,43 +109,47 @@ class InPlane(Mover):
         return isinstance(arc.contact, Contact) and arc.contact.mode == RESTING
 
 
-def leaves_at(press: float, height: float) -> float:
-    """Speed in m/s away from a surface above which a ball flies off: it would rise higher than ``height`` (m).
-
-    ``press`` in m/s^2 is what drives it back, no matter how strongly if it is negative.
-    """
-    return (2.0 * max(press, 0.0) * height) ** 0.5 + _STILL
+def _kept(near: Sequence[Near], state: State, applied: Acceleration, height: float) -> tuple[list[Near], float]:
+    """The surfaces off which a ball would bounce no higher than ``height`` or than their own lowest bounce, and how
+    hard (m/s^2) it is pressed on one of them at most."""
+    kept, hardest = [], 0.0
+    for obstacle, touching in near:
+        pressed = press(state, applied, touching.nx, touching.ny, touching.curvature)
+        away = state[2] * touching.nx + state[3] * touching.ny
+        if away <= leaves_at(pressed, max(height, obstacle.surface.lowest_bounce)):
+            kept.append((obstacle, touching))
+            hardest = max(hardest, pressed)
+    return kept, hardest
 
 
 def _way_of_moving(
-    mover: Mover, state: State, obstacle: Obstacle, touching: Touching, fx: float, fy: float, torque: float
+    ball: Ball, state: State, obstacle: Obstacle, touching: Touching, applied: Acceleration
 ) -> Contact | None:
     """Sliding, rolling or resting on one surface; None if nothing presses the ball on."""
-    x, y, vx, vy, spin = state
-    ball, surface = mover.ball, obstacle.surface
+    _, _, vx, vy, spin = state
+    ax, ay, turning = applied
     nx, ny = touching.nx, touching.ny
-    tx, ty = ny, -nx
-    speed = vx * tx + vy * ty
-    normal = -(fx * nx + fy * ny) - ball.mass * touching.curvature * speed * speed
-    if normal <= _PRESSING * (abs(fx) + abs(fy)):
+    pressed = press(state, applied, nx, ny, touching.curvature)
+    if pressed <= _PRESSING * (abs(ax) + abs(ay)):
         return None
+    speed = vx * ny - vy * nx
     slip = speed + ball.radius * spin
     if abs(slip) > _STILL * (1.0 + abs(speed)):
         return Contact(SLIDING, obstacle, touching, 1.0 if slip > 0.0 else -1.0)
-    along = fx * tx + fy * ty
-    drive = along - torque / ball.radius
+    along = ax * ny - ay * nx
     moves = abs(speed) > _STILL
-    direction = (1.0 if speed > 0.0 else -1.0) if moves else (1.0 if drive > 0.0 else -1.0)
-    a, spare = rolling(ball, surface, along, torque, normal, direction)
-    turning = drive / (1.0 + ball.inertia_factor) - along  # friction that rolling asks for
-    if spare < 0.0 or (spare == 0.0 and turning != 0.0):
-        return Contact(SLIDING, obstacle, touching, 1.0 if turning < 0.0 else -1.0)
+    drive = speed if moves else along - ball.inertia_factor * ball.radius * turning
+    direction = 1.0 if drive > 0.0 else -1.0
+    a, spare = rolling(ball, obstacle.surface, along, turning, pressed, direction)
+    needed = friction_of_rolling(ball, along, turning)
+    if spare < 0.0 or (spare == 0.0 and needed != 0.0):
+        return Contact(SLIDING, obstacle, touching, 1.0 if needed < 0.0 else -1.0)
     if not moves and direction * a <= _STILL:
         return Contact(RESTING, obstacle, touching)
     return Contact(ROLLING, obstacle, touching, direction)
 
 
-def _on(mover: Mover, state: State, contact: Contact) -> State:
+def _on(ball: Ball, state: State, contact: Contact) -> State:
     """The state put exactly on the surface, and exactly rolling or at rest where it is."""
     x, y, vx, vy, spin = state
     nx, ny = contact.touching.nx, contact.touching.ny
@@ -159,12 +159,12 @@ def _on(mover: Mover, state: State, contact: Contact) -> State:
     if contact.mode == RESTING:
         return x, y, 0.0, 0.0, 0.0
     if contact.mode == ROLLING:
-        spin = -(vx * ny - vy * nx) / mover.ball.radius
+        spin = -(vx * ny - vy * nx) / ball.radius
     return x, y, vx, vy, spin
 
 
 def _wedged(
-    mover: Mover, state: State, kept: Sequence[Near], held: Sequence[Contact], fx: float, fy: float
+    ball: Ball, state: State, kept: Sequence[Near], held: Sequence[Contact], applied: Acceleration
 ) -> tuple[State, Contact]:
     """Held by two surfaces at once: the place is fixed, and friction on both takes the spin.
 
@@ -174,9 +174,10 @@ def _wedged(
     others = [near for near in kept if _sine(near[1], first.touching) > _FLUSH]
     obstacle, second = others[0]
     a, b = first.touching, second
+    ax, ay, _ = applied
     determinant = a.nx * b.ny - a.ny * b.nx
-    on_first = max(0.0, (-fx * b.ny + fy * b.nx) / determinant)
-    on_second = max(0.0, (-fy * a.nx + fx * a.ny) / determinant)
+    on_first = max(0.0, (-ax * b.ny + ay * b.nx) / determinant)
+    on_second = max(0.0, (-ay * a.nx + ax * a.ny) / determinant)
     friction = first.obstacle.surface.friction * on_first + obstacle.surface.friction * on_second
     x, y, _, _, spin = state
     for place, touching in ((first.obstacle, a), (obstacle, second)):
@@ -186,7 +187,7 @@ def _wedged(
     still = (x, y, 0.0, 0.0, spin)
     if abs(spin) <= _STILL:
         return (x, y, 0.0, 0.0, 0.0), Contact(RESTING, first.obstacle, a)
-    rate = mover.ball.radius * friction / mover.ball.inertia
+    rate = friction / (ball.inertia_factor * ball.radius)
     return still, Contact(PINNED, first.obstacle, a, 1.0 if spin > 0.0 else -1.0, rate)
 
 

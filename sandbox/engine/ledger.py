@@ -9,19 +9,16 @@ from collections import defaultdict
 from dataclasses import dataclass
 from itertools import pairwise
 
+from sandbox.engine.acting import acceleration, by_cause
 from sandbox.engine.arc import Arc
-from sandbox.engine.motion import PINNED, RESTING, Contact, Mover
-from sandbox.engine.run import Numerics, Run
+from sandbox.engine.motion import PINNED, RESTING, Contact, on_surface
+from sandbox.engine.run import Run
 from sandbox.engine.setup import Ball
 from sandbox.physics.integrators import State
 
 #: Gauss-Legendre nodes and weights on [0, 1]: exact for polynomials of degree 9.
 _NODES = (0.04691007703066802, 0.23076534494715845, 0.5, 0.7692346550528415, 0.953089922969332)
 _WEIGHTS = (0.11846344252809454, 0.23931433524968324, 0.28444444444444444, 0.23931433524968324, 0.11846344252809454)
-
-
-#: Words for causes whose class is named for its physics.
-CALLED = {"magnus": "lift"}
 
 
 @dataclass(frozen=True)
@@ -51,7 +48,6 @@ def ledger(run: Run) -> Ledger:
     hits = _hits(run)
     for ball in run.setup.balls:
         arcs = run.arcs[ball.name]
-        mover = Mover(ball, run.accuracy, run.setup.bounds, run.setup.patches, Numerics())
         start += kinetic(ball, arcs[0].start)
         end += kinetic(ball, arcs[-1].state(arcs[-1].t1))
         for arc in arcs:
@@ -59,7 +55,7 @@ def ledger(run: Run) -> Ledger:
             if run.setup.cloth is not None:
                 contacts["cloth"] += gain
             else:
-                residue += gain - _book(mover, arc, work, contacts)
+                residue += gain - _book(ball, arc, work, contacts)
         for before, after in pairwise(arcs):
             jump = kinetic(ball, after.start) - kinetic(ball, before.state(before.t1))
             hit = hits.get((ball.name, after.t0))
@@ -90,37 +86,27 @@ def _hits(run: Run) -> dict[tuple[str, float], str]:
     return hits
 
 
-def _book(mover: Mover, arc: Arc, work: dict[str, float], contacts: dict[str, float]) -> float:
+def _book(ball: Ball, arc: Arc, work: dict[str, float], contacts: dict[str, float]) -> float:
     """Enter the work done along an arc, and give its sum in J."""
-    ball, h, contact = mover.ball, arc.t1 - arc.t0, arc.contact
+    h, contact = arc.t1 - arc.t0, arc.contact
     booked = 0.0
     for node, weight in zip(_NODES, _WEIGHTS, strict=True):
         t = arc.t0 + node * h
         state = arc.state(t)
-        x, y, vx, vy, spin = state
+        _, _, vx, vy, spin = state
         applied = 0.0
-        for force in ball.forces:
-            fx, fy = force(t, (x, y), (vx, vy), spin)
-            work[cause(force)] += weight * h * (fx * vx + fy * vy)
-            applied += fx * vx + fy * vy
-        for torque in ball.torques:
-            power = torque(t, (x, y), (vx, vy), spin) * spin
-            work[cause(torque)] += weight * h * power
+        powers = [(name, fx * vx + fy * vy) for name, (fx, fy) in by_cause(ball.forces, t, state)]
+        powers += [(name, torque * spin) for name, torque in by_cause(ball.torques, t, state)]
+        for name, power in powers:
+            work[name] += weight * h * power
             applied += power
         if isinstance(contact, Contact) and contact.mode != RESTING:
             if contact.mode == PINNED:
                 total = -ball.inertia * contact.spin_rate * abs(spin)
             else:
-                (ax, ay, alpha), _, _ = mover.on_surface(t, state, contact)
+                (ax, ay, alpha), _, _ = on_surface(ball, acceleration(ball, t, state), state, contact)
                 total = ball.mass * (ax * vx + ay * vy) + ball.inertia * alpha * spin
             contacts[contact.obstacle.surface.name] += weight * h * (total - applied)
             applied = total
         booked += weight * h * applied
     return booked
-
-
-def cause(term: object) -> str:
-    """What people call a force or torque: ``SpinDecay`` is "spin decay"; a function goes by its own name."""
-    name = str(getattr(term, "__name__", type(term).__name__))
-    words = "".join(f" {c.lower()}" if c.isupper() else c for c in name).replace("_", " ").strip()
-    return CALLED.get(words, words)

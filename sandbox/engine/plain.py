@@ -16,11 +16,13 @@ from typing import Any
 import pymunk
 
 from sandbox.engine.accuracy import Accuracy
+from sandbox.engine.acting import checked
 from sandbox.engine.arc import Arc
 from sandbox.engine.event import Event
-from sandbox.engine.motion import Diverged, misused, not_a_number
+from sandbox.engine.motion import Diverged
 from sandbox.engine.run import Numerics, Run
-from sandbox.engine.setup import Ball, Bounce, Circle, Setup, Surface, possible
+from sandbox.engine.setup import Ball, Circle, Setup, Surface
+from sandbox.engine.surfaces import answer, answer_of_balls
 from sandbox.physics.cloth import ClothState
 from sandbox.physics.integrators import State
 
@@ -198,23 +200,10 @@ class PlainSimulation:
                 return
             try:
                 self._numerics.force_evaluations += 1
-                x, y = position = body.position
-                vx, vy = body.velocity
-                velocity, spin = (vx, vy), body.angular_velocity
-                fx = fy = torque = 0.0
-                cause: object = None
-                try:
-                    for cause in ball.forces:
-                        px, py = cause(self._t, position, velocity, spin)
-                        fx += px
-                        fy += py
-                    for cause in ball.torques:
-                        torque += cause(self._t, position, velocity, spin)
-                    if not isinstance(fx + fy + torque, float):
-                        raise not_a_number(ball, self._t, position, velocity, spin)
-                except (TypeError, ValueError, OverflowError) as error:
-                    raise misused(cause, error) from None
-                ax, ay = fx / ball.mass, fy / ball.mass
+                x, y = body.position
+                vx, vy = velocity = body.velocity
+                spin = body.angular_velocity
+                ax, ay, alpha = checked(ball, self._t, (x, y, vx, vy, spin))
                 if tracked.touched != self._steps:
                     self._refuse_reversal(tracked, ax, ay, velocity, h)
                 tracked.acceleration, tracked.before = (ax, ay), velocity
@@ -225,7 +214,7 @@ class PlainSimulation:
                     phase = cloth.phase(before, ball.radius)
                     _, _, vx, vy, spin, wx, wy = cloth.after(before, phase, min(h, phase.duration))
                     tracked.rolling_spin = (wx, wy)
-                spin += h * torque / ball.inertia
+                spin += h * alpha
                 if tracked.pressed > 0.0:
                     speed = (vx * vx + vy * vy) ** 0.5
                     slower = max(0.0, 1.0 - h * tracked.resistance * tracked.pressed / ball.mass / (speed + 1e-30))
@@ -276,11 +265,7 @@ class PlainSimulation:
         if approach <= 0.0:
             return
         ax, ay = self._tracked[_body(first)].acceleration
-        bounce = (
-            Bounce(surface.restitution, surface.friction)
-            if surface.law is None
-            else possible(surface.law(approach, abs(along)), surface.name)
-        )
+        bounce = answer(surface, approach, along)
         press = max(0.0, ax * normal.x + ay * normal.y)  # m/s^2
         tracked = self._tracked[_body(first)]
         tracked.lowest = (2.0 * press * surface.lowest_bounce) ** 0.5
@@ -301,7 +286,7 @@ class PlainSimulation:
         a.touched = b.touched = self._steps
         normal, approach, along = _closing(arbiter)
         slip = along + a.ball.radius * _body(first).angular_velocity + b.ball.radius * _body(second).angular_velocity
-        bounce = possible(self._setup.between_balls(max(approach, 0.0), abs(slip)), b.ball.name)
+        bounce = answer_of_balls(self._setup, approach, abs(slip), b.ball.name)
         arbiter.restitution, arbiter.friction = bounce.restitution, bounce.friction
 
     def _press(self, arbiter: pymunk.Arbiter) -> None:

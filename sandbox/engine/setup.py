@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from math import hypot, inf, isfinite
-from numbers import Real
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
-from sandbox.errors import RunError
+from sandbox.physics.elementwise import least, most
 
 if TYPE_CHECKING:
     from sandbox.engine.event import Event
@@ -50,6 +49,7 @@ class Ball:
     inertia_factor: float = SOLID_SPHERE  # moment of inertia over m r^2
     forces: Sequence[Force] = ()
     torques: Sequence[Torque] = ()
+    inertia: float = field(init=False, repr=False)  # kg m^2
 
     def __post_init__(self) -> None:
         for what, value in (("mass", self.mass), ("radius", self.radius), ("inertia_factor", self.inertia_factor)):
@@ -68,11 +68,7 @@ class Ball:
                     f"ball {self.name!r}: {name!r} is no force: list something that can be called with "
                     "(t, position, velocity, spin), such as an object of the class and not the class"
                 )
-
-    @property
-    def inertia(self) -> float:
-        """Moment of inertia in kg m^2."""
-        return self.inertia_factor * self.mass * self.radius * self.radius
+        object.__setattr__(self, "inertia", self.inertia_factor * self.mass * self.radius * self.radius)
 
 
 def _check_pair(what: str, pair: Vector) -> None:
@@ -119,18 +115,6 @@ class Bounce(NamedTuple):
     restitution: float
     friction: float
     tilt: float = 0.0  # rad; the surface gives way and its normal leans against the ball's motion along it
-
-
-def possible(bounce: Bounce, partner: str) -> Bounce:
-    """The bounce off ``partner`` as it is, if it can be. Raises RunError if not: Chipmunk would end the program."""
-    if not isinstance(bounce, Bounce) or not all(isinstance(value, Real) for value in bounce):
-        raise RunError(
-            f"a ball meets {partner!r}: the scene's law must return a Bounce of numbers, such as "
-            f"Bounce(restitution=0.7, friction=0.3), and returned {bounce!r:.60}"
-        )
-    if 0.0 <= bounce.restitution < inf and 0.0 <= bounce.friction < inf and isfinite(bounce.tilt):
-        return bounce
-    raise RunError(f"no ball bounces off {partner!r} with {bounce}: look at the scene's law for it")
 
 
 @dataclass(frozen=True)
@@ -181,9 +165,10 @@ class Patch(NamedTuple):
     top: float  # m
     step: float  # s
 
-    def crossed(self, x: tuple[float, ...], y: tuple[float, ...]) -> bool:
+    def crossed(self, x: tuple[Any, ...], y: tuple[Any, ...]) -> Any:
         """Whether a path inside the hull of these points could pass through; coordinates in m."""
-        return min(x) <= self.right and max(x) >= self.left and min(y) <= self.top and max(y) >= self.bottom
+        beside = (least(*x) > self.right) | (most(*x) < self.left)
+        return (beside | (least(*y) > self.top) | (most(*y) < self.bottom)) ^ True
 
 
 @dataclass(frozen=True)

@@ -325,9 +325,8 @@ def _clear_of(ball: Ball, place: Sequence[float], obstacles: Sequence[Obstacle])
     both."""
     x, y = map(float, place)
     for _ in range(_MOST_PUSHES):
-        deepest = min(
-            ((obstacle.near(x, y), obstacle) for obstacle in obstacles), key=lambda near: near[0].gap, default=None
-        )
+        near = [(obstacle.near(x, y), obstacle) for obstacle in obstacles if obstacle.may_meet((x, y, x, y))]
+        deepest = min(near, key=lambda near: near[0].gap, default=None)
         if deepest is None or deepest[0].gap >= -1e-12:
             return x, y
         touching, obstacle = deepest

@@ -9,13 +9,14 @@ at any speed.
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from math import hypot, sqrt
-from typing import NamedTuple
+from math import sqrt
+from typing import Any, NamedTuple
 
 from sandbox.engine.accuracy import SKIN
 from sandbox.engine.arc import Arc
 from sandbox.engine.bernstein import downward_crossings, elevate, evaluate, piece, product, without_root_at_start
-from sandbox.engine.setup import Circle, Surface
+from sandbox.engine.setup import Circle, Segment, Surface
+from sandbox.physics.elementwise import choose, hypot, least, most
 
 #: Largest gap in m at which shapes are taken to be in contact when an impact or a new contact is sorted out.
 CONTACT = 1e-10
@@ -26,25 +27,28 @@ _SEAM = 1e-11
 #: Rounding in m that is not motion: a path nearer than this to parallel neither closes nor opens a gap.
 NOISE = 1e-13
 
+#: Keeps a normal finite where a ball is centred on a corner (m).
+_NO_DISTANCE = 1e-300
 
-Point = tuple[float, float]
 
-SIDE, CORNER_A, CORNER_B, WHOLE = range(4)
+Point = tuple[Any, Any]
+
+SIDE, CORNER_A, CORNER_B = range(3)
 
 
 class Touching(NamedTuple):
     """A feature near a ball: the gap between them and the unit normal from the feature to the ball's centre."""
 
-    gap: float  # m, negative where they overlap
-    nx: float
-    ny: float
-    curvature: float  # 1/m, of the path of a ball that stays in touch: 0 along a side, 1 / (R + r) around a corner
-    center: Point | None  # m, of a round feature
-    feature: int  # SIDE, CORNER_A, CORNER_B or WHOLE
+    gap: Any  # m, negative where they overlap
+    nx: Any
+    ny: Any
+    curvature: Any  # 1/m, of the path of a ball that stays in touch: 0 along a side, 1 / (R + r) around a corner
+    center: Point  # m, of the corner
+    feature: Any  # SIDE, CORNER_A or CORNER_B
 
     def normal_at(self, x: float, y: float) -> tuple[float, float, float]:
         """Unit normal and curvature for a ball in touch with this feature at (x, y)."""
-        if self.center is None:
+        if self.feature == SIDE:
             return self.nx, self.ny, 0.0
         dx = x - self.center[0]
         dy = y - self.center[1]
@@ -52,41 +56,109 @@ class Touching(NamedTuple):
         return dx / distance, dy / distance, 1.0 / distance
 
 
+class Outline(NamedTuple):
+    """Where a ball's centre is when it touches a shape: all places at ``reach`` from the line between a and b, or from
+    the one point where a is b. Floats, or arrays for many shapes at once."""
+
+    ax: Any  # m
+    ay: Any
+    bx: Any
+    by: Any
+    reach: Any  # m
+    length: Any  # m
+    tx: Any  # unit vector from a to b
+    ty: Any
+
+    @classmethod
+    def of(cls, shape: Segment | Circle, radius: Any) -> Outline:
+        """That of a shape for balls of this radius (m)."""
+        ends = (*shape.center, *shape.center) if isinstance(shape, Circle) else (*shape.a, *shape.b)
+        zero = 0.0 * radius
+        ax, ay, bx, by = (end + zero for end in ends)
+        length = hypot(bx - ax, by - ay)
+        point = length == 0.0  # then it has any direction
+        over = length + point
+        return cls(ax, ay, bx, by, shape.radius + radius, length, (bx - ax) / over + point, (by - ay) / over)
+
+    def along(self, x: Any, y: Any) -> Any:
+        """Way in m from a towards b."""
+        return (x - self.ax) * self.tx + (y - self.ay) * self.ty
+
+    def across(self, x: Any, y: Any) -> Any:
+        """Distance in m from the line, positive to its left."""
+        return (y - self.ay) * self.tx - (x - self.ax) * self.ty
+
+    def near(self, x: Any, y: Any) -> Touching:
+        """How near a ball centred at (x, y) is to the feature nearest to it."""
+        along = self.along(x, y)
+        beyond = along > self.length
+        beside = (along >= 0.0) & (beyond ^ True) & (self.length > 0.0)
+        side, corner = self.side(x, y), self.corner(choose(beyond, CORNER_B, CORNER_A), x, y)
+        return Touching(
+            choose(beside, side.gap, corner.gap),
+            choose(beside, side.nx, corner.nx),
+            choose(beside, side.ny, corner.ny),
+            choose(beside, 0.0, corner.curvature),
+            corner.center,
+            choose(beside, SIDE, corner.feature),
+        )
+
+    def side(self, x: Any, y: Any) -> Touching:
+        """How near a ball is to the side, or to what would continue it."""
+        across = self.across(x, y)
+        side = choose(across >= 0.0, 1.0, -1.0)
+        return Touching(side * across - self.reach, -side * self.ty, side * self.tx, 0.0, (self.ax, self.ay), SIDE)
+
+    def corner(self, feature: Any, x: Any, y: Any) -> Touching:
+        """How near a ball is to a corner."""
+        at_b = feature == CORNER_B
+        cx, cy = choose(at_b, self.bx, self.ax), choose(at_b, self.by, self.ay)
+        dx = x - cx
+        dy = y - cy
+        distance = hypot(dx, dy)
+        over = distance + _NO_DISTANCE
+        return Touching(distance - self.reach, dx / over, dy / over, 1.0 / self.reach, (cx, cy), feature)
+
+    def box(self) -> tuple[Any, Any, Any, Any]:
+        """Left, bottom, right, top (m) of where a ball's centre is when it touches."""
+        margin = self.reach + CONTACT
+        return (
+            least(self.ax, self.bx) - margin,
+            least(self.ay, self.by) - margin,
+            most(self.ax, self.bx) + margin,
+            most(self.ay, self.by) + margin,
+        )
+
+
 class Obstacle:
     """A surface, prepared for one ball radius; touched where a ball overlaps it by ``skin`` (m)."""
 
     def __init__(self, surface: Surface, radius: float, skin: float = SKIN) -> None:
-        shape = surface.shape
         self.surface = surface
         self._skin = skin
-        self.reach = shape.radius + radius  # m, from the ball's centre to the shape's middle line when they touch
-        self._a, b = (shape.center, shape.center) if isinstance(shape, Circle) else (shape.a, shape.b)
-        self._b = b
-        self._length = hypot(b[0] - self._a[0], b[1] - self._a[1])
-        self._round = self._length == 0.0
-        self._tx = 1.0 if self._round else (b[0] - self._a[0]) / self._length
-        self._ty = 0.0 if self._round else (b[1] - self._a[1]) / self._length
-        margin = self.reach + CONTACT
-        self._left, self._right = min(self._a[0], b[0]) - margin, max(self._a[0], b[0]) + margin
-        self._bottom, self._top = min(self._a[1], b[1]) - margin, max(self._a[1], b[1]) + margin
+        self.outline = Outline.of(surface.shape, radius)
+        self.box = self.outline.box()
+
+    def may_meet(self, path: tuple[float, float, float, float]) -> bool:
+        """Whether a path inside this box (left, bottom, right, top) could touch."""
+        left, bottom, right, top = self.box
+        return path[0] <= right and path[2] >= left and path[1] <= top and path[3] >= bottom
 
     def near(self, x: float, y: float) -> Touching:
         """How near a ball centred at (x, y) is to the feature nearest to it."""
-        if self._round:
-            return self._at(WHOLE, x, y)
-        along = self._along(x, y)
-        return self._at(CORNER_A if along < 0.0 else CORNER_B if along > self._length else SIDE, x, y)
+        return self.outline.near(x, y)
 
     def ahead(self, touching: Touching, x: float, y: float, mx: float, my: float) -> Touching:
         """The feature that a ball touching here, and about to move along (mx, my), will be on: at the seam of side
         and corner both are touched."""
-        if touching.feature == WHOLE:
+        outline = self.outline
+        if outline.length == 0.0:
             return touching
-        along = self._along(x, y)
-        forward = mx * self._tx + my * self._ty
+        along = outline.along(x, y)
+        forward = mx * outline.tx + my * outline.ty
         if abs(along) <= _SEAM:
             return self._at(CORNER_A if forward < 0.0 else SIDE, x, y)
-        if abs(along - self._length) <= _SEAM:
+        if abs(along - outline.length) <= _SEAM:
             return self._at(CORNER_B if forward > 0.0 else SIDE, x, y)
         return touching
 
@@ -96,60 +168,39 @@ class Obstacle:
 
     def edge(self, feature: int, arc: Arc) -> float | None:
         """The first u at which a ball that stays on the feature reaches its end, or None."""
-        if feature == WHOLE:
+        length = self.outline.length
+        if length == 0.0:
             return None
-        along = [(x - self._a[0]) * self._tx + (y - self._a[1]) * self._ty for x, y in zip(arc.x, arc.y, strict=True)]
-        if feature == CORNER_A:
-            return next(downward_crossings([-s for s in along]), None)
-        if feature == CORNER_B:
-            return next(downward_crossings([s - self._length for s in along]), None)
-        ends = [
-            next(downward_crossings(along), None),
-            next(downward_crossings([self._length - s for s in along]), None),
-        ]
-        return min((u for u in ends if u is not None), default=None)
-
-    def _along(self, x: float, y: float) -> float:
-        return (x - self._a[0]) * self._tx + (y - self._a[1]) * self._ty
+        along = [self.outline.along(x, y) for x, y in zip(arc.x, arc.y, strict=True)]
+        ends = {
+            SIDE: (along, [length - s for s in along]),
+            CORNER_A: ([-s for s in along],),
+            CORNER_B: ([s - length for s in along],),
+        }
+        found = (next(downward_crossings(end), None) for end in ends[feature])
+        return min((u for u in found if u is not None), default=None)
 
     def _at(self, feature: int, x: float, y: float) -> Touching:
-        if feature == SIDE:
-            across = (y - self._a[1]) * self._tx - (x - self._a[0]) * self._ty
-            side = 1.0 if across >= 0.0 else -1.0
-            return Touching(side * across - self.reach, -side * self._ty, side * self._tx, 0.0, None, SIDE)
-        center = self._b if feature == CORNER_B else self._a
-        dx = x - center[0]
-        dy = y - center[1]
-        distance = hypot(dx, dy)
-        nx, ny = (dx / distance, dy / distance) if distance > 0.0 else (0.0, 1.0)
-        return Touching(distance - self.reach, nx, ny, 1.0 / self.reach, center, feature)
-
-    def may_meet(self, box: tuple[float, float, float, float]) -> bool:
-        """Whether a path inside the box (left, bottom, right, top) could touch."""
-        return box[0] <= self._right and box[2] >= self._left and box[1] <= self._top and box[3] >= self._bottom
+        return self.outline.side(x, y) if feature == SIDE else self.outline.corner(feature, x, y)
 
     def first_touch(self, arc: Arc) -> float | None:
         """The first u in [0, 1] of the arc at which the ball comes to touch, or None."""
-        if self._round:
-            return self._corner(arc, self._a)
-        touches = (self._corner(arc, self._a), self._side(arc), self._corner(arc, self._b))
+        ax, ay, bx, by, reach, length, _, _ = self.outline
+        radius = reach - self._skin
+        if length == 0.0:
+            return _corner(arc, ax, ay, radius)
+        touches = (_corner(arc, ax, ay, radius), self._side(arc), _corner(arc, bx, by, radius))
         return min((u for u in touches if u is not None), default=None)
 
-    def _corner(self, arc: Arc, center: Point) -> float | None:
-        (left, bottom, right, top), (x, y), reach = arc.box(), center, self.reach
-        if x - reach > right or x + reach < left or y - reach > top or y + reach < bottom:
-            return None
-        return _round(arc.x, arc.y, center, reach - self._skin)
-
     def _side(self, arc: Arc) -> float | None:
-        ax, ay = self._a
-        across = [(y - ay) * self._tx - (x - ax) * self._ty for x, y in zip(arc.x, arc.y, strict=True)]
+        ax, ay, _, _, reach, _, tx, ty = self.outline
+        across = [(y - ay) * tx - (x - ax) * ty for x, y in zip(arc.x, arc.y, strict=True)]
         low, high = min(across), max(across)
-        if low > self.reach or high < -self.reach:
+        if low > reach or high < -reach:
             return None
         first = None
         for side in (1.0, -1.0):
-            gap = [side * d - self.reach + self._skin for d in across]
+            gap = [side * d - reach + self._skin for d in across]
             if max(gap) <= -NOISE and side * across[0] <= 0.0:
                 continue  # wholly beyond the line
             for u in _closings(gap, side * across[0] > 0.0 and self._within(arc.x[0], arc.y[0], CONTACT)):
@@ -161,7 +212,14 @@ class Obstacle:
         return first
 
     def _within(self, x: float, y: float, margin: float = 0.0) -> bool:
-        return -margin <= self._along(x, y) <= self._length + margin
+        return -margin <= self.outline.along(x, y) <= self.outline.length + margin
+
+
+def _corner(arc: Arc, x: float, y: float, radius: float) -> float | None:
+    left, bottom, right, top = arc.box()
+    if x - radius > right or x + radius < left or y - radius > top or y + radius < bottom:
+        return None
+    return _round(arc.x, arc.y, (x, y), radius)
 
 
 def _round(xs: Sequence[float], ys: Sequence[float], center: Point, radius: float) -> float | None:

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 from sandbox import parameters as declared
 from sandbox.engine import simulate
 from sandbox.engine.accuracy import LEVELS
-from sandbox.engine.ledger import cause
+from sandbox.engine.acting import cause
 from sandbox.engine.run import Run
 from sandbox.engine.setup import Always, Ball, Bounce, Setup, Surface
 from sandbox.errors import SandboxError

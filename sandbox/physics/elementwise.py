@@ -42,10 +42,42 @@ def clip(x: Any, low: float, high: float) -> Any:
     return np.clip(x, low, high)
 
 
+def hypot(x: Any, y: Any) -> Any:
+    """Length of (x, y)."""
+    if isinstance(x, float):
+        return math.hypot(x, y)
+    import numpy as np
+
+    return np.hypot(x, y)
+
+
+def least(*values: Any) -> Any:
+    """The smallest of these, entry by entry."""
+    if isinstance(values[0], float):
+        return min(values)
+    import numpy as np
+
+    return np.minimum.reduce(values)
+
+
+def most(*values: Any) -> Any:
+    """The largest of these, entry by entry."""
+    if isinstance(values[0], float):
+        return max(values)
+    import numpy as np
+
+    return np.maximum.reduce(values)
+
+
+def anywhere(condition: Any) -> bool:
+    """Whether it holds at all."""
+    return condition if isinstance(condition, bool) else bool(condition.any())
+
+
 def choose(condition: Any, yes: Any, no: Any) -> Any:
     """``yes`` where the condition holds, ``no`` elsewhere."""
     if isinstance(condition, bool):
         return yes if condition else no
     import numpy as np
 
-    return np.where(condition, yes, no)
+    return np.where(condition, yes, no) if condition.ndim else (yes if condition else no)

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from sandbox.engine.ledger import cause
+from sandbox.engine.acting import by_cause
 from sandbox.picture.palette import Colour, palette
 from sandbox.picture.sheet import CARD, Entry, Sheet
 
@@ -41,12 +41,10 @@ class Vectors:
 
     def forces(self, t: float) -> dict[str, tuple[float, float]]:
         """What acts on the ball at time t (s) by cause, in N; "contact" or "cloth" is what it lies on."""
-        x, y, vx, vy, spin = self.run.state(self.name, t)
         found: dict[str, tuple[float, float]] = {}
-        for force in self.ball.forces:
-            fx, fy = force(t, (x, y), (vx, vy), spin)
-            before = found.get(cause(force), (0.0, 0.0))
-            found[cause(force)] = before[0] + float(fx), before[1] + float(fy)
+        for name, (fx, fy) in by_cause(self.ball.forces, t, self.run.state(self.name, t)):
+            before = found.get(name, (0.0, 0.0))
+            found[name] = before[0] + float(fx), before[1] + float(fy)
         arc = self.arcs[max(0, bisect_right(self.arcs, t, key=lambda arc: arc.t0) - 1)]
         surface = "cloth" if self.run.setup.cloth is not None else "contact" if arc.contact is not None else None
         if surface is not None and t < arc.t1:

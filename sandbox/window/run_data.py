@@ -59,7 +59,7 @@ def _arc(item: Any, setup: Setup, ball: Ball) -> Arc:
     t0, t1, start, x, y, vx, vy, spin, contact, rolling, end = item
     if contact is not None:
         mode, place, (gap, nx, ny, curvature, center, feature), direction, spin_rate = contact
-        touching = Touching(gap, nx, ny, curvature, None if center is None else tuple(center), feature)
+        touching = Touching(gap, nx, ny, curvature, tuple(center), feature)
         contact = Contact(mode, Obstacle(setup.surfaces[place], ball.radius), touching, direction, spin_rate)
     last = None if end is None else tuple(end)
     turning = tuple(map(tuple, rolling))

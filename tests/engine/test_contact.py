@@ -1,5 +1,6 @@
 """Touching: nothing tunnels, corners and grazes are handled, and every kind of start is."""
 
+from dataclasses import replace
 from math import atan2, cos, hypot, inf, nextafter, pi, sin
 
 import numpy as np
@@ -333,7 +334,7 @@ def test_a_steady_push_along_the_ground_rolls_or_slides_and_never_stalls(push, r
     """Rolls while a push F needs no more grip than mu N: F (1 - 1/(1 + 2/5)) <= mu m g; slides at F/m - mu g beyond."""
     floor = Surface("floor", Segment((-9e3, 0.0), (9e3, 0.0)), 0.5, 0.5, resistance)
     shot = ball((0.0, 0.05), (2.0, 0.0))
-    pushed = Ball(**{**vars(shot), "forces": (*shot.forces, lambda t, p, v, s: (-push, 0.0))})
+    pushed = replace(shot, forces=(*shot.forces, lambda t, p, v, s: (-push, 0.0)))
     early, late = (simulate(Setup([pushed], [floor], duration=t), resolve()).state("ball", t)[2] for t in (2.0, 2.5))
     a = (early - late) / 0.5
     if push * (1 - 5 / 7) > 0.5 * 0.3 * G:
@@ -350,7 +351,7 @@ def test_a_growing_push_makes_a_rolling_ball_slide(rate):
     m, mu = 0.3, 0.5
     floor = Surface("floor", Segment((-9e3, 0.0), (9e3, 0.0)), 0.5, mu)
     shot = ball((0.0, 0.05), (2.0, 0.0), spin=-40.0)
-    pushed = Ball(**{**vars(shot), "forces": (*shot.forces, lambda t, p, v, s: (-rate * t, 0.0))})
+    pushed = replace(shot, forces=(*shot.forces, lambda t, p, v, s: (-rate * t, 0.0)))
     end, slips = 4.0, 3.5 * mu * m * G / rate
     run = simulate(Setup([pushed], [floor], duration=end), resolve())
     speed = 2.0 - 5 / 14 * rate / m * slips**2 - 0.5 * rate / m * (end**2 - slips**2) + mu * G * (end - slips)

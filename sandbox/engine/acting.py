@@ -1,0 +1,80 @@
+"""What acts on a ball: its forces and torques, one by one and in sum, for one shot or for many at once."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+from sandbox.engine.setup import Ball
+from sandbox.errors import RunError
+from sandbox.physics.integrators import Acceleration, State
+
+#: Words for causes whose class is named for its physics.
+CALLED = {"magnus": "lift"}
+
+
+def acceleration(ball: Ball, t: Any, state: State) -> Acceleration:
+    """What the forces and torques do to a ball in flight, in m/s^2 and rad/s^2. Raises RunError for those that return
+    something else than newtons."""
+    x, y, vx, vy, spin = state
+    position, velocity = (x, y), (vx, vy)
+    fx = fy = torque = 0.0
+    term: Any = None
+    try:
+        for term in ball.forces:
+            px, py = term(t, position, velocity, spin)
+            fx = fx + px
+            fy = fy + py
+        for term in ball.torques:
+            torque = torque + term(t, position, velocity, spin)
+    except (TypeError, ValueError, OverflowError) as error:
+        if error.__traceback__ is not None and error.__traceback__.tb_next is not None:
+            raise  # from inside the term
+        raise RunError(f"{_rule(term)}: {error}") from None
+    return fx / ball.mass, fy / ball.mass, torque / ball.inertia
+
+
+def checked(ball: Ball, t: float, state: State) -> Acceleration:
+    """The same, of one ball. Raises RunError where it is not real numbers."""
+    found = acceleration(ball, t, state)
+    if not isinstance(found[0] + found[1] + found[2], float):
+        raise _not_real(ball, t, state)
+    return found
+
+
+def by_cause(terms: Sequence[Any], t: float, state: State) -> Iterator[tuple[str, Any]]:
+    """Each of some forces, or torques, by name: (fx, fy) in N, or N m."""
+    x, y, vx, vy, spin = state
+    for term in terms:
+        yield cause(term), term(t, (x, y), (vx, vy), spin)
+
+
+def cause(term: object) -> str:
+    """What people call a force or torque: ``SpinDecay`` is "spin decay"; a function goes by its own name."""
+    words = "".join(f" {c.lower()}" if c.isupper() else c for c in _name(term)).replace("_", " ").strip()
+    return CALLED.get(words, words)
+
+
+def _not_real(ball: Ball, t: float, state: State) -> RunError:
+    """What to raise where the forces and torques on a ball do not add up to real numbers."""
+    where = f"t = {t:.6g} s, ball {ball.name!r}: "
+    x, y, vx, vy, spin = state
+    for term in (*ball.forces, *ball.torques):
+        found = term(t, (x, y), (vx, vy), spin)
+        parts = found if isinstance(found, tuple | list) else (found,)
+        if not all(isinstance(part, int | float) for part in parts):
+            returned = " ".join(repr(found).split())
+            return RunError(f"{where}{_rule(term)}, and returned {returned:.60}")
+    return RunError(f"{where}the sum of its forces and torques is not a real number")
+
+
+def _name(term: object) -> str:
+    return str(getattr(term, "__name__", type(term).__name__))
+
+
+def _rule(term: object) -> str:
+    """How a force or torque is called, for a sentence."""
+    return (
+        f"{_name(term)} is called with (t, position, velocity, spin) and must return (fx, fy) in N, a torque one "
+        "number in N m"
+    )

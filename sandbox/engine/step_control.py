@@ -1,0 +1,98 @@
+"""How long a step may be, and whether it was good: for one ball, with floats, or for many shots, with arrays."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from math import inf
+from typing import Any
+
+from sandbox.engine.accuracy import Accuracy
+from sandbox.engine.setup import Patch
+from sandbox.physics.elementwise import anywhere, choose, clip, most
+from sandbox.physics.integrators import INTEGRATORS, Acceleration, State
+
+#: Local error of a step over the error aimed at in the end. Each impact on a round shape multiplies an error by ten
+#: or more, so the flight has to be much better than the promise; this keeps it on shots with several rim contacts.
+LOCAL_SHARE = 3e-4
+
+#: What error in spin counts as error in m: a spin's error moves the ball only through lift and the next bounce.
+SPIN_WEIGHT = 0.1  # s
+
+#: First step tried under error control; it shrinks by 5 until the error fits.
+FIRST_STEP = 0.05  # s
+
+#: Longest step, so that forces which change along the way are met several times a second.
+LONGEST = 0.5  # s
+
+#: The next step over the last: what the error asks for and a little less, within these bounds; after an error that is
+#: not finite this share.
+SAFETY, SHORTER, LONGER, LOST = 0.9, 0.2, 5.0, 0.1
+
+#: Largest product of a fixed step and the forces' rate of change with velocity (1/s). Explicit steps are smooth below
+#: 1 and unstable above 2, where drag reverses the motion; the drag of water on a bullet is the case that needs the
+#: limit.
+STIFFEST = 0.5
+
+#: Changes of velocity below this share of the speed are no sign of stiffness: a force may jump.
+JUMP = 0.01
+
+#: Keeps quotients by an error finite where there is none (m).
+_NO_ERROR = 1e-300
+
+
+class StepControl:
+    """The steps of one method at one accuracy, by its order and, where it has one, its estimate of the error."""
+
+    def __init__(self, accuracy: Accuracy) -> None:
+        self._method = INTEGRATORS[accuracy.integrator]
+        self._exponent = 1.0 / self._method.order
+        self._local_error = accuracy.tolerance * LOCAL_SHARE  # m
+        self._step = accuracy.step  # s
+        self.first = FIRST_STEP if self._method.controls_error else accuracy.step  # s
+
+    def judge(
+        self, h: Any, wanted: Any, start: State, end: State, accelerations: tuple[Acceleration, Acceleration], off: Any
+    ) -> tuple[Any, Any]:
+        """Whether a step of ``h`` s is good, and the one to try next: after it, or in its place.
+
+        ``wanted`` is what was meant to be tried, of which ``h`` may be a part. ``accelerations`` are those at both
+        ends, ``off`` is the estimated error in m, or None.
+        """
+        if off is None:
+            stiff = _stiff(start, end, *accelerations, h)
+            longer = choose(h >= wanted, clip(2.0 * h, 0.0, self._step), wanted)
+            return stiff ^ True, choose(stiff, 0.5 * h, longer)
+        fits = off <= self._local_error
+        change = clip(SAFETY * (self._local_error / (off + _NO_ERROR)) ** self._exponent, SHORTER, LONGER)
+        following = h * choose(off < inf, change, LOST)
+        return fits, most(following, wanted * (fits & (h < wanted)))
+
+
+def size(error: State, radius: Any) -> Any:
+    """Local error in m: that of the position, and what that of the velocity makes of it in a second."""
+    ex, ey, evx, evy, spin = error
+    return abs(ex) + abs(ey) + abs(evx) + abs(evy) + SPIN_WEIGHT * radius * abs(spin)
+
+
+def within(patches: Iterable[Patch], h: Any, state: State, acceleration: Acceleration) -> Any:
+    """A step that stops short of each patch, or is no longer than it asks for."""
+    x, y, vx, vy, _ = state
+    ax, ay, _ = acceleration
+    for patch in patches:
+        while anywhere(h > patch.step):
+            half = 0.5 * h
+            xs = (x, x + half * vx, x + h * (vx + half * ax))  # control points of the parabola ahead
+            ys = (y, y + half * vy, y + h * (vy + half * ay))
+            crossed = patch.crossed(xs, ys) & (h > patch.step)
+            if not anywhere(crossed):
+                break
+            h = choose(crossed, choose(half > patch.step, half, patch.step), h)
+    return h
+
+
+def _stiff(before: State, after: State, acceleration: Acceleration, following: Acceleration, h: Any) -> Any:
+    """Whether a fixed step is too long for forces that depend on velocity, judged by how they changed over the step."""
+    change = h * (abs(following[0] - acceleration[0]) + abs(following[1] - acceleration[1]))
+    gain = abs(after[2] - before[2]) + abs(after[3] - before[3])
+    speed = most(abs(before[2]) + abs(before[3]), abs(after[2]) + abs(after[3]))
+    return ((change <= STIFFEST * gain) | (change <= JUMP * speed)) ^ True

@@ -1,0 +1,89 @@
+"""An integrator is data: two that the program has never heard of run in both engines and in the lab."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from math import cos, radians, sin
+
+import pytest
+
+from sandbox.engine import simulate, simulate_many
+from sandbox.engine.accuracy import LEVELS, Accuracy, resolve
+from sandbox.engine.run import Run
+from sandbox.engine.setup import Ball, Segment, Setup, Surface
+from sandbox.lab import trade as lab
+from sandbox.physics.coefficients import Constant
+from sandbox.physics.forces import Drag, Gravity
+from sandbox.physics.integrators import INTEGRATORS
+from sandbox.scene import load
+from tests.physics.methods import MORE
+
+FLOOR = Surface("floor", Segment((-50.0, 0.0), (50.0, 0.0)), 0.7, 0.4)
+
+CHOICES = {"bogacki-shampine": {"tolerance": 1e-4}, "ralston": {"step": 1 / 500}, "rk4": {"step": 1 / 240}}
+
+
+@pytest.fixture(autouse=True)
+def more(monkeypatch: pytest.MonkeyPatch) -> None:
+    for name, integrator in MORE.items():
+        monkeypatch.setitem(INTEGRATORS, name, integrator)
+
+
+def chosen(name: str) -> Accuracy:
+    return resolve(integrator=name, **CHOICES[name])
+
+
+def tossed(number: int) -> Setup:
+    angle = radians(30.0 + number)
+    forces = [Gravity(0.6, 9.81), Drag(0.12, 1.2, Constant(0.5))]
+    ball = Ball("ball", 0.6, 0.12, (0.0, 2.0), (8.0 * cos(angle), 8.0 * sin(angle)), -5.0, forces=forces)
+    return Setup([ball], [FLOOR], duration=1.5)
+
+
+@pytest.mark.parametrize("name", CHOICES)
+def test_both_engines_take_it_from_the_table(name: str):
+    setups = [tossed(number) for number in range(30)]
+    per_step = {**INTEGRATORS, **MORE}[name].evaluations
+    to_the_end = 0
+    for setup, together in zip(setups, simulate_many(setups, chosen(name)), strict=True):
+        alone = simulate(setup, chosen(name))
+        assert isinstance(together, Run), together
+        assert together.state("ball", 1.5) == pytest.approx(alone.state("ball", 1.5), abs=1e-9)
+        for count in ("steps", "refined_steps", "impacts"):
+            assert getattr(together.numerics, count) == getattr(alone.numerics, count)
+        if not isinstance(together.arcs["ball"], list):  # the last few are handed over
+            to_the_end += 1
+            assert together.numerics.force_evaluations == (per_step + 1) * together.numerics.steps
+        starts = 1 + 2 * alone.numerics.impacts  # of the flights, and what presses at each impact
+        assert alone.numerics.force_evaluations == per_step * alone.numerics.steps + starts
+    assert to_the_end > 3
+
+
+def test_the_step_follows_the_order_of_the_method():
+    """A tolerance that is eight times smaller makes the steps of a third-order method half as long."""
+    fall = replace(tossed(20), surfaces=[], duration=20.0)
+    counts = [
+        simulate(fall, resolve(integrator="bogacki-shampine", tolerance=1e-4 / 8**k)).numerics.steps for k in range(3)
+    ]
+    assert counts[1] / counts[0] == pytest.approx(2.0, rel=0.1)
+    assert counts[2] / counts[1] == pytest.approx(2.0, rel=0.1)
+
+
+def test_finer_means_half_the_step_for_each_order():
+    third, fifth = chosen("bogacki-shampine").finer(), LEVELS["balanced"].finer()
+    assert third.tolerance == pytest.approx(1e-4 / 8)
+    assert (fifth.tolerance, fifth.settle) == pytest.approx((1e-3 / 32, 1e-8 / 1024))
+
+
+def test_trade_measures_it(monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr(lab, "RATES", (60, 240))
+    monkeypatch.setattr(lab, "TOLERANCES", (1e-1, 1e-3))
+    monkeypatch.setattr(lab, "_REPEATS", 1)
+    monkeypatch.setattr(lab, "ablation", lambda reference: [])
+    monkeypatch.setattr(lab, "shot_map", lambda scene: None)
+    points = lab.trade(load("basketball")).points
+    for name in MORE:
+        coarse, fine = [point for point in points if point.method == name]
+        assert coarse.error_m is not None
+        assert fine.error_m is not None
+        assert fine.error_m < coarse.error_m
