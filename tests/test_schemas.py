@@ -15,7 +15,12 @@ from sandbox.parameters import json_schema
 from sandbox.scene import parameters_of
 
 SCENES = sorted(path.parent for path in resources.folder("scenes").glob("*/scene.py"))
-FILES = sorted([*resources.folder("scenes").rglob("*.toml"), *resources.folder("template").rglob("*.toml")])
+FILES = sorted(
+    file
+    for name in ("scenes", "template")
+    for file in resources.folder(name).rglob("*.toml")
+    if file.name != "colours.toml"  # of its picture
+)
 
 
 def read(folder: Path) -> Any:
@@ -45,7 +50,7 @@ def test_a_scene_file_points_at_its_schema(file: Path):
 @pytest.mark.parametrize("folder", SCENES, ids=lambda folder: folder.name)
 def test_the_shipped_files_are_in_order(folder: Path):
     checker = Draft7Validator(read(folder))
-    for file in folder.rglob("*.toml"):
+    for file in (file for file in FILES if folder in file.parents):
         assert [error.message for error in checker.iter_errors(tomllib.loads(file.read_text("utf-8")))] == []
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -13,13 +13,31 @@ from sandbox.picture.camera import Camera
 class Eye:
     """Sees the plane of play as the camera shows it, and what is ``z`` m behind it smaller, in central perspective.
 
-    It looks at the point in column ``centre`` and row ``level`` (px), from ``distance`` m before the plane of play.
+    It looks at the point in column ``centre`` and row ``level`` (px), from ``distance`` m before the plane of play;
+    ``unit`` is what 1 px is on a picture of 720 rows.
     """
 
     camera: Camera
     centre: float
     level: float
     distance: float
+    unit: float = 1.0
+
+    @property
+    def base(self) -> float:
+        """The row in which the plane of play meets level ground, in px."""
+        return self.camera.anchor[1]
+
+    def enlarged(self, x: float, factor: float) -> Eye:
+        """Sees what stands on the ground at x (m) in its place, so many times as large."""
+        camera = self.camera
+        return replace(
+            self, camera=replace(camera, at=(x, 0.0), anchor=camera.pixel(x, 0.0), scale=camera.scale * factor)
+        )
+
+    def along(self, px: float, z: float) -> float:
+        """Where along the plane of play, in m, what is seen in a column (px) and z m behind the plane stands."""
+        return self.camera.world(self.centre + (px - self.centre) / self.share(z), 0.0)[0]
 
     def share(self, z: float) -> float:
         """How large things are z m behind the plane of play, against those in it."""

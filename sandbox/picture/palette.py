@@ -1,9 +1,10 @@
-"""The one palette, from assets/palette.toml."""
+"""Colours: those that all pictures share, from assets/palette.toml, and those of a scene, from its own folder."""
 
 from __future__ import annotations
 
 import tomllib
 from functools import cache
+from pathlib import Path
 from typing import Any
 
 from sandbox import resources
@@ -14,11 +15,11 @@ ASSETS = resources.folder("assets")
 
 
 def _colour(value: Any) -> Any:
-    """#RRGGBB to (red, green, blue); lists and tables likewise; numbers stay."""
+    """#RRGGBB to (red, green, blue); lists (as tuples) and tables likewise; numbers stay."""
     if isinstance(value, str):
         return tuple(int(value[i : i + 2], 16) for i in (1, 3, 5))
     if isinstance(value, list):
-        return [_colour(item) for item in value]
+        return tuple(_colour(item) for item in value)
     if isinstance(value, dict):
         return {key: _colour(item) for key, item in value.items()}
     return value
@@ -32,6 +33,12 @@ def _sections() -> dict[str, dict[str, Any]]:
 def palette(section: str) -> dict[str, Any]:
     """One section of the palette, colours as (red, green, blue) from 0 to 255."""
     return _sections()[section]
+
+
+@cache
+def scene_colours(file: str) -> dict[str, Any]:
+    """The colours of a scene, from colours.toml in the folder of one of its files."""
+    return _colour(tomllib.loads((Path(file).parent / "colours.toml").read_text("utf-8")))
 
 
 def mix(a: Colour, b: Colour, share: float) -> Colour:

@@ -24,6 +24,10 @@ FINEST = 1.5
 BALLS = 14
 
 
+#: A label this far from its mark, in px on 720 rows, has a line that leads to it.
+FARTHER = (25, 36, 50)
+
+
 @dataclass(frozen=True)
 class Mark:
     """One impact of a ball: where it was touched, in m, and which way from its middle.
@@ -149,20 +153,30 @@ def mark_impacts(
 
 
 def label_mark(sheet: Sheet, at: tuple[float, float], towards: tuple[float, float], text: str) -> None:
-    """A text on a dark chip beside a mark, rather on the side of what was struck (``towards``), if there is room."""
+    """A text on a dark chip beside a mark, rather on the side of what was struck (``towards``), if there is room.
+
+    Where the chip is far from the mark, a thin line leads to it.
+    """
     spots = []
-    for far in (9, 16, 25, 36, 50):
+    for far in (9, 16, *FARTHER):
         for turn in (0.0, 0.6, -0.6, 1.2, -1.2, 1.9, -1.9, pi):
             across = cos(turn) * towards[0] - sin(turn) * towards[1]
             down = -sin(turn) * towards[0] - cos(turn) * towards[1]
             spots.append((at[0] + across * far * sheet.unit, at[1] + down * far * sheet.unit, across, down))
-    chip(sheet, text, spots)
+    placed = chip(sheet, text, spots)
+    if placed is None:
+        return
+    near = min(max(at[0], placed.left), placed.right), min(max(at[1], placed.top), placed.bottom)
+    length = hypot(near[0] - at[0], near[1] - at[1])
+    if length > FARTHER[0] * sheet.unit * 0.9:
+        start = [a + (b - a) * 4.2 * sheet.unit / length for a, b in zip(at, near, strict=True)]
+        sheet.painter.line([(start[0], start[1]), near], max(1.0, 1.3 * sheet.unit), CARD["text"], 0.8)
 
 
 def chip(
     sheet: Sheet, text: str, spots: Iterable[tuple[float, float, float, float]], colour: Colour = CARD["text"]
-) -> bool:
-    """A text on a dark chip at the first spot with room; False: there is none.
+) -> pygame.Rect | None:
+    """A text on a dark chip at the first spot with room, and where that is; None: there is none.
 
     A spot is a point in px and the direction, across and down, in which the chip lies beyond it.
     """
@@ -179,4 +193,4 @@ def chip(
         sheet.painter.panel(placed, CARD["background"], CARD["opacity"], 0.5 * placed.height)
         rect = sheet.lettering.write(sheet.surface, text, "small", placed.center, colour, "center", bold=True)
         sheet.written.append((text, rect))
-    return placed is not None
+    return placed

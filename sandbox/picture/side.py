@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from functools import cached_property
 from typing import ClassVar, NamedTuple
 
@@ -15,6 +16,7 @@ from sandbox.picture.chase import Chase
 from sandbox.picture.depth import Eye
 from sandbox.picture.painter import Painter
 from sandbox.picture.palette import Colour
+from sandbox.picture.places import Ground, Scenery, Thing
 from sandbox.picture.sheet import CARD, Entry, Sheet, SideRows, metres
 from sandbox.picture.view import P, View
 
@@ -36,6 +38,15 @@ class Length(NamedTuple):
     start: float
     end: float
     colour: Colour = CARD["text"]
+
+
+@dataclass(frozen=True)
+class Place:
+    """Of what a place is made: what lies behind, the ground, and the things on it, the farthest first."""
+
+    scenery: Scenery
+    ground: Ground
+    things: Sequence[Thing] = ()
 
 
 class SideView(View[P]):
@@ -80,6 +91,11 @@ class SideView(View[P]):
         """Height of the ground in m, at places in m."""
         return np.zeros_like(x)
 
+    @cached_property
+    def place(self) -> Place:
+        """What the ball flies through; without one a view draws its own backdrop."""
+        raise NotImplementedError
+
     def lengths(self) -> Sequence[Length]:
         """Distances to be drawn along the ground; the first is drawn lowest."""
         return ()
@@ -106,18 +122,22 @@ class SideView(View[P]):
     def subject(self) -> Box:
         """What the poster shows, in m."""
         (left, bottom), (right, top) = self.points.min(axis=0), self.points.max(axis=0)
-        short = max(0.0, LEAST_WIDTH * self.radius - (right - left)) / 2
-        seen = _joined(Box(left - short, bottom, right + short, top + self.radius), self.company)
+        seen = _joined(Box(left, bottom, right, top + self.radius), self.company)
         wide = _joined(seen, self.target)
         if max(seen.right - seen.left, seen.top) >= self.LEAST_PATH * (wide.right - wide.left):
             seen = wide
+        short = max(0.0, LEAST_WIDTH * self.radius - (seen.right - seen.left)) / 2
+        seen = seen._replace(left=seen.left - short, right=seen.right + short)
         heights = self.ground(np.linspace(seen.left, seen.right, 500))
         return seen._replace(bottom=float(heights.min()), top=max(seen.top, float(heights.max())))
 
     @cached_property
     def camera(self) -> Camera:
+        return self.fitted(self.area)
+
+    def fitted(self, area: Area) -> Camera:
         """Shows the whole path and what belongs to it; a low flight higher than it is, where the scene allows it."""
-        camera, area = Camera.fit(self.subject, self.area), self.area
+        camera = Camera.fit(self.subject, area)
         rise, room = (self.subject.top - self.subject.bottom) * camera.scale, area.bottom - area.top
         low = LEAST_RISE * self.unit < rise < LOW_FLIGHT * room
         if self.STRETCHES and low and enlarged(self.radius, camera, self.rows) > LARGE_BALL:
@@ -127,7 +147,19 @@ class SideView(View[P]):
     def eye(self, camera: Camera) -> Eye:
         """Sees the place in central perspective, the plane of play as the camera shows it."""
         level = camera.anchor[1] - self.LEVEL * self.unit
-        return Eye(camera, self.ASIDE * self.size[0], level, self.size[0] / camera.scale)
+        return Eye(camera, self.ASIDE * self.size[0], level, self.size[0] / camera.scale, self.unit)
+
+    def backdrop(self, painter: Painter, camera: Camera) -> None:
+        eye, place = self.eye(camera), self.place
+        place.scenery.draw(painter.surface, place.ground.foot(eye), self.moved(camera))
+        place.ground.draw(painter, eye)
+        for thing in place.things:
+            thing.draw(painter, eye, near=False)
+
+    def before(self, painter: Painter, camera: Camera, t: float) -> None:
+        eye = self.eye(camera)
+        for thing in self.place.things:
+            thing.draw(painter, eye, near=True)
 
     @cached_property
     def home(self) -> Camera:
@@ -209,12 +241,16 @@ class SideView(View[P]):
         sheet.ruler(camera, row, self.SECOND_UNIT)
 
     def dimensions(self, sheet: Sheet, camera: Camera) -> None:
-        """The distances along the ground, as far as they are seen; nothing else is written under it."""
+        """The distances along the ground, as far as they are seen; no label will be placed on them, nor below."""
         for row, length in zip(self.rows_at.lengths, self.lengths(), strict=False):
             start, end = camera.pixel(length.start, 0)[0], camera.pixel(length.end, 0)[0]
             if min(start, end) >= 0 and max(start, end) <= self.size[0] and abs(end - start) > 4:
                 sheet.dimension(length.text, row, start, end, length.colour)
-        sheet.labels.take(pygame.Rect(0, round(camera.anchor[1]), *self.size))
+                tall = round(8 * self.unit)
+                sheet.labels.take(
+                    pygame.Rect(round(min(start, end)), round(row) - tall // 2, round(abs(end - start)), tall)
+                )
+        sheet.labels.take(pygame.Rect(0, round(self.rows_at.ruler - sheet.ruler_heights()[0]), *self.size))
 
 
 def _joined(box: Box, other: Box | None) -> Box:

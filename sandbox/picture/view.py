@@ -26,10 +26,12 @@ from sandbox.picture.path import Mark, Path, apart, draw_trace, mark_impacts
 from sandbox.picture.sheet import Entry, Sheet, metres, signed, times
 from sandbox.picture.vectors import Vectors
 
-TRACES = palette("trace")["colours"]
+TRACES, RIM = palette("trace")["colours"], palette("trace")["rim"]
 
 #: In frames the ball is at least so much larger than it has to be to be seen.
 LARGER = 1.3
+#: Radius of a bead on the path: at most so much of that of the balls there, and so many px on 720 rows.
+BEAD, LARGEST_BEAD = 0.5, 3.0
 
 P = TypeVar("P", bound=Group)
 
@@ -251,7 +253,7 @@ class View(Generic[P]):
         self.annotate(sheet, camera)
         mark_impacts(sheet, camera, self.impacts(camera))
         room = self._room(sheet, camera, None)
-        notes = [*(ghost.note for ghost in self.ghosts), *self.aligned, *every, *self.notes(camera)]
+        notes = [*(ghost.note for ghost in self.ghosts), *self.aligned, *every[:1], *self.notes(camera), *every[1:]]
         sheet.headline(self.verdict(), notes, room)
         sheet.columns(self.card_row, self.numbers(), [ghost.row for ghost in self.ghosts])
         for ghost, points in others:
@@ -335,17 +337,30 @@ class View(Generic[P]):
 
     def strobe(self, sheet: Sheet, camera: Camera) -> list[str]:
         """All balls where they are in the end, and a lone one at even times; what to note of that."""
-        if len(self.paths) == 1:
-            every, moments = self.path.even_times(self.span)
-            radius = max(self.radius * camera.scale, mark_radius(self.rows))
-            places = self.spots(camera, np.array([self.run.state(self.ball, t)[:2] for t in moments]), radius)
-            for t, at in zip(moments, places, strict=True):
-                self.look_of(self.ball).draw(sheet.painter, at, radius, self.run.angle(self.ball, t), self.unit)
+        notes = self._at_even_times(sheet.painter, camera) if len(self.paths) == 1 else []
         placed = self._placed(camera, self.told, 1.0)
         self._shadows(sheet.painter, camera, placed, self.told)
         for name, (at, radius) in placed.items():
             self.draw_ball(sheet.painter, camera, name, self.told, at, radius)
-        return [f"a ball every {every:g} s"] if len(self.paths) == 1 else []
+        return notes
+
+    def _at_even_times(self, painter: Painter, camera: Camera) -> list[str]:
+        """The ball along its path; a bead in its place where it would lie over the ball before or the last one."""
+        every, moments = self.path.even_times(self.span)
+        radius, look = max(self.radius * camera.scale, mark_radius(self.rows)), self.look_of(self.ball)
+        states = np.array([self.run.state(self.ball, t)[:2] for t in [*moments, self.told]])
+        *places, end = self.spots(camera, states, radius)
+        bead, last, crowded = min(BEAD * radius, max(2.0, LARGEST_BEAD * self.unit)), None, False
+        for t, at in zip(moments, places, strict=True):
+            near = [2.2 * radius > dist(at, other) for other in ([end] if last is None else [end, last])]
+            if t > 0 and any(near):
+                painter.disc(at, bead + max(0.7, 0.8 * self.unit), RIM, 0.8)
+                painter.disc(at, bead, look.colour)
+                crowded = True
+            else:
+                look.draw(painter, at, radius, self.run.angle(self.ball, t), self.unit)
+                last = at
+        return [f"a ball every {every:g} s", *(["a bead where balls would overlap"] if crowded else [])]
 
     def trails(self, sheet: Sheet, camera: Camera, t: float) -> None:
         """Where the balls have been: a thin line, and a thick one of late; kept out of the header."""

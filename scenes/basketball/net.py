@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 from math import cos, exp, pi, sin, tau
-from typing import Any
 
 import numpy as np
 
+from sandbox.engine.run import Run
 from sandbox.picture.depth import Eye
 from sandbox.picture.painter import Painter
-from sandbox.picture.palette import palette
 
-from .scene import rims
-
-COURT = palette("basketball")
+from .hoop import COLOURS
+from .scene import Parameters, rims
 
 #: Strands around the ring, knots down each, and how wide the net is at its end against the ring.
 STRANDS, KNOTS, NARROW = 11, 9, 0.56
@@ -26,7 +24,7 @@ SETTLED = 5.0
 class Net:
     """The net of one shot, at any time of it."""
 
-    def __init__(self, run: Any, parameters: Any):
+    def __init__(self, run: Run, parameters: Parameters):
         self.run = run
         (front, self.top), (back, _) = rims(parameters)
         self.middle, self.wide = (front + back) / 2, (back - front) / 2
@@ -41,8 +39,8 @@ class Net:
         out = (t for t, _ in self.run.crossings("ball", (0.0, end), (0.0, 1.0)) if t > into[-1])
         return into[-1], next(out, floor)
 
-    def draw(self, painter: Painter, eye: Eye, unit: float, behind: bool, t: float) -> None:
-        """The half behind the ball or that before it, as it hangs at time t in s."""
+    def draw(self, painter: Painter, eye: Eye, near: bool, t: float) -> None:
+        """The half before the ball or that behind it, as it hangs at time t in s."""
         down = np.linspace(0, 1, KNOTS)
         aside, wide = self._shape(down, t)
         strand = np.arange(2 * STRANDS)[:, None]
@@ -53,10 +51,11 @@ class Net:
             wide * np.sin(turn),
         )
         points = eye.points(np.stack([x, y, z], axis=-1).reshape(-1, 3)).reshape(*turn.shape, 2)
-        seen = (np.sin(turn) >= 0) == behind
+        seen = (np.sin(turn) < 0) == near
         shown = seen[:, :-1] | seen[:, 1:]
         lines = list(np.stack([points[:, :-1], points[:, 1:]], axis=2)[shown])
-        painter.lines(lines, max(0.9 * unit, 0.012 * eye.camera.scale), COURT["net"], 0.3 if behind else 0.75)
+        width = max(0.9 * eye.unit, 0.012 * eye.camera.scale)
+        painter.lines(lines, width, COLOURS["net"], 0.75 if near else 0.3)
 
     def _shape(self, down: np.ndarray, t: float) -> tuple[np.ndarray, np.ndarray]:
         """How far aside the net is and how wide, in m, at shares of its length down from the ring."""

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from functools import lru_cache
-from math import ceil, floor, sin
+from math import ceil, floor, pi, sin
 
 import numpy as np
 import pygame
@@ -12,27 +11,25 @@ from sandbox.engine.setup import Segment, Setup
 from sandbox.picture.ball import Look
 from sandbox.picture.camera import Box, Camera
 from sandbox.picture.depth import Eye
-from sandbox.picture.landscape import Landscape
-from sandbox.picture.painter import OVERSAMPLING, Painter, Point, blank, soil
-from sandbox.picture.palette import Colour, mix, palette
+from sandbox.picture.painter import OVERSAMPLING, Painter, Point
+from sandbox.picture.palette import Colour, mix, palette, scene_colours
+from sandbox.picture.places import Ground, Landscape, Line, Mown
 from sandbox.picture.sheet import rows_of
 
-GOLF, CARD = palette("golf"), palette("card")
-MOON = GOLF | palette("moon")
+CARD, COLOURS = palette("card"), scene_colours(__file__)
 
 FLAGSTICK = 2.13  # m
 #: How much smaller things look at the far side of the fairway than on the line of play.
 FAR = 0.42
-#: The field's stripes differ little, so a lower factor than for other shapes will do.
-FIELD_OVERSAMPLING = 2
 
 
 class Course:
     """The place that the ball flies over, for pictures of one size."""
 
     def __init__(self, setup: Setup, pin: float, size: tuple[int, int], moon: bool = False):
-        self.pin, self.size, self.moon = pin, size, moon
-        self.colours = MOON if moon else GOLF
+        self.pin, self.size = pin, size
+        self.colours = COLOURS["moon" if moon else "earth"]
+        self.turf = self.colours["turf"]
         self.unit = rows_of(size) / 720
         lines = [(s.name, s.shape.a, s.shape.b) for s in setup.surfaces if isinstance(s.shape, Segment)]
         turf = [line for line in lines if line[0] != "cup"]
@@ -60,72 +57,53 @@ class Course:
 
     def draw(self, painter: Painter, eye: Eye, stripe: float, moved: float = 0.0) -> None:
         """Landscape, field and ground; mown stripes are ``stripe`` m wide; the eye has ``moved`` px to the right."""
-        camera, horizon, base = eye.camera, round(eye.level), round(eye.camera.anchor[1])
-        _landscape(self.size, horizon, self.moon).draw(painter.surface, moved)
-        low, high = camera.world(0, 0)[0], camera.world(self.size[0], 0)[0]
+        camera, width = eye.camera, self.size[0]
+        low, high = camera.world(0, 0)[0], camera.world(width, 0)[0]
         outline = camera.pixels(self.between(low, high))
-        deepest = min(self.size[1], max(base, round(outline[:, 1].max())))
-        self._field(painter.surface, eye, base, stripe, deepest)
-        painter.surface.blit(soil((self.size[0], self.size[1] - base), tuple(self.colours["soil"])), (0, deepest))
+        deepest = min(self.size[1], max(round(eye.base), round(outline[:, 1].max())))
+        ground = self._ground(eye, stripe)
+        Landscape(**self.colours["landscape"]).draw(painter.surface, ground.foot(eye), moved)
+        ground.draw(painter, eye, deepest)
         if outline[:, 1].min() < deepest - 1:
             under = np.add(outline, (0, self._turf_depth / 2))  # so that its rough edge is hidden
-            pygame.draw.polygon(
-                painter.surface, self.colours["soil"][0], [*under, (self.size[0], deepest), (0, deepest)]
-            )
+            pygame.draw.polygon(painter.surface, self.turf["soil"][0], [*under, (width, deepest), (0, deepest)])
         light = self._light(camera, stripe)
         for name, a, b in self.pieces:
             left, right = max(a, low), min(b, high)
             if left >= right:
                 continue
-            self._turf(painter, camera, left, right, self.colours[name])
+            self._turf(painter, camera, left, right, self.turf[name])
             if name == "fairway":
-                for band in _bands(left, right, stripe):
-                    self._turf(painter, camera, *band, light)
+                for i in range(floor(left / stripe), ceil(right / stripe)):
+                    if i % 2:
+                        band = max(left, i * stripe), min(right, (i + 1) * stripe)
+                        self._turf(painter, camera, *band, light)
             elif name in ("bunker", "water"):
-                self._hollow(painter, camera, a, b, self.colours[name])
+                self._hollow(painter, camera, a, b, self.turf[name])
         self._hole(painter, camera)
 
-    def _field(self, surface: pygame.Surface, eye: Eye, base: int, stripe: float, deepest: int) -> None:
-        """The ground behind the line of play, from the horizon to row ``deepest``: rough, before it mown fairway."""
-        larger, camera, horizon = FIELD_OVERSAMPLING, eye.camera, round(eye.level)
-        width, rows = self.size[0], deepest - horizon
-        line = (base - horizon) * larger  # the row where things are as large as on the line of play
-        field = _far_rough(self.size, horizon, base, self.moon).subsurface((0, 0, width * larger, rows * larger))
-        top, bottom = round(line * FAR), rows * larger
-        middle = camera.world(eye.centre, 0)[0]
-
-        def column(x: float, row: float) -> float:
-            return (eye.centre + (x - middle) * camera.scale * row / line) * larger
-
-        def across(a: float, b: float, colour: Colour) -> None:
-            """A strip from one side of the fairway to the other."""
-            corners = ((a, top), (b, top), (b, bottom), (a, bottom))
-            pygame.draw.polygon(field, colour, [(column(x, row), row) for x, row in corners])
-
-        field.fill(self.colours["fairway"], (0, top, width * larger, bottom - top))
-        reach = width / 2 / FAR / camera.scale
-        light = self._light(camera, stripe)
-        for a, b in _bands(middle - reach, middle + reach, stripe):
-            across(a, b, light)
+    def _ground(self, eye: Eye, stripe: float) -> Ground:
+        """The field behind the line of play: rough along the horizon, before it mown fairway, green and bunkers."""
+        far, near = eye.depth(FAR), eye.depth(2.0)
+        low, high = eye.along(0, far), eye.along(self.size[0], far)
+        areas: list[tuple[Line, Colour]] = []
         for name, a, b in self.pieces:
             if name in ("rough", "tee"):
-                across(max(a, middle - reach), min(b, middle + reach), self.colours[name])
+                left, right = max(a, low), min(b, high)
+                areas.append(([(left, near), (right, near), (right, far), (left, far)], self.turf[name]))
             elif name != "fairway":
-                left, right = column(a, line), column(b, line)
-                tall = min(0.5 * line, max(0.16 * (right - left), 8.0 * self.unit))
-                x = np.linspace(max(left, -width), min(right, 3 * width), 61)
-                away = np.clip((2 * x - left - right) / (right - left), -1, 1)
-                edge = line - tall * np.sqrt(1 - away**2)
-                if x[0] < x[-1]:
-                    pygame.draw.polygon(
-                        field, self.colours[name], [*zip(x, edge, strict=True), (x[-1], bottom), (x[0], bottom)]
-                    )
-        surface.blit(pygame.transform.smoothscale(field, (width, rows)), (0, horizon))
+                deep = min(0.5, max(0.16 * (b - a) * eye.camera.scale, 8.0 * self.unit) / (eye.base - eye.level))
+                turn = np.linspace(0.0, pi, 41)
+                x, z = (a + b) / 2 + np.cos(turn) * (b - a) / 2, np.sin(turn) * eye.depth(1 - deep)
+                areas.append(([(b, near), *zip(x, z, strict=True), (a, near)], self.turf[name]))
+        stripes = Mown((self.turf["fairway"], self._light(eye.camera, stripe)), stripe)
+        beyond = self.turf["rough_far"], self.turf["rough"]
+        return Ground(stripes, self.turf["soil"], areas=areas, far=FAR, beyond=beyond)
 
     def _light(self, camera: Camera, stripe: float) -> Colour:
         """The lighter stripes' colour; it goes over into the darker one's where stripes are too narrow to see."""
         fade = min(1.0, max(0.0, stripe * camera.scale / (12 * self.unit) - 0.5))
-        return mix(self.colours["fairway"], self.colours["fairway_stripe"], fade)
+        return mix(self.turf["fairway"], self.turf["fairway_stripe"], fade)
 
     @property
     def _turf_depth(self) -> int:
@@ -147,7 +125,7 @@ class Course:
         outline = camera.pixels(self.between(a, b))
         (left, top), (right, end) = outline[0], outline[-1]
         deep = min(16 * self.unit, 0.2 * (right - left))
-        turn = np.linspace(0, np.pi, 25)
+        turn = np.linspace(0, pi, 25)
         x, y = (left + right) / 2 + np.cos(turn) * (right - left) / 2, np.sin(turn) ** 0.7 * deep
         painter.polygon([*outline, *zip(x, y + np.interp(x, [left, right], [top, end]), strict=True)], colour)
 
@@ -159,12 +137,12 @@ class Course:
             return
         unit, (x, ground), (_, foot) = self.unit, self._foot(camera), camera.pixel(0, self.cup.bottom)
         if (self.cup.right - self.cup.left) * camera.scale <= 10 * unit:
-            painter.shadow((x, ground + 3 * unit), 7 * unit, 2.5 * unit, self.colours["cup"], 0.9)
+            painter.shadow((x, ground + 3 * unit), 7 * unit, 2.5 * unit, COLOURS["hole"]["cup"], 0.9)
             return
         left, right = (round(camera.pixel(edge, 0)[0]) for edge in (self.cup.left, self.cup.right))
         deep, thin = round(foot - ground), max(1, round(1.6 * unit))
-        painter.surface.fill(self.colours["liner"], (left, round(ground), right - left, deep))
-        painter.surface.fill(self.colours["cup"], (left + thin, round(ground), right - left - 2 * thin, deep - thin))
+        painter.surface.fill(COLOURS["hole"]["liner"], (left, round(ground), right - left, deep))
+        painter.surface.fill(COLOURS["hole"]["cup"], (left + thin, round(ground), right - left - 2 * thin, deep - thin))
 
     def _foot(self, camera: Camera) -> tuple[float, float]:
         """Where the flagstick meets the ground, in px."""
@@ -186,31 +164,14 @@ class Course:
         painter.shadow((x + 12 * unit, ground - unit), 16 * unit, 2.5 * unit, CARD["shadow"], 0.3)
         pole = max(2.0, 2.6 * unit)
         painter.line([(x, foot), (x, top)], pole + 1.4 * unit, CARD["shadow"], 0.3)
-        painter.line([(x, foot), (x, top)], pole, self.colours["pole"])
+        painter.line([(x, foot), (x, top)], pole, COLOURS["hole"]["pole"])
         share = np.linspace(0, 1, 9)
         along = x + (-1 if wind < 0 else 1) * 30 * unit * share
         wave = top + np.array([1.6 * unit * s * sin(5 * s - 9 * t) for s in share])
         upper, lower = wave + 9 * unit * share, wave + (19 - 9 * share) * unit
         painter.polygon(
-            [*zip(along, upper, strict=True), *zip(along[::-1], lower[::-1], strict=True)], self.colours["flag"]
+            [*zip(along, upper, strict=True), *zip(along[::-1], lower[::-1], strict=True)], COLOURS["hole"]["flag"]
         )
-
-
-@lru_cache(maxsize=4)
-def _far_rough(size: tuple[int, int], horizon: int, base: int, moon: bool) -> pygame.Surface:
-    """Where the field is drawn, larger; the far rough is on it already, paler with distance."""
-    colours = MOON if moon else GOLF
-    field = blank((size[0] * FIELD_OVERSAMPLING, (size[1] - horizon) * FIELD_OVERSAMPLING))
-    far = round((base - horizon) * FAR * FIELD_OVERSAMPLING)
-    for row in range(far):
-        field.fill(mix(colours["rough_far"], colours["rough"], row / far), (0, row, field.get_width(), 1))
-    return field
-
-
-@lru_cache(maxsize=4)
-def _landscape(size: tuple[int, int], horizon: int, moon: bool) -> Landscape:
-    """Shared by all pictures of the same shape."""
-    return Landscape(size, horizon, MOON if moon else GOLF)
 
 
 def _pieces(turf: list[tuple[str, Point, Point]]) -> list[tuple[str, float, float]]:
@@ -222,13 +183,6 @@ def _pieces(turf: list[tuple[str, Point, Point]]) -> list[tuple[str, float, floa
     return merged
 
 
-def _bands(low: float, high: float, stripe: float) -> list[tuple[float, float]]:
-    """Every second stripe between two places in m."""
-    first, last = floor(low / stripe), ceil(high / stripe)
-    even = range(first + first % 2, last, 2)
-    return [(max(low, i * stripe), min(high, (i + 1) * stripe)) for i in even]
-
-
 def _dimples(face: pygame.Surface, radius: float) -> None:
     """Dimples and a stripe, where there is room for them."""
     if radius < 6 * OVERSAMPLING:
@@ -238,10 +192,10 @@ def _dimples(face: pygame.Surface, radius: float) -> None:
         for place in range(-4, 5):
             x, y = (place + row % 2 / 2) * apart, row * apart * 0.87
             if np.hypot(x, y) < radius * 0.93:
-                pygame.draw.circle(face, GOLF["dimple"], (middle + x, middle + y), apart * 0.30)
+                pygame.draw.circle(face, COLOURS["ball"]["dimple"], (middle + x, middle + y), apart * 0.30)
     band = pygame.Rect(0, 0, round(1.36 * radius), round(0.26 * radius))
     band.center = (middle, middle)
-    pygame.draw.rect(face, GOLF["ball_mark"], band, border_radius=band.height // 2)
+    pygame.draw.rect(face, COLOURS["ball"]["mark"], band, border_radius=band.height // 2)
 
 
-BALL = Look(GOLF["ball"], GOLF["ball_shade"], _dimples)
+BALL = Look(COLOURS["ball"]["colour"], COLOURS["ball"]["shade"], _dimples)

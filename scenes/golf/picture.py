@@ -15,10 +15,10 @@ from sandbox.picture.path import apart, chip
 from sandbox.picture.sheet import Entry, Sheet, SideRows, metres, nice, roughly, signed, yards
 from sandbox.picture.side import Length, SideView
 
-from .course import BALL, Course
+from .course import BALL, COLOURS, Course
 from .scene import Parameters
 
-CARD, TRACE, GOLF = palette("card"), palette("trace"), palette("golf")
+CARD, TRACE = palette("card"), palette("trace")
 
 #: Carry is measured at launch height; a ball that is then at least this far above the ground (px on 720 rows) shows so.
 LEAST_DROP = 14
@@ -90,6 +90,9 @@ class Picture(SideView[Parameters]):
 
     def behind(self, painter: Painter, camera: Camera, t: float) -> None:
         self.course.flag(painter, camera, t, self.wind[0])
+
+    def before(self, painter: Painter, camera: Camera, t: float) -> None:
+        """Nothing: the ball is nearer than all of the course."""
 
     def landmarks(self, sheet: Sheet, camera: Camera) -> None:
         """How far the pin is."""
@@ -193,7 +196,7 @@ class Picture(SideView[Parameters]):
         painter, unit, thin = sheet.painter, self.unit, max(1, round(1.6 * self.unit))
         painter.panel(rect, CARD["background"], CARD["opacity"], 8 * unit)
         sheet.surface.set_clip(rect)
-        painter.thread(ground, thin, self.course.colours["fairway"])
+        painter.thread(ground, thin, self.course.turf["fairway"])
         for ghost in self.ghosts:
             points = small.pixels(ghost.points)
             painter.thread(points[apart(points, 1.5)], 1, ghost.light)
@@ -205,8 +208,10 @@ class Picture(SideView[Parameters]):
         painter.thread([*path[kept][past], at], thin + 1, TRACE["colours"][0])
         pin = self.parameters.pin.distance
         (px, py), tall = small.pixel(pin, self._under(pin)), 24 * unit
-        pygame.draw.line(sheet.surface, GOLF["pole"], (px, py), (px, py - tall), thin)
-        painter.polygon([(px, py - tall), (px + 0.6 * tall, py - 0.8 * tall), (px, py - 0.6 * tall)], GOLF["flag"])
+        pygame.draw.line(sheet.surface, COLOURS["hole"]["pole"], (px, py), (px, py - tall), thin)
+        painter.polygon(
+            [(px, py - tall), (px + 0.6 * tall, py - 0.8 * tall), (px, py - 0.6 * tall)], COLOURS["hole"]["flag"]
+        )
         painter.disc(at, max(2.5, 4 * unit), CARD["accent"])
         sheet.surface.set_clip(None)
         return rect

@@ -7,10 +7,8 @@ import pytest
 
 import sandbox
 from sandbox.picture.ball import SMALLEST, Look
-from sandbox.picture.palette import palette
+from sandbox.picture.palette import scene_colours
 from tests.picture.legible import assert_legible
-
-COURT = palette("basketball")
 
 SIZES = [(640, 360), (1280, 720), (1920, 1080)]
 SHOTS = {
@@ -140,5 +138,6 @@ def test_the_lens_goes_where_it_would_hide_the_ring():
     picture = picture_of("basketball, brick", (1280, 720))
     corner = picture.lens.left + 20, picture.lens.bottom - 20
     early, late = picture.frame(1.0), picture.frame(picture.run.duration)
-    assert early.get_at(corner) == (*COURT["lens"], 255)
-    assert late.get_at(corner) != (*COURT["lens"], 255)
+    lens = scene_colours(str(picture.run.scene.folder / "picture.py"))["lens"]
+    assert early.get_at(corner) == (*lens, 255)
+    assert late.get_at(corner) != (*lens, 255)

@@ -11,7 +11,7 @@ from PIL import ImageChops
 import sandbox
 from sandbox.picture.frames import to_image
 from sandbox.picture.ghosts import colours_beside
-from sandbox.picture.palette import palette
+from sandbox.picture.palette import scene_colours
 from tests.picture.legible import assert_legible
 
 PAIRS = [
@@ -118,7 +118,7 @@ def test_a_picture_that_shows_one_run_alone_says_so():
 
 def test_other_runs_are_unlike_the_run_and_the_hall():
     picture = compared(("basketball", "basketball/hook"))
-    court = palette("basketball")
-    for colour in (court["trace"], *court["wall"], *court["floor"]):
+    court = scene_colours(str(run_of("basketball").scene.folder / "picture.py"))
+    for colour in (court["trace"], *court["hall"]["wall"], *court["floor"]["wood"][:2]):
         assert dist(picture.ghosts[0].light, colour) > 90  # of 442 levels from black to white
     assert [ghost.colour for ghost in picture.ghosts] == list(colours_beside(type(picture)))[:1]

@@ -2,36 +2,55 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+from functools import lru_cache
 from math import tau
-from typing import Any
 
 import numpy as np
 import pygame
 
 from sandbox.picture.painter import blank, from_colours, from_coverage
-from sandbox.picture.palette import mix
+from sandbox.picture.palette import Colour, mix
 from sandbox.picture.sheet import rows_of
 
 #: How far each layer moves when the eye moves by 1 px: the far hills hardly, the near trees most.
+WHITE = (255, 255, 255)
 CLOUDS, HILLS, TREES = 0.01, (0.02, 0.04, 0.08), 0.16
 
 
+@dataclass(frozen=True)
 class Landscape:
+    """Its colours: hills and trees from far to near; stars in place of clouds, and no trees, where there is no air."""
+
+    sky: tuple[Colour, Colour]  # top, horizon
+    sun: Colour
+    hills: tuple[Colour, Colour, Colour]
+    haze: Colour
+    trees: tuple[Colour, ...] = ()
+    cloud: Colour | None = None
+    star: Colour | None = None
+
+    def draw(self, surface: pygame.Surface, foot: int, moved: float) -> None:
+        _layers(self, surface.get_size(), foot).draw(surface, moved)
+
+
+class Layers:
     """Everything behind the playing field, down to ``horizon`` px, for a picture of ``size`` px.
 
     Layers are twice as wide as the picture and join at their ends, so a camera may move for ever.
     """
 
-    def __init__(self, size: tuple[int, int], horizon: int, colours: dict[str, Any], seed: int = 7):
+    def __init__(self, size: tuple[int, int], horizon: int, colours: Landscape, seed: int = 7):
         self.size, self.horizon, self.colours = size, horizon, colours
         self.random = np.random.default_rng(seed)
         self.unit = rows_of(size) / 720
         self.width = 2 * size[0]
         self.sky = self._sky()
-        self.layers = [(self._stars() if "star" in colours else self._clouds(), CLOUDS)]
+        self.layers = [(self._clouds(colours.cloud) if colours.cloud else self._stars(), CLOUDS)]
         for i, (speed, height) in enumerate(zip(HILLS, (104, 70, 44), strict=True)):
             self.layers.append((self._hills(i, height * self.unit), speed))
-        self.layers.append((self._trees(), TREES))
+        if colours.trees:
+            self.layers.append((self._trees(), TREES))
 
     def draw(self, surface: pygame.Surface, shift: float = 0.0) -> None:
         """Draw the landscape as seen by an eye that has moved ``shift`` px to the right."""
@@ -44,13 +63,13 @@ class Landscape:
 
     def _sky(self) -> pygame.Surface:
         width, height = self.size[0], self.horizon
-        top, low = (np.array(colour, float) for colour in self.colours["sky"])
+        top, low = (np.array(colour, float) for colour in self.colours.sky)
         sky = top + (low - top) * np.linspace(0, 1, height)[None, :, None] ** 1.15
         across = (np.arange(width)[:, None] - 0.74 * width) / (0.34 * width)
         along = (np.arange(height)[None, :] / height - 0.80) / 0.62
         glow = np.exp(-(across**2) - along**2)[:, :, None] * 0.75
         sky = np.broadcast_to(sky, (width, height, 3))
-        return from_colours(sky + (np.array(self.colours["sun"], float) - sky) * glow)
+        return from_colours(sky + (np.array(self.colours.sun, float) - sky) * glow)
 
     def _wave(self, periods: tuple[int, ...], weights: tuple[float, ...]) -> np.ndarray:
         """A soft line over the layer's width that joins at its ends; between 0 and 1."""
@@ -66,7 +85,7 @@ class Landscape:
         line = (0.35 + 0.65 * self._wave(periods, (1.0, 0.7, 0.3, 0.14))) * height
         rows = int(height) + 2
         depth = np.arange(rows)[None, :] + 0.5 - (rows - line[:, None])  # px below the crest
-        crest, foot = self.colours["hills"][layer], mix(self.colours["hills"][layer], self.colours["haze"], 0.55)
+        crest, foot = self.colours.hills[layer], mix(self.colours.hills[layer], self.colours.haze, 0.55)
         surface = from_coverage(depth + 0.5, crest)
         fade = np.clip(depth / height, 0, 1)[:, :, None]
         pixels = pygame.surfarray.pixels3d(surface)
@@ -74,7 +93,7 @@ class Landscape:
         del pixels
         return surface, self.horizon - rows
 
-    def _clouds(self) -> tuple[pygame.Surface, int]:
+    def _clouds(self, colour: Colour) -> tuple[pygame.Surface, int]:
         """Flat underneath, heaped above, hardly brighter than the sky."""
         rows = int(self.horizon * 0.72)
         cover = np.zeros((self.width, rows), np.float32)
@@ -87,7 +106,7 @@ class Landscape:
                 height = base - np.arange(rows) + 0.5  # px over the cloud's foot
                 fading = 0.75 - 0.45 * np.clip(1 - height / (1.3 * size), 0, 1)
                 self._heap(cover, x + offset * size * 0.9, base, radius, 1.25, np.clip(height, 0, 1) * fading)
-        return from_coverage(cover * 0.8, self.colours["cloud"]), int(self.horizon * 0.08)
+        return from_coverage(cover * 0.8, colour), int(self.horizon * 0.08)
 
     def _stars(self) -> tuple[pygame.Surface, int]:
         """Where there is no air."""
@@ -95,7 +114,7 @@ class Landscape:
         places = self.random.uniform((0, 0), (self.width, self.horizon), (260, 2))
         for (x, y), faint in zip(places, self.random.uniform(0, 1, len(places)), strict=True):
             self._heap(cover, x, y, (1.7 - faint) * self.unit, rows=1.0 - 0.75 * faint)
-        return from_coverage(cover, self.colours["star"]), 0
+        return from_coverage(cover, self.colours.star or WHITE), 0
 
     def _heap(
         self, cover: np.ndarray, x: float, y: float, radius: float, flat: float = 1.0, rows: np.ndarray | float = 1.0
@@ -113,7 +132,7 @@ class Landscape:
         rows = round(40 * self.unit)
         layer = blank((self.width, rows), transparent=True)
         for colour, count, groups, small, large in zip(
-            self.colours["trees"], (260, 70), (15, 12), (3, 5), (8, 12), strict=True
+            self.colours.trees, (260, 70), (15, 12), (3, 5), (8, 12), strict=True
         ):
             cover = np.zeros((self.width, rows), np.float32)
             middles = (np.arange(groups) + self.random.uniform(0.0, 1.0, groups)) / groups * self.width
@@ -124,3 +143,9 @@ class Landscape:
                 self._heap(cover, x, y, radius, self.random.uniform(0.75, 1.15))
             layer.blit(from_coverage(cover, colour), (0, 0))
         return layer, self.horizon - rows + round(2 * self.unit)
+
+
+@lru_cache(maxsize=4)
+def _layers(landscape: Landscape, size: tuple[int, int], horizon: int) -> Layers:
+    """Shared by all pictures of the same shape."""
+    return Layers(size, horizon, landscape)

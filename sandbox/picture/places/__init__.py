@@ -1,0 +1,24 @@
+"""Of what a place is made, seen from the side: ground, what lies behind it, and things that stand on it."""
+
+from sandbox.picture.places.ground import Ground, Line, Mown, Planks
+from sandbox.picture.places.landscape import Landscape
+from sandbox.picture.places.scenery import Hall, Scenery, Stands
+from sandbox.picture.places.things import Group, Net, Person, Post, Shape, Thing, goal
+
+__all__ = [
+    "Ground",
+    "Group",
+    "Hall",
+    "Landscape",
+    "Line",
+    "Mown",
+    "Net",
+    "Person",
+    "Planks",
+    "Post",
+    "Scenery",
+    "Shape",
+    "Stands",
+    "Thing",
+    "goal",
+]

@@ -1,0 +1,149 @@
+"""The ground behind the plane of play, in central perspective, and the cut along it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from itertools import pairwise
+from math import ceil, floor, hypot, log2
+
+import numpy as np
+import pygame
+
+from sandbox.picture.depth import Eye
+from sandbox.picture.painter import Painter, blank, soil
+from sandbox.picture.palette import Colour, mix
+
+#: The ground differs little from place to place, so a lower factor than for other shapes will do.
+OVERSAMPLING = 2
+#: Mown stripes narrower than this, in px on 720 rows, are drawn twice as wide.
+LEAST_STRIPE = 12
+
+#: Points (x, z) of the ground in m: along the plane of play, and away from the eye.
+Line = Sequence[tuple[float, float]]
+#: From points of the ground in m to those of what is drawn, larger, in px.
+Project = Callable[[Line], np.ndarray]
+
+
+@dataclass(frozen=True)
+class Mown:
+    """Grass in stripes across the plane of play, ``width`` m wide from ``start`` m on: even ones, odd ones."""
+
+    colours: tuple[Colour, Colour]
+    width: float
+    start: float = 0.0
+
+    def draw(self, drawn: pygame.Surface, eye: Eye, far: float, near: float, project: Project) -> None:
+        """Between the distances ``far`` and ``near`` behind the plane of play, in m."""
+        drawn.fill(self.colours[0])
+        width = self.width * 2.0 ** max(0, ceil(log2(LEAST_STRIPE * eye.unit / (self.width * eye.camera.scale))))
+        low, high = (eye.along(px, far) for px in (0, drawn.get_width() / OVERSAMPLING))
+        for i in range(floor((low - self.start) / width), ceil((high - self.start) / width)):
+            if i % 2:
+                a, b = self.start + i * width, self.start + (i + 1) * width
+                pygame.draw.polygon(drawn, self.colours[1], project([(a, near), (b, near), (b, far), (a, far)]))
+
+
+@dataclass(frozen=True)
+class Planks:
+    """A wooden floor: far colour, near colour, and one of which every plank has some."""
+
+    colours: tuple[Colour, Colour, Colour]
+
+    def draw(self, drawn: pygame.Surface, eye: Eye, far: float, near: float, project: Project) -> None:
+        """Planks along the plane of play, so low on the picture that their slanting ends may stand upright."""
+        distant, close, tinge = self.colours
+        plank, length, width = eye.distance * 0.04, eye.distance * 0.30, drawn.get_width()
+        least = eye.share(far)
+        for i in range(ceil(far / plank)):
+            (_, low), (_, top) = project([(0.0, i * plank), (0.0, (i + 1) * plank)])
+            share, shift = eye.share((i + 0.5) * plank), i * 0.618 % 1
+            colour = mix(distant, close, (share - least) / (1 - least))
+            ends = (eye.along(px, (i + 0.5) * plank) / length - shift for px in (0, width / OVERSAMPLING))
+            first, last = (floor(end) for end in ends)
+            edges = [(project([((j + shift) * length, (i + 0.5) * plank)])[0, 0], j) for j in range(first, last + 2)]
+            for (a, j), (b, _) in pairwise(edges):
+                tone = (i * 0.7549 + j * 0.5698) % 1
+                rect = (round(a), round(top), round(b) - round(a), round(low) - round(top))
+                drawn.fill(mix(colour, tinge, tone), rect)
+
+
+@dataclass(frozen=True)
+class Ground:
+    """Level ground with what is on it, and under it what it is made of, cut open.
+
+    ``areas`` and ``lines`` lie on the ground; ``far`` is how much smaller things look where it ends, in front of what
+    stands there; ``beyond`` colours the rest of the way to the horizon, far and near, where nothing does.
+    """
+
+    surface: Mown | Planks
+    soil: tuple[Colour, Colour, Colour]  # from the top down
+    edges: Sequence[
+        tuple[Colour, float]
+    ] = ()  # thin layers at the top of the cut, and how deep they go, px on 720 rows
+    areas: Sequence[tuple[Line, Colour]] = ()
+    lines: Sequence[Line] = ()
+    line: tuple[Colour, float] = ((255, 255, 255), 0.05)  # their colour, and width in m
+    far: float = 0.4
+    haze: Colour | None = None
+    beyond: tuple[Colour, Colour] | None = None
+
+    def foot(self, eye: Eye) -> int:
+        """The row in which what lies behind stands on the ground, in px."""
+        return round(eye.level + (0.0 if self.beyond else self.far) * (eye.base - eye.level))
+
+    def draw(self, painter: Painter, eye: Eye, deepest: int | None = None) -> None:
+        """Down to the row ``deepest`` (px), or to the plane of play; below it the cut."""
+        (width, height), foot = painter.surface.get_size(), self.foot(eye)
+        deepest = round(eye.base) if deepest is None else deepest
+        drawn = _canvas((width * OVERSAMPLING, (height - foot) * OVERSAMPLING))
+        drawn = drawn.subsurface((0, 0, width * OVERSAMPLING, (deepest - foot) * OVERSAMPLING))
+        begin = 0
+        if self.beyond is not None:
+            begin, (distant, close) = round(self.far * (eye.base - eye.level) * OVERSAMPLING), self.beyond
+            for row in range(begin):
+                drawn.fill(mix(distant, close, row / begin), (0, row, drawn.get_width(), 1))
+
+        def project(line: Line) -> np.ndarray:
+            seen = eye.points(np.array([(x, eye.camera.at[1], z) for x, z in line]))
+            return (seen - (0, foot + begin / OVERSAMPLING)) * OVERSAMPLING
+
+        part = drawn.subsurface((0, begin, drawn.get_width(), drawn.get_height() - begin))
+        far, near = eye.depth(self.far), eye.depth((deepest - eye.level) / (eye.base - eye.level))
+        self.surface.draw(part, eye, far, near, project)
+        for area, colour in self.areas:
+            pygame.draw.polygon(part, colour, project(area))
+        for line in self.lines:
+            self._line(part, eye, line, project)
+        if self.haze is not None:
+            part.blit(_haze(part.get_size(), self.haze), (0, 0))
+        painter.surface.blit(pygame.transform.smoothscale(drawn, (width, deepest - foot)), (0, foot))
+        painter.surface.blit(soil((width, height - deepest), self.soil), (0, deepest))
+        for colour, deep in reversed(self.edges):
+            painter.surface.fill(colour, (0, deepest, width, max(1, round(deep * eye.unit))))
+
+    def _line(self, drawn: pygame.Surface, eye: Eye, line: Line, project: Project) -> None:
+        """As wide as it is at its nearest, and narrower where it runs along the plane of play."""
+        colour, width = self.line
+        for a, b in pairwise(line):
+            along, away = b[0] - a[0], b[1] - a[1]
+            seen = hypot(0.35 * along, 0.5 * away) / (hypot(along, away) or 1.0)
+            thick = width * eye.camera.scale * eye.share(min(a[1], b[1])) * seen * OVERSAMPLING
+            pygame.draw.lines(drawn, colour, False, project([a, b]), max(2, round(thick)))
+
+
+@lru_cache(maxsize=4)
+def _canvas(size: tuple[int, int]) -> pygame.Surface:
+    """Where ground is drawn, larger: new memory is slow."""
+    return blank(size)
+
+
+@lru_cache(maxsize=4)
+def _haze(size: tuple[int, int], colour: Colour) -> pygame.Surface:
+    """What the ground fades into with distance."""
+    fade = np.linspace(150, 0, round(0.8 * size[1])).astype(int)
+    haze = blank((1, len(fade)), transparent=True)
+    for row, opacity in enumerate(fade):
+        haze.set_at((0, row), (*colour, int(opacity)))
+    return pygame.transform.scale(haze, (size[0], len(fade)))

@@ -1,0 +1,142 @@
+"""Things that stand on the ground: nets, posts, people, a goal. Each says what of it is before the ball."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+
+from sandbox.picture.depth import Eye
+from sandbox.picture.figures import STANDING, Stroke, draw_figure
+from sandbox.picture.painter import Painter
+from sandbox.picture.palette import Colour, palette
+
+SHADOW = palette("card")["shadow"]
+
+#: The least that is drawn of a net's mesh and of a post's width, px on 720 rows.
+LEAST_MESH, LEAST_POST = 5.0, 1.8
+
+#: A point in m: along the plane of play, up, and behind it.
+Point3 = tuple[float, float, float]
+
+
+class Thing(Protocol):
+    """Draws what of it is before the ball (``near``), or what is not."""
+
+    def draw(self, painter: Painter, eye: Eye, near: bool) -> None: ...
+
+
+@dataclass(frozen=True)
+class Net:
+    """Flat nets, each from a corner along two edges (m), with meshes ``mesh`` m wide."""
+
+    planes: Sequence[tuple[Point3, Point3, Point3]]
+    colour: Colour
+    opacity: float
+    mesh: float = 0.12
+    near: bool = False
+
+    def draw(self, painter: Painter, eye: Eye, near: bool) -> None:
+        if near != self.near:
+            return
+        mesh, threads = max(self.mesh, LEAST_MESH * eye.unit / eye.camera.scale), []
+        for plane in self.planes:
+            corner, one, other = (np.array(vector, float) for vector in plane)
+            for along, across in ((one, other), (other, one)):
+                count = max(2, round(float(np.hypot.reduce(across)) / mesh) + 1)
+                threads += [
+                    (corner + share * across, corner + share * across + along) for share in np.linspace(0, 1, count)
+                ]
+        lines = eye.points(np.reshape(threads, (-1, 3))).reshape(-1, 2, 2)
+        painter.lines(list(lines), max(0.6, 0.8 * eye.unit), self.colour, self.opacity)
+
+
+@dataclass(frozen=True)
+class Post:
+    """A round bar along the points (m)."""
+
+    points: Sequence[Point3]
+    radius: float
+    colour: Colour
+    near: bool = False
+
+    def draw(self, painter: Painter, eye: Eye, near: bool) -> None:
+        if near == self.near:
+            share = float(np.mean([eye.share(z) for *_, z in self.points]))
+            width = max(LEAST_POST * eye.unit, 2 * self.radius * eye.camera.scale * share)
+            painter.line(eye.points(np.array(self.points)), width, self.colour)
+
+
+@dataclass(frozen=True)
+class Shape:
+    """A flat shape with corners in m."""
+
+    corners: Sequence[Point3]
+    colour: Colour
+    opacity: float = 1.0
+    near: bool = False
+
+    def draw(self, painter: Painter, eye: Eye, near: bool) -> None:
+        if near == self.near:
+            painter.polygon(eye.points(np.array(self.corners)), self.colour, self.opacity)
+
+
+@dataclass(frozen=True)
+class Person:
+    """Somebody ``tall`` m high, whose feet are ``up`` m over the ground, x m along the plane of play, z m behind it."""
+
+    x: float
+    tall: float
+    colours: Mapping[str, Colour]
+    pose: Sequence[Stroke] = STANDING
+    z: float = 0.0
+    up: float = 0.0
+    facing: int = 1
+
+    def draw(self, painter: Painter, eye: Eye, near: bool) -> None:
+        if near:
+            return
+        tall = self.tall * eye.camera.scale * eye.share(self.z)
+        painter.shadow(eye.point(self.x, 0.0, self.z), 0.24 * tall, 0.05 * tall, SHADOW, 0.42)
+        draw_figure(painter, eye.point(self.x, self.up, self.z), tall, self.pose, self.colours, self.facing)
+
+
+@dataclass(frozen=True)
+class Group:
+    """Things that stand at x (m), and are drawn larger where ``height`` m of them would be less than ``least`` px."""
+
+    x: float
+    things: Sequence[Thing]
+    height: float
+    least: float
+
+    def enlarged(self, eye: Eye) -> float:
+        """How many times their size they are drawn."""
+        return max(1.0, self.least * eye.unit / (self.height * eye.camera.scale))
+
+    def draw(self, painter: Painter, eye: Eye, near: bool) -> None:
+        eye = eye.enlarged(self.x, self.enlarged(eye))
+        for thing in self.things:
+            thing.draw(painter, eye, near)
+
+
+def goal(
+    front: float, depth: float, height: float, width: float, radius: float, post: Colour, shade: Colour, net: Colour
+) -> list[Thing]:
+    """A goal whose near post stands in the plane of play, seen from aside: its mouth at x = ``front``, lengths in m."""
+    bar, far, back = height + radius, width + 2 * radius, front + depth
+    behind = [
+        ((back, 0.0, 0.0), (0.0, bar, 0.0), (0.0, 0.0, far)),
+        ((front, bar, 0.0), (depth, 0.0, 0.0), (0.0, 0.0, far)),
+        ((front, 0.0, far), (depth, 0.0, 0.0), (0.0, bar, 0.0)),
+    ]
+    before = [((front, 0.0, 0.0), (depth, 0.0, 0.0), (0.0, bar, 0.0))]
+    return [
+        Net(behind, net, 0.20),
+        Post([(front, 0.0, far), (front, bar, far)], radius, shade),
+        Post([(front, bar, far), (front, bar, 0.0)], radius, shade),
+        Net(before, net, 0.42, near=True),
+        Post([(front, bar, 0.0), (front, 0.0, 0.0)], radius, post, near=True),
+    ]
