@@ -139,8 +139,8 @@ def sweep(
 
         check_file("--parquet", parquet, ".parquet")
         check_installed("--parquet")
-    with workers(jobs or jobs_that_pay(plan), scheduler) as staff, bar("sweep") as progress:
-        done = sweep_to_file(plan, out, staff, progress)
+    with workers(jobs or jobs_that_pay(plan), scheduler) as pool, bar("sweep") as progress:
+        done = sweep_to_file(plan, out, pool, progress)
     if plot is not None:
         from sandbox.lab.maps import draw_sweep
 

@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from sandbox import resources
 from sandbox.errors import RequestError, SandboxError
 from sandbox.lab.axes import MOST_POINTS, Axis, Span, Values
+from sandbox.lab.provenance import Provenance, provenance
 from sandbox.lab.runs import fly_together, runs
 from sandbox.scene import Scene, compare
 
@@ -109,14 +109,16 @@ class Plan:
                 yield tuple(_drawn(axis, share) for axis, share in zip(self.axes, row, strict=True))
 
     @cached_property
+    def provenance(self) -> Provenance:
+        """What the rows depend on besides this plan."""
+        return provenance(self.scene)
+
+    @cached_property
     def fingerprint(self) -> str:
         """Two sweeps with one fingerprint have the same rows: the same scene at the same points, by the same code."""
-        rooms = (resources.PACKAGE / room for room in (".", "physics", "engine", "lab"))
-        folders = (self.scene.folder, *rooms)
-        sources = [path for folder in folders for path in sorted(folder.glob("*.py"))]
         told = {
             "scene": self.scene.name,
-            "sources": [hashlib.sha256(path.read_bytes()).hexdigest() for path in sources],
+            "provenance": self.provenance.parts,
             "parameters": self.scene.parameters.model_dump(),
             "axes": [asdict(axis) for axis in self.axes],
             "samples": self.samples,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pickle
+import platform
 from collections import deque
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
@@ -11,15 +12,16 @@ from functools import lru_cache
 from pathlib import Path
 from time import perf_counter
 from typing import Any
+from uuid import uuid4
 
 import numpy as np
 
-from sandbox.errors import RequestError, Stopped
+from sandbox.errors import RequestError, RunError, Stopped
 from sandbox.lab.axes import Values, as_axis
 from sandbox.lab.plan import Plan, Record, failed, records
 from sandbox.lab.row_file import RowFile
 from sandbox.scene import Scene, as_scene
-from sandbox.workers import Call, Cluster, InTurn, Processes, Workers, cores
+from sandbox.workers import Call, Cluster, InTurn, Processes, WorkerLost, Workers, cores
 
 #: Time in s that one call to a worker should take: progress is seen, and Ctrl-C obeyed, a few times a second.
 _CALL = 0.3
@@ -35,6 +37,9 @@ _TRIES = 3
 
 #: Shots that fly together and are no more than this are done before another process has started.
 _FEW = 200
+
+#: Tells this process from all others.
+_HERE = uuid4().hex
 
 Progress = Callable[[int, int], None]
 
@@ -112,8 +117,8 @@ def sweep(
     axes = tuple(as_axis(chosen, key, given) for key, given in over.items())
     plan = Plan(chosen, axes, samples, seed, check)
     found: list[Record] = []
-    with workers(jobs, scheduler) as staff:
-        for rows in swept(plan, staff, progress=progress):
+    with workers(jobs, scheduler) as pool:
+        for rows in Handout(plan, pool, progress=progress):
             found += rows
     return Sweep(plan, found)
 
@@ -132,6 +137,7 @@ class Written:
     failures: int  # among the new points
     first_error: str
     seconds: float  # for the new points
+    damaged: int | None = None  # the first row that was damaged, and computed again with all after it
     before: Path | None = None  # where the rows are that were in the file, of another sweep
 
     def as_text(self) -> str:
@@ -142,31 +148,36 @@ class Written:
         lines = [f"{points}{before}; {new:,} in {self.seconds:.1f} s, {new / self.seconds:,.0f}/s"]
         if self.failures:
             lines.append(f"{self.failures:,} failed, first with: {self.first_error}")
+        if self.damaged is not None:
+            lines.append(f"row {self.damaged:,} was not as it had been written: computed again, with all after it")
         if self.before is not None:
             lines.append(f"the rows that were there before are in {self.before}")
         return "\n".join(lines)
 
 
-def sweep_to_file(plan: Plan, path: Path, staff: Workers, progress: Progress = _silent) -> Written:
+def sweep_to_file(plan: Plan, path: Path, pool: Workers, progress: Progress = _silent) -> Written:
     """All rows of the plan as CSV, from where an interrupted sweep into the same file stopped.
 
     Raises Stopped on Ctrl-C, and RunError where the file cannot be written to its end; both keep what is done.
     """
     failures, first_error, began = 0, "", perf_counter()
-    with RowFile(path, plan.fingerprint) as file:
+    with RowFile(path, plan) as file:
         resumed = file.done
+        handout = Handout(plan, pool, resumed, progress)
         try:
-            for rows in swept(plan, staff, resumed, progress):
+            for rows in handout:
                 file.append(rows)
                 errors = [row["error"] for row in rows if row["error"]]
                 failures += len(errors)
                 first_error = first_error or "".join(errors[:1])
         except KeyboardInterrupt:
+            for rows in handout.finished(file.done):
+                file.append(rows)
             kept = f"{file.done:,} of {plan.size:,} points are kept in {path}"
-            raise Stopped(f"stopped: {kept}; the same command goes on from there") from None
+            raise Stopped(f"stopped: {kept}; the same command resumes from there") from None
         file.finish()
     before = file.before if file.before.is_file() else None
-    return Written(plan.size, resumed, failures, first_error, perf_counter() - began, before)
+    return Written(plan.size, resumed, failures, first_error, perf_counter() - began, file.damaged, before)
 
 
 # ---------------------------------------------------------------------------------------------------------------------
@@ -184,51 +195,84 @@ def workers(jobs: int, scheduler: str | None = None) -> Iterator[Workers]:
     """Whoever is asked for; dismissed at the end, in the middle of their work if need be."""
     if jobs < 1:
         raise RequestError(f"--jobs {jobs}: at least one is needed")
-    staff: Workers = Cluster(scheduler) if scheduler is not None else InTurn() if jobs == 1 else Processes(jobs)
+    pool: Workers = Cluster(scheduler) if scheduler is not None else InTurn() if jobs == 1 else Processes(jobs)
     try:
-        yield staff
+        yield pool
     except BaseException:
-        staff.close(abandon=True)
+        pool.close(abandon=True)
         raise
-    staff.close(abandon=False)
+    pool.close(abandon=False)
 
 
-def swept(plan: Plan, staff: Workers, first: int = 0, progress: Progress = _silent) -> Iterator[list[Record]]:
-    """The rows of all points from ``first`` on, in order, a few at a time."""
-    payload = pickle.dumps(plan)
-    pace = _Pace(plan, staff.width)
-    waiting: deque[tuple[int, int, Call]] = deque()
-    following = first
-    progress(first, plan.size)
-    while following < plan.size or waiting:
-        while following < plan.size and len(waiting) < _AHEAD * staff.width:
-            stop = min(plan.size, following - following % plan.block + pace.points)
-            waiting.append((following, stop, staff.submit(_computed, payload, following, stop)))
-            following = stop
-        start, stop, call = waiting.popleft()
-        rows, seconds = _result(plan, payload, staff, start, stop, call)
-        pace.note(stop - start, seconds)
-        yield rows
-        progress(stop, plan.size)
+class Handout:
+    """The rows of all points from ``first`` on, in order, a few at a time, as an iterator.
 
+    A call gives back what it computed in a short time, however many points that was; what it left is handed out again.
+    """
 
-def _result(plan: Plan, payload: bytes, staff: Workers, start: int, stop: int, call: Call, alone: bool = False) -> Any:
-    """What a call gives. One whose worker went away is repeated; in the end point by point, each alone, so that none
-    suffers for others."""
-    for _ in range(_TRIES):
-        try:
-            return call.result()
-        except Exception as error:
-            if not staff.lost(error):
-                raise
-        call = staff.submit(_computed, payload, start, stop, alone)
-    if stop - start == 1:
-        return failed(plan, start, stop, f"the process that ran it was killed {_TRIES} times: out of memory?"), 0.0
-    found: list[Record] = []
-    for number in range(start, stop):
-        one = staff.submit(_computed, payload, number, number + 1, True)
-        found += _result(plan, payload, staff, number, number + 1, one, alone=True)[0]
-    return found, 0.0
+    def __init__(self, plan: Plan, pool: Workers, first: int = 0, progress: Progress = _silent) -> None:
+        self._plan = plan
+        self._pool = pool
+        self._progress = progress
+        self._payload = pickle.dumps((_HERE, plan.provenance, pickle.dumps(plan)))
+        self._pace = _Pace(plan, pool.width)
+        self._waiting: deque[tuple[int, int, Call]] = deque()
+        self._following = first
+        self._reached = first
+        progress(first, plan.size)
+
+    def __iter__(self) -> Iterator[list[Record]]:
+        while self._reached < self._plan.size:
+            self._hand_out()
+            yield self._next()
+
+    def finished(self, first: int) -> Iterator[list[Record]]:
+        """What has been computed already, as far as it follows in order from ``first`` on; nothing is waited for."""
+        while self._waiting and self._waiting[0][0] == first and self._waiting[0][2].done():
+            start, _, call = self._waiting.popleft()
+            rows, _ = call.result()
+            first = start + len(rows)
+            yield rows
+
+    def _hand_out(self) -> None:
+        plan = self._plan
+        while self._following < plan.size and len(self._waiting) < _AHEAD * self._pool.width:
+            start = self._following
+            stop = min(plan.size, start - start % plan.block + self._pace.points)
+            self._waiting.append((start, stop, self._submit(start, stop)))
+            self._following = stop
+
+    def _next(self) -> list[Record]:
+        start, stop, call = self._waiting[0]
+        rows, seconds = self._result(start, stop, call)
+        self._waiting.popleft()
+        self._reached = start + len(rows)
+        if self._reached < stop:
+            self._waiting.appendleft((self._reached, stop, self._submit(self._reached, stop)))
+        self._pace.note(len(rows), seconds)
+        self._progress(self._reached, self._plan.size)
+        return rows
+
+    def _submit(self, start: int, stop: int, alone: bool = False) -> Call:
+        return self._pool.submit(_computed, self._payload, start, stop, alone)
+
+    def _result(self, start: int, stop: int, call: Call, alone: bool = False) -> tuple[list[Record], float]:
+        """What a call gives. One whose worker went away is repeated; in the end point by point, each alone, so that
+        none suffers for others."""
+        for _ in range(_TRIES):
+            try:
+                found: tuple[list[Record], float] = call.result()
+                return found
+            except WorkerLost:
+                call = self._submit(start, stop, alone)
+        if stop - start == 1:
+            why = f"the process that ran it was killed {_TRIES} times: out of memory?"
+            return failed(self._plan, start, stop, why), 0.0
+        rows: list[Record] = []
+        for number in range(start, stop):
+            one = self._submit(number, number + 1, alone=True)
+            rows += self._result(number, number + 1, one, alone=True)[0]
+        return rows, 0.0
 
 
 class _Pace:
@@ -246,14 +290,29 @@ class _Pace:
 
 
 def _computed(payload: bytes, start: int, stop: int, alone: bool = False) -> tuple[list[Record], float]:
-    """The rows of some points, and how long they took in s; in whatever process this is."""
+    """The rows of the points from ``start`` on, as far as a call's time goes but of one block at least, and how long
+    they took in s; in whatever process this is."""
     began = perf_counter()
-    rows = records(_plan(payload), start, stop, alone)
+    plan = _plan(payload)
+    if alone:
+        return records(plan, start, stop, alone), perf_counter() - began
+    rows: list[Record] = []
+    while start + len(rows) < stop and (not rows or perf_counter() - began < _CALL):
+        first = start + len(rows)
+        rows += records(plan, first, min(stop, first - first % plan.block + plan.block))
     return rows, perf_counter() - began
 
 
 @lru_cache(maxsize=2)
 def _plan(payload: bytes) -> Plan:
-    plan = pickle.loads(payload)
-    assert isinstance(plan, Plan)
-    return plan
+    """The plan, where it means the same as where it was made. Raises RunError elsewhere."""
+    process, origin, plan = pickle.loads(payload)
+    differences = origin.differences() if process != _HERE else []
+    if differences:
+        raise RunError(
+            f"the worker on {platform.node() or 'another machine'} would find other numbers; it differs in: "
+            f"{', '.join(differences)}"
+        )
+    found = pickle.loads(plan)
+    assert isinstance(found, Plan)
+    return found

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from concurrent.futures import CancelledError, Future
-from concurrent.futures.process import BrokenProcessPool
 from dataclasses import replace
 from enum import Enum
 from pathlib import Path
@@ -27,6 +26,7 @@ from sandbox.window.session import Changes, Session
 from sandbox.window.shot import Shot
 from sandbox.window.watch import Watch
 from sandbox.window.worker import Worker, computed, described, reread, warm_up
+from sandbox.workers import WorkerLost
 
 #: How long a message stays, in s.
 MESSAGE = 6.0
@@ -160,7 +160,7 @@ class Game:
 
     def reason(self, error: BaseException) -> str:
         """An error in a line or two."""
-        if isinstance(error, BrokenProcessPool):
+        if isinstance(error, WorkerLost):
             return "the process that ran it was killed: out of memory?"
         if isinstance(error, SandboxError) or not isinstance(error, Exception):
             return str(error)

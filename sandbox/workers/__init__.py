@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from sandbox.workers.cluster import Cluster
-from sandbox.workers.pool import Call, InTurn, Workers, cores
+from sandbox.workers.pool import Call, InTurn, WorkerLost, Workers, cores
 from sandbox.workers.processes import Processes
 
-__all__ = ["Call", "Cluster", "InTurn", "Processes", "Workers", "cores"]
+__all__ = ["Call", "Cluster", "InTurn", "Processes", "WorkerLost", "Workers", "cores"]

@@ -7,6 +7,10 @@ from collections.abc import Callable
 from typing import Any, Protocol
 
 
+class WorkerLost(Exception):
+    """The worker of a call went away, which says nothing about the call: it may be repeated."""
+
+
 class Call(Protocol):
     """Something that is computed, or will be."""
 
@@ -14,18 +18,18 @@ class Call(Protocol):
         """What it gives, or the exception that it ended in; waits for either."""
         ...
 
+    def done(self) -> bool:
+        """Whether ``result`` would not wait."""
+        ...
+
 
 class Workers(Protocol):
-    """Somewhere to compute."""
+    """Somewhere to compute. A call whose worker goes away ends in WorkerLost."""
 
     width: int  # how many calls run at once
 
     def submit(self, work: Callable[..., Any], *args: Any) -> Call:
         """Have ``work(*args)`` computed."""
-        ...
-
-    def lost(self, error: BaseException) -> bool:
-        """Whether a call failed because its worker went away, which says nothing about the call."""
         ...
 
     def close(self, abandon: bool) -> None:
@@ -46,9 +50,6 @@ class InTurn:
     def submit(self, work: Callable[..., Any], *args: Any) -> Call:
         return _Later(work, args)
 
-    def lost(self, error: BaseException) -> bool:
-        return False
-
     def close(self, abandon: bool) -> None:
         pass
 
@@ -60,3 +61,6 @@ class _Later:
 
     def result(self) -> Any:
         return self._work(*self._args)
+
+    def done(self) -> bool:
+        return False

@@ -6,10 +6,13 @@ import csv
 import os
 import shutil
 import signal
+import socket
 import subprocess
 import sys
 import time
+from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -22,10 +25,12 @@ from sandbox.cli import main
 from sandbox.errors import RequestError, RunError
 from sandbox.lab.axes import Span, Values, as_axis, parse_axis
 from sandbox.lab.plan import HANGS, Plan, records
+from sandbox.lab.provenance import provenance
 from sandbox.lab.row_file import RowFile, cell
-from sandbox.lab.sweep import jobs_that_pay, sweep_to_file, swept, workers
+from sandbox.lab.sweep import Handout, jobs_that_pay, sweep_to_file, workers
 from sandbox.scene import Scene, compare, load, simulate
 from sandbox.scene.running import simulate_at
+from sandbox.workers import cluster as cluster_of
 
 DROP = Path(__file__).parents[1] / "scenes" / "drop"
 COMMAND = [sys.executable, "-c", "import sys; from sandbox.cli import main; sys.exit(main())"]
@@ -232,8 +237,8 @@ def test_cells():
 
 
 def whole(plan: Plan, path: Path) -> bytes:
-    with workers(1) as staff:
-        sweep_to_file(plan, path, staff)
+    with workers(1) as pool:
+        sweep_to_file(plan, path, pool)
     assert not path.with_name(path.name + ".resume").exists()
     return path.read_bytes()
 
@@ -241,8 +246,8 @@ def whole(plan: Plan, path: Path) -> bytes:
 def test_two_processes_write_the_same_file_as_one(drop, tmp_path):
     plan = grid(drop, "launch.height=0.5:2:31", "launch.speed=0:2:7")
     expected = whole(plan, tmp_path / "one.csv")
-    with workers(2) as staff:
-        done = sweep_to_file(plan, tmp_path / "two.csv", staff)
+    with workers(2) as pool:
+        done = sweep_to_file(plan, tmp_path / "two.csv", pool)
     assert (tmp_path / "two.csv").read_bytes() == expected
     assert len(table(tmp_path / "two.csv")) == done.points == plan.size
 
@@ -253,20 +258,107 @@ def test_a_file_cut_off_anywhere_is_gone_on_with(drop, tmp_path, kept):
     expected = whole(plan, path)
     path.write_bytes(expected[: int(kept * len(expected))])
     path.with_name("rows.csv.resume").write_text(plan.fingerprint + "\n")
-    with workers(1) as staff:
-        done = sweep_to_file(plan, path, staff)
+    with workers(1) as pool:
+        done = sweep_to_file(plan, path, pool)
     assert path.read_bytes() == expected
     assert done.resumed == max(0, expected[: int(kept * len(expected))].count(b"\n") - 1)
 
 
+def damaged(content: bytes, kind: str) -> bytes:
+    lines = content.splitlines(keepends=True)
+    row = len(lines) // 2
+    old = lines[row]
+    lines[row] = {
+        "a row is missing": b"",
+        "NULs": b"\0" * len(old),
+        "a stray quote": b'"' + old,
+        "CRLF": old.replace(b"\n", b"\r\n"),
+        "no UTF-8": b"\xff" + old,
+        "another point": b"9" + old,
+        "a row twice": old + old,
+        "a cell too many": old.replace(b"\n", b",\n"),
+    }[kind]
+    return b"".join(lines)
+
+
+@pytest.mark.parametrize(
+    "kind",
+    [
+        "a row is missing",
+        "NULs",
+        "a stray quote",
+        "CRLF",
+        "no UTF-8",
+        "another point",
+        "a row twice",
+        "a cell too many",
+    ],
+)
+def test_damaged_rows_are_computed_again(drop, tmp_path, kind):
+    plan, path = grid(drop, "launch.height=0.5:2:40"), tmp_path / "rows.csv"
+    expected = whole(plan, path)
+    found = damaged(expected[: len(expected) * 4 // 5], kind)
+    path.write_bytes(found)
+    path.with_name("rows.csv.resume").write_text(plan.fingerprint + "\n")
+    with workers(1) as pool:
+        done = sweep_to_file(plan, path, pool)
+    assert path.read_bytes() == expected
+    assert (tmp_path / "rows.csv~").read_bytes() == found
+    assert done.damaged == done.resumed + 1
+    assert f"row {done.damaged} was not as it had been written: computed again" in done.as_text()
+
+
+def test_rows_beyond_the_last_point_are_dropped(drop, tmp_path):
+    plan, path = grid(drop, "launch.height=0.5:2:5"), tmp_path / "rows.csv"
+    expected = whole(plan, path)
+    path.write_bytes(expected + expected.splitlines(keepends=True)[-1])
+    path.with_name("rows.csv.resume").write_text(plan.fingerprint + "\n")
+    assert whole(plan, path) == expected
+
+
+@pytest.mark.parametrize("header", [b"\xff", b"speed,", b"error,", b'"'])
+def test_a_damaged_header_is_refused(drop, tmp_path, header):
+    plan, path = grid(drop, "launch.height=0.5:2:5"), tmp_path / "rows.csv"
+    found = header + whole(plan, path)
+    path.write_bytes(found)
+    path.with_name("rows.csv.resume").write_text(plan.fingerprint + "\n")
+    with workers(1) as pool, pytest.raises(RequestError, match="its first line is not the one that this sweep wrote"):
+        sweep_to_file(plan, path, pool)
+    assert path.read_bytes() == found
+
+
+def test_one_sweep_at_a_time_writes_a_file(drop, tmp_path, capsys):
+    path = tmp_path / "rows.csv"
+    with RowFile(path, grid(drop, "launch.height=0.5:2:3")):
+        command = ["sweep", str(DROP), "--over", "launch.height=0.5:2:3", "--jobs", "1", "--out", str(path)]
+        assert main(command) == 2
+        assert capsys.readouterr().err == f"error: --out {path}: another sweep is writing this file; name another\n"
+    assert main(command) == 0
+
+
+def test_files_of_the_users_are_kept(drop, tmp_path):
+    plan = grid(drop, "launch.height=0.5:2:3")
+    path, mark, before = (tmp_path / f"rows.csv{end}" for end in ("", ".resume", "~"))
+    mark.write_text("my notes")
+    with pytest.raises(RequestError, match=r"it needs rows\.csv\.resume, and that is a file of yours"):
+        RowFile(path, plan).__enter__()
+    assert mark.read_text() == "my notes"
+    mark.unlink()
+    path.write_text("x,error\n1,\n")
+    before.write_text("my notes")
+    with pytest.raises(RequestError, match="and that is a file of yours"):
+        RowFile(path, plan).__enter__()
+    assert (before.read_text(), path.read_text(), mark.exists()) == ("my notes", "x,error\n1,\n", False)
+
+
 def test_another_sweep_begins_anew_but_never_over_one_that_was_interrupted(drop, tmp_path):
     path = tmp_path / "rows.csv"
-    with RowFile(path, grid(drop, "launch.height=0.5:2:40").fingerprint) as file:
+    with RowFile(path, grid(drop, "launch.height=0.5:2:40")) as file:
         file.append([{"launch.height": 9.0, "error": ""}])
     kept = path.read_bytes()
     other = grid(drop, "launch.height=0.5:2:3")
-    with workers(1) as staff, pytest.raises(RequestError, match=r"rows\.csv: holds the rows of another sweep"):
-        sweep_to_file(other, path, staff)
+    with workers(1) as pool, pytest.raises(RequestError, match=r"rows\.csv: holds the rows of another sweep"):
+        sweep_to_file(other, path, pool)
     assert path.read_bytes() == kept
     path.with_name("rows.csv.resume").unlink()
     assert whole(other, path) == whole(other, tmp_path / "fresh.csv")
@@ -280,46 +372,69 @@ def test_what_another_sweep_found_is_kept_and_the_same_rows_are_not(drop, tmp_pa
     found = whole(first, path)
     assert whole(first, path) == found
     assert not before.exists()
-    with workers(1) as staff:
-        done = sweep_to_file(other, path, staff)
+    with workers(1) as pool:
+        done = sweep_to_file(other, path, pool)
     assert (before.read_bytes(), done.before) == (found, before)
     assert f"the rows that were there before are in {before}" in done.as_text()
     assert path.read_bytes() == whole(other, tmp_path / "fresh.csv") != found
 
 
-def test_a_changed_scene_begins_anew(tmp_path):
-    folder = own_scene(tmp_path, "")
-    before = grid(load(folder), "launch.height=0.5:2:3").fingerprint
-    (folder / "scene.py").write_text((folder / "scene.py").read_text("utf-8") + "\n# another scene\n", "utf-8")
-    assert grid(load(folder), "launch.height=0.5:2:3").fingerprint != before
+def test_all_that_rows_depend_on_makes_another_sweep(tmp_path, monkeypatch):
+    """Two models must never meet in one file: files that a scene reads, modules beside it, versions, the program."""
+    (tmp_path / "physics_of_mine").mkdir()
+    (tmp_path / "physics_of_mine" / "__init__.py").write_text("")
+    helper = tmp_path / "physics_of_mine" / "helper.py"
+    helper.write_text("K = 1\n")
+    monkeypatch.syspath_prepend(tmp_path)
+    folder = own_scene(tmp_path, "    from physics_of_mine import helper\n    import json\n")
+    package = tmp_path / "package"
+    shutil.copytree(resources.PACKAGE / "physics", package / "physics")
+    monkeypatch.setattr(resources, "PACKAGE", package)
+
+    def found() -> str:
+        return grid(load(folder), "launch.height=0.5:2:3").fingerprint
+
+    seen = [found()]
+    for file, text in (
+        (folder / "scene.py", "# another\n"),
+        (folder / "k.txt", "2"),
+        (folder / "tables" / "k.csv", "1,2\n"),
+        (helper, "K = 2\n"),
+        (package / "physics" / "forces.py", "# another\n"),
+        (package / "sport" / "new.py", ""),
+    ):
+        file.parent.mkdir(exist_ok=True)
+        file.write_text((file.read_text("utf-8") if file.exists() else "") + text, "utf-8")
+        assert found() not in seen, file
+        seen.append(found())
+    for name in (".notes", "rows.csv~", "golf.png", "__pycache__/scene.pyc", "golden/a.json", ".git/index"):
+        (folder / name).parent.mkdir(exist_ok=True)
+        (folder / name).write_text("made from it")
+    (folder / "rows.csv").write_text("launch.height,carry,error\n")
+    assert found() == seen[-1]
+    for name in ("version", "platform.python_version", "platform.machine"):
+        with monkeypatch.context() as patched:
+            patched.setattr(f"sandbox.lab.provenance.{name}", lambda *args: "another")
+            assert found() not in seen, name
 
 
-def test_code_that_changes_makes_another_sweep(tmp_path, drop, monkeypatch):
-    monkeypatch.setattr(resources, "PACKAGE", tmp_path)
-    found = {grid(drop, "launch.height=0.5:2:3").fingerprint}
-    for name in ("aerodynamics.py", "physics/forces.py", "engine/batch.py", "lab/plan.py"):
-        (tmp_path / name).parent.mkdir(exist_ok=True)
-        (tmp_path / name).write_text("")
-        found.add(grid(drop, "launch.height=0.5:2:3").fingerprint)
-    assert len(found) == 5
-
-
-def test_columns_that_come_later_are_blank_before(tmp_path):
-    path = tmp_path / "rows.csv"
-    with RowFile(path, "1") as file:
-        file.append([{"x": 1.0, "error": "no way"}])
-        file.append([{"x": 2.0, "carry": 3.0, "error": ""}])
-    with RowFile(path, "1") as file:
+def test_columns_that_come_later_are_blank_before(drop, tmp_path):
+    path, plan = tmp_path / "rows.csv", grid(drop, "launch.height=1,2,3")
+    x = "launch.height"
+    with RowFile(path, plan) as file:
+        file.append([{x: 1.0, "error": "no way"}])
+        file.append([{x: 2.0, "carry": 3.0, "error": ""}])
+    with RowFile(path, plan) as file:
         assert file.done == 2
-        file.append([{"x": 3.0, "made": True, "error": ""}])
-    assert path.read_text() == "x,carry,made,error\n1.0,,,no way\n2.0,3.0,,\n3.0,,true,\n"
+        file.append([{x: 3.0, "made": True, "error": ""}])
+    assert path.read_text() == "launch.height,carry,made,error\n1.0,,,no way\n2.0,3.0,,\n3.0,,true,\n"
 
 
 def test_a_full_disk_is_told(drop):
     if not Path("/dev/full").is_char_device():
         pytest.skip("needs /dev/full")
-    with workers(1) as staff, pytest.raises(RunError, match="--out /dev/full: cannot be written: no space left"):
-        sweep_to_file(grid(drop, "launch.height=0.5:2:3"), Path("/dev/full"), staff)
+    with workers(1) as pool, pytest.raises(RunError, match="--out /dev/full: cannot be written: no space left"):
+        sweep_to_file(grid(drop, "launch.height=0.5:2:3"), Path("/dev/full"), pool)
 
 
 def started(*args: object) -> subprocess.Popen[str]:
@@ -348,7 +463,7 @@ def test_few_shots_that_fly_together_do_without_processes(monkeypatch: pytest.Mo
 
 @pytest.mark.parametrize("jobs", [1, 2])
 def test_ctrl_c_keeps_what_is_done_and_the_same_command_resumes(tmp_path, jobs):
-    scene = own_scene(tmp_path, "    import time\n    time.sleep(0.02)\n")
+    scene = own_scene(tmp_path, "    import time\n    time.sleep(0.005)\n")
     path = tmp_path / "rows.csv"
     command = ["sweep", scene, "--over", "launch.height=0.5:2:200", "--jobs", jobs, "--out", path]
     process = started(*command)
@@ -362,12 +477,45 @@ def test_ctrl_c_keeps_what_is_done_and_the_same_command_resumes(tmp_path, jobs):
     assert (process.returncode, out) == (130, "")
     kept = len(table(path))
     assert 10 <= kept < 200
-    assert err == f"stopped: {kept} of 200 points are kept in {path}; the same command goes on from there\n"
+    assert err == f"stopped: {kept} of 200 points are kept in {path}; the same command resumes from there\n"
     assert everybody_gone(process.pid)
 
     finished = subprocess.run([*COMMAND, *map(str, command)], capture_output=True, text=True, check=True)
     assert f"200 points, {kept} of them before" in finished.stdout
     assert path.read_bytes() == whole(grid(load(scene), "launch.height=0.5:2:200"), tmp_path / "again.csv")
+
+
+@pytest.fixture
+def one_at_a_time(monkeypatch):
+    """Shots that do not fly together."""
+    monkeypatch.setattr("sandbox.lab.plan.fly_together", lambda *args: False)
+
+
+def test_what_is_done_is_handed_in_by_time(tmp_path, monkeypatch, one_at_a_time):
+    """However long a point takes after quick ones: an interrupt loses what the last moments computed, no more."""
+    monkeypatch.setattr("sandbox.lab.sweep._CALL", 0.05)
+    slow = "    if parameters.launch.height > 1.0:\n        import time\n        time.sleep(0.03)\n"
+    plan = grid(load(own_scene(tmp_path, slow)), "launch.height=0.5:1.2:60")
+    with workers(1) as pool:
+        handed_in = list(Handout(plan, pool))
+    assert [row["launch.height"] for rows in handed_in for row in rows] == [height for (height,) in plan.points(0, 60)]
+    assert max(len(rows) for rows in handed_in if rows[-1]["launch.height"] > 1.1) <= 2
+
+
+def test_an_interrupt_takes_in_what_others_have_finished(drop, one_at_a_time):
+    class Others:
+        width = 4
+
+        def submit(self, work, *args):
+            return SimpleNamespace(done=lambda: args[1] < 5, result=lambda: work(*args))
+
+    handout = Handout(grid(drop, "launch.height=0.5:2:40"), Others())
+    first = next(iter(handout))
+    assert len(first) == 1
+    assert [row["launch.height"] for rows in handout.finished(1) for row in rows] == pytest.approx(
+        [0.5 + 1.5 * point / 39 for point in (1, 2, 3, 4)]
+    )
+    assert not list(handout.finished(1))
 
 
 # Workers that go away -------------------------------------------------------------------------------------------------
@@ -382,8 +530,8 @@ def test_a_killed_process_loses_nothing(tmp_path):
         "        os.kill(os.getpid(), signal.SIGKILL)\n"
     )
     plan = grid(load(own_scene(tmp_path, once)), "launch.height=0.5:2:60")
-    with workers(2) as staff:
-        rows = [row for some in swept(plan, staff) for row in some]
+    with workers(2) as pool:
+        rows = [row for some in Handout(plan, pool) for row in some]
     assert (tmp_path / "mark").exists()
     assert [row["launch.height"] for row in rows] == [height for (height,) in plan.points(0, 60)]
     assert not any(row["error"] for row in rows)
@@ -404,8 +552,8 @@ def test_a_point_that_kills_its_process_is_a_row(tmp_path):
         "    import os, signal\n    if parameters.launch.height == 1.0:\n        os.kill(os.getpid(), signal.SIGKILL)\n"
     )
     plan = grid(load(own_scene(tmp_path, deadly)), "launch.height=0.5,0.75,1.0,1.25,1.5")
-    with workers(2) as staff:
-        rows = [row for some in swept(plan, staff) for row in some]
+    with workers(2) as pool:
+        rows = [row for some in Handout(plan, pool) for row in some]
     assert ["killed" in row["error"] for row in rows] == [False, False, True, False, False]
     assert all("final_height" in row for row in rows if not row["error"])
 
@@ -413,8 +561,8 @@ def test_a_point_that_kills_its_process_is_a_row(tmp_path):
 def test_a_cluster_that_loses_a_worker_loses_nothing():
     distributed = pytest.importorskip("distributed")
     plan = grid(load("basketball"), "launch.speed=6:9:13", "launch.angle=40:60:5")
-    with workers(1) as staff:
-        expected = [row for some in swept(plan, staff) for row in some]
+    with workers(1) as pool:
+        expected = [row for some in Handout(plan, pool) for row in some]
     killed: list[int] = []
     # everything on loopback: nothing here may be reached from outside
     with distributed.LocalCluster(
@@ -426,17 +574,64 @@ def test_a_cluster_that_loses_a_worker_loses_nothing():
                 killed.append(next(iter(cluster.workers.values())).pid)
                 os.kill(killed[0], signal.SIGKILL)
 
-        with workers(1, cluster.scheduler_address) as staff:
-            rows = [row for some in swept(plan, staff, progress=kill_one) for row in some]
+        with workers(1, cluster.scheduler_address) as pool:
+            rows = [row for some in Handout(plan, pool, progress=kill_one) for row in some]
     assert killed
     assert rows == expected
 
 
-def test_a_scheduler_that_is_not_there_is_told():
-    pytest.importorskip("distributed")
-    for address in ("tcp://127.0.0.1:1", "no address"):
-        with pytest.raises(RequestError, match=f"--scheduler {address}: no Dask scheduler there"), workers(1, address):
+@pytest.mark.parametrize("loss", ["workers", "scheduler"])
+def test_a_cluster_that_goes_away_is_told_in_a_line(tmp_path, monkeypatch, one_at_a_time, loss):
+    distributed = pytest.importorskip("distributed")
+    monkeypatch.setattr(cluster_of, "ARRIVAL", 0.5)
+    plan = grid(load(own_scene(tmp_path, "    import time\n    time.sleep(0.02)\n")), "launch.height=0.5:2:400")
+    path = tmp_path / "rows.csv"
+    with distributed.LocalCluster(
+        n_workers=1, processes=False, protocol="tcp://", host="127.0.0.1", dashboard_address=None, silence_logs=50
+    ) as cluster:
+
+        def lose(done: int, total: int) -> None:
+            if done > 5:
+                cluster.close() if loss == "scheduler" else cluster.scale(0)
+
+        gone = (
+            "the scheduler went away" if loss == "scheduler" else "its workers went away, and none came back in 0.5 s"
+        )
+        with pytest.raises(RunError, match=gone), workers(1, cluster.scheduler_address) as pool:
+            sweep_to_file(plan, path, pool, lose)
+    kept = table(path)
+    assert 5 < len(kept) < 400
+    assert [float(row["launch.height"]) for row in kept] == [height for (height,) in plan.points(0, len(kept))]
+
+
+def test_a_cluster_that_cannot_compute_is_told_in_a_line(monkeypatch):
+    distributed = pytest.importorskip("distributed")
+    monkeypatch.setattr(cluster_of, "ANSWER", 1.0)
+    monkeypatch.setattr(cluster_of, "ARRIVAL", 0.5)
+    with pytest.raises(RequestError, match="--scheduler no address: write it as"), workers(1, "no address"):
+        pass
+    with pytest.raises(RunError, match=r"no Dask scheduler there: .* refused"), workers(1, "tcp://127.0.0.1:1"):
+        pass
+    with socket.create_server(("127.0.0.1", 0)) as deaf:
+        address = f"tcp://127.0.0.1:{deaf.getsockname()[1]}"
+        with pytest.raises(RunError, match=f"--scheduler {address}: no Dask scheduler there"), workers(1, address):
             pass
+    nobody = distributed.LocalCluster(
+        n_workers=0, processes=False, protocol="tcp://", host="127.0.0.1", dashboard_address=None, silence_logs=50
+    )
+    with nobody, pytest.raises(RunError, match="it has no workers, and none came in"):
+        workers(1, nobody.scheduler_address).__enter__()
+
+
+def test_a_worker_with_other_code_is_refused_by_name(drop):
+    plan = grid(drop, "launch.height=0.5:2:3")
+    here = provenance(drop)
+    other = here.parts | {"the sandbox": "with another gravity", "numpy": "1.0"}
+    plan.__dict__["provenance"] = replace(here, parts=other)
+    with pytest.raises(RunError) as refused, workers(2) as pool:
+        list(Handout(plan, pool))
+    told = f"it differs in: the sandbox, numpy {here.parts['numpy']} instead of 1.0"
+    assert str(refused.value).endswith(told)
 
 
 # The command ---------------------------------------------------------------------------------------------------------
