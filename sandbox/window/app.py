@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from pathlib import Path
-from time import perf_counter
+from time import perf_counter, sleep
 from typing import TYPE_CHECKING, Any
 
 import pygame
@@ -51,16 +51,20 @@ class App:
             self.tick(clock.tick(FRAMES) / 1000)
         self.view.changed = True
         steady()
-        first: list[pygame.event.Event] = []
         while self.game.running:
-            if self.tick(clock.tick(FRAMES) / 1000, first):
+            if self.tick(clock.tick(FRAMES) / 1000):
                 pygame.display.flip()
-            first.clear()
             if not self.busy:
-                event = pygame.event.wait(round(1000 * IDLE))
-                if event.type != pygame.NOEVENT:
-                    first.append(event)
+                self._wait()
         self.close()
+
+    @staticmethod
+    def _wait() -> None:
+        """Until something happens in the window, or it is time to look at the files. pygame's own waiting looks for
+        events a thousand times a second."""
+        end = perf_counter() + IDLE
+        while perf_counter() < end and not pygame.event.peek():
+            sleep(1 / FRAMES)
 
     def close(self) -> None:
         """End what goes on by itself."""
@@ -71,12 +75,11 @@ class App:
         """Whether the next frame should come soon, though nothing happens in the window."""
         return self.game.running and (self.game.busy or (self.view.busy and not self.hidden))
 
-    def tick(self, dt: float, first: Sequence[pygame.event.Event] = ()) -> bool:
-        """Take in what happened, beginning with events that were taken already, pass ``dt`` s, and draw where
-        something changed; whether it did."""
+    def tick(self, dt: float) -> bool:
+        """Take in what happened, pass ``dt`` s, and draw if something changed; whether it did."""
         started = perf_counter()
         self._repeated.clear()
-        events = [*first, *pygame.event.get()]
+        events = pygame.event.get()
         for event in events:
             self.handle(event)
         game, view = self.game, self.view

@@ -91,6 +91,7 @@ class Game:
         self.message: Message | None = None
         self.unreadable: str | None = None  # what is wrong with the files as they were saved last
         self.opened: list[str] = [session.source]  # all scene files so far
+        self._waited = 0  # s that were reported last
         self.jobs: list[tuple[Future[Any], Callable[[Any], object]]] = []
         self.watch_files = Watch(session.files)
         self.worker.submit(warm_up, session.source)
@@ -179,11 +180,13 @@ class Game:
         if files:
             self._reload(files)
         self.still += dt
-        before = int(self.waited)
         self._compute()
         self._finish_jobs()
         self._advance_fan()
-        self.revision += self.waited >= LONG and int(self.waited) != before
+        waited = int(self.waited) if self.waited >= LONG else 0  # s, as the player is told
+        if waited != self._waited:
+            self._waited = waited
+            self.revision += 1
         if self.playback is None or hold:
             return 0.0, 0.0
         start = self.playback.t
@@ -241,6 +244,8 @@ class Game:
             self.failure, self.shooting = self.reason(error), False
             return
         self.shot, self.cost, self.still, self.failure = shot, cost, 0.0, None
+        if self.before_save is not None and self.before_save.run.result == shot.run.result:
+            self.before_save = None  # saving changed nothing
         if self.shooting and not self.stale:
             self._keep(shot)
 

@@ -72,7 +72,8 @@ class Stage:
             self._label()
         else:
             self.backdrop = self.picture.poster()
-        self._ghosts: tuple[Any, pygame.Surface] | None = None
+        self._ghosts: tuple[Any, pygame.Surface] | None = None  # their lines, and of which shots
+        self._labels: tuple[Any, pygame.Surface] | None = None
         self._lines: dict[str, tuple[Any, np.ndarray]] = {}  # whole lines drawn last, by ball, in px
 
     def _camera_of(self, before: Stage | None) -> Camera | None:
@@ -140,41 +141,48 @@ class Stage:
         sheet.surface.blit(self.backdrop, (0, 0))
         return sheet
 
-    def draw_ghosts(self, sheet: Canvas, ghosts: Sequence[Shot], before_save: Shot | None = None) -> None:
-        """Earlier shots, the last five, each with its number and result; and the one before the file was saved."""
-        shown = [*ghosts[-SHOWN:], *([before_save] if before_save is not None else [])]
+    def draw_ghosts(self, sheet: Canvas, ghosts: Sequence[Shot], around: Shot | None) -> None:
+        """Earlier shots, the last five; with their numbers and results beside the path of ``around``, if it stands."""
+        shown = ghosts[-SHOWN:]
         if self.camera is None or not shown:
             return
         key = tuple(id(shot) for shot in shown)
         if self._ghosts is None or self._ghosts[0] != key:
-            layer = Sheet(self.size, surface=blank(self.size, transparent=True))
-            layer.frame = sheet.frame.copy()
-            layer.frame.height -= sheet.card_height() + sheet.gap
-            layer.labels.frame = layer.frame
-            colours = colours_beside(type(self.picture))
-            lines = [self._line(shot, shot.ball) for shot in shown]
-            for index, (shot, line) in enumerate(zip(shown, lines, strict=True)):
-                colour = colours[(shot.number or index) % len(colours)]
-                draw_line(layer.surface, line, 4, TRACE["rim"])
-                draw_line(layer.surface, line, 2, colour)
-            layer.surface.set_alpha(EARLIER)
-            labels = Sheet(self.size, surface=blank(self.size, transparent=True))
-            labels.labels.frame = layer.frame
-            labels.labels.take(pygame.Rect(sheet.frame.topleft, (sheet.size[0] // 2, sheet.top_row)))
-            for index, (shot, line) in enumerate(zip(shown, lines, strict=True)):
-                colour = mix(colours[(shot.number or index) % len(colours)], CARD["text"], LIGHTER)
-                name = "before saving" if shot is before_save else str(shot.number)
-                first = shot.card[0][1] if shot.card else ""
-                text = sheet.ended(f"{name}:  {first}" if first else name, "small", 0.3 * sheet.size[0])
-                places = line[np.linspace(len(line) - 1, 0, min(len(line), PLACES)).round().astype(int)]
-                beyond = ((1.0, -1.0), (-1.0, -1.0), (1.0, 1.0), (-1.0, 1.0))
-                spots = [(x + 8 * a, y + 8 * d, a, d) for x, y in places.tolist() for a, d in beyond]
-                chip(labels, text, spots, colour)
-            both = blank(self.size, transparent=True)
-            both.blit(layer.surface, (0, 0))
-            both.blit(labels.surface, (0, 0))
-            self._ghosts = key, both
+            layer = blank(self.size, transparent=True)
+            for shot in shown:
+                line = self._line(shot, shot.ball)
+                draw_line(layer, line, 4, TRACE["rim"])
+                draw_line(layer, line, 2, self._colour_of(shot))
+            layer.set_alpha(EARLIER)
+            self._ghosts = key, layer
         sheet.surface.blit(self._ghosts[1], (0, 0))
+        if around is None:
+            return
+        labelled = (*key, id(around.run))
+        if self._labels is None or self._labels[0] != labelled:
+            labels = Sheet(self.size, surface=blank(self.size, transparent=True))
+            labels.labels.frame.height -= sheet.card_height() + sheet.gap
+            labels.labels.take(pygame.Rect(sheet.frame.topleft, (round(0.66 * sheet.size[0]), sheet.top_row)))
+            labels.labels.take_path(self._line(around, around.ball).tolist(), 5 * sheet.unit)
+            for shot in shown:
+                self._label_ghost(labels, sheet, shot)
+            self._labels = labelled, labels.surface
+        sheet.surface.blit(self._labels[1], (0, 0))
+
+    def _label_ghost(self, labels: Sheet, sheet: Canvas, shot: Shot) -> None:
+        """Number and result of an earlier shot, where on its path there is room."""
+        name = str(shot.number) if shot.number else "before saving"
+        text = sheet.ended(f"{name}:  {shot.verdict}", "small", 0.3 * sheet.size[0])
+        line = self._line(shot, shot.ball)
+        places = line[np.linspace(len(line) - 1, 0, PLACES).round().astype(int)]
+        beyond = ((1.0, -1.0), (-1.0, -1.0), (1.0, 1.0), (-1.0, 1.0))
+        spots = [(x + 9 * a, y + 9 * d, a, d) for x, y in places.tolist() for a, d in beyond]
+        chip(labels, text, spots, mix(self._colour_of(shot), CARD["text"], LIGHTER))
+
+    def _colour_of(self, shot: Shot) -> Colour:
+        """Of an earlier shot: it keeps its colour."""
+        colours = colours_beside(type(self.picture))
+        return colours[shot.number % len(colours)]
 
     def draw_path(self, sheet: Canvas, shot: Shot, until: float | None = None) -> None:
         """The path of every ball that moves, that of the played one last and strongest, and where they touch."""

@@ -388,7 +388,8 @@ class View:
         if stage.camera is None:
             return
         if "ghosts" in self.on:
-            stage.draw_ghosts(sheet, game.recent, game.before_save)
+            before = [game.before_save] if game.before_save is not None else []
+            stage.draw_ghosts(sheet, [*before, *game.recent], shot if game.pull is None else None)
         self._draw_fan(sheet, stage)
         stage.draw_path(sheet, shot)
         stage.draw_balls(sheet, 0.0)
@@ -423,7 +424,7 @@ class View:
         sheet.surface.blit(stage.backdrop, (0, 0))
         if "ghosts" in self.on:
             others = [e for e in game.shots if e is not shot and (e.source, e.start) == (shot.source, shot.start)]
-            stage.draw_ghosts(sheet, others)
+            stage.draw_ghosts(sheet, others, shot)
         self._draw_fan(sheet, stage)
         stage.draw_path(sheet, shot, t)
         stage.draw_balls(sheet, t)

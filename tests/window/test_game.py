@@ -1,0 +1,232 @@
+"""The game without a picture: aiming, watching, what fails, what never ends, undo."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from concurrent.futures import Future
+
+import pytest
+
+from sandbox.engine.accuracy import LEVELS
+from sandbox.new import new_scene
+from sandbox.window.aim import nudged
+from sandbox.window.game import KEPT, LONG, Game, State
+from sandbox.window.session import Session
+from sandbox.window.worker import computed
+
+STUCK = "\n\ndef stuck(t, position, velocity, spin):\n    while velocity[0] > 9:\n        pass\n    return 0.0, 0.0\n"
+RAISES = "\n\ndef stuck(t, position, velocity, spin):\n    return 1 / (velocity[0] < 9), 0.0\n"
+
+
+class Here:
+    """Computes at once, in this process."""
+
+    def __init__(self) -> None:
+        self.stopped = 0
+        self.never = False  # what is asked for next never ends
+
+    def submit(self, work, *args):
+        future: Future = Future()
+        if self.never and work is computed:
+            return future
+        try:
+            future.set_result(work(*args))
+        except Exception as error:
+            future.set_exception(error)
+        return future
+
+    def stop(self) -> None:
+        self.stopped, self.never = self.stopped + 1, False
+
+
+@pytest.fixture
+def game() -> Game:
+    one = Game(Session("golf/putt"), Here())
+    one.settle()
+    return one
+
+
+@pytest.fixture
+def own(tmp_path):
+    """A scene of one's own, with a force of one's own."""
+
+    def make(force: str) -> Game:
+        new_scene(tmp_path / "own")
+        file = tmp_path / "own" / "scene.py"
+        code = file.read_text("utf-8")
+        assert "forces=[\n" in code
+        file.write_text(code.replace("forces=[\n", "forces=[\n            stuck,\n") + force, "utf-8")
+        return Game(Session(str(file.parent), {"launch.speed": 8.0}), Here())
+
+    return make
+
+
+def test_it_draws_nothing():
+    code = "import sys, sandbox.window.game; sys.exit('pygame' in sys.modules)"
+    subprocess.run([sys.executable, "-c", code], check=True, timeout=60)
+
+
+def test_a_game_aims_is_watched_pauses_and_aims_again(game):
+    assert game.state is State.AIMING
+    game.shoot()
+    assert game.state is State.WATCHING
+    game.playback.toggle()
+    assert game.state is State.PAUSED
+    game.aim_again()
+    assert game.state is State.AIMING
+    assert [shot.number for shot in game.shots] == [1]
+
+
+def test_nudges_leave_a_shot_that_is_watched_alone(game):
+    game.shoot()
+    for end in (False, True):
+        if end:
+            game.playback.seek(1e9)
+        assert not game.nudge(nudged(game.session, push=1))
+        assert game.playback is not None
+        assert "Enter" in game.notices[-1][0]
+    assert game.session.changes.values == {}
+
+
+def test_only_the_last_shots_are_kept(game):
+    for _ in range(KEPT + 5):
+        game.shoot()
+        game.aim_again()
+        game.settle()
+    assert [shot.number for shot in game.shots] == list(range(6, KEPT + 6))
+    game.watch_other(-1)
+    assert game.shot.number == KEPT + 5
+
+
+class TestAFailure:
+    def test_leaves_no_shot_and_says_file_and_line_until_a_run_is_good(self, own):
+        game = own(RAISES)
+        game.settle()
+        assert game.failure is None
+        game.change({"launch.speed": 60.0})
+        game.settle()
+        game.advance(100.0)
+        ((text, bad),) = [notice for notice in game.notices if "ZeroDivisionError" in notice[0]]
+        assert bad
+        line = (game.session.base.folder / "scene.py").read_text("utf-8").splitlines().index(
+            "    return 1 / (velocity[0] < 9), 0.0"
+        )  # fmt: skip
+        assert f"scene.py, line {line + 1}: " in text
+        game.shoot()
+        assert game.playback is None
+        game.change({"launch.speed": 8.0})
+        game.settle()
+        assert game.failure is None
+        assert not game.notices
+
+    def test_invalid_values_are_said_and_the_last_good_ones_stay(self, game):
+        before = game.session.scene
+        assert not game.change({"launch.speed": -3.0})
+        assert game.notices == [("the window's launch.speed = -3.0: must be from 0 to 340 m/s", True)]
+        assert game.session.scene is before
+
+
+class TestARunThatNeverEnds:
+    @pytest.fixture
+    def stuck(self, game, monkeypatch) -> Game:
+        game.worker.never = True
+        game.change({"launch.speed": 2.0})
+        game.advance(0.0)
+        assert game.pending is not None
+        game.pending = game.pending._replace(since=game.pending.since - LONG)
+        game.advance(0.0)
+        return game
+
+    def test_time_goes_on_and_it_may_be_stopped(self, stuck):
+        assert "Esc stops it" in stuck.notices[-1][0]
+        assert stuck.stop()
+        assert stuck.worker.stopped == 1
+        assert stuck.settled
+        assert stuck.failure is not None
+        stuck.shoot()
+        assert stuck.playback is None
+
+    def test_another_aim_stops_it_by_itself(self, stuck):
+        stuck.change({"launch.speed": 1.5})
+        stuck.advance(0.0)
+        assert stuck.worker.stopped == 1
+        stuck.settle()
+        assert stuck.shot.scene is stuck.session.scene
+
+    def test_a_short_one_is_not_stopped(self, game):
+        assert not game.stop()
+
+    def test_a_real_one_ends_with_its_process(self, own, worker):
+        game = own(STUCK)
+        game.worker = worker
+        game.settle()
+        game.change({"launch.speed": 60.0})
+        game.advance(0.0)
+        game.pending = game.pending._replace(since=game.pending.since - LONG)
+        assert game.stop()
+        game.change({"launch.speed": 8.0})
+        game.settle()
+        assert game.failure is None
+        assert game.shot.scene is game.session.scene
+
+
+class TestUndo:
+    def test_a_reset_can_be_undone(self, game):
+        game.change({"launch.speed": 2.0})
+        game.change({"gravity": 5.0})
+        game.reset()
+        assert game.session.changes.values == {}
+        game.undo()
+        assert game.session.changes.values == {"launch.speed": 2.0, "gravity": 5.0}
+        game.undo()
+        game.undo()
+        assert game.session.changes.values == {}
+        game.undo()
+        assert game.notices[-1][0] == "nothing to undo"
+
+    def test_what_is_dragged_is_undone_at_once(self, game):
+        for speed in (2.0, 2.1, 2.2):
+            game.change({"launch.speed": speed})
+        game.undo()
+        assert game.session.changes.values == {}
+
+    def test_two_pulls_are_two_changes(self, game):
+        for at in ((100, 300), (50, 300)):
+            game.begin_pull((300, 300), 600, 1.0)
+            game.pull_to((200, 300))
+            game.pull_to(at)
+            game.settle()
+            game.release()
+            game.aim_again()
+        strong = game.session.value("launch.speed")
+        game.undo()
+        assert 0 < game.session.value("launch.speed") < strong
+
+
+def test_a_full_pull_suits_the_shot():
+    for source, fastest in (("golf/putt", 10.0), ("golf", 110.0), ("billiards", 20.0)):
+        game = Game(Session(source), Here())
+        game.begin_pull((300, 300), 600, 1.0)
+        game.pull_to((-600, 300))
+        speed, before = game.session.value(game.session.controls.speed), game.session.base_value(
+            game.session.controls.speed
+        )  # fmt: skip
+        assert before * 1.1 < speed < fastest
+
+
+def test_shots_are_earlier_ones_of_the_same_file_from_the_same_start(game):
+    game.shoot()
+    game.aim_again()
+    assert len(game.recent) == 1
+    game.open("golf/moon")
+    assert game.recent == []
+    assert len(game.shots) == 1
+
+
+@pytest.mark.parametrize("level", LEVELS)
+def test_it_says_what_an_accuracy_costs(game, level):
+    from sandbox.window.worker import trusted
+
+    game.change({"accuracy.level": level})
+    assert " ms a run; " in trusted(game.session.scene)

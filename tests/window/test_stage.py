@@ -1,0 +1,188 @@
+"""A path is only drawn on the stage that was composed for it, whatever the player does; and how the stage is seen."""
+
+from __future__ import annotations
+
+import os
+
+os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
+
+import pygame
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from sandbox.window import commands
+from sandbox.window.app import App
+from sandbox.window.game import Game
+from sandbox.window.session import Session
+from sandbox.window.view import View
+
+from .test_game import Here
+
+SIZE = (480, 400)
+
+#: What a player does, by what it is called when it fails.
+ACTIONS = {
+    "place": lambda view: view.game.change(PLACES[view.game.session.base.name][0]),
+    "other place": lambda view: view.game.change(PLACES[view.game.session.base.name][1]),
+    "gravity": lambda view: view.game.change({"accuracy.level": "fast"}),
+    "stronger": lambda view: commands.do(view, "stronger"),
+    "turned": lambda view: commands.do(view, "turn_left"),
+    "reset": lambda view: commands.do(view, "reset"),
+    "undo": lambda view: commands.do(view, "undo"),
+    "shoot": lambda view: view.game.shoot(),
+    "to the end": lambda view: view.game.playback and view.game.playback.seek(1e9),
+    "Enter": lambda view: commands.do(view, "again"),
+    "Esc": lambda view: commands.do(view, "back"),
+    "B": lambda view: commands.do(view, "rack"),
+    "P": lambda view: commands.do(view, "previous_shot"),
+    "N": lambda view: commands.do(view, "next_shot"),
+    "V": lambda view: commands.do(view, "view"),
+    "next preset": lambda view: commands.do(view, "next_preset"),
+    "saved": lambda view: view.game._reload([view.game.session.file]),
+    "zoomed": lambda view: commands.do(view, "zoom_in"),
+    "fit": lambda view: commands.do(view, "fit"),
+    "pull": lambda view: view.pull_for_test(),
+}
+PLACES = {
+    "golf": ({"pin.distance": 60.0}, {"pin.distance": 200.0, "air.wind": [-4.0, 0.0]}),
+    "billiards": ({"rack": "eight-ball"}, {"cue.speed": 1.0, "ball.friction": 0.2}),
+}
+
+
+class Watched(View):
+    """Checks each time that it draws a shot that the stage under it is that shot's."""
+
+    def pull_for_test(self) -> None:
+        self.game.begin_pull((200, 200), self.area.height, 1.0)
+        self.game.pull_to((150, 210))
+
+    def _draw_playing(self, sheet, stage, shot, playback):
+        assert stage.shot.scene.parameters == shot.scene.parameters
+        super()._draw_playing(sheet, stage, shot, playback)
+
+    def _draw_aiming(self, sheet, stage, shot):
+        assert stage.shot.place == shot.place == self.game.session.place
+        super()._draw_aiming(sheet, stage, shot)
+
+    def draw(self):
+        self._draw_picture()  # raises what the window would only report
+        super().draw()
+
+
+@pytest.fixture(scope="module")
+def screen():
+    pygame.display.init()
+    yield pygame.display.set_mode(SIZE, pygame.RESIZABLE)
+    pygame.display.quit()
+
+
+def settled(app: App) -> None:
+    for _ in range(2000):
+        app.game.settle()
+        app.tick(0.2)
+        if not app.view.busy and app.game.settled and not app.game.shooting:
+            return
+    raise AssertionError("never at rest")
+
+
+@settings(max_examples=15, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(
+    source=st.sampled_from(["golf/pond", "billiards"]), actions=st.lists(st.sampled_from(sorted(ACTIONS)), max_size=9)
+)
+def test_the_stage_belongs_to_the_shot(screen, source, actions):
+    app = App(Game(Session(source), Here(), patience=5.0), screen)
+    app.view = app.pointer.view = Watched(app.game, screen)
+    try:
+        settled(app)
+        for action in actions:
+            if app.game.pull is not None:
+                app.game.release()
+            if app.game.session.base.name not in PLACES:
+                app.game.open(source)
+            ACTIONS[action](app.view)
+            app.tick(0.016)
+        settled(app)
+        stage, shot = app.view.stage, app.game.shot
+        assert stage.shot.scene.parameters == shot.scene.parameters
+        assert stage.shot.scene.folder == shot.scene.folder
+        if app.game.playback is None:
+            assert shot.scene.parameters == app.game.session.scene.parameters
+    finally:
+        app.close()
+
+
+class TestTheCamera:
+    def test_it_goes_out_for_a_strong_pull_and_in_again_for_a_weak_one(self, player):
+        player = player("golf/putt")
+        scale = player.view.stage.camera.scale
+        player.game.change({"launch.speed": 30.0})
+        player.settle()
+        far = player.view.stage.camera.scale
+        assert far < 0.5 * scale
+        player.game.change({"launch.speed": 2.9})
+        player.settle()
+        assert player.view.stage.camera.scale > 0.8 * scale
+
+    def test_a_little_change_of_the_aim_leaves_it_alone(self, player):
+        player = player("golf")
+        camera = player.view.stage.camera
+        for _ in range(3):
+            player.key(pygame.K_DOWN)
+            player.settle()
+        assert player.view.stage.camera == camera
+        assert player.view.stage.shot is player.game.shot
+
+    def test_ctrl_and_wheel_or_keys_zoom_drag_moves_and_a_key_fits(self, player, monkeypatch):
+        player = player("golf")
+        whole = player.view.stage.camera
+        monkeypatch.setattr(pygame.key, "get_mods", lambda: pygame.KMOD_CTRL)
+        player.move((640, 300))
+        player.send(pygame.MOUSEWHEEL, x=0, y=3, flipped=False)
+        player.settle()
+        near = player.view.stage.camera
+        assert near.scale > 1.4 * whole.scale
+        assert near.world(640, 300)[0] == pytest.approx(whole.world(640, 300)[0])
+        assert near.pixel(0.0, 0.0)[1] == pytest.approx(whole.pixel(0.0, 0.0)[1])
+        assert player.game.session.changes.values == {}
+        player.press((640, 300))
+        player.move((700, 300))
+        player.release((700, 300))
+        player.settle()
+        assert player.view.stage.camera.world(700, 300)[0] == pytest.approx(near.world(640, 300)[0])
+        player.key(pygame.K_EQUALS, pygame.KMOD_CTRL)
+        player.key(pygame.K_RIGHT, pygame.KMOD_ALT)
+        player.key(pygame.K_0, pygame.KMOD_CTRL)
+        player.settle()
+        assert player.view.stage.camera == whole
+
+
+def test_nothing_is_drawn_while_nothing_changes(player):
+    player = player("golf")
+    player.app.tick(0.016)
+    assert not any(player.app.tick(0.016) for _ in range(100))
+    assert not player.app.busy
+    player.key(pygame.K_SPACE)
+    assert any(player.app.tick(0.016) for _ in range(3))
+    player.send(pygame.WINDOWMINIMIZED)
+    t = player.game.playback.t
+    assert not any(player.app.tick(0.016) for _ in range(20))
+    assert player.game.playback.t == t
+    player.send(pygame.WINDOWRESTORED)
+    assert player.app.tick(0.016)
+
+
+def test_only_nudges_and_steps_repeat(player):
+    player = player("golf")
+    for _ in range(3):
+        player.send(pygame.KEYDOWN, key=pygame.K_TAB, mod=0, unicode="", scancode=0)
+    assert player.view.panel is not None
+    player.send(pygame.KEYUP, key=pygame.K_TAB, mod=0, unicode="", scancode=0)
+    before = player.game.session.value("launch.angle")
+    for _ in range(3):
+        player.send(pygame.KEYDOWN, key=pygame.K_LEFT, mod=0, unicode="", scancode=0)
+    assert player.game.session.value("launch.angle") == pytest.approx(before + 3.0)
+    for _ in range(10):  # piled up during a long frame
+        pygame.event.post(pygame.event.Event(pygame.KEYDOWN, key=pygame.K_LEFT, mod=0, unicode="", scancode=0))
+    player.frames()
+    assert player.game.session.value("launch.angle") == pytest.approx(before + 4.0)
