@@ -17,7 +17,7 @@ from typing import Any, Protocol, TypeVar
 
 import numpy as np
 import pygame
-from PIL import Image, ImageChops
+from PIL import GifImagePlugin, Image, ImageChops
 
 from sandbox.errors import RequestError, RunError
 from sandbox.files import written_whole
@@ -35,6 +35,8 @@ WEBP = {"quality": 82, "method": 2}
 BLEED = 16
 #: Of so many frames the colours of a GIF are chosen.
 PALETTE_FRAMES = 16
+#: Pixels of all frames that wait to be written, at 3 bytes each.
+MOST_PIXELS = 100_000_000
 #: Viewers slow a GIF down that shows more frames per second than this.
 FASTEST_GIF = 50
 #: Of what a picture hands back in place of a surface, so many characters are told.
@@ -169,21 +171,31 @@ def _is_ours(file: Path) -> bool:
 def save_gif(picture: Picture, run: Any, path: Path | str, fps: float, progress: Progress | None = None) -> int:
     """Write the run as an animated GIF that repeats; returns the number of frames.
 
-    All frames share one palette, and times are rounded to the 10 ms that the format knows so that none is lost.
+    All frames share one palette, and times are rounded to the 10 ms that the format knows so that none is lost. Of each
+    frame only the rectangle that differs from the frame before is kept; Pillow alone would hold all frames in memory.
     Raises OSError where it cannot be written.
     """
     times = frame_times(run.duration, min(fps, FASTEST_GIF))
     colours = _shared_palette(picture, times)
-
-    def reduced(image: Image.Image) -> Image.Image:
-        return image.quantize(palette=colours, dither=Image.Dither.NONE)
-
-    images = _in_threads(reduced, (to_image(frame_of(picture, t)) for t in times), len(times), progress)
     durations = _durations([round(100 * t) for t in times], 10)
-    data = io.BytesIO()
-    first = next(images)
-    first.save(data, "GIF", save_all=True, append_images=images, duration=durations, loop=0, optimize=False, disposal=1)
-    _write(Path(path), data.getvalue())
+
+    def encoded(item: tuple[Image.Image, Box]) -> tuple[Box, bytes]:
+        image, box = item
+        part = image.crop(box).quantize(palette=colours, dither=Image.Dither.NONE)
+        return box, b"".join(GifImagePlugin.getdata(part, box[:2]))
+
+    parts = list(
+        _in_threads(encoded, _with_changes(to_image(frame_of(picture, t)) for t in times), len(times), progress)
+    )
+    width, height = parts[0][0][2:]
+    palette = bytes(colours.getpalette("RGB") or []).ljust(3 * 256, b"\0")
+    head = b"GIF89a" + struct.pack("<HHBBB", width, height, 0b11110111, 0, 0) + palette  # 256 colours for all frames
+    repeat = b"!\xff\x0bNETSCAPE2.0\x03\x01" + struct.pack("<H", 0) + b"\0"
+    frames = (  # each stays so long, and what it drew stays where the next one draws nothing
+        b"!\xf9\x04" + struct.pack("<BHBB", 0b100, stay // 10, 0, 0) + data
+        for (_, data), stay in zip(parts, durations, strict=True)
+    )
+    _write(Path(path), head + repeat + b"".join(frames) + b";")
     return len(times)
 
 
@@ -263,9 +275,11 @@ def _shared_palette(picture: Picture, times: list[float]) -> Image.Image:
     A colour counts by the square root of its area: small things such as ball and trace matter more than their size.
     """
     chosen = {times[round(i * (len(times) - 1) / (PALETTE_FRAMES - 1))] for i in range(PALETTE_FRAMES)}
-    pixels = np.concatenate([np.asarray(to_image(frame_of(picture, t))).reshape(-1, 3) for t in sorted(chosen)])
-    packed = (pixels >> 2).astype(np.uint32) @ np.array([1 << 12, 1 << 6, 1], np.uint32)
-    counts = np.bincount(packed, minlength=1 << 18)
+    counts = np.zeros(1 << 18, np.int64)
+    for t in sorted(chosen):
+        for lines in np.array_split(np.asarray(to_image(frame_of(picture, t))), 16):  # some MB at a time
+            packed = (lines >> 2).astype(np.uint32) @ np.array([1 << 12, 1 << 6, 1], np.uint32)
+            counts += np.bincount(packed.ravel(), minlength=1 << 18)
     present = np.flatnonzero(counts)
     colours = np.stack([present >> 12, present >> 6 & 63, present & 63], axis=1).astype(np.uint8) << 2 | 2
     row = np.repeat(colours, np.ceil(np.sqrt(counts[present])).astype(int), axis=0)
@@ -281,9 +295,8 @@ def _in_threads(work: Callable[[T], R], items: Iterator[T], total: int, progress
         try:
             for item in items:
                 waiting.append(pool.submit(work, item))
-                while (
-                    len(waiting) > 2 * workers
-                ):  # no more pictures in memory than are needed to keep all cores at work
+                # no more pictures in memory than keep all cores at work, and of large ones fewer
+                while len(waiting) > min(2 * workers, MOST_PIXELS // _pixels(item)):
                     yield waiting.popleft().result()
                     done += 1
                     if progress:
@@ -296,6 +309,12 @@ def _in_threads(work: Callable[[T], R], items: Iterator[T], total: int, progress
         finally:
             for future in waiting:
                 future.cancel()
+
+
+def _pixels(item: object) -> int:
+    """Of the image in an item of work."""
+    parts = item if isinstance(item, tuple) else (item,)
+    return max(1, sum(part.width * part.height for part in parts if isinstance(part, Image.Image)))
 
 
 def _write(path: Path, data: bytes) -> None:

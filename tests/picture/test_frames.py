@@ -1,12 +1,14 @@
 """Pictures to files: whole or not at all, as many as asked, as long as the run."""
 
 import io
+import tracemalloc
 
 import numpy as np
 import pygame
 import pytest
 from PIL import Image
 
+from sandbox.picture import frames
 from sandbox.picture.frames import (
     FASTEST_GIF,
     PAUSE,
@@ -242,3 +244,29 @@ class TestWebp:
         with pytest.raises(ZeroDivisionError):
             save_webp(Picture(run, fails_at=0.5), run, tmp_path / "run.webp", 10)
         assert list(tmp_path.iterdir()) == []
+
+
+class TestMemory:
+    def test_large_pictures_wait_in_small_numbers(self, monkeypatch):
+        monkeypatch.setattr(frames, "MOST_PIXELS", 3 * 96 * 54)
+        drawn = []
+
+        def images():
+            for number in range(30):
+                drawn.append(number)
+                yield Image.new("RGB", (96, 54))
+
+        for done, _ in enumerate(frames._in_threads(lambda image: image, images(), 30, None), 1):
+            assert len(drawn) - done <= 3
+
+    def test_a_palette_takes_no_more_memory_for_more_frames(self):
+        class Large:
+            def frame(self, t: float) -> pygame.Surface:
+                return blank((960, 540))
+
+        tracemalloc.start()
+        try:
+            frames._shared_palette(Large(), [t / 10 for t in range(200)])
+            assert tracemalloc.get_traced_memory()[1] < 20e6  # bytes; the pixels of 16 such frames alone are 25e6
+        finally:
+            tracemalloc.stop()
