@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import csv
 import json
-import re
 from collections.abc import Mapping
 from dataclasses import asdict
 from pathlib import Path
@@ -35,6 +34,7 @@ def as_json(scene: Scene, run: Run, check: Check | None = None, other: Run | Non
         "parameters": scene.parameters.model_dump(mode="json"),
         "accuracy": asdict(run.accuracy),
         "result": run.result,
+        "verdict": scene.verdict(run),
         "ended": run.ended,
         "duration": run.duration,
         "events": [_event(event) for event in run.events],
@@ -46,6 +46,7 @@ def as_json(scene: Scene, run: Run, check: Check | None = None, other: Run | Non
             "preset": other.scene.preset,
             "parameters": other.scene.parameters.model_dump(mode="json"),
             "result": other.result,
+            "verdict": other.scene.verdict(other),
             "ended": other.ended,
             "duration": other.duration,
         }
@@ -92,15 +93,14 @@ def card(scene: Scene, run: Run, check: Check | None = None, other: tuple[str, R
 
     ``other`` is a run to compare with and what it is called: its values stand beside ours.
     """
-    rows = _lines(scene.card(run.result))
-    if check is not None:
-        rows = [(label, _with_error(text, check.errors.get(label.replace(" ", "_")))) for label, text in rows]
-    width = max((len(label) for label, _ in rows), default=0)
+    rows = _lines(scene.rows(run, None if check is None else check.errors))
     if other is not None:
-        rows = _beside(rows, scene.title, *other)
+        rows = _beside(rows, scene.verdict(run), scene.title, *other)
+    width = max((len(label) for label, _ in rows), default=0)
     return [
         f"{scene.title}: {scene.about}" if scene.about else scene.title,
         "",
+        *([f"  {scene.verdict(run)}", ""] if other is None else []),
         *(f"  {label:{width}}  {text}".rstrip() for label, text in rows),
         "",
         *_events(run),
@@ -112,14 +112,13 @@ def card(scene: Scene, run: Run, check: Check | None = None, other: tuple[str, R
 
 def _lines(rows: list[tuple[str, str]]) -> list[tuple[str, str]]:
     """Labels and texts, each on one line whatever a scene hands back."""
-    return [(one_line(str(label)), one_line(str(text))) for label, text in rows]
+    return [(one_line(label), one_line(text)) for label, text in rows]
 
 
-def _beside(rows: list[tuple[str, str]], title: str, called: str, other: Run) -> list[tuple[str, str]]:
+def _beside(rows: list[tuple[str, str]], verdict: str, title: str, called: str, other: Run) -> list[tuple[str, str]]:
     """Rows with two columns, each below its name."""
-    values = dict(_lines(other.scene.card(other.result)))
-    rows = [("", title), *rows]
-    values[""] = called
+    rows = [("", title), ("verdict", verdict), *rows]
+    values = {"": called, "verdict": other.scene.verdict(other), **dict(_lines(other.scene.rows(other)))}
     width = max(len(text) for _, text in rows)
     return [(label, f"{text:{width}}   {values.get(label, '')}") for label, text in rows]
 
@@ -149,21 +148,6 @@ def _numerics(run: Run) -> str:
 
 def _count(number: int, noun: str) -> str:
     return f"{number} {noun}{'' if number == 1 else 's'}"
-
-
-def _with_error(text: str, error: float | None) -> str:
-    """``"257.3 m  (281 yd)"`` as ``"257.3 m ± 0.4 mm  (281 yd)"``; the error is in the text's first unit."""
-    match = re.match(r"[-+]?[\d.]+(?: ([^\s(]+))?", text)
-    if error is None or match is None or (error == 0.0 and re.match(r"[-+]?\d+(?![\d.])", text)):
-        return text  # a count that is the same in both runs is not "less than 0.001" off
-    count = re.match(r"[-+]?\d+(?![\d.])", text)
-    if count is not None and error == int(error):  # of cushions, not of metres
-        return f"{count[0]} ± {error:.0f}{text[count.end() :]}"
-    unit = match[1] or ""
-    if unit == "m" and error < 0.1:
-        error, unit = error * 1e3, "mm"
-    amount = f"± {error:.1g} {unit}" if error >= 1e-3 else f"± less than 0.001 {unit}"
-    return f"{match[0]} {amount.rstrip()}{text[match.end() :]}"
 
 
 def _verdict(check: Check, units: Mapping[str, str]) -> list[str]:

@@ -18,7 +18,8 @@ from sandbox.picture.camera import Area, Box, Camera
 from sandbox.picture.figures import SHOOTING, draw_figure
 from sandbox.picture.painter import Painter, blank, from_colours
 from sandbox.picture.path import Path, draw_trace
-from sandbox.picture.sheet import Sheet, metres, rows_of
+from sandbox.picture.sheet import Sheet, rows_of
+from sandbox.sport.amounts import metres
 
 WALL, FLOOR = ((207, 221, 224), (247, 236, 214)), ((176, 122, 74), (92, 58, 40))  # from the top down
 WINDOW, MAT, AIR, SHADOW = (255, 250, 236), (38, 139, 120), (96, 160, 190), (40, 24, 16)
@@ -52,24 +53,13 @@ class Picture:
             self._ball(sheet.painter, self.camera, s, 0.75)
         self.draw_balls(sheet.painter, self.camera, t)
         sheet.ruler(self.camera, self.size[1] - 132 * self.unit)
-        sheet.headline(self.verdict() if over else f"{t:.2f} s", [f"a ball every {every:g} s"], self.size[0])
+        sheet.headline(
+            self.run.scene.verdict(self.run) if over else f"{t:.2f} s", [f"a ball every {every:g} s"], self.size[0]
+        )
         _, y, vx, vy, _ = self.run.state("ball", t)
         now = [("time", f"{t:.2f} s"), ("height", metres(y)), ("speed", f"{hypot(vx, vy):.1f} m/s")]
-        sheet.columns(sheet.frame.bottom - sheet.card_height(), self.numbers() if over else now)
+        sheet.columns(sheet.frame.bottom - sheet.card_height(), self.run.scene.rows(self.run) if over else now)
         return sheet.surface
-
-    def verdict(self) -> str:
-        """What happened, in a line."""
-        return "On the mat" if self.run.result["hit"] else "Beside the mat"
-
-    def numbers(self) -> list[tuple[str, str]]:
-        """Labels and numbers, the most important first."""
-        result = self.run.result
-        numbers = [("apex", metres(result["apex"])), ("time", f"{self.run.duration:.2f} s")]
-        if result["distance"] is None:
-            return numbers
-        landing = f"{result['landing_speed']:.1f} m/s"
-        return [("distance", metres(result["distance"])), *numbers, ("landing speed", landing)]
 
     @cached_property
     def standing(self) -> pygame.Surface:

@@ -7,17 +7,17 @@ Leaves out: everything sideways; how the fan's air spreads as it rises.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import cos, hypot, pi, radians, sin
+from math import cos, radians, sin
 from typing import Any
 
 from sandbox.aerodynamics import Air, ConstantDrag, ConstantLift, NoDrag, NoLift, SpinRatioLift, aerodynamic_forces
-from sandbox.controls import Controls, Spin
 from sandbox.engine.run import Run
 from sandbox.engine.setup import HOLLOW_SPHERE, Ball, Segment, Setup, Surface
 from sandbox.parameters import Accuracy, Group, either, group, quantity
 from sandbox.physics.forces import Gravity
-
-RPM = pi / 30.0  # rad/s
+from sandbox.sport.controls import Controls, Spin
+from sandbox.sport.facts import ENDED, Fact, once
+from sandbox.sport.readings import LAUNCH, RPM, Moment, at, before
 
 # --------------------------------------------------------------------------------------------------------- parameters
 # quantity(default, unit, lowest, highest, meaning) is all that the file, --set, the sliders and sweep need to know.
@@ -124,34 +124,33 @@ def build(parameters: Parameters) -> Setup:
     return Setup([tossed], [ground], duration=20.0)
 
 
-# ------------------------------------------------------------------------------------------------------------- result
+# -------------------------------------------------------------------------------------------------------------- facts
+# Fact(key, label, unit, how): how(run, parameters) reads it from the run; None for what did not happen. The card, JSON,
+# pictures, the window and charts follow from this list, the most important first.
 
 
-#: Units of the result's numbers, for charts and tables.
-UNITS = {"distance": "m", "apex": "m", "flight_time": "s", "landing_speed": "m/s"}
+@once
+def landing(run: Run, parameters: Parameters) -> Moment | None:
+    """The ball as it first comes down on the floor."""
+    return next((before(run, event.t) for event in run.events if event.partner == "floor"), None)
 
 
-def result(run: Run, parameters: Parameters) -> dict[str, Any]:
-    """The numbers that matter, in m, s and m/s; None for what did not happen."""
-    floor = parameters.floor
-    landing = next((event for event in run.events if event.partner == "floor"), None)
-    return {
-        "distance": None if landing is None else landing.x,
-        "hit": landing is not None and abs(landing.x - floor.mat) <= 0.5 * floor.mat_length,
-        "apex": run.highest("ball")[1][1],
-        "flight_time": None if landing is None else landing.t,
-        "landing_speed": None if landing is None else hypot(*run.before("ball", landing.t)[2:4]),
-        "ended": run.ended,
-    }
+def _hit(run: Run, parameters: Parameters) -> bool:
+    landed, floor = landing(run, parameters), parameters.floor
+    return landed is not None and abs(landed.x - floor.mat) <= 0.5 * floor.mat_length
 
 
-def card(result: dict[str, Any], parameters: Parameters) -> list[tuple[str, str]]:
-    """The result for people: a label and a text each."""
-    lines = [("apex", f"{result['apex']:.2f} m above the floor")]
-    if result["distance"] is not None:
-        lines += [
-            ("distance", f"{result['distance']:.2f} m"),
-            ("flight time", f"{result['flight_time']:.2f} s"),
-            ("landing speed", f"{result['landing_speed']:.1f} m/s"),
-        ]
-    return [*lines, ("verdict", "on the mat" if result["hit"] else "beside the mat")]
+FACTS = (
+    Fact("distance", "distance", "m", at(landing, lambda ball: ball.x), settled="floor"),
+    Fact("apex", "apex", "m", lambda run, parameters: run.highest("ball")[1][1]),
+    Fact("flight_time", "flight time", "s", at(landing, lambda ball: ball.t), settled="floor"),
+    Fact("landing_speed", "landing speed", "m/s", at(landing, lambda ball: ball.speed), settled="floor"),
+    *LAUNCH,
+    Fact("hit", "", "", _hit, settled="floor"),
+    ENDED,
+)
+
+
+def verdict(run: Run, parameters: Parameters) -> str:
+    """What happened, in a sentence."""
+    return "On the mat" if run.result["hit"] else "Beside the mat"

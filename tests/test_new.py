@@ -146,7 +146,7 @@ def test_a_full_or_closed_folder_is_told_and_nothing_stays_behind(call, monkeypa
 def test_it_runs_and_draws(call, scene: Path):
     code, out, err = call("run", f"./{NAME}", "--poster", "poster.png", "--trajectory", "path.csv")
     assert (code, err) == (0, "")
-    assert "on the mat" in out
+    assert "On the mat" in out
     with Image.open("poster.png") as image:
         assert image.size == (1280, 720)
     assert Path("path.csv").read_text().count("\n") > 100
@@ -226,13 +226,13 @@ def test_two_scenes_may_have_one_name(call, scene: Path, tmp_path: Path):
 def test_extremes_run_and_draw(scene: Path, settings: dict[str, float]):
     loaded = sandbox.load(scene, settings)
     run = sandbox.simulate(loaded)
-    assert loaded.card(run.result)
+    assert loaded.rows(run)
     picture = loaded.picture(run, (320, 180))
     assert picture.poster().get_size() == picture.frame(0.5 * run.duration).get_size() == (320, 180)
 
 
 def test_a_result_that_json_does_not_know(call, scene: Path):
-    change(scene / "scene.py", '"ended": run.ended', '"ended": run')
+    change(scene / "scene.py", "    ENDED,", '    Fact("run", "", "", lambda run, parameters: run),')
     outcome = call("run", f"./{NAME}", "--json")
     expected = f"error: {NAME}: its result cannot be written as JSON: Object of type Run is not JSON serializable\n"
     assert outcome == (1, "", expected)
@@ -272,8 +272,8 @@ def test_its_golden_test(scene: Path):
         ("scene.py", "def build(", "def build((", "SyntaxError: "),
         ("scene.py", "def build(", "\udcff\ndef build(", "SyntaxError: "),
         ("scene.py", "x, _ = position", "x = position[2]", "IndexError: tuple index out of range"),
-        ("scene.py", "landing.x - floor.mat)", "landing.x - floor.matt)", "AttributeError: 'Floor' object has no"),
-        ("scene.py", "result['apex']:.2f", "result['apx']:.2f", "KeyError: 'apx'"),
+        ("scene.py", "landed.x - floor.mat)", "landed.x - floor.matt)", "AttributeError: 'Floor' object has no"),
+        ("scene.py", 'run.result["hit"]', 'run.result["hat"]', "KeyError: 'hat'"),
         ("scene.py", "duration=20.0)", "duration=20.0, until=lambda event: event.foo)", "AttributeError: 'Event'"),
         (
             "scene.py",
@@ -316,16 +316,13 @@ def test_a_file_with_nul_bytes_is_named(call, scene: Path, file: str):
     ("file", "old", "new", "expected"),
     [
         ("scene.py", "return Setup([", "Setup([", "scene.py: build must return a Setup, and returned None"),
-        (
-            "scene.py",
-            'return {\n        "distance"',
-            '{\n        "distance"',
-            "result must return a dict, and returned",
-        ),
-        ("scene.py", "return [*lines, ", "[*lines, ", "card must return a list of pairs of label and text"),
+        ("scene.py", 'return "On the mat"', '"On the mat"', "verdict must return a text, and returned None"),
+        ("scene.py", "FACTS = (", "FACTS = (3,", "FACTS must be a tuple of facts, and 3 is not one"),
+        ("scene.py", '"apex", "m"', '"apex", "metres"', 'FACTS: apex has the unit "metres", which is not known'),
+        ("scene.py", '"apex", "apex"', '"distance", "apex"', "FACTS: two are called distance"),
         ("scene.py", "def build(parameters: Parameters)", "def build()", "build is called as build(parameters)"),
-        ("scene.py", "def result(run: Run, ", "def result(", "result is called as result(run, parameters)"),
-        ("scene.py", "def card(", "def cart(", "a scene offers Parameters, build, result, card; card is missing"),
+        ("scene.py", "def verdict(run: Run, ", "def verdict(", "verdict is called as verdict(run, parameters)"),
+        ("scene.py", "def build(", "def built(", "a scene offers Parameters, build; build is missing"),
         ("picture.py", "class Picture", "class Pictures", "Picture(run, parameters, size) is missing"),
         ("picture.py", "size: tuple[int, int] = (1280, 720)", "size", "Picture is called as Picture(run, parameters)"),
         ("picture.py", "def poster(", "def postr(", "picture.py: Picture.poster(self) is missing"),
@@ -344,7 +341,7 @@ def test_a_file_with_nul_bytes_is_named(call, scene: Path, file: str):
         ("scene.py", "return 0.0, self.push", "0.0, self.push", "must return"),
         ("scene.py", "return 0.0, self.push", "return self.push", "must return"),
         ("scene.py", "velocity: Any, spin: Any)", "velocity: Any)", "is called with"),
-        ("scene.py", "CONTROLS = Controls(", "CONTROLS = dict(", "CONTROLS must be a sandbox.controls.Controls"),
+        ("scene.py", "CONTROLS = Controls(", "CONTROLS = dict(", "CONTROLS must be a sandbox.sport.controls.Controls"),
         (
             "scene.py",
             'sliders=("launch.height"',
@@ -354,8 +351,7 @@ def test_a_file_with_nul_bytes_is_named(call, scene: Path, file: str):
         ("scene.py", "strongest=20.0", 'speed="launch.sped"', 'CONTROLS speed "launch.sped": unknown key; did'),
         ("scene.py", '(Spin("launch.spin", 20.0),)', '(Spin("launch.spin", 20.0))', "CONTROLS spins = Spin("),
         ("scene.py", 'scores="hit"', 'scores="hitt"', 'CONTROLS scores "hitt": no such result; did you mean hit?'),
-        ("scene.py", 'scores="hit"', 'tells=("apx", "m")', 'CONTROLS tells "apx": no such result; did you mean apex?'),
-        ("scene.py", 'scores="hit"', 'tells="apex"', "CONTROLS tells = 'apex': must be a result and its unit"),
+        ("scene.py", 'scores="hit"', 'tells="apx"', 'CONTROLS tells "apx": no such result; did you mean apex?'),
     ],
 )
 def test_what_is_handed_back_wrongly_is_said_in_a_line(call, scene: Path, file: str, old: str, new: str, expected: str):

@@ -331,7 +331,7 @@ def _with_decay(setup: Setup) -> Setup:
 
 def _run(scene: Scene, setup: Setup) -> Run:
     run = simulate(setup, LEVELS["precise"])
-    run.result = scene.module.result(run, scene.parameters)
+    run.result = scene.result(run)
     return run
 
 

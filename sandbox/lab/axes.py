@@ -164,8 +164,11 @@ def label(scene: Scene, key: str) -> str:
 
 def result_label(scene: Scene, name: str) -> str:
     """A number of the result with its unit, for charts: ``"flight time (s)"``."""
-    unit = scene.units.get(name.removesuffix("_error"))
-    return name.replace("_", " ") + (f" ({unit})" if unit else "")
+    fact = scene.facts.get(name.removesuffix("_error"))
+    if fact is None:
+        return name.replace("_", " ")
+    said = (fact.label or fact.key.replace("_", " ")) + name[len(fact.key) :].replace("_", " ")
+    return f"{said} ({fact.unit})" if fact.unit else said
 
 
 # ---------------------------------------------------------------------------------------------------------------------

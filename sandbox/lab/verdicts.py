@@ -119,4 +119,4 @@ def _said(scene: Scene, accuracy: Accuracy) -> str:
         run = simulate(scene.build(), accuracy)
     except SandboxError as error:
         return f"failed: {type(error).__name__}"
-    return verdict(scene.module.result(run, scene.parameters))
+    return verdict(scene.result(run))

@@ -51,7 +51,7 @@ class Ghost:
     @property
     def row(self) -> tuple[Colour, list[Entry]]:
         """Its numbers for the card, in its colour."""
-        return self.light, self.picture.numbers()
+        return self.light, self.picture.run.scene.rows(self.picture.run)
 
     @property
     def light(self) -> Colour:
@@ -68,7 +68,7 @@ class Ghost:
 
     @property
     def note(self) -> str:
-        verdict = self.picture.verdict()
+        verdict = self.picture.run.scene.verdict(self.picture.run)
         return f"{self.label}: {verdict[0].lower()}{verdict[1:]}"
 
 

@@ -13,6 +13,7 @@ from sandbox.picture.camera import Camera
 from sandbox.picture.lettering import Labels, Lettering
 from sandbox.picture.painter import Painter, blank
 from sandbox.picture.palette import Colour, palette
+from sandbox.sport.amounts import signed
 
 CARD = palette("card")
 
@@ -256,32 +257,3 @@ def nice(least: float) -> float:
     """The smallest of 1, 2, 5, 10, 20, ... times a power of ten that is at least this."""
     power = 10.0 ** floor(log10(least))
     return next(factor * power for factor in (1, 2, 5, 10) if factor * power >= least * 0.999)
-
-
-def signed(number: str) -> str:
-    """With a true minus sign, and none before a zero."""
-    return number.replace("-", "−") if float(number) else number.lstrip("-")
-
-
-def metres(value: float, digits: int | None = None) -> str:
-    """A length as people write it: 0.42 m, 8.31 m, 251.4 m, 12.3 km; or with so many digits after the point."""
-    if abs(value) >= 10_000:
-        return signed(f"{value / 1000:.1f}") + " km"
-    if digits is None:
-        digits = 2 if abs(value) < 10 else 1
-    return signed(f"{value:.{digits}f}") + " m"
-
-
-def roughly(value: float) -> str:
-    """A length of 0 or more as one says it: 0.14 m, 2.9 m, 252 m."""
-    return metres(value, 0 if value >= 9.95 else 1 if value >= 0.995 else 2)
-
-
-def times(factor: float) -> str:
-    """How many times as large: 1.4 times, 86 times."""
-    return f"{factor:.{0 if factor >= 9.95 else 1}f} times"
-
-
-def yards(value: float) -> str:
-    """A length in m as people write it in yards."""
-    return signed(f"{value / YARD:.{1 if abs(value) < 20 * YARD else 0}f}") + " yd"

@@ -17,8 +17,9 @@ from sandbox.picture.depth import Eye
 from sandbox.picture.painter import Painter
 from sandbox.picture.palette import Colour
 from sandbox.picture.places import Ground, Scenery, Thing
-from sandbox.picture.sheet import CARD, Entry, Sheet, SideRows, metres
+from sandbox.picture.sheet import CARD, Entry, Sheet, SideRows
 from sandbox.picture.view import P, View
+from sandbox.sport.amounts import metres
 
 #: The picture shows at least so many radii of the ball along the ground.
 LEAST_WIDTH = 60

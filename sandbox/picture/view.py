@@ -23,8 +23,9 @@ from sandbox.picture.ghosts import draw_ghost, draw_in_frame, ghosts_on, label_g
 from sandbox.picture.painter import Painter
 from sandbox.picture.palette import Colour, palette
 from sandbox.picture.path import Mark, Path, apart, draw_trace, mark_impacts
-from sandbox.picture.sheet import Entry, Sheet, metres, signed, times
+from sandbox.picture.sheet import Entry, Sheet
 from sandbox.picture.vectors import Vectors
+from sandbox.sport.amounts import metres, signed, times
 
 TRACES, RIM = palette("trace")["colours"], palette("trace")["rim"]
 
@@ -297,17 +298,12 @@ class View(Generic[P]):
         return [f"aligned at {self.datum[1]}"] if any(any(ghost.shift) for ghost in self.ghosts) else []
 
     def verdict(self) -> str:
-        """What happened, in one line."""
-        verdict = dict(self._card).get("verdict") or f"{self.run.duration:.2f} s"
-        return verdict[:1].upper() + verdict[1:]
+        """What happened, in a sentence."""
+        return f"{self.run.duration:.2f} s" if self.run.scene is None else self.run.scene.verdict(self.run)
 
     def numbers(self) -> list[Entry]:
-        """The run's numbers, the most important first."""
-        return [(label, text) for label, text in self._card if label != "verdict"]
-
-    @cached_property
-    def _card(self) -> list[tuple[str, str]]:
-        return self.run.scene.card(self.run.result) if self.run.scene is not None else []
+        """The run's facts, the most important first."""
+        return [] if self.run.scene is None else self.run.scene.rows(self.run)
 
     def look_of(self, name: str) -> Look:
         """How a ball looks."""

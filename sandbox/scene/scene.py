@@ -1,7 +1,7 @@
 """A scene: its numbers, and what its modules offer.
 
-A scene is a folder with a ``scene.py`` that offers ``Parameters``, ``build``, ``result`` and ``card``, a scene file
-``<name>.toml``, presets in ``presets/*.toml`` and, if it likes, a ``picture.py``.
+A scene is a folder with a ``scene.py`` that offers ``Parameters`` and ``build``, and if it likes ``FACTS``, ``verdict``
+and ``CONTROLS``; a scene file ``<name>.toml``; presets in ``presets/*.toml``; and, if it likes, a ``picture.py``.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ import ast
 import importlib
 import inspect
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import takewhile
 from pathlib import Path
@@ -18,9 +18,10 @@ from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 from sandbox import parameters as declared
-from sandbox.controls import Controls, controls_of
 from sandbox.errors import RequestError, RunError, no_exit
 from sandbox.scene.modules import module_in
+from sandbox.sport.controls import Controls
+from sandbox.sport.facts import PLAIN_FACTS, Fact, mistake_in, plain_verdict
 
 if TYPE_CHECKING:
     from sandbox.engine.run import Run
@@ -28,12 +29,11 @@ if TYPE_CHECKING:
 
 #: Draws any scene that has no picture.py.
 PLAIN_PICTURE = "sandbox.picture.plain"
-OFFERS = ("Parameters", "build", "result", "card")
+OFFERS = ("Parameters", "build")
 #: How the functions of a scene, and its picture, are called.
 CALLS = {
     "build": (("parameters",),),
-    "result": (("run", "parameters"),),
-    "card": (("result", "parameters"),),
+    "verdict": (("run", "parameters"),),
     "Picture": (("run", "parameters", "size"), ("run", "parameters")),
     "Picture.poster": (("self",),),
     "Picture.frame": (("self", "t"),),
@@ -99,31 +99,47 @@ class Scene:
             raise self._wrong("build", "a Setup", setup)
         return setup
 
-    def result(self, run: Run) -> dict[str, Any]:
-        """The numbers and the verdict that the scene reads from a run."""
-        with no_exit():
-            result = self.module.result(run, self.parameters)
-        if not isinstance(result, dict):
-            raise self._wrong("result", "a dict", result)
-        if _is_circular(result):
-            raise self._wrong("result", "values that do not contain themselves", result)
-        missing = controls_of(self.module).missing(result)
-        if missing is not None:
-            raise RunError(f"{shown(self.folder / 'scene.py')}: CONTROLS {missing}")
-        return result
-
-    def card(self, result: dict[str, Any]) -> list[tuple[str, str]]:
-        """The result for people: labels and texts."""
-        rows = self.module.card(result, self.parameters)
-        if not isinstance(rows, list) or not all(isinstance(row, tuple) and len(row) == 2 for row in rows):
-            raise self._wrong("card", "a list of pairs of label and text", rows)
-        return rows
+    @property
+    def facts(self) -> Mapping[str, Fact]:
+        """What a run of this scene says of itself, by the names in its result, the most important first."""
+        facts: Sequence[Fact] = getattr(self.module, "FACTS", PLAIN_FACTS)
+        return {fact.key: fact for fact in facts}
 
     @property
     def units(self) -> Mapping[str, str]:
-        """The units of the result's numbers, by their names, as far as the scene names them in ``UNITS``."""
-        units: Mapping[str, str] = getattr(self.module, "UNITS", {})
-        return units
+        """The unit of each fact, "" for what has none."""
+        return {key: fact.unit for key, fact in self.facts.items()}
+
+    def result(self, run: Run) -> dict[str, Any]:
+        """The facts of a run, in their units; None for what did not happen."""
+        with no_exit():
+            result = {key: fact.how(run, self.parameters) for key, fact in self.facts.items()}
+        for key, value in result.items():
+            if _is_circular(value):
+                raise self._wrong(f"the fact {key}", "what does not contain itself", value)
+        return result
+
+    def rows(self, run: Run, errors: Mapping[str, float] | None = None) -> list[tuple[str, str]]:
+        """The facts for people: label and text of each that happened, with its estimated error where there is one."""
+        rows = []
+        for key, fact in self.facts.items():
+            if fact.label and (fact.where is None or fact.where(run, self.parameters)):
+                rows.append((fact.label, fact.text(run.result[key], (errors or {}).get(key))))
+        return [(label, text) for label, text in rows if text]
+
+    def verdict(self, run: Run) -> str:
+        """What happened, in a sentence."""
+        with no_exit():
+            said = getattr(self.module, "verdict", plain_verdict)(run, self.parameters)
+        if not isinstance(said, str):
+            raise self._wrong("verdict", "a text", said)
+        return said
+
+    @property
+    def controls(self) -> Controls:
+        """How a player plays it."""
+        controls: Controls = getattr(self.module, "CONTROLS", Controls())
+        return controls
 
     def _wrong(self, function: str, expected: str, value: Any) -> RunError:
         """A scene's function handed back something else: mostly a forgotten return."""
@@ -167,10 +183,16 @@ def parameters_class(folder: Path) -> type[declared.Group]:
         raise RequestError(
             f'{folder / "scene.py"}: Parameters needs a line accuracy: Accuracy = group(Accuracy(), "...")'
         )
+    facts = getattr(module, "FACTS", PLAIN_FACTS)
+    wrong = mistake_in(facts)
+    if wrong is not None:
+        raise RequestError(f"{folder / 'scene.py'}: FACTS{wrong}")
+    if hasattr(module, "verdict"):
+        _check_calls(folder / "scene.py", "verdict", module.verdict)
     controls = getattr(module, "CONTROLS", Controls())
     if not isinstance(controls, Controls):
-        raise RequestError(f"{folder / 'scene.py'}: CONTROLS must be a sandbox.controls.Controls")
-    mistake = controls.mistake(parameters)
+        raise RequestError(f"{folder / 'scene.py'}: CONTROLS must be a sandbox.sport.controls.Controls")
+    mistake = controls.mistake(parameters, [fact.key for fact in facts])
     if mistake is not None:
         raise RequestError(f"{folder / 'scene.py'}: CONTROLS {mistake}")
     return parameters

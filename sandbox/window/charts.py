@@ -10,7 +10,8 @@ import numpy as np
 import pygame
 
 from sandbox.picture.palette import palette
-from sandbox.picture.sheet import Sheet, signed
+from sandbox.picture.sheet import Sheet
+from sandbox.sport.amounts import signed
 from sandbox.window.shot import Shot
 
 CARD, ENERGY = palette("card"), palette("energy")

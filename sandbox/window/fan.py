@@ -8,7 +8,7 @@ from math import sqrt
 import numpy as np
 
 from sandbox import parameters as declared
-from sandbox.controls import Spread, controls_of
+from sandbox.sport.controls import Spread
 from sandbox.window.shot import Shot
 from sandbox.window.worker import FanShot, Worker, varied
 
@@ -36,7 +36,7 @@ class Fan:
 
     def _sigmas(self) -> dict[str, float]:
         """Standard deviation of each parameter that a player does not hit exactly, in its unit."""
-        controls = controls_of(self.shot.scene.module)
+        controls = self.shot.scene.controls
         values = {key: parameter.value for key, parameter in self.known.items()}
         if any(values.get(key) != value for key, value in controls.also.items()):
             return {}  # the shot begins otherwise than a player's, and what a player varies would change nothing
@@ -55,10 +55,9 @@ class Fan:
             self.work = None
         done = len(self.shots) + self.failed
         if self.work is None and not self.complete:
-            controls = controls_of(self.shot.scene.module)
-            told = controls.tells[0] if controls.tells is not None else None
+            controls = self.shot.scene.controls
             points = [self._point(draws) for draws in self.draws[done : done + self.next]]
-            self.work = worker.submit(varied, self.shot.scene, list(self.spread), points, told)
+            self.work = worker.submit(varied, self.shot.scene, list(self.spread), points, controls.tells)
 
     def _take(self, work: Future[tuple[list[FanShot | None], float]]) -> None:
         try:
@@ -83,7 +82,7 @@ class Fan:
     def summary(self) -> tuple[str, str]:
         """How many score, and by what the shots differ."""
         count = len(self.shots)
-        name = controls_of(self.shot.scene.module).scores
+        name = self.shot.scene.controls.scores
         if not self.spread:
             share = "no fan: this shot does not begin as a player's does"
         elif not count:
@@ -95,10 +94,10 @@ class Fan:
             share = f"{scored} of {count} score: {100 * p:.0f} ± {max(1.0, 100 * off):.0f} %"
         else:
             share = f"{count} shots"
-        told = controls_of(self.shot.scene.module).tells
+        fact = self.shot.scene.facts.get(self.shot.scene.controls.tells)
         numbers = [shot.value for shot in self.shots if shot.value is not None]
-        if told is not None and len(numbers) > 1:
-            share += f"; {told[0]} {np.mean(numbers):.1f} ± {np.std(numbers):.1f} {told[1]}"
+        if fact is not None and len(numbers) > 1:
+            share += f"; {fact.label} {np.mean(numbers):.1f} ± {np.std(numbers):.1f} {fact.unit}"
         parts = [
             f"{key.rpartition('.')[2]} ± {_short(sigma)} {self.known[key].unit or ''}".rstrip()
             for key, sigma in self.spread.items()

@@ -11,7 +11,8 @@ import pygame
 
 from sandbox.picture.camera import Camera
 from sandbox.picture.palette import palette
-from sandbox.picture.sheet import Entry, Sheet, metres, signed
+from sandbox.picture.sheet import Entry, Sheet
+from sandbox.sport.amounts import metres, signed
 from sandbox.window.shot import Shot
 
 CARD = palette("card")

@@ -8,9 +8,9 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from sandbox import parameters as declared
-from sandbox.controls import Controls, controls_of
 from sandbox.scene import Scene, load
 from sandbox.scene.modules import read_again
+from sandbox.sport.controls import Controls
 from sandbox.window.shot import Shot, place_of, value_at
 
 #: So many changes can be undone.
@@ -49,7 +49,7 @@ class Session:
 
     @property
     def controls(self) -> Controls:
-        return controls_of(self.scene.module)
+        return self.scene.controls
 
     @property
     def file(self) -> Path | None:

@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from sandbox.controls import Controls, controls_of
 from sandbox.physics.forces import Gravity
 from sandbox.scene import Scene
+from sandbox.sport.amounts import amount
+from sandbox.sport.controls import Controls
 from sandbox.window.path import moves, points
 
 if TYPE_CHECKING:
@@ -27,7 +28,7 @@ def value_at(parameters: Any, key: str) -> Any:
 def place_of(scene: Scene) -> tuple[Any, ...]:
     """What a scene is apart from what a player aims with: equal for two scenes that are the same place."""
     values = scene.parameters.model_dump()
-    for key in aimed_with(controls_of(scene.module)):
+    for key in aimed_with(scene.controls):
         *groups, last = key.split(".")
         node = values
         for group in groups:
@@ -61,14 +62,14 @@ class Shot:
     @cached_property
     def ball(self) -> str:
         """Name of the ball that is played."""
-        ball = controls_of(self.scene.module).ball
+        ball = self.scene.controls.ball
         names = [b.name for b in self.run.setup.balls]
         named = value_at(self.scene.parameters, ball) or ball
         return named if named in names else names[0]
 
     @cached_property
     def scored(self) -> bool:
-        return bool(self.run.result.get(controls_of(self.scene.module).scores))
+        return bool(self.run.result.get(self.scene.controls.scores))
 
     @cached_property
     def upright(self) -> bool:
@@ -93,15 +94,17 @@ class Shot:
 
     @cached_property
     def card(self) -> list[tuple[str, str]]:
-        """The result for people, without the verdict."""
-        return [entry for entry in self._card if entry[0] != "verdict"]
+        """The facts for people."""
+        return self.scene.rows(self.run)
 
     @cached_property
     def verdict(self) -> str:
-        """What happened, in a line."""
-        text = next((text for label, text in self._card if label == "verdict"), self.run.ended)
-        return text[:1].upper() + text[1:]
+        """What happened, in a sentence."""
+        return self.scene.verdict(self.run)
 
-    @cached_property
-    def _card(self) -> list[tuple[str, str]]:
-        return list(self.scene.module.card(self.run.result, self.scene.parameters))
+    @property
+    def aimed(self) -> str:
+        """Speed and direction that a pull has set."""
+        controls = self.scene.controls
+        speed, angle = (value_at(self.scene.parameters, key) for key in (controls.speed, controls.angle))
+        return f"{amount(speed, 'm/s')} at {amount(angle, 'deg')}"

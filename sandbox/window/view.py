@@ -401,7 +401,7 @@ class View:
         pull = game.pull
         if pull is not None and pull.shoots:
             vector = pull.drawn
-            stage.draw_pull(sheet, pull.start, vector, words.card[0][1] if words.card else "")
+            stage.draw_pull(sheet, pull.start, vector, words.aimed)
 
     def _words(self, shot: Shot) -> Shot:
         """The shot whose words and numbers are shown: during a pull they wait a moment, to be read."""

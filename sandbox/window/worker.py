@@ -101,7 +101,7 @@ class FanShot(NamedTuple):
 
 
 def varied(
-    scene: Scene, keys: Sequence[str], points: Sequence[Sequence[float]], told: str | None
+    scene: Scene, keys: Sequence[str], points: Sequence[Sequence[float]], told: str
 ) -> tuple[list[FanShot | None], float]:
     """Shots with other values at the keys, None for one that fails, and how long they took, in s; ``told`` is the
     name of the result whose value is wanted."""
@@ -111,6 +111,6 @@ def varied(
         if isinstance(run, Exception):
             found.append(None)
             continue
-        shot, value = Shot(scene, run), run.result.get(told) if told else None
+        shot, value = Shot(scene, run), run.result.get(told)
         found.append(FanShot(shot.track(shot.ball), shot.scored, value if isinstance(value, float) else None))
     return found, perf_counter() - started

@@ -18,8 +18,9 @@ from sandbox.picture.painter import Painter, around_corners
 from sandbox.picture.palette import mix, palette, scene_colours
 from sandbox.picture.path import Mark, draw_trace, mark_impacts
 from sandbox.picture.places import Ground, Group, Hall, Line, Person, Planks
-from sandbox.picture.sheet import Entry, Sheet, metres, roughly, signed, times
+from sandbox.picture.sheet import Entry, Sheet
 from sandbox.picture.side import Length, Place, SideView
+from sandbox.sport.amounts import metres, roughly, signed, times
 
 from .hoop import Hoop, Stand
 from .net import Net
@@ -286,37 +287,6 @@ class Picture(SideView[Parameters]):
                 sheet.labels.take_path(arc, 2 * unit)
         self.LOOK.draw(sheet.painter, (px, py), radius, self.run.angle("ball", t), unit)
         sheet.labels.take(pygame.Rect(round(px - radius), round(py - radius), round(2 * radius), round(2 * radius)))
-
-    def verdict(self) -> str:
-        """What happened, in one line."""
-        result = self.run.result
-        if result["made"]:
-            return {"swish": "In, nothing but net", "rim": "In, off the rim", "bank": "In, off the board"}[
-                result["verdict"]
-            ]
-        touched = next((name for name in result["touches"] if name != "floor"), None)
-        if touched:
-            return "Off the board, and out" if touched == "backboard" else "Off the rim, and out"
-        offset = result["entry_offset"]
-        if offset is not None:
-            return f"Air ball, {roughly(abs(offset))} {'short' if offset < 0 else 'too far'}"
-        return "Air ball, never as high as the ring" if "floor" in result["touches"] else "Did not come down"
-
-    def numbers(self) -> list[Entry]:
-        """The result for the card."""
-        result, launch = self.run.result, self.parameters.launch
-        entered = result["entry_angle"] is not None
-        offset = result["entry_offset"]
-        return [
-            ("entry angle", signed(f"{result['entry_angle']:.1f}") + "°" if entered else "–"),
-            ("entry speed", f"{result['entry_speed']:.1f} m/s" if entered else "–"),
-            ("from centre", _from_centre(offset) if entered else "–"),
-            ("apex", metres(result["apex"] + self.parameters.release.height)),
-            ("flight time", f"{result['flight_time']:.2f} s" if entered else "–"),
-            ("ball speed", f"{launch.speed:.2f} m/s"),
-            ("launch", signed(f"{launch.angle:.1f}") + "°"),
-            ("backspin", signed(f"{launch.spin:.0f}") + " rpm"),
-        ]
 
 
 def _markings(ring: float, throw: float, end: float) -> list[Line]:

@@ -13,9 +13,10 @@ middle of the ring to 5.1 cm beyond it.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import pairwise
-from math import atan2, cos, degrees, hypot, pi, radians, sin
+from math import cos, hypot, radians, sin
 from typing import Any
 
 from sandbox.aerodynamics import (
@@ -27,7 +28,6 @@ from sandbox.aerodynamics import (
     SpinRatioLift,
     aerodynamic_forces,
 )
-from sandbox.controls import Controls, Spin, Spread
 from sandbox.engine.run import Event, Run
 from sandbox.engine.setup import HOLLOW_SPHERE, Ball, Circle, Patch, Segment, Setup, Surface, Vector
 from sandbox.errors import RequestError
@@ -35,8 +35,10 @@ from sandbox.parameters import Accuracy, Group, either, group, quantity, switch
 from sandbox.physics.elementwise import clip
 from sandbox.physics.forces import Gravity
 from sandbox.physics.integrators import State
-
-RPM = pi / 30.0  # rad/s
+from sandbox.sport.amounts import roughly
+from sandbox.sport.controls import Controls, Spin, Spread
+from sandbox.sport.facts import ENDED, Fact, once
+from sandbox.sport.readings import LAUNCH, RPM, Moment, at, before
 
 # --------------------------------------------------------------------------------------------------------- parameters
 
@@ -274,61 +276,15 @@ def _court(parameters: Parameters) -> list[Surface]:
     ]
 
 
-# ------------------------------------------------------------------------------------------------------------- result
+# -------------------------------------------------------------------------------------------------------------- facts
 
 
-#: Units of the result's numbers, for charts and tables.
-UNITS = {"entry_angle": "deg", "entry_speed": "m/s", "entry_offset": "m", "flight_time": "s", "apex": "m"}
-
-
-def result(run: Run, parameters: Parameters) -> dict[str, Any]:
-    """In or out, and how; angles in deg, lengths in m, speeds in m/s, times in s.
-
-    ``made``: the ball's centre passes down through the ring's plane between its inner edges and leaves below.
-    ``touches`` are the surfaces it met until that was decided: by leaving the ring below, or by coming to the floor.
-    ``entry_angle`` (positive down) and ``entry_speed`` are those with which the centre first comes down to the ring's
-    height, or first touches something up there, whichever is earlier; ``entry_offset`` is how far beyond the ring's
-    middle it is then. ``flight_time`` lasts until that moment, ``apex`` is above the release. None where it never is.
-    """
-    plane = (parameters.hoop.distance, parameters.hoop.height)
-    downs = list(run.crossings("ball", plane, (0.0, 1.0)))  # each time the centre comes down to the ring's height
-    through = _through(run, parameters, downs)
-    made = through is not None
-    floor = next((event.t for event in run.events if event.partner == "floor"), run.duration)
-    decided = floor if through is None else through
-    met = [event for event in run.events if event.kind in ("impact", "contact") and event.t <= decided]
-    touches = [event.partner for event in met]
-    found: dict[str, Any] = {
-        "made": made,
-        "verdict": _verdict(made, touches),
-        "entry_angle": None,
-        "entry_speed": None,
-        "entry_offset": None,
-        "touches": touches,
-        "flight_time": None,
-        "apex": run.highest("ball")[1][1] - parameters.release.height,
-        "ended": run.ended,
-    }
-    down = next(iter(downs), None)
-    first = next((event.t for event in run.events if event.partner != "floor"), None)
-    if first is not None and first <= floor and (down is None or first < down[0]):
-        down = first, run.before("ball", first)
-    if down is not None and down[0] <= floor:
-        t, (x, _, vx, vy, _) = down
-        found |= {
-            "entry_angle": degrees(atan2(-vy, abs(vx))),
-            "entry_speed": hypot(vx, vy),
-            "entry_offset": x - parameters.hoop.distance,
-            "flight_time": t,
-        }
-    return found
-
-
-def _through(run: Run, parameters: Parameters, downs: list[tuple[float, State]]) -> float | None:
-    """When the ball left the ring below, or None; ``downs`` are its passages down through the ring's plane."""
+@once
+def _through(run: Run, parameters: Parameters) -> float | None:
+    """When the ball left the ring below, in s, having come down through it between its inner edges; None if never."""
     hoop, radius = parameters.hoop, parameters.ball.radius
     half = 0.5 * hoop.inner_diameter
-    inside = [t for t, state in downs if abs(state[0] - hoop.distance) < half]
+    inside = [t for t, state in _downs(run, parameters) if abs(state[0] - hoop.distance) < half]
     for t in inside:
         back_up = next((at for at, _ in run.crossings("ball", (0.0, hoop.height), (0.0, -1.0)) if at > t), run.duration)
         below = (at for at, _ in run.crossings("ball", (0.0, hoop.height - radius), (0.0, 1.0)) if t < at <= back_up)
@@ -338,36 +294,81 @@ def _through(run: Run, parameters: Parameters, downs: list[tuple[float, State]])
     return None
 
 
-def _verdict(made: bool, touches: list[str]) -> str:
+def _downs(run: Run, parameters: Parameters) -> Iterator[tuple[float, State]]:
+    """Each time and state at which the ball's centre comes down to the ring's height."""
+    return run.crossings("ball", (parameters.hoop.distance, parameters.hoop.height), (0.0, 1.0))
+
+
+def _on_floor(run: Run) -> float:
+    """When the ball comes to the floor, or the run is over."""
+    return next((event.t for event in run.events if event.partner == "floor"), run.duration)
+
+
+@once
+def entry(run: Run, parameters: Parameters) -> Moment | None:
+    """The ball as it first comes down to the ring's height, or first touches something up there if that is earlier."""
+    down = next((Moment(t, *state) for t, state in _downs(run, parameters)), None)
+    first = next((event.t for event in run.events if event.partner != "floor"), None)
+    floor = _on_floor(run)
+    if first is not None and first <= floor and (down is None or first < down.t):
+        down = before(run, first)
+    return down if down is not None and down.t <= floor else None
+
+
+def _touches(run: Run, parameters: Parameters) -> list[str]:
+    """The surfaces met until it was decided: by leaving the ring below, or by coming to the floor."""
+    through = _through(run, parameters)
+    decided = _on_floor(run) if through is None else through
+    return [event.partner for event in run.events if event.kind in ("impact", "contact") and event.t <= decided]
+
+
+def _made(run: Run, parameters: Parameters) -> bool:
+    return _through(run, parameters) is not None
+
+
+def _word(run: Run, parameters: Parameters) -> str:
     """swish; bank, off the board first; rim, off the ring first; miss."""
-    if not made:
+    if not _made(run, parameters):
         return "miss"
+    touches = _touches(run, parameters)
     if not touches:
         return "swish"
     return "bank" if touches[0] == "backboard" else "rim"
 
 
-def card(result: dict[str, Any], parameters: Parameters) -> list[tuple[str, str]]:
-    """The result for people."""
-    launch = parameters.launch
-    spin = f"{abs(launch.spin) / 60.0:.1f} rev/s of {'topspin' if launch.spin < 0 else 'backspin'}"
-    lines = [
-        ("shot", f"{launch.speed:.2f} m/s at {launch.angle:.1f}°, {spin if launch.spin else 'no spin'}"),
-        ("apex", f"{result['apex']:.2f} m above the hand"),
-    ]
-    if result["entry_angle"] is not None:
-        place = "beyond" if result["entry_offset"] >= 0.0 else "short of"
-        lines += [
-            ("entry angle", f"{result['entry_angle']:.1f}°"),
-            ("entry offset", f"{abs(result['entry_offset']):.3f} m {place} the middle of the ring"),
-        ]
-    if result["touches"]:
-        lines.append(("touches", ", ".join(result["touches"])))
-    endings = {
-        "swish": "in, nothing but net",
-        "rim": "in, off the rim",
-        "bank": "in, off the board",
-        "miss": "no basket",
-    }
-    lines.append(("verdict", endings[result["verdict"]]))
-    return lines
+def _offset(run: Run, parameters: Parameters) -> float | None:
+    down = entry(run, parameters)
+    return None if down is None else down.x - parameters.hoop.distance
+
+
+def _apex(run: Run, parameters: Parameters) -> float:
+    return run.highest("ball")[1][1] - parameters.release.height
+
+
+FACTS = (
+    Fact("made", "", "", _made, "floor"),
+    Fact("verdict", "", "", _word, "floor"),
+    Fact("entry_angle", "entry angle", "deg", at(entry, lambda ball: ball.descent), "floor"),
+    Fact("entry_speed", "entry speed", "m/s", at(entry, lambda ball: ball.speed), "floor"),
+    Fact("entry_offset", "from centre", "m", _offset, "floor", sides=("short", "long")),
+    Fact("apex", "apex above hand", "m", _apex, "floor"),
+    Fact("flight_time", "flight time", "s", at(entry, lambda ball: ball.t), "floor"),
+    *LAUNCH,
+    Fact("touches", "touches", "", _touches, "floor"),
+    ENDED,
+)
+
+
+def verdict(run: Run, parameters: Parameters) -> str:
+    """What happened, in a sentence."""
+    result = run.result
+    if result["made"]:
+        how = {"swish": "nothing but net", "rim": "off the rim", "bank": "off the board"}
+        return f"In, {how[result['verdict']]}"
+    touched = next((name for name in result["touches"] if name != "floor"), None)
+    if touched:
+        return "Off the board, and out" if touched == "backboard" else "Off the rim, and out"
+    offset = result["entry_offset"]
+    if offset is not None:
+        return f"Air ball, {roughly(abs(offset))} {'short' if offset < 0 else 'too far'}"
+    return "Air ball, never as high as the ring" if "floor" in result["touches"] else "Did not come down"

@@ -17,8 +17,9 @@ from sandbox.picture.ghosts import draw_ghost, draw_in_frame, ghosts_of, label_g
 from sandbox.picture.painter import Painter
 from sandbox.picture.palette import Colour, mix, palette
 from sandbox.picture.path import Path, apart, draw_mark, label_mark
-from sandbox.picture.sheet import Entry, Sheet, metres, nice, signed
+from sandbox.picture.sheet import Entry, Sheet, nice
 from sandbox.picture.vectors import Vectors
+from sandbox.sport.amounts import signed
 
 from . import balls
 from .backdrop import backdrop, outside
@@ -161,8 +162,10 @@ class Picture:
         right = self._head(sheet, self.run.duration)
         notes = [ghost.note for ghost in self.ghosts]
         notes += [f"a dot every {every:g} s"] if every else []
-        sheet.headline(self.verdict(), [*notes, *self._notes()], right - sheet.frame.left - 3 * sheet.gap)
-        sheet.columns(self.card_row, self.numbers(), [ghost.row for ghost in self.ghosts])
+        sheet.headline(
+            self.run.scene.verdict(self.run), [*notes, *self._notes()], right - sheet.frame.left - 3 * sheet.gap
+        )
+        sheet.columns(self.card_row, self.run.scene.rows(self.run), [ghost.row for ghost in self.ghosts])
         own = camera.pixels(self.paths.get(self.struck, np.zeros((1, 3)))[:, 1:])
         for ghost, points in others:
             label_ghost(sheet, ghost, points, own)
@@ -249,50 +252,6 @@ class Picture:
         cue = self.parameters.cue
         painter.disc((x + cue.english * radius, y - cue.follow * radius), max(2.0, 0.2 * radius), BILLIARDS["chalk"])
 
-    def verdict(self) -> str:
-        """What happened, in one line."""
-        run, result = self.run, self.run.result
-        others = [name for name in result["potted"] if name != self.struck]
-        where = result["pockets"]
-        if result["scratch"]:
-            also = f", with {_named(others)}" if others else ""
-            return f"Scratch in the {where[self.struck]}{also}"
-        if len(others) == 1:
-            return f"{_called(others[0])[0].upper() + _called(others[0])[1:]} into the {where[others[0]]}"
-        if others:
-            return f"Potted {_named(others)}"
-        if result["first_contact"] is None:
-            return "Hits no ball"
-        if result["ended"] == "duration":
-            return f"Still rolling after {run.duration:.0f} s"
-        if not run.setup.catches:
-            return self._point()
-        if len(self.names) > 6:
-            return f"Break at {self.parameters.cue.speed:.1f} m/s, nothing potted"
-        return "Nothing potted"
-
-    def _point(self) -> str:
-        """On a table without pockets: whether the struck ball met all others, after how many cushions."""
-        cushions = self.run.result["point"]
-        if cushions is not None:
-            return f"Point, after {cushions} cushion{'' if cushions == 1 else 's'}"
-        met = [name for name in dict.fromkeys(self.run.result["touches"]) if name in self.names]
-        return f"No point: meets {_named(met)} alone"
-
-    def numbers(self) -> list[tuple[str, str]]:
-        """The card's labels and values."""
-        run, result, cue = self.run, self.run.result, self.parameters.cue
-        others = [name for name in result["potted"] if name != self.struck]
-        way = np.hypot(*np.diff(self.paths[self.struck][:, 1:], axis=0).T).sum() if self.struck in self.paths else 0.0
-        first = result["first_contact"]
-        hit = self._first_contact
-        entries = [("potted", ", ".join(others) or "–")] if run.setup.catches else [("first contact", first or "–")]
-        entries += [("stroke", f"{cue.speed:.1f} m/s"), ("tip", _tip(cue)), ("cushions", str(result["rails"]))]
-        entries.append(("contact", f"{hit.speed:.1f} m/s" if hit else "–"))
-        entries.append(("path", metres(way)))
-        entries.append(("at rest after", "–" if result["rest_time"] is None else f"{result['rest_time']:.1f} s"))
-        return entries
-
     # Frames
 
     @cached_property
@@ -319,7 +278,7 @@ class Picture:
             self.vectors.draw(sheet, camera.pixel(*self.run.state(self.struck, t)[:2]), radius, t)
         self.draw_balls(painter, camera, t)
         right = self._head(sheet, t)
-        headline = self.verdict() if t >= self.run.duration else self._story(t)
+        headline = self.run.scene.verdict(self.run) if t >= self.run.duration else self._story(t)
         notes = [*self._notes(), *(f"compared with {ghost.label}" for ghost in self.ghosts)]
         sheet.headline(headline, notes, right - sheet.frame.left - 3 * sheet.gap)
         sheet.columns(self.card_row, self.live(t), [ghost.live(t) for ghost in self.ghosts])
@@ -406,19 +365,3 @@ def _evenly(points: np.ndarray, step: float) -> np.ndarray:
 
 def _called(name: str) -> str:
     return f"the {name}"
-
-
-def _named(names: list[str]) -> str:
-    """The 1, the 3 and the 7."""
-    called = [_called(name) for name in names]
-    return " and ".join([", ".join(called[:-1]), called[-1]] if len(called) > 1 else called)
-
-
-def _tip(cue: Any) -> str:
-    """Where the tip meets the ball, in radii."""
-    parts = []
-    if cue.follow:
-        parts.append(f"{abs(cue.follow):.2g} {'follow' if cue.follow > 0 else 'draw'}")
-    if cue.english:
-        parts.append(f"{abs(cue.english):.2g} {'right' if cue.english > 0 else 'left'}")
-    return ", ".join(parts) or "centre"

@@ -14,7 +14,7 @@ which a fast ball may rattle.
 from __future__ import annotations
 
 import random
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations
 from math import cos, hypot, pi, radians, sin, sqrt
@@ -22,7 +22,6 @@ from typing import Any, Literal
 
 from pydantic import Field
 
-from sandbox.controls import Controls, Spin, Spread
 from sandbox.engine.on_cloth import slowest_hop
 from sandbox.engine.run import Event, Run
 from sandbox.engine.setup import Always, Ball, Bounce, Setup, Vector
@@ -31,6 +30,10 @@ from sandbox.errors import RequestError
 from sandbox.parameters import Accuracy, Group, choice, either, group, groups, quantity
 from sandbox.physics.cloth import Cloth
 from sandbox.physics.throw import friction_by_speed
+from sandbox.sport.amounts import roughly
+from sandbox.sport.controls import Controls, Spin, Spread
+from sandbox.sport.facts import ENDED, Fact, once
+from sandbox.sport.readings import travelled
 
 from .table import Carom, EightFoot, NineFoot, SevenFoot, Snooker, catches, check, cushions, on_bed
 
@@ -262,51 +265,165 @@ class SlowerThrowsMore:
         return Bounce(self.restitution, friction_by_speed(slip_speed))
 
 
-# ------------------------------------------------------------------------------------------------------------- result
+# -------------------------------------------------------------------------------------------------------------- facts
 
 
-#: Units of the result's numbers, for charts and tables.
-UNITS = {"rest_time": "s"}
+@once
+def _met(run: Run, parameters: Parameters) -> list[Event]:
+    """Every meeting of two balls or of a ball with cushion, jaw or pocket. What the cloth presses together hops, which
+    counts as one meeting."""
+    assert run.setup.cloth is not None
+    hop = 1.001 * slowest_hop(run.setup.cloth, run.accuracy.hop)
+    last: dict[str, str] = {}  # what each ball met last
+    met = []
+    for event in run.events:
+        if event.kind not in ("impact", "caught"):
+            continue
+        if event.speed > hop or last.get(event.ball) != event.partner:
+            met.append(event)
+        last[event.ball], last[event.partner] = event.partner, event.ball
+    return met
 
 
-def result(run: Run, parameters: Parameters) -> dict[str, Any]:
-    """What the shot came to; lengths in m, times in s.
+def _by_struck(run: Run, parameters: Parameters) -> list[Event]:
+    """The meetings of the struck ball."""
+    return [event for event in _met(run, parameters) if parameters.cue.ball in (event.ball, event.partner)]
 
-    ``rails`` counts the meetings of all balls with the cushions' noses; those on the pockets' jaws stand in the events
-    alone. ``touches`` is what the struck ball met, in order, with jaws and pocket. ``rest_time`` is None where the shot
-    did not come to rest. ``point`` is a carom's, on a table without pockets: how many cushions the struck ball met
-    before the last of the other balls, None where it did not meet them all. ``scored`` is whether there is a point, or
-    a ball potted without a scratch.
-    """
+
+def _touches(run: Run, parameters: Parameters) -> list[str]:
+    """What the struck ball met, in order: other balls, cushions and jaws, and the pocket it fell into."""
     cue = parameters.cue.ball
-    caught = {event.ball: event.partner for event in run.events if event.kind == "caught"}
-    touches = list(_touches(run, cue))
-    balls = [ball.name for ball in run.setup.balls]
-    point = None if run.setup.catches else _point(touches, set(balls) - {cue})
-    return {
-        "potted": list(caught),
-        "scratch": cue in caught,
-        "point": point,
-        "scored": point is not None or (bool(caught) and cue not in caught),
-        "first_contact": next((name for name in touches if name in balls), None),
-        "rails": sum(event.partner.endswith(" cushion") for event in _meetings(run)),
-        "rest_time": run.duration if run.ended == "rest" else None,
-        "positions": {name: list(run.state(name, run.duration)[:2]) for name in balls if name not in caught},
-        "touches": touches,
-        "pockets": caught,
-        "ended": run.ended,
-    }
+    return [event.partner if event.ball == cue else event.ball for event in _by_struck(run, parameters)]
 
 
-def _point(touches: Iterable[str], others: set[str]) -> int | None:
-    """Cushions met before all others were met, of which there must be two at least."""
-    missing, cushions = set(others), 0
-    for touched in touches:
+def _caught(run: Run, parameters: Parameters) -> dict[str, str]:
+    """Pockets by the balls in them, in order."""
+    return {event.ball: event.partner for event in run.events if event.kind == "caught"}
+
+
+def _others(run: Run, parameters: Parameters) -> set[str]:
+    return {ball.name for ball in run.setup.balls} - {parameters.cue.ball}
+
+
+def _first_contact(run: Run, parameters: Parameters) -> Event | None:
+    """The first meeting of the struck ball with another."""
+    others = _others(run, parameters)
+    return next((event for event in _by_struck(run, parameters) if others & {event.ball, event.partner}), None)
+
+
+def _first_met(run: Run, parameters: Parameters) -> str | None:
+    first = _first_contact(run, parameters)
+    return None if first is None else first.partner if first.ball == parameters.cue.ball else first.ball
+
+
+def _first_speed(run: Run, parameters: Parameters) -> float | None:
+    first = _first_contact(run, parameters)
+    return None if first is None else first.speed
+
+
+def _point(run: Run, parameters: Parameters) -> int | None:
+    """A carom's point, on a table without pockets: how many cushions the struck ball met before the last of the other
+    balls, of which there must be two at least; None where it did not meet them all."""
+    missing, cushions = _others(run, parameters), 0
+    if run.setup.catches or len(missing) < 2:
+        return None
+    for touched in _touches(run, parameters):
         missing.discard(touched)
         cushions += touched.endswith(" cushion")
-        if not missing and len(others) > 1:
+        if not missing:
             return cushions
     return None
+
+
+def _scored(run: Run, parameters: Parameters) -> bool:
+    """A point, or a ball potted without a scratch."""
+    caught = _caught(run, parameters)
+    return _point(run, parameters) is not None or (bool(caught) and parameters.cue.ball not in caught)
+
+
+def _positions(run: Run, parameters: Parameters) -> dict[str, list[float]]:
+    """Where the balls lie that are still on the table, in m."""
+    caught = _caught(run, parameters)
+    balls = (ball.name for ball in run.setup.balls if ball.name not in caught)
+    return {name: list(run.state(name, run.duration)[:2]) for name in balls}
+
+
+def _cushions(run: Run, parameters: Parameters) -> int:
+    return sum(name.endswith(" cushion") for name in _touches(run, parameters))
+
+
+def _rails(run: Run, parameters: Parameters) -> int:
+    """Meetings of all balls with the cushions' noses; those on the pockets' jaws stand in the events alone."""
+    return sum(event.partner.endswith(" cushion") for event in _met(run, parameters))
+
+
+def _tip(run: Run, parameters: Parameters) -> str:
+    """Where the tip meets the ball, in radii off its centre."""
+    cue = parameters.cue
+    up, aside = f"{abs(cue.follow):.2g} {'follow' if cue.follow > 0 else 'draw'}", f"{abs(cue.english):.2g} "
+    aside += "right" if cue.english > 0 else "left"
+    return ", ".join(text for text, off in ((up, cue.follow), (aside, cue.english)) if off) or "centre"
+
+
+FACTS = (
+    Fact("pockets", "potted", "", _caught),
+    Fact("first_contact", "first contact", "", _first_met),
+    Fact("stroke", "stroke", "m/s", lambda run, parameters: parameters.cue.speed, "start"),
+    Fact("tip", "tip", "", _tip, "start"),
+    Fact("cushions", "cushions", "", _cushions),
+    Fact("contact_speed", "contact", "m/s", _first_speed),
+    Fact("path", "path", "m", lambda run, parameters: travelled(run, parameters.cue.ball)),
+    Fact("rest_time", "at rest after", "s", lambda run, parameters: run.duration if run.ended == "rest" else None),
+    Fact("rails", "cushions, all balls", "", _rails),
+    Fact("potted", "", "", lambda run, parameters: list(_caught(run, parameters))),
+    Fact("scratch", "", "", lambda run, parameters: parameters.cue.ball in _caught(run, parameters)),
+    Fact("point", "", "", _point),
+    Fact("scored", "", "", _scored),
+    Fact("positions", "", "", _positions),
+    Fact("touches", "", "", _touches),
+    ENDED,
+)
+
+
+def verdict(run: Run, parameters: Parameters) -> str:
+    """What happened, in a sentence."""
+    result, cue = run.result, parameters.cue.ball
+    potted = [name for name in result["potted"] if name != cue]
+    if result["scratch"]:
+        also = f", with {_named(potted)}" if potted else ""
+        return f"Scratch in the {result['pockets'][cue]}{also}"
+    if len(potted) == 1:
+        return f"The {potted[0]} into the {result['pockets'][potted[0]]}"
+    if potted:
+        return f"Potted {_named(potted)}"
+    if result["first_contact"] is None:
+        return "Hits no ball"
+    if run.ended == "duration":
+        return f"Still rolling after {run.duration:.0f} s"
+    if not run.setup.catches:
+        return _carom(run, parameters)
+    if _rack(parameters) != "none":
+        return f"Break at {parameters.cue.speed:.1f} m/s, nothing potted"
+    farthest = max(_others(run, parameters), key=lambda name: (travelled(run, name), name))
+    return f"Nothing potted, the {farthest} rolls {roughly(travelled(run, farthest))}"
+
+
+def _carom(run: Run, parameters: Parameters) -> str:
+    """On a table without pockets: whether the struck ball met all others, after how many cushions."""
+    cushions = run.result["point"]
+    if cushions is not None:
+        return f"Point, after {cushions} cushion{'' if cushions == 1 else 's'}"
+    met = [name for name in dict.fromkeys(run.result["touches"]) if name in _others(run, parameters)]
+    return f"No point: meets {_named(met)} alone"
+
+
+def _named(names: list[str]) -> str:
+    """The 1, the 3 and the 7."""
+    called = [f"the {name}" for name in names]
+    return " and ".join([", ".join(called[:-1]), called[-1]] if len(called) > 1 else called)
+
+
+# --------------------------------------------------------------------------------------------------------- next shot
 
 
 def from_rest(run: Run, parameters: Parameters) -> dict[str, Any]:
@@ -326,64 +443,3 @@ def _free_spot(taken: Sequence[Vector], parameters: Parameters) -> Vector:
     places = sorted((0.5 * step * room for step in range(-20, 21)), key=abs)
     free = (y for y in places if all(hypot(head - x, y - other) > room for x, other in taken))
     return head, next(y for y in free if abs(y) < 0.5 * parameters.table.width - room)
-
-
-def _touches(run: Run, ball: str) -> Iterator[str]:
-    """Names of what a ball met: other balls, cushions and jaws, and the pocket it fell into."""
-    for event in _meetings(run):
-        if ball in (event.ball, event.partner):
-            yield event.partner if event.ball == ball else event.ball
-
-
-def _meetings(run: Run) -> Iterator[Event]:
-    """Impacts, and balls that are caught. What the cloth presses together hops, which counts as one meeting."""
-    assert run.setup.cloth is not None
-    hop = 1.001 * slowest_hop(run.setup.cloth, run.accuracy.hop)
-    last: dict[str, str] = {}  # what each ball met last
-    for event in run.events:
-        if event.kind not in ("impact", "caught"):
-            continue
-        if event.speed > hop or last.get(event.ball) != event.partner:
-            yield event
-        last[event.ball], last[event.partner] = event.partner, event.ball
-
-
-def card(result: dict[str, Any], parameters: Parameters) -> list[tuple[str, str]]:
-    """The result for people."""
-    cue, pockets = parameters.cue, result["pockets"]
-    potted = [name for name in result["potted"] if name != cue.ball]
-    lines = [("stroke", f"{cue.speed:.2f} m/s ({cue.speed * 3.6:.0f} km/h) at {cue.angle:.1f}°, {_tip(cue)}")]
-    lines.append(("first contact", _called(result["first_contact"]) if result["first_contact"] else "none"))
-    lines.append(("potted", "; ".join(f"{_called(name)} ({pockets[name]})" for name in potted) or "none"))
-    lines.append(("rails", f"{result['rails']} cushion contacts"))
-    at_rest = "still moving when time ran out" if result["rest_time"] is None else f"after {result['rest_time']:.1f} s"
-    lines.append(("at rest", at_rest))
-    lines.append(("verdict", _verdict(result, parameters, bool(potted))))
-    return lines
-
-
-def _verdict(result: dict[str, Any], parameters: Parameters, potted: bool) -> str:
-    cue = parameters.cue.ball
-    if result["scratch"]:
-        return f"scratch ({result['pockets'][cue]})"
-    if result["first_contact"] is None:
-        return "hit no ball"
-    if result["point"] is not None:
-        return f"a point, after {result['point']} cushion{'' if result['point'] == 1 else 's'}"
-    if not parameters.table.pockets:
-        return "no point"
-    return "potted" if potted else "nothing potted"
-
-
-def _called(name: str) -> str:
-    return f"the {name}" if name.isdecimal() else name
-
-
-def _tip(cue: Cue) -> str:
-    """Where the tip meets the ball, in words."""
-    parts = []
-    if cue.follow:
-        parts.append(f"{abs(cue.follow):g} radii {'follow' if cue.follow > 0 else 'draw'}")
-    if cue.english:
-        parts.append(f"{abs(cue.english):g} radii {'right' if cue.english > 0 else 'left'} english")
-    return ", ".join(parts) or "centre ball"

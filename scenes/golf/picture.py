@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from functools import cached_property
-from math import atan2, degrees, hypot, pi
 
 import numpy as np
 import pygame
@@ -12,8 +11,9 @@ from sandbox.picture.camera import Area, Box, Camera
 from sandbox.picture.painter import Painter
 from sandbox.picture.palette import palette
 from sandbox.picture.path import apart, chip
-from sandbox.picture.sheet import Entry, Sheet, SideRows, metres, nice, roughly, signed, yards
+from sandbox.picture.sheet import Sheet, SideRows, nice
 from sandbox.picture.side import Length, SideView
+from sandbox.sport.amounts import metres, signed, yards
 
 from .course import BALL, COLOURS, Course
 from .scene import Parameters
@@ -145,46 +145,10 @@ class Picture(SideView[Parameters]):
         start = self.path.points[0, 1] - self.radius
         return (start - self._under(carry)) * camera.scale * camera.stretch
 
-    def numbers(self) -> list[Entry]:
-        """What the poster's card says."""
-        result = self.run.result
-        ball = self.run.setup.balls[0]  # before it touches anything, which it may do at once
-        vx, vy = ball.velocity
-        landed = self._landed
-        return [
-            ("carry", metres(result["carry"]) if landed else "–"),
-            ("total", metres(result["total"])),
-            ("apex", metres(result["apex"]) if result["apex"] >= 0.005 else "–"),
-            ("flight time", f"{result['flight_time']:.2f} s" if landed else "–"),
-            ("ball speed", f"{hypot(vx, vy):.1f} m/s"),
-            ("launch", signed(f"{degrees(atan2(vy, vx)):.1f}") + "°"),
-            ("backspin", signed(f"{ball.spin * 30 / pi:.0f}") + " rpm"),
-            ("landing", signed(f"{result['landing_angle']:.0f}") + "°" if landed else "–"),
-        ]
-
     @property
     def _landed(self) -> bool:
         """Whether it flew at all, and came down."""
         return (self.run.result["flight_time"] or 0.0) > 0.02
-
-    def verdict(self) -> str:
-        """What happened, in one line."""
-        result, pin = self.run.result, self.parameters.pin.distance
-        carry, total, away = result["carry"], result["total"], result["distance_to_pin"]
-        if result["holed"]:
-            return f"Holed from {roughly(abs(pin))}"
-        if carry is None:
-            return "Did not come down"
-        if result["ended"] == "duration":
-            return f"Still rolling after {self.run.duration:.0f} s, {roughly(abs(total))} from the start"
-        if abs(carry) < 0.05 * abs(total):
-            story = f"Rolls {roughly(abs(total))}"
-        else:
-            story = f"Flies {roughly(-carry)} backwards" if carry < 0 else f"{roughly(carry)} carry"
-        if result["ended"] == "water":
-            return f"{story}, into the water"
-        side = "short of" if (pin - total) * pin > 0 else "past"
-        return f"{story}, stops {roughly(away)} {side} the pin"
 
     # Frames
 

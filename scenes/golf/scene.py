@@ -12,13 +12,13 @@ moisture of the grass.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from math import atan2, cos, degrees, hypot, inf, pi, radians, sin, sqrt
-from typing import Any, Literal
+from math import cos, hypot, inf, radians, sin, sqrt
+from typing import Literal
 
 from sandbox.aerodynamics import ConstantLift, NoDrag, NoLift, OutdoorAir, SpinRatioLift, wind_in
-from sandbox.controls import Controls, Spin, Spread
 from sandbox.engine.run import Event, Run
 from sandbox.engine.setup import SOLID_SPHERE, Ball, Bounce, Bounds, Force, Segment, Setup, Surface, Torque
 from sandbox.errors import RequestError
@@ -27,10 +27,10 @@ from sandbox.physics import coefficients
 from sandbox.physics.club import Head, strike
 from sandbox.physics.forces import Drag, Gravity, Magnus, SpinDecay
 from sandbox.physics.turf import penner_bounce, penner_restitution, stimp_resistance
-
-RPM = pi / 30.0  # rad/s
-YARD = 0.9144  # m
-FOOT = 0.3048  # m
+from sandbox.sport.amounts import roughly
+from sandbox.sport.controls import Controls, Spin, Spread
+from sandbox.sport.facts import Fact, once
+from sandbox.sport.readings import BALL_SPEED, LAUNCH_ANGLE, LAUNCH_SPIN, RPM, Moment, at, before
 
 # ----------------------------------------------------------------------------------------------------------- parameters
 
@@ -169,7 +169,7 @@ CONTROLS = Controls(
     sliders=("launch.speed", "launch.angle", "launch.spin", "air.wind", "gravity", "pin.distance"),
     scores="holed",
     spread=(Spread("launch.speed", 0.015), Spread("launch.angle", 0.08), Spread("launch.spin", 0.06)),  # assumed
-    tells=("total", "m"),
+    tells="total",
 )
 
 # ---------------------------------------------------------------------------------------------------------------- build
@@ -356,103 +356,93 @@ def _turf(parameters: Parameters, kind: str, a: tuple[float, float], b: tuple[fl
     return Surface(kind, Segment(a, b), slow, turf.friction, resistance, LOWEST_BOUNCE, law)
 
 
-# --------------------------------------------------------------------------------------------------------------- result
+# ---------------------------------------------------------------------------------------------------------------- facts
 
 
-#: Units of the result's numbers, for charts and tables.
-UNITS = {
-    "carry": "m",
-    "total": "m",
-    "apex": "m",
-    "flight_time": "s",
-    "landing_angle": "deg",
-    "landing_speed": "m/s",
-    "landing_spin": "rpm",
-    "distance_to_pin": "m",
-}
-
-
-def result(run: Run, parameters: Parameters) -> dict[str, Any]:
-    """Carry, total, apex and the rest, in m, s, deg and rpm. None where the ball never came down."""
-    start = run.setup.balls[0].position
-    landed = _landing(run, start[1])
-    end_x, end_y = run.state("ball", run.duration)[:2]
-    pin = parameters.pin
-    in_cup = abs(end_x - pin.distance) < 0.5 * pin.cup_width and end_y < height(parameters, pin.distance)
-    in_water = any(_is_in_water(event) for event in run.events)
-    found: dict[str, Any] = {
-        "carry": None,
-        "total": end_x,
-        "apex": _highest(run, landed) - start[1],
-        "flight_time": None,
-        "landing_angle": None,
-        "landing_speed": None,
-        "landing_spin": None,
-        "distance_to_pin": abs(end_x - pin.distance),
-        "holed": in_cup,
-        "ended": "cup" if in_cup else "water" if in_water else run.ended,
-    }
-    if landed is not None:
-        t, (x, _, vx, vy, spin) = landed
-        found |= {
-            "carry": x,
-            "flight_time": t,
-            "landing_angle": degrees(atan2(0.0 - vy, abs(vx))),
-            "landing_speed": hypot(vx, vy),
-            "landing_spin": spin / RPM,
-        }
-    return found
-
-
-def _landing(run: Run, launch_height: float) -> tuple[float, tuple[float, ...]] | None:
-    """Time and state at which the ball is back at launch height, or comes down on higher ground before that."""
-    touched = next((event.t for event in run.events if event.kind in ("impact", "contact", "rest")), inf)
-    back = next(iter(run.crossings("ball", (0.0, launch_height), (0.0, 1.0))), None)
+@once
+def landing(run: Run, parameters: Parameters) -> Moment | None:
+    """The ball as it is back at launch height, or comes down on higher ground before that."""
+    touched = next((event.t for event in run.events if is_down([event], parameters)), inf)
+    back = next(iter(run.crossings("ball", run.setup.balls[0].position, (0.0, 1.0))), None)
     if touched < (inf if back is None else back[0]):
-        return touched, run.before("ball", touched)
-    return back
+        return before(run, touched)
+    return None if back is None else Moment(back[0], *back[1])
 
 
-def _highest(run: Run, landed: tuple[float, tuple[float, ...]] | None) -> float:
-    """Greatest height in m of the flight; of the whole run, where there was no flight or no end to it."""
-    if landed is not None and landed[0] > 0.0:
-        run = replace(run, arcs={"ball": [arc for arc in run.arcs["ball"] if arc.t0 < landed[0]]})
-    return run.highest("ball")[1][1]
+def is_down(events: Sequence[Event], parameters: Parameters) -> bool:
+    """Whether the ball came down: what is known of its flight then stays."""
+    return any(event.kind in ("impact", "contact", "rest") for event in events)
 
 
-def card(result: dict[str, Any], parameters: Parameters) -> list[tuple[str, str]]:
-    """The result for people."""
-    (vx, vy), spin = launched(parameters)
-    speed = hypot(vx, vy)
-    angle = degrees(atan2(vy, vx))
-    lines = [("launch", f"{speed:.1f} m/s ({speed / 0.44704:.0f} mph) at {angle:.1f}°, {spin / RPM:.0f} rpm")]
-    if parameters.start == "club" and parameters.club.speed > 0.0:
-        club = parameters.club.speed
-        lines.insert(0, ("club", f"{club:.1f} m/s ({club / 0.44704:.0f} mph), smash factor {speed / club:.2f}"))
-    if result["carry"] is None:
-        lines.append(("carry", "did not come down"))
+def _flew(run: Run, parameters: Parameters) -> bool:
+    """Whether there was a flight to speak of: a putt has none."""
+    landed = landing(run, parameters)
+    return landed is not None and landed.t > 0.02
+
+
+def _apex(run: Run, parameters: Parameters) -> float:
+    """Greatest height in m over the launch: of the flight, or of the whole run where a flight does not end."""
+    landed = landing(run, parameters)
+    if landed is not None and landed.t > 0.0:
+        run = replace(run, arcs={"ball": [arc for arc in run.arcs["ball"] if arc.t0 < landed.t]})
+    return run.highest("ball")[1][1] - run.setup.balls[0].position[1]
+
+
+def _smash_factor(run: Run, parameters: Parameters) -> float | None:
+    """Speed of the ball over that of the head."""
+    club = parameters.club.speed
+    return hypot(*run.setup.balls[0].velocity) / club if parameters.start == "club" and club > 0.0 else None
+
+
+def _total(run: Run, parameters: Parameters) -> float:
+    return run.state("ball", run.duration)[0]
+
+
+def _holed(run: Run, parameters: Parameters) -> bool:
+    x, y = run.state("ball", run.duration)[:2]
+    pin = parameters.pin
+    return abs(x - pin.distance) < 0.5 * pin.cup_width and y < height(parameters, pin.distance)
+
+
+def _ended(run: Run, parameters: Parameters) -> str:
+    if _holed(run, parameters):
+        return "cup"
+    return "water" if any(_is_in_water(event) for event in run.events) else run.ended
+
+
+FACTS = (
+    Fact("carry", "carry", "m", at(landing, lambda ball: ball.x), is_down, also="yd", where=_flew),
+    Fact("total", "total", "m", _total, also="yd"),
+    Fact("apex", "apex", "m", _apex, is_down, where=_flew),
+    Fact("flight_time", "flight time", "s", at(landing, lambda ball: ball.t), is_down, where=_flew),
+    BALL_SPEED,
+    LAUNCH_ANGLE,
+    LAUNCH_SPIN,
+    Fact("smash_factor", "smash factor", "", _smash_factor, "start"),
+    Fact("landing_angle", "landing", "deg", at(landing, lambda ball: ball.descent), is_down, where=_flew),
+    Fact("landing_speed", "landing speed", "m/s", at(landing, lambda ball: ball.speed), is_down, where=_flew),
+    Fact("landing_spin", "landing spin", "rpm", at(landing, lambda ball: ball.spin / RPM), is_down, where=_flew),
+    Fact("distance_to_pin", "", "m", lambda run, p: abs(_total(run, p) - p.pin.distance)),
+    Fact("holed", "", "", _holed),
+    Fact("ended", "", "", _ended),
+)
+
+
+def verdict(run: Run, parameters: Parameters) -> str:
+    """What happened, in a sentence."""
+    result, pin = run.result, parameters.pin.distance
+    carry, total = result["carry"], result["total"]
+    if result["holed"]:
+        return f"Holed from {roughly(abs(pin))}"
+    if carry is None:
+        return "Did not come down"
+    if result["ended"] == "duration":
+        return f"Still rolling after {run.duration:.0f} s, {roughly(abs(total))} from the start"
+    if abs(carry) < 0.05 * abs(total):
+        story = f"Rolls {roughly(abs(total))}" + (" backwards" if total < 0.0 else "")
     else:
-        lines += [
-            ("carry", _length(result["carry"])),
-            ("flight", f"{result['flight_time']:.2f} s, {result['apex']:.1f} m high"),
-            (
-                "landing",
-                f"{result['landing_angle']:.1f}° at {result['landing_speed']:.1f} m/s, "
-                f"{result['landing_spin']:.0f} rpm",
-            ),
-        ]
-    lines.append(("total", _length(result["total"])))
-    endings = {
-        "cup": "holed",
-        "water": "in the water",
-        "rest": f"{_length(result['distance_to_pin'])} from the pin",
-        "duration": "still moving when time ran out",
-    }
-    lines.append(("verdict", endings[result["ended"]]))
-    return lines
-
-
-def _length(metres: float) -> str:
-    if abs(metres) < 10.0:
-        return f"{metres:.2f} m ({metres / FOOT:.1f} ft)"
-    return f"{metres:.1f} m ({metres / YARD:.0f} yd)"
+        story = f"Flies {roughly(-carry)} backwards" if carry < 0.0 else f"{roughly(carry)} carry"
+    if result["ended"] == "water":
+        return f"{story}, into the water"
+    side = "short of" if (pin - total) * pin > 0.0 else "past"
+    return f"{story}, stops {roughly(result['distance_to_pin'])} {side} the pin"

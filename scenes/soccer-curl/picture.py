@@ -17,8 +17,9 @@ from sandbox.picture.ghosts import draw_ghost, draw_in_frame, ghosts_of, label_g
 from sandbox.picture.painter import Painter
 from sandbox.picture.palette import mix, palette
 from sandbox.picture.path import MOST_SAMPLES, Path, apart, chip, draw_trace, mark_impacts
-from sandbox.picture.sheet import Entry, Sheet, metres, roughly, times
+from sandbox.picture.sheet import Entry, Sheet
 from sandbox.picture.vectors import Vectors
+from sandbox.sport.amounts import metres, times
 
 from .pitch import BALL, Pitch
 
@@ -134,8 +135,8 @@ class Picture:
             notes.append(f"players drawn {times(factor)} their size")
         if (factor := enlarged(self.radius, camera, self.rows)) > 1:
             notes.append(f"ball drawn {times(factor)} its size")
-        sheet.headline(self.verdict(), notes, right - sheet.frame.left - 2 * sheet.gap)
-        sheet.columns(self.card_row, self.numbers(), [ghost.row for ghost in self.ghosts])
+        sheet.headline(self.run.scene.verdict(self.run), notes, right - sheet.frame.left - 2 * sheet.gap)
+        sheet.columns(self.card_row, self.run.scene.rows(self.run), [ghost.row for ghost in self.ghosts])
         for ghost, points in others:
             label_ghost(sheet, ghost, points, self.trace)
         return sheet.surface
@@ -242,50 +243,6 @@ class Picture:
         anchor = "midtop" if way > 0 else "midbottom"
         sheet.label("without spin", "small", [(*spot, anchor) for spot in beside], sheet.ink)
 
-    def verdict(self) -> str:
-        """What happened, in one line."""
-        result = self.run.result
-        offset, deviation = result["offset_at_goal"], result["deviation"]
-        if result["verdict"] == "goal":
-            if offset is None:
-                return "Goal"
-            inside = self.parameters.goal.width / 2 - abs(offset) - self.radius
-            if deviation is not None and abs(deviation) >= 0.05:
-                return f"Goal, bent {roughly(abs(deviation))} to the {_side(deviation)}"
-            return f"Goal, {roughly(max(0.0, inside))} inside the post"
-        if result["verdict"] == "wide":
-            if offset is None:
-                return "Wide of the goal"
-            outside = abs(offset) - self.parameters.goal.width / 2
-            return f"Wide by {roughly(max(0.0, outside))}"
-        return {
-            "saved": "Saved by the keeper",
-            "post": "Off the post",
-            "wall": "Into the wall",
-            "short": "Never at the goal line",
-        }[result["verdict"]]
-
-    def numbers(self) -> list[Entry]:
-        """The result for the card."""
-        result, launch = self.run.result, self.parameters.launch
-        numbers: list[Entry] = []
-        if (deviation := result["deviation"]) is not None:
-            numbers.append(("bend", f"{metres(abs(deviation))} {_side(deviation)}"))
-        if (offset := result["offset_at_goal"]) is not None:
-            inside = self.parameters.goal.width / 2 - abs(offset) - self.radius
-            where = "inside" if inside >= 0 else "outside"
-            numbers.append(("nearer post", f"{metres(abs(inside))} {where}"))
-        if result["speed_at_goal"] is not None:
-            numbers.append(("speed at goal", f"{result['speed_at_goal']:.1f} m/s"))
-        if result["flight_time"] is not None:
-            numbers.append(("flight time", f"{result['flight_time']:.2f} s"))
-        return [
-            *numbers,
-            ("ball speed", f"{launch.speed:.1f} m/s"),
-            ("launch", f"{abs(launch.angle):.1f}° {_side(launch.angle)}" if launch.angle else "straight"),
-            ("spin", f"{abs(launch.spin):.0f} rpm {_side(launch.spin)}" if launch.spin else "none"),
-        ]
-
     # Frames
 
     @cached_property
@@ -346,7 +303,7 @@ class Picture:
         notes = [f"compared with {ghost.label}" for ghost in self.ghosts]
         notes += ["ball drawn larger than it is"] if large else []
         if t >= self.path.until:
-            sheet.headline(self.verdict(), notes, right - sheet.frame.left - 2 * sheet.gap)
+            sheet.headline(self.run.scene.verdict(self.run), notes, right - sheet.frame.left - 2 * sheet.gap)
         else:
             away = self.parameters.goal.distance - x
             where = "to the goal line" if away >= 0 else "behind the goal line"

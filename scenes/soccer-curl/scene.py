@@ -11,10 +11,10 @@ published for soccer), Beckham's kick would bend 0.8 cm less and Roberto Carlos'
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from dataclasses import replace
 from itertools import pairwise
-from math import cos, hypot, pi, radians, sin, tan
-from typing import Any, Literal
+from math import cos, hypot, radians, sin, tan
+from typing import Literal
 
 from sandbox.aerodynamics import (
     Air,
@@ -25,14 +25,15 @@ from sandbox.aerodynamics import (
     SpinRatioLift,
     aerodynamic_forces,
 )
-from sandbox.controls import Controls, Spin, Spread
 from sandbox.engine.run import Event, Run
 from sandbox.engine.setup import HOLLOW_SPHERE, Always, Ball, Bounce, Circle, Segment, Setup, Surface, Vector
 from sandbox.errors import RequestError
 from sandbox.parameters import Accuracy, Group, choice, either, group, quantity, switch
 from sandbox.physics.coefficients import SOCCER_DRAG, SOCCER_LIFT
-
-RPM = pi / 30.0  # rad/s
+from sandbox.sport.amounts import roughly
+from sandbox.sport.controls import Controls, Spin, Spread
+from sandbox.sport.facts import ENDED, Fact, once
+from sandbox.sport.readings import BALL_SPEED, LAUNCH_ANGLE, LAUNCH_SPIN, RPM, Moment, at, first_touch, passing
 
 # --------------------------------------------------------------------------------------------------------- parameters
 
@@ -246,104 +247,93 @@ def _rectangle(left: float, right: float, bottom: float, top: float) -> list[Vec
     return [(left, bottom), (right, bottom), (right, top), (left, top), (left, bottom)]
 
 
-# ------------------------------------------------------------------------------------------------------------- result
+# -------------------------------------------------------------------------------------------------------------- facts
 
 
-#: Units of the result's numbers, for charts and tables.
-UNITS = {"deviation": "m", "offset_at_goal": "m", "speed_at_goal": "m/s", "flight_time": "s"}
+@once
+def at_goal(run: Run, parameters: Parameters) -> Moment | None:
+    """The ball as it passes the goal line; None where it does not get there, or is touched on its way."""
+    passed, touched = passing(run, parameters.goal.distance), first_touch(run)
+    return None if passed is None or (touched is not None and touched.t < passed.t) else passed
 
 
-def result(run: Run, parameters: Parameters) -> dict[str, Any]:
-    """Goal or not, and how the ball bent; lengths in m and positive to the left, speeds in m/s, times in s.
-
-    ``deviation`` is measured along the goal line, from where the straight line of the launch meets it, if it does;
-    ``offset_at_goal`` from the middle of the goal. Both, and the speed, are None where the ball does not get there, or
-    is touched on its way. ``flight_time`` lasts until the goal line or the first touch. A goal is one with the whole of
-    the ball over the whole of the line.
-    """
+@once
+def _scored(run: Run, parameters: Parameters) -> bool:
+    """Whether the whole of the ball was over the whole of the line, between the posts."""
     goal = parameters.goal
-    touches = [event for event in run.events if "ball" in (event.ball, event.partner)]
-    touched = touches[0].t if touches else None
-    at_goal = next(_forward(run, goal.distance), None)
-    reached = at_goal is not None
-    if at_goal is not None and touched is not None and touched < at_goal[0]:
-        at_goal = None
     over_the_line = goal.distance + goal.post_radius + parameters.ball.radius
-    scored = any(abs(state[1] - goal.offset) < 0.5 * goal.width for _, state in _forward(run, over_the_line))
-    found: dict[str, Any] = {
-        "goal": scored,
-        "verdict": _verdict({name for event in touches for name in (event.ball, event.partner)}, scored, reached),
-        "deviation": None,
-        "offset_at_goal": None,
-        "speed_at_goal": None,
-        "flight_time": touched,
-        "ended": run.ended,
-    }
-    if at_goal is not None:
-        t, (_, y, vx, vy, _) = at_goal
-        angle = parameters.launch.angle
-        found |= {
-            "deviation": None if abs(angle) >= 90.0 else y - goal.distance * tan(radians(angle)),
-            "offset_at_goal": y - goal.offset,
-            "speed_at_goal": hypot(vx, vy),
-            "flight_time": t,
-        }
-    return found
+    crossings = run.crossings("ball", (over_the_line, 0.0), (-1.0, 0.0))
+    return any(abs(state[1] - goal.offset) < 0.5 * goal.width for _, state in crossings)
 
 
-def _forward(run: Run, x: float) -> Iterator[tuple[float, tuple[float, ...]]]:
-    """Times and states at which the ball's centre passes x (m) on its way to the goal."""
-    return run.crossings("ball", (x, 0.0), (-1.0, 0.0))
+def _deviation(run: Run, parameters: Parameters) -> float | None:
+    """Along the goal line in m, from where the straight line of the launch meets it, if it does."""
+    passed, angle = at_goal(run, parameters), parameters.launch.angle
+    return None if passed is None or abs(angle) >= 90.0 else passed.y - parameters.goal.distance * tan(radians(angle))
 
 
-def _verdict(touched: set[str], scored: bool, reached: bool) -> str:
+def _offset(run: Run, parameters: Parameters) -> float | None:
+    passed = at_goal(run, parameters)
+    return None if passed is None else passed.y - parameters.goal.offset
+
+
+def _inside_post(run: Run, parameters: Parameters) -> float | None:
+    """Room in m between the ball and the nearer post; negative where the ball goes wide."""
+    offset = _offset(run, parameters)
+    return None if offset is None else 0.5 * parameters.goal.width - abs(offset) - parameters.ball.radius
+
+
+def _flight_time(run: Run, parameters: Parameters) -> float | None:
+    """Until the goal line or the first touch, in s."""
+    passed, touched = at_goal(run, parameters), first_touch(run)
+    return passed.t if passed else touched.t if touched else None
+
+
+def _word(run: Run, parameters: Parameters) -> str:
     """goal; saved, post or wall, where that was touched and it is no goal; wide; short of the goal line."""
-    if scored:
+    if _scored(run, parameters):
         return "goal"
-    if "keeper" in touched:
-        return "saved"
-    if touched & {"left post", "right post"}:
-        return "post"
-    if "wall" in touched:
-        return "wall"
-    return "wide" if reached else "short"
+    meetings = [event for event in run.events if "ball" in (event.ball, event.partner)]
+    touched = {name for event in meetings for name in (event.ball, event.partner)}
+    for word, names in (("saved", {"keeper"}), ("post", {"left post", "right post"}), ("wall", {"wall"})):
+        if touched & names:
+            return word
+    return "short" if passing(run, parameters.goal.distance) is None else "wide"
 
 
-def card(result: dict[str, Any], parameters: Parameters) -> list[tuple[str, str]]:
-    """The result for people."""
-    launch, goal = parameters.launch, parameters.goal
-    spin = f"{abs(launch.spin):.0f} rpm that bends it to the {_side(launch.spin)}" if launch.spin else "no spin"
-    lines = [("kick", f"{_speed(launch.speed)} at {abs(launch.angle):.1f}° to the {_side(launch.angle)}, {spin}")]
-    if result["deviation"] is not None:
-        lines.append(("deviation", f"{result['deviation']:.2f} m to the {_side(result['deviation'])}"))
-    if result["offset_at_goal"] is not None:
-        lines += [
-            ("offset at goal", _beside_the_post(result["offset_at_goal"], parameters)),
-            ("speed at goal", _speed(result["speed_at_goal"])),
-        ]
-    if result["flight_time"] is not None:
-        lines.append(("flight time", f"{result['flight_time']:.2f} s"))
-    endings = {
-        "goal": "goal",
-        "wide": "wide of the goal",
-        "wall": "into the wall",
-        "post": "off the post",
-        "saved": "saved by the keeper",
-        "short": f"did not get to the goal line, {goal.distance:.1f} m away",
-    }
-    lines.append(("verdict", endings[result["verdict"]]))
-    return lines
+ASIDE = ("right", "left")
+
+FACTS = (
+    Fact("goal", "", "", _scored),
+    Fact("verdict", "", "", _word),
+    Fact("deviation", "bend", "m", _deviation, sides=ASIDE),
+    Fact("inside_post", "nearer post", "m", _inside_post, sides=("outside", "inside")),
+    Fact("speed_at_goal", "speed at goal", "m/s", at(at_goal, lambda ball: ball.speed), also="km/h"),
+    Fact("flight_time", "flight time", "s", _flight_time),
+    BALL_SPEED,
+    replace(LAUNCH_ANGLE, sides=ASIDE),
+    replace(LAUNCH_SPIN, sides=ASIDE),
+    Fact("offset_at_goal", "from the middle", "m", _offset, sides=ASIDE),
+    ENDED,
+)
 
 
-def _side(amount: float) -> str:
-    return "right" if amount < 0.0 else "left"
-
-
-def _speed(metres_per_second: float) -> str:
-    return f"{metres_per_second:.1f} m/s ({metres_per_second * 3.6:.0f} km/h)"
-
-
-def _beside_the_post(offset: float, parameters: Parameters) -> str:
-    inside = 0.5 * parameters.goal.width - abs(offset) - parameters.ball.radius
-    where = f"{abs(inside):.2f} m {'inside' if inside >= 0.0 else 'outside'} the {_side(offset)} post"
-    return f"{offset:.2f} m ({where})"
+def verdict(run: Run, parameters: Parameters) -> str:
+    """What happened, in a sentence."""
+    result = run.result
+    bend, inside = result["deviation"], result["inside_post"]
+    if result["verdict"] == "goal":
+        if inside is None:
+            return "Goal"
+        if bend is not None and abs(bend) >= 0.05:
+            return f"Goal, bent {roughly(abs(bend))} to the {ASIDE[bend > 0.0]}"
+        return f"Goal, {roughly(max(0.0, inside))} inside the post"
+    if result["verdict"] == "wide":
+        outside = None if inside is None else -inside - parameters.ball.radius
+        return "Wide of the goal" if outside is None else f"Wide by {roughly(max(0.0, outside))}"
+    return {
+        "saved": "Saved by the keeper",
+        "post": "Off the post",
+        "wall": "Into the wall",
+        "short": "Never at the goal line",
+    }[result["verdict"]]

@@ -18,9 +18,9 @@ from sandbox.picture.painter import Painter
 from sandbox.picture.palette import mix, palette, scene_colours
 from sandbox.picture.path import chip
 from sandbox.picture.places import Ground, Group, Line, Mown, Person, Stands, Thing, goal
-from sandbox.picture.sheet import Entry, Sheet, metres, roughly, signed, times
+from sandbox.picture.sheet import Sheet
 from sandbox.picture.side import Length, Place, SideView
-from sandbox.picture.view import spin_text
+from sandbox.sport.amounts import metres, roughly, times
 
 from .scene import Parameters
 
@@ -167,49 +167,6 @@ class Picture(SideView[Parameters]):
             for aside, side in ((0, 0), (10, -1), (10, 1))
         ]
         chip(sheet, f"{metres(high - low)} {text}", spots, CARD["accent"])
-
-    def verdict(self) -> str:
-        """What happened, in one line."""
-        result, goal = self.run.result, self.parameters.goal
-        verdict = result["verdict"]
-        if verdict == "goal":
-            height = result["height_at_goal"]
-            under = None if height is None else goal.height - height - self.radius
-            return "Goal" if under is None or under < 0 else f"Goal, {roughly(under)} under the bar"
-        if verdict == "over":
-            over = result["height_at_goal"] - self.radius - goal.height - 2 * goal.post_radius
-            return f"Over the bar by {roughly(over)}" if over > 0 else "Just over the bar"
-        if verdict in ("bar", "wall"):
-            return "Off the bar" if verdict == "bar" else "Into the wall"
-        x = self.run.state("ball", self.run.duration)[0]
-        if verdict == "past":
-            return f"{roughly(abs(x))} up the field"
-        if result["ended"] == "duration":
-            return f"Still under way after {self.run.duration:.0f} s"
-        if x < 0:
-            return f"Ends {roughly(-x)} behind the kick"
-        away = goal.distance - x
-        return f"Short, {roughly(away)} from the goal" if away > 0 else "Short of the goal"
-
-    def numbers(self) -> list[Entry]:
-        """The result for the card."""
-        result, launch = self.run.result, self.parameters.launch
-        at_wall, at_goal = result["height_at_wall"], result["height_at_goal"]
-        numbers = []
-        if at_goal is not None:
-            numbers += [("height at goal", metres(at_goal)), ("speed at goal", f"{result['speed_at_goal']:.1f} m/s")]
-        elif result["carry"] is not None:
-            numbers.append(("carry", metres(result["carry"])))
-        if self.parameters.wall.present and at_wall is not None:
-            numbers.append(("height at wall", metres(at_wall)))
-        return [
-            *numbers,
-            ("apex", metres(result["apex"])),
-            ("flight time", "–" if result["flight_time"] is None else f"{result['flight_time']:.2f} s"),
-            ("ball speed", f"{launch.speed:.1f} m/s"),
-            ("launch", signed(f"{launch.angle:.1f}") + "°"),
-            ("spin", spin_text(launch.spin * pi / 30)),
-        ]
 
 
 @dataclass(frozen=True)

@@ -13,8 +13,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from itertools import pairwise
-from math import cos, hypot, pi, radians, sin
-from typing import Any, Literal
+from math import cos, radians, sin
+from typing import Literal
 
 from sandbox.aerodynamics import (
     ConstantDrag,
@@ -25,15 +25,16 @@ from sandbox.aerodynamics import (
     SpinRatioLift,
     aerodynamic_forces,
 )
-from sandbox.controls import Controls, Spin, Spread
 from sandbox.engine.run import Event, Run
 from sandbox.engine.setup import HOLLOW_SPHERE, Ball, Circle, Segment, Setup, Surface
 from sandbox.errors import RequestError
 from sandbox.parameters import Accuracy, Group, choice, either, group, quantity, switch
 from sandbox.physics.coefficients import SOCCER_DRAG, SOCCER_LIFT
 from sandbox.physics.forces import Gravity
-
-RPM = pi / 30.0  # rad/s
+from sandbox.sport.amounts import roughly
+from sandbox.sport.controls import Controls, Spin, Spread
+from sandbox.sport.facts import ENDED, Fact, once
+from sandbox.sport.readings import LAUNCH, RPM, Moment, at, first_touch, passing
 
 # --------------------------------------------------------------------------------------------------------- parameters
 
@@ -226,106 +227,110 @@ def _pitch(parameters: Parameters) -> list[Surface]:
     return surfaces
 
 
-# ------------------------------------------------------------------------------------------------------------- result
+# -------------------------------------------------------------------------------------------------------------- facts
 
 
-#: Units of the result's numbers, for charts and tables.
-UNITS = {
-    "height_at_wall": "m",
-    "height_at_goal": "m",
-    "speed_at_goal": "m/s",
-    "flight_time": "s",
-    "carry": "m",
-    "apex": "m",
-}
+@once
+def at_wall(run: Run, parameters: Parameters) -> Moment | None:
+    """The ball as it first passes the middle of the wall."""
+    return passing(run, parameters.wall.distance)
 
 
-def result(run: Run, parameters: Parameters) -> dict[str, Any]:
-    """Goal or not, and the numbers of the flight; lengths in m, speeds in m/s, times in s.
+@once
+def at_goal(run: Run, parameters: Parameters) -> Moment | None:
+    """The ball as it first passes the middle of the goal line."""
+    return passing(run, parameters.goal.distance)
 
-    Heights are those of the ball's centre over the ground where it first passes the middle of the wall and the goal
-    line, None where it never does. ``apex`` is over the point of the kick. ``flight_time`` lasts until the ball first
-    touches anything, or is in the goal; ``carry`` is where it first comes down on the grass, None where something else
-    was in the way. A goal is one with the whole of the ball over the whole of the line, as in the Laws.
-    """
+
+@once
+def scored(run: Run, parameters: Parameters) -> float | None:
+    """When the whole of the ball was over the whole of the line under the bar, as in the Laws; None if never."""
     goal = parameters.goal
-    at_wall = next(_forward(run, parameters.wall.distance), None)
-    at_goal = next(_forward(run, goal.distance), None)
     over_the_line = goal.distance + goal.post_radius + parameters.ball.radius
-    scored = next((t for t, state in _forward(run, over_the_line) if goal.present and state[1] < goal.height), None)
-    touched = next((event for event in run.events if event.kind != "leave"), None)
-    moments = [t for t in (scored, None if touched is None else touched.t) if t is not None]
-    return {
-        "goal": scored is not None,
-        "verdict": _verdict(run, parameters, scored is not None, None if at_goal is None else at_goal[1][1]),
-        "height_at_wall": None if at_wall is None else at_wall[1][1],
-        "height_at_goal": None if at_goal is None else at_goal[1][1],
-        "speed_at_goal": None if at_goal is None else hypot(at_goal[1][2], at_goal[1][3]),
-        "flight_time": min(moments, default=None),
-        "carry": touched.x if touched is not None and touched.partner == "ground" else None,
-        "apex": run.highest("ball")[1][1] - run.state("ball", 0.0)[1],
-        "ended": run.ended,
-    }
+    crossings = run.crossings("ball", (over_the_line, 0.0), (-1.0, 0.0))
+    return next((t for t, state in crossings if goal.present and state[1] < goal.height), None)
 
 
-def _forward(run: Run, x: float) -> Any:
-    """Times and states at which the ball's centre passes x (m) on its way forward."""
-    return run.crossings("ball", (x, 0.0), (-1.0, 0.0))
+def _clearance(run: Run, parameters: Parameters) -> float | None:
+    """Room in m between ball and heads."""
+    passed, wall = at_wall(run, parameters), parameters.wall
+    return passed.y - parameters.ball.radius - wall.height if passed and wall.present else None
 
 
-def _verdict(run: Run, parameters: Parameters, scored: bool, height_at_goal: float | None) -> str:
+def _under_bar(run: Run, parameters: Parameters) -> float | None:
+    """Room in m between ball and bar; negative where the ball is too high."""
+    passed, goal = at_goal(run, parameters), parameters.goal
+    return goal.height - passed.y - parameters.ball.radius if passed and goal.present else None
+
+
+def _flight_time(run: Run, parameters: Parameters) -> float | None:
+    """Until the ball first touches anything, or is in the goal, in s."""
+    touched = first_touch(run)
+    moments = (scored(run, parameters), None if touched is None else touched.t)
+    return min((t for t in moments if t is not None), default=None)
+
+
+def _carry(run: Run, parameters: Parameters) -> float | None:
+    """Where the ball first comes down on the grass; None where something else was in the way."""
+    touched = first_touch(run)
+    return touched.x if touched is not None and touched.partner == "ground" else None
+
+
+def _apex(run: Run, parameters: Parameters) -> float:
+    """Greatest height in m over the point of the kick."""
+    return run.highest("ball")[1][1] - run.setup.balls[0].position[1]
+
+
+def _word(run: Run, parameters: Parameters) -> str:
     """goal; bar or wall, where that was touched and it is no goal; over; short, a ball that stops on the line included;
     past, where there is no goal to hit."""
-    if scored:
+    if scored(run, parameters) is not None:
         return "goal"
     touched = {event.partner for event in run.events}
     for name in ("bar", "wall"):
         if name in touched:
             return name
-    if height_at_goal is None:
+    passed = at_goal(run, parameters)
+    if passed is None:
         return "short"
     if not parameters.goal.present:
         return "past"
-    return "over" if height_at_goal > parameters.goal.height else "short"
+    return "over" if passed.y > parameters.goal.height else "short"
 
 
-def card(result: dict[str, Any], parameters: Parameters) -> list[tuple[str, str]]:
-    """The result for people."""
-    launch, wall, goal = parameters.launch, parameters.wall, parameters.goal
-    spin = f"{abs(launch.spin):.0f} rpm {'topspin' if launch.spin < 0 else 'backspin'}"
-    lines = [
-        ("kick", f"{_speed(launch.speed)} at {launch.angle:.1f}°, {spin if launch.spin else 'no spin'}"),
-        ("apex", f"{result['apex']:.2f} m above the kick"),
-    ]
-    if wall.present and result["height_at_wall"] is not None:
-        clear = result["height_at_wall"] - parameters.ball.radius - wall.height
-        lines.append(("height at wall", f"{result['height_at_wall']:.2f} m ({clear:.2f} m clear of the heads)"))
-    if result["height_at_goal"] is not None:
-        lines.append(("height at goal", _under_the_bar(result["height_at_goal"], parameters)))
-        lines.append(("speed at goal", _speed(result["speed_at_goal"])))
-    elif result["carry"] is not None:
-        lines.append(("carry", f"{result['carry']:.1f} m"))
-    if result["flight_time"] is not None:
-        lines.append(("flight time", f"{result['flight_time']:.2f} s"))
-    endings = {
-        "goal": "goal",
-        "over": "over the bar",
-        "wall": "into the wall",
-        "bar": "off the bar",
-        "short": f"short of the goal, {goal.distance:.1f} m away",
-        "past": f"past {goal.distance:.1f} m",
-    }
-    lines.append(("verdict", endings[result["verdict"]]))
-    return lines
+FACTS = (
+    Fact("goal", "", "", lambda run, parameters: scored(run, parameters) is not None),
+    Fact("verdict", "", "", _word),
+    Fact("height_at_goal", "height at goal", "m", at(at_goal, lambda ball: ball.y)),
+    Fact("speed_at_goal", "speed at goal", "m/s", at(at_goal, lambda ball: ball.speed), also="km/h"),
+    Fact("under_bar", "under the bar", "m", _under_bar),
+    Fact("height_at_wall", "height at wall", "m", at(at_wall, lambda ball: ball.y)),
+    Fact("over_wall", "over the wall", "m", _clearance),
+    Fact("carry", "carry", "m", _carry),
+    Fact("apex", "apex", "m", _apex),
+    Fact("flight_time", "flight time", "s", _flight_time),
+    *LAUNCH,
+    ENDED,
+)
 
 
-def _speed(metres_per_second: float) -> str:
-    return f"{metres_per_second:.1f} m/s ({metres_per_second * 3.6:.0f} km/h)"
-
-
-def _under_the_bar(height: float, parameters: Parameters) -> str:
-    if not parameters.goal.present:
-        return f"{height:.2f} m"
-    under = parameters.goal.height - height - parameters.ball.radius
-    where = "under the bar" if under >= 0.0 else "too high for it"
-    return f"{height:.2f} m ({abs(under):.2f} m {where})"
+def verdict(run: Run, parameters: Parameters) -> str:
+    """What happened, in a sentence."""
+    result, goal = run.result, parameters.goal
+    if result["verdict"] == "goal":
+        under = result["under_bar"]
+        return "Goal" if under is None or under < 0 else f"Goal, {roughly(under)} under the bar"
+    if result["verdict"] == "over":
+        over = result["height_at_goal"] - parameters.ball.radius - goal.height - 2 * goal.post_radius
+        return f"Over the bar by {roughly(over)}" if over > 0 else "Just over the bar"
+    if result["verdict"] in ("bar", "wall"):
+        return "Off the bar" if result["verdict"] == "bar" else "Into the wall"
+    x = run.state("ball", run.duration)[0]
+    if result["verdict"] == "past":
+        return f"{roughly(abs(x))} up the field"
+    if run.ended == "duration":
+        return f"Still under way after {run.duration:.0f} s"
+    if x < 0:
+        return f"Ends {roughly(-x)} behind the kick"
+    away = goal.distance - x
+    return f"Short, {roughly(away)} from the goal" if away > 0 else "Short of the goal"

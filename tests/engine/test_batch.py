@@ -93,8 +93,8 @@ def test_scenes_agree_with_the_engine_one_by_one(name: str, flown: list[int]):
         alone = simulate(setup, accuracy)
         assert_same(together, alone)
         assert isinstance(together, Run)
-        numbers = scene.module.result(alone, scene.parameters)
-        for key, value in scene.module.result(together, scene.parameters).items():
+        numbers = scene.result(alone)
+        for key, value in scene.result(together).items():
             assert value == (pytest.approx(numbers[key], abs=1e-5) if isinstance(value, float) else numbers[key]), key
     assert flown == [40]
 

@@ -7,7 +7,8 @@ from hypothesis import strategies as st
 
 from sandbox.picture.lettering import Labels, Lettering, _font
 from sandbox.picture.painter import blank
-from sandbox.picture.sheet import Sheet, metres, nice, signed, yards
+from sandbox.picture.sheet import Sheet, nice
+from sandbox.sport.amounts import metres, signed, yards
 from tests.picture.legible import assert_legible
 
 HEIGHTS = (360, 720, 1080)

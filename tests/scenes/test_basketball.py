@@ -273,12 +273,11 @@ def test_what_makes_no_sense_is_refused_in_a_line_that_names_both(changes: dict[
 
 
 def test_the_card_speaks_to_players():
-    scene = sandbox.load("basketball/rattle")
-    run = sandbox.simulate(scene)
-    card = dict(scene.module.card(run.result, scene.parameters))
-    assert card["shot"] == "7.61 m/s at 53.7°, 4.2 rev/s of backspin"
+    run = sandbox.simulate("basketball/rattle")
+    card = dict(run.scene.rows(run))
+    assert (card["ball speed"], card["launch"], card["spin"]) == ("7.61 m/s", "53.7°", "250 rpm backspin")
     assert card["touches"] == "rim back, rim front, backboard, rim front, rim back, rim back"
-    assert card["verdict"] == "in, off the rim"
+    assert run.scene.verdict(run) == "In, off the rim"
 
 
 def test_a_ball_on_the_bracket_lies_half_a_tube_above_it():

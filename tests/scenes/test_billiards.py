@@ -565,7 +565,7 @@ def test_a_point_needs_all_others_and_a_pocket_no_scratch():
     missed = shot(*laid, table__kind="carom", cue__speed=0.5)
     assert missed.result["first_contact"] == "red"
     assert (missed.result["point"], missed.result["scored"]) == (None, False)
-    assert dict(missed.scene.card(missed.result))["verdict"] == "no point"
+    assert missed.scene.verdict(missed) == "No point: meets the red alone"
     potted = shot(spot("cue", 0.0, 0.2), spot("5", 0.0, 0.5), cue__speed=2.0, cue__angle=90.0, cue__follow=-0.2).result
     assert (potted["potted"], potted["point"], potted["scored"]) == (["5"], None, True)
 

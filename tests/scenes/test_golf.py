@@ -193,9 +193,8 @@ def test_a_club_gives_the_launch_of_its_law(loft: float):
 
 
 def test_the_card_of_a_struck_ball_has_the_smash_factor():
-    scene = sandbox.load("golf/club-head", {"club.loft": 0.0, "club.attack": 0.0})
-    card = dict(scene.module.card(sandbox.simulate(scene).result, scene.parameters))
-    assert "smash factor 1.49" in card["club"]
+    run = sandbox.simulate(sandbox.load("golf/club-head", {"club.loft": 0.0, "club.attack": 0.0}))
+    assert ("smash factor", "1.49") in run.scene.rows(run)
 
 
 # Bounce and roll ----------------------------------------------------------------------------------------------------
@@ -351,7 +350,7 @@ def test_the_pond_takes_only_the_ball_in_the_wind():
 
 def test_results_are_those_of_the_contract():
     names = "carry total apex flight_time landing_angle landing_speed landing_spin distance_to_pin holed ended"
-    assert list(play().result) == names.split()
+    assert set(names.split()) < set(play().result)
 
 
 @pytest.mark.parametrize("changes", [{"gravity": 0.0}, {"gravity": 0.0, "air__density": 0.0}])
@@ -360,8 +359,8 @@ def test_a_ball_that_never_comes_down_has_no_landing(changes: dict[str, Any]):
     assert run.result["ended"] == "duration"
     assert run.result["carry"] is run.result["flight_time"] is run.result["landing_angle"] is None
     assert run.result["landing_speed"] is run.result["landing_spin"] is None
-    scene = sandbox.load("golf")
-    assert ("carry", "did not come down") in scene.module.card(run.result, scene.parameters)
+    assert run.scene.verdict(run) == "Did not come down"
+    assert "carry" not in dict(run.scene.rows(run))
 
 
 def test_a_ball_struck_into_the_ground_has_landed_at_once():
@@ -439,7 +438,7 @@ def carry_with(change: Any) -> float:
     setup = scene.build()
     ball = setup.balls[0]
     changed = replace(setup, balls=[replace(ball, forces=change(scene.parameters, list(ball.forces)))])
-    return scene.module.result(simulate(changed, resolve()), scene.parameters)["carry"]
+    return scene.result(simulate(changed, resolve()))["carry"]
 
 
 def buoyant(parameters: Any, forces: list[Any]) -> list[Any]:

@@ -195,9 +195,8 @@ def test_a_wall_behind_no_goal_is_no_error():
 
 
 def test_the_card_speaks_to_players():
-    scene = sandbox.load("soccer")
-    run = sandbox.simulate(scene)
-    card = dict(scene.module.card(run.result, scene.parameters))
-    assert card["kick"] == "27.0 m/s (97 km/h) at 20.0°, 300 rpm topspin"
-    assert card["height at wall"].endswith("m clear of the heads)")
-    assert card["verdict"] == "goal"
+    run = sandbox.simulate("soccer")
+    card = dict(run.scene.rows(run))
+    assert (card["ball speed"], card["launch"], card["spin"]) == ("27.0 m/s", "20.0°", "300 rpm topspin")
+    assert card["over the wall"] == "0.36 m"
+    assert run.scene.verdict(run) == "Goal, 1.1 m under the bar"

@@ -235,9 +235,9 @@ def test_what_makes_no_sense_is_refused_in_a_line_that_names_both(changes: dict[
 
 
 def test_the_card_speaks_to_players():
-    scene = sandbox.load("soccer-curl/roberto-carlos-1997")
-    run = sandbox.simulate(scene)
-    card = dict(scene.module.card(run.result, scene.parameters))
-    assert card["kick"] == "38.0 m/s (137 km/h) at 17.0° to the right, 840 rpm that bends it to the left"
-    assert card["offset at goal"].endswith("m inside the right post)")
-    assert card["verdict"] == "goal"
+    run = sandbox.simulate("soccer-curl/roberto-carlos-1997")
+    card = dict(run.scene.rows(run))
+    assert (card["ball speed"], card["launch"], card["spin"]) == ("38.0 m/s", "17.0° right", "840 rpm left")
+    assert card["nearer post"].endswith("m inside")
+    assert run.scene.verdict(run).startswith("Goal, bent ")
+    assert run.scene.verdict(run).endswith(" m to the left")

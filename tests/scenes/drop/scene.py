@@ -10,6 +10,7 @@ from typing import Any, Literal
 
 from sandbox.engine.setup import Ball, Segment, Setup, Surface
 from sandbox.parameters import Accuracy, Group, choice, either, group, groups, quantity, switch, vector
+from sandbox.sport.facts import Fact
 
 
 class Launch(Group):
@@ -84,15 +85,21 @@ def build(parameters: Parameters) -> Setup:
     return Setup((ball,), (floor,) if parameters.floor.present else (), duration=parameters.duration)
 
 
-def result(run: Any, parameters: Parameters) -> dict[str, Any]:
-    impacts = [event for event in run.events if event.kind == "impact"]
-    return {
-        "bounces": len(impacts),
-        "first_touch": impacts[0].t if impacts else None,
-        "bounced": bool(impacts),
-        "final_height": float(run.state("ball", run.duration)[1]),
-    }
+def first_touch(run: Any, parameters: Parameters) -> float | None:
+    return next((event.t for event in run.events if event.kind == "impact"), None)
 
 
-def card(result: dict[str, Any], parameters: Parameters) -> list[tuple[str, str]]:
-    return [("bounces", str(result["bounces"])), ("final height", f"{result['final_height']:.2f} m  (above the floor)")]
+def bounces(run: Any, parameters: Parameters) -> int:
+    return sum(event.kind == "impact" for event in run.events)
+
+
+FACTS = (
+    Fact("bounces", "bounces", "", bounces),
+    Fact("first_touch", "", "", first_touch),
+    Fact("bounced", "", "", lambda run, parameters: bounces(run, parameters) > 0),
+    Fact("final_height", "final height", "m", lambda run, parameters: float(run.state("ball", run.duration)[1])),
+)
+
+
+def verdict(run: Any, parameters: Parameters) -> str:
+    return "Bounced" if run.result["bounced"] else "Fell"

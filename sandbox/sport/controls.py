@@ -7,7 +7,7 @@ A scene offers them beside its parameters::
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -49,35 +49,28 @@ class Controls:
     ball: str = "ball"  # the ball that is pulled: its name, or the key that holds its name
     also: Mapping[str, Any] = field(default_factory=dict)  # what else a pull sets, such as how the shot begins
     sliders: tuple[str, ...] = ()  # shown first
-    scores: str = ""  # the entry of the result that is true, or not empty, when the shot scored
+    scores: str = ""  # the fact that is true, or not empty, when the shot scored
     spread: tuple[Spread, ...] = ()  # of a fan of shots; where empty, of speed and angle
-    tells: tuple[str, str] | None = None  # an entry of the result, with its unit: a fan says its mean and its spread
+    tells: str = ""  # the fact of which a fan says the mean and the spread
     #: From a run and its parameters to the changes with which the next shot begins; where there is none, every shot
     #: begins alike.
     goes_on: Callable[[Any, Any], Mapping[str, Any]] | None = None
 
-    def mistake(self, schema: type[Group]) -> str | None:
-        """What is wrong with these controls for a scene with such parameters, in a line; None if nothing is."""
+    def mistake(self, schema: type[Group], facts: Sequence[str]) -> str | None:
+        """What is wrong with these controls for a scene with such parameters and facts, in a line; None if nothing."""
         for name, kind in (("sliders", str), ("spins", Spin), ("spread", Spread)):
             entries = getattr(self, name)
             if not isinstance(entries, tuple | list) or not all(isinstance(entry, kind) for entry in entries):
                 what = "keys" if kind is str else kind.__name__
                 return f"{name} = {entries!r}: must be a tuple of {what}; one alone has a comma after it"
-        if self.tells is not None and (not isinstance(self.tells, tuple | list) or len(self.tells) != 2):
-            return f'tells = {self.tells!r}: must be a result and its unit, such as ("apex", "m")'
+        for name, fact in (("scores", self.scores), ("tells", self.tells)):
+            if fact and fact not in facts:
+                return f'{name} "{fact}": {no_such_result(fact, facts)}'
         known = list(every_key(schema))
         for name, key in self._keys():
             if key not in known:
                 near = nearest(key, known)
                 return f'{name} "{key}": unknown key' + (f"; did you mean {near}?" if near else "")
-        return None
-
-    def missing(self, result: Mapping[str, Any]) -> str | None:
-        """Which entry that these controls name a result lacks, in a line; None if none."""
-        if self.scores and self.scores not in result:
-            return f'scores "{self.scores}": {no_such_result(self.scores, tuple(result))}'
-        if self.tells is not None and self.tells[0] not in result:
-            return f'tells "{self.tells[0]}": {no_such_result(self.tells[0], tuple(result))}'
         return None
 
     def _keys(self) -> Iterator[tuple[str, str]]:
@@ -89,9 +82,3 @@ class Controls:
         yield from (("also", key) for key in self.also)
         yield from (("sliders", key) for key in self.sliders)
         yield from (("spread", spread.key) for spread in self.spread)
-
-
-def controls_of(module: Any) -> Controls:
-    """The controls of a scene's module; those of a plain launch where it has none."""
-    found: Controls = getattr(module, "CONTROLS", Controls())
-    return found

@@ -1,0 +1,145 @@
+"""Facts: what a run says of itself, each said once.
+
+A scene lists them, the most important first, and adds one sentence::
+
+    FACTS = (
+        Fact("carry", "carry", "m", carry, settled="ground"),
+        Fact("apex", "apex", "m", lambda run, parameters: run.highest("ball")[1][1]),
+    )
+
+    def verdict(run, parameters) -> str:
+        return f"{roughly(run.result['carry'])} carry"
+
+The terminal's card, JSON, posters, frames, the window, charts and the units of all of them follow from that.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import wraps
+from inspect import signature
+from math import dist
+from typing import TYPE_CHECKING, Any, TypeVar
+from weakref import ref
+
+from sandbox import units
+from sandbox.sport.amounts import amount, converted, margin, metres
+
+if TYPE_CHECKING:
+    from sandbox.engine.run import Event, Run
+
+#: ``"start"``, ``"end"``, or what must have been touched; else whether the events so far settle it.
+Settled = str | Callable[[Sequence["Event"], Any], bool]
+Value = TypeVar("Value")
+
+
+@dataclass(frozen=True)
+class Fact:
+    """One thing that a run says: a number with its unit, a word, true or false, or a list of words.
+
+    ``how(run, parameters)`` gives the value in ``unit``, None where it did not happen. ``settled`` says from when on
+    it can no longer change: ``"start"``, ``"end"``, the first touch of a surface or ball of that name (``"floor"``), or
+    a function of the events so far and the parameters.
+    """
+
+    key: str  # its name in the result, in JSON and CSV
+    label: str  # what people read; "" keeps it off their cards
+    unit: str  # "" for what has none
+    how: Callable[[Run, Any], Any]
+    settled: Settled = "end"
+    also: str = ""  # a second unit that the sport's people think in
+    sides: tuple[str, str] | None = None  # words for below and above zero, in place of a sign
+    where: Callable[[Run, Any], bool] | None = None  # on cards only where this holds
+
+    def text(self, value: Any, error: float | None = None) -> str:
+        """The value for people, with an estimated error where there is one; "" for what did not happen."""
+        if value is None or (not value and isinstance(value, Sequence | Mapping)):
+            return ""
+        if isinstance(value, bool):
+            return "yes" if value else "no"
+        if isinstance(value, int | float):
+            return self._number(value, error)
+        if isinstance(value, Mapping):
+            return ", ".join(f"{name} ({what})" for name, what in value.items())
+        return value if isinstance(value, str) else ", ".join(map(str, value))
+
+    def _number(self, value: float, error: float | None) -> str:
+        size = abs(value) if self.sides else value
+        words = [amount(size, self.unit)]
+        if error is not None and self.settled != "start":
+            words.append(margin(error, self.unit, isinstance(value, int)))
+        if self.sides and value:
+            words.append(self.sides[value > 0.0])
+        if self.also:
+            words.append(f"({converted(size, self.unit, self.also)})")
+        return " ".join(filter(None, words))
+
+    def is_settled(self, events: Sequence[Event], parameters: Any) -> bool:
+        """Whether the events so far settle it."""
+        if callable(self.settled):
+            return self.settled(events, parameters)
+        return self.settled == "start" or any(
+            self.settled in (event.partner, event.ball) and event.kind != "leave" for event in events
+        )
+
+
+def once(how: Callable[[Run, Any], Value]) -> Callable[[Run, Any], Value]:
+    """What several facts are read from, such as the landing: computed once for a run, not once for each of them."""
+    last: list[tuple[ref[Run], Any, Value]] = []
+
+    @wraps(how)
+    def remembered(run: Run, parameters: Any) -> Value:
+        for known, by, value in last:
+            if known() is run and by is parameters:
+                return value
+        value = how(run, parameters)
+        last[:] = [(ref(run), parameters, value)]
+        return value
+
+    return remembered
+
+
+def mistake_in(facts: Any) -> str | None:
+    """What is wrong with a scene's facts, to be read after their name; None if nothing is."""
+    if not isinstance(facts, tuple | list):
+        return f" must be a tuple of facts, and is {facts!r}"
+    keys: set[str] = set()
+    for fact in facts:
+        if not isinstance(fact, Fact):
+            return f" must be a tuple of facts, and {fact!r} is not one"
+        if not isinstance(fact.key, str) or not isinstance(fact.label, str):
+            return f": key and label must be text, and are {fact.key!r} and {fact.label!r}"
+        if fact.key in keys:
+            return f": two are called {fact.key}"
+        keys.add(fact.key)
+        try:
+            signature(fact.how).bind("run", "parameters")
+        except TypeError as error:
+            return f": {fact.key} is read as how(run, parameters): {error}"
+        for unit in (fact.unit, fact.also):
+            if unit not in units.KIND_OF:
+                return f': {fact.key} has the unit "{unit}", which is not known'
+    return None
+
+
+ENDED = Fact("ended", "", "", lambda run, parameters: run.ended)
+
+
+def _travelled(run: Run, parameters: Any) -> float:
+    ball = run.setup.balls[0].name
+    return dist(run.state(ball, 0.0)[:2], run.state(ball, run.duration)[:2])
+
+
+#: What a scene without facts of its own says.
+PLAIN_FACTS = (
+    Fact("distance", "distance", "m", _travelled),
+    Fact("duration", "time", "s", lambda run, parameters: run.duration),
+    ENDED,
+)
+
+
+def plain_verdict(run: Run, parameters: Any) -> str:
+    """What a scene without a verdict of its own says."""
+    how = {"rest": "At rest", "duration": "Still moving"}.get(run.ended, "Over")
+    return f"{how} after {run.duration:.2f} s, {metres(_travelled(run, parameters))} from the start"

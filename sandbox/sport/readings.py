@@ -1,0 +1,92 @@
+"""What facts are read from: how a ball was launched, where it is at a moment, how far it went."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from math import atan2, degrees, hypot, pi
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from sandbox.sport.facts import Fact
+
+if TYPE_CHECKING:
+    from sandbox.engine.run import Event, Run
+
+RPM = pi / 30.0  # rad/s
+
+
+class Moment(NamedTuple):
+    """A ball at one time, in s, m, m/s and rad/s."""
+
+    t: float
+    x: float
+    y: float
+    vx: float
+    vy: float
+    spin: float
+
+    @property
+    def speed(self) -> float:
+        """In m/s."""
+        return hypot(self.vx, self.vy)
+
+    @property
+    def descent(self) -> float:
+        """Angle below the horizontal in deg, whichever way the ball flies."""
+        return degrees(atan2(0.0 - self.vy, abs(self.vx)))
+
+
+def at(moment: Callable[[Run, Any], Moment | None], what: Callable[[Moment], float]) -> Callable[[Run, Any], Any]:
+    """How a fact is read from a moment; None where the run has no such moment."""
+
+    def how(run: Run, parameters: Any) -> float | None:
+        found = moment(run, parameters)
+        return None if found is None else what(found)
+
+    return how
+
+
+def before(run: Run, t: float) -> Moment:
+    """The ball just before time t in s."""
+    return Moment(t, *run.before("ball", t))
+
+
+def passing(run: Run, x: float) -> Moment | None:
+    """The ball as it first passes x (m) on its way forward."""
+    return next((Moment(t, *state) for t, state in run.crossings("ball", (x, 0.0), (-1.0, 0.0))), None)
+
+
+def first_touch(run: Run) -> Event | None:
+    """The first event in which the ball meets something."""
+    return next((e for e in run.events if e.kind != "leave" and "ball" in (e.ball, e.partner)), None)
+
+
+#: Gauss-Legendre: places and weights on an arc from 0 to 1.
+_PLACES = ((0.5 - 0.15**0.5, 5 / 18), (0.5, 8 / 18), (0.5 + 0.15**0.5, 5 / 18))
+
+
+def travelled(run: Run, ball: str) -> float:
+    """Length in m of the way of a ball, from start to end."""
+    return sum(
+        (arc.t1 - arc.t0) * weight * hypot(*arc.state(arc.t0 + place * (arc.t1 - arc.t0))[2:4])
+        for arc in run.arcs[ball]
+        for place, weight in _PLACES
+    )
+
+
+def _launched(what: Callable[[tuple[float, float], float], float]) -> Callable[[Run, Any], float]:
+    def how(run: Run, parameters: Any) -> float:
+        ball = run.setup.balls[0]  # before it touches anything, which it may do at once
+        return what(ball.velocity, ball.spin)
+
+    return how
+
+
+BALL_SPEED = Fact("ball_speed", "ball speed", "m/s", _launched(lambda velocity, spin: hypot(*velocity)), "start")
+LAUNCH_ANGLE = Fact(
+    "launch_angle", "launch", "deg", _launched(lambda velocity, spin: degrees(atan2(velocity[1], velocity[0]))), "start"
+)
+LAUNCH_SPIN = Fact(
+    "launch_spin", "spin", "rpm", _launched(lambda velocity, spin: spin / RPM), "start", sides=("topspin", "backspin")
+)
+#: How the ball was launched, seen from the side.
+LAUNCH = (BALL_SPEED, LAUNCH_ANGLE, LAUNCH_SPIN)
