@@ -93,7 +93,7 @@ def card(scene: Scene, run: Run, check: Check | None = None, other: tuple[str, R
 
     ``other`` is a run to compare with and what it is called: its values stand beside ours.
     """
-    rows = _lines(scene.rows(run, None if check is None else check.errors))
+    rows = _lines(scene.rows(run, None if check is None else check.errors, also=True))
     if other is not None:
         rows = _beside(rows, scene.verdict(run), scene.title, *other)
     width = max((len(label) for label, _ in rows), default=0)
@@ -118,7 +118,7 @@ def _lines(rows: list[tuple[str, str]]) -> list[tuple[str, str]]:
 def _beside(rows: list[tuple[str, str]], verdict: str, title: str, called: str, other: Run) -> list[tuple[str, str]]:
     """Rows with two columns, each below its name."""
     rows = [("", title), ("verdict", verdict), *rows]
-    values = {"": called, "verdict": other.scene.verdict(other), **dict(_lines(other.scene.rows(other)))}
+    values = {"": called, "verdict": other.scene.verdict(other), **dict(_lines(other.scene.rows(other, also=True)))}
     width = max(len(text) for _, text in rows)
     return [(label, f"{text:{width}}   {values.get(label, '')}") for label, text in rows]
 

@@ -119,12 +119,15 @@ class Scene:
                 raise self._wrong(f"the fact {key}", "what does not contain itself", value)
         return result
 
-    def rows(self, run: Run, errors: Mapping[str, float] | None = None) -> list[tuple[str, str]]:
-        """The facts for people: label and text of each that happened, with its estimated error where there is one."""
+    def rows(self, run: Run, errors: Mapping[str, float] | None = None, also: bool = False) -> list[tuple[str, str]]:
+        """The facts for people: label and text of each that happened.
+
+        With estimated errors where there are any, and, if ``also``, in a second unit where the sport has one.
+        """
         rows = []
         for key, fact in self.facts.items():
             if fact.label and (fact.where is None or fact.where(run, self.parameters)):
-                rows.append((fact.label, fact.text(run.result[key], (errors or {}).get(key))))
+                rows.append((fact.label, fact.text(run.result[key], (errors or {}).get(key), also)))
         return [(label, text) for label, text in rows if text]
 
     def verdict(self, run: Run) -> str:

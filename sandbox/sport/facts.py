@@ -48,30 +48,33 @@ class Fact:
     unit: str  # "" for what has none
     how: Callable[[Run, Any], Any]
     settled: Settled = "end"
-    also: str = ""  # a second unit that the sport's people think in
+    also: str = ""  # a second unit that the sport's people think in, where there is room
     sides: tuple[str, str] | None = None  # words for below and above zero, in place of a sign
     where: Callable[[Run, Any], bool] | None = None  # on cards only where this holds
 
-    def text(self, value: Any, error: float | None = None) -> str:
-        """The value for people, with an estimated error where there is one; "" for what did not happen."""
+    def text(self, value: Any, error: float | None = None, also: bool = False) -> str:
+        """The value for people; "" for what did not happen.
+
+        With an estimated error where there is one, and, if ``also``, in the second unit too.
+        """
         if value is None or (not value and isinstance(value, Sequence | Mapping)):
             return ""
         if isinstance(value, bool):
             return "yes" if value else "no"
         if isinstance(value, int | float):
-            return self._number(value, error)
+            return self._number(value, error, also)
         if isinstance(value, Mapping):
             return ", ".join(f"{name} ({what})" for name, what in value.items())
         return value if isinstance(value, str) else ", ".join(map(str, value))
 
-    def _number(self, value: float, error: float | None) -> str:
+    def _number(self, value: float, error: float | None, also: bool) -> str:
         size = abs(value) if self.sides else value
         words = [amount(size, self.unit)]
         if error is not None and self.settled != "start":
             words.append(margin(error, self.unit, isinstance(value, int)))
         if self.sides and value:
             words.append(self.sides[value > 0.0])
-        if self.also:
+        if self.also and also:
             words.append(f"({converted(size, self.unit, self.also)})")
         return " ".join(filter(None, words))
 

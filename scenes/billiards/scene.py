@@ -402,7 +402,7 @@ def verdict(run: Run, parameters: Parameters) -> str:
         return f"Still rolling after {run.duration:.0f} s"
     if not run.setup.catches:
         return _carom(run, parameters)
-    if _rack(parameters) != "none":
+    if len(_others(run, parameters)) > 5:
         return f"Break at {parameters.cue.speed:.1f} m/s, nothing potted"
     farthest = max(_others(run, parameters), key=lambda name: (travelled(run, name), name))
     return f"Nothing potted, the {farthest} rolls {roughly(travelled(run, farthest))}"

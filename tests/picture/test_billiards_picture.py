@@ -84,7 +84,8 @@ class TestEveryShot:
     ],
 )
 def test_the_verdict_says_what_happened(name, words):
-    assert words in picture_of(name).verdict()
+    run = picture_of(name).run
+    assert words in run.scene.verdict(run)
 
 
 def test_a_caught_ball_leaves_the_table_and_lies_in_the_row():

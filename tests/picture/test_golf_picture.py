@@ -134,7 +134,7 @@ def test_wind_is_drawn_only_when_there_is_some():
 )
 def test_the_verdict_says_what_happened(overrides, words):
     picture = drawn(overrides)
-    assert words in picture.verdict()
+    assert words in picture.run.scene.verdict(picture.run)
     picture.frame(picture.run.duration)
     assert words in notes(picture)
 

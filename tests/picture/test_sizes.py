@@ -32,8 +32,8 @@ def test_a_poster_of_any_size_is_legible(name, size):
     picture = poster_of(name, size)
     assert_legible(picture.sheet)
     texts = [text for text, _ in picture.sheet.written]
-    assert picture.verdict() in texts
-    assert sum(label in texts for label, *_ in picture.numbers()) >= (3 if size[0] < 400 else 6)
+    assert picture.run.scene.verdict(picture.run) in texts
+    assert sum(label in texts for label, *_ in picture.run.scene.rows(picture.run)) >= (3 if size[0] < 400 else 6)
     if hasattr(picture, "trace"):
         assert np.ptp(picture.trace, axis=0).max() > 0.2 * size[0]
 
