@@ -53,16 +53,16 @@ def aim(
         check_installed("--show")
     with bar("aim") as progress:
         found = search(chosen, spans, targets, progress)
-    from sandbox.lab import aim_report
+    from sandbox.lab.aim import report
 
     if show is not None:
         with writing("--show", show):
-            aim_report.draw(found, show)
+            report.draw(found, show)
     if as_json:
-        say(aim_report.as_json(found))
+        say(report.as_json(found))
     else:
         written = [] if show is None else [f"wrote {show}"]
-        say("\n".join([*aim_report.as_text(found), *written]))
+        say("\n".join([*report.as_text(found), *written]))
 
 
 def sweep(

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from sandbox.files import plain
-from sandbox.lab.aim import Aim, Solution, Target
+from sandbox.lab.aim.question import Aim, Solution, Target
 from sandbox.lab.axes import label, unit_of
 from sandbox.lab.chart import chart
 from sandbox.lab.tables import significant, table

@@ -1,0 +1,80 @@
+"""The inverse problem: which launch, or any other number of a scene, gives the result that is wanted.
+
+The range is scanned finely enough to see every branch, more finely where results jump; then scipy's solvers take
+over: ``brentq`` in each bracket for one number, ``root`` (Powell's hybrid method) from several starts for two. What
+only holds or does not (``made = true``) has intervals, whose ends are closed in on. How far the finite accuracy of the
+runs moves a solution is told by finer runs.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from sandbox.errors import RequestError
+from sandbox.lab.aim.intervals import intervals
+from sandbox.lab.aim.pair import pairs
+from sandbox.lab.aim.question import Aim, Target, Try, as_target, parse_target
+from sandbox.lab.aim.scalar import roots_of
+from sandbox.lab.aim.shots import Progress, Shots, silent
+from sandbox.lab.axes import Span, as_axis
+from sandbox.scene import Scene, as_scene
+
+__all__ = ["Aim", "Target", "aim", "as_target", "parse_target", "search"]
+
+
+def aim(
+    scene: Scene | str | Path,
+    vary: Mapping[str, tuple[Any, Any]],
+    target: Mapping[str, Any],
+    *,
+    progress: Progress = silent,
+) -> Aim:
+    """All values within a range that meet a target: ``aim("golf", {"launch.angle": (5, 75)}, {"carry": 200.0})``.
+
+    Two parameters with two targets likewise. A target that is true, false or a word gives the intervals in which it is
+    met, the widest first, each with its middle, which forgives most. Raises RequestError for a request that makes no
+    sense, and RunError where not one run in the range came to its end.
+    """
+    chosen = as_scene(scene)
+    spans = []
+    for key, given in vary.items():
+        axis = as_axis(chosen, key, tuple(given) if isinstance(given, list) else given, "vary")
+        if not isinstance(axis, Span):
+            raise RequestError(f"vary {key}: only numbers have a range, (low, high), and this is {given!r}")
+        spans.append(axis)
+    return search(chosen, spans, [as_target(name, value, scene=chosen) for name, value in target.items()], progress)
+
+
+def search(scene: Scene, spans: Sequence[Span], targets: Sequence[Target], progress: Progress = silent) -> Aim:
+    """As aim, for what was read already."""
+    try:
+        import scipy  # noqa: F401
+    except ImportError:
+        raise RequestError("sandbox aim needs scipy, which is not installed: pip install scipy") from None
+    for option, names in (("--vary", [span.key for span in spans]), ("--target", [each.name for each in targets])):
+        twice = next((name for name in names if names.count(name) > 1), None)
+        if twice is not None:
+            raise RequestError(f"{option} {twice}: is named twice")
+    numbers = [target.is_number for target in targets]
+    if not (len(spans) == len(targets) == 1 or (len(spans) == len(targets) == 2 and all(numbers))):
+        raise RequestError(
+            f"{_count(spans, 'parameter')} and {_count(targets, 'target')}: one goes with one, or two with two "
+            "that are numbers; sandbox sweep shows what others do"
+        )
+    shots = Shots(scene, spans, targets, progress)
+    jumps: list[tuple[Try, Try]] = []
+    if len(spans) == 2:
+        solutions = pairs(shots)
+    elif numbers[0]:
+        solutions, jumps = roots_of(shots)
+    else:
+        solutions = intervals(shots)
+    nearest = None if solutions else shots.nearest()
+    tries = shots.tries
+    return Aim(scene, tuple(spans), tuple(targets), solutions, nearest, jumps, tries, shots.failures)
+
+
+def _count(things: Sequence[Any], name: str) -> str:
+    return f"{len(things)} {name}" + ("" if len(things) == 1 else "s")

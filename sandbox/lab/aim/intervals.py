@@ -1,0 +1,94 @@
+"""What only holds or does not, true, false or a word, by one parameter: the stretches in which it holds."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from itertools import pairwise
+from math import inf
+from typing import Any
+
+import numpy as np
+
+from sandbox.lab.aim.question import Interval, Solution, Target
+from sandbox.lab.aim.shots import Shots, scan
+
+#: Ends of intervals are closed in on in rounds, in each by so many runs between what is known. The finer runs look
+#: for the same end only so near to it, as a share of the range, if they can; ends are found to the last of these.
+_BETWEEN, _ROUNDS, _NEAR, _END = 9, 6, 1e-5, 1e-8
+
+#: Two neighbouring values, and whether the target is met at the first, but not at the second, or the other way round.
+_Change = tuple[float, float, bool]
+
+
+def intervals(shots: Shots) -> list[Solution]:
+    """The middles of all stretches in which the target is met, the widest first."""
+    span, target = shots.spans[0], shots.targets[0]
+    seen = [(place, _meets(result, target)) for place, result in scan(shots)]
+    changes = [(low, high, met) for (low, met), (high, after) in pairwise(seen) if met != after]
+    ends = _closed_in(shots, changes, finer=False)
+    finer = _seen_finer(shots, changes, ends)
+    borders: list[tuple[float, float | None, bool]] = [
+        (end, None if other is None else abs(end - other), False) for end, other in zip(ends, finer, strict=True)
+    ]
+    if seen[0][1]:
+        borders.insert(0, (span.low, 0.0, True))
+    if seen[-1][1]:
+        borders.append((span.high, 0.0, True))
+    found = [
+        Interval(low, high, low_error, high_error, open_low, open_high)
+        for (low, low_error, open_low), (high, high_error, open_high) in zip(borders[::2], borders[1::2], strict=True)
+    ]
+    return [_middle(shots, interval) for interval in sorted(found, key=lambda interval: -interval.width)]
+
+
+def _meets(result: Mapping[str, Any] | None, target: Target) -> bool:
+    return result is not None and target.met(result.get(target.name))
+
+
+def _seen_finer(shots: Shots, changes: Sequence[_Change], ends: Sequence[float]) -> list[float | None]:
+    """The same ends by finer runs; None for one that they do not see, not even between the points of the scan."""
+    near = _NEAR * (shots.spans[0].high - shots.spans[0].low)
+    found: list[float | None] = [None] * len(ends)
+    for width in (near, inf):
+        missing = [number for number, end in enumerate(found) if end is None]
+        tight = [
+            (max(low, ends[number] - width), min(high, ends[number] + width), met)
+            for number, (low, high, met) in ((number, changes[number]) for number in missing)
+        ]
+        results = shots.results([(place,) for low, high, _ in tight for place in (low, high)], "solve", finer=True)
+        met = [_meets(result, shots.targets[0]) for result in results]
+        seen = [
+            number
+            for number, change in enumerate(tight)
+            if met[2 * number : 2 * number + 2] == [change[2], not change[2]]
+        ]
+        for number, end in zip(seen, _closed_in(shots, [tight[number] for number in seen], finer=True), strict=True):
+            found[missing[number]] = end
+    return found
+
+
+def _closed_in(shots: Shots, changes: Sequence[_Change], finer: bool) -> list[float]:
+    """Where the target begins or ceases to be met, for each change."""
+    brackets = list(changes)
+    least = _END * (shots.spans[0].high - shots.spans[0].low)
+    for _ in range(_ROUNDS):
+        if all(high - low <= least for low, high, _ in brackets):
+            break
+        inner = [np.linspace(low, high, _BETWEEN + 2).tolist()[1:-1] for low, high, _ in brackets]
+        results = iter(shots.results([(place,) for places in inner for place in places], "solve", finer))
+        for number, ((low, high, before), places) in enumerate(zip(brackets, inner, strict=True)):
+            known = [low, *places, high]
+            met = [before, *(_meets(next(results), shots.targets[0]) for _ in places), not before]
+            ends_here = [index for index in range(len(places) + 1) if met[index] != met[index + 1]]
+            # of several ends the one beside the stretch in which the target is met
+            change = ends_here[0] if before else ends_here[-1]
+            brackets[number] = (known[change], known[change + 1], before)
+    return [0.5 * (low + high) for low, high, _ in brackets]
+
+
+def _middle(shots: Shots, interval: Interval) -> Solution:
+    key, middle = shots.spans[0].key, 0.5 * (interval.low + interval.high)
+    result, errors, _ = shots.checked((middle,))
+    ends = interval.low_error, interval.high_error
+    error = None if None in ends else 0.5 * sum(end for end in ends if end is not None)
+    return Solution({key: middle}, {key: error}, result, errors, interval)

@@ -1,0 +1,143 @@
+"""What a search is asked, and what comes out of it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from math import isfinite
+from typing import Any
+
+import numpy as np
+
+from sandbox import units
+from sandbox.errors import RequestError
+from sandbox.lab.axes import Span
+from sandbox.scene import Scene
+
+
+@dataclass(frozen=True)
+class Target:
+    """A result and the value that it shall have: a number in the result's own unit, or true, false or a word."""
+
+    name: str
+    value: Any
+
+    @property
+    def is_number(self) -> bool:
+        return isinstance(self.value, float)
+
+    def met(self, value: Any) -> bool:
+        """Whether a run's value is the one that is wanted; for what is no number."""
+        return bool(value == self.value and isinstance(value, bool) == isinstance(self.value, bool))
+
+
+@dataclass(frozen=True)
+class Try:
+    """One run on the way: where, and the results that were aimed at; None where there was none."""
+
+    values: tuple[float, ...]
+    found: tuple[Any, ...]
+    phase: str  # "scan", or "solve" with the number of the start or bracket
+
+
+@dataclass(frozen=True)
+class Interval:
+    """Where the target is met, all the way between two ends; at an end of the range it may go on beyond."""
+
+    low: float
+    high: float
+    low_error: float | None  # None where the finer runs see no such end, or the interval ends with the range
+    high_error: float | None
+    open_low: bool  # cut off by the range
+    open_high: bool
+
+    @property
+    def width(self) -> float:
+        return self.high - self.low
+
+
+@dataclass(frozen=True)
+class Solution:
+    """Values that meet the targets, their numerical errors (None: unknown), and the run's result with its own."""
+
+    values: dict[str, float]
+    errors: dict[str, float | None]
+    result: dict[str, Any]
+    result_errors: dict[str, float]
+    interval: Interval | None = None  # for a target that is no number; the value is its middle
+
+
+@dataclass(frozen=True)
+class Aim:
+    """What a search came to. ``solutions`` come in order of the value, or the widest interval first."""
+
+    scene: Scene
+    spans: tuple[Span, ...]
+    targets: tuple[Target, ...]
+    solutions: list[Solution]
+    nearest: Try | None  # the best of all tries, where there is no solution
+    jumps: list[tuple[Try, Try]]  # where the result leaps over the target between two all but equal values
+    tries: list[Try] = field(repr=False)
+    failures: int = 0  # tries that could not be run
+
+    def __repr__(self) -> str:
+        wanted = ", ".join(f"{target.name} = {target.value}" for target in self.targets)
+        found = "; ".join(", ".join(f"{k} = {v:.6g}" for k, v in one.values.items()) for one in self.solutions)
+        return f"<Aim of {self.scene.title} at {wanted}: {found or 'no solution'}>"
+
+    @property
+    def misses(self) -> dict[str, float]:
+        """By how much the nearest try misses each target; empty where there is a solution, or no nearest."""
+        if self.nearest is None:
+            return {}
+        return {
+            target.name: value - target.value
+            for target, value in zip(self.targets, self.nearest.found, strict=True)
+            if target.is_number and value is not None
+        }
+
+
+def parse_target(text: str, scene: Scene | None = None) -> Target:
+    """``carry=200``, ``carry="219 yd"``, ``made=true`` or ``verdict=swish``. Raises RequestError."""
+    name, equals, value = (part.strip() for part in text.partition("="))
+    if not name or not equals or not value:
+        raise RequestError(f"--target {text}: write it as NAME=VALUE, for example --target carry=200")
+    return as_target(name, value, "--target", scene)
+
+
+def as_target(name: str, value: Any, option: str = "target", scene: Scene | None = None) -> Target:
+    """A target from Python. A number may have a unit: that of the scene's result, or of its kind; where the scene does
+    not say, results are in SI, but angles in deg and spins in rpm."""
+    if isinstance(value, bool | np.bool_):
+        return Target(name, bool(value))
+    if isinstance(value, int | float | np.number):
+        if not isfinite(value):
+            raise RequestError(f"{option} {name}: {value} cannot be aimed at")
+        return Target(name, float(value))
+    if not isinstance(value, str):
+        raise RequestError(f"{option} {name}: {value!r} is not a number, true, false or a word")
+    text = value.strip().strip("\"'")
+    if text in ("true", "false"):
+        return Target(name, text == "true")
+    try:
+        return as_target(name, float(text), option)
+    except ValueError:
+        pass
+    declared = "" if scene is None else scene.units.get(name, "")
+    for unit in _RESULT_UNITS:
+        try:
+            number = units.parse(text, unit)
+        except ValueError:
+            continue
+        if declared in units.KIND_OF and declared:
+            try:
+                number = units.parse(text, declared)
+            except ValueError as error:
+                raise RequestError(f"{option} {name}={text}: {error}") from None
+        return as_target(name, number, option)
+    return Target(name, text)
+
+
+#: Units of results: SI, but angles in deg and spins in rpm.
+_RESULT_UNITS = [
+    {"rad": "deg", "rad/s": "rpm"}.get(unit, unit) for unit in (next(iter(kind)) for kind in units.KINDS.values())
+]

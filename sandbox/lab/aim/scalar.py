@@ -1,0 +1,122 @@
+"""A number that shall have a value, by one parameter: every root in the range, and where the result jumps over it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from itertools import pairwise
+from math import inf, isfinite
+
+import numpy as np
+
+from sandbox.lab.aim.question import Solution, Try
+from sandbox.lab.aim.root import SAME, is_met, solution
+from sandbox.lab.aim.shots import Shots, scan
+
+#: Roots are found to this share of the range.
+_FINE = 1e-12
+
+#: Where a bracket has stretches without a result, it is divided into so many parts, so many times.
+_PARTS, _DEEPEST = 8, 3
+
+
+class _Gap(Exception):
+    """A result that is not there, inside a bracket."""
+
+
+def roots_of(shots: Shots) -> tuple[list[Solution], list[tuple[Try, Try]]]:
+    """Every value in the range at which a number meets its target, and where it jumps over it."""
+    seen = [(place, float(shots.missed(result)[0])) for place, result in scan(shots)]
+    span = shots.spans[0]
+    found = [place for place, miss in seen if miss == 0.0]
+    jumps: list[float] = []
+    brackets = [*_brackets(seen), *_hidden(shots, seen)]
+    for number, (low, high) in enumerate(brackets):
+        for root in _roots(shots, low, high, f"solve {number + 1}", depth=0):
+            (found if is_met(shots, (root,)) else jumps).append(root)
+    if not found:
+        _come_nearer(shots, seen)
+    solutions: list[Solution] = []
+    for root in sorted(found):
+        if not solutions or root - solutions[-1].values[span.key] > SAME * (span.high - span.low):
+            solutions.append(solution(shots, (root,)))
+    return solutions, [_sides(shots, jump) for jump in jumps]
+
+
+def _brackets(seen: Iterable[tuple[float, float]]) -> Iterator[tuple[float, float]]:
+    for (low, below), (high, above) in pairwise(seen):
+        if below * above < 0.0:
+            yield low, high
+
+
+def _hidden(shots: Shots, seen: Sequence[tuple[float, float]]) -> Iterator[tuple[float, float]]:
+    """Brackets of pairs of roots with no point of the scan between them: a result that only just gets to the target."""
+    for left, here, right in zip(seen, seen[1:], seen[2:], strict=False):
+        misses = left[1], here[1], right[1]
+        if not all(map(isfinite, misses)) or min(misses) <= 0.0 <= max(misses) or not _is_lowest(*misses):
+            continue
+        turn = _turning_point(shots, left[0], right[0], here[1])
+        if turn[1] * here[1] <= 0.0:
+            yield left[0], turn[0]
+            yield turn[0], right[0]
+
+
+def _is_lowest(left: float, here: float, right: float) -> bool:
+    """Whether the middle one is nearest to zero, and a parabola through all three comes near to zero or beyond."""
+    if abs(here) > min(abs(left), abs(right)):
+        return False
+    bend, lean = left - 2.0 * here + right, 0.5 * (right - left)
+    lowest = here - 0.5 * lean * lean / bend if bend != 0.0 else here
+    return abs(lowest) < 0.5 * abs(here) or lowest * here <= 0.0
+
+
+def _turning_point(shots: Shots, low: float, high: float, sign: float) -> tuple[float, float]:
+    """Where the result comes nearest to the target, or goes furthest beyond it, and by how much it misses it there."""
+    from scipy.optimize import minimize_scalar
+
+    def height(place: float) -> float:
+        miss = float(shots.numbers((float(place),), "solve")[0])
+        return miss if sign > 0.0 else -miss if isfinite(miss) else inf
+
+    found = minimize_scalar(height, bounds=(low, high), method="bounded", options={"xatol": SAME * (high - low)})
+    return float(found.x), float(found.fun) if sign > 0.0 else -float(found.fun)
+
+
+def _come_nearer(shots: Shots, seen: Sequence[tuple[float, float]]) -> None:
+    """Try what lies around the best of the scan."""
+    finite = [index for index, (_, miss) in enumerate(seen) if isfinite(miss)]
+    if finite:
+        best = min(finite, key=lambda index: abs(seen[index][1]))
+        low, high = seen[max(best - 1, 0)][0], seen[min(best + 1, len(seen) - 1)][0]
+        _turning_point(shots, low, high, seen[best][1])
+
+
+def _roots(shots: Shots, low: float, high: float, phase: str, depth: int) -> Iterator[float]:
+    """The root in a bracket; where there are stretches without a result, those in the brackets between them."""
+    from scipy.optimize import brentq
+
+    def missed(place: float) -> float:
+        miss = float(shots.numbers((float(place),), phase)[0])
+        if not isfinite(miss):
+            raise _Gap
+        return miss
+
+    span = shots.spans[0]
+    try:
+        yield float(brentq(missed, low, high, xtol=_FINE * (span.high - span.low), rtol=4 * np.finfo(float).eps))
+    except _Gap:
+        if depth < _DEEPEST:
+            places = np.linspace(low, high, _PARTS + 1).tolist()
+            results = shots.results([(place,) for place in places], phase)
+            misses = [float(shots.missed(result)[0]) for result in results]
+            for inner in _brackets(zip(places, misses, strict=True)):
+                yield from _roots(shots, *inner, phase, depth + 1)
+
+
+def _sides(shots: Shots, place: float) -> tuple[Try, Try]:
+    """The tries on either side of a jump."""
+    ordered = sorted((each for each in shots.tries if each.found[0] is not None), key=lambda each: each.values)
+    wanted = shots.targets[0].value
+    across = (
+        (one, other) for one, other in pairwise(ordered) if (one.found[0] - wanted) * (other.found[0] - wanted) <= 0.0
+    )
+    return min(across, key=lambda pair: abs(pair[0].values[0] - place))
