@@ -5,6 +5,7 @@ from __future__ import annotations
 import warnings
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
+from math import inf
 from time import perf_counter
 from typing import Any
 
@@ -87,8 +88,9 @@ class Panel:
         self._session, self.change, self.reset, self.rect = session, change, reset, rect
         self.unit, self.lettering = max(LEAST_UNIT, rows_of(size) / 720), Lettering(rows_of(size))
         self.manager = pygame_gui.UIManager(size, theme(self.unit))
-        self.group, self.patience = group, patience
+        self.group, self.patience = group, inf  # it is built in the background
         self._build()
+        self.patience = patience
 
     @property
     def session(self) -> Session:

@@ -66,6 +66,7 @@ class View:
         self.energy: tuple[Shot, Future[pygame.Surface]] | None = None
         self.panel: Panel | None = None
         self.panel_wanted = False
+        self.building: Future[Panel] | None = None  # the panel
         self.stage: Stage | None = None
         self.composing: Future[Stage] | None = None  # the next one
         self.composed = 0.0  # s since the last one
@@ -98,24 +99,28 @@ class View:
         fits = (width, height) == self.laid_out
         self.canvas: pygame.Surface = self.screen if fits else pygame.Surface((width, height))
         rows = rows_of((width, height))
-        unit, tall = rows / 720, round(HEIGHT * rows / 720)
+        tall = round(HEIGHT * rows / 720)
         self.bar = Bar(pygame.Rect(0, height - tall, width, tall), rows)
-        wide = 0
+        group = self.panel.group if self.panel is not None else ""
+        self.building = None
         if self.panel_wanted:
-            from sandbox.window.panel import FAVOURITES, NARROWEST, WIDTH, Panel  # brings pygame_gui
+            self.building = self.background.submit(_panel, self.game, (width, height), height - tall, group)
+        self._make_room(None)
 
-            wide = min(max(NARROWEST, round(WIDTH * unit)), width // 2)
-            rect = pygame.Rect(width - wide, 0, wide, height - tall)
-            group = self.panel.group if self.panel is not None else FAVOURITES
-            game = self.game
-            self.panel = Panel(
-                (width, height), rect, lambda: game.session, game.change, game.reset, group, game.patience
-            )
-        else:
-            self.panel = None
-        self.area = pygame.Rect(0, 0, width - wide, height - tall)
+    def _make_room(self, panel: Panel | None) -> None:
+        """The picture has all of the width that a panel leaves."""
+        self.panel = panel
+        wide = panel.rect.width if panel is not None else 0
+        self.area = pygame.Rect(0, 0, self.canvas.get_width() - wide, self.bar.rect.top)
         self.chosen = self._picture = None
         self.changed = True
+
+    def _take_panel(self) -> None:
+        """Show the panel once it is built."""
+        if self.building is None or not ready(self.building, self.game.patience):
+            return
+        building, self.building = self.building, None
+        self.panel_wanted = self.game.trying(lambda: self._make_room(building.result()))
 
     def open_panel(self, wanted: bool) -> None:
         """Show the panel of parameters, or close it."""
@@ -238,7 +243,8 @@ class View:
         fan = self._fan is not None and not self._fan.complete
         lively = self.panel is not None and (self._lively < LIVELY or not self.panel.complete)
         exporting = self.exporter is not None and self.exporter.is_alive()
-        return self.composing is not None or self._stage_wanted() or energy or fan or lively or exporting
+        coming = self.composing is not None or self.building is not None
+        return coming or self._stage_wanted() or energy or fan or lively or exporting
 
     def _may_draw(self, stage: Stage, shot: Shot) -> bool:
         """Whether a shot may be drawn on a stage: one that is watched on its own, an aim on one of the same place."""
@@ -260,6 +266,7 @@ class View:
         self._lively = 0.0 if happened else self._lively + dt
         self.composed += dt
         self._worded_for += dt
+        self._take_panel()
         self._take_stage()
         self._follow()
         if self.panel is not None:
@@ -513,6 +520,15 @@ class View:
             texts=("see", "keep", "more", "panel", "help"),
             on=frozenset(name for name, on in opened.items() if on),
         )
+
+
+def _panel(game: Game, size: tuple[int, int], height: int, group: str) -> Panel:
+    """The panel of a window of ``size`` px."""
+    from sandbox.window.panel import FAVOURITES, NARROWEST, WIDTH, Panel  # brings pygame_gui, which takes its time
+
+    wide = min(max(NARROWEST, round(WIDTH * rows_of(size) / 720)), size[0] // 2)
+    rect = pygame.Rect(size[0] - wide, 0, wide, height)
+    return Panel(size, rect, lambda: game.session, game.change, game.reset, group or FAVOURITES, game.patience)
 
 
 def _darken(surface: pygame.Surface) -> None:

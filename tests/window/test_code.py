@@ -1,0 +1,173 @@
+"""Code of one's own: saved while the window is open it is read again; a replay brings none."""
+
+from __future__ import annotations
+
+import json
+
+import pygame
+import pytest
+
+from sandbox.errors import RequestError
+from sandbox.new import new_scene
+from sandbox.window import replay
+from sandbox.window.app import play
+from sandbox.window.session import Session
+
+from .conftest import Player
+
+
+@pytest.fixture
+def own(player, tmp_path) -> Player:
+    new_scene(tmp_path / "own")
+    return player(str(tmp_path / "own"))
+
+
+def edit(player: Player, name: str, before: str, after: str) -> None:
+    file = player.game.session.base.folder / name
+    code = file.read_text("utf-8")
+    assert before in code
+    file.write_text(code.replace(before, after, 1), "utf-8")
+    player.frames(3, dt=0.11)
+    player.settle()
+
+
+class TestSaving:
+    def test_the_physics_changes_with_scene_py(self, own):
+        before = own.game.shot.run.result
+        edit(own, "scene.py", "Gravity(ball.mass, parameters.gravity)", "Gravity(ball.mass, 0.5 * parameters.gravity)")
+        assert own.game.shot.run.result["apex"] > before["apex"] + 1
+        assert own.game.before_save.run.result == before
+
+    def test_the_picture_changes_with_picture_py(self, own):
+        kind = type(own.view.stage.picture)
+        edit(own, "picture.py", "\n\nclass Picture", "\n\nMINE = True\n\n\nclass Picture")
+        assert type(own.view.stage.picture) is not kind
+        assert own.view.stage.shot is own.game.shot
+
+    @pytest.mark.parametrize("name", ["scene.py", "picture.py"])
+    def test_what_cannot_be_read_is_said_with_its_line_until_it_is_mended(self, own, name):
+        before = own.game.session.scene.module
+        edit(own, name, "\nfrom ", "\nimport (\nfrom ")
+        own.frames(2, dt=20.0)
+        ((text, bad),) = own.game.notices
+        assert bad
+        assert f"{name}, line " in text
+        assert own.game.session.scene.module is before
+        own.key(pygame.K_UP)
+        own.settle()
+        assert own.game.failure is None
+        edit(own, name, "\nimport (\nfrom ", "\nfrom ")
+        assert not any(bad for _, bad in own.game.notices)
+        assert own.game.session.scene.module is not before
+
+
+class TestReplays:
+    @pytest.fixture
+    def recorded(self, own, tmp_path, shot_of):
+        """A replay of a scene of one's own, whose code says so when it runs."""
+        path = tmp_path / f"own{replay.SUFFIX}"
+        replay.save(shot_of(own.game.session), path)
+        folder = tmp_path / "elsewhere" / "own"
+        folder.parent.mkdir()
+        (tmp_path / "own").rename(folder)
+        with (folder / "scene.py").open("a") as file:
+            file.write("\nfrom pathlib import Path\nPath(__file__).with_name('ran').touch()\n")
+        record = json.loads(path.read_text("utf-8"))
+        record["body"]["scene"] = str(folder)
+        record["check"] = replay._sum(record["body"])
+        path.write_text(json.dumps(record), "utf-8")
+        return path, folder
+
+    def test_one_of_somebodys_own_scene_runs_none_of_its_code(self, recorded, player):
+        path, folder = recorded
+        with pytest.raises(RequestError, match="not an installed scene; sandbox play --scene FOLDER"):
+            replay.read(path)
+        player = player("golf")
+        player.send(pygame.DROPFILE, file=str(path))
+        assert "not an installed scene" in player.game.notices[-1][0]
+        assert player.game.session.title == "golf"
+        assert not (folder / "ran").exists()
+
+    def test_the_player_may_name_the_scene(self, recorded):
+        path, folder = recorded
+        session, shot = replay.read(path, str(folder))
+        assert session.base.folder == folder
+        assert shot.recorded
+        assert (folder / "ran").exists()
+
+    def test_the_scene_that_is_played_may_replay_its_own(self, recorded):
+        path, folder = recorded
+        _, shot = replay.read(path, running=folder)
+        assert shot.scene.folder == folder
+
+    def test_scene_is_for_replays(self):
+        with pytest.raises(RequestError, match="golf is not a replay"):
+            play("golf", scene="soccer")
+
+
+class TestWhatIsOpen:
+    def test_a_file_of_ones_own_has_its_name_and_can_be_returned_to(self, player, tmp_path):
+        file = tmp_path / "mine.toml"
+        file.write_text('scene = "golf"\n', "utf-8")
+        player = player(str(file))
+        assert player.game.session.title == "mine.toml"
+        assert "mine.toml" in pygame.display.get_caption()[0]
+        player.game.open("soccer")
+        player.settle()
+        assert "soccer" in pygame.display.get_caption()[0]
+        player.button("menu")
+        rect = next(rect for rect, name in player.view.menu.places if name == str(file))
+        player.click(rect.center)
+        assert player.game.session.title == "mine.toml"
+
+    def test_one_thing_at_a_time_lies_over_the_picture(self, player):
+        player = player("golf/putt")
+        for key in (pygame.K_m, pygame.K_h, pygame.K_j, pygame.K_m):
+            player.key(key)
+            view = player.view
+            assert [view.menu is not None, "help" in view.on, view.energy is not None].count(True) == 1
+        player.key(pygame.K_ESCAPE)
+        assert not player.view.covered
+
+    def test_escape_closes_a_list_of_the_panel_first(self, player):
+        player = player("golf")
+        player.key(pygame.K_TAB)
+        chooser = player.view.panel.chooser
+        player.click(chooser.rect.center)
+        player.frames(3)
+        assert chooser.current_state is chooser.menu_states["expanded"]
+        player.key(pygame.K_SPACE)
+        player.key(pygame.K_ESCAPE)
+        player.frames(3)
+        assert chooser.current_state is chooser.menu_states["closed"]
+        assert player.game.playback is not None
+
+    def test_a_click_on_a_shot_that_is_watched_leaves_it(self, player):
+        player = player("billiards")
+        player.key(pygame.K_SPACE)
+        player.settle()
+        shot = player.game.shot
+        for _ in ("playing", "over"):
+            player.click((500, 300))
+            assert player.game.shot is shot
+            assert player.game.playback is not None
+            player.game.playback.seek(1e9)
+
+
+def test_without_a_sound_device_nothing_claims_sound(player, monkeypatch, capfd):
+    from sandbox.window.sound import Sound
+
+    pygame.mixer.quit()
+    monkeypatch.setenv("SDL_AUDIODRIVER", "alsa")
+    monkeypatch.setenv("ALSA_CONFIG_PATH", "/nowhere")
+    player = player("golf/putt")
+    player.view.sound = Sound()
+    player.key(pygame.K_u)
+    assert player.game.notices[-1][0] == "no sound: there is no sound device"
+    assert not player.view.sound.on
+    assert capfd.readouterr().err == ""
+
+
+def test_a_scene_loads_by_the_path_that_is_shown(tmp_path):
+    new_scene(tmp_path / "own")
+    assert Session(str(tmp_path / "own")).files[0].name == "own.toml"
