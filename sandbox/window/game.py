@@ -433,14 +433,14 @@ class Game:
         """Files were saved: aim by them, with the path as it was still drawn."""
         before, folder = self.shot, self.session.base.folder
         code = any(file.suffix == ".py" for file in files)
-        if code:
-            self.worker.submit(reread, folder)
         self.revision += 1
         try:
             self.session.reload(code)
         except Exception as error:
             self.unreadable = self.reason(error)
             return
+        if code:
+            self.worker.submit(reread, folder)
         self.unreadable, self.code = None, self.code + code
         if self.session.base.folder != folder:
             self._opened()
