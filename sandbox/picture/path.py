@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
-from math import ceil, cos, hypot, pi, sin
+from math import ceil, cos, dist, floor, hypot, pi, sin
 from typing import Any
 
 import numpy as np
@@ -51,10 +51,20 @@ class Path:
         self.run, self.name = run, name
         self.radius: float = next(ball.radius for ball in run.setup.balls if ball.name == name)
         self.until = run.duration if until is None else until
-        samples = run.trajectory(name, every=max(SAMPLING, run.duration / MOST_SAMPLES), ends=True)
-        end = (self.until, *run.state(name, self.until))
-        self.samples = np.array([*samples[samples[:, 0] < self.until], end])  # t, x, y, vx, vy, spin
-        self.points = self.samples[:, 1:3]
+        end = (self.until, *run.state(name, self.until)[:2])
+        self.samples = np.array([*self._moving(), end])  # t, x, y
+        self.points = self.samples[:, 1:]
+
+    def _moving(self) -> Iterator[tuple[float, float, float]]:
+        """Times in s and places in m: where each piece of the path begins, and at even times while the ball moves."""
+        every = max(SAMPLING, self.run.duration / MOST_SAMPLES)
+        for arc in self.run.arcs[self.name]:
+            last = min(arc.t1, self.until)
+            if arc.t0 < last:
+                yield arc.t0, *arc.position(arc.t0)
+            if len(arc.x) > 1:
+                for i in range(floor(arc.t0 / every) + 1, ceil(last / every)):
+                    yield i * every, *arc.position(i * every)
 
     def traced(self, camera: Camera) -> np.ndarray:
         """The path in px, shape (n, 2), in as many points as can be told apart."""
@@ -132,13 +142,21 @@ def draw_mark(sheet: Sheet, at: tuple[float, float]) -> None:
 
 
 def mark_impacts(
-    sheet: Sheet, camera: Camera, marks: Iterable[Mark], labelled: Callable[[Mark], bool] = lambda mark: True
+    sheet: Sheet,
+    camera: Camera,
+    marks: Iterable[Mark],
+    labelled: Callable[[Mark], bool] = lambda mark: True,
+    last: tuple[tuple[float, float], float] | None = None,
 ) -> None:
-    """Impacts as marks with the speed at which the ball came; those at one place share a label, the first first."""
+    """Impacts as marks with the speed at which the ball came; those at one place share a label, the first first.
+
+    The ball in its ``last`` place, of a radius, lies over them; in px.
+    """
     places: list[tuple[tuple[float, float], list[Mark]]] = []
     for mark in marks:
         at = camera.pixel(*mark.at)
-        draw_mark(sheet, at)
+        if last is None or dist(at, last[0]) > last[1]:
+            draw_mark(sheet, at)
         near = (found for place, found in places if hypot(place[0] - at[0], place[1] - at[1]) < 9 * sheet.unit)
         same = next(near, None)
         if same is None:

@@ -17,7 +17,7 @@ import pygame
 
 from sandbox.engine.run import Run
 from sandbox.parameters import Group
-from sandbox.picture.ball import Look, enlarged, least_radius, mark_radius
+from sandbox.picture.ball import SMALLEST, Look, least_radius, mark_radius
 from sandbox.picture.camera import Camera
 from sandbox.picture.ghosts import draw_ghost, draw_in_frame, ghosts_on, label_ghost
 from sandbox.picture.painter import Painter
@@ -76,6 +76,11 @@ class View(Generic[P]):
     def balls(self) -> list[str]:
         """All that are drawn as balls."""
         return [ball.name for ball in self.run.setup.balls]
+
+    @property
+    def least(self) -> float:
+        """The least radius of a ball in px: several may lie close together, and are not drawn so large as one alone."""
+        return least_radius(self.rows) if len(self.balls) == 1 else SMALLEST / 2
 
     @cached_property
     def told(self) -> float:
@@ -181,11 +186,21 @@ class View(Generic[P]):
         self.run, self.parameters, self.size = run, parameters, size
         self.sheet = Sheet(size, self.on_dark)  # the one drawn last
         self.unit, self.rows = self.sheet.unit, self.sheet.rows
-        self.paths = {name: Path(run, name, self.told) for name in self.balls}
-        self.path = self.paths[self.ball]
-        self.radius = self.path.radius
+        self.radii = {ball.name: ball.radius for ball in run.setup.balls}  # m
+        self.radius = self.radii[self.ball]
         self.ghosts = ghosts_on(self, ghosts or {})
         self._standing: tuple[Camera, pygame.Surface] | None = None
+        self._tracks: dict[str, tuple[tuple[float, float], np.ndarray, np.ndarray]] = {}
+
+    @cached_property
+    def paths(self) -> dict[str, Path]:
+        """Of each ball that is drawn."""
+        return {name: Path(self.run, name, self.told) for name in self.balls}
+
+    @property
+    def path(self) -> Path:
+        """Of the ball that is played."""
+        return self.paths[self.ball]
 
     @property
     def wind(self) -> tuple[float, float]:
@@ -213,10 +228,7 @@ class View(Generic[P]):
     def draw_balls(self, painter: Painter, camera: Camera, t: float) -> None:
         """All that moves, at time t in s, on the stage that the camera sees."""
         self.behind(painter, camera, t)
-        placed = self._placed(camera, t, 1.0)
-        self._shadows(painter, camera, placed, t)
-        for name, (at, radius) in placed.items():
-            self.draw_ball(painter, camera, name, t, at, radius)
+        self._balls(painter, camera, t)
         self.before(painter, camera, t)
 
     def measure(self, sheet: Sheet, camera: Camera) -> None:
@@ -229,8 +241,9 @@ class View(Generic[P]):
         notes = self.remarks(camera)
         if camera.stretch != 1:
             notes.insert(0, f"heights drawn {camera.stretch:g} times as large as lengths")
-        if (factor := enlarged(self.radius, camera, self.rows)) > 1:
-            notes.append(f"ball drawn {times(factor)} its size")
+        if (factor := self.least / (self.radius * camera.scale)) > 1:
+            who, whose = ("ball", "its") if len(self.balls) == 1 else ("balls", "their")
+            notes.append(f"{who} drawn {times(factor)} {whose} size")
         return notes
 
     def poster(self) -> pygame.Surface:
@@ -246,13 +259,14 @@ class View(Generic[P]):
             draw_ghost(sheet, ghost, points)
         for name, points in traces.items():
             draw_trace(sheet, points, self.colour_of(name), 0.6)
-        draw_trace(sheet, self.trace, self.TRACE)
+        draw_trace(sheet, self.trace, self.colour_of(self.ball))
         every = self.strobe(sheet, camera)
+        self._balls(painter, camera, self.told)
         self.before(painter, camera, self.moment)
         self.dimensions(sheet, camera)
         self.measure(sheet, camera)
         self.annotate(sheet, camera)
-        mark_impacts(sheet, camera, self.impacts(camera))
+        mark_impacts(sheet, camera, self.impacts(camera), last=self._placed(camera, self.told, 1.0).get(self.ball))
         room = self._room(sheet, camera, None)
         notes = [*(ghost.note for ghost in self.ghosts), *self.aligned, *every[:1], *self.notes(camera), *every[1:]]
         sheet.headline(self.verdict(), notes, room)
@@ -268,7 +282,7 @@ class View(Generic[P]):
         camera, painter = self.view(t), sheet.painter
         sheet.surface.blit(self._still(camera), (0, 0))
         self.behind(painter, camera, t)
-        placed = self._placed(camera, t, LARGER)
+        placed = self._placed(camera, t, LARGER if len(self.balls) == 1 else 1.0)
         self._shadows(painter, camera, placed, t)
         for ghost in self.ghosts:
             points = self.spots(camera, ghost.points, 0.0)
@@ -284,8 +298,8 @@ class View(Generic[P]):
         over = t >= self.told
         headline, *notes = (self.verdict(),) if over else self.progress(t)
         notes += [*(f"compared with {ghost.label}" for ghost in self.ghosts), *self.aligned]
-        if any(radius > 1.001 * self.paths[name].radius * camera.scale for name, (_, radius) in placed.items()):
-            notes.append("ball drawn larger than it is")
+        if any(radius > 1.001 * self.radii[name] * camera.scale for name, (_, radius) in placed.items()):
+            notes.append("ball drawn larger than it is" if len(self.balls) == 1 else "balls drawn larger than they are")
         sheet.headline(headline, [note for note in notes if note], room)
         sheet.columns(self.card_row, self.live(t), [ghost.live(t) for ghost in self.ghosts])
         return sheet.surface
@@ -314,11 +328,15 @@ class View(Generic[P]):
         others = [other for other in self.balls if other != self.ball]
         return self.TRACE if name == self.ball else self.EARLIER[others.index(name) % len(self.EARLIER)]
 
+    def faint_of(self, name: str) -> Colour:
+        """Of the thin line that stays where a ball has been, in frames."""
+        return self.FAINT if name == self.ball else self.colour_of(name)
+
     def draw_ball(
         self, painter: Painter, camera: Camera, name: str, t: float, at: tuple[float, float], radius: float
     ) -> None:
         """A ball at time t in s, with a ring around it that says so where it is drawn larger than it is."""
-        larger = radius > 1.001 * self.paths[name].radius * camera.scale
+        larger = radius > 1.001 * self.radii[name] * camera.scale
         self.look_of(name).draw(painter, at, radius, self.run.angle(name, t), self.unit, larger)
 
     def impacts(self, camera: Camera) -> list[Mark]:
@@ -332,16 +350,10 @@ class View(Generic[P]):
         return marked
 
     def strobe(self, sheet: Sheet, camera: Camera) -> list[str]:
-        """All balls where they are in the end, and a lone one at even times; what to note of that."""
-        notes = self._at_even_times(sheet.painter, camera) if len(self.paths) == 1 else []
-        placed = self._placed(camera, self.told, 1.0)
-        self._shadows(sheet.painter, camera, placed, self.told)
-        for name, (at, radius) in placed.items():
-            self.draw_ball(sheet.painter, camera, name, self.told, at, radius)
-        return notes
-
-    def _at_even_times(self, painter: Painter, camera: Camera) -> list[str]:
-        """The ball along its path; a bead in its place where it would lie over the ball before or the last one."""
+        """A lone ball at even times, a bead in its place where balls would overlap; what to note of that."""
+        if len(self.balls) > 1:
+            return []
+        painter = sheet.painter
         every, moments = self.path.even_times(self.span)
         radius, look = max(self.radius * camera.scale, mark_radius(self.rows)), self.look_of(self.ball)
         states = np.array([self.run.state(self.ball, t)[:2] for t in [*moments, self.told]])
@@ -358,35 +370,56 @@ class View(Generic[P]):
                 last = at
         return [f"a ball every {every:g} s", *(["a bead where balls would overlap"] if crowded else [])]
 
+    def _balls(self, painter: Painter, camera: Camera, t: float) -> None:
+        """All that are there at time t in s, over their shadows."""
+        placed = self._placed(camera, t, 1.0)
+        self._shadows(painter, camera, placed, t)
+        for name, (at, radius) in placed.items():
+            self.draw_ball(painter, camera, name, t, at, radius)
+
     def trails(self, sheet: Sheet, camera: Camera, t: float) -> None:
         """Where the balls have been: a thin line, and a thick one of late; kept out of the header."""
         sheet.surface.set_clip((0, sheet.top_row, *self.size))
         for name, path in self.paths.items():
-            radius = max(path.radius * camera.scale, least_radius(self.rows))
-            colour, faint = (self.TRACE, self.FAINT) if name == self.ball else (self.colour_of(name),) * 2
-            here = self.run.state(name, t)[:2]
+            colour, here = self.colour_of(name), self.run.state(name, t)[:2]
             if t <= self.told:
-                earlier = self.spots(camera, np.array([*path.points[path.samples[:, 0] < t], here]), 0.0)
-                sheet.painter.thread(earlier[apart(earlier, 3.0)], self.unit, faint)
-            moments = np.linspace(max(0.0, t - self.TRAIL), t, 25)
-            late = self.spots(camera, np.array([self.run.state(name, s)[:2] for s in moments]), 0.0)
+                times, places = self._track(name, camera)
+                earlier = self.spots(camera, np.vstack([places[: np.searchsorted(times, t)], here]), 0.0)
+                sheet.painter.thread(earlier, self.unit, self.faint_of(name))
+            first, last = np.searchsorted(path.samples[:, 0], (t - self.TRAIL, t))
+            if first == last:
+                continue  # at rest
+            late = self.spots(camera, np.vstack([path.points[first:last], here]), 0.0)
             if np.ptp(late, axis=0).max() > 2:
-                sheet.painter.fading(late[apart(late, 2.0)], 1.1 * radius, colour, 0.9)
+                width = 1.1 * max(self.radii[name] * camera.scale, self.least)
+                sheet.painter.fading(late[apart(late, 2.0)], width, colour, 0.9)
         sheet.surface.set_clip(None)
+
+    def _track(self, name: str, camera: Camera) -> tuple[np.ndarray, np.ndarray]:
+        """Times (s) and places (m) along a ball's path that can be told apart; kept while the camera's scale stays."""
+        scale, path = (camera.scale, camera.stretch), self.paths[name]
+        if name not in self._tracks or self._tracks[name][0] != scale:
+            some = apart(camera.pixels(path.points), 3.0)
+            self._tracks[name] = scale, path.samples[some, 0], path.points[some]
+        return self._tracks[name][1:]
 
     def _placed(self, camera: Camera, t: float, larger: float) -> dict[str, tuple[tuple[float, float], float]]:
         """Of each ball that is there at time t in s, where it is drawn and with what radius, in px."""
         placed = {}
         for name in self.present(t):
-            radius = max(self.paths[name].radius * camera.scale, larger * least_radius(self.rows))
+            radius = max(self.radii[name] * camera.scale, larger * self.least)
             x, y = self.spots(camera, np.array([self.run.state(name, t)[:2]]), radius)[0]
             placed[name] = (float(x), float(y)), radius
         return placed
 
     def present(self, t: float) -> list[str]:
         """The balls that have not been caught at time t in s."""
-        caught = {name: self.run.caught_at(name) for name in self.balls}
-        return [name for name, at in caught.items() if at is None or t < at]
+        return [name for name in self.balls if t < self._caught.get(name, inf)]
+
+    @cached_property
+    def _caught(self) -> dict[str, float]:
+        """When balls were caught, in s."""
+        return {event.ball: event.t for event in self.run.events if event.kind == "caught"}
 
     def _shadows(
         self, painter: Painter, camera: Camera, placed: Mapping[str, tuple[tuple[float, float], float]], t: float

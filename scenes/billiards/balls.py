@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import random
 from functools import cache
-from math import cos, radians
+from math import cos, dist, radians
 from typing import Any
 
 import numpy as np
@@ -19,6 +19,8 @@ BILLIARDS = palette("billiards")
 DISC, DOT, STRIPE = 27, 14, 38
 #: A figure's height over the ball's radius.
 FIGURE = 0.52
+#: Paths differ from the cloth by so much, as a distance between colours of 0 to 255.
+LEAST_CONTRAST = 130
 #: The dots of a plain ball: its own six axes.
 AXES = np.array([(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)], float)
 
@@ -42,6 +44,17 @@ def colour_of(name: str) -> Colour:
     named = BILLIARDS["named"]
     found = next((colour for word, colour in named.items() if word in name.lower().split()), None)
     return found or BILLIARDS["other"][sum(name.encode()) % len(BILLIARDS["other"])]
+
+
+def on_cloth(colour: Colour) -> Colour:
+    """The colour, lighter where it would be lost on the cloth."""
+    lighter = (mix(colour, (255, 255, 255), share) for share in np.arange(0.0, 1.0, 0.05))
+    return next(shade for shade in lighter if dist(shade, BILLIARDS["cloth"]) > LEAST_CONTRAST)
+
+
+def striped(name: str) -> bool:
+    """Whether a ball's colour is that of another, with a white band on either side."""
+    return name.isdecimal() and 9 <= int(name) <= 15
 
 
 def turning(run: Any, name: str) -> sphere.Turning:

@@ -1,12 +1,16 @@
 """Billiards pictures of very different shots: composed, legible, the balls in sight and turning as they roll."""
 
 from functools import cache
-from math import hypot, pi
+from math import dist, hypot, pi
 
 import numpy as np
 import pytest
 
 import sandbox
+from sandbox.picture.painter import Painter
+from sandbox.picture.palette import palette
+from sandbox.picture.sheet import Sheet
+from scenes.billiards import balls
 from tests.picture.legible import assert_legible
 
 SIZES = [(640, 360), (1280, 720), (1920, 1080), (960, 672), (640, 400)]
@@ -62,14 +66,14 @@ class TestEveryShot:
         left, top = picture.camera.pixel(-x, y)
         right, bottom = picture.camera.pixel(x, -y)
         assert 0.04 * size[0] < left < right < 0.96 * size[0]
-        assert picture.head_row < top < bottom < picture.card_row
+        assert picture.sheet.top_row < top < bottom < picture.card_row
 
     def test_balls_are_large_enough_to_be_seen(self, name, size):
         picture = picture_of(name, size)
-        drawn = picture._radius(picture.camera)
+        drawn = max(picture.radius * picture.camera.scale, picture.least)
         assert 2 * drawn >= 7
         picture.poster()
-        said = any("times their size" in text for text, _ in picture.sheet.written)
+        said = any("balls drawn" in text for text, _ in picture.sheet.written)
         assert said == (drawn > 1.001 * picture.radius * picture.camera.scale)
 
 
@@ -91,8 +95,8 @@ def test_the_verdict_says_what_happened(name, words):
 def test_a_caught_ball_leaves_the_table_and_lies_in_the_row():
     picture = picture_of("bank")
     at = picture.run.caught_at("1")
-    assert "1" in picture._on_table(at - 0.01)
-    assert "1" not in picture._on_table(at)
+    assert "1" in picture.present(at - 0.01)
+    assert "1" not in picture.present(at)
     picture.frame(at - 0.01)
     assert "potted" not in [text for text, _ in picture.sheet.written]
     picture.frame(at)
@@ -137,6 +141,45 @@ def test_where_a_ball_has_been_stays_in_sight():
         assert any(frame.get_at(at) != empty.get_at(at) for at in here) == seen
 
 
+def test_every_path_has_its_balls_colour_and_can_be_told_from_the_cloth():
+    """Of the pool balls, only a solid and its striped twin share one; and the struck ball's is its own too."""
+    cloth = palette("billiards")["cloth"]
+    colours = {name: balls.on_cloth(balls.colour_of(name)) for name in ("cue", *map(str, range(1, 16)))}
+    assert len(set(colours.values())) == 1 + 8
+    for name, colour in colours.items():
+        assert dist(colour, cloth) > balls.LEAST_CONTRAST
+        own = balls.colour_of(name)
+        assert max(range(3), key=own.__getitem__) == max(range(3), key=colour.__getitem__)
+    assert picture_of("carom").colour_of("yellow") == balls.colour_of("yellow")
+
+
+@pytest.mark.parametrize("size", [(1280, 720), (640, 360)], ids=str)
+def test_head_and_foot_are_named_beside_the_table(size):
+    picture = picture_of("break", size)
+    picture.poster()
+    places = {text: rect for text, rect in picture.sheet.written if text in ("head", "foot")}
+    assert places["head"].right < picture.camera.pixel(-1.27, 0.0)[0]
+    assert places["foot"].left > picture.camera.pixel(1.27, 0.0)[0]
+
+
+def test_dots_stand_closer_as_the_ball_slows(monkeypatch):
+    """None is left out, so that a rolling ball does not seem to keep its speed."""
+    picture = picture_of("one ball", (1280, 720))
+    dots: list[tuple[float, float]] = []
+
+    def note(self, at, radius, colour, *_, **__):
+        if colour == palette("billiards")["rim"]:
+            dots.append(at)
+
+    monkeypatch.setattr(Painter, "disc", note)
+    (said,) = picture.strobe(Sheet(picture.size), picture.camera)
+    every = float(said.split()[-2])
+    assert len(dots) >= 8
+    expected = [picture.camera.pixel(*picture.run.state("cue", (i + 1) * every)[:2]) for i in range(len(dots))]
+    assert np.array(dots) == pytest.approx(np.array(expected))
+    assert picture.run.duration - len(dots) * every < every
+
+
 def test_frames_can_be_drawn_in_any_order():
     picture = picture_of("break")
     first = picture.frame(0.4).get_buffer().raw
@@ -150,8 +193,6 @@ def test_what_a_window_asks_for():
     stage = picture.stage()
     assert stage.get_size() == (960, 672)
     before = stage.get_buffer().raw
-    from sandbox.picture.painter import Painter
-
     picture.draw_balls(Painter(stage), picture.camera, 1.0)
     assert stage.get_buffer().raw != before
     assert picture.stage().get_buffer().raw == before  # the window's own copy

@@ -1,0 +1,125 @@
+"""The view from above: what a scene's picture is made of when its place is seen from over the middle of it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import cached_property
+from typing import ClassVar, NamedTuple
+
+import numpy as np
+import pygame
+
+from sandbox.picture.camera import Camera, Follow
+from sandbox.picture.painter import Painter
+from sandbox.picture.palette import Colour, palette
+from sandbox.picture.path import MOST_SAMPLES
+from sandbox.picture.plan import Plan, draw_moving, drawn, dusk
+from sandbox.picture.sheet import Sheet
+from sandbox.picture.view import P, View
+
+CARD = palette("card")
+
+#: Balls are lit from the left above, so their shadows lie to the right below; in radii.
+SHADOW = (0.4, 0.5)
+#: The camera of frames keeps the ball in so much of the picture's middle.
+MIDDLE = 0.72
+#: It moves smoothly over so long, in s; with a fast ball, over so much of the picture's width.
+SETTLE, SETTLE_WIDTH = 0.25, 0.05
+
+
+class Margins(NamedTuple):
+    """What is left free around what must be seen: a share of the width, and px on 720 rows."""
+
+    aside: float
+    below_headline: float
+    above_card: float
+
+
+class AboveView(View[P]):
+    """One run seen from above; a scene says what its ``plan`` is."""
+
+    #: Room around what must be seen.
+    MARGINS: ClassVar[Margins] = Margins(0.085, 16, 38)
+    #: Frames go with the ball and show so much of the world's length in m, where the poster shows more.
+    NEAREST: ClassVar[float | None] = None
+    #: The colour of the darkness at the picture's edges.
+    DUSK: ClassVar[Colour | None] = None
+
+    @cached_property
+    def plan(self) -> Plan:
+        """What stands still."""
+        return ()
+
+    @cached_property
+    def seen(self) -> np.ndarray:
+        """Places in m that the poster must show besides the paths, shape (n, 2)."""
+        return np.empty((0, 2))
+
+    @cached_property
+    def camera(self) -> Camera:
+        """Shows all that must be seen in the middle between headline and card."""
+        points = np.concatenate([self.points, self.seen])
+        low, high = points.min(axis=0), points.max(axis=0)
+        wide, tall = np.maximum(high - low, 20 * self.radius)
+        (left, top), (right, bottom) = self._area
+        scale = min((right - left) / wide, (bottom - top) / tall)
+        x, y = (low + high) / 2
+        return Camera((float(x), float(y)), ((left + right) / 2, (top + bottom) / 2), float(scale))
+
+    @property
+    def _area(self) -> tuple[tuple[float, float], tuple[float, float]]:
+        """Upper left and lower right corner in px of the part of the picture in which all that must be seen is."""
+        aside, above, below = self.MARGINS.aside * self.size[0], *(self.unit * px for px in self.MARGINS[1:])
+        return (aside, self.sheet.top_row + above), (self.size[0] - aside, self.card_row - below)
+
+    @cached_property
+    def follow(self) -> Follow | None:
+        """The camera of frames that goes with the ball, near enough to see it; None where it stands still."""
+        home, width = self.camera, self.size[0]
+        if self.NEAREST is None:
+            return None
+        scale = max(home.scale, width / self.NEAREST)
+        moments = np.linspace(0.0, self.run.duration, max(2, min(MOST_SAMPLES, round(self.run.duration * 60))))
+        states = np.array([self.run.state(self.ball, t) for t in moments])
+        (left, top), (right, bottom) = self._area
+        reach = MIDDLE / 2 * np.array([width, bottom - top]) / scale
+        at = np.clip(home.at, states[:, :2] - reach, states[:, :2] + reach)
+        fastest = max(float(np.hypot(states[:, 2], states[:, 3]).max()), 1e-9)
+        settle = min(SETTLE, SETTLE_WIDTH * width / scale / fastest)
+        anchor = float(round((left + right) / 2)), float(round((top + bottom) / 2))
+        return Follow(moments, at, np.full(len(moments), scale), anchor, settle)
+
+    def view(self, t: float) -> Camera:
+        """The camera of ``frame(t)``, on whole px."""
+        if self.follow is None:
+            return self.camera
+        camera = self.follow.camera(t)
+        x, y = (round(place * camera.scale) / camera.scale for place in camera.at)
+        return replace(camera, at=(x, y))
+
+    def backdrop(self, painter: Painter, camera: Camera) -> None:
+        """The place, darker to the edges."""
+        if camera == self.camera:
+            painter.surface.blit(drawn(self.plan, camera, self.size), (0, 0))
+        else:
+            draw_moving(painter.surface, self.plan, camera)
+        if self.DUSK is not None:
+            painter.surface.blit(dusk(self.size, self.DUSK), (0, 0))
+
+    def shadow(
+        self, painter: Painter, camera: Camera, place: tuple[float, float], at: tuple[float, float], radius: float
+    ) -> None:
+        """On the ground, to the right below the ball."""
+        below = at[0] + SHADOW[0] * radius, at[1] + SHADOW[1] * radius
+        painter.shadow(below, 1.05 * radius, 0.95 * radius, CARD["shadow"], 0.55)
+
+    def dimensions(self, sheet: Sheet, camera: Camera) -> None:
+        """None; but no label goes to the headline or on the card, nor on a ball."""
+        sheet.labels.take(pygame.Rect(0, 0, self.size[0], sheet.top_row))
+        sheet.labels.take(pygame.Rect(0, round(self.card_row), *self.size))
+        for at, radius in self._placed(camera, self.told, 1.0).values():
+            sheet.labels.take(pygame.Rect(at[0] - radius, at[1] - radius, 2 * radius, 2 * radius))
+
+    def scale(self, sheet: Sheet, camera: Camera) -> None:
+        """A scale bar at the lower left."""
+        sheet.scale_bar(camera, sheet.frame.left, self.card_row - 2 * sheet.gap, 0.3 * sheet.frame.width)

@@ -1,0 +1,277 @@
+"""A place seen from above, as data: parts that draw themselves, the lowest first; lengths in m, x to the right, y up.
+
+Pitches, tables, lanes and sheets of ice are made of the same few parts; what only tables have is in ``table.py``.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache
+from itertools import product
+from math import ceil, cos, floor, log2, radians, sin
+from typing import NamedTuple, Protocol
+
+import numpy as np
+import pygame
+
+from sandbox.picture.camera import Box, Camera
+from sandbox.picture.figures import draw_from_above
+from sandbox.picture.painter import Painter, Point, blank
+from sandbox.picture.palette import Colour, palette
+from sandbox.picture.sheet import rows_of
+
+SHADOW = palette("card")["shadow"]
+
+#: What would be smaller is drawn so large, px on 720 rows: width of a line, a bar, a stripe, a mesh, a person.
+LEAST_LINE, LEAST_BAR, LEAST_STRIPE, LEAST_MESH, LEAST_PERSON = 1.3, 2.6, 10.0, 5.0, 9.0
+#: Shoulders are so broad, in m.
+BREADTH = 0.5
+
+
+class Part(Protocol):
+    """What lies or stands in a place: a frozen dataclass, so that what was drawn can be kept."""
+
+    def draw(self, painter: Painter, camera: Camera) -> None:
+        """As the camera sees it."""
+
+
+Plan = tuple[Part, ...]
+
+
+@lru_cache(maxsize=8)
+def drawn(plan: Plan, camera: Camera, size: tuple[int, int]) -> pygame.Surface:
+    """The place on a picture of ``size`` px. Not to be drawn on: it is shared."""
+    painter = Painter(blank(size))
+    for part in plan:
+        part.draw(painter, camera)
+    return painter.surface
+
+
+def draw_moving(surface: pygame.Surface, plan: Plan, camera: Camera) -> None:
+    """The place under a camera that moves and does not zoom: in tiles as large as the surface, each drawn once."""
+    width, height = size = surface.get_size()
+    left, top = (-round(edge) for edge in camera.pixel(0.0, 0.0))
+    columns = range(left // width, (left + width - 1) // width + 1)
+    rows = range(top // height, (top + height - 1) // height + 1)
+    for column, row in product(columns, rows):
+        at = column * width, row * height
+        tile = drawn(plan, Camera((0.0, 0.0), (-at[0], -at[1]), camera.scale), size)
+        surface.blit(tile, (at[0] - left, at[1] - top))
+
+
+def unit_of(painter: Painter) -> float:
+    """What 1 px is on a picture of 720 rows."""
+    return rows_of(painter.surface.get_size()) / 720
+
+
+def on_pixels(camera: Camera, box: Box) -> pygame.Rect:
+    """A rectangle of the place, its edges on whole px."""
+    edges = (*camera.pixel(box.left, box.top), *camera.pixel(box.right, box.bottom))
+    left, top, right, bottom = (floor(edge + 0.5) for edge in edges)
+    return pygame.Rect(left, top, right - left, bottom - top)
+
+
+# ---------------------------------------------------------------------------------------------- what lies on the ground
+
+
+@dataclass(frozen=True)
+class Ground:
+    """A rectangle of one colour."""
+
+    box: Box
+    colour: Colour
+
+    def draw(self, painter: Painter, camera: Camera) -> None:
+        painter.surface.fill(self.colour, on_pixels(camera, self.box).clip(painter.surface.get_rect()))
+
+
+@dataclass(frozen=True)
+class Stripes:
+    """A rectangle in stripes of ``width`` m across x, or with ``along`` along it, counted from ``start``.
+
+    Mown grass, boards, planks. Too narrow to be told apart, they are twice as wide, or four times and so on.
+    """
+
+    box: Box
+    colours: tuple[Colour, ...]
+    width: float
+    start: float = 0.0
+    along: bool = False
+
+    def draw(self, painter: Painter, camera: Camera) -> None:
+        least = LEAST_STRIPE * unit_of(painter) / camera.scale
+        width = self.width * 2.0 ** max(0, ceil(log2(least / self.width)))
+        low, high = ("bottom", "top") if self.along else ("left", "right")
+        first, last = getattr(self.box, low), getattr(self.box, high)
+        for i in range(floor((first - self.start) / width), ceil((last - self.start) / width)):
+            a, b = self.start + i * width, self.start + (i + 1) * width
+            stripe = self.box._replace(**{low: max(a, first), high: min(b, last)})
+            Ground(stripe, self.colours[i % len(self.colours)]).draw(painter, camera)
+
+
+@dataclass(frozen=True)
+class Line:
+    """A painted line through points; one along x or y has its edges on whole px."""
+
+    points: tuple[Point, ...]
+    width: float
+    colour: Colour
+
+    def draw(self, painter: Painter, camera: Camera) -> None:
+        width = max(self.width, max(1.0, LEAST_LINE * unit_of(painter)) / camera.scale)
+        x, y = zip(*self.points, strict=True)
+        box = Box(min(x) - width / 2, min(y) - width / 2, max(x) + width / 2, max(y) + width / 2)
+        if len(self.points) == 2 and (x[0] == x[1] or y[0] == y[1]):
+            Ground(box, self.colour).draw(painter, camera)
+        elif on_pixels(camera, box).colliderect(painter.surface.get_rect()):
+            painter.lines([camera.pixels(np.array(self.points))], width * camera.scale, self.colour)
+
+
+@dataclass(frozen=True)
+class Spot:
+    """A painted disc, or with ``ring`` a circle of that width in m."""
+
+    centre: Point
+    radius: float
+    colour: Colour
+    ring: float = 0.0
+
+    def draw(self, painter: Painter, camera: Camera) -> None:
+        least = max(1.0, LEAST_LINE * unit_of(painter))
+        radius, ring = self.radius * camera.scale, self.ring and max(self.ring * camera.scale, least)
+        painter.disc(camera.pixel(*self.centre), max(radius, least), self.colour, width=ring)
+
+
+@dataclass(frozen=True)
+class Shape:
+    """An outline filled with one colour."""
+
+    points: tuple[Point, ...]
+    colour: Colour
+    opacity: float = 1.0
+
+    def draw(self, painter: Painter, camera: Camera) -> None:
+        painter.polygon(camera.pixels(np.array(self.points)), self.colour, self.opacity)
+
+
+@dataclass(frozen=True)
+class Worn:
+    """A place that fades into its ground: where many feet have been, or a light falls."""
+
+    centre: Point
+    half_length: float
+    half_width: float
+    colour: Colour
+    opacity: float
+
+    def draw(self, painter: Painter, camera: Camera) -> None:
+        half = self.half_length * camera.scale, self.half_width * camera.scale
+        painter.shadow(camera.pixel(*self.centre), *half, self.colour, self.opacity)
+
+
+def arc(centre: Point, radius: float, start: float, end: float) -> tuple[Point, ...]:
+    """Points of an arc between two directions in deg, counter-clockwise from x."""
+    turns = np.radians(np.linspace(start, end, max(2, ceil(abs(end - start) / 2) + 1)))
+    return tuple((centre[0] + radius * cos(turn), centre[1] + radius * sin(turn)) for turn in turns)
+
+
+def outline(box: Box) -> tuple[tuple[Point, Point], ...]:
+    """The four sides of a rectangle."""
+    low, high = (box.left, box.bottom), (box.right, box.top)
+    corners = (low, (high[0], low[1]), high, (low[0], high[1]))
+    return tuple(zip(corners, (*corners[1:], low), strict=True))
+
+
+# ---------------------------------------------------------------------------------------------------------- what stands
+
+
+@dataclass(frozen=True)
+class Net:
+    """A net over a rectangle, with its shadow."""
+
+    box: Box
+    mesh: float
+    colour: Colour
+
+    def draw(self, painter: Painter, camera: Camera) -> None:
+        (left, bottom, right, top), unit = self.box, unit_of(painter)
+        mesh = max(self.mesh, LEAST_MESH * unit / camera.scale)
+        along = np.linspace(left, right, max(2, round((right - left) / mesh) + 1))
+        across = np.linspace(bottom, top, max(2, round((top - bottom) / mesh) + 1))
+        strings = [[camera.pixel(x, bottom), camera.pixel(x, top)] for x in along]
+        strings += [[camera.pixel(left, y), camera.pixel(right, y)] for y in across]
+        edge = [camera.pixel(*point) for point in ((left, bottom), (right, bottom), (right, top), (left, top))]
+        thin = max(0.6, 0.8 * unit)
+        painter.polygon(edge, SHADOW, 0.12)
+        painter.lines(strings, thin, self.colour, 0.42)
+        painter.lines([edge], 1.6 * thin, self.colour, 0.8)
+
+
+@dataclass(frozen=True)
+class Bar:
+    """A bar over the ground between two posts."""
+
+    a: Point
+    b: Point
+    radius: float
+    colour: Colour
+
+    def draw(self, painter: Painter, camera: Camera) -> None:
+        unit, ends = unit_of(painter), [camera.pixel(*self.a), camera.pixel(*self.b)]
+        width = max(LEAST_BAR * unit, 2 * self.radius * camera.scale)
+        painter.line(ends, width + 1.5 * unit, SHADOW, 0.35)
+        painter.line(ends, width, self.colour)
+        for end in ends:
+            painter.disc(end, 0.5 * width + 1.6 * unit, self.colour)
+
+
+class Kit(NamedTuple):
+    """A person's colours from above."""
+
+    body: Colour
+    far: Colour
+    hair: Colour
+    shirt: Colour
+    gloves: Colour
+
+
+@dataclass(frozen=True)
+class Person:
+    """Someone who stands ``behind`` m behind a point and looks past it, in the direction ``facing`` (deg)."""
+
+    at: Point
+    facing: float
+    kit: Kit
+    breadth: float = BREADTH
+    behind: float = 0.0
+    arms: float = 0.0  # how far each hand is held out, in m
+
+    def draw(self, painter: Painter, camera: Camera) -> None:
+        larger, turn = enlarged(camera, unit_of(painter)), radians(self.facing)
+        back = self.behind * larger
+        at = camera.pixel(self.at[0] - back * cos(turn), self.at[1] - back * sin(turn))
+        breadth = self.breadth * larger * camera.scale
+        arms = max(self.arms * camera.scale, 0.75 * breadth) if self.arms else 0.0
+        draw_from_above(painter, at, breadth, turn, self.kit._asdict(), arms)
+
+
+def enlarged(camera: Camera, unit: float) -> float:
+    """How many times their size people are drawn, so as to be seen."""
+    return max(1.0, LEAST_PERSON * unit / (BREADTH * camera.scale))
+
+
+# ------------------------------------------------------------------------------------------------------------ the light
+
+
+@lru_cache(maxsize=4)
+def dusk(size: tuple[int, int], colour: Colour, opacity: float = 0.92) -> pygame.Surface:
+    """Darkness that grows from the middle of a picture to its edges, most above and below, where text stands."""
+    width, height = size
+    across = abs(np.arange(width)[:, None] / width * 2 - 1)
+    down = abs(np.arange(height)[None, :] / height * 2 - 1.04)
+    surface = blank(size, transparent=True)
+    surface.fill((*colour, 0))
+    alpha = pygame.surfarray.pixels_alpha(surface)
+    alpha[...] = np.clip(0.40 * across**3 + 2.6 * np.clip(down - 0.52, 0, 1), 0, 1) * 255 * opacity
+    del alpha  # unlocks the surface
+    return surface
