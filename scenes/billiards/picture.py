@@ -101,8 +101,8 @@ class Picture(AboveView[Parameters]):
                 kept.append(mark)
         return kept
 
-    def remarks(self, camera: Camera) -> list[str]:
-        return ["each path in its ball's colour"] if len(self._movers) > 1 else []
+    def notes(self, camera: Camera) -> list[str]:
+        return [*super().notes(camera), *(["each path in its ball's colour"] if len(self._movers) > 1 else [])]
 
     def scale(self, sheet: Sheet, camera: Camera) -> None:
         """A scale bar on the floor to the table's left, and which end is which, where there is room."""
