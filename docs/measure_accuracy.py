@@ -1,13 +1,14 @@
 """Measures the tables and pictures of accuracy.md again: ``python docs/measure_accuracy.py``.
 
 Or only some of it, by name: ``trade`` (two minutes, on a machine that is left alone), ``stress`` (two minutes),
-``validate`` (a second). The page is written after each.
+``validate`` (a second), ``rim`` (ten seconds). The page is written after each.
 """
 
 from __future__ import annotations
 
 import os
 import platform
+import random
 import re
 import sys
 from collections.abc import Callable, Iterable, Sequence
@@ -16,7 +17,10 @@ from time import perf_counter
 
 import pymunk
 
+from sandbox.engine import simulate
+from sandbox.engine.accuracy import LEVELS
 from sandbox.lab import chart
+from sandbox.lab.reference import REFERENCE, apart, places
 from sandbox.lab.stress import FAILED, Outcome, stress, summary
 from sandbox.lab.tables import length, length_above, time
 from sandbox.lab.trade import TARGETS, Trade, trade
@@ -29,11 +33,14 @@ PAGE = DOCS / "accuracy.md"
 #: Scenes in the tables, those of them with a picture, and those whose parts are listed.
 SCENES = ("golf", "soccer", "soccer-curl", "basketball", "basketball/rattle", "billiards", "billiards/cut")
 PICTURES = ("golf", "basketball/rattle")
+#: Shots at the rim, and how many of a kind are compared with the reference.
+SHOTS, ENOUGH = 3000, 150
+
 DEFAULTS = ("golf", "soccer", "soccer-curl", "basketball", "billiards")
 
 
 def main(wanted: Sequence[str]) -> None:
-    for name, measured in {"trade": traded, "stress": stressed, "validate": validated}.items():
+    for name, measured in {"trade": traded, "stress": stressed, "validate": validated, "rim": rimmed}.items():
         if not wanted or name in wanted:
             page = PAGE.read_text("utf-8")
             for block, lines in measured().items():
@@ -77,6 +84,41 @@ def validated() -> dict[str, list[str]]:
     rows = validate()
     told("validate", started)
     return {"published": published(rows), "not held": not_held(rows)}
+
+
+def rimmed() -> dict[str, list[str]]:
+    started = perf_counter()
+    found = rattled()
+    told("rim", started)
+    headings = ["touches of the rim", "shots", "median", "one in ten above", "worst", "another way"]
+    rows = []
+    for touches, errors in sorted(found.items()):
+        known = sorted(error for error in errors if error is not None)
+        cells = [length(known[int(share * (len(known) - 1))]) for share in (0.5, 0.9, 1.0)] if known else [""] * 3
+        rows.append([touches, str(len(errors)), *cells, str(len(errors) - len(known))])
+    return {"rim": markdown(headings, rows)}
+
+
+def rattled() -> dict[str, list[float | None]]:
+    """Errors in m of random shots at the level balanced, by how often they touch the rim; None where the reference
+    touches other things."""
+    chance = random.Random(1)
+    found: dict[str, list[float | None]] = {}
+    for _ in range(SHOTS):
+        speed, angle, spin = chance.uniform(7.2, 7.7), chance.uniform(46.0, 60.0), chance.uniform(0.0, 300.0)
+        setup = load("basketball", {"launch.speed": speed, "launch.angle": angle, "launch.spin": spin}).build()
+        run = simulate(setup, LEVELS["balanced"])
+        met = [event.partner for event in run.events if event.kind == "impact"]
+        touches = sum(name.startswith("rim") for name in met)
+        name = "6 and more" if touches > 5 else str(touches)
+        if len(found.setdefault(name, [])) >= ENOUGH:
+            continue
+        reference = simulate(setup, REFERENCE)
+        same = met == [event.partner for event in reference.events if event.kind == "impact"]
+        t = min(run.duration, reference.duration)
+        error = apart(places(run, ["ball"], t), places(reference, ["ball"], t))
+        found[name].append(error if same else None)
+    return found
 
 
 def filled(page: str, name: str, lines: Iterable[str]) -> str:
