@@ -29,7 +29,7 @@ def penner_tilt(normal_speed: float, tangential_speed: float, give: float = 1.0)
     vertical. Source: Penner 2002, as above, who draws a line through one measurement of Haake's on a green (18.6 m/s,
     44.4 deg); second-hand. Ours is the limit, as a line through one point says nothing of balls that skim the ground:
     no more than two thirds of the angle at which the ball comes down, and than 45 deg. Balls that come down at less
-    than some 35 deg feel it; without it a topped ball would bounce straight up.
+    than about 35 deg feel it; without it a topped ball would bounce straight up.
     """
     speed = (normal_speed * normal_speed + tangential_speed * tangential_speed) ** 0.5
     incidence = degrees(atan2(tangential_speed, normal_speed))

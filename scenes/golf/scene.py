@@ -183,6 +183,9 @@ FAR = 2e5
 #: A shot that has not come to rest after this time in s is ended.
 LONGEST = 300.0
 
+#: A ball that ends less than this, in m, short of the farthest place it reached has not come back.
+LEAST_BACK = 0.5
+
 #: Bounces lower than this, in m, are lost in the grass and the ball rolls (Penner 2002, Can. J. Phys. 80:931).
 LOWEST_BOUNCE = 0.005
 
@@ -398,6 +401,16 @@ def _total(run: Run, parameters: Parameters) -> float:
     return run.state("ball", run.duration)[0]
 
 
+def _comes_back(run: Run, parameters: Parameters) -> float | None:
+    """How far in m the ball ends short of the farthest place that it reached: spun back, or rolled back down."""
+    end = _total(run, parameters)
+    way = 1.0 if end >= 0.0 else -1.0
+    back = (
+        max(way * arc.state(arc.t1)[0] for arc in run.arcs["ball"]) - way * end
+    )  # it turns within 1 cm of an arc's end
+    return back if back > LEAST_BACK else None
+
+
 def _holed(run: Run, parameters: Parameters) -> bool:
     x, y = run.state("ball", run.duration)[:2]
     pin = parameters.pin
@@ -422,6 +435,7 @@ FACTS = (
     Fact("landing_angle", "landing", "deg", at(landing, lambda ball: ball.descent), is_down, where=_flew),
     Fact("landing_speed", "landing speed", "m/s", at(landing, lambda ball: ball.speed), is_down, where=_flew),
     Fact("landing_spin", "landing spin", "rpm", at(landing, lambda ball: ball.spin / RPM), is_down, where=_flew),
+    Fact("comes_back", "comes back", "m", _comes_back),
     Fact("distance_to_pin", "", "m", lambda run, p: abs(_total(run, p) - p.pin.distance)),
     Fact("holed", "", "", _holed),
     Fact("ended", "", "", _ended),
@@ -442,6 +456,7 @@ def verdict(run: Run, parameters: Parameters) -> str:
         story = f"Rolls {roughly(abs(total))}" + (" backwards" if total < 0.0 else "")
     else:
         story = f"Flies {roughly(-carry)} backwards" if carry < 0.0 else f"{roughly(carry)} carry"
+        story += f", comes back {roughly(result['comes_back'])}" if result["comes_back"] else ""
     if result["ended"] == "water":
         return f"{story}, into the water"
     side = "short of" if (pin - total) * pin > 0.0 else "past"

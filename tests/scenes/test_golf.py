@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+from collections.abc import Sequence
 from dataclasses import replace
 from math import atan2, cos, degrees, exp, hypot, pi, radians, sin
 from pathlib import Path
@@ -195,6 +196,43 @@ def test_a_club_gives_the_launch_of_its_law(loft: float):
 def test_the_card_of_a_struck_ball_has_the_smash_factor():
     run = sandbox.simulate(sandbox.load("golf/club-head", {"club.loft": 0.0, "club.attack": 0.0}))
     assert ("smash factor", "1.49") in run.scene.rows(run)
+
+
+@pytest.mark.parametrize(("spin", "back"), [(148.0, 7.0), (159.0, 9.5), (191.0, 15.0)])
+def test_a_9_iron_spins_back_on_a_firm_slippery_green(spin: float, back: float):
+    """Haake, by way of Penner 2003: at 148 rev/s two hops forward, then about 7 m back; at 159 and 191 back as well."""
+    run = sandbox.simulate(sandbox.load("golf/spin-back", {"launch.spin": f"{spin} rev/s"}))
+    first, second, third = [event.x for event in run.events if event.kind == "impact"][:3]
+    assert first < second < third
+    assert run.result["comes_back"] == pytest.approx(back, rel=0.15)
+
+
+@pytest.mark.parametrize(("give", "back"), [(1.0, [None, None, 1.1]), (1.34, [None, 2.2, 5.4])])
+def test_penners_own_green_spins_a_9_iron_back_by_where_his_angle_counts_from(give: float, back: list[float | None]):
+    """His figure 8 has it backward at 159 and 191 rev/s: with his friction, as soon as the angle is from the ground."""
+    for spin, expected in zip((129.0, 159.0, 191.0), back, strict=True):
+        green = {"ground.green.give": give, "ground.green.length": 60.0, "pin.cup_width": 0.0}
+        result = sandbox.simulate(sandbox.load("golf/9-iron", {"launch.spin": f"{spin} rev/s", **green})).result
+        assert result["comes_back"] == (None if expected is None else pytest.approx(expected, abs=0.5)), spin
+
+
+def test_a_ball_that_stops_where_it_got_has_not_come_back():
+    for name in ("golf", "golf/putt", "golf/topped"):
+        assert sandbox.simulate(name).result["comes_back"] is None
+
+
+def test_a_topped_ball_bounds_higher_on_the_energy_of_its_way_along():
+    """The turf leans against a ball that skims it and turns some of its way along upward: each bounce is higher, and
+    each loses energy."""
+    run = sandbox.simulate("golf/topped")
+    impacts = [event for event in run.events if event.kind == "impact"]
+    assert impacts[5].speed > impacts[0].speed  # 4.7 and 4.0 m/s, downward
+
+    def energy(state: Sequence[float]) -> float:
+        return 0.5 * (state[2] ** 2 + state[3] ** 2) + 0.2 * (RADIUS * state[4]) ** 2  # J/kg
+
+    for event in impacts:
+        assert energy(run.state("ball", event.t)) < energy(run.before("ball", event.t))
 
 
 # Bounce and roll ----------------------------------------------------------------------------------------------------
