@@ -40,6 +40,11 @@ class Accuracy:
     hop: float = LOWEST_HOP  # m
     skin: float = SKIN  # m
 
+    @property
+    def through_contact(self) -> float:
+        """Error of one step through a contact of several balls, over the fastest ball's speed."""
+        return min(1e-6, max(1e-10, 1e-4 * self.tolerance))
+
     def finer(self) -> Accuracy:
         """The same with half the step, or a tolerance that leads to about half the step; and with less of what no step
         governs: low bounces, low hops, and the overlap at a contact."""

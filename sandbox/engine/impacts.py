@@ -19,6 +19,10 @@ from sandbox.physics.integrators import State
 _GAIN = 1e-7
 
 
+#: Turns of balls and walls at one instant, after which all exchange their impulses at once.
+_TURNS = 9
+
+
 class Hit(NamedTuple):
     """One contact that closed."""
 
@@ -35,23 +39,44 @@ class Impacts:
         self._tracks = tracks
         self._contacts = contacts
         self._slowest_hop = slowest_hop  # m/s, at which balls on cloth part at least
+        # Walls that give way more than balls push back when the balls have parted.
+        self._gives_way = len(setup.balls) > 1 and setup.contact.name != "rigid" and setup.contact.wall_stiffness == 0.0
         self._heaviest = max(ball.mass for ball in setup.balls)  # kg
 
-    def exchange(self, t: float, seeds: Sequence[int]) -> tuple[dict[int, State], list[Hit]]:
-        """The states after the impact at t of all balls that touch those of ``seeds``, directly or through others."""
-        states = self._touching(t, seeds)
+    def exchange(self, states: dict[int, State]) -> tuple[dict[int, State], list[Hit]]:
+        """The states after the impact of balls that touch, directly or through others, and what closed.
+
+        Where walls give way more than balls, balls exchange their impulses first and the walls push back afterwards.
+        """
+        if self._gives_way:
+            hits: list[Hit] = []
+            before = states
+            for turn in range(_TURNS):
+                after = self._exchange_at_once(before, turn % 2 == 0, hits)
+                if after is None and turn > 0:
+                    return before, hits
+                before = after or before
+        hits = []
+        return self._exchange_at_once(states, None, hits) or states, hits
+
+    def _exchange_at_once(
+        self, states: dict[int, State], balls_only: bool | None, hits: list[Hit]
+    ) -> dict[int, State] | None:
+        """The states after all contacts, or those of balls only, or of walls only, closed at once; None if none did."""
         members = list(states)
         cluster = [Moving(index, *states[index][:5]) for index in members]
         found: list[Contact] = []
         partners: list[tuple[int, str]] = []
         slips: list[tuple[float, float]] = []  # m/s, in the plane and upward
-        for place, index in enumerate(members):
-            self._meet_surfaces(place, index, states[index], found, partners, slips)
-        for place in range(len(members)):
-            for later in range(place + 1, len(members)):
-                self._meet_ball(place, later, members, states, found, partners, slips)
+        if balls_only is not True:
+            for place, index in enumerate(members):
+                self._meet_surfaces(place, index, states[index], found, partners, slips)
+        if balls_only is not False:
+            for place in range(len(members)):
+                for later in range(place + 1, len(members)):
+                    self._meet_ball(place, later, members, states, found, partners, slips)
         if not any(contact.approach > STILL for contact in found):
-            return states, []
+            return None
         self._exchange_without_gain(cluster, found)
         after = {
             moving.index: (*states[moving.index][:2], moving.vx, moving.vy, moving.spin, *states[moving.index][5:])
@@ -59,12 +84,12 @@ class Impacts:
         }
         if self._setup.cloth is not None:
             self._rub(members, states, after, found, slips)
-        hits = [
+        hits += [
             Hit(index, partner, contact.approach)
             for contact, (index, partner) in zip(found, partners, strict=True)
             if contact.approach > STILL
         ]
-        return after, hits
+        return after
 
     def _exchange_without_gain(self, cluster: Sequence[Moving], found: Sequence[Contact]) -> None:
         """Exchange impulses. Where several contacts close at once, the speeds with which they are to part may ask for
@@ -100,7 +125,8 @@ class Impacts:
             total += 0.5 * ball.inertia * moving.spin * moving.spin
         return total
 
-    def _touching(self, t: float, seeds: Sequence[int]) -> dict[int, State]:
+    def touching(self, t: float, seeds: Sequence[int]) -> dict[int, State]:
+        """The states at t of all balls that touch those of ``seeds``, directly or through others."""
         states: dict[int, State] = {}
         waiting = list(seeds)
         while waiting:

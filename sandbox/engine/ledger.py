@@ -14,6 +14,7 @@ from sandbox.engine.arc import Arc
 from sandbox.engine.motion import PINNED, RESTING, Contact, on_surface
 from sandbox.engine.run import Run
 from sandbox.engine.setup import Ball
+from sandbox.engine.track import PRESSED
 from sandbox.physics.integrators import State
 
 #: Gauss-Legendre nodes and weights on [0, 1]: exact for polynomials of degree 9.
@@ -52,6 +53,9 @@ def ledger(run: Run) -> Ledger:
         end += kinetic(ball, arcs[-1].state(arcs[-1].t1))
         for arc in arcs:
             gain = kinetic(ball, arc.state(arc.t1)) - kinetic(ball, arc.start)
+            if arc.contact == PRESSED:
+                impacts[_meanwhile(run, ball.name, arc)] += gain
+                continue
             if run.setup.cloth is not None:
                 contacts["cloth"] += gain
             else:
@@ -84,6 +88,14 @@ def _hits(run: Run) -> dict[tuple[str, float], str]:
         if mutual:
             hits[event.partner, event.t] = what
     return hits
+
+
+def _meanwhile(run: Run, ball: str, arc: Arc) -> str:
+    """What a ball hit first on an arc of contact."""
+    balls = {each.name for each in run.setup.balls}
+    during = [event for event in run.events if event.kind == "impact" and arc.t0 <= event.t <= arc.t1]
+    own = next((event for event in during if ball in (event.ball, event.partner)), during[0])
+    return " and ".join(sorted((own.ball, own.partner))) if own.partner in balls else own.partner
 
 
 def _book(ball: Ball, arc: Arc, work: dict[str, float], contacts: dict[str, float]) -> float:

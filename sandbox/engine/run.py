@@ -33,6 +33,7 @@ class Numerics:
     pymunk_steps: int = 0
     queries: int = 0  # pairs of ball path and shape examined for touching
     wall_s: float = 0.0
+    clusters: int = 0  # of balls that met while others were pressed together
 
 
 @dataclass

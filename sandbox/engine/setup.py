@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from math import hypot, inf, isfinite
-from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Protocol
 
 from sandbox.physics.elementwise import least, most
+from sandbox.physics.hertz import PHENOLIC
 
 if TYPE_CHECKING:
     from sandbox.engine.event import Event
@@ -195,6 +196,25 @@ class Bounds(NamedTuple):
 
 
 @dataclass(frozen=True)
+class ContactModel:
+    """How balls meet that others can reach while they are pressed together.
+
+    ``name`` is "rigid" (one impact after another; balls that touch are one lump), "hertz" (every impact of balls by
+    contact mechanics) or "auto" (only where others can be reached meanwhile). ``stiffness`` is that of a pair in
+    N/m^1.5; None: of phenolic resin. ``wall_stiffness`` is that of a ball and a wall; 0 for walls that give way so much
+    more than balls that they push back when the balls have parted, as cushions do.
+    """
+
+    name: Literal["auto", "rigid", "hertz"] = "auto"
+    stiffness: float | None = None
+    wall_stiffness: float = 0.0
+
+    def between(self, radius: float, other: float) -> float:
+        """Stiffness in N/m^1.5 of two balls with these radii in m."""
+        return PHENOLIC.between(radius, other) if self.stiffness is None else self.stiffness
+
+
+@dataclass(frozen=True)
 class Setup:
     """One run's beginning. It is over when all balls rest, when ``until(event)`` is true, or after ``duration`` s.
 
@@ -212,6 +232,7 @@ class Setup:
     catches: Sequence[Catch] = ()
     bounds: Bounds = Bounds()
     patches: Sequence[Patch] = ()
+    contact: ContactModel = ContactModel()
 
     def __post_init__(self) -> None:
         names = [ball.name for ball in self.balls]

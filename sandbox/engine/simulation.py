@@ -19,6 +19,7 @@ from sandbox.engine.impacts import Impacts
 from sandbox.engine.lasting import InPlane
 from sandbox.engine.motion import RESTING, Contact, Diverged, Mover
 from sandbox.engine.on_cloth import OnCloth, slowest_hop
+from sandbox.engine.pressed import Parted, Pressed
 from sandbox.engine.run import Numerics, Run
 from sandbox.engine.setup import Ball, Circle, Setup, Surface
 from sandbox.engine.touch import CONTACT, Obstacle, balls_touch
@@ -68,6 +69,7 @@ class Simulation:
         self._separate_balls()
         slowest = 0.0 if setup.cloth is None else slowest_hop(setup.cloth, accuracy.hop)
         self._impacts = Impacts(setup, self._tracks, Contacts(setup.balls, self._numerics), slowest)
+        self._pressed = Pressed(setup, self._tracks, accuracy.through_contact)
 
     def _laid_out(self) -> list[Track]:
         setup = self._setup
@@ -104,6 +106,7 @@ class Simulation:
             if not track.caught:
                 track.finish(t)
         self._numerics.wall_s += perf_counter() - started
+        self._events.sort(key=lambda event: event.t)  # a contact that lasts is noted when it begins
         arcs = {track.ball.name: track.path for track in self._tracks}
         return Run(self._setup, self._accuracy, arcs, self._events, self._numerics, t, ended)
 
@@ -175,8 +178,13 @@ class Simulation:
             self._collide(t, [index])
 
     def _collide(self, t: float, seeds: Sequence[int]) -> None:
-        """Everything that touches at this instant exchanges impulses at once."""
-        states, hits = self._impacts.exchange(t, seeds)
+        """Everything that touches at this instant exchanges impulses at once, or goes through the contact together."""
+        touching = self._impacts.touching(t, seeds)
+        parted = self._pressed.through(t, touching) if len(touching) > 1 else None
+        if parted is not None:
+            self._part(t, touching, parted)
+            return
+        states, hits = self._impacts.exchange(touching)
         for index in states:
             self._tracks[index].keep(t)
         for hit in hits:
@@ -190,6 +198,25 @@ class Simulation:
         for index, state in states.items():
             self._tracks[index].state = state
             self._resume(index, t)
+
+    def _part(self, t: float, touching: dict[int, State], parted: Parted) -> None:
+        """Balls have gone through their contact, from t until they part."""
+        self._numerics.clusters += 1
+        for index in touching.keys() | parted.states.keys():
+            self._tracks[index].keep(t)
+        for blow in parted.blows:
+            self._numerics.impacts += 1
+            self._faint = 0
+            ball = self._tracks[blow.ball]
+            self._note(Event(blow.t, "impact", ball.ball.name, blow.partner, blow.speed, *ball.arc.position(t)))
+        for index in touching.keys() - parted.states.keys():
+            self._tracks[index].state = touching[index]
+            self._resume(index, t)
+        for index, state in parted.states.items():
+            self._tracks[index].meet(t, parted.t, state)
+        for index in parted.states:
+            if self._tracks[index].arc.t1 == parted.t:
+                self._collide(parted.t, [index])  # with the walls that have given way meanwhile
 
     def _catch(self, t: float, index: int) -> None:
         """A ball drops out of the plane."""
@@ -265,7 +292,7 @@ class Simulation:
             a, b, c, d = neighbour.arc.box()
             if left <= c + reach and right >= a - reach and bottom <= d + reach and top >= b - reach:
                 self._numerics.queries += 1
-                pair_at = balls_touch(arc, neighbour.arc, reach, t, self._accuracy.skin)
+                pair_at = balls_touch(arc, neighbour.arc, reach, max(t, neighbour.arc.t0), self._accuracy.skin)
                 if pair_at is not None and pair_at <= at:
                     self._push(pair_at, "touch", index, other)
 

@@ -5,11 +5,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Protocol
 
-from sandbox.engine.arc import Arc, still
+from sandbox.engine.arc import Arc, still, through
 from sandbox.engine.motion import Contact
 from sandbox.engine.setup import Ball
 from sandbox.engine.touch import CONTACT, Obstacle, Touching
 from sandbox.physics.integrators import State
+
+#: What an arc says of a ball that is pressed against others, on its way through a contact that lasts.
+PRESSED = "pressed"
 
 #: Difference in m/s and rad/s that is rounding.
 _SAME = 1e-9
@@ -59,9 +62,20 @@ class Track:
 
     def keep(self, t: float) -> None:
         """Add what was travelled of the arc until t to the path."""
+        if t < self.arc.t0:
+            return  # within a contact that is kept already
         arc = self.arc.until(t)
         if arc.t1 > arc.t0 or not self.path:
             self.path.append(arc)
+
+    def meet(self, t: float, until: float, state: State) -> None:
+        """Go through a contact that lasts from t ``until`` then, and ends in ``state``; the path is kept up to t."""
+        before = self.arc.state(t)
+        arc = through(t, until - t, before[:5], (0.0, 0.0, 0.0), state[:5], (0.0, 0.0, 0.0), PRESSED)
+        arc.start, arc.end = before, state
+        arc.rolling_spin = tuple(zip(before[5:], state[5:], strict=True))
+        self.path.append(arc)
+        self.arc, self.state = still(until, until, state), state
 
     def finish(self, t: float) -> None:
         """Add the rest of the path: the run is over at t. What an impact at t did is kept, though nothing follows."""

@@ -12,11 +12,12 @@ from sandbox.engine import simulate
 from sandbox.engine.accuracy import LEVELS, resolve
 from sandbox.engine.ledger import ledger
 from sandbox.engine.on_cloth import slowest_hop
-from sandbox.engine.setup import Ball, Bounce, Catch, Segment, Setup, Surface
+from sandbox.engine.setup import Ball, Bounce, Catch, ContactModel, Segment, Setup, Surface
 from sandbox.physics.cloth import Cloth
 
 R, M = 0.028575, 0.170097
 CLOTH = Cloth()
+RIGID = ContactModel("rigid")
 
 
 def ball(name, position, velocity=(0.0, 0.0), spin=0.0, rolling_spin=(0.0, 0.0)):
@@ -99,7 +100,7 @@ def test_three_balls_at_one_instant_gain_no_energy(friction, restitution):
     """Kane's paradox: with friction and full restitution they would, by 3 %."""
     side = 3**0.5 * R
     balls = [ball("cue", (-0.2, 0.0), (7.0, 0.0)), ball("1", (side, R + 5e-6)), ball("2", (side, -R - 5e-6))]
-    setup = Setup(balls, duration=0.05, between_balls=of(restitution, friction))
+    setup = Setup(balls, duration=0.05, between_balls=of(restitution, friction), contact=RIGID)
     run = simulate(setup, resolve())
     assert len(run.events) == 2
     assert run.events[0].t == run.events[1].t
@@ -132,8 +133,8 @@ def test_a_faint_touch_beside_a_hard_one_is_no_spring(order, drift):
         "B": ball("B", (2 * R, 0.0)),
         "C": rolling("C", (4 * R, 0.0), (-5.0, 0.0)),
     }
-    setup = Setup([balls[name] for name in order], cloth=CLOTH, duration=1.0, between_balls=of(0.95, 0.05))
-    run = simulate(setup, resolve())
+    laws = {"between_balls": of(0.95, 0.05), "contact": RIGID}
+    run = simulate(Setup([balls[name] for name in order], cloth=CLOTH, duration=1.0, **laws), resolve())
     assert max(abs(run.state(name, 1e-9)[2]) for name in "ABC") < 5.0
     assert run.state("C", 1e-9)[2] == pytest.approx(1.5, abs=0.01)
 

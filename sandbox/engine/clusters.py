@@ -1,0 +1,268 @@
+"""Balls that meet while others are pressed together: through the contact, with its forces, and out again.
+
+An impulse is right for a lone pair. Where a third body is reached while two are pressed together, who gets how much
+depends on how the contacts share the fraction of a millisecond that they last. So the bodies are moved through it:
+positions and velocities under the forces of Hertz's law (``physics/hertz.py``) with error control, and after each step
+friction, as the impulses that bring every slip to rest as far as the step's normal impulses reach (Coulomb).
+
+All contacts are treated at once, as rows of arrays, so that the outcome does not depend on the order of the bodies.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from sandbox.errors import RunError
+from sandbox.physics.hertz import contact_time, damping
+
+#: The pair of Dormand & Prince 1980: its stages, the last of which is the fifth order, and the error.
+_STAGES = (
+    np.array([1 / 5]),
+    np.array([3 / 40, 9 / 40]),
+    np.array([44 / 45, -56 / 15, 32 / 9]),
+    np.array([19372 / 6561, -25360 / 2187, 64448 / 6561, -212 / 729]),
+    np.array([9017 / 3168, -355 / 33, 46732 / 5247, 49 / 176, -5103 / 18656]),
+    np.array([35 / 384, 0.0, 500 / 1113, 125 / 192, -2187 / 6784, 11 / 84]),
+)
+_ERROR = np.array([71 / 57600, 0.0, -71 / 16695, 71 / 1920, -17253 / 339200, 22 / 525, -1 / 40])
+
+#: First and longest step as shares of the shortest contact there can be.
+_FIRST, _LONGEST = 1e-3, 0.1
+
+#: Steps beyond which bodies that press on one another are not going to part by themselves.
+_MOST_STEPS = 3_000
+
+#: Rounds of friction, and the change of a slip over the fastest body's speed that ends them.
+_ROUNDS, _SETTLED = 200, 1e-9
+
+#: Speed in m/s that is rounding, and depth in m.
+_STILL, _TOUCH = 1e-9, 1e-12
+
+
+class StaysPressed(RunError):
+    """Bodies that do not part: something presses them together."""
+
+
+class Body(NamedTuple):
+    """A ball as it enters: lengths in m, kg, s, rad; ``push`` is what else accelerates it meanwhile."""
+
+    mass: float
+    radius: float
+    inertia: float  # kg m^2
+    position: tuple[float, float]
+    velocity: tuple[float, float]
+    spin: tuple[float, float, float]  # rad/s, about x, y and the axis out of the picture
+    push: tuple[float, float] = (0.0, 0.0)  # m/s^2
+
+
+class Link(NamedTuple):
+    """Two bodies that may touch, or a body and a wall."""
+
+    first: int
+    second: int | None  # None for a wall
+    stiffness: float  # N/m^1.5
+    restitution: float
+    friction: Callable[[float], float]  # of the slip in m/s
+    wall: Callable[[float, float], tuple[float, float, float]] | None = None  # gap (m) and normal of a body at (x, y)
+
+
+@dataclass(frozen=True)
+class Passage:
+    """How a cluster came out: arrays of one row for each body, and of one entry for each link."""
+
+    duration: float  # s
+    position: np.ndarray  # m, shape (n, 2)
+    velocity: np.ndarray  # m/s, shape (n, 2)
+    spin: np.ndarray  # rad/s, shape (n, 3)
+    impulse: np.ndarray  # N s, normal, shape (links,); 0 where it never closed
+    approach: np.ndarray  # m/s, at which it closed first, shape (links,)
+    closed: np.ndarray  # s, when, shape (links,)
+    steps: int
+
+
+class Cluster:
+    """Bodies and the links between them. All of them matter at once: leave out what cannot be reached."""
+
+    def __init__(self, bodies: Sequence[Body], links: Sequence[Link], on_cloth: bool = False) -> None:
+        """``on_cloth``: friction acts out of the plane too, and turns the balls about x and y."""
+        count = len(bodies)
+        self._count, self._links = count, links
+        self._bodies = bodies
+        self._first = np.array([link.first for link in links])
+        self._second = np.array([count if link.second is None else link.second for link in links])  # a wall: the last
+        radius = np.array([*(body.radius for body in bodies), 0.0])
+        inverse_mass = np.array([*(1.0 / body.mass for body in bodies), 0.0])
+        inverse_inertia = np.array([*(1.0 / body.inertia for body in bodies), 0.0])
+        self._loose = np.concatenate([inverse_mass] * 3 + [inverse_inertia] * 3)
+        self._inertia = np.repeat([1.0 / inverse_mass[:-1], 1.0 / inverse_inertia[:-1]], 3, axis=0)  # kg, kg m^2
+        self._rubs = any(link.friction(0.0) > 0.0 or link.friction(1.0) > 0.0 for link in links)
+        self._reach = radius[self._first] + radius[self._second]
+        self._stiffness = np.array([link.stiffness for link in links])
+        self._mass = 1.0 / (inverse_mass[self._first] + inverse_mass[self._second])  # kg, reduced
+        self._damping = np.array([damping(link.restitution) for link in links]) * np.sqrt(self._mass * self._stiffness)
+        every = range(len(links))
+        self._incidence = np.zeros((count + 1, len(links)))
+        self._incidence[self._first, every] = 1.0
+        self._incidence[self._second, every] = -1.0
+        self._arms = np.abs(self._incidence) * radius[:, None]  # m
+        self._pushed = np.ascontiguousarray((self._incidence * inverse_mass[:, None]).T)  # force to acceleration
+        self._walls = [(place, link.wall, link.first) for place, link in enumerate(links) if link.wall is not None]
+        self._on_cloth = on_cloth
+
+    def pass_through(self, tolerance: float) -> Passage:
+        """Through the contact until nothing touches; ``tolerance`` is the error of a step over the fastest speed.
+
+        Raises StaysPressed where it has no end.
+        """
+        count, links = self._count, len(self._links)
+        state = np.zeros((8, count + 1))  # x, y, vx, vy, vz, and the spins
+        for i, body in enumerate(self._bodies):
+            state[:, i] = (*body.position, *body.velocity, 0.0, *body.spin)
+        origin = state[:2, :1].copy()
+        state[:2, :count] -= origin
+        state[:2, count] = 1e3  # m: the walls' place in the arrays, of which nothing is read
+        self._origin = origin[:, 0]
+        self._push = np.array([*(body.push for body in self._bodies), (0.0, 0.0)]).T
+        before = self._energy(state)
+        surface = np.abs(state[5:8, :count]).max(axis=0) * [body.radius for body in self._bodies]
+        fastest = max(2.0 * float(np.hypot(*state[2:4]).max()), _STILL)
+        rubbing = max(fastest, float(surface.max()))
+        shortest = min(contact_time(m, k, fastest) for m, k in zip(self._mass, self._stiffness, strict=True))
+        scale = np.repeat([fastest * shortest, fastest], 2 * count + 2)
+        t, h, steps = 0.0, _FIRST * shortest, 0
+        impulse, approach, closed, rubbed = (np.zeros(links) for _ in range(4))
+        rates, forces = np.empty((7, 4, count + 1)), np.empty((7, links))
+        flat = rates.reshape(7, -1)
+        rates[0], depth, closing, normal, force = self._motion(state[:4])
+        self._gain = rates[0, 2:].ravel()  # m/s^2
+        self._take_grip(normal)
+        approach[:] = np.where(self._gap < _TOUCH, np.maximum(closing, 0.0), 0.0)
+        while True:
+            # Friction of the half steps behind and ahead: second order, and in all mu times the impulse.
+            reached = np.maximum(impulse + 0.5 * h * force, rubbed)
+            start = self._rub(state, reached - rubbed, 0.5 * h, rubbing)
+            rates[0], *_, forces[0] = self._motion(start[:4])
+            for stage, weights in enumerate(_STAGES, 1):
+                moved = start[:4] + (h * weights @ flat[:stage]).reshape(4, -1)
+                rates[stage], depth, closing_then, normal, forces[stage] = self._motion(moved)
+            off = float(np.abs(_ERROR @ flat / scale).max()) * h
+            if not off <= tolerance:
+                h *= max(0.2, 0.9 * (tolerance / off) ** 0.2) if off < 1e300 else 0.1
+                continue
+            state, rubbed, force = start, reached, forces[6].copy()
+            self._gain = rates[6, 2:].ravel()
+            state[:4] = moved
+            impulse += h * (_STAGES[-1] @ forces[:6])
+            first = (depth > 0.0) & (approach == 0.0)
+            if first.any():
+                approach[first], closed[first] = closing[first], t
+                self._take_grip(normal)
+            closing = closing_then
+            t, steps = t + h, steps + 1
+            if not ((depth > 0.0) | ((self._gap < _TOUCH) & (closing > _STILL))).any():
+                state = self._rub(state, np.maximum(impulse - rubbed, 0.0), 0.0, rubbing)
+                break
+            if steps > _MOST_STEPS:
+                raise StaysPressed(f"bodies do not part within {t:.3g} s")
+            h = min(_LONGEST * shortest, h * min(5.0, 0.9 * (tolerance / max(off, 1e-300)) ** 0.2))
+            h = self._up_to_a_change(h, closing, _FIRST * shortest)
+        if not self._push.any():
+            self._take_back(state, before)
+        position = (state[:2, :count] + origin).T
+        return Passage(float(t), position, state[2:4, :count].T, state[5:8, :count].T, impulse, approach, closed, steps)
+
+    def _motion(self, moving: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+        """The derivative of (x, y, vx, vy), and of each link the depth (m), closing speed (m/s), normal, force (N)."""
+        apart = moving @ self._incidence
+        distance = np.sqrt(apart[0] * apart[0] + apart[1] * apart[1])
+        normal = apart[:2] / distance
+        gap = distance - self._reach
+        for place, wall, body in self._walls:
+            x, y = moving[:2, body] + self._origin
+            gap[place], *normal[:, place] = wall(float(x), float(y))
+        closing = -(apart[2] * normal[0] + apart[3] * normal[1])
+        depth = np.maximum(-gap, 0.0)
+        root = np.sqrt(depth)
+        force = self._stiffness * depth * root + self._damping * np.sqrt(root) * closing
+        rate = np.empty_like(moving)
+        rate[:2] = moving[2:]
+        rate[2:] = (force * normal) @ self._pushed + self._push
+        self._gap = gap
+        return rate, depth, closing, normal, force
+
+    def _energy(self, state: np.ndarray) -> float:
+        """Kinetic energy in J, that of turning included."""
+        return 0.5 * float((state[2:, :-1] ** 2 * self._inertia).sum())
+
+    def _take_back(self, state: np.ndarray, before: float) -> None:
+        """Slow all down towards their common motion where the steps' errors have added to the energy ``before``."""
+        common = np.zeros((6, 1))
+        if not self._walls:
+            mass = self._inertia[0]
+            common[:2, 0] = state[2:4, :-1] @ mass / mass.sum()
+        kept = 0.5 * float((common**2 * self._inertia).sum())
+        excess = self._energy(state) - before
+        if excess > 0.0:
+            share = np.sqrt(max(0.0, (before - kept) / (before - kept + excess)))
+            state[2:, :-1] = common + share * (state[2:, :-1] - common)
+
+    def _up_to_a_change(self, h: float, closing: np.ndarray, first: float) -> float:
+        """A step that does not straddle the moment at which a link closes or opens, where the force has a kink."""
+        ahead = np.abs(self._gap) / np.maximum(np.abs(closing), 1e-300)  # s, exact where nothing pushes
+        near = ahead[(self._gap * closing > 0.0) & (ahead > 1e-4 * first)]
+        soon = float(near.min(initial=h))
+        if ((np.abs(self._gap) <= 1e-4 * first * np.abs(closing)) & (closing > 0.0)).any():
+            return min(soon, first)  # just closed
+        return soon
+
+    def _take_grip(self, normal: np.ndarray) -> None:
+        """Where friction acts: matrices from the velocities and spins of all bodies to the slips of all links.
+
+        Normals turn by a fraction of a degree while two bodies are pressed together: it is enough to do so anew when
+        a link closes.
+        """
+        nx, ny = normal
+        none = np.zeros_like(self._arms)
+        ways = [[self._incidence * ny, -self._incidence * nx, none, none, none, self._arms]]  # along it, in the plane
+        if self._on_cloth:
+            ways.append([none, none, self._incidence, -self._arms * ny, self._arms * nx, none])  # upward
+        grip = np.stack([np.concatenate(way) for way in ways])  # of vx, vy, vz and the spins of each body
+        self._grip = np.ascontiguousarray(grip.transpose(0, 2, 1))  # shape (directions, links, 6 (bodies + 1))
+        self._effect = self._loose[:, None] * grip
+        self._mobility = self._grip @ self._effect
+
+    def _rub(self, state: np.ndarray, pressed: np.ndarray, ahead: float, fastest: float) -> np.ndarray:
+        """The state after friction: of all impulses that the normal ones (N s) allow, those that leave the least slip.
+
+        The slips are those of ``ahead`` s later. The impulses minimise the energy of the slips; they are found by
+        projected steps for all links at once, none longer than the sum of a row of the matrix allows.
+        """
+        acting = pressed > 0.0
+        if not (self._rubs and acting.any()):
+            return state.copy()
+        moving = state[2:].ravel()
+        later = moving.copy()
+        later[: self._gain.size] += ahead * self._gain
+        slips = self._grip @ later
+        speeds = np.sqrt((slips * slips).sum(axis=0))
+        limit = np.zeros_like(pressed)
+        for link in np.flatnonzero(acting).tolist():
+            limit[link] = pressed[link] * self._links[link].friction(float(speeds[link]))
+        ease = np.abs(self._mobility) @ acting
+        ease[:, ~acting] = 1.0
+        impulse = np.zeros_like(slips)
+        for _ in range(_ROUNDS):
+            wanted = impulse - slips / ease
+            size = np.sqrt((wanted * wanted).sum(axis=0))
+            change = wanted * np.minimum(1.0, limit / np.maximum(size, 1e-300)) - impulse
+            impulse += change
+            slips += (self._mobility @ change[:, :, None])[:, :, 0]
+            if float(np.abs(change * ease).max()) <= _SETTLED * fastest:
+                break
+        after = state.copy()
+        after[2:] += (self._effect @ impulse[:, :, None]).sum(axis=0).reshape(6, -1)
+        return after

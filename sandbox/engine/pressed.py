@@ -1,0 +1,224 @@
+"""Which balls meet while others are pressed together: gathered from their tracks, taken through the contact."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import partial
+from itertools import combinations, pairwise
+from math import hypot
+from typing import Any, NamedTuple
+
+from sandbox.engine.bernstein import evaluate
+from sandbox.engine.clusters import Body, Cluster, Link, StaysPressed
+from sandbox.engine.setup import Bounce, Setup, possible
+from sandbox.engine.touch import CONTACT, Obstacle
+from sandbox.engine.track import Track
+from sandbox.physics.hertz import contact_time
+from sandbox.physics.integrators import State
+
+#: Approach speed in m/s below which balls push each other and do not strike: those stay with impulses.
+FAINTEST = 1e-3
+
+
+class Blow(NamedTuple):
+    """One contact that closed on the way."""
+
+    t: float  # s
+    ball: int  # its place among the balls of the setup
+    partner: str
+    speed: float  # m/s, normal speed of approach
+
+
+@dataclass(frozen=True)
+class Parted:
+    """How the balls came out."""
+
+    t: float  # s, when the last two parted
+    states: dict[int, State]  # of all that were touched
+    blows: list[Blow]  # in order of time
+
+
+class Pressed:
+    """Finds clusters among the balls of a run, as its contact model asks."""
+
+    def __init__(self, setup: Setup, tracks: Sequence[Track], tolerance: float) -> None:
+        """``tolerance``: the error of a step through the contact, over the fastest ball's speed."""
+        self._setup = setup
+        self._tracks = tracks
+        self._tolerance = tolerance
+
+    def through(self, t: float, touching: dict[int, State]) -> Parted | None:
+        """The cluster around the balls that touch at t (with their states), taken through its contact.
+
+        None where impulses are right: no two balls strike each other, or nobody else is reached meanwhile.
+        """
+        model = self._setup.contact
+        struck = [
+            (self._approach(a, b), i, j)
+            for (i, a), (j, b) in combinations(touching.items(), 2)
+            if self._gap(i, a, j, b) <= CONTACT
+        ]
+        speed, i, j = max(struck, default=(0.0, 0, 0))
+        if model.name == "rigid" or speed <= FAINTEST:
+            return None
+        first, second = self._tracks[i].ball, self._tracks[j].ball
+        mass = first.mass * second.mass / (first.mass + second.mass)
+        lasts = contact_time(mass, model.between(first.radius, second.radius), speed)
+        fastest = 2.0 * speed * max(first.mass, second.mass) / (first.mass + second.mass)
+        members = dict(touching)
+        while True:
+            self._add_reached(t, members, fastest, lasts)
+            walls = self._walls(members, fastest * lasts)
+            if model.name == "auto" and len(members) == 2 and not walls:
+                return None
+            try:
+                parted = self._passed(t, members, walls, speed, fastest * lasts)
+            except StaysPressed:
+                return None
+            late = self._overlapping(parted)
+            if not late:
+                return parted
+            members.update({index: self._tracks[index].arc.state(t) for index in late})
+
+    # ------------------------------------------------------------------ who takes part
+
+    def _gap(self, i: int, a: State, j: int, b: State) -> float:
+        return hypot(a[0] - b[0], a[1] - b[1]) - self._tracks[i].ball.radius - self._tracks[j].ball.radius
+
+    @staticmethod
+    def _approach(a: State, b: State) -> float:
+        dx, dy = a[0] - b[0], a[1] - b[1]
+        return -((a[2] - b[2]) * dx + (a[3] - b[3]) * dy) / hypot(dx, dy)
+
+    def _add_reached(self, t: float, members: dict[int, State], fastest: float, lasts: float) -> None:
+        """Add the balls that can be reached while the contact lasts, and those that these can reach."""
+        waiting = list(members)
+        while waiting:
+            index = waiting.pop()
+            state = members[index]
+            for other, track in enumerate(self._tracks):
+                if other in members or track.caught:
+                    continue
+                x, y = track.arc.position(t)
+                apart = track.ball.radius + self._tracks[index].ball.radius
+                if abs(x - state[0]) + abs(y - state[1]) > 2.0 * apart + 2.0 * fastest * lasts:
+                    continue
+                there = track.arc.state(t)
+                towards = max(0.0, self._approach(state, there))
+                if self._gap(index, state, other, there) <= (fastest + towards) * lasts:
+                    members[other] = there
+                    waiting.append(other)
+
+    def _walls(self, members: dict[int, State], reach: float) -> list[tuple[int, Obstacle]]:
+        """The walls, where they are as hard as the balls, that members can reach."""
+        if self._setup.contact.wall_stiffness == 0.0:
+            return []
+        return [
+            (index, obstacle)
+            for index, state in members.items()
+            for obstacle in self._tracks[index].obstacles
+            if obstacle.near(state[0], state[1]).gap <= reach
+        ]
+
+    def _overlapping(self, parted: Parted) -> set[int]:
+        """Balls that were left out and lie where members came to."""
+        late = set()
+        for index, state in parted.states.items():
+            radius = self._tracks[index].ball.radius
+            for other, track in enumerate(self._tracks):
+                if other not in parted.states and not track.caught:
+                    x, y = track.arc.position(parted.t)
+                    if hypot(x - state[0], y - state[1]) < radius + track.ball.radius - CONTACT:
+                        late.add(other)
+        return late
+
+    # ------------------------------------------------------------------ there and back
+
+    def _passed(
+        self, t: float, members: dict[int, State], walls: Sequence[tuple[int, Obstacle]], speed: float, reach: float
+    ) -> Parted:
+        order = list(members)
+        place = {index: number for number, index in enumerate(order)}
+        bodies = [self._body(t, index, state) for index, state in members.items()]
+        pairs = [
+            (i, j)
+            for i, j in combinations(order, 2)
+            if self._gap(i, members[i], j, members[j]) <= 2.0 * reach + CONTACT
+        ]
+        links = [self._link(place, members, i, j, speed) for i, j in pairs]
+        links += [self._wall_link(place[index], members[index], obstacle) for index, obstacle in walls]
+        names = [self._tracks[j].ball.name for _, j in pairs] + [obstacle.surface.name for _, obstacle in walls]
+        firsts = [i for i, _ in pairs] + [index for index, _ in walls]
+        outcome = Cluster(bodies, links, self._setup.cloth is not None).pass_through(self._tolerance)
+        touched = outcome.impulse > 0.0
+        moved = {i for (i, j), hit in zip(pairs, touched, strict=False) if hit}
+        moved |= {j for (i, j), hit in zip(pairs, touched, strict=False) if hit}
+        moved |= {index for (index, _), hit in zip(walls, touched[len(pairs) :], strict=True) if hit}
+        blows = [
+            Blow(t + at, ball, name, approach)
+            for ball, name, approach, at, hit in zip(
+                firsts, names, outcome.approach.tolist(), outcome.closed.tolist(), touched.tolist(), strict=True
+            )
+            if hit
+        ]
+        states = {}
+        for index in moved:
+            (x, y), (vx, vy) = outcome.position[place[index]].tolist(), outcome.velocity[place[index]].tolist()
+            wx, wy, wz = outcome.spin[place[index]].tolist()
+            rolling = (wx, wy) if self._setup.cloth is not None else ()
+            states[index] = (*self._clear(index, x, y), vx, vy, wz, *rolling)
+        return Parted(t + outcome.duration, states, sorted(blows))
+
+    def _body(self, t: float, index: int, state: State) -> Body:
+        track = self._tracks[index]
+        ball, arc = track.ball, track.arc
+        push = (0.0, 0.0)
+        if arc.t1 > arc.t0:
+            u, h = min(1.0, max(0.0, (t - arc.t0) / (arc.t1 - arc.t0))), arc.t1 - arc.t0
+            push = _slope(arc.vx, u) / h, _slope(arc.vy, u) / h
+        turning = (*state[5:7], state[4]) if len(state) > 5 else (0.0, 0.0, state[4])
+        return Body(ball.mass, ball.radius, ball.inertia, state[:2], state[2:4], turning, push)
+
+    def _link(self, place: dict[int, int], members: dict[int, State], i: int, j: int, speed: float) -> Link:
+        first, second = self._tracks[i].ball, self._tracks[j].ball
+        approach = max(speed, self._approach(members[i], members[j]))
+        bounce = possible(self._setup.between_balls(approach, 0.0), second.name)
+        rubs = partial(_friction, self._setup.between_balls, approach)
+        stiffness = self._setup.contact.between(first.radius, second.radius)
+        return Link(place[i], place[j], stiffness, bounce.restitution, rubs)
+
+    def _wall_link(self, place: int, state: State, obstacle: Obstacle) -> Link:
+        surface = obstacle.surface
+        touching = obstacle.near(state[0], state[1])
+        approach = max(0.0, -(state[2] * touching.nx + state[3] * touching.ny))
+        bounce = Bounce(surface.restitution, surface.friction)
+        if surface.law is not None and approach > 0.0:
+            along = abs(state[2] * touching.ny - state[3] * touching.nx)
+            bounce = possible(surface.law(approach, along), surface.name)
+
+        def wall(x: float, y: float) -> tuple[float, float, float]:
+            near = obstacle.near(x, y)
+            return near.gap, near.nx, near.ny
+
+        stiffness = self._setup.contact.wall_stiffness
+        return Link(place, None, stiffness, bounce.restitution, lambda slip: bounce.friction, wall)
+
+    def _clear(self, index: int, x: float, y: float) -> tuple[float, float]:
+        """Out of the walls that give way more than balls do: they push back when the balls have parted."""
+        for _, touching in self._tracks[index].near(x, y):
+            if touching.gap < 0.0:
+                x, y = x - touching.gap * touching.nx, y - touching.gap * touching.ny
+        return x, y
+
+
+def _friction(between_balls: Any, approach: float, slip: float) -> float:
+    bounce: Bounce = between_balls(approach, slip)
+    return bounce.friction
+
+
+def _slope(curve: Sequence[float], u: float) -> float:
+    """The derivative of a polynomial in Bernstein form by u."""
+    if len(curve) == 1:
+        return 0.0
+    return evaluate([(len(curve) - 1) * (b - a) for a, b in pairwise(curve)], u)

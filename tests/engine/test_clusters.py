@@ -1,0 +1,149 @@
+"""Balls that meet while they are pressed together, against closed forms, publications and symmetries."""
+
+from __future__ import annotations
+
+from math import cos, hypot, radians, sin, sqrt
+
+import numpy as np
+import pytest
+
+from sandbox.engine.clusters import Body, Cluster, Link, StaysPressed
+from sandbox.physics.hertz import contact_time
+
+MASS, RADIUS, STIFFNESS = 0.170097, 0.028575, 5.262e8  # of pool balls: kg, m, N/m^1.5
+TOLERANCE = 1e-7
+
+
+def ball(x, y, vx=0.0, vy=0.0, spin=(0.0, 0.0, 0.0), mass=MASS):
+    return Body(mass, RADIUS, 0.4 * mass * RADIUS**2, (x, y), (vx, vy), spin)
+
+
+def passage(bodies, restitution=1.0, friction=0.0, on_cloth=False, reach=3e-3, tolerance=TOLERANCE):
+    """Through a cluster in which all balls with gaps below ``reach`` (m) are linked."""
+    links = [
+        Link(i, j, STIFFNESS, restitution, lambda slip: friction)
+        for i, one in enumerate(bodies)
+        for j, other in enumerate(bodies[:i])
+        if hypot(one.position[0] - other.position[0], one.position[1] - other.position[1]) < 2 * RADIUS + reach
+    ]
+    return Cluster(bodies, links, on_cloth).pass_through(tolerance)
+
+
+def chain(count, gap=0.0, speed=1.0):
+    """Balls in a row; the first, at ``speed``, touches the second, and there are gaps between the others."""
+    return [ball(i * 2 * RADIUS + max(0, i - 1) * gap, 0.0, 0.0 if i else speed) for i in range(count)]
+
+
+def rack(speed, gap):
+    """Nine balls in a diamond, and a cue ball that touches the first."""
+    apart = 2 * RADIUS + gap
+    spots = [
+        (row * apart * sqrt(3) / 2, (i - (count - 1) / 2) * apart)
+        for row, count in enumerate((1, 2, 3, 2, 1))
+        for i in range(count)
+    ]
+    return [ball(-2 * RADIUS, 0.0, speed), *(ball(x, y) for x, y in spots)]
+
+
+def energy(velocity, spin, bodies):
+    turning = sum(0.5 * body.inertia * float(w @ w) for body, w in zip(bodies, spin, strict=True))
+    return turning + sum(0.5 * body.mass * float(v @ v) for body, v in zip(bodies, velocity, strict=True))
+
+
+@pytest.mark.parametrize("restitution", [1.0, 0.95, 0.7, 0.3])
+def test_a_pair_has_its_restitution(restitution):
+    outcome = passage(chain(2), restitution, tolerance=1e-8)
+    assert outcome.velocity[1, 0] - outcome.velocity[0, 0] == pytest.approx(restitution, abs=2e-6)
+    assert outcome.approach[0] == 1.0
+
+
+def test_a_pair_touches_for_hertz_s_time():
+    assert passage(chain(2)).duration == pytest.approx(contact_time(MASS / 2, STIFFNESS, 1.0), rel=1e-3)
+
+
+def test_three_equal_balls_in_a_row():
+    """-0.071, 0.076 and 0.995 of the blow (Alciatore, TP B.29)."""
+    assert passage(chain(3)).velocity[:, 0] == pytest.approx([-0.071, 0.076, 0.995], abs=6e-4)
+
+
+def test_two_frozen_balls_leave_alike():
+    """A ball against two frozen ones, along their common tangent: they differ by nothing (Cross 2016: 3 % measured)."""
+    bodies = [ball(0.0, 0.0, 1.0), ball(RADIUS * sqrt(3), RADIUS), ball(RADIUS * sqrt(3), -RADIUS)]
+    outcome = passage(bodies, 0.95)
+    assert outcome.velocity[1] == pytest.approx(outcome.velocity[2] * [1, -1], abs=1e-9)
+
+
+def test_a_wide_gap_gives_the_pairs_one_after_another():
+    """0, 0 and 1 for equal balls without loss, as the gap grows; nothing in between jumps."""
+    last = [passage(chain(3, gap)).velocity[2, 0] for gap in (0.0, 1e-6, 1e-5, 3e-5, 1e-4)]
+    assert last == sorted(last)
+    assert last[-1] == pytest.approx(1.0, abs=1e-5)
+
+
+def test_friction_of_a_pair_is_coulomb_s():
+    """A pair that slides passes on mu times the normal impulse, one that grips ends without slip."""
+    cut = radians(40.0)
+    for friction, on_cloth in ((0.05, False), (0.05, True), (0.8, False), (0.8, True)):
+        bodies = [ball(0.0, 0.0, 1.0, spin=(0.0, 20.0, 0.0)), ball(2 * RADIUS * cos(cut), 2 * RADIUS * sin(cut))]
+        outcome = passage(bodies, 0.95, friction, on_cloth)
+        change = outcome.velocity[1] * MASS
+        across = outcome.velocity[1] @ [-sin(cut), cos(cut)] * MASS
+        along = change @ [cos(cut), sin(cut)]
+        if friction < 0.1 and not on_cloth:
+            assert abs(across) / along == pytest.approx(friction, rel=0.05)  # the normal turns a little meanwhile
+        if friction > 0.1:
+            ux, uy = outcome.velocity[0] - outcome.velocity[1]
+            slip = ux * sin(cut) - uy * cos(cut) - RADIUS * (outcome.spin[0, 2] + outcome.spin[1, 2])
+            assert slip == pytest.approx(0.0, abs=2e-2)  # of where they met
+
+
+@pytest.mark.parametrize(("restitution", "friction"), [(1.0, 0.0), (0.95, 0.05), (0.9, 0.6)])
+def test_a_rack_keeps_momentum_gains_no_energy_and_mirrors(restitution, friction):
+    bodies = rack(8.0, 1e-5)
+    outcome = passage(bodies, restitution, friction, on_cloth=True, tolerance=1e-6)
+    assert outcome.velocity.sum(axis=0) == pytest.approx([8.0, 0.0], abs=1e-9)
+    assert energy(outcome.velocity, outcome.spin, bodies) <= 0.5 * MASS * 8.0**2 * (1 + 1e-14)
+    mirrored = outcome.velocity[[0, 1, 3, 2, 6, 5, 4, 8, 7, 9]] * [1, -1]
+    assert mirrored == pytest.approx(outcome.velocity, abs=8e-9)
+
+
+def test_the_order_of_the_balls_does_not_matter():
+    bodies = rack(8.0, 1e-5)
+    order = np.random.default_rng(1).permutation(len(bodies))
+    one = passage(bodies, 0.95, 0.05, on_cloth=True, tolerance=1e-6).velocity
+    other = passage([bodies[i] for i in order], 0.95, 0.05, on_cloth=True, tolerance=1e-6).velocity
+    assert other == pytest.approx(one[order], abs=1e-6)
+
+
+def test_turned_by_any_angle_it_is_the_same():
+    turn = 0.7
+    c, s = cos(turn), sin(turn)
+    bodies = rack(5.0, 1e-5)
+    turned = [
+        body._replace(
+            position=(c * body.position[0] - s * body.position[1], s * body.position[0] + c * body.position[1]),
+            velocity=(c * body.velocity[0] - s * body.velocity[1], s * body.velocity[0] + c * body.velocity[1]),
+        )
+        for body in bodies
+    ]
+    one, other = (passage(each, 0.95, 0.05).velocity for each in (bodies, turned))
+    assert other == pytest.approx(one @ np.array([[c, s], [-s, c]]), abs=1e-3 * 5.0)
+
+
+def test_a_ball_on_a_ball_on_the_floor():
+    """A light ball on a heavy one, both falling at 1 m/s onto a hard floor: almost three times as fast upward."""
+    heavy, light = ball(0.0, RADIUS, 0.0, -1.0, mass=1.0), ball(0.0, 3 * RADIUS + 1e-3, 0.0, -1.0, mass=1e-4)
+    links = [
+        Link(0, None, STIFFNESS, 1.0, lambda slip: 0.0, wall=lambda x, y: (y - RADIUS, 0.0, 1.0)),
+        Link(1, 0, STIFFNESS, 1.0, lambda slip: 0.0),
+    ]
+    outcome = Cluster([heavy, light], links).pass_through(TOLERANCE)
+    assert outcome.velocity[1, 1] == pytest.approx(3.0, rel=1e-2)
+    assert outcome.velocity[0, 1] == pytest.approx(1.0, rel=1e-3)
+
+
+def test_what_stays_pressed_is_an_error():
+    pressed = [body._replace(push=(0.0, -9.81)) for body in (ball(0.0, RADIUS, 0.0, -1e-3),)]
+    floor = Link(0, None, STIFFNESS, 0.1, lambda slip: 0.0, wall=lambda x, y: (y - RADIUS, 0.0, 1.0))
+    with pytest.raises(StaysPressed, match="do not part"):
+        Cluster(pressed, [floor]).pass_through(TOLERANCE)
