@@ -2,8 +2,8 @@
 
 An impulse is right for a lone pair. Where a third body is reached while two are pressed together, who gets how much
 depends on how the contacts share the fraction of a millisecond that they last. So the bodies are moved through it:
-positions and velocities under the forces of Hertz's law (``physics/hertz.py``) with error control, and after each step
-friction, as the impulses that bring every slip to rest as far as the step's normal impulses reach (Coulomb).
+positions and velocities under the forces of Hertz's law (``physics/hertz.py``), and with each step friction, as the
+impulses that bring every slip to rest as far as the step's normal impulses reach (Coulomb).
 
 All contacts are treated at once, as rows of arrays, so that the outcome does not depend on the order of the bodies.
 """
@@ -30,14 +30,18 @@ _STAGES = (
 )
 _ERROR = np.array([71 / 57600, 0.0, -71 / 16695, 71 / 1920, -17253 / 339200, 22 / 525, -1 / 40])
 
-#: First and longest step as shares of the shortest contact there can be.
-_FIRST, _LONGEST = 1e-3, 0.1
+#: Largest error of a step by the embedded pair, over the fastest speed; with more than that all is done again by half
+#: the step. Steps are even otherwise: so what comes out depends smoothly on what went in, and rounding stays rounding.
+_LARGEST_ERROR = 1e-3
 
-#: Steps beyond which bodies that press on one another are not going to part by themselves.
-_MOST_STEPS = 3_000
+#: So many links at most are few: with them steps end where a link closes or opens, and are graded around that.
+_FEW, _GRADES = 6, (4.0**-6, *(3.0 * 4.0**-power for power in range(6, 0, -1)))
+
+#: Contact times after which bodies that press on one another are not going to part by themselves.
+_LONGEST = 200.0
 
 #: Rounds of friction, and the change of a slip over the fastest body's speed that ends them.
-_ROUNDS, _SETTLED = 200, 1e-9
+_ROUNDS, _SETTLED = 500, 1e-12
 
 #: Speed in m/s that is rounding, and depth in m.
 _STILL, _TOUCH = 1e-9, 1e-12
@@ -113,11 +117,18 @@ class Cluster:
         self._walls = [(place, link.wall, link.first) for place, link in enumerate(links) if link.wall is not None]
         self._on_cloth = on_cloth
 
-    def pass_through(self, tolerance: float) -> Passage:
-        """Through the contact until nothing touches; ``tolerance`` is the error of a step over the fastest speed.
+    def pass_through(self, share: float) -> Passage:
+        """Through the contact until nothing touches, by steps of this share of the shortest contact there can be.
 
         Raises StaysPressed where it has no end.
         """
+        while True:
+            passage, error = self._stepped_through(share)
+            if error <= _LARGEST_ERROR:
+                return passage
+            share *= 0.5
+
+    def _stepped_through(self, share: float) -> tuple[Passage, float]:
         count, links = self._count, len(self._links)
         state = np.zeros((8, count + 1))  # x, y, vx, vy, vz, and the spins
         for i, body in enumerate(self._bodies):
@@ -133,47 +144,48 @@ class Cluster:
         rubbing = max(fastest, float(surface.max()))
         shortest = min(contact_time(m, k, fastest) for m, k in zip(self._mass, self._stiffness, strict=True))
         scale = np.repeat([fastest * shortest, fastest], 2 * count + 2)
-        t, h, steps = 0.0, _FIRST * shortest, 0
+        whole, t, steps, worst = share * shortest, 0.0, 0, 0.0
+        lands = links <= _FEW
         impulse, approach, closed, rubbed = (np.zeros(links) for _ in range(4))
         rates, forces = np.empty((7, 4, count + 1)), np.empty((7, links))
         flat = rates.reshape(7, -1)
         rates[0], depth, closing, normal, force = self._motion(state[:4])
-        self._gain = rates[0, 2:].ravel()  # m/s^2
-        self._take_grip(normal)
+        gain, gap = rates[0, 2:].flatten(), self._gap  # m/s^2, m
         approach[:] = np.where(self._gap < _TOUCH, np.maximum(closing, 0.0), 0.0)
+        plan = _finer_behind(whole) if lands else [whole]
         while True:
+            h = plan[0]
             # Friction of the half steps behind and ahead: second order, and in all mu times the impulse.
             reached = np.maximum(impulse + 0.5 * h * force, rubbed)
-            start = self._rub(state, reached - rubbed, 0.5 * h, rubbing)
+            start = self._rub(state, normal, reached - rubbed, 0.5 * h * gain, rubbing)
             rates[0], *_, forces[0] = self._motion(start[:4])
             for stage, weights in enumerate(_STAGES, 1):
                 moved = start[:4] + (h * weights @ flat[:stage]).reshape(4, -1)
                 rates[stage], depth, closing_then, normal, forces[stage] = self._motion(moved)
-            off = float(np.abs(_ERROR @ flat / scale).max()) * h
-            if not off <= tolerance:
-                h *= max(0.2, 0.9 * (tolerance / off) ** 0.2) if off < 1e300 else 0.1
-                continue
-            state, rubbed, force = start, reached, forces[6].copy()
-            self._gain = rates[6, 2:].ravel()
+            if lands and len(plan) == 1:
+                kink = _first_kink(h, gap, self._gap, closing, closing_then)
+                if kink is not None:
+                    plan = [*_finer_ahead(kink), *_finer_behind(h - kink)]
+                    continue
+            worst = max(worst, float(np.abs(_ERROR @ flat / scale).max()) * h)
+            plan, gap = plan[1:] or [whole], self._gap
+            state, rubbed, force, gain = start, reached, forces[6].copy(), rates[6, 2:].flatten()
             state[:4] = moved
             impulse += h * (_STAGES[-1] @ forces[:6])
             first = (depth > 0.0) & (approach == 0.0)
-            if first.any():
-                approach[first], closed[first] = closing[first], t
-                self._take_grip(normal)
+            approach[first], closed[first] = closing[first], t
             closing = closing_then
             t, steps = t + h, steps + 1
             if not ((depth > 0.0) | ((self._gap < _TOUCH) & (closing > _STILL))).any():
-                state = self._rub(state, np.maximum(impulse - rubbed, 0.0), 0.0, rubbing)
+                state = self._rub(state, normal, np.maximum(impulse - rubbed, 0.0), 0.0 * gain, rubbing)
                 break
-            if steps > _MOST_STEPS:
+            if t > _LONGEST * shortest:
                 raise StaysPressed(f"bodies do not part within {t:.3g} s")
-            h = min(_LONGEST * shortest, h * min(5.0, 0.9 * (tolerance / max(off, 1e-300)) ** 0.2))
-            h = self._up_to_a_change(h, closing, _FIRST * shortest)
         if not self._push.any():
             self._take_back(state, before)
         position = (state[:2, :count] + origin).T
-        return Passage(float(t), position, state[2:4, :count].T, state[5:8, :count].T, impulse, approach, closed, steps)
+        velocity, spin = state[2:4, :count].T, state[5:8, :count].T
+        return Passage(float(t), position, velocity, spin, impulse, approach, closed, steps), worst
 
     def _motion(self, moving: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
         """The derivative of (x, y, vx, vy), and of each link the depth (m), closing speed (m/s), normal, force (N)."""
@@ -210,49 +222,38 @@ class Cluster:
             share = np.sqrt(max(0.0, (before - kept) / (before - kept + excess)))
             state[2:, :-1] = common + share * (state[2:, :-1] - common)
 
-    def _up_to_a_change(self, h: float, closing: np.ndarray, first: float) -> float:
-        """A step that does not straddle the moment at which a link closes or opens, where the force has a kink."""
-        ahead = np.abs(self._gap) / np.maximum(np.abs(closing), 1e-300)  # s, exact where nothing pushes
-        near = ahead[(self._gap * closing > 0.0) & (ahead > 1e-4 * first)]
-        soon = float(near.min(initial=h))
-        if ((np.abs(self._gap) <= 1e-4 * first * np.abs(closing)) & (closing > 0.0)).any():
-            return min(soon, first)  # just closed
-        return soon
-
-    def _take_grip(self, normal: np.ndarray) -> None:
-        """Where friction acts: matrices from the velocities and spins of all bodies to the slips of all links.
-
-        Normals turn by a fraction of a degree while two bodies are pressed together: it is enough to do so anew when
-        a link closes.
-        """
+    def _grip(self, normal: np.ndarray) -> np.ndarray:
+        """From velocities and spins of all bodies to the slips of all links: shape (directions, links, ...)."""
         nx, ny = normal
         none = np.zeros_like(self._arms)
         ways = [[self._incidence * ny, -self._incidence * nx, none, none, none, self._arms]]  # along it, in the plane
         if self._on_cloth:
             ways.append([none, none, self._incidence, -self._arms * ny, self._arms * nx, none])  # upward
-        grip = np.stack([np.concatenate(way) for way in ways])  # of vx, vy, vz and the spins of each body
-        self._grip = np.ascontiguousarray(grip.transpose(0, 2, 1))  # shape (directions, links, 6 (bodies + 1))
-        self._effect = self._loose[:, None] * grip
-        self._mobility = self._grip @ self._effect
+        return np.stack([np.concatenate(way).T for way in ways])
 
-    def _rub(self, state: np.ndarray, pressed: np.ndarray, ahead: float, fastest: float) -> np.ndarray:
+    def _rub(
+        self, state: np.ndarray, normal: np.ndarray, pressed: np.ndarray, coming: np.ndarray, fastest: float
+    ) -> np.ndarray:
         """The state after friction: of all impulses that the normal ones (N s) allow, those that leave the least slip.
 
-        The slips are those of ``ahead`` s later. The impulses minimise the energy of the slips; they are found by
-        projected steps for all links at once, none longer than the sum of a row of the matrix allows.
+        The slips are those after a change of the velocities by ``coming`` (m/s). The impulses minimise the energy of
+        the slips; they are found by projected steps for all links at once, none longer than the sum of a row of the
+        matrix allows.
         """
         acting = pressed > 0.0
         if not (self._rubs and acting.any()):
             return state.copy()
-        moving = state[2:].ravel()
-        later = moving.copy()
-        later[: self._gain.size] += ahead * self._gain
-        slips = self._grip @ later
+        later = state[2:].flatten()
+        later[: coming.size] += coming
+        grip = self._grip(normal)
+        effect = self._loose[:, None] * grip.transpose(0, 2, 1)
+        mobility = grip @ effect
+        slips = grip @ later
         speeds = np.sqrt((slips * slips).sum(axis=0))
         limit = np.zeros_like(pressed)
         for link in np.flatnonzero(acting).tolist():
             limit[link] = pressed[link] * self._links[link].friction(float(speeds[link]))
-        ease = np.abs(self._mobility) @ acting
+        ease = np.abs(mobility) @ acting
         ease[:, ~acting] = 1.0
         impulse = np.zeros_like(slips)
         for _ in range(_ROUNDS):
@@ -260,9 +261,38 @@ class Cluster:
             size = np.sqrt((wanted * wanted).sum(axis=0))
             change = wanted * np.minimum(1.0, limit / np.maximum(size, 1e-300)) - impulse
             impulse += change
-            slips += (self._mobility @ change[:, :, None])[:, :, 0]
+            slips += (mobility @ change[:, :, None])[:, :, 0]
             if float(np.abs(change * ease).max()) <= _SETTLED * fastest:
                 break
         after = state.copy()
-        after[2:] += (self._effect @ impulse[:, :, None]).sum(axis=0).reshape(6, -1)
+        after[2:] += (effect @ impulse[:, :, None]).sum(axis=0).reshape(6, -1)
         return after
+
+
+def _finer_behind(h: float) -> list[float]:
+    """A step of h s, divided more finely where it begins: at a kink of the force."""
+    return [h * share for share in _GRADES]
+
+
+def _finer_ahead(h: float) -> list[float]:
+    """A step of h s, divided more finely where it ends."""
+    return [h * share for share in reversed(_GRADES)]
+
+
+def _first_kink(
+    h: float, gap: np.ndarray, gap_after: np.ndarray, closing: np.ndarray, closing_after: np.ndarray
+) -> float | None:
+    """When in a step of h s the first link closes or opens, by the cubic that meets gaps and speeds; None if none."""
+    first = None
+    for link in np.flatnonzero(gap * gap_after < 0.0).tolist():
+        a, b = float(gap[link]), float(gap_after[link])
+        p, q = -h * float(closing[link]), -h * float(closing_after[link])
+        low, high = 0.0, 1.0
+        for _ in range(50):
+            u = 0.5 * (low + high)
+            v = 1.0 - u
+            here = v * v * (a * (1.0 + 2.0 * u) + p * u) + u * u * (b * (1.0 + 2.0 * v) - q * v)
+            low, high = (u, high) if here * a > 0.0 else (low, u)
+        if 1e-3 < low < 1.0 - 1e-3 and (first is None or low * h < first):
+            first = low * h
+    return first

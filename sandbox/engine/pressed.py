@@ -42,11 +42,11 @@ class Parted:
 class Pressed:
     """Finds clusters among the balls of a run, as its contact model asks."""
 
-    def __init__(self, setup: Setup, tracks: Sequence[Track], tolerance: float) -> None:
-        """``tolerance``: the error of a step through the contact, over the fastest ball's speed."""
+    def __init__(self, setup: Setup, tracks: Sequence[Track], step: float) -> None:
+        """``step`` through the contact, as a share of the shortest there can be."""
         self._setup = setup
         self._tracks = tracks
-        self._tolerance = tolerance
+        self._step = step
 
     def through(self, t: float, touching: dict[int, State]) -> Parted | None:
         """The cluster around the balls that touch at t (with their states), taken through its contact.
@@ -150,7 +150,7 @@ class Pressed:
         links += [self._wall_link(place[index], members[index], obstacle) for index, obstacle in walls]
         names = [self._tracks[j].ball.name for _, j in pairs] + [obstacle.surface.name for _, obstacle in walls]
         firsts = [i for i, _ in pairs] + [index for index, _ in walls]
-        outcome = Cluster(bodies, links, self._setup.cloth is not None).pass_through(self._tolerance)
+        outcome = Cluster(bodies, links, self._setup.cloth is not None).pass_through(self._step)
         touched = outcome.impulse > 0.0
         moved = {i for (i, j), hit in zip(pairs, touched, strict=False) if hit}
         moved |= {j for (i, j), hit in zip(pairs, touched, strict=False) if hit}

@@ -69,7 +69,7 @@ class Simulation:
         self._separate_balls()
         slowest = 0.0 if setup.cloth is None else slowest_hop(setup.cloth, accuracy.hop)
         self._impacts = Impacts(setup, self._tracks, Contacts(setup.balls, self._numerics), slowest)
-        self._pressed = Pressed(setup, self._tracks, accuracy.through_contact)
+        self._pressed = Pressed(setup, self._tracks, accuracy.contact_step)
 
     def _laid_out(self) -> list[Track]:
         setup = self._setup

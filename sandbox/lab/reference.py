@@ -54,7 +54,7 @@ class Reference:
     first_touch: float  # s, when a ball first touches something; ``time`` if none does
     size: float  # m, how far the farthest ball gets from its start
     growth: float  # of a nudge until then, in m per unit
-    diverges_at: float | None  # s, when a nudge of 1e-9 has grown to 1 mm; None if it never does
+    diverges_at: float | None  # s, when a nudge of 1e-9, or the method's own error, has grown to 1 mm; None if neither
     closed_form: bool  # whether the motion is known in closed form, so that only touching is found by computing
     exact_error: float | None  # m, against the parabola, where only gravity acts before the first touch
 
@@ -79,14 +79,15 @@ def converge(scene: Scene) -> Reference:
     whole = _BEFORE_THE_END * first.duration if first.ended == "until" else first.duration
     first = simulate(until(scene.build(), whole), REFERENCE)
     nudged = simulate(until(_nudged(scene.build()), whole), REFERENCE)
+    check = simulate(until(scene.build(), whole), _check(whole))
     time, diverges_at = whole, None
     names = [ball.name for ball in setup.balls]
     for t in _looks(first, whole):
-        if apart(places(first, names, t), places(nudged, names, t)) > DIVERGED:
+        here = places(first, names, t)
+        if max(apart(here, places(other, names, t)) for other in (nudged, check)) > DIVERGED:
             diverges_at = t
             break
         time = t
-    check = simulate(until(scene.build(), time), _check(time))
     growth = apart(places(first, names, time), places(nudged, names, time)) / NUDGE
     points = looked_at(scene, first, time)
     return Reference(

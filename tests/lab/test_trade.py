@@ -17,7 +17,7 @@ from sandbox.engine.accuracy import LEVELS
 from sandbox.lab import trade as lab
 from sandbox.lab import verdicts
 from sandbox.lab.ablation import Ablated, ablation, variants, with_changes
-from sandbox.lab.reference import REFERENCE, Reference, converge
+from sandbox.lab.reference import DIVERGED, REFERENCE, Reference, converge
 from sandbox.lab.tables import length_above
 from sandbox.lab.verdicts import shot_map, verdict
 from sandbox.new import new_scene
@@ -85,7 +85,7 @@ def test_a_break_is_looked_at_before_it_diverges():
     reference = converge(load("billiards"))
     assert reference.diverges_at is not None
     assert 0.0 < reference.time < reference.diverges_at
-    assert reference.error < 1e-4
+    assert reference.error < DIVERGED
 
 
 def test_a_scene_may_have_a_measure_of_its_own(tmp_path: Path):
