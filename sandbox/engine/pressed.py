@@ -11,7 +11,8 @@ from typing import Any, NamedTuple
 
 from sandbox.engine.bernstein import evaluate
 from sandbox.engine.clusters import Body, Cluster, Link, StaysPressed
-from sandbox.engine.setup import Bounce, Setup, possible
+from sandbox.engine.setup import Bounce, Setup
+from sandbox.engine.surfaces import answer, answer_of_balls
 from sandbox.engine.touch import CONTACT, Obstacle
 from sandbox.engine.track import Track
 from sandbox.physics.hertz import contact_time
@@ -183,19 +184,15 @@ class Pressed:
     def _link(self, place: dict[int, int], members: dict[int, State], i: int, j: int, speed: float) -> Link:
         first, second = self._tracks[i].ball, self._tracks[j].ball
         approach = max(speed, self._approach(members[i], members[j]))
-        bounce = possible(self._setup.between_balls(approach, 0.0), second.name)
+        bounce = answer_of_balls(self._setup, approach, 0.0, second.name)
         rubs = partial(_friction, self._setup.between_balls, approach)
         stiffness = self._setup.contact.between(first.radius, second.radius)
         return Link(place[i], place[j], stiffness, bounce.restitution, rubs)
 
     def _wall_link(self, place: int, state: State, obstacle: Obstacle) -> Link:
-        surface = obstacle.surface
         touching = obstacle.near(state[0], state[1])
         approach = max(0.0, -(state[2] * touching.nx + state[3] * touching.ny))
-        bounce = Bounce(surface.restitution, surface.friction)
-        if surface.law is not None and approach > 0.0:
-            along = abs(state[2] * touching.ny - state[3] * touching.nx)
-            bounce = possible(surface.law(approach, along), surface.name)
+        bounce = answer(obstacle.surface, approach, state[2] * touching.ny - state[3] * touching.nx)
 
         def wall(x: float, y: float) -> tuple[float, float, float]:
             near = obstacle.near(x, y)
