@@ -7,7 +7,6 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from math import inf
-from typing import Any
 
 import numpy as np
 import pygame
@@ -15,6 +14,7 @@ import pygame
 from sandbox.engine.arc import Arc
 from sandbox.engine.bernstein import piece
 from sandbox.engine.ledger import Ledger, kinetic, ledger
+from sandbox.engine.run import Run
 from sandbox.picture.palette import Colour, mix, palette
 from sandbox.picture.path import chip
 from sandbox.picture.sheet import CARD, Entry, Sheet, nice
@@ -30,6 +30,8 @@ LEAST_SHARE, MOST_CAUSES = 0.004, 6
 LEAST_ENERGY = 1e-3
 #: As many impacts are marked at most, those at less than this share of the hardest are not.
 HITS, HARD = 12, 0.15
+#: At so many impacts, the hardest, energy is taken just before and after: what they cost is seen as a step.
+SAMPLED = 200
 #: s before an impact at which the energy is taken, so that the loss is seen at once.
 BEFORE = 1e-9
 #: How dark what is lost is drawn.
@@ -66,9 +68,9 @@ class Course:
         return {name: np.maximum(work, 0.0) for name, work in self.work.items()}
 
 
-def course(run: Any) -> Course:
+def course(run: Run) -> Course:
     """The energy of a run over time; height counts from the lowest that the balls come to."""
-    called, hits = _names(run), [t for t in hard_impacts(run) if t > BEFORE]
+    called, hits = _names(run), [t for t in _hits(run)[:SAMPLED] if t > BEFORE]
     even = np.linspace(0.0, run.duration, PIECES + 1)
     times = np.union1d(even, [*hits, *(t - BEFORE for t in hits)])
     gained: dict[str, np.ndarray] = defaultdict(lambda: np.zeros(len(times)))
@@ -95,13 +97,18 @@ def course(run: Any) -> Course:
     return Course(times, has, sums)
 
 
-def hard_impacts(run: Any) -> list[float]:
+def hard_impacts(run: Run) -> list[float]:
     """Times in s of the hardest impacts."""
+    return sorted(set(_hits(run, HARD)[:HITS]))
+
+
+def _hits(run: Run, share: float = 0.0) -> list[float]:
+    """Times in s of the impacts that are at least this share as hard as the hardest, the hardest first."""
     hits = sorted(((event.speed, event.t) for event in run.events if event.kind == "impact"), reverse=True)
-    return sorted({t for speed, t in hits[:HITS] if speed >= HARD * hits[0][0]})
+    return [t for speed, t in hits if speed >= share * hits[0][0]]
 
 
-def _names(run: Any) -> Callable[[str], str]:
+def _names(run: Run) -> Callable[[str], str]:
     """What causes are called here: two balls "balls", and surfaces by their kind where there are several of it."""
     balls = {ball.name for ball in run.setup.balls}
     surfaces = {surface.name for surface in run.setup.surfaces}
@@ -116,7 +123,7 @@ def _names(run: Any) -> Callable[[str], str]:
     return called
 
 
-def _piece_of(run: Any, a: float, b: float) -> Ledger:
+def _piece_of(run: Run, a: float, b: float) -> Ledger:
     """The ledger of what happened after a and until b, in s."""
     arcs = {
         name: [_cut(arc, a, b) for arc in path if arc.t0 <= b and (arc.t1 > a or arc is path[-1])]
@@ -140,7 +147,7 @@ def _cut(arc: Arc, a: float, b: float) -> Arc:
     return Arc(a, b, arc.state(a), x, y, vx, vy, spin, arc.contact, tuple(spins))
 
 
-def energy_chart(run: Any, size: tuple[int, int] = (1280, 720)) -> pygame.Surface:
+def energy_chart(run: Run, size: tuple[int, int] = (1280, 720)) -> pygame.Surface:
     """The course of a run's energy as bands over time: below what the balls have, above it what each cause took.
 
     Where something put energy in, they reach above the start, and that part is hatched in its colour.
@@ -275,7 +282,7 @@ def _axes(sheet: Sheet, plot: pygame.Rect, duration: float, levels: Mapping[floa
         sheet.write(f"{i * step:g} s", "small", (column, plot.bottom + sheet.gap), sheet.quiet_ink, "midtop")
 
 
-def _impacts(sheet: Sheet, plot: pygame.Rect, run: Any) -> None:
+def _impacts(sheet: Sheet, plot: pygame.Rect, run: Run) -> None:
     """Dashed lines at the hardest impacts."""
     for t in hard_impacts(run):
         x = plot.left + plot.width * t / run.duration
@@ -310,7 +317,7 @@ def _name(sheet: Sheet, plot: pygame.Rect, bands: Sequence[Band], spots: Sequenc
         sheet.write(text, "small", (far + sheet.gap / 2, row), mix(colour, CARD["text"], 0.45), "midleft", bold=True)
 
 
-def _title(run: Any) -> str:
+def _title(run: Run) -> str:
     """What it is a run of."""
     scene = run.scene
     return "" if scene is None else f"{scene.name}/{scene.preset}" if scene.preset else scene.name

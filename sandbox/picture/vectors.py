@@ -5,11 +5,12 @@ from __future__ import annotations
 from bisect import bisect_right
 from functools import cached_property
 from math import hypot
-from typing import Any
 
 import numpy as np
 
 from sandbox.engine.acting import by_cause
+from sandbox.engine.arc import Arc
+from sandbox.engine.run import Run
 from sandbox.picture.palette import Colour, palette
 from sandbox.picture.sheet import CARD, Entry, Sheet
 
@@ -23,6 +24,8 @@ FORCE_WIDTH, VELOCITY_WIDTH = 4.2, 3.4
 SAMPLES = 60
 #: s over which the change of velocity is taken for what a surface does.
 STEP = 1e-4
+#: A ball slower than this, in m/s, is at rest.
+AT_REST = 1e-9
 
 
 def colour_of(name: str) -> Colour:
@@ -34,7 +37,7 @@ def colour_of(name: str) -> Colour:
 class Vectors:
     """The velocity of one ball and the forces on it, at any time of a run."""
 
-    def __init__(self, run: Any, name: str):
+    def __init__(self, run: Run, name: str):
         self.run, self.name = run, name
         self.ball = next(ball for ball in run.setup.balls if ball.name == name)
         self.arcs = run.arcs[name]
@@ -47,13 +50,20 @@ class Vectors:
             found[name] = before[0] + float(fx), before[1] + float(fy)
         arc = self.arcs[max(0, bisect_right(self.arcs, t, key=lambda arc: arc.t0) - 1)]
         surface = "cloth" if self.run.setup.cloth is not None else "contact" if arc.contact is not None else None
-        if surface is not None and t < arc.t1:
-            start, end = max(arc.t0, t - STEP), min(arc.t1, t + STEP)
-            (*_, ax, ay, _), (*_, bx, by, _) = arc.state(start)[:5], arc.state(end)[:5]
-            mass = self.ball.mass / (end - start)
+        if surface is not None:
             others = [sum(axis) for axis in zip((0.0, 0.0), *found.values(), strict=True)]
-            found[surface] = (bx - ax) * mass - others[0], (by - ay) * mass - others[1]
+            ax, ay = self._acceleration(arc, t)
+            found[surface] = self.ball.mass * ax - others[0], self.ball.mass * ay - others[1]
         return found
+
+    def _acceleration(self, arc: Arc, t: float) -> tuple[float, float]:
+        """Of the ball in m/s^2 on an arc of its path; none while it is at rest."""
+        if hypot(*self.run.state(self.name, t)[2:4]) < AT_REST:
+            return 0.0, 0.0
+        t = min(t, arc.t1)
+        start, end = max(arc.t0, t - STEP), min(arc.t1, t + STEP)
+        (*_, ax, ay, _), (*_, bx, by, _) = arc.state(start)[:5], arc.state(end)[:5]
+        return (bx - ax) / (end - start), (by - ay) / (end - start)
 
     @cached_property
     def _longest(self) -> tuple[float, float]:

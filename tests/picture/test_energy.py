@@ -41,6 +41,16 @@ def test_what_there_is_and_what_is_lost_add_up_at_all_times(name):
     assert total == pytest.approx(np.full(len(spent.times), spent.start), rel=1e-6)
 
 
+@pytest.mark.parametrize("name", ["billiards/bank", "billiards/nine-ball-break", "basketball/rattle"])
+def test_what_an_impact_takes_is_taken_at_once(name):
+    """Between two samples that are nearer to each other than can be drawn."""
+    run, spent = run_of(name), course(run_of(name))
+    for t in {event.t for event in run.events if event.kind == "impact"}:
+        at = int(np.searchsorted(spent.times, t))
+        assert spent.times[at] == t
+        assert spent.times[at] - spent.times[at - 1] < 1e-6
+
+
 def test_with_what_the_wind_put_in_the_balance_holds():
     """In still air lift does no work; through its curving path it hands a kick what the wind has."""
     spent = course(run_of(WINDY))

@@ -45,6 +45,13 @@ def test_the_turf_carries_a_putt_and_slows_it():
     assert -0.2 * weight < forces["contact"][0] < 0.0
 
 
+@pytest.mark.parametrize("name", ["golf", "soccer"])
+def test_the_ground_carries_a_ball_at_rest(name):
+    forces = vectors(name).forces(vectors(name).run.duration)
+    assert forces["gravity"][1] < 0.0
+    assert forces["contact"] == pytest.approx((0.0, -forces["gravity"][1]))
+
+
 def test_cloth_slows_a_sliding_ball_by_its_friction():
     draw = vectors("billiards/draw")
     cloth = draw.run.setup.cloth

@@ -1,0 +1,174 @@
+"""What the pictures of all scenes share, and each states only once: balls at even times, marks, comparisons, notes."""
+
+from __future__ import annotations
+
+from functools import cache
+from math import dist, hypot
+
+import numpy as np
+import pytest
+
+import sandbox
+from sandbox.picture.ball import Look
+from sandbox.picture.painter import Painter
+from sandbox.picture.places import Landscape, Mown, Stands
+from sandbox.picture.view import View
+
+SIDE = ["golf", "golf/golf-game", "golf/putt", "soccer", "soccer/goal-kick-in-a-gale", "basketball/rattle"]
+
+
+@cache
+def run_of(name: str):
+    return sandbox.simulate(sandbox.load(name))
+
+
+def picture_of(name: str, size=(1280, 720), **others: str) -> View:
+    run = run_of(name)
+    return run.scene.picture(run, size, {label: run_of(other) for label, other in others.items()})
+
+
+def written(picture: View) -> str:
+    return " ".join(text for text, _ in picture.sheet.written)
+
+
+@pytest.mark.parametrize("name", SIDE)
+def test_a_ball_or_a_bead_is_drawn_at_every_even_time(name: str, monkeypatch: pytest.MonkeyPatch):
+    picture = picture_of(name)
+    every, moments = picture.path.even_times(picture.span)
+    drawn: list[tuple[float, float]] = []
+    monkeypatch.setattr(Look, "draw", lambda self, painter, centre, *_: drawn.append(tuple(centre)))
+    disc = Painter.disc
+
+    def note(self, centre, radius, *rest):
+        drawn.append(tuple(centre))
+        disc(self, centre, radius, *rest)
+
+    monkeypatch.setattr(Painter, "disc", note)
+    picture.poster()
+    assert f"a ball every {every:g} s" in written(picture)
+    assert len(moments) > 4
+    for t in moments:
+        at = picture.spots(picture.camera, np.array([picture.run.state(picture.ball, t)[:2]]), 0.0)[0]
+        assert min(dist(at, place) for place in drawn) < 4.0, f"no ball at {t:g} s"
+
+
+def test_beads_are_said_where_there_are_any():
+    rolling, flying = picture_of("golf/golf-game"), picture_of("soccer/dipping-free-kick")
+    for picture in (rolling, flying):
+        picture.poster()
+    assert "a bead where balls would overlap" in written(rolling)
+    assert "a bead" not in written(flying)
+
+
+@pytest.mark.parametrize("name", ["golf", "golf/topped", "soccer", "basketball"])
+def test_a_mark_shows_the_whole_speed_of_the_ball(name: str):
+    """As the card does: 26.8 m/s at landing, not the 17.7 m/s of it that are across the ground."""
+    picture, run = picture_of(name), run_of(name)
+    for mark in picture.path.marks():
+        vx, vy = run.before(picture.path.name, mark.t)[2:4]
+        assert mark.speed == pytest.approx(hypot(vx, vy))
+        assert mark.hardness <= mark.speed + 1e-9
+
+
+def test_a_topped_drive_loses_speed_from_bounce_to_bounce():
+    speeds = [mark.speed for mark in picture_of("golf/topped").path.marks()]
+    assert speeds == sorted(speeds, reverse=True)
+
+
+@pytest.mark.parametrize(
+    ("name", "other", "words"),
+    [
+        ("basketball", "basketball/bank-shot", "aligned at the ring"),
+        ("golf/7-iron", "golf/driver", "aligned at the pin"),
+        ("soccer", "soccer/goal-kick-in-a-gale", "aligned at the goal"),
+    ],
+)
+def test_shots_over_other_distances_are_laid_over_each_other_at_their_target(name: str, other: str, words: str):
+    picture = picture_of(name, other=other)
+    ghost = picture.ghosts[0]
+    (x, _), _ = picture.datum
+    (there, _), _ = ghost.picture.datum
+    assert there != x
+    assert ghost.points == pytest.approx(ghost.picture.path.points + (x - there, 0.0))
+    picture.poster()
+    assert words in written(picture)
+    picture.frame(0.1)
+    assert words in written(picture)
+
+
+def test_shots_at_rings_of_other_heights_are_not_laid_over_each_other():
+    low = sandbox.simulate(sandbox.load("basketball", {"hoop.height": 2.6, "backboard.bottom": 2.4}))
+    run = run_of("basketball")
+    with pytest.raises(sandbox.RequestError, match=r"low: the ring is at 2.6 m, and here at 3.05 m"):
+        run.scene.picture(run, (640, 360), {"low": low})
+
+
+def test_what_is_stretched_is_said_to_the_window_too():
+    """A view tells it of the camera that it is asked about."""
+    picture = picture_of("golf")
+    assert picture.camera.stretch == 2.0
+    assert "heights drawn 2 times as large as lengths" in picture.notes(picture.camera)
+    assert not any("heights" in note for note in picture.notes(picture.view(1.0)))
+
+
+@pytest.mark.parametrize("name", ["soccer/goal-kick-in-a-gale", "golf/golf-game", "golf/topped", "basketball/rattle"])
+def test_a_speed_stands_at_its_mark_or_has_a_line_to_it(name: str, monkeypatch: pytest.MonkeyPatch):
+    picture = picture_of(name)
+    lines: list[tuple[float, float]] = []
+    line = Painter.line
+
+    def note(self, points, *rest):
+        lines.extend(tuple(point) for point in points)
+        line(self, points, *rest)
+
+    monkeypatch.setattr(Painter, "line", note)
+    picture.poster()
+    inset = picture.inset(picture.sheet, picture.camera, None)
+    marks = [picture.camera.pixel(*mark.at) for mark in picture.impacts(picture.camera)]
+    labels = [rect for text, rect in picture.sheet.written if text.endswith(" m/s") and rect.bottom < picture.card_row]
+    labels = [rect for rect in labels if inset is None or not inset.colliderect(rect)]
+    speeds = [rect for rect in labels if not rect.colliderect((0, 0, 1280, picture.sheet.top_row))]
+    assert speeds
+    for rect in speeds:
+        away = min(dist(mark, _nearest(rect, mark)) for mark in marks)
+        led = min((dist(point, _nearest(rect, point)) for point in lines), default=99.0)
+        assert away < 30.0 or led < 10.0
+
+
+def _nearest(rect, point):
+    return min(max(point[0], rect.left), rect.right), min(max(point[1], rect.top), rect.bottom)
+
+
+def test_no_trees_grow_on_the_moon():
+    moon = picture_of("golf/moon").course.colours["landscape"]
+    assert Landscape(**moon).trees == ()
+    assert Landscape(**picture_of("golf").course.colours["landscape"]).trees
+
+
+@pytest.mark.parametrize("name", ["golf", "soccer", "basketball"])
+def test_a_place_is_data(name: str):
+    """Two pictures of one scene have equal colours, which are drawn once for both."""
+    one, other = (picture_of(name) for _ in range(2))
+    assert one is not other
+    if name == "golf":
+        assert Landscape(**one.course.colours["landscape"]) == Landscape(**other.course.colours["landscape"])
+    else:
+        assert one.place.scenery == other.place.scenery
+        assert hash(one.place.scenery) == hash(other.place.scenery)
+        assert isinstance(one.place.scenery, Stands) == (name == "soccer")
+        assert isinstance(one.place.ground.surface, Mown) == (name == "soccer")
+
+
+def test_the_net_moves_with_a_swish_in_frames_and_in_the_window():
+    picture = picture_of("basketball")
+    inside = picture.net.entered + 0.5 * (picture.net.left - picture.net.entered)
+    for t, moves in ((0.1, False), (inside, True)):
+        rest, now = (np.concatenate(picture.net._shape(np.linspace(0, 1, 5), s)) for s in (0.0, t))
+        assert (np.abs(rest - now).max() > 0.01) == moves
+    box = picture.camera.pixel(*picture.ring)
+    seen = []
+    for t in (inside, picture.run.duration):
+        stage = picture.stage()
+        picture.draw_balls(Painter(stage), picture.camera, t)
+        seen.append([stage.get_at((round(box[0]) + x, round(box[1]) + 25))[:3] for x in range(-30, 30)])
+    assert seen[0] != seen[1]
