@@ -89,7 +89,7 @@ def test_shots_over_other_distances_are_laid_over_each_other_at_their_target(nam
     (x, _), _ = picture.datum
     (there, _), _ = ghost.picture.datum
     assert there != x
-    assert ghost.points == pytest.approx(ghost.picture.path.points + (x - there, 0.0))
+    assert ghost.points - ghost.picture.path.points == pytest.approx(np.full(ghost.points.shape, (x - there, 0.0)))
     picture.poster()
     assert words in written(picture)
     picture.frame(0.1)
