@@ -62,6 +62,8 @@ class Vectors:
             return 0.0, 0.0
         t = min(t, arc.t1)
         start, end = max(arc.t0, t - STEP), min(arc.t1, t + STEP)
+        if end <= start:  # a touch that ended the run
+            return 0.0, 0.0
         (*_, ax, ay, _), (*_, bx, by, _) = arc.state(start)[:5], arc.state(end)[:5]
         return (bx - ax) / (end - start), (by - ay) / (end - start)
 
