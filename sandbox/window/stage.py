@@ -182,7 +182,7 @@ class Stage:
     def _colour_of(self, shot: Shot) -> Colour:
         """Of an earlier shot: it keeps its colour."""
         colours = colours_beside(type(self.picture))
-        return colours[shot.number % len(colours)]
+        return colours[(shot.number - 1) % len(colours)]
 
     def draw_path(self, sheet: Canvas, shot: Shot, until: float | None = None) -> None:
         """The path of every ball that moves, that of the played one last and strongest, and where they touch."""

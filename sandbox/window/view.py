@@ -243,7 +243,7 @@ class View:
         fan = self._fan is not None and not self._fan.complete
         lively = self.panel is not None and (self._lively < LIVELY or not self.panel.complete)
         exporting = self.exporter is not None and self.exporter.is_alive()
-        coming = self.composing is not None or self.building is not None
+        coming = self.composing is not None or self.building is not None or self._words_late
         return coming or self._stage_wanted() or energy or fan or lively or exporting
 
     def _may_draw(self, stage: Stage, shot: Shot) -> bool:
@@ -311,7 +311,7 @@ class View:
         clock = (playback.t, playback.playing, playback.rate) if playback is not None else None
         over = (self.menu, self.choices, self.tape, frozenset(self.on), energy)
         seen = (self.game.revision, self.game.failure, clock, over, self.panel, blink)
-        needed = happened or self.changed or fan or lively or seen != self._seen
+        needed = happened or self.changed or fan or lively or self._words_late or seen != self._seen
         self._seen, self.changed = seen, False
         return needed
 
@@ -416,6 +416,13 @@ class View:
         if self._worded is None or not pulling or self._worded_for >= LEGIBLE or self._worded.place != shot.place:
             self._worded, self._worded_for = shot, 0.0
         return self._worded
+
+    @property
+    def _words_late(self) -> bool:
+        """Whether the words that are shown are those of an aim before."""
+        game = self.game
+        aiming = game.playback is None and game.failure is None and self.up_to_date
+        return aiming and self._worded is not None and self._worded is not game.shot
 
     def _hint(self) -> str:
         if self.game.pull is not None:
