@@ -6,49 +6,65 @@ import sys
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from rich.progress import Progress
 
 #: Work that is done within so many seconds shows no bar.
 PATIENCE = 2.0
-#: Seconds between two looks of the bar.
+#: Seconds between two refreshes of the bar.
 INTERVAL = 0.1
-WIDTH = 32  # characters
 
 
 @contextmanager
 def bar(what: str) -> Iterator[Callable[[int, int], None]]:
     """Gives a function to call with how much is done and how much there is; a bar shows on a terminal only.
 
-    Rate and time left are reckoned from its first call on, which may come with work that was done before.
+    Rate and time left are computed from its first call on, which may come with work that was done before.
     """
     begun = time.monotonic()
-    shown = 0.0  # when last, 0 for never
+    refreshed = 0.0
     first: tuple[float, int] | None = None
+    progress: Progress | None = None
+    task: Any = None
 
     def show(done: int, total: int) -> None:
-        nonlocal shown, first
+        nonlocal refreshed, first, progress, task
         now = time.monotonic()
         first = first or (now, done)
-        if now - begun < PATIENCE or now - shown < INTERVAL:
+        if now - begun < PATIENCE or now - refreshed < INTERVAL:
             return
-        shown = now
-        filled = WIDTH * done // max(total, 1)
-        pace = _pace(done - first[1], now - first[0], total - done)
-        sys.stderr.write(f"\r{what} [{'#' * filled}{'.' * (WIDTH - filled)}] {done}/{total}{pace}\x1b[K")
-        sys.stderr.flush()
+        refreshed = now
+        if progress is None:
+            progress = _bar()
+            progress.start()
+            task = progress.add_task(what, total=total, pace="")
+        progress.update(task, completed=done, total=total, pace=_pace(done - first[1], now - first[0], total - done))
+        progress.refresh()
 
     try:
         yield show if sys.stderr is not None and sys.stderr.isatty() else lambda done, total: None
     finally:
-        if shown:
-            sys.stderr.write("\r\x1b[K")  # back to the start of the line, and clear it
-            sys.stderr.flush()
+        if progress is not None:
+            progress.stop()  # which clears the line
+
+
+def _bar() -> Progress:
+    """Drawn only when it is told to be, without a thread of its own."""
+    from rich.console import Console
+    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn
+
+    columns = TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TextColumn("{task.fields[pace]}")
+    console = Console(file=sys.stderr, force_terminal=True)
+    return Progress(*columns, console=console, transient=True, auto_refresh=False)
 
 
 def _pace(done: int, seconds: float, left: int) -> str:
-    """Rate and time left, as ``"  1,240/s  12 s left"``."""
+    """Rate and time left, as ``"1,240/s  12 s left"``."""
     if done <= 0 or seconds <= 0.0:
         return ""
     rate = done / seconds
     wait = left / rate
     remaining = f"{wait:.0f} s" if wait < 100.0 else f"{wait / 60:.0f} min" if wait < 6000.0 else f"{wait / 3600:.1f} h"
-    return f"  {rate:,.0f}/s  {remaining} left" if rate >= 10.0 else f"  {rate:.2g}/s  {remaining} left"
+    return f"{rate:,.0f}/s  {remaining} left" if rate >= 10.0 else f"{rate:.2g}/s  {remaining} left"

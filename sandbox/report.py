@@ -11,8 +11,9 @@ from typing import TYPE_CHECKING, Any
 
 from sandbox.errors import RunError
 from sandbox.files import plain, written_whole
+from sandbox.lab.tables import paragraph, table
 from sandbox.scene.checking import NUDGE
-from sandbox.text import csv_text, one_line
+from sandbox.text import csv_text
 
 if TYPE_CHECKING:
     from sandbox.engine.event import Event
@@ -93,15 +94,16 @@ def card(scene: Scene, run: Run, check: Check | None = None, other: tuple[str, R
 
     ``other`` is a run to compare with and what it is called: its values stand beside ours.
     """
-    rows = _lines(scene.rows(run, None if check is None else check.errors, also=True))
-    if other is not None:
-        rows = _beside(rows, scene.verdict(run), scene.title, *other)
-    width = max((len(label) for label, _ in rows), default=0)
+    rows = scene.rows(run, None if check is None else check.errors, also=True)
+    if other is None:
+        numbers = table(("", ""), rows, "ll")
+    else:
+        numbers = table(("", scene.title, other[0]), _beside(rows, scene.verdict(run), other[1]), "lll")
     return [
-        f"{scene.title}: {scene.about}" if scene.about else scene.title,
+        *paragraph(f"{scene.title}: {scene.about}" if scene.about else scene.title, ""),
         "",
-        *([f"  {scene.verdict(run)}", ""] if other is None else []),
-        *(f"  {label:{width}}  {text}".rstrip() for label, text in rows),
+        *([*paragraph(scene.verdict(run)), ""] if other is None else []),
+        *numbers,
         "",
         *_events(run),
         "",
@@ -110,32 +112,26 @@ def card(scene: Scene, run: Run, check: Check | None = None, other: tuple[str, R
     ]
 
 
-def _lines(rows: list[tuple[str, str]]) -> list[tuple[str, str]]:
-    """Labels and texts, each on one line whatever a scene hands back."""
-    return [(one_line(label), one_line(text)) for label, text in rows]
-
-
-def _beside(rows: list[tuple[str, str]], verdict: str, title: str, called: str, other: Run) -> list[tuple[str, str]]:
-    """Rows with two columns, each below its name."""
-    rows = [("", title), ("verdict", verdict), *rows]
-    values = {"": called, "verdict": other.scene.verdict(other), **dict(_lines(other.scene.rows(other, also=True)))}
-    width = max(len(text) for _, text in rows)
-    return [(label, f"{text:{width}}   {values.get(label, '')}") for label, text in rows]
+def _beside(rows: list[tuple[str, str]], verdict: str, other: Run) -> list[tuple[str, str, str]]:
+    """Labels, our texts and those of the run to compare with."""
+    values = {"verdict": other.scene.verdict(other), **dict(other.scene.rows(other, also=True))}
+    return [(label, text, values.get(label, "")) for label, text in [("verdict", verdict), *rows]]
 
 
 def _events(run: Run) -> list[str]:
-    several = len(run.setup.balls) > 1
-    shown = run.events if len(run.events) <= EVENTS_SHOWN else run.events[: EVENTS_SHOWN - 1]
-    lines = [_event_line(event, several) for event in shown]
+    shown = list(run.events if len(run.events) <= EVENTS_SHOWN else run.events[: EVENTS_SHOWN - 1])
+    rows = [_event_row(event) for event in shown]
     if len(shown) < len(run.events):
-        lines += [f"  {'':10}  ... {len(run.events) - len(shown) - 1} more", _event_line(run.events[-1], several)]
-    return lines
+        rows.append(("", "", f"... {len(run.events) - len(shown) - 1} more", "", ""))
+        rows.append(_event_row(run.events[-1]))
+    if len(run.setup.balls) > 1:
+        return table(("",) * 5, rows, "rllll")
+    return table(("",) * 4, [(t, *rest) for t, _, *rest in rows], "rlll")
 
 
-def _event_line(event: Event, several: bool) -> str:
-    ball = f"{event.ball} " if several else ""
+def _event_row(event: Event) -> tuple[str, ...]:
     speed = f"at {event.speed:.1f} m/s" if event.kind == "impact" else ""
-    return one_line(f"  {event.t:8.2f} s  {ball}{event.kind:8} {event.partner:10} {speed}".rstrip())
+    return f"{event.t:8.2f} s", event.ball, event.kind, event.partner, speed
 
 
 def _numerics(run: Run) -> str:
@@ -153,20 +149,21 @@ def _count(number: int, noun: str) -> str:
 def _verdict(check: Check, units: Mapping[str, str]) -> list[str]:
     """What depends on the accuracy, and what on where exactly the balls start."""
     away = f"{check.nudges} runs from starts {NUDGE:g} m away"
-    lines = [
-        f"  depends on the accuracy: {name} is {_word(here)} here and {_word(finer)} in a finer run"
+    said = [
+        f"depends on the accuracy: {name} is {_word(here)} here and {_word(finer)} in a finer run"
         for name, (here, finer) in check.changed.items()
     ]
-    lines += [
-        f"  chaotic: {name.replace('_', ' ')} differs by up to {spread:.2g} {units.get(name, '')}".rstrip()
+    said += [
+        f"chaotic: {name.replace('_', ' ')} differs by up to {spread:.2g} {units.get(name, '')}".rstrip()
         + f" in {away}"
         for name, spread in check.chaotic.items()
     ]
-    lines += [
-        f"  chaotic: {name.replace('_', ' ')} is another in {len(others)} of {away}, such as {_word(others[0])}"
+    said += [
+        f"chaotic: {name.replace('_', ' ')} is another in {len(others)} of {away}, such as {_word(others[0])}"
         for name, others in check.unsettled.items()
     ]
-    return lines or [f"  checked against a finer run and {away}: only the numbers move, by no more than their ±"]
+    said = said or [f"checked against a finer run and {away}: only the numbers move, by no more than their ±"]
+    return [line for text in said for line in paragraph(text)]
 
 
 def _word(value: Any) -> str:

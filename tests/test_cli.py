@@ -114,12 +114,29 @@ def test_list_of_one_scene(call, tmp_path: Path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     shutil.copytree(DROP, tmp_path / "drop")
     everything, golf, drop = (
-        [line.split()[0] for line in call("list", *names).out.splitlines()] for names in ((), ("golf",), ("./drop",))
+        [line.split()[0] for line in call("list", *names).out.splitlines() if not line.startswith(" ")]
+        for names in ((), ("golf",), ("./drop",))
     )
     assert golf == [name for name in everything if name == "golf" or name.startswith("golf/")]
     assert drop == [name for name in everything if name == "./drop" or name.startswith("./drop/")]
     assert len(drop) > 1
     assert_refused(call("list", "golff"), "did you mean golf?")
+
+
+@pytest.mark.parametrize(
+    "command",
+    ["list", "run golf", "run golf --compare golf/headwind", "run billiards --check --compare billiards/draw"],
+)
+def test_what_is_printed_fits_80_columns_and_is_plain(call, command: str):
+    code, out, _ = call(*command.split())
+    assert code == 0
+    assert max(len(line) for line in out.splitlines()) <= 80
+    assert "\x1b" not in out
+
+
+def test_events_of_several_balls_align(call):
+    lines = [line for line in call("run", "billiards").out.splitlines() if " impact " in line]
+    assert len({line.index("impact") for line in lines}) == len({line.index(" at ") for line in lines}) == 1
 
 
 def test_schema_is_json(call):
@@ -160,7 +177,7 @@ def test_the_card_names_the_preset(call):
 def test_check_adds_errors_and_the_verdict(call):
     out = call("run", DROP, "--check").out
     assert "1.21 m ± less than 0.001 mm" in out
-    assert "only the numbers move" in out
+    assert "only the numbers move" in " ".join(out.split())
     report = json.loads(call("run", DROP, "--check", "--json").out)
     assert set(report["errors"]) == {"bounces", "first_touch", "final_height"}
     assert report["changed"] == {}

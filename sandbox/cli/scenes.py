@@ -17,12 +17,11 @@ def list_scenes(
     ] = None,
 ) -> None:
     """Show the scenes and presets there are, those in this folder too."""
+    from sandbox.lab.tables import table
     from sandbox.scene import listings, listings_in, listings_of
 
     found = [*listings(), *listings_in(Path())] if scene is None else listings_of(scene)
-    width = max((len(listing.name) for listing in found), default=0)
-    for listing in found:
-        say(f"{listing.name:{width}}  {listing.about}".rstrip())
+    say("\n".join(table(("", ""), [(listing.name, listing.about) for listing in found], "ll", indent="")))
 
 
 def schema(scene: SceneArgument) -> None:

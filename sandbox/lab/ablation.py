@@ -117,8 +117,16 @@ def _turned(before: str, after: str) -> str:
 
 def as_text(rows: list[Ablated], time: float) -> list[str]:
     """A table for people; ``time`` (s) is that of the measure."""
-    headings = ("part", "", "shift at first touch", f"after {time:.4g} s", "saves", "")
-    return ["what each part of the model is worth", *table(headings, [row.cells() for row in rows], "llrrrl")]
+    cells = [row.cells() for row in rows]
+    headings = ("part", "", "shift at first touch", f"after {time:.4g} s", "saves")
+    found = [(f"{part} {change}", results) for part, change, *_, results in cells if results]
+    return [
+        "what each part of the model is worth",
+        *table(headings, [row[:-1] for row in cells], "llrrr"),
+        "",
+        "what it changes in the result",
+        *table(("", ""), found, "ll"),
+    ]
 
 
 def ablation(reference: Reference) -> list[Ablated]:

@@ -22,7 +22,7 @@ from sandbox.engine.run import Run
 from sandbox.engine.setup import Circle, Surface
 from sandbox.errors import RequestError, SandboxError
 from sandbox.lab.extremes import ALL, ERROR_CONTROL, EXACT, FIXED_STEP, PLAIN, Extreme, bare, of_scene
-from sandbox.lab.tables import length, percent, significant, table
+from sandbox.lab.tables import length, paragraph, percent, significant, table
 from sandbox.physics.integrators import INTEGRATORS
 from sandbox.scene import Scene
 
@@ -273,17 +273,17 @@ def as_text(outcomes: Sequence[Outcome]) -> list[str]:
 
 
 def _table(outcomes: Sequence[Outcome]) -> list[str]:
-    names = list(dict.fromkeys(outcome.method for outcome in outcomes))
+    """By how many methods each extreme was held, refused and failed; which they were stands below the table."""
     rows = []
     for extreme in dict.fromkeys(outcome.extreme for outcome in outcomes):
-        own = {outcome.method: outcome for outcome in outcomes if outcome.extreme == extreme}
-        exact = [outcome for name, outcome in own.items() if name != "plain"]
+        own = [outcome for outcome in outcomes if outcome.extreme == extreme]
+        exact = [outcome for outcome in own if outcome.method != "plain"]
         energy = max((o.energy_gained for o in exact if o.energy_gained is not None), default=None)
         deepest = max((o.penetration_m for o in exact if o.penetration_m is not None), default=None)
+        counts = [sum(outcome.outcome == word for outcome in own) for word in (HELD, REFUSED, FAILED)]
         gained = "" if energy is None else percent(energy)
-        words = [own[name].outcome if name in own else "" for name in names]
-        rows.append((extreme, *(word.upper() if word == FAILED else word for word in words), gained, length(deepest)))
-    return table(("extreme", *names, "energy", "overlap"), rows, "l" + "l" * len(names) + "rr")
+        rows.append((extreme, *(str(count) if count else "" for count in counts), gained, length(deepest)))
+    return table(("extreme", "held", "refused", "failed", "energy", "overlap"), rows, "lrrrrr")
 
 
 def _remarks(outcomes: Sequence[Outcome]) -> Iterator[str]:
@@ -295,7 +295,7 @@ def _remarks(outcomes: Sequence[Outcome]) -> Iterator[str]:
     everybody = len({outcome.method for outcome in outcomes})
     for (outcome, extreme, message), names in by_message.items():
         who = "" if len(names) == everybody else f" ({', '.join(names)})"
-        yield f"    {outcome}, {extreme}{who}: {message}"
+        yield from paragraph(f"{outcome}, {extreme}{who}: {message}", "    ")
 
 
 def summary(outcomes: Sequence[Outcome]) -> tuple[list[str], list[list[str]]]:

@@ -2,7 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import io
+import shutil
+import textwrap
+from collections.abc import Iterable, Sequence
+from typing import Literal
+
+from sandbox.text import one_line
+
+#: Words up to this long are never folded.
+_SHORT = 8
 
 #: Lengths from the smallest unit up, with the length in m at which it begins.
 _LENGTHS = (
@@ -16,19 +25,60 @@ _LENGTHS = (
 _TIMES = ((60.0, "min", 1 / 60), (1.0, "s", 1.0), (1e-3, "ms", 1e3), (0.0, "µs", 1e6))
 
 
-def table(headings: Sequence[str], rows: Sequence[Sequence[str]], align: str, indent: str = "  ") -> list[str]:
-    """Lines with columns aligned as ``align`` says, a letter for each: l or r."""
-    cells = [list(headings), *(list(row) for row in rows)]
-    widths = [max(len(row[column]) for row in cells) for column in range(len(headings))]
+def width() -> int:
+    """Columns that a line may have: those of the terminal, 80 where there is none."""
+    return shutil.get_terminal_size((80, 24)).columns
 
-    def line(row: Sequence[str]) -> str:
-        parts = [
-            text.ljust(width) if side == "l" else text.rjust(width)
-            for text, width, side in zip(row, widths, align, strict=True)
-        ]
-        return (indent + "  ".join(parts)).rstrip()
 
-    return [line(row) for row in cells]
+def table(headings: Sequence[str], rows: Iterable[Sequence[str]], align: str, indent: str = "  ") -> list[str]:
+    """Lines with columns aligned as ``align`` says, a letter for each: l or r. Headings and cells on the left are
+    folded between words so that lines fit ``width``, numbers on the right never; without headings there is no line for
+    them."""
+    from rich.console import Console
+    from rich.padding import Padding
+    from rich.table import Table
+    from rich.text import Text
+
+    cells = [[one_line(cell) for cell in row] for row in rows]
+    widths = _widths(headings, cells, align, width() - len(indent))
+    drawn = Table(box=None, padding=(0, 2, 0, 0), pad_edge=False, show_header=any(headings), header_style="")
+    for heading, side, columns in zip(headings, align, widths, strict=True):
+        justify: Literal["left", "right"] = "left" if side == "l" else "right"
+        drawn.add_column(Text(heading), justify=justify, width=columns, vertical="top", overflow="fold")
+    for row in cells:
+        drawn.add_row(*map(Text, row))
+    whole = len(indent) + sum(widths) + 2 * len(widths)
+    console = Console(file=io.StringIO(), width=whole, color_system=None, legacy_windows=False)
+    with console.capture() as captured:
+        console.print(Padding(drawn, (0, 0, 0, len(indent)), expand=False))
+    return [line.rstrip() for line in captured.get().splitlines()]
+
+
+def _widths(headings: Sequence[str], rows: Sequence[Sequence[str]], align: str, room: int) -> list[int]:
+    """The width of each column in characters: what it takes, or less where all together would not fit into ``room``;
+    words, and numbers first of all, stay whole as far as that is possible."""
+    widths, words, shortest = [], [], []
+    for column, (heading, side) in enumerate(zip(headings, align, strict=True)):
+        texts = [row[column] for row in rows]
+        numbers = texts if side == "r" else []
+        widths.append(max(map(len, [heading, *texts])))
+        words.append(max(map(len, [*heading.split(), *(word for text in texts for word in text.split())]), default=0))
+        shortest.append(max(map(len, numbers), default=min(words[-1], _SHORT)))
+    for least in ([max(pair) for pair in zip(words, shortest, strict=True)], shortest):
+        while sum(widths) + 2 * (len(widths) - 1) > room:
+            excess = [has - needs for has, needs in zip(widths, least, strict=True)]
+            if max(excess) <= 0:
+                break
+            widest = max((number for number in range(len(widths)) if excess[number] > 0), key=widths.__getitem__)
+            widths[widest] -= 1
+    return widths
+
+
+def paragraph(text: str, indent: str = "  ") -> list[str]:
+    """Lines of a text that fit ``width``; those after the first are indented by two more."""
+    return textwrap.wrap(
+        one_line(text), width(), initial_indent=indent, subsequent_indent=indent + "  ", break_on_hyphens=False
+    )
 
 
 #: Lengths below this, in m, are rounding.

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import gc
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from math import isfinite
 from time import perf_counter
@@ -15,7 +15,7 @@ from sandbox.errors import RunError
 from sandbox.lab.ablation import Ablated, ablation
 from sandbox.lab.ablation import as_text as ablation_text
 from sandbox.lab.reference import Reference, converge
-from sandbox.lab.tables import length, length_above, significant, table, time
+from sandbox.lab.tables import length, length_above, paragraph, significant, table, time
 from sandbox.lab.verdicts import ShotMap, shot_map
 from sandbox.physics.integrators import INTEGRATORS
 from sandbox.scene import Scene
@@ -251,18 +251,19 @@ def _named(point: Point | None) -> dict[str, Any] | None:
 def as_text(found: Trade) -> list[str]:
     """For people."""
     lines = [*_about(found.reference), ""]
-    headings = ("method", "setting", "error", "time", "x real time", "forces", "")
+    headings = ("method", "setting", "error", "time", "x real time", "forces")
     least = found.reference.error
-    lines += table(headings, [_row(point, least) for point in found.points], "llrrrrl")
+    lines += table(headings, [_row(point, least) for point in found.points], "llrrrr")
+    lines += _problems(found.points)
     lines += ["", "the levels"]
     rows = []
     for name, point in found.levels.items():
         behind = found.behind_front(name)
         aim = length(point.accuracy.tolerance)
-        place = "" if behind is None else f"{significant(behind)} x the cheapest that is as accurate"
+        place = "" if behind is None else significant(behind)
         error = length_above(point.error_m, least)
         rows.append((name, aim, error, time(point.wall_s), significant(point.times_real_time), place))
-    lines += table(("level", "aims at", "error", "time", "x real time", ""), rows, "lrrrrl")
+    lines += table(("level", "aims at", "error", "time", "x real time", "x cheapest as accurate"), rows, "lrrrrr")
     lines += ["", "the cheapest choice"]
     choices = [(target, best) for target in TARGETS if (best := found.best(target)) is not None]
     cells = [
@@ -310,5 +311,15 @@ def _row(point: Point, least: float) -> tuple[str, ...]:
         time(point.wall_s),
         significant(point.times_real_time),
         str(point.force_evaluations),
-        point.problem,
     )
+
+
+def _problems(points: Sequence[Point]) -> Iterator[str]:
+    """What went wrong, each once, with the methods and settings."""
+    for problem in dict.fromkeys(point.problem for point in points if point.problem):
+        settings: dict[str, list[str]] = {}
+        for point in points:
+            if point.problem == problem:
+                settings.setdefault(point.method, []).append(point.setting)
+        where = "; ".join(f"{method} at {', '.join(own)}" for method, own in settings.items())
+        yield from paragraph(f"{problem}: {where}", "    ")

@@ -17,7 +17,7 @@ from typing import Any
 
 from sandbox import units
 from sandbox.errors import RequestError
-from sandbox.lab.tables import significant, table
+from sandbox.lab.tables import paragraph, significant, table
 from sandbox.parameters import parse_assignment
 from sandbox.scene import load, parameters_of, simulate
 
@@ -147,9 +147,9 @@ def as_text(rows: Sequence[Compared]) -> list[str]:
     lines: list[str] = []
     for scene, source in dict.fromkeys((row.case.scene.partition("/")[0], row.case.source) for row in rows):
         own = [row for row in rows if (row.case.scene.partition("/")[0], row.case.source) == (scene, source)]
-        lines += [f"{scene}: {source}"]
-        headings = ("case", "result", "published", "computed", "difference", "tolerance", "")
-        lines += [*table(headings, [cells(row) for row in own], "llrrrrl"), ""]
+        lines += paragraph(f"{scene}: {source}", "")
+        headings = ("case", "result", "published", "computed", "off by", "allowed", "")
+        lines += [*table(headings, [cells(row) for row in own], "llrrrrl"), *_reasons(own), ""]
     held = sum(row.holds for row in rows)
     return [*lines, f"{held} of {len(rows)} hold"]
 
@@ -157,16 +157,16 @@ def as_text(rows: Sequence[Compared]) -> list[str]:
 def cells(row: Compared) -> tuple[str, ...]:
     """A row for people."""
     case = row.case
-    verdict = "holds" if row.holds else f"does not hold: {case.reason or 'no reason known'}"
-    preset = case.scene.partition("/")[2]
-    name = f"{preset} {case.name}".strip() if preset else case.name
+    verdict = "holds" if row.holds else "does not"
+    result = case.result.replace("_", " ")
     if row.difference is None:
-        return name, case.result, case.value, str(row.computed), "", "", verdict
+        return _name(case), result, case.value, str(row.computed), "", "", verdict
     digits = _digits(case)
+    published = f"{float(case.value):.{digits}f}" if len(case.value.partition(".")[2]) > digits else case.value
     return (
-        name,
-        case.result,
-        f"{case.value} {case.unit}".strip(),
+        _name(case),
+        result,
+        f"{published} {case.unit}".strip(),
         f"{row.computed:.{digits}f}",
         ("-" if row.difference < 0.0 else "+") + significant(abs(row.difference)),
         significant(case.tolerance or 0.0),
@@ -174,7 +174,21 @@ def cells(row: Compared) -> tuple[str, ...]:
     )
 
 
+def _name(case: Case) -> str:
+    """What is compared, for people."""
+    return f"{case.scene.partition('/')[2]} {case.name}".strip()
+
+
+def _reasons(rows: Sequence[Compared]) -> Iterator[str]:
+    """Why numbers do not hold, below their table."""
+    for row in rows:
+        if not row.holds:
+            result = row.case.result.replace("_", " ")
+            yield from paragraph(f"{_name(row.case)}, {result}, does not hold: {row.case.reason or 'no reason known'}")
+
+
 def _digits(case: Case) -> int:
-    """Digits after the point: one more than the published number has, and enough to see the tolerance."""
+    """Digits after the point: one more than the published number has, as far as the tolerance lets them be seen."""
     given = len(case.value.partition(".")[2]) if "e" not in case.value else 0
-    return min(12, max(given + 1, 1 - math.floor(math.log10(case.tolerance or 1.0))))
+    seen = 1 - math.floor(math.log10(case.tolerance or 1.0))
+    return max(0, min(10, seen if given > seen else max(given + 1, seen)))

@@ -12,7 +12,7 @@ from sandbox import parameters as declared
 from sandbox.engine import simulate
 from sandbox.engine.accuracy import LEVELS, Accuracy
 from sandbox.errors import SandboxError
-from sandbox.lab.tables import table
+from sandbox.lab.tables import paragraph, table
 from sandbox.scene import Scene
 
 #: The map: so much faster and slower (share), so much to either side (deg).
@@ -44,7 +44,10 @@ class ShotMap:
     def as_text(self) -> list[str]:
         about = f"{self.shots} shots, {self.keys[0]} within {100 * _SPEED:.0f} %, {self.keys[1]} within {_ANGLE:g} deg"
         rows = [(name, f"{100.0 * share:.1f} %") for name, share in self.changed.items()]
-        return [f"verdicts that change with the accuracy ({about})", *table(("by", "changed"), rows, "lr")]
+        return [
+            *paragraph(f"verdicts that change with the accuracy ({about})", ""),
+            *table(("by", "changed"), rows, "lr"),
+        ]
 
 
 def verdict(result: Mapping[str, Any]) -> str:

@@ -1,0 +1,65 @@
+"""Tables that fit the terminal, and lose nothing."""
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from sandbox.lab import trade, validate
+from sandbox.lab.stress import FAILED, HELD, Outcome
+from sandbox.lab.stress import as_text as stress_text
+from sandbox.lab.tables import paragraph, table
+from sandbox.scene import load
+
+WORD = st.text("abcdefg-.", min_size=1, max_size=30)
+NUMBER = st.text("0123456789", max_size=7)
+
+
+@given(st.lists(st.tuples(st.lists(WORD, max_size=12).map(" ".join), NUMBER, st.lists(WORD).map(" ".join), NUMBER)))
+def test_lines_fit_and_no_letter_is_lost(rows: list[tuple[str, ...]]):
+    lines = table(("case", "published", "what it says", "off by"), rows, "lrlr")
+    assert max(map(len, lines)) <= 80
+    letters = sorted("".join("".join(line.split()) for line in lines))
+    assert letters == sorted(
+        "".join("".join("".join(row).split()) for row in [("casepublishedwhatitsaysoffby",), *rows])
+    )
+
+
+@given(st.lists(st.tuples(NUMBER, NUMBER, WORD), min_size=1))
+def test_numbers_are_never_folded(rows: list[tuple[str, ...]]):
+    lines = table(("", "", ""), rows, "rrl")
+    for number, other, _ in rows:
+        assert any(number in line and other in line for line in lines)
+
+
+def test_what_stands_in_brackets_is_text_and_nothing_splits_a_row():
+    assert table(("a", "b"), [("[red]x[/red]", "two\nlines"), ("\x1b[2J", ":smile:")], "ll") == [
+        "  a             b",
+        "  [red]x[/red]  two lines",
+        "  \\u001b[2J     :smile:",
+    ]
+
+
+def test_a_wider_terminal_is_used(monkeypatch: pytest.MonkeyPatch):
+    row = ("one", " ".join(["word"] * 30))
+    assert len(table(("", ""), [row], "ll")) == 3
+    monkeypatch.setenv("COLUMNS", "200")
+    assert len(table(("", ""), [row], "ll")) == 1
+    monkeypatch.setenv("COLUMNS", "20")
+    assert max(map(len, table(("", ""), [row], "ll"))) <= 20
+
+
+def test_a_paragraph_fits():
+    lines = paragraph("word " * 40)
+    assert max(map(len, lines)) <= 80
+    assert [line[: len(line) - len(line.lstrip())] for line in lines] == ["  ", "    ", "    "]
+
+
+def test_reports_fit_80_columns():
+    outcomes = [
+        Outcome("golf", "all numbers at their highest", method, word, "a long message of why " * 5)
+        for method in ("semi-implicit-euler", "plain")
+        for word in (HELD, FAILED)
+    ]
+    traded = trade.as_text(trade.trade(load("golf", {"air.density": 0.0, "accuracy.level": "fast"})))
+    for lines in (validate.as_text(validate.validate("billiards")), stress_text(outcomes), traded):
+        assert max(map(len, lines)) <= 80
