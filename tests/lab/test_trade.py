@@ -191,7 +191,7 @@ def test_parts_of_a_surface_that_nothing_touches_are_said_to_be_idle():
 
 
 def test_what_a_scene_leaves_out_is_put_in():
-    rows = parts(ablation(converge(load("basketball"))))
+    rows = parts(ablation(converge(load("basketball", {"ball.lift.model": "none", "launch.speed": 7.465}))))
     assert rows["lift"].change.startswith("put in")
     assert 0.0 < abs(rows["lift"].results["entry_offset"][1] - rows["lift"].results["entry_offset"][0]) < 0.3
     assert rows["wind"].change == "put in, 1 m/s against"
