@@ -53,9 +53,11 @@ class Contact:
     nx: float
     ny: float
     bounce: Bounce  # with the friction that acts in the plane
-    full_friction: float  # of the pair, in all directions
     approach: float  # m/s, normal speed of approach, positive when closing
-    forward: float  # sign of the motion of the first ball along (ny, -nx)
+    forward: float = 1.0  # sign of the motion of the first ball along (ny, -nx)
+    partner: str = ""  # name of the surface or of the second ball
+    friction: float = 0.0  # of the pair, in all directions
+    slip: tuple[float, float] = (0.0, 0.0)  # m/s, of the surfaces, in the plane and upward
 
 
 #: Two shapes that touch, whichever is the first: the ids of both.

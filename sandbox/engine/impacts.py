@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from itertools import combinations
 from math import hypot
 from typing import NamedTuple
 
 from sandbox.engine.contacts import Contact, Contacts, Moving
-from sandbox.engine.on_cloth import looseness, rub_over, slip_over
-from sandbox.engine.setup import Ball, Bounce, Setup
+from sandbox.engine.on_cloth import in_plane, rubbed, slip_over
+from sandbox.engine.setup import Bounce, Setup, kinetic
 from sandbox.engine.surfaces import STILL, answer, answer_of_balls
-from sandbox.engine.touch import CONTACT
+from sandbox.engine.touch import CONTACT, Touching
 from sandbox.engine.track import Track
 from sandbox.physics.integrators import State
 
@@ -63,33 +64,43 @@ class Impacts:
         self, states: dict[int, State], balls_only: bool | None, hits: list[Hit]
     ) -> dict[int, State] | None:
         """The states after all contacts, or those of balls only, or of walls only, closed at once; None if none did."""
-        members = list(states)
-        cluster = [Moving(index, *states[index][:5]) for index in members]
-        found: list[Contact] = []
-        partners: list[tuple[int, str]] = []
-        slips: list[tuple[float, float]] = []  # m/s, in the plane and upward
-        if balls_only is not True:
-            for place, index in enumerate(members):
-                self._meet_surfaces(place, index, states[index], found, partners, slips)
-        if balls_only is not False:
-            for place in range(len(members)):
-                for later in range(place + 1, len(members)):
-                    self._meet_ball(place, later, members, states, found, partners, slips)
+        found = [] if balls_only is True else [*self._with_surfaces(states)]
+        found += [] if balls_only is False else [*self._with_balls(states)]
         if not any(contact.approach > STILL for contact in found):
             return None
-        self._exchange_without_gain(cluster, found)
+        after = self._after(states, found)
+        if self._slowest_hop > 0.0:
+            self._pay_for_hops(states, after)
+        members = list(states)
+        closed = [contact for contact in found if contact.approach > STILL]
+        hits += [Hit(members[contact.first], contact.partner, contact.approach) for contact in closed]
+        return after
+
+    def _after(self, states: dict[int, State], found: Sequence[Contact]) -> dict[int, State]:
+        """The states after impulses are exchanged; balls on cloth part no slower than the slowest hop."""
+        cluster = [Moving(index, *state[:5]) for index, state in states.items()]
+        self._exchange_without_gain(cluster, [_hopping(contact, self._slowest_hop) for contact in found])
         after = {
             moving.index: (*states[moving.index][:2], moving.vx, moving.vy, moving.spin, *states[moving.index][5:])
             for moving in cluster
         }
-        if self._setup.cloth is not None:
-            self._rub(members, states, after, found, slips)
-        hits += [
-            Hit(index, partner, contact.approach)
-            for contact, (index, partner) in zip(found, partners, strict=True)
-            if contact.approach > STILL
-        ]
+        for contact, push in zip(found, self._contacts.normal_impulses, strict=True):
+            if contact.slip[1] != 0.0 and push > 0.0:
+                pair = [cluster[place].index for place in (contact.first, contact.second) if place is not None]
+                balls, before = [self._tracks[index].ball for index in pair], [after[index] for index in pair]
+                normal = contact.nx, contact.ny
+                after.update(
+                    zip(pair, rubbed(balls, before, normal, contact.slip, contact.friction * push), strict=True)
+                )
         return after
+
+    def _pay_for_hops(self, before: dict[int, State], after: dict[int, State]) -> None:
+        """Take what energy the slowest hops added from all motion of the balls: there is never more than before."""
+        had, has = self._energy(before), self._energy(after)
+        if has > had:
+            share = (had / has) ** 0.5
+            for index, (x, y, *motion) in after.items():
+                after[index] = (x, y, *(share * speed for speed in motion))
 
     def _exchange_without_gain(self, cluster: Sequence[Moving], found: Sequence[Contact]) -> None:
         """Exchange impulses. Where several contacts close at once, the speeds with which they are to part may ask for
@@ -101,9 +112,9 @@ class Impacts:
         self._contacts.exchange(cluster, found)
         if len(found) == 1:
             return
-        most = (1.0 + _GAIN) * self._energy(start) + self._hops(found)
+        most = (1.0 + _GAIN) * self._in_the_plane(start) + len(found) * self._heaviest * self._slowest_hop**2
         friction = restitution = 1.0
-        while self._energy(cluster) > most and restitution > 0.0:
+        while self._in_the_plane(cluster) > most and restitution > 0.0:
             if friction > 0.0:
                 friction = 0.5 * friction if friction > 1e-3 else 0.0
             else:
@@ -112,18 +123,12 @@ class Impacts:
                 moving.vx, moving.vy, moving.spin = before.vx, before.vy, before.spin
             self._contacts.exchange(cluster, [_weaker(contact, friction, restitution) for contact in found])
 
-    def _hops(self, found: Sequence[Contact]) -> float:
-        """The energy in J that the slowest hops of balls on cloth may take: at most their speed at each contact."""
-        return len(found) * self._heaviest * self._slowest_hop**2
+    def _in_the_plane(self, cluster: Sequence[Moving]) -> float:
+        return self._energy({moving.index: (0.0, 0.0, moving.vx, moving.vy, moving.spin) for moving in cluster})
 
-    def _energy(self, cluster: Sequence[Moving]) -> float:
-        """Kinetic energy in J, that of turning in the plane included."""
-        total = 0.0
-        for moving in cluster:
-            ball = self._tracks[moving.index].ball
-            total += 0.5 * ball.mass * (moving.vx * moving.vx + moving.vy * moving.vy)
-            total += 0.5 * ball.inertia * moving.spin * moving.spin
-        return total
+    def _energy(self, states: dict[int, State]) -> float:
+        """Kinetic energy in J, that of turning included."""
+        return sum(kinetic(self._tracks[index].ball, state) for index, state in states.items())
 
     def touching(self, t: float, seeds: Sequence[int]) -> dict[int, State]:
         """The states at t of all balls that touch those of ``seeds``, directly or through others."""
@@ -144,104 +149,56 @@ class Impacts:
                     waiting.append(other)
         return states
 
-    def _meet_surfaces(
-        self,
-        place: int,
-        index: int,
-        state: State,
-        found: list[Contact],
-        partners: list[tuple[int, str]],
-        slips: list[tuple[float, float]],
-    ) -> None:
-        track = self._tracks[index]
-        x, y, vx, vy, spin = state[:5]
-        first = len(found)
-        for obstacle, touching in track.near(x, y):
-            nx, ny = touching.nx, touching.ny
-            if any(nx * other.nx + ny * other.ny > 1.0 - 1e-12 for other in found[first:]):
-                continue  # laid flush with one already met
-            approach = -(vx * nx + vy * ny)
-            along = vx * ny - vy * nx
-            slip = (along + track.ball.radius * spin, self._upward(index, state, nx, ny))
-            surface = obstacle.surface
-            bounce = answer(surface, approach, along)
-            forward = 1.0 if along >= 0.0 else -1.0
-            found.append(
-                Contact(place, None, nx, ny, self._shared(bounce, approach, slip), bounce.friction, approach, forward)
-            )
-            partners.append((index, surface.name))
-            slips.append(slip)
+    def _with_surfaces(self, states: dict[int, State]) -> Iterator[Contact]:
+        for place, (index, state) in enumerate(states.items()):
+            ball, (x, y, vx, vy, spin, *_) = self._tracks[index].ball, state
+            met: list[Touching] = []
+            for obstacle, touching in self._tracks[index].near(x, y):
+                nx, ny = touching.nx, touching.ny
+                if any(nx * other.nx + ny * other.ny > 1.0 - 1e-12 for other in met):
+                    continue  # laid flush with one already met
+                met.append(touching)
+                approach, along = -(vx * nx + vy * ny), vx * ny - vy * nx
+                slip = along + ball.radius * spin, slip_over(ball, state, nx, ny)
+                bounce, forward = answer(obstacle.surface, approach, along), 1.0 if along >= 0.0 else -1.0
+                yield _contact(place, None, (nx, ny), bounce, approach, forward, obstacle.surface.name, slip)
 
-    def _meet_ball(
-        self,
-        place: int,
-        later: int,
-        members: Sequence[int],
-        states: dict[int, State],
-        found: list[Contact],
-        partners: list[tuple[int, str]],
-        slips: list[tuple[float, float]],
-    ) -> None:
-        i, j = members[place], members[later]
-        a, b = self._tracks[i].ball, self._tracks[j].ball
-        x, y, vx, vy, spin = states[i][:5]
-        u, v, wx, wy, other_spin = states[j][:5]
-        distance = ((x - u) ** 2 + (y - v) ** 2) ** 0.5
-        if distance > a.radius + b.radius + CONTACT:
-            return
-        nx, ny = (x - u) / distance, (y - v) / distance
-        approach = (wx - vx) * nx + (wy - vy) * ny
-        flat = (vx - wx) * ny - (vy - wy) * nx + a.radius * spin + b.radius * other_spin
-        slip = (flat, self._upward(i, states[i], nx, ny) - self._upward(j, states[j], -nx, -ny))
-        bounce = answer_of_balls(self._setup, approach, hypot(*slip), b.name)
-        found.append(
-            Contact(place, later, nx, ny, self._shared(bounce, approach, slip), bounce.friction, approach, 1.0)
-        )
-        partners.append((i, b.name))
-        slips.append(slip)
-
-    # ------------------------------------------------------------------ balls on cloth, whose spin has three components
-
-    def _upward(self, index: int, state: State, nx: float, ny: float) -> float:
-        return slip_over(self._tracks[index].ball, state, nx, ny) if len(state) > 5 else 0.0
-
-    def _shared(self, bounce: Bounce, approach: float, slip: tuple[float, float]) -> Bounce:
-        """What pymunk, which sees the plane alone, is told: the plane's share of the friction.
-
-        Friction acts against the whole slip and all directions of a sphere's surface give way alike, so its part in
-        the plane is to the whole as that part of the slip is, sticking or sliding.
-        """
-        flat, upward = slip
-        if upward != 0.0:
-            bounce = bounce._replace(friction=bounce.friction * abs(flat) / hypot(flat, upward))
-        if approach > STILL and bounce.restitution * approach < self._slowest_hop:
-            bounce = bounce._replace(restitution=self._slowest_hop / approach)
-        return bounce
-
-    def _rub(
-        self,
-        members: Sequence[int],
-        before: dict[int, State],
-        after: dict[int, State],
-        found: Sequence[Contact],
-        slips: Sequence[tuple[float, float]],
-    ) -> None:
-        """The upward share of the friction, in closed form from the normal impulse that pymunk found."""
-        pushes = self._contacts.normal_impulses
-        for contact, (flat, upward), push in zip(found, slips, pushes, strict=True):
-            if upward == 0.0 or push <= 0.0:
+    def _with_balls(self, states: dict[int, State]) -> Iterator[Contact]:
+        for (place, (i, here)), (later, (j, there)) in combinations(enumerate(states.items()), 2):
+            a, b = self._tracks[i].ball, self._tracks[j].ball
+            (x, y, vx, vy, spin), (u, v, wx, wy, other_spin) = here[:5], there[:5]
+            distance = ((x - u) ** 2 + (y - v) ** 2) ** 0.5
+            if distance > a.radius + b.radius + CONTACT:
                 continue
-            i = members[contact.first]
-            balls: list[tuple[int, Ball]] = [(i, self._tracks[i].ball)]
-            if contact.second is not None:
-                j = members[contact.second]
-                balls.append((j, self._tracks[j].ball))
-            share = abs(upward) / hypot(flat, upward)
-            most = contact.full_friction * push * share
-            stopping = abs(upward) / sum(looseness(ball) for _, ball in balls)
-            impulse = -min(most, stopping) if upward > 0.0 else min(most, stopping)
-            for index, ball in balls:
-                after[index] = rub_over(ball, after[index], contact.nx, contact.ny, impulse)
+            nx, ny = (x - u) / distance, (y - v) / distance
+            approach = (wx - vx) * nx + (wy - vy) * ny
+            flat = (vx - wx) * ny - (vy - wy) * nx + a.radius * spin + b.radius * other_spin
+            slip = flat, slip_over(a, here, nx, ny) - slip_over(b, there, -nx, -ny)
+            bounce = answer_of_balls(self._setup, approach, hypot(*slip), b.name)
+            yield _contact(place, later, (nx, ny), bounce, approach, 1.0, b.name, slip)
+
+
+def _contact(
+    first: int,
+    second: int | None,
+    normal: tuple[float, float],
+    bounce: Bounce,
+    approach: float,
+    forward: float,
+    partner: str,
+    slip: tuple[float, float],
+) -> Contact:
+    """What pymunk, which sees the plane alone, is told."""
+    flat = bounce._replace(friction=in_plane(bounce.friction, *slip))
+    return Contact(first, second, *normal, flat, approach, forward, partner, bounce.friction, slip)
+
+
+def _hopping(contact: Contact, slowest: float) -> Contact:
+    """The contact with as much restitution as parts it no slower than ``slowest`` (m/s)."""
+    bounce, approach = contact.bounce, contact.approach
+    if approach <= STILL or bounce.restitution * approach >= slowest:
+        return contact
+    return replace(contact, bounce=bounce._replace(restitution=slowest / approach))
 
 
 def _weaker(contact: Contact, friction: float, restitution: float) -> Contact:

@@ -13,9 +13,8 @@ from sandbox.engine.acting import acceleration, by_cause
 from sandbox.engine.arc import Arc
 from sandbox.engine.motion import PINNED, RESTING, Contact, on_surface
 from sandbox.engine.run import Run
-from sandbox.engine.setup import Ball
+from sandbox.engine.setup import Ball, kinetic
 from sandbox.engine.track import PRESSED
-from sandbox.physics.integrators import State
 
 #: Gauss-Legendre nodes and weights on [0, 1]: exact for polynomials of degree 9.
 _NODES = (0.04691007703066802, 0.23076534494715845, 0.5, 0.7692346550528415, 0.953089922969332)
@@ -32,12 +31,6 @@ class Ledger:
     impacts: dict[str, float]  # by what was hit; two balls under both names
     contacts: dict[str, float]  # by what was slid or rolled on, bounces too low to follow included
     residue: float  # kinetic energy gained along the path that no cause accounts for: the numerical error
-
-
-def kinetic(ball: Ball, state: State) -> float:
-    """Kinetic energy of a ball in J, that of its turning included."""
-    _, _, vx, vy, *spins = state
-    return 0.5 * ball.mass * (vx * vx + vy * vy) + 0.5 * ball.inertia * sum(spin * spin for spin in spins)
 
 
 def ledger(run: Run) -> Ledger:

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from math import copysign, hypot
+
 from sandbox.engine.arc import Arc, still
 from sandbox.engine.motion import Contact
 from sandbox.engine.run import Numerics
@@ -14,8 +17,9 @@ from sandbox.physics.integrators import State
 def slowest_hop(cloth: Cloth, hop: float) -> float:
     """Speed in m/s with which what the cloth presses together parts at least, for an accuracy's ``hop`` (m).
 
-    A steady push is then a run of even hops, and not an endless series of ever smaller ones. The energy that the first
-    hop of such a run may add is half the reduced mass times this squared: 2e-7 J for pool balls at "balanced".
+    A steady push is then a run of even hops, and not an endless series of ever smaller ones. The energy of the first
+    hop of such a run, half the reduced mass times this squared (2e-7 J for pool balls at "balanced"), is taken
+    from all motion of the balls.
     """
     return float((2.0 * cloth.sliding * cloth.gravity * hop) ** 0.5)
 
@@ -69,18 +73,32 @@ class OnCloth:
 
 def slip_over(ball: Ball, state: State, nx: float, ny: float) -> float:
     """Upward velocity in m/s of a ball's surface where it touches something against the normal (nx, ny)."""
-    return ball.radius * (state[6] * nx - state[5] * ny)
+    return ball.radius * (state[6] * nx - state[5] * ny) if len(state) > 5 else 0.0
 
 
-def rub_over(ball: Ball, state: State, nx: float, ny: float, impulse: float) -> State:
-    """The state after an upward frictional impulse (N s) on the surface there. What it does to the height is left
-    out.
+def in_plane(friction: float, flat: float, upward: float) -> float:
+    """The plane's share of a friction, where surfaces slip by so much (m/s) in the plane and upward.
+
+    Friction acts against the whole slip and all directions of a sphere's surface give way alike, so its part in the
+    plane is to the whole as that part of the slip is, sticking or sliding.
     """
-    x, y, vx, vy, spin, wx, wy = state
-    turn = ball.radius * impulse / ball.inertia
-    return x, y, vx, vy, spin, wx - turn * ny, wy + turn * nx
+    return friction * abs(flat) / hypot(flat, upward) if upward != 0.0 else friction
 
 
-def looseness(ball: Ball) -> float:
-    """Velocity in m/s that a frictional impulse of 1 N s gives the surface of a ball: its 1 / m and its turning."""
-    return (1.0 + 1.0 / ball.inertia_factor) / ball.mass
+def rubbed(
+    balls: Sequence[Ball], states: Sequence[State], normal: tuple[float, float], slip: tuple[float, float], most: float
+) -> list[State]:
+    """The states of the one or two balls of a contact after the upward share of its friction.
+
+    ``normal`` points to the first of them, ``slip`` is that in the plane and upward before, and ``most`` the impulse in
+    N s of friction that slides. What it does to the height is left out.
+    """
+    nx, ny = normal
+    flat, upward = slip
+    stopping = abs(upward) / sum((1.0 + 1.0 / ball.inertia_factor) / ball.mass for ball in balls)
+    impulse = -copysign(min(most * abs(upward) / hypot(flat, upward), stopping), upward)
+    after = []
+    for ball, (x, y, vx, vy, spin, wx, wy) in zip(balls, states, strict=True):
+        turn = ball.radius * impulse / ball.inertia
+        after.append((x, y, vx, vy, spin, wx - turn * ny, wy + turn * nx))
+    return after

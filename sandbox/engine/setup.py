@@ -13,6 +13,7 @@ from sandbox.physics.hertz import PHENOLIC
 if TYPE_CHECKING:
     from sandbox.engine.event import Event
     from sandbox.physics.cloth import Cloth
+    from sandbox.physics.integrators import State
 
 Vector = tuple[float, float]
 
@@ -70,6 +71,12 @@ class Ball:
                     "(t, position, velocity, spin), such as an object of the class and not the class"
                 )
         object.__setattr__(self, "inertia", self.inertia_factor * self.mass * self.radius * self.radius)
+
+
+def kinetic(ball: Ball, state: State) -> float:
+    """Kinetic energy of a ball in J, that of its turning included."""
+    _, _, vx, vy, *spins = state
+    return 0.5 * ball.mass * (vx * vx + vy * vy) + 0.5 * ball.inertia * sum(spin * spin for spin in spins)
 
 
 def _check_pair(what: str, pair: Vector) -> None:

@@ -17,9 +17,9 @@ from typing import TYPE_CHECKING, Any
 
 from sandbox.engine import simulate
 from sandbox.engine.accuracy import LEVELS, Accuracy
-from sandbox.engine.ledger import kinetic, ledger
+from sandbox.engine.ledger import ledger
 from sandbox.engine.run import Run
-from sandbox.engine.setup import Circle, Surface
+from sandbox.engine.setup import Circle, Surface, kinetic
 from sandbox.errors import RequestError, SandboxError
 from sandbox.lab.extremes import ALL, ERROR_CONTROL, EXACT, FIXED_STEP, PLAIN, Extreme, bare, of_scene
 from sandbox.lab.tables import length, paragraph, percent, significant, table

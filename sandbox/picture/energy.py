@@ -13,8 +13,9 @@ import pygame
 
 from sandbox.engine.arc import Arc
 from sandbox.engine.bernstein import piece
-from sandbox.engine.ledger import Ledger, kinetic, ledger
+from sandbox.engine.ledger import Ledger, ledger
 from sandbox.engine.run import Run
+from sandbox.engine.setup import kinetic
 from sandbox.picture.palette import Colour, mix, palette
 from sandbox.picture.path import chip
 from sandbox.picture.sheet import CARD, Entry, Sheet, nice

@@ -358,7 +358,7 @@ def test_lanes_exchange_what_contacts_do(motions: list[tuple[float, float, float
         ball = Ball("ball", 0.43, radius, (0.0, 0.0), inertia_factor=factor)
         moving = Moving(0, 5.0, 3.0, along[i], away[i], spin[i])
         bounce = Bounce(restitution, friction)
-        contact = Contact(0, None, 0.0, 1.0, bounce, friction, -away[i], 1.0)
+        contact = Contact(0, None, 0.0, 1.0, bounce, -away[i])
         Contacts([ball], Numerics()).exchange([moving], [contact])
         size = abs(along[i]) + abs(away[i]) + radius * abs(spin[i])
         assert radius * found[0][i] == pytest.approx(moving.vx, abs=1e-9 * size)

@@ -1,6 +1,6 @@
 """Balls on cloth in the engine: impacts in three dimensions of spin, pockets, pushes, and both methods."""
 
-from itertools import permutations
+from itertools import pairwise, permutations
 from math import exp, pi
 
 import numpy as np
@@ -12,7 +12,7 @@ from sandbox.engine import simulate
 from sandbox.engine.accuracy import LEVELS, resolve
 from sandbox.engine.ledger import ledger
 from sandbox.engine.on_cloth import slowest_hop
-from sandbox.engine.setup import Ball, Bounce, Catch, ContactModel, Segment, Setup, Surface
+from sandbox.engine.setup import Ball, Bounce, Catch, ContactModel, Segment, Setup, Surface, kinetic
 from sandbox.physics.cloth import Cloth
 
 R, M = 0.028575, 0.170097
@@ -194,3 +194,19 @@ def test_a_rack_with_even_gaps_breaks_in_mirror_image():
             assert (x, y) == pytest.approx((u, -v), abs=1e-9)
     assert run.state("cue", 20.0)[1] == pytest.approx(0.0, abs=1e-9)
     assert run.angle("cue", 1.0) == pytest.approx(0.0, abs=2 * pi * 1e-6)
+
+
+@pytest.mark.parametrize("gravity", [9.81, 30.0])
+@pytest.mark.parametrize("level", ["fast", "balanced"])
+@pytest.mark.parametrize("speed", [1e-4, 1e-3, 0.01])
+def test_a_ball_that_creeps_to_a_cushion_gains_no_energy(speed: float, level: str, gravity: float):
+    """Slower than the slowest hop, rolling and sliding: pressed or not, there is never more energy than before."""
+    wall = Surface("wall", Segment((0.0, -1.0), (0.0, 1.0)), 0.85, 0.2)
+    for wy in (speed / R, 0.0, 20.0):  # rolls, slides, spins into the cushion
+        start = Ball("ball", M, R, (-R - 1e-9, 0.0), (speed, 0.1 * speed), 0.0, (0.0, wy))
+        run = simulate(Setup([start], [wall], duration=5.0, cloth=Cloth(gravity=gravity)), resolve(level))
+        energies = [kinetic(start, run.arcs["ball"][0].start)]
+        for arc in run.arcs["ball"]:
+            energies += [kinetic(start, arc.start), kinetic(start, arc.state(arc.t1))]
+        assert any(event.kind == "impact" for event in run.events)
+        assert all(after <= before * (1.0 + 1e-9) for before, after in pairwise(energies))
