@@ -34,6 +34,7 @@ def as_json(scene: Scene, run: Run, check: Check | None = None, other: Run | Non
         "preset": scene.preset,
         "parameters": scene.parameters.model_dump(mode="json"),
         "accuracy": asdict(run.accuracy),
+        "warnings": run.warnings,
         "result": run.result,
         "verdict": scene.verdict(run),
         "ended": run.ended,
@@ -108,6 +109,7 @@ def card(scene: Scene, run: Run, check: Check | None = None, other: tuple[str, R
         *_events(run),
         "",
         f"  {_numerics(run)}",
+        *(f"  warning: {one_line(warning)}" for warning in run.warnings),
         *([] if check is None else _verdict(check, scene.units)),
     ]
 
@@ -137,7 +139,7 @@ def _event_row(event: Event) -> tuple[str, ...]:
 def _numerics(run: Run) -> str:
     cost, accuracy = run.numerics, run.accuracy
     return (
-        f"{accuracy.level}, {accuracy.method} method, {accuracy.integrator}: {_count(cost.steps, 'step')}, "
+        f"{accuracy.level}, {accuracy.method} method, {accuracy.steps}: {_count(cost.steps, 'step')}, "
         f"{_count(cost.impacts, 'impact')}, {cost.wall_s * 1e3:.1f} ms"
     )
 

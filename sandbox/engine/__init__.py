@@ -7,21 +7,25 @@ from typing import TYPE_CHECKING
 from sandbox.engine.blame import blamed
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Callable, Iterator, Sequence
 
     from sandbox.engine.accuracy import Accuracy
     from sandbox.engine.run import Run
     from sandbox.engine.setup import Setup
 
 
-def simulate(setup: Setup, accuracy: Accuracy) -> Run:
-    """Run a setup to its end. Raises RunError where that cannot be done, with the time, the ball and the quantity."""
+def simulate(setup: Setup, accuracy: Accuracy, progress: Callable[[float, float], None] | None = None) -> Run:
+    """Run a setup to its end. Raises RunError where that cannot be done, with the time, the ball and the quantity.
+
+    The plain method, whose steps may be many, calls ``progress`` now and then with the time simulated and the whole
+    duration, in s.
+    """
     # here, not above: they bring pymunk, which reading a scene does not need
     with blamed(setup):
         if accuracy.method == "plain":
             from sandbox.engine.plain import PlainSimulation
 
-            return PlainSimulation(setup, accuracy).run()
+            return PlainSimulation(setup, accuracy, progress).run()
         from sandbox.engine.simulation import Simulation
 
         return Simulation(setup, accuracy).run()

@@ -46,6 +46,14 @@ class Accuracy:
         0.0125 at the levels."""
         return float(0.025 * (self.tolerance / 1e-3) ** 0.15)
 
+    @property
+    def steps(self) -> str:
+        """How it chooses its steps, in words: the integrator, and the length where that is fixed."""
+        fixed = f"steps of {1e3 * self.step:.3g} ms"
+        if self.method == "plain":
+            return fixed
+        return self.integrator if INTEGRATORS[self.integrator].controls_error else f"{self.integrator}, {fixed}"
+
     def finer(self) -> Accuracy:
         """The same with half the step, or a tolerance that leads to about half the step; and with less of what no step
         governs: low bounces, low hops, and the overlap at a contact."""

@@ -3,15 +3,16 @@ of balls.
 
 Chipmunk moves first, then finds contacts, then changes velocities, then exchanges impulses: so a contact is found up
 to one step late, at whatever depth that step brought, and forces are integrated to first order. Nothing here improves
-on that, except that errors are not lost: cffi prints and swallows what a callback raises, so it is kept and raised
-after the step. On cloth its friction acts in ``velocity_func`` too; what balls and cushions do to spin about horizontal
-axes is left out.
+on that, except that nothing is lost: cffi prints and swallows what a callback raises, so it is kept and raised after
+the step; and a ball that a step carries through a surface is an error. On cloth its friction acts in ``velocity_func``
+too, and the upward share of the friction between balls, and of cushions, after Chipmunk's own.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from time import perf_counter
-from typing import Any
+from typing import Any, NamedTuple
 
 import pymunk
 
@@ -20,10 +21,11 @@ from sandbox.engine.acting import checked
 from sandbox.engine.arc import Arc
 from sandbox.engine.event import Event
 from sandbox.engine.motion import Diverged
+from sandbox.engine.on_cloth import in_plane, rubbed, slip_over
 from sandbox.engine.run import Numerics, Run
 from sandbox.engine.setup import Ball, Circle, Setup, Surface
 from sandbox.engine.surfaces import answer, answer_of_balls
-from sandbox.physics.cloth import ClothState
+from sandbox.errors import RunError
 from sandbox.physics.integrators import State
 
 #: Depth in m that Chipmunk leaves to overlapping shapes; its own default of 0.1 is for pixels.
@@ -31,6 +33,9 @@ _SLOP = 1e-5
 
 #: The path is recorded, and balls are checked for rest and for having left the world, this often, in s.
 _LOOK = 1 / 240
+
+#: Steps in one run beyond which it is given up: some two minutes of computing.
+MOST_STEPS = 10_000_000
 
 #: A ball rests once it is slower than this (m/s, and r w as well) for this long (s) while touching something.
 _REST_SPEED, _REST_TIME = 0.01, 0.25
@@ -43,7 +48,20 @@ _JUMP = 0.01
 #: A ball rolls where its slip is below this share of its speed.
 _GRIP = 0.01
 
+#: A ball that moves further than this share of its radius in a step may pass through a surface unseen.
+_LEAP = 0.5
+
 _BALL, _SURFACE = 1, 2
+
+
+class _Pending(NamedTuple):
+    """A contact between the moments before and after Chipmunk solves it."""
+
+    friction: float  # of the pair, in all directions
+    slip: tuple[float, float]  # m/s, in the plane and upward
+    resistance: float = 0.0  # rolling resistance, of lasting contact
+    lowest: float = 0.0  # m/s, a bounce no faster than this is swallowed
+    turned: float = 0.0  # rad, by which the velocity is turned while a tilted surface is met
 
 
 class _Tracked:
@@ -58,18 +76,19 @@ class _Tracked:
         self.start: State = (*ball.position, *ball.velocity, ball.spin, *self.rolling_spin)
         self.acceleration = (0.0, 0.0)
         self.before = (0.0, 0.0)  # velocity ahead of the last step's forces
-        self.pressed = 0.0  # N, normal force of the last step
-        self.resistance = 0.0  # rolling resistance of what it touches
+        self.leap: tuple[Any, Any] | None = None  # from where to where the last step went, if that is far
         self.touched = -2  # number of the last step in which it touched something
-        self.presses = False  # lasting contact, not an impact
-        self.lowest = 0.0  # m/s, a bounce no faster than this is swallowed
+        self.pending: dict[Any, _Pending] = {}  # by the other's shape
         self.caught = False
-        self.turned = 0.0  # rad, by which its velocity is turned while a tilted surface is met
         self.still_since: float | None = None
 
     def state(self) -> State:
         body = self.body
         return (*body.position, *body.velocity, body.angular_velocity, *self.rolling_spin)
+
+    def take(self, state: State) -> None:
+        """Go on with the velocities and spins of this state."""
+        self.body.velocity, self.body.angular_velocity, self.rolling_spin = state[2:4], state[4], state[5:]
 
     def record(self, t: float) -> None:
         if t > self.since or not self.path:
@@ -83,9 +102,13 @@ class _Tracked:
 class PlainSimulation:
     """One run in a Space of real shapes at ``accuracy.step``. Raises RunError and what the scene's own forces raise."""
 
-    def __init__(self, setup: Setup, accuracy: Accuracy) -> None:
+    def __init__(
+        self, setup: Setup, accuracy: Accuracy, progress: Callable[[float, float], None] | None = None
+    ) -> None:
+        """``progress`` is called now and then with the time simulated and the whole duration, in s."""
         self._setup = setup
         self._accuracy = accuracy
+        self._progress = progress
         self._numerics = Numerics()
         self._events: list[Event] = []
         self._raised: BaseException | None = None
@@ -107,16 +130,19 @@ class PlainSimulation:
             body.position, body.velocity, body.angular_velocity = ball.position, ball.velocity, ball.spin
             disc = pymunk.Circle(body, ball.radius)
             disc.collision_type = _BALL
+            disc.filter = pymunk.ShapeFilter(categories=_BALL)
             disc.elasticity = disc.friction = 1.0
             tracked = _Tracked(ball, body, setup.cloth is not None)
-            body.velocity_func = self._apply_forces(tracked)
+            body.velocity_func = self._kept(self._move)
             self._tracked[body] = tracked
             self._space.add(body, disc)
-        self._space.on_collision(
-            _BALL, _SURFACE, begin=self._kept(self._begin), pre_solve=self._kept(self._meet_surface),
-            post_solve=self._kept(self._press),
-        )  # fmt: skip
-        self._space.on_collision(_BALL, _BALL, begin=self._kept(self._begin), pre_solve=self._kept(self._meet_ball))
+        for other, meet, part in (
+            (_SURFACE, self._meet_surface, self._part_from_surface),
+            (_BALL, self._meet_ball, self._part_from_ball),
+        ):
+            self._space.on_collision(
+                _BALL, other, begin=self._kept(self._begin), pre_solve=self._kept(meet), post_solve=self._kept(part)
+            )
 
     def run(self) -> Run:
         started = perf_counter()
@@ -134,11 +160,19 @@ class PlainSimulation:
         next_look = 0.0
         while self._t < duration:
             self._steps += 1
+            if self._steps > MOST_STEPS:
+                raise RunError(
+                    f"t = {self._t:.3g} s of {duration:g} s: {MOST_STEPS:,} steps of {step:.3g} s; lengthen "
+                    'accuracy.step, shorten the duration, or use accuracy.method = "exact"'
+                )
             # it moves first: contacts and forces belong to the end of the step
             before, self._t = self._t, min(self._steps * step, duration)
             space.step(self._t - before)
             if self._raised is not None:
                 raise self._raised
+            for tracked in self._tracked.values():
+                if tracked.leap is not None:
+                    self._refuse_leap(tracked)
             for tracked in self._hit:
                 tracked.start = tracked.state()  # from here on it is as it is after the impact
             self._hit.clear()
@@ -153,6 +187,8 @@ class PlainSimulation:
 
     def _look(self) -> bool:
         """Record where everything is, and check it; whether all balls rest."""
+        if self._progress is not None:
+            self._progress(self._t, self._setup.duration)
         rest = True
         for tracked in self._tracked.values():
             if not tracked.caught:
@@ -183,52 +219,40 @@ class PlainSimulation:
     def _kept(self, callback: Any) -> Any:
         """The callback, with what it raises kept for after the step."""
 
-        def call(arbiter: pymunk.Arbiter, space: pymunk.Space, data: Any) -> None:
+        def call(*arguments: Any) -> None:
             if self._raised is None:
                 try:
-                    callback(arbiter)
+                    callback(*arguments)
                 except BaseException as error:
                     self._raised = error
 
         return call
 
-    def _apply_forces(self, tracked: _Tracked) -> Any:
-        ball, cloth = tracked.ball, self._setup.cloth
-
-        def update(body: pymunk.Body, gravity: Any, damping: float, h: float) -> None:
-            if self._raised is not None:
-                return
-            try:
-                self._numerics.force_evaluations += 1
-                x, y = body.position
-                vx, vy = velocity = body.velocity
-                spin = body.angular_velocity
-                ax, ay, alpha = checked(ball, self._t, (x, y, vx, vy, spin))
-                if tracked.touched != self._steps:
-                    self._refuse_reversal(tracked, ax, ay, velocity, h)
-                tracked.acceleration, tracked.before = (ax, ay), velocity
-                vx, vy = vx + h * ax, vy + h * ay
-                if cloth is not None:
-                    wx, wy = tracked.rolling_spin
-                    before: ClothState = (x, y, vx, vy, spin, wx, wy)
-                    phase = cloth.phase(before, ball.radius)
-                    _, _, vx, vy, spin, wx, wy = cloth.after(before, phase, min(h, phase.duration))
-                    tracked.rolling_spin = (wx, wy)
-                spin += h * alpha
-                if tracked.pressed > 0.0:
-                    speed = (vx * vx + vy * vy) ** 0.5
-                    slower = max(0.0, 1.0 - h * tracked.resistance * tracked.pressed / ball.mass / (speed + 1e-30))
-                    vx, vy, spin = slower * vx, slower * vy, slower * spin
-                    tracked.pressed = 0.0
-                total = x + y + vx + vy + spin
-                if total - total != 0.0:
-                    raise self._diverged(tracked, (x, y, vx, vy, spin))
-                body.velocity = (vx, vy)
-                body.angular_velocity = spin
-            except BaseException as error:
-                self._raised = error
-
-        return update
+    def _move(self, body: pymunk.Body, gravity: Any, damping: float, h: float) -> None:
+        """What forces, torques and the cloth do to a ball within a step."""
+        self._numerics.force_evaluations += 1
+        tracked, cloth = self._tracked[body], self._setup.cloth
+        ball = tracked.ball
+        (x, y), (vx, vy), spin = body.position, body.velocity, body.angular_velocity
+        far = h * h * (vx * vx + vy * vy) > (_LEAP * ball.radius) ** 2
+        tracked.leap = ((x - h * vx, y - h * vy), (x, y)) if far else None
+        ax, ay, alpha = checked(ball, self._t, (x, y, vx, vy, spin))
+        if tracked.touched != self._steps:
+            self._refuse_reversal(tracked, ax, ay, (vx, vy), h)
+        tracked.acceleration, tracked.before = (ax, ay), (vx, vy)
+        vx, vy = vx + h * ax, vy + h * ay
+        if cloth is not None:
+            wx, wy = tracked.rolling_spin
+            phase = cloth.phase((x, y, vx, vy, spin, wx, wy), ball.radius)
+            _, _, vx, vy, spin, *tracked.rolling_spin = cloth.after(  # type: ignore[assignment]
+                (x, y, vx, vy, spin, wx, wy), phase, min(h, phase.duration)
+            )
+        spin += h * alpha
+        total = x + y + vx + vy + spin
+        if total - total != 0.0:
+            raise self._diverged(tracked, (x, y, vx, vy, spin))
+        body.velocity = (vx, vy)
+        body.angular_velocity = spin
 
     def _refuse_reversal(self, tracked: _Tracked, ax: float, ay: float, velocity: Any, h: float) -> None:
         change = h * (abs(ax - tracked.acceleration[0]) + abs(ay - tracked.acceleration[1]))
@@ -245,10 +269,10 @@ class PlainSimulation:
                 f'within a step of {h:.3g} s; lower accuracy.step, or use accuracy.method = "exact"'
             )
 
-    def _begin(self, arbiter: pymunk.Arbiter) -> None:
+    def _begin(self, arbiter: pymunk.Arbiter, space: pymunk.Space, data: Any) -> None:
         first, second = arbiter.shapes
         tracked = self._tracked[_body(first)]
-        normal, approach, _ = _closing(arbiter)
+        _, approach, _ = _closing(arbiter)
         partner = self._surfaces[second].name if second in self._surfaces else self._tracked[_body(second)].ball.name
         if approach > 0.0:
             self._numerics.impacts += 1
@@ -257,55 +281,71 @@ class PlainSimulation:
             x, y = _body(first).position
             self._note(Event(self._t, "impact", tracked.ball.name, partner, approach, x, y))
 
-    def _meet_surface(self, arbiter: pymunk.Arbiter) -> None:
+    def _meet_surface(self, arbiter: pymunk.Arbiter, space: pymunk.Space, data: Any) -> None:
         first, second = arbiter.shapes
-        surface = self._surfaces[second]
-        self._tracked[_body(first)].touched = self._steps
-        normal, approach, along = _closing(arbiter)
-        if approach <= 0.0:
+        tracked, surface = self._tracked[_body(first)], self._surfaces[second]
+        tracked.touched = self._steps
+        (nx, ny), approach, along = _closing(arbiter)
+        press = max(0.0, tracked.acceleration[0] * nx + tracked.acceleration[1] * ny)  # m/s^2
+        lasts = abs(approach) <= 2.0 * press * self._accuracy.step  # what weight alone gathers in a step or two
+        if approach <= 0.0 and not lasts:
             return
-        ax, ay = self._tracked[_body(first)].acceleration
-        bounce = answer(surface, approach, along)
-        press = max(0.0, ax * normal.x + ay * normal.y)  # m/s^2
-        tracked = self._tracked[_body(first)]
-        tracked.lowest = (2.0 * press * surface.lowest_bounce) ** 0.5
-        tracked.presses = approach <= 2.0 * press * self._accuracy.step  # what weight alone gathers in a step or two
-        if tracked.presses:
-            arbiter.restitution = 0.0
-            return
-        arbiter.restitution, arbiter.friction = bounce.restitution, bounce.friction
-        # a tilted surface meets the ball as a straight one meets the velocity turned the other way, until _press
-        # turns it back
-        if bounce.tilt != 0.0 and tracked.turned == 0.0:
-            tracked.turned = bounce.tilt if along >= 0.0 else -bounce.tilt
-            _body(first).velocity = _body(first).velocity.rotated(-tracked.turned)
+        state = tracked.state()
+        slip = along + tracked.ball.radius * state[4], slip_over(tracked.ball, state, -nx, -ny)
+        restitution, friction, tilt = answer(surface, approach, along)
+        arbiter.restitution, arbiter.friction = 0.0 if lasts else restitution, in_plane(friction, *slip)
+        # a tilted surface meets the ball as a straight one meets the velocity turned the other way; it is turned back
+        # after that
+        turned = 0.0 if lasts or any(pending.turned for pending in tracked.pending.values()) else tilt
+        turned = turned if along >= 0.0 else -turned
+        tracked.body.velocity = tracked.body.velocity.rotated(-turned)
+        resistance = surface.rolling_resistance if lasts else 0.0
+        lowest = (2.0 * press * surface.lowest_bounce) ** 0.5
+        tracked.pending[second] = _Pending(friction, slip, resistance, lowest, turned)
 
-    def _meet_ball(self, arbiter: pymunk.Arbiter) -> None:
+    def _part_from_surface(self, arbiter: pymunk.Arbiter, space: pymunk.Space, data: Any) -> None:
+        first, second = arbiter.shapes
+        tracked, body = self._tracked[_body(first)], _body(first)
+        pending = tracked.pending.pop(second, None)
+        if pending is None:
+            return
+        body.velocity = body.velocity.rotated(pending.turned)
+        (nx, ny), approach, along = _closing(arbiter)
+        push = abs(arbiter.total_impulse.dot(arbiter.normal))
+        if 0.0 < -approach <= pending.lowest:  # a bounce that the surface swallows
+            body.velocity += (-approach * nx, -approach * ny)
+        speed = body.velocity.length
+        if pending.resistance > 0.0 and abs(along + tracked.ball.radius * body.angular_velocity) <= _GRIP * speed:
+            slower = max(0.0, 1.0 - pending.resistance * push / tracked.ball.mass / (speed + 1e-30))
+            body.velocity, body.angular_velocity = slower * body.velocity, slower * body.angular_velocity
+        self._rub([tracked], (-nx, -ny), pending, push)
+
+    def _meet_ball(self, arbiter: pymunk.Arbiter, space: pymunk.Space, data: Any) -> None:
         first, second = arbiter.shapes
         a, b = self._tracked[_body(first)], self._tracked[_body(second)]
         a.touched = b.touched = self._steps
-        normal, approach, along = _closing(arbiter)
-        slip = along + a.ball.radius * _body(first).angular_velocity + b.ball.radius * _body(second).angular_velocity
-        bounce = answer_of_balls(self._setup, approach, abs(slip), b.ball.name)
-        arbiter.restitution, arbiter.friction = bounce.restitution, bounce.friction
+        (nx, ny), approach, along = _closing(arbiter)
+        here, there = a.state(), b.state()
+        flat = along + a.ball.radius * here[4] + b.ball.radius * there[4]
+        slip = flat, slip_over(a.ball, here, -nx, -ny) - slip_over(b.ball, there, nx, ny)
+        bounce = answer_of_balls(self._setup, approach, (flat * flat + slip[1] * slip[1]) ** 0.5, b.ball.name)
+        arbiter.restitution, arbiter.friction = bounce.restitution, in_plane(bounce.friction, *slip)
+        a.pending[second] = _Pending(bounce.friction, slip)
 
-    def _press(self, arbiter: pymunk.Arbiter) -> None:
+    def _part_from_ball(self, arbiter: pymunk.Arbiter, space: pymunk.Space, data: Any) -> None:
         first, second = arbiter.shapes
-        surface = self._surfaces[second]
-        tracked = self._tracked[_body(first)]
-        if tracked.turned != 0.0:
-            _body(first).velocity = _body(first).velocity.rotated(tracked.turned)
-            tracked.turned = 0.0
+        a, b = self._tracked[_body(first)], self._tracked[_body(second)]
         nx, ny = arbiter.normal
-        leaving = -(_body(first).velocity[0] * nx + _body(first).velocity[1] * ny)
-        if 0.0 < leaving <= tracked.lowest:  # a bounce that the surface swallows
-            _body(first).velocity += (leaving * nx, leaving * ny)
-        slip = abs(_closing(arbiter)[2] + tracked.ball.radius * _body(first).angular_velocity)
-        speed = _body(first).velocity.length
-        if surface.rolling_resistance > 0.0 and tracked.presses and slip <= _GRIP * speed:
-            jx, jy = arbiter.total_impulse
-            tracked.pressed = abs(jx * nx + jy * ny) / self._accuracy.step
-            tracked.resistance = surface.rolling_resistance
+        self._rub([a, b], (-nx, -ny), a.pending.pop(second), abs(arbiter.total_impulse.dot(arbiter.normal)))
+
+    def _rub(self, balls: Sequence[_Tracked], normal: tuple[float, float], pending: _Pending, push: float) -> None:
+        """The upward share of the friction, on cloth; ``normal`` points to the first of the balls."""
+        if pending.slip[1] != 0.0 and push > 0.0:
+            states = [tracked.state() for tracked in balls]
+            moving = [tracked.ball for tracked in balls]
+            after = rubbed(moving, states, normal, pending.slip, pending.friction * push)
+            for tracked, state in zip(balls, after, strict=True):
+                tracked.take(state)
 
     # ------------------------------------------------------------------ guards
 
@@ -314,6 +354,16 @@ class PlainSimulation:
         state = tracked.state()
         if not (left <= state[0] <= right and bottom <= state[1] <= top):
             raise self._diverged(tracked, state)
+
+    def _refuse_leap(self, tracked: _Tracked) -> None:
+        """Raise RunError where the ball's centre went through a surface in the last step."""
+        assert tracked.leap is not None
+        met = self._space.segment_query_first(*tracked.leap, 0.0, pymunk.ShapeFilter(mask=_SURFACE))
+        if met is not None and not tracked.caught:
+            raise RunError(
+                f"t = {self._t:.6g} s, ball {tracked.ball.name!r}: went through {self._surfaces[met.shape].name!r} "
+                f'within a step of {self._accuracy.step:.3g} s; lower accuracy.step, or use accuracy.method = "exact"'
+            )
 
     def _diverged(self, tracked: _Tracked, state: State) -> Diverged:
         x, y, vx, vy, spin = state[:5]
@@ -343,6 +393,7 @@ def _fixed(body: pymunk.Body, surface: Surface) -> pymunk.Shape:
     else:
         fixed = pymunk.Segment(body, shape.a, shape.b, shape.radius)
     fixed.collision_type = _SURFACE
+    fixed.filter = pymunk.ShapeFilter(categories=_SURFACE)
     fixed.elasticity = surface.restitution
     fixed.friction = surface.friction
     return fixed
@@ -359,7 +410,7 @@ def _closing(arbiter: pymunk.Arbiter) -> tuple[Any, float, float]:
     (m/s).
     """
     first, second = arbiter.shapes
-    normal = arbiter.contact_point_set.normal
+    normal = arbiter.normal
     ux = _body(first).velocity[0] - _body(second).velocity[0]
     uy = _body(first).velocity[1] - _body(second).velocity[1]
     # the surface's own normal is -normal, and its forward direction (ny, -nx) of that

@@ -1,10 +1,12 @@
 """The run record: samples, crossings, angles, events, and the energy ledger."""
 
+import re
 from math import pi, sqrt
 
 import numpy as np
 import pytest
 
+import sandbox
 from sandbox.engine import simulate
 from sandbox.engine.accuracy import resolve
 from sandbox.engine.ledger import ledger
@@ -177,3 +179,12 @@ def test_what_the_last_impact_did_is_in_the_path(restitution):
     book = ledger(run)
     assert book.end == pytest.approx(0.5 * 0.2 * (restitution * speed) ** 2, abs=1e-6)
     assert abs(book.residue) < 1e-6
+
+
+def test_energy_from_nowhere_is_said():
+    """Euler's steps carry a light ball, whose drag is strong, further than the drag allows."""
+    light = {"ball.mass": 1e-4, "accuracy.integrator": "explicit-euler"}
+    (warning,) = sandbox.simulate(sandbox.load("golf", light)).warnings
+    assert re.match(r"0\.08\d+ J appeared by the error of explicit-euler with steps of 0.00417 s", warning)
+    for good in ({"accuracy.integrator": "rk4"}, {}, {"accuracy.method": "plain", "accuracy.step": 1e-3}):
+        assert sandbox.simulate(sandbox.load("golf", good)).warnings == []

@@ -1,0 +1,97 @@
+"""The plain method: it converges where it can, and what it cannot do is an error and not a number."""
+
+from __future__ import annotations
+
+from math import hypot
+
+import pytest
+
+from sandbox.engine import plain, simulate
+from sandbox.engine.accuracy import resolve
+from sandbox.engine.run import Run
+from sandbox.engine.setup import Ball, Bounce, Circle, Segment, Setup, Surface
+from sandbox.errors import RunError
+from sandbox.physics.cloth import Cloth
+from sandbox.physics.forces import Gravity
+from sandbox.scene import load
+
+R, M = 0.028575, 0.170097
+
+
+def by_steps_of(step: float) -> dict[str, object]:
+    return {"method": "plain", "step": step}
+
+
+def struck(english: float, follow: float) -> Setup:
+    """A cut with spin, off a cushion: friction acts in and out of the plane, between balls and on the rail."""
+    speed = 1.5
+    cue = Ball("cue", M, R, (0.0, 0.0), (speed, 0.0), english * speed / R, (0.0, follow * speed / R))
+    rail = Surface("rail", Segment((0.9, -2.0), (0.9, 2.0)), 0.8, 0.2)
+    return Setup(
+        [cue, Ball("1", M, R, (0.5, 0.6 * R))],
+        [rail],
+        cloth=Cloth(),
+        between_balls=lambda normal, slip: Bounce(0.95, 0.06),
+    )
+
+
+@pytest.mark.parametrize(("english", "follow"), [(0.0, 1.0), (0.0, -1.0), (1.5, 0.5), (-1.5, -0.5)])
+def test_it_converges_to_exact_on_cloth(english: float, follow: float):
+    setup = struck(english, follow)
+    exact = simulate(setup, resolve("precise"))
+
+    def off(run: Run) -> float:
+        return max(
+            hypot(*(a - b for a, b in zip(run.state(ball, 99.0)[:2], exact.state(ball, 99.0)[:2], strict=True)))
+            for ball in ("cue", "1")
+        )
+
+    coarse, fine = (off(simulate(setup, resolve(**by_steps_of(step)))) for step in (2e-3, 1e-4))
+    assert fine < 0.01
+    assert fine < 0.5 * coarse
+
+
+@pytest.mark.parametrize("resistance", [0.05, 0.2])
+def test_rolling_resistance_stops_a_ball(resistance: float):
+    """A rolling ball is slowed by c g: it stops after v^2 / (2 c g)."""
+    floor = Surface("floor", Segment((-50.0, 0.0), (50.0, 0.0)), 0.5, 0.5, resistance)
+    ball = Ball("ball", 0.2, 0.05, (0.0, 0.05), (2.0, 0.0), -2.0 / 0.05, forces=[Gravity(0.2, 9.81)])
+    run = simulate(Setup([ball], [floor], duration=10.0), resolve(**by_steps_of(1e-3)))
+    assert run.ended == "rest"
+    assert run.state("ball", 10.0)[0] == pytest.approx(2.0**2 / (2.0 * resistance * 9.81), rel=0.02)
+
+
+def test_a_ball_that_a_step_carries_through_the_ground_is_lost_and_said_so():
+    with pytest.raises(RunError, match=r"ball 'ball': went through '\w+' within a step of 0.00417 s; lower"):
+        simulate(load("golf/7-iron").build(), resolve(method="plain"))
+
+
+@pytest.mark.parametrize("shape", [Segment((2.0, -1.0), (2.0, 1.0)), Circle((2.0, 0.0), 0.01)])
+def test_a_bullet_does_not_pass_unseen(shape: Segment | Circle):
+    bullet = Ball("bullet", 0.01, 0.005, (0.0, 0.0), (300.0, 0.0))
+    setup = Setup([bullet], [Surface("wall", shape, 0.5, 0.0)], duration=0.1)
+    with pytest.raises(RunError, match="went through 'wall'"):
+        simulate(setup, resolve(**by_steps_of(1e-3)))
+    assert simulate(setup, resolve(**by_steps_of(1e-6))).state("bullet", 0.1)[2] == pytest.approx(-150.0, rel=1e-3)
+
+
+def test_a_run_of_too_many_steps_is_given_up_with_a_hint(monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr(plain, "MOST_STEPS", 1000)
+    ball = Ball("ball", 1.0, 0.1, (0.0, 0.0), (1.0, 0.0))
+    with pytest.raises(RunError, match=r"t = 0.001 s of 60 s: 1,000 steps of 1e-06 s; lengthen accuracy.step"):
+        simulate(Setup([ball]), resolve(**by_steps_of(1e-6)))
+
+
+def test_how_far_it_is_can_be_followed():
+    told: list[tuple[float, float]] = []
+    ball = Ball("ball", 1.0, 0.1, (0.0, 0.0), (1.0, 0.0))
+    simulate(Setup([ball], duration=0.5), resolve(**by_steps_of(1e-3)), lambda t, duration: told.append((t, duration)))
+    assert len(told) > 50
+    assert told == sorted(told)
+    assert {duration for _, duration in told} == {0.5}
+
+
+def test_a_run_says_how_it_was_stepped():
+    assert resolve(method="plain").steps == "steps of 4.17 ms"
+    assert resolve(integrator="heun", step=0.01).steps == "heun, steps of 10 ms"
+    assert resolve().steps == "dormand-prince"
