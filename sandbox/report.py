@@ -109,7 +109,7 @@ def card(scene: Scene, run: Run, check: Check | None = None, other: tuple[str, R
         *_events(run),
         "",
         f"  {_numerics(run)}",
-        *(f"  warning: {one_line(warning)}" for warning in run.warnings),
+        *(f"  warning: {warning}" for warning in run.warnings),
         *([] if check is None else _verdict(check, scene.units)),
     ]
 
