@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from sandbox.engine import simulate
 from sandbox.engine.accuracy import LEVELS, resolve
-from sandbox.engine.setup import Ball, Bounce, Circle, Segment, Setup, Surface
+from sandbox.engine.setup import Ball, Bounce, Circle, ContactModel, Segment, Setup, Surface, kinetic
 from sandbox.engine.simulation import Stalled
 from sandbox.engine.touch import Obstacle
 from sandbox.errors import RequestError
@@ -376,3 +376,49 @@ def test_a_ball_rolls_over_a_hole_or_comes_to_rest_in_it(restitution, speed):
     holed = y < 0.0
     assert holed == (0.146 < x < 0.254)
     assert y == pytest.approx(radius - 0.1 if holed else radius, abs=1e-6)
+
+
+def test_where_friction_must_give_way_some_of_it_is_left():
+    """Kane's paradox in a groove: full friction would gain energy, a sixteenth of it does not, and turns the ball."""
+    e, mu, low, high, radius = 0.98, 0.666, 0.4261686, 1.1427027, 0.1
+    left = Surface("left", Segment((0.0, 0.0), (-3.0 * cos(low), 3.0 * sin(low))), e, mu)
+    right = Surface("right", Segment((0.0, 0.0), (3.0 * cos(high), 3.0 * sin(high))), e, mu)
+    half, middle = 0.5 * (pi - low - high), 0.5 * (pi - low + high)
+    way = radius / sin(half)
+    shot = Ball("ball", 1.0, radius, (way * cos(middle), way * sin(middle)), (2.8667, -3.4285), -11.967)
+    before, after = (
+        kinetic(shot, state) for state in ((0.0, 0.0, *shot.velocity, shot.spin), _after(shot, left, right))
+    )
+    assert after <= before
+    assert _after(shot, left, right)[4] == pytest.approx(-16.1, abs=0.1)
+
+
+def _after(shot: Ball, *surfaces: Surface) -> tuple[float, ...]:
+    return simulate(Setup([shot], surfaces, duration=0.01), resolve()).state("ball", 0.01)
+
+
+def test_faint_impacts_count_only_without_others_between():
+    """1,200 faint impacts of two balls, and 1,200 of two others that are none: neither stalls a run."""
+    radius, fast, slow = 0.05, 1.0, 1e-5
+
+    def pair(y: float, gap: float, speed: float, name: str) -> list[Ball]:
+        return [
+            Ball(f"{name}1", 1.0, radius, (-radius - 0.5 * gap, y), (speed, 0.0)),
+            Ball(f"{name}2", 1.0, radius, (radius + 0.5 * gap, y), (-speed, 0.0)),
+        ]
+
+    def box(y: float, gap: float, name: str) -> list[Surface]:
+        aside = 2.0 * radius + gap
+        return [
+            Surface(f"{name}{side:+.0f}", Segment((side * aside, y - 0.1), (side * aside, y + 0.1)), 1.0, 0.0)
+            for side in (-1.0, 1.0)
+        ]
+
+    balls = [*pair(0.0, 0.02, fast, "fast"), *pair(1.0, 2e-7, slow, "slow")]
+    run = simulate(
+        Setup(balls, [*box(0.0, 0.02, "a"), *box(1.0, 2e-7, "b")], duration=50.0, contact=ContactModel("rigid")),
+        resolve(),
+    )
+    mutual = [event for event in run.events if event.partner in ("fast1", "fast2", "slow1", "slow2")]
+    assert sum(event.speed > 1e-4 for event in mutual) > 1100
+    assert sum(event.speed < 1e-4 for event in mutual) > 1100

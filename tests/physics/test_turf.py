@@ -39,6 +39,12 @@ def test_turf_hardly_tilts_under_a_ball_that_skims_it(normal: float, along: floa
     assert tilt <= descent / 1.5 + 1e-9
 
 
+def test_soft_turf_tilts_by_no_more_than_45_deg():
+    """At 60 m/s, 20 deg from the vertical, the line would give 67 deg; two thirds of the descent are 46.7 deg."""
+    angle = radians(20.0)
+    assert degrees(penner_tilt(60.0 * cos(angle), 60.0 * sin(angle), give=3.0)) == pytest.approx(45.0)
+
+
 @given(normal=st.floats(0.1, 60.0), along=st.floats(0.0, 60.0))
 def test_restitution_is_that_of_the_speed_normal_to_the_tilted_turf(normal: float, along: float):
     restitution, tilt = penner_bounce(normal, along)
