@@ -50,7 +50,7 @@ clean:
 .venv/ready: pyproject.toml constraints.txt
 	@$(PYTHON) -c 'import sys; sys.exit("Python >= 3.11 is needed, this is %d.%d: make PYTHON=python3.12 ..." % sys.version_info[:2] if sys.version_info < (3, 11) else 0)'
 	$(PYTHON) -m venv .venv
-	$(PIP) --editable '.[lab]'
+	$(PIP) --editable '.[lab,test]'
 	@touch $@
 
 .venv/ready-dev: .venv/ready

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib.util
 import json
 import os
 import re
@@ -47,10 +48,12 @@ def new_scene(folder: Path) -> list[Path]:
 def next_steps(folder: Path) -> list[str]:
     """What to try in the new scene, a line each."""
     shown = folder if folder.is_absolute() or folder.parts[0] == ".." else f"./{folder}"
+    installed = importlib.util.find_spec("pytest") is not None
     return [
         "now try:",
         f"  sandbox run {shown} --poster {folder.name}.png",
         f"  sandbox play {shown}    # the window: what you save is there at once",
+        *([] if installed else ["  python -m pip install pytest    # for the next line"]),
         f"  pytest {folder} --golden-update    # makes the golden picture: look at it; from then on: pytest {folder}",
     ]
 

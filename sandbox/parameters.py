@@ -134,8 +134,9 @@ def _is_list(value: Any) -> bool:
 
 def _declared(default: Any, meaning: str, kind: Quantity) -> Any:
     if kind.unit not in units.KIND_OF:
-        known = ", ".join(unit for unit in units.KIND_OF if unit)
-        raise KeyError(f'unit {kind.unit!r} is not known; write it as one of {known}; or "" for none')
+        meant = units.suggestion(kind.unit)
+        known = f"did you mean {meant}?" if meant else f"use {', '.join(unit for unit in units.KIND_OF if unit)}"
+        raise ValueError(f'"{kind.unit}" is not a unit known here; {known}; or "" for a number without one')
     return _field(default, meaning, kind.read, json_schema_extra=kind)
 
 
@@ -338,9 +339,24 @@ def read_toml(path: Path) -> dict[str, Any]:
     try:
         return tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
-        raise RequestError(f"{path}: broken TOML: {error}") from None
+        raise RequestError(f"{path}: broken TOML: {error}{_toml_hint(text, str(error))}") from None
     except (ValueError, RecursionError) as error:
         raise RequestError(f"{path}: cannot be read as TOML: {error}") from None
+
+
+def _toml_hint(text: str, error: str) -> str:
+    """What is likely to be wrong in the line that a TOML error names: quotes that are missing, as the end of a
+    sentence; empty where it is something else."""
+    number = re.search(r"at line (\d+)", error)
+    lines = text.splitlines()
+    if number is None or not 1 <= int(number[1]) <= len(lines):
+        return ""
+    line = lines[int(number[1]) - 1]
+    bare = re.search(r"([+-]?[\d.]+(?:[eE][+-]?\d+)?)\s*([A-Za-z°%][\w/^²%.]*)\s*(?=[,\]#]|$)", line)
+    if bare is not None and units.suggestion(bare[2]):
+        return f'; a value with a unit goes in quotes: "{bare[1]} {units.suggestion(bare[2])}"'
+    word = re.fullmatch(r"\s*[\w.-]+\s*=\s*([A-Za-z][\w/-]*)\s*(#.*)?", line)
+    return f'; a word goes in quotes: "{word[1]}"' if word is not None else ""
 
 
 def parse_assignment(text: str) -> tuple[str, Any]:
@@ -415,6 +431,7 @@ def whole(
     """
     found: dict[str, Any] = {}
     for key, value in changes.items():
+        _check_keys(value, f"{changed_by} {key}")
         if isinstance(key, str) and "[" not in key:
             found[key] = value
             continue
@@ -428,6 +445,15 @@ def whole(
             value = _placed(node, path, value, f"{changed_by} {key}")
         found[name] = value
     return found
+
+
+def _check_keys(value: Any, what: str) -> None:
+    """Raise RequestError for a table with a key that is not a text; files have none, Python may."""
+    if isinstance(value, Mapping):
+        for key, inside in value.items():
+            if not isinstance(key, str):
+                raise RequestError(f"{what}: {key!r} in it is not a key; a key is a text, such as speed")
+            _check_keys(inside, f"{what}.{key}")
 
 
 _STEP = re.compile(r"([^.\[\]]+)|\[(\d+)\]")

@@ -56,6 +56,36 @@ _QUANTITY = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?|[+-]?(?:n
 _SPELLINGS = str.maketrans({"²": "^2", "³": "^3", "°": "", "·": " "})
 
 
+#: How else units are written, in lower case and the singular.
+_OTHER_SPELLINGS = {
+    "m": "meter metre mtr",
+    "cm": "centimeter centimetre",
+    "mm": "millimeter millimetre",
+    "km": "kilometer kilometre",
+    "yd": "yard",
+    "ft": "foot feet",
+    "in": "inch inche",
+    "m/s": "mps m/sec ms-1",
+    "km/h": "kph kmh km/hr kmph",
+    "mph": "mi/h mile/h miles/h mile miles mi mile/hour",
+    "kn": "kt knot",
+    "ft/s": "fp ft/sec",
+    "deg": "degree",
+    "rad": "radian",
+    "rev/s": "rp rev rev/sec",
+    "kg": "kilogram kilo",
+    "g": "gram gr",
+    "oz": "ounce",
+    "lb": "pound lbm",
+    "s": "sec second",
+    "min": "minute",
+    "C": "celsiu degc",
+    "F": "fahrenheit degf",
+    "K": "kelvin",
+    "N": "newton",
+}
+
+
 def alternatives(unit: str) -> list[str]:
     """The units that may stand in place of ``unit``, itself first."""
     return [unit, *(other for other in KINDS[KIND_OF[unit]] if other != unit)]
@@ -65,6 +95,17 @@ def listed(unit: str) -> str:
     """The units that may stand in place of ``unit``, for a sentence: ``"m/s, km/h, mph, kn or ft/s"``."""
     names = [other or "no unit" for other in alternatives(unit)]
     return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} or {names[-1]}"
+
+
+def suggestion(given: str) -> str:
+    """The unit that is meant by ``given``: itself, or one that it is another spelling of; "" where there is none."""
+    if given in KIND_OF:
+        return given
+    plain = given.lower().rstrip(".")
+    spellings = {unit.lower(): unit for unit in KIND_OF} | {
+        other: unit for unit, others in _OTHER_SPELLINGS.items() for other in others.split()
+    }
+    return spellings.get(plain) or spellings.get(plain.removesuffix("s"), "")
 
 
 def parse(text: str, unit: str) -> float:
@@ -89,8 +130,12 @@ def convert(number: float, given: str, unit: str) -> float:
         return number
     units = KINDS[KIND_OF[unit]]
     if given not in units:
-        kind = f"a unit of {KIND_OF[given]}" if given in KIND_OF else "not a unit known here"
-        raise ValueError(f"{given} is {kind}; use {listed(unit)}")
+        if given in KIND_OF:
+            raise ValueError(f"{given} is a unit of {KIND_OF[given]}; use {listed(unit)}")
+        meant = suggestion(given)
+        if meant in units:
+            raise ValueError(f"{given} is not a unit known here; did you mean {meant}?")
+        raise ValueError(f"{given} is not a unit known here; use {listed(unit)}")
     factor, offset = units[given]
     target_factor, target_offset = units[unit]
     # 14 digits: "140 F" is 60 C, not a rounding error above it and out of bounds.

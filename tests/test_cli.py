@@ -100,6 +100,46 @@ def test_help(call, command: list[str]):
     assert max(len(line) for line in out.splitlines()) <= 110
 
 
+def test_without_a_command_it_shows_its_help(call):
+    assert call() == (0, call("--help").out, "")
+
+
+def test_list_shows_the_scene_files_of_the_folder(call, tmp_path: Path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "shot.toml").write_text('# A flop over the bunker.\nscene = "golf"\n')
+    (tmp_path / "pyproject.toml").write_text('[project]\nname = "golf"\n')
+    (tmp_path / "broken.toml").write_text("scene = [")
+    lines = call("list").out.splitlines()
+    assert any(re.fullmatch(r"shot\.toml +A flop over the bunker\.", line) for line in lines)
+    assert not any("pyproject" in line or "broken" in line for line in lines)
+    assert call("run", "shot.toml").code == 0
+
+
+def test_list_reads_whatever_stands_in_the_folder(call, tmp_path: Path, monkeypatch):
+    """No scene: nested too deep for Python, a pipe, a device, a folder, not a text, too large; and none is run."""
+    monkeypatch.chdir(tmp_path)
+    sources = {
+        "brackets": "(" * 100_000,
+        "minus": "x = " + "-" * 100_000 + "1",
+        "binary": "\0" * 100,
+        "unclosed": '"""',
+        "code": "raise SystemExit(3)",
+        "number": "3",
+    }
+    for name, source in sources.items():
+        (tmp_path / name).mkdir()
+        (tmp_path / name / "scene.py").write_text(source)
+        (tmp_path / f"{name}.toml").write_text("x = " + "[" * 10_000)
+    (tmp_path / "pipe").mkdir()
+    os.mkfifo(tmp_path / "pipe" / "scene.py")
+    os.mkfifo(tmp_path / "pipe.toml")
+    (tmp_path / "folder" / "scene.py").mkdir(parents=True)
+    (tmp_path / "folder.toml").mkdir()
+    code, out, err = call("list")
+    assert (code, err) == (0, "")
+    assert {line for line in out.splitlines() if line.startswith("./")} >= {f"./{name}" for name in sources}
+
+
 def test_version(call):
     assert call("--version") == (0, f"sandbox {sandbox.__version__}\n", "")
 
@@ -364,9 +404,16 @@ def test_one_of_a_list_may_be_set(call, monkeypatch):
         (["sweep", "golf", "--jobs", "0"], "--jobs 0: must be a whole number of 1 or more processes"),
         (["run", "golf", "--size", "720p"], "--size 720p: must be width and height in px, such as 1280x720"),
         (["run", "golf", "--size", "640x360"], "--size 640x360: goes with a picture, such as --poster F.png"),
+        (["run", "golf", "--size", "100000x100000"], "--size 100000x100000: must be between 320x180 and 7680x4320 px"),
         (["run", "golf", "--size", "16x9"], "--size 16x9: must be between 320x180 and 7680x4320 px"),
         (["run", "golf", "--compare", "golff"], "unknown scene golff; did you mean golf?"),
         (["run", "golf", "--compare", "soccer"], "--compare soccer: is soccer, and only golf can"),
+        (["run", "golf", "--set", "launch.speed=150 MPH"], "MPH is not a unit known here; did you mean mph?"),
+        (["run", "golf", "--set", "launch.speed=70 metres"], "metres is not a unit known here; use m/s"),
+        (
+            ["run", "golf", "--set", "launch.speed=150", "mph"],
+            'a value with a space goes in quotes: launch.speed="150 mp',
+        ),
         (["run", "golf", "--bogus"], "No such option: --bogus\nsandbox run --help shows how to ask"),
         (["run", "golf", "--fps"], "Option '--fps' requires an argument.\nsandbox run --help shows how to ask"),
         (["run"], "Missing argument 'SCENE'"),
@@ -387,6 +434,9 @@ def test_a_wrong_request_is_refused_in_a_line(call, tmp_path: Path, monkeypatch,
         (b"scene = 'golf'\n[launch]\nspeed = nan\n", "shot.toml: launch.speed = nan: must be a finite number"),
         (b"scene = 'golf'\n[launch]\nsped = 70\n", "shot.toml: launch.sped: unknown key; did you mean launch.speed?"),
         (b"scene = 'golf'\n[launch\nspeed = 70\n", "shot.toml: broken TOML: "),
+        (b"scene = 'golf'\n[launch]\nspeed = 120 mph\n", 'a value with a unit goes in quotes: "120 mph"'),
+        (b"scene = 'golf'\nair.wind = [3 m/s, 0]\n", 'a value with a unit goes in quotes: "3 m/s"'),
+        (b"scene = golf\n", 'a word goes in quotes: "golf"'),
         (b"scene = 'golff'\n", "shot.toml: unknown scene golff; did you mean golf?"),
         (b"[launch]\nspeed = 70\n", "shot.toml: needs a line that names its scene"),
         (b"", "shot.toml: needs a line that names its scene"),
@@ -509,7 +559,8 @@ def test_a_link_is_written_through(call, tmp_path: Path):
         ("FACTS = (", "FACTS = [", "SyntaxError: "),
         ('return "Bounced"', 'return run.result["gone"] and "Bounced"', "KeyError: 'gone'"),
         ("duration=parameters.duration", "length=parameters.duration", "TypeError: "),
-        ('"m/s", low=0, high=340', '"furlong", low=0, high=340', "KeyError: "),
+        ('"m/s", low=0, high=340', '"furlong", low=0, high=340', 'ValueError: "furlong" is not a unit known here; use'),
+        ('"m/s", low=0, high=340', '"MPH", low=0, high=340', 'ValueError: "MPH" is not a unit known here; did you me'),
         ("import Accuracy", "import Accuracies, Accuracy", "ImportError: cannot import name 'Accuracies'"),
         ("class Launch", "raise SystemExit(0)\nclass Launch", "ExitCalled: sys.exit(0)"),
         ("    ball = Ball(", "    exit(0)\n    ball = Ball(", "ExitCalled: sys.exit(0)"),

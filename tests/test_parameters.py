@@ -209,7 +209,7 @@ def test_groups_are_frozen_and_their_defaults_are_checked():
 
 
 def test_an_unknown_unit_is_an_error_of_the_scene():
-    with pytest.raises(KeyError, match="furlong"):
+    with pytest.raises(ValueError, match='"furlong" is not a unit known here; use m, cm'):
         quantity(1.0, "furlong", low=0, high=1, meaning="")
 
 

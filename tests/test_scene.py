@@ -56,6 +56,8 @@ def test_a_scene_may_be_named_wherever_one_is_asked_for():
         (lambda: sandbox.simulate(DROP).trajectory(every=math.inf), "every = inf: must be more than 0 s, and finite"),
         (lambda: sandbox.load(5), "5 is not a scene: give its name as text"),
         (lambda: sandbox.load("golf", {5: 1}), "override 5: a key is a text, such as launch.speed"),
+        (lambda: sandbox.load("golf", {"ball": {5: 1}}), "override ball: 5 in it is not a key"),
+        (lambda: sandbox.load("golf", {"ball": {"drag": {None: 1}}}), "override ball.drag: None in it is not a key"),
         (lambda: sandbox.sweep("golf", {5: [1, 2]}), "over 5: a key is a text, such as launch.speed"),
         (lambda: sandbox.sweep("golf", {"launch.angle": 5}), "over launch.angle: 5 is neither a list of values nor a"),
         (lambda: sandbox.aim("golf", {"launch.angle": 5}, {"carry": 200}), "vary launch.angle: 5 is neither a list"),

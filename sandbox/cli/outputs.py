@@ -131,13 +131,15 @@ def write(outputs: Mapping[Output, Path], drawn: Drawn) -> None:
 
 def read_size(text: str) -> Size:
     """``"1280x720"``."""
+    from sandbox.files import shortened
+
     sides = text.lower().split("x")
-    if len(sides) != 2 or not all(side.isdecimal() and len(side) < 6 for side in sides):
-        raise RequestError(f"--size {text}: must be width and height in px, such as 1280x720")
-    width, height = int(sides[0]), int(sides[1])
+    if len(sides) != 2 or not all(side.isdecimal() for side in sides):
+        raise RequestError(f"--size {shortened(text)}: must be width and height in px, such as 1280x720")
+    width, height = (int(side) if len(side) < 9 else LARGEST[0] + 1 for side in sides)
     if not (SMALLEST[0] <= width <= LARGEST[0] and SMALLEST[1] <= height <= LARGEST[1]):
         bounds = " and ".join(f"{across}x{up}" for across, up in (SMALLEST, LARGEST))
-        raise RequestError(f"--size {text}: must be between {bounds} px")
+        raise RequestError(f"--size {shortened(text)}: must be between {bounds} px")
     return width, height
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 from io import TextIOWrapper
+from itertools import pairwise
 from typing import Annotated
 
 import typer
@@ -17,7 +18,6 @@ from sandbox.text import printable
 app = typer.Typer(
     name="sandbox",
     add_completion=False,
-    no_args_is_help=True,
     rich_markup_mode=None,
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110},
@@ -64,12 +64,14 @@ def call(args: list[str] | None) -> int:
         if isinstance(stream, TextIOWrapper):
             stream.reconfigure(errors="replace")  # a terminal without "±" shows "?"
     try:
-        code: int = app(args, prog_name="sandbox", standalone_mode=False) or 0
+        given = sys.argv[1:] if args is None else args
+        code: int = app(given or ["--help"], prog_name="sandbox", standalone_mode=False) or 0
         if code == Stopped.exit_code:  # what typer makes of a KeyboardInterrupt
             raise KeyboardInterrupt
         return code
     except typer.TyperException as error:  # unknown command, missing argument, bad option
-        return _fail(f"{error.format_message()}\n{_asked(error, args)} --help shows how to ask", error.exit_code)
+        hint = _unquoted(given, error.format_message()) or f"{_asked(error, given)} --help shows how to ask"
+        return _fail(f"{error.format_message()}\n{hint}", error.exit_code)
     except Stopped as error:
         typer.echo(printable(str(error)), err=True)
         return error.exit_code
@@ -84,12 +86,23 @@ def call(args: list[str] | None) -> int:
         return _fail(text, 1)
 
 
-def _asked(error: typer.TyperException, args: list[str] | None) -> str:
+def _unquoted(args: list[str], message: str) -> str:
+    """What to write where a unit stands apart from its number, as in ``--set launch.speed=150 mph``, or ""."""
+    from sandbox.units import suggestion
+
+    for value, unit in pairwise(args):
+        if "=" in value and value[-1].isdigit() and unit in message and suggestion(unit):
+            key, _, number = value.partition("=")
+            return f'a value with a space goes in quotes: {key}="{number} {suggestion(unit)}"'
+    return ""
+
+
+def _asked(error: typer.TyperException, args: list[str]) -> str:
     """The program, or the command of it, that was asked wrongly."""
     context = getattr(error, "ctx", None)
     if context is not None:
         return str(context.command_path)
-    first = (sys.argv[1:] if args is None else args)[0]  # of an option without its value only that is known
+    first = args[0]  # of an option without its value only that is known
     return "sandbox" if first.startswith("-") else f"sandbox {first}"
 
 

@@ -16,11 +16,12 @@ def list_scenes(
         str | None, typer.Argument(metavar="[SCENE]", help="Only this scene and its presets.", show_default=False)
     ] = None,
 ) -> None:
-    """Show the scenes and presets there are, those in this folder too."""
+    """Show the scenes and presets there are, and the scenes and scene files of this folder."""
     from sandbox.lab.tables import table
-    from sandbox.scene import listings, listings_in, listings_of
+    from sandbox.scene import listings, listings_in, listings_of, scene_files_in
 
-    found = [*listings(), *listings_in(Path())] if scene is None else listings_of(scene)
+    here = Path()
+    found = [*listings(), *listings_in(here), *scene_files_in(here)] if scene is None else listings_of(scene)
     say("\n".join(table(("", ""), [(listing.name, listing.about) for listing in found], "ll", indent="")))
 
 

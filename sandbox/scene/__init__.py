@@ -10,6 +10,7 @@ from sandbox.scene.finding import (
     load,
     parameters_of,
     reference,
+    scene_files_in,
 )
 from sandbox.scene.running import simulate
 from sandbox.scene.scene import Scene
@@ -27,5 +28,6 @@ __all__ = [
     "load",
     "parameters_of",
     "reference",
+    "scene_files_in",
     "simulate",
 ]

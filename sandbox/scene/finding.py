@@ -23,6 +23,9 @@ from sandbox.scene.scene import Scene, docstring, first_comment, parameters_clas
 
 ENTRY_POINTS = "sandbox.scenes"
 
+#: No scene file is larger than this, in bytes; a TOML file that is holds something else.
+LARGEST_FILE = 1_000_000
+
 
 @dataclass(frozen=True)
 class Found:
@@ -125,6 +128,16 @@ def listings_in(place: Path) -> Iterator[Listing]:
     for folder in sorted(file.parent for file in place.glob("*/scene.py")):
         if folder.resolve() not in ours:
             yield from _listed(f"./{folder.name}", folder)
+
+
+def scene_files_in(place: Path) -> Iterator[Listing]:
+    """The scene files in ``place``: TOML files that name their scene."""
+    for file in sorted(place.glob("*.toml")):
+        try:
+            if file.is_file() and file.stat().st_size <= LARGEST_FILE and "scene" in declared.read_toml(file):
+                yield Listing(file.name, first_comment(file))
+        except (OSError, RequestError):
+            continue  # not one that could be run
 
 
 def listings_of(source: str) -> list[Listing]:

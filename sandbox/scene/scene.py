@@ -10,6 +10,7 @@ import ast
 import importlib
 import inspect
 import os
+import tokenize
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import takewhile
@@ -214,17 +215,23 @@ def _check_calls(file: Path, name: str, function: Any) -> None:
 
 
 def docstring(file: Path) -> str:
-    """The first line of a module's docstring, without importing the module."""
+    """The first line of a module's docstring. The module is neither imported nor parsed: it may be anybody's."""
+    passed = (tokenize.ENCODING, tokenize.COMMENT, tokenize.NL)
     try:
-        return (ast.get_docstring(ast.parse(file.read_bytes())) or "").partition("\n")[0]
-    except (SyntaxError, ValueError, OSError):
+        if not file.is_file():  # reading a pipe would wait for ever
+            return ""
+        with file.open("rb") as source:
+            first = next((token for token in tokenize.tokenize(source.readline) if token.type not in passed), None)
+        text = ast.literal_eval(first.string) if first is not None and first.type == tokenize.STRING else ""
+    except (SyntaxError, ValueError, OSError, RecursionError, tokenize.TokenError):
         return ""
+    return inspect.cleandoc(text).partition("\n")[0] if isinstance(text, str) else ""
 
 
 def first_comment(file: Path) -> str:
     """The first comment of a scene file that is meant for people, before all keys."""
     try:
-        lines = file.read_text(encoding="utf-8").splitlines()
+        lines = file.read_text(encoding="utf-8").splitlines() if file.is_file() else []
     except (UnicodeDecodeError, OSError):
         return ""
     head = takewhile(lambda line: not line.strip() or line.startswith("#"), lines)
