@@ -9,7 +9,7 @@ from math import hypot
 from typing import NamedTuple
 
 from sandbox.engine.contacts import Contact, Contacts, Moving
-from sandbox.engine.on_cloth import in_plane, rubbed, slip_over
+from sandbox.engine.on_cloth import in_plane, off_nose, rubbed, slip_over
 from sandbox.engine.setup import Bounce, Setup, kinetic
 from sandbox.engine.surfaces import STILL, answer, answer_of_balls
 from sandbox.engine.touch import CONTACT, Touching
@@ -18,7 +18,6 @@ from sandbox.physics.integrators import State
 
 #: Share of the energy that a cluster may gain in an impact: the rounding of Chipmunk's rounds.
 _GAIN = 1e-7
-
 
 #: Turns of balls and walls at one instant, after which all exchange their impulses at once.
 _TURNS = 9
@@ -42,6 +41,7 @@ class Impacts:
         self._slowest_hop = slowest_hop  # m/s, at which balls on cloth part at least
         # Walls that give way more than balls push back when the balls have parted.
         self._gives_way = len(setup.balls) > 1 and setup.contact.name != "rigid" and setup.contact.wall_stiffness == 0.0
+        self._noses = any(surface.nose_height is not None for surface in setup.surfaces)
         self._heaviest = max(ball.mass for ball in setup.balls)  # kg
 
     def exchange(self, states: dict[int, State]) -> tuple[dict[int, State], list[Hit]]:
@@ -49,16 +49,43 @@ class Impacts:
 
         Where walls give way more than balls, balls exchange their impulses first and the walls push back afterwards.
         """
-        if self._gives_way:
+        if self._gives_way or self._noses:
             hits: list[Hit] = []
             before = states
             for turn in range(_TURNS):
-                after = self._exchange_at_once(before, turn % 2 == 0, hits)
+                if turn % 2 == 0:
+                    after = self._exchange_at_once(before, True if self._gives_way else None, hits)
+                else:
+                    after = self._exchange_at_once(before, False, hits) if self._gives_way else None
+                    after = self._off_noses(after or before, hits) or after
                 if after is None and turn > 0:
                     return before, hits
                 before = after or before
+            if self._noses:
+                return before, hits
         hits = []
         return self._exchange_at_once(states, None, hits) or states, hits
+
+    def _off_noses(self, states: dict[int, State], hits: list[Hit]) -> dict[int, State] | None:
+        """The states after each ball has met the cushions' noses that it touches, one after another; None if none."""
+        after = dict(states)
+        for index, state in states.items():
+            ball = self._tracks[index].ball
+            for obstacle, touching in self._tracks[index].near(*state[:2]):
+                surface, (nx, ny) = obstacle.surface, (touching.nx, touching.ny)
+                vx, vy = after[index][2:4]
+                approach, along = -(vx * nx + vy * ny), vx * ny - vy * nx
+                if surface.nose_height is None or approach <= STILL:
+                    continue
+                bounce = answer(surface, approach, along)
+                x, y, vx, vy, *spins = off_nose(ball, after[index], (nx, ny), surface.nose_height, bounce)
+                slow = max(0.0, self._slowest_hop - (vx * nx + vy * ny))
+                after[index] = (x, y, vx + slow * nx, vy + slow * ny, *spins)
+                hits.append(Hit(index, surface.name, approach))
+        if after == states:
+            return None
+        self._pay_for_hops(states, after)
+        return after
 
     def _exchange_at_once(
         self, states: dict[int, State], balls_only: bool | None, hits: list[Hit]
@@ -155,7 +182,9 @@ class Impacts:
             met: list[Touching] = []
             for obstacle, touching in self._tracks[index].near(x, y):
                 nx, ny = touching.nx, touching.ny
-                if any(nx * other.nx + ny * other.ny > 1.0 - 1e-12 for other in met):
+                if obstacle.surface.nose_height is not None or any(
+                    nx * other.nx + ny * other.ny > 1.0 - 1e-12 for other in met
+                ):
                     continue  # laid flush with one already met
                 met.append(touching)
                 approach, along = -(vx * nx + vy * ny), vx * ny - vy * nx

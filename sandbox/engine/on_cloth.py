@@ -8,9 +8,10 @@ from math import copysign, hypot
 from sandbox.engine.arc import Arc, still
 from sandbox.engine.motion import Contact
 from sandbox.engine.run import Numerics
-from sandbox.engine.setup import Ball
+from sandbox.engine.setup import Ball, Bounce
 from sandbox.engine.track import Track
 from sandbox.physics.cloth import Cloth
+from sandbox.physics.cushion import rebound
 from sandbox.physics.integrators import State
 
 
@@ -102,3 +103,10 @@ def rubbed(
         turn = ball.radius * impulse / ball.inertia
         after.append((x, y, vx, vy, spin, wx - turn * ny, wy + turn * nx))
     return after
+
+
+def off_nose(ball: Ball, state: State, normal: tuple[float, float], height: float, bounce: Bounce) -> State:
+    """The state after a ball has met a cushion's nose at ``height`` (m)."""
+    x, y, vx, vy, spin, wx, wy = state
+    motion = rebound((vx, vy, spin, wx, wy), normal, ball.radius, height, bounce.restitution, bounce.friction)
+    return (x, y, *motion)

@@ -21,7 +21,7 @@ from sandbox.engine.acting import checked
 from sandbox.engine.arc import Arc
 from sandbox.engine.event import Event
 from sandbox.engine.motion import Diverged
-from sandbox.engine.on_cloth import in_plane, rubbed, slip_over
+from sandbox.engine.on_cloth import in_plane, off_nose, rubbed, slip_over
 from sandbox.engine.run import Numerics, Run
 from sandbox.engine.setup import Ball, Circle, Setup, Surface
 from sandbox.engine.surfaces import answer, answer_of_balls
@@ -286,6 +286,12 @@ class PlainSimulation:
         tracked, surface = self._tracked[_body(first)], self._surfaces[second]
         tracked.touched = self._steps
         (nx, ny), approach, along = _closing(arbiter)
+        if surface.nose_height is not None:  # what Chipmunk, which sees the plane alone, cannot answer
+            arbiter.process_collision = False
+            if approach > 0.0:
+                bounce = answer(surface, approach, along)
+                tracked.take(off_nose(tracked.ball, tracked.state(), (-nx, -ny), surface.nose_height, bounce))
+            return
         press = max(0.0, tracked.acceleration[0] * nx + tracked.acceleration[1] * ny)  # m/s^2
         lasts = abs(approach) <= 2.0 * press * self._accuracy.step  # what weight alone gathers in a step or two
         if approach <= 0.0 and not lasts:

@@ -133,6 +133,7 @@ class Surface:
     ``lowest_bounce`` is the height in m below which a bounce is lost in the surface and the ball goes on rolling:
     grass.
     ``law`` replaces restitution and friction at an impact by a function of the normal and the tangential speed (m/s).
+    ``nose_height`` is for balls on cloth: the height in m over the cloth at which a cushion meets them.
     """
 
     name: str
@@ -142,6 +143,7 @@ class Surface:
     rolling_resistance: float = 0.0
     lowest_bounce: float = 0.0  # m
     law: Callable[[float, float], Bounce] | None = None
+    nose_height: float | None = None  # m
 
     def __post_init__(self) -> None:
         if not 0.0 <= self.restitution <= 1.0:
