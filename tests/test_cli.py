@@ -412,7 +412,7 @@ def test_one_of_a_list_may_be_set(call, monkeypatch):
         (["run", "golf", "--set", "launch.speed=70 metres"], "metres is not a unit known here; use m/s"),
         (
             ["run", "golf", "--set", "launch.speed=150", "mph"],
-            'a value with a space goes in quotes: launch.speed="150 mp',
+            'a value with a space goes in quotes: launch.speed="150 m',
         ),
         (["run", "golf", "--bogus"], "No such option: --bogus\nsandbox run --help shows how to ask"),
         (["run", "golf", "--fps"], "Option '--fps' requires an argument.\nsandbox run --help shows how to ask"),
