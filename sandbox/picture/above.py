@@ -52,8 +52,8 @@ class AboveView(View[P]):
 
     @cached_property
     def seen(self) -> np.ndarray:
-        """Places in m that the poster must show besides the paths, shape (n, 2)."""
-        return np.empty((0, 2))
+        """Places in m that the poster must show besides the paths, shape (n, 2): the surfaces around them."""
+        return self.surroundings
 
     @cached_property
     def camera(self) -> Camera:

@@ -6,21 +6,21 @@ from functools import cached_property
 
 import numpy as np
 
-from sandbox.engine.setup import Circle, Segment
+from sandbox.engine.setup import Circle
 from sandbox.parameters import Group
 from sandbox.picture.ball import Look, seams
 from sandbox.picture.camera import Area, Box, Camera
 from sandbox.picture.painter import Painter, from_colours
 from sandbox.picture.palette import palette
 from sandbox.picture.sheet import Sheet
-from sandbox.picture.view import View
+from sandbox.picture.view import NEAR, View
 
 COLOURS, TRACES = palette("plain"), palette("trace")["colours"]
 #: Of a ball alone, and of several, each in the colour of its path.
 ALONE, *SEVERAL = (Look(colour, COLOURS["shade"], seams(COLOURS["marks"])) for colour in (COLOURS["ball"], *TRACES))
 
-#: The place shown is at least so many radii of a ball wide, and goes so far beyond the paths, as a share.
-LEAST, BEYOND = 12.0, 0.06
+#: The place shown goes so far beyond what is in it, as a share.
+BEYOND = 0.06
 
 
 class Picture(View[Group]):
@@ -35,14 +35,8 @@ class Picture(View[Group]):
     @cached_property
     def camera(self) -> Camera:
         """Shows all paths, and the surfaces that do not reach far beyond them."""
-        radius = max(path.radius for path in self.paths.values())
-        low, high = self.points.min(axis=0) - radius, self.points.max(axis=0) + radius
-        reach = max(LEAST * radius, *(high - low))
-        for surface in self.run.setup.surfaces:
-            corners = np.array(_corners(surface.shape))
-            if np.all(corners > low - reach) and np.all(corners < high + reach):
-                low, high = np.minimum(low, corners.min(axis=0)), np.maximum(high, corners.max(axis=0))
-        more = BEYOND * (high - low) + 0.5 * np.maximum(0.0, LEAST * radius - (high - low))
+        (low, high), radius = self.surroundings, max(self.radii.values())
+        more = BEYOND * (high - low) + 0.5 * np.maximum(0.0, NEAR * radius - (high - low))
         (left, bottom), (right, top) = low - more, high + more
         side, bottom_row = 0.07 * self.size[0], self.card_row - 89 * self.unit
         area = Area(side, 150 * self.unit, self.size[0] - side, bottom_row)
@@ -67,14 +61,6 @@ class Picture(View[Group]):
 
     def scale(self, sheet: Sheet, camera: Camera) -> None:
         sheet.scale_bar(camera, sheet.frame.left, self.card_row - 28 * self.unit, 0.2 * self.size[0])
-
-
-def _corners(shape: Segment | Circle) -> list[tuple[float, float]]:
-    """What must be seen for a shape to be seen, in m."""
-    if isinstance(shape, Segment):
-        return [shape.a, shape.b]
-    (x, y), r = shape.center, shape.radius
-    return [(x - r, y - r), (x + r, y + r)]
 
 
 def _clipped(

@@ -16,6 +16,7 @@ import numpy as np
 import pygame
 
 from sandbox.engine.run import Run
+from sandbox.engine.setup import Segment
 from sandbox.parameters import Group
 from sandbox.picture.ball import SMALLEST, Look, least_radius, mark_radius
 from sandbox.picture.camera import Camera
@@ -29,6 +30,8 @@ from sandbox.sport.amounts import metres, signed, times
 
 TRACES, RIM = palette("trace")["colours"], palette("trace")["rim"]
 
+#: Surfaces are around a path that reach no farther beyond it than it is long, or than so many radii of the ball.
+NEAR = 12.0
 #: In frames the ball is at least so much larger than it has to be to be seen.
 LARGER = 1.3
 #: Radius of a bead on the path: at most so much of that of the balls there, and so many px on 720 rows.
@@ -218,6 +221,22 @@ class View(Generic[P]):
         """All places in m that must be seen: of every path, and of the other runs'; shape (n, 2)."""
         own = [path.points for path in self.paths.values()]
         return np.concatenate([*own, *(ghost.points for ghost in self.ghosts)])
+
+    @cached_property
+    def surroundings(self) -> np.ndarray:
+        """Lower left and upper right corner in m of all that must be seen and of the surfaces around it that do not
+        reach far beyond; shape (2, 2)."""
+        radius = max(self.radii.values())
+        low, high = self.points.min(axis=0) - radius, self.points.max(axis=0) + radius
+        reach = max(NEAR * radius, *(high - low))
+        for shape in (surface.shape for surface in self.run.setup.surfaces):
+            if isinstance(shape, Segment):
+                corners = np.array([shape.a, shape.b])
+            else:
+                corners = np.array(shape.center) + np.array([[-shape.radius], [shape.radius]])
+            if np.all(corners > low - reach) and np.all(corners < high + reach):
+                low, high = np.minimum(low, corners.min(axis=0)), np.maximum(high, corners.max(axis=0))
+        return np.array([low, high])
 
     def stage(self) -> pygame.Surface:
         """The place alone, as the poster's camera sees it."""

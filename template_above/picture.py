@@ -1,0 +1,33 @@
+"""The lane from above: what it is made of. Balls, paths, marks, numbers, frames and comparisons come from the view."""
+
+from __future__ import annotations
+
+from functools import cached_property
+
+from sandbox.picture.above import AboveView
+from sandbox.picture.ball import Look, seams
+from sandbox.picture.plan import Line, Plan, Spot, Stripes
+from sandbox.picture.table import Rails, around
+
+from .scene import Parameters
+
+STONE, WOOD = ((58, 66, 70), (62, 71, 75)), ((158, 118, 82), (132, 94, 62), (98, 66, 42))
+FELT, CHALK, CUP = ((56, 132, 92), (60, 138, 97)), (206, 226, 206), (12, 20, 16)
+
+
+class Picture(AboveView[Parameters]):
+    LOOK, TRACE = Look((250, 250, 246), (30, 50, 60), seams((200, 90, 60))), (240, 176, 64)
+
+    @cached_property
+    def plan(self) -> Plan:
+        """What stands still, the lowest first."""
+        lane, (cup,) = self.parameters.lane, self.run.setup.catches
+        half, tee = (0.5 * lane.length, 0.5 * lane.width), self.run.state("ball", 0.0)[0]
+        return (
+            Stripes(around((50.0, 50.0)), STONE, 0.5, along=True),
+            Rails(half, (half[0] + 0.09, half[1] + 0.09), WOOD, WOOD[0]),
+            Stripes(around(half), FELT, 0.25),
+            Line(((tee, -0.15), (tee, 0.15)), 0.02, CHALK),
+            Spot(cup.center, cup.radius, CUP),
+            Line(((0.0, -0.5 * lane.block), (0.0, 0.5 * lane.block)), 0.08, WOOD[0]),
+        )

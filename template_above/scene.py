@@ -1,0 +1,87 @@
+"""A putt on a minigolf lane, seen from above: past a block, off the boards and into the cup.
+
+Models: sliding on felt until the ball rolls, rolling, bouncing off boards and block, and a cup that takes the ball.
+Leaves out: slopes; the cup's lip, over which a fast ball would leap.
+"""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from math import cos, dist, radians, sin
+
+from sandbox.engine.run import Run
+from sandbox.engine.setup import Ball, Catch, Segment, Setup, Surface
+from sandbox.parameters import Accuracy, Group, group, quantity
+from sandbox.physics.cloth import Cloth
+from sandbox.sport.controls import Controls
+from sandbox.sport.facts import ENDED, Fact
+from sandbox.sport.readings import travelled
+
+MASS, RADIUS, FROM_END = 0.0459, 0.02135, 0.4  # of a golf ball, in kg and m; of tee and cup from the ends, in m
+
+
+# quantity(default, unit, lowest, highest, meaning) is all that the file, --set, the sliders and sweep need to know.
+class Launch(Group):
+    """The ball as it leaves the putter."""
+
+    speed: float = quantity(3.6, "m/s", 0, 20, "ball speed")
+    angle: float = quantity(26.5, "deg", -180, 180, "direction, to the left of straight along the lane")
+    roll: float = quantity(0.3, "", -1, 1, "share of its roll that the ball has at once; 1 does not slide at all")
+
+
+class Lane(Group):
+    """The lane, its middle the origin; the tee is at one end, the cup near the other."""
+
+    length: float = quantity(4.0, "m", 1, 50, "between the boards at its ends")
+    width: float = quantity(1.4, "m", 0.3, 20, "between the boards at its sides")
+    block: float = quantity(0.6, "m", 0.05, 10, "width of the block in the middle")
+    felt: float = quantity(0.06, "", 0.001, 1, "deceleration of a rolling ball over gravity")
+
+
+class Parameters(Group):
+    """All numbers of a putt."""
+
+    launch: Launch = group(Launch(), "the ball as it leaves the putter")
+    lane: Lane = group(Lane(), "the lane")
+    accuracy: Accuracy = group(Accuracy(), "speed against accuracy")
+
+
+CONTROLS = Controls(strongest=8.0, sliders=("launch.roll", "lane.block", "lane.felt"), scores="holed")
+
+
+def build(parameters: Parameters) -> Setup:
+    """What the engine simulates: the ball, what it meets, what it rolls on, and what takes it."""
+    launch, lane, angle = parameters.launch, parameters.lane, radians(parameters.launch.angle)
+    x, y = 0.5 * lane.length, 0.5 * lane.width
+    vx, vy = launch.speed * cos(angle), launch.speed * sin(angle)
+    roll = (-launch.roll * vy / RADIUS, launch.roll * vx / RADIUS)  # rad/s, about x and about y
+    corners = [(-x, -y), (x, -y), (x, y), (-x, y), (-x, -y)]
+    shapes = [("board", Segment(a, b)) for a, b in pairwise(corners)]
+    shapes.append(("block", Segment((0.0, -0.5 * lane.block), (0.0, 0.5 * lane.block), 0.04)))
+    return Setup(
+        [Ball("ball", MASS, RADIUS, (FROM_END - x, 0.0), (vx, vy), rolling_spin=roll)],
+        [Surface(name, shape, restitution=0.75, friction=0.2) for name, shape in shapes],
+        duration=60.0,
+        cloth=Cloth(sliding=0.4, rolling=lane.felt, spinning=0.01),
+        catches=[Catch("cup", (x - FROM_END, 0.0), 0.054)],
+    )
+
+
+# Fact(key, label, unit, how): the card, JSON, pictures, the window and charts follow from this list.
+FACTS = (
+    Fact(
+        "to_cup",
+        "to the cup",
+        "m",
+        lambda run, _: dist(run.state("ball", run.duration)[:2], run.setup.catches[0].center),
+    ),
+    Fact("bounces", "bounces", "", lambda run, _: sum(event.kind == "impact" for event in run.events)),
+    Fact("path", "path", "m", lambda run, _: travelled(run, "ball")),
+    Fact("holed", "", "", lambda run, _: run.caught_at("ball") is not None),
+    ENDED,
+)
+
+
+def verdict(run: Run, parameters: Parameters) -> str:
+    """What happened, in a sentence."""
+    return "In the cup" if run.result["holed"] else f"Stops {run.result['to_cup']:.2f} m from the cup"

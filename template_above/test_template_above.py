@@ -1,0 +1,29 @@
+"""Tests of the scene; ``pytest --golden-update`` makes the golden files, or makes them anew."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+import sandbox
+
+SCENE = Path(__file__).parent
+
+
+def test_putt(golden):
+    golden.check("template_above", sandbox.simulate(sandbox.load(SCENE)))
+
+
+def test_a_ball_that_rolls_at_once_goes_as_far_as_friction_lets_it():
+    """v^2 / 2 c g, for the deceleration c g of a rolling ball."""
+    rolling = {"launch.roll": 1.0, "launch.angle": 90.0, "launch.speed": 0.7}
+    scene = sandbox.load(SCENE, rolling)
+    expected = 0.7**2 / (2 * scene.parameters.lane.felt * 9.81)
+    assert sandbox.simulate(scene).result["path"] == pytest.approx(expected, rel=1e-9)
+
+
+def test_both_ways_lead_into_the_cup():
+    presets = (SCENE, SCENE / "one-board")
+    results = [sandbox.simulate(sandbox.load(preset)).result for preset in presets]
+    assert [(result["holed"], result["bounces"]) for result in results] == [(True, 2), (True, 1)]
