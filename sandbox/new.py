@@ -1,4 +1,4 @@
-"""A scene of one's own, to begin from: the folder ``template``, copied and renamed."""
+"""A scene of one's own, to begin from: a template for its view, copied and renamed."""
 
 from __future__ import annotations
 
@@ -16,13 +16,13 @@ from sandbox.files import reason
 from sandbox.parameters import json_schema
 from sandbox.scene import listings, parameters_of
 
-#: What the scene is called in the template, in names of files and inside them.
-TEMPLATE = "template"
+#: The folder of each template; in names of files and inside them, its scene is called so too.
+FROM_SIDE, FROM_ABOVE = "template", "template_above"
 
 _WRITTEN_BY_TOOLS = shutil.ignore_patterns("__pycache__", "golden", "out", ".*", "*.schema.json")
 
 
-def new_scene(folder: Path) -> list[Path]:
+def new_scene(folder: Path, template: str = FROM_SIDE) -> list[Path]:
     """Write a scene that works into ``folder``, which must not exist yet; returns its files.
 
     Raises RequestError where the name will not do, RunError where the folder cannot be written. Whole or not at all.
@@ -32,10 +32,10 @@ def new_scene(folder: Path) -> list[Path]:
     try:
         with tempfile.TemporaryDirectory(prefix=f".{name}-", dir=folder.parent) as part:
             scene = Path(part) / name
-            shutil.copytree(resources.folder(TEMPLATE), scene, ignore=_WRITTEN_BY_TOOLS)
+            shutil.copytree(resources.folder(template), scene, ignore=_WRITTEN_BY_TOOLS)
             for file in sorted(scene.rglob("*")):
                 if file.is_file():
-                    _rename(file, name)
+                    _rename(file, template, name)
             schema = json_schema(parameters_of(scene)[1], name)
             (scene / f"{name}.schema.json").write_text(json.dumps(schema, indent=2) + "\n", encoding="utf-8")
             shutil.rmtree(scene / "__pycache__", ignore_errors=True)
@@ -69,10 +69,10 @@ def _check(folder: Path, name: str) -> None:
         raise RequestError(f"new {folder}: there is no folder {folder.parent}; make it first")
 
 
-def _rename(file: Path, name: str) -> None:
+def _rename(file: Path, template: str, name: str) -> None:
     """``template.toml`` to ``<name>.toml``, and the name inside it; a test's name is one that Python can import."""
     text = file.read_text(encoding="utf-8")
     if file.suffix in (".toml", ".py"):
-        file.write_text(re.sub(rf"\b{TEMPLATE}\b", name, text), encoding="utf-8")
+        file.write_text(re.sub(rf"\b{template}\b", name, text), encoding="utf-8")
     own = name.replace("-", "_") if file.suffix == ".py" else name
-    file.rename(file.with_name(file.name.replace(TEMPLATE, own)))
+    file.rename(file.with_name(file.name.replace(template, own)))

@@ -6,8 +6,8 @@ from functools import cached_property
 
 from sandbox.picture.above import AboveView
 from sandbox.picture.ball import Look, seams
-from sandbox.picture.plan import Line, Plan, Spot, Stripes
-from sandbox.picture.table import Rails, around
+from sandbox.picture.places.plan import Line, Plan, Spot, Stripes
+from sandbox.picture.places.table import Rails, around
 
 from .scene import Parameters
 

@@ -61,20 +61,20 @@ def build(parameters: Parameters) -> Setup:
     return Setup(
         [Ball("ball", MASS, RADIUS, (FROM_END - x, 0.0), (vx, vy), rolling_spin=roll)],
         [Surface(name, shape, restitution=0.75, friction=0.2) for name, shape in shapes],
-        duration=60.0,
         cloth=Cloth(sliding=0.4, rolling=lane.felt, spinning=0.01),
         catches=[Catch("cup", (x - FROM_END, 0.0), 0.054)],
     )
 
 
+def _to_cup(run: Run, parameters: Parameters) -> float | None:
+    """How far from the cup the ball stops, in m; None where it is in it."""
+    stop, cup = run.state("ball", run.duration)[:2], run.setup.catches[0].center
+    return None if run.caught_at("ball") is not None else dist(stop, cup)
+
+
 # Fact(key, label, unit, how): the card, JSON, pictures, the window and charts follow from this list.
 FACTS = (
-    Fact(
-        "to_cup",
-        "to the cup",
-        "m",
-        lambda run, _: dist(run.state("ball", run.duration)[:2], run.setup.catches[0].center),
-    ),
+    Fact("to_cup", "to the cup", "m", _to_cup),
     Fact("bounces", "bounces", "", lambda run, _: sum(event.kind == "impact" for event in run.events)),
     Fact("path", "path", "m", lambda run, _: travelled(run, "ball")),
     Fact("holed", "", "", lambda run, _: run.caught_at("ball") is not None),

@@ -17,7 +17,7 @@ from sandbox.scene import parameters_of
 SCENES = sorted(path.parent for path in resources.folder("scenes").glob("*/scene.py"))
 FILES = sorted(
     file
-    for name in ("scenes", "template")
+    for name in ("scenes", "template", "template_above")
     for file in resources.folder(name).rglob("*.toml")
     if file.name != "colours.toml"  # of its picture
 )

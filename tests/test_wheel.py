@@ -76,6 +76,7 @@ def test_the_wheel_holds_what_it_should(wheel: Path):
         "scenes/golf/golf.toml",
         "scenes/golf/presets/driver.toml",
         "template/scene.py",
+        "template_above/scene.py",
     ):
         assert f"sandbox/{name}" in names
     assert "sandbox/scenes/golf/golf.schema.json" in names
@@ -93,7 +94,7 @@ def test_the_wheel_holds_what_it_should(wheel: Path):
 
 def test_every_shipped_file_is_in_the_wheel(wheel: Path):
     listed = subprocess.run(
-        ["git", "ls-files", "scenes", "assets", "template"], cwd=ROOT, capture_output=True, text=True
+        ["git", "ls-files", "scenes", "assets", "template", "template_above"], cwd=ROOT, capture_output=True, text=True
     )
     if listed.returncode != 0:
         pytest.skip("not a git checkout")

@@ -43,6 +43,7 @@ def schema(scene: SceneArgument) -> None:
 
 def new_scene(
     name: Annotated[Path, typer.Argument(metavar="NAME", help="The folder to make: its name is the scene's.")],
+    from_above: Annotated[bool, typer.Option("--from-above", help="Seen from above, not from the side.")] = False,
 ) -> None:
     """Write a scene of your own: one that works, to change.
 
@@ -53,7 +54,7 @@ def new_scene(
     """
     from sandbox import new
 
-    files = new.new_scene(name)
+    files = new.new_scene(name, new.FROM_ABOVE if from_above else new.FROM_SIDE)
     say("\n".join([*(f"wrote {file}" for file in files), "", *new.next_steps(name)]))
 
 

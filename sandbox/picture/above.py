@@ -13,7 +13,7 @@ from sandbox.picture.camera import Camera, Follow
 from sandbox.picture.painter import Painter
 from sandbox.picture.palette import Colour, palette
 from sandbox.picture.path import MOST_SAMPLES
-from sandbox.picture.plan import Plan, draw_moving, drawn, dusk
+from sandbox.picture.places.plan import Plan, draw_moving, drawn, dusk
 from sandbox.picture.sheet import Sheet
 from sandbox.picture.view import P, View
 
@@ -38,6 +38,7 @@ class Margins(NamedTuple):
 class AboveView(View[P]):
     """One run seen from above; a scene says what its ``plan`` is."""
 
+    SPINS = ("right", "left")
     #: Room around what must be seen.
     MARGINS: ClassVar[Margins] = Margins(0.085, 16, 38)
     #: Frames go with the ball and show so much of the world's length in m, where the poster shows more.
@@ -52,14 +53,13 @@ class AboveView(View[P]):
 
     @cached_property
     def seen(self) -> np.ndarray:
-        """Places in m that the poster must show besides the paths, shape (n, 2): the surfaces around them."""
+        """Places in m that the poster must show, shape (n, 2): the paths, and the surfaces around them."""
         return self.surroundings
 
     @cached_property
     def camera(self) -> Camera:
         """Shows all that must be seen in the middle between headline and card."""
-        points = np.concatenate([self.points, self.seen])
-        low, high = points.min(axis=0), points.max(axis=0)
+        low, high = self.seen.min(axis=0), self.seen.max(axis=0)
         wide, tall = np.maximum(high - low, 20 * self.radius)
         (left, top), (right, bottom) = self._area
         scale = min((right - left) / wide, (bottom - top) / tall)

@@ -50,10 +50,12 @@ class View(Generic[P]):
 
     #: How the ball looks.
     LOOK: ClassVar[Look]
-    #: Colours of the path, of the thin line of it that stays behind in frames, and of other runs.
+    #: Colours of the path, of the thin line of it that stays behind in frames (None: the same), and of other runs.
     TRACE: ClassVar[Colour] = TRACES[0]
-    FAINT: ClassVar[Colour] = TRACES[0]
+    FAINT: ClassVar[Colour | None] = None
     EARLIER: ClassVar[Sequence[Colour]] = TRACES[1:]
+    #: What a spin below and one above zero is called.
+    SPINS: ClassVar[tuple[str, str]] = ("top", "back")
     #: s of path that the trail behind the ball shows.
     TRAIL: ClassVar[float] = 0.5
     #: Impacts are marked that are at least so hard, in m/s, and as a share of the hardest.
@@ -118,9 +120,14 @@ class View(Generic[P]):
             *self.position(t),
             ("speed", f"{speed:.1f} m/s"),
             ("direction", signed(f"{degrees(atan2(vy, vx)):.0f}") + "°" if speed > 0.01 else "–"),
-            ("spin", spin_text(spin)),
+            ("spin", self.spin_text(spin)),
             *self.vectors.entries(t),
         ]
+
+    def spin_text(self, spin: float) -> str:
+        """A spin in rad/s for people."""
+        rpm = spin * 30 / pi
+        return f"{abs(rpm):.0f} rpm {self.SPINS[rpm > 0.0]}" if abs(rpm) >= 0.5 else "none"
 
     def position(self, t: float) -> list[Entry]:
         """Of the ball, for the frame's card."""
@@ -349,7 +356,7 @@ class View(Generic[P]):
 
     def faint_of(self, name: str) -> Colour:
         """Of the thin line that stays where a ball has been, in frames."""
-        return self.FAINT if name == self.ball else self.colour_of(name)
+        return self.FAINT if self.FAINT and name == self.ball else self.colour_of(name)
 
     def draw_ball(
         self, painter: Painter, camera: Camera, name: str, t: float, at: tuple[float, float], radius: float
@@ -466,9 +473,3 @@ class View(Generic[P]):
         if any(self.wind):
             right = sheet.wind(*self.wind, right, sheet.frame.top).left - 2 * sheet.gap
         return right - sheet.frame.left
-
-
-def spin_text(spin: float) -> str:
-    """A spin in rad/s for people: backspin is positive."""
-    rpm = spin * 30 / pi
-    return f"{abs(rpm):.0f} rpm {'top' if rpm < 0 else 'back'}" if abs(rpm) >= 0.5 else "none"

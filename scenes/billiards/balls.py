@@ -11,9 +11,9 @@ import numpy as np
 
 from sandbox.picture import sphere
 from sandbox.picture.lettering import stamp
-from sandbox.picture.palette import Colour, mix, palette
+from sandbox.picture.palette import Colour, mix, scene_colours
 
-BILLIARDS = palette("billiards")
+COLOURS = scene_colours(__file__)
 
 #: Half the angle that a number's white disc, a plain ball's dot and a stripe take as seen from the ball's middle, deg.
 DISC, DOT, STRIPE = 27, 14, 38
@@ -32,24 +32,24 @@ def skin(name: str) -> np.ndarray:
     if number is not None:
         return sphere.skin(lambda at: _numbered(at, number))
     colour = colour_of(name)
-    white = colour == BILLIARDS["ivory"]
-    dot = BILLIARDS["mark"] if white else mix(colour, (255, 255, 255), 0.30)
+    white = colour == COLOURS["ivory"]
+    dot = COLOURS["mark"] if white else mix(colour, (255, 255, 255), 0.30)
     return sphere.skin(lambda at: _dotted(at, colour, dot))
 
 
 def colour_of(name: str) -> Colour:
     """The colour that a ball is called by."""
     if name.isdecimal() and 1 <= int(name) <= 15:
-        return BILLIARDS["pool"][(int(name) - 1) % 8]
-    named = BILLIARDS["named"]
+        return COLOURS["pool"][(int(name) - 1) % 8]
+    named = COLOURS["named"]
     found = next((colour for word, colour in named.items() if word in name.lower().split()), None)
-    return found or BILLIARDS["other"][sum(name.encode()) % len(BILLIARDS["other"])]
+    return found or COLOURS["other"][sum(name.encode()) % len(COLOURS["other"])]
 
 
 def on_cloth(colour: Colour) -> Colour:
     """The colour, lighter where it would be lost on the cloth."""
     lighter = (mix(colour, (255, 255, 255), share) for share in np.arange(0.0, 1.0, 0.05))
-    return next(shade for shade in lighter if dist(shade, BILLIARDS["cloth"]) > LEAST_CONTRAST)
+    return next(shade for shade in lighter if dist(shade, COLOURS["cloth"]) > LEAST_CONTRAST)
 
 
 def striped(name: str) -> bool:
@@ -80,7 +80,7 @@ NUMBER_UP = np.array([(0.0, 1.0, 0.0), (0.0, 0.0, 1.0), (1.0, 0.0, 0.0)])
 
 def _numbered(at: np.ndarray, number: int) -> np.ndarray:
     """One colour, or from 9 on a stripe on white; a number on either side."""
-    ivory, colour = np.array(BILLIARDS["ivory"], float), np.array(BILLIARDS["pool"][(number - 1) % 8], float)
+    ivory, colour = np.array(COLOURS["ivory"], float), np.array(COLOURS["pool"][(number - 1) % 8], float)
     colours = np.broadcast_to(colour, at.shape).copy()
     if number > 8:
         colours[abs(at[..., 2]) > np.sin(radians(STRIPE))] = ivory
@@ -94,7 +94,7 @@ def _numbered(at: np.ndarray, number: int) -> np.ndarray:
     row = np.floor((0.5 - at[..., 2] / tall) * glyph.shape[1]).astype(int)
     on = disc & (column >= 0) & (column < glyph.shape[0]) & (row >= 0) & (row < glyph.shape[1])
     ink = glyph[column[on], row[on]][:, None]
-    colours[on] += (np.array(BILLIARDS["numeral"], float) - colours[on]) * ink
+    colours[on] += (np.array(COLOURS["numeral"], float) - colours[on]) * ink
     return colours
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import cached_property
-from math import floor, hypot, pi
+from math import floor, hypot
 
 import numpy as np
 import pygame
@@ -12,16 +12,16 @@ from sandbox.picture import sphere
 from sandbox.picture.above import AboveView, Margins
 from sandbox.picture.camera import Camera
 from sandbox.picture.painter import Painter
-from sandbox.picture.palette import Colour, mix, palette
+from sandbox.picture.palette import Colour, mix, palette, scene_colours
 from sandbox.picture.path import Mark
-from sandbox.picture.plan import Plan
-from sandbox.picture.sheet import Entry, Sheet, nice, signed
+from sandbox.picture.places.plan import Plan
+from sandbox.picture.sheet import Entry, Sheet, nice
 
 from . import balls
 from .place import outside, place
 from .scene import Parameters
 
-CARD, BILLIARDS = palette("card"), palette("billiards")
+CARD, COLOURS = palette("card"), scene_colours(__file__)
 
 #: At most so many dots stand on the struck ball's path.
 DOTS = 16
@@ -32,7 +32,8 @@ LEAST_WAY = 0.3
 class Picture(AboveView[Parameters]):
     """One shot on a table that stands still."""
 
-    EARLIER = BILLIARDS["earlier"]
+    EARLIER = COLOURS["earlier"]
+    SPINS = ("left", "right")  # counter-clockwise is what a tip to the right gives
     MARGINS = Margins(0.05, 6, 12)
 
     @property
@@ -44,7 +45,7 @@ class Picture(AboveView[Parameters]):
         return place(self.run.setup, self.parameters.table)
 
     @cached_property
-    def points(self) -> np.ndarray:
+    def seen(self) -> np.ndarray:
         """The table with its rails, which no ball leaves."""
         return np.array([outside(self.run.setup, self.parameters.table)]) * [[1], [-1]]
 
@@ -57,7 +58,7 @@ class Picture(AboveView[Parameters]):
     def draw_ball(
         self, painter: Painter, camera: Camera, name: str, t: float, at: tuple[float, float], radius: float
     ) -> None:
-        painter.disc(at, radius + 0.4, BILLIARDS["rim"], 0.5)
+        painter.disc(at, radius + 0.4, COLOURS["rim"], 0.5)
         sphere.draw(painter, at, radius, balls.skin(name), self._turnings[name].at(t))
 
     def colour_of(self, name: str) -> Colour:
@@ -65,7 +66,7 @@ class Picture(AboveView[Parameters]):
         return balls.on_cloth(balls.colour_of(name))
 
     def faint_of(self, name: str) -> Colour:
-        return mix(self.colour_of(name), BILLIARDS["cloth"], 0.35 if name == self.ball else 0.55)
+        return mix(self.colour_of(name), COLOURS["cloth"], 0.35 if name == self.ball else 0.55)
 
     # The poster
 
@@ -74,9 +75,9 @@ class Picture(AboveView[Parameters]):
         painter, unit = sheet.painter, self.unit
         for name in self._movers:
             at, radius = camera.pixel(*self.run.state(name, 0.0)[:2]), max(self.radius * camera.scale, self.least)
-            painter.ring(at, radius - 0.5 * unit, max(1.0, 1.1 * unit), BILLIARDS["start"], 0.75)
+            painter.ring(at, radius - 0.5 * unit, max(1.0, 1.1 * unit), COLOURS["start"], 0.75)
             if balls.striped(name):
-                painter.line(self.paths[name].traced(camera), 0.9 * unit, BILLIARDS["ivory"])
+                painter.line(self.paths[name].traced(camera), 0.9 * unit, COLOURS["ivory"])
         if self.ball not in self._movers:
             return []
         steps = np.any(np.diff(self.path.points, axis=0) != 0.0, axis=1)
@@ -84,7 +85,7 @@ class Picture(AboveView[Parameters]):
         every = nice(end / DOTS)
         for i in range(1, floor(end / every) + 1):
             at = camera.pixel(*self.run.state(self.ball, i * every)[:2])
-            painter.disc(at, max(1.0, 1.6 * unit), BILLIARDS["rim"])
+            painter.disc(at, max(1.0, 1.6 * unit), COLOURS["rim"])
         return [f"a dot every {every:g} s"]
 
     @cached_property
@@ -135,19 +136,19 @@ class Picture(AboveView[Parameters]):
         sheet.write("potted", "small", (rect.centerx, frame.top + small), CARD["quiet"], "midbottom")
         for i, name in enumerate(potted):
             at = rect.centerx + (i - (len(potted) - 1) / 2) * 2.25 * size, rect.centery
-            painter.disc(at, size + 0.4, BILLIARDS["rim"], 0.5)
+            painter.disc(at, size + 0.4, COLOURS["rim"], 0.5)
             sphere.draw(painter, at, size, balls.skin(name), balls.NUMBER_UP)
         return rect
 
     def _tip(self, painter: Painter, centre: tuple[float, float], radius: float) -> None:
         """The struck ball from behind, with a dot where the tip meets it."""
-        (x, y), thin, ink = centre, max(1.0, self.unit), BILLIARDS["numeral"]
-        painter.disc(centre, radius, BILLIARDS["ivory"])
+        (x, y), thin, ink = centre, max(1.0, self.unit), COLOURS["numeral"]
+        painter.disc(centre, radius, COLOURS["ivory"])
         painter.ring(centre, radius / 2, thin, ink, 0.2)
         painter.line([(x - 0.8 * radius, y), (x + 0.8 * radius, y)], thin, ink, 0.25)
         painter.line([(x, y - 0.8 * radius), (x, y + 0.8 * radius)], thin, ink, 0.25)
         cue = self.parameters.cue
-        painter.disc((x + cue.english * radius, y - cue.follow * radius), max(2.0, 0.2 * radius), BILLIARDS["chalk"])
+        painter.disc((x + cue.english * radius, y - cue.follow * radius), max(2.0, 0.2 * radius), COLOURS["chalk"])
 
     # Frames
 
@@ -169,7 +170,6 @@ class Picture(AboveView[Parameters]):
         present = self.present(t)
         speeds = {name: hypot(*self.run.state(name, t)[2:4]) for name in present}
         there = self.ball in present
-        rpm = -self.run.state(self.ball, t)[4] * 30 / pi
         rails = sum(
             e.kind == "impact" and e.ball == self.ball and e.partner.endswith(" cushion") and e.t <= t
             for e in self.run.events
@@ -177,7 +177,7 @@ class Picture(AboveView[Parameters]):
         return [
             ("time", f"{t:.2f} s"),
             ("speed", f"{speeds[self.ball]:.2f} m/s" if there else "–"),
-            ("side spin", signed(f"{rpm:.0f}") + " rpm" if there else "–"),
+            ("side spin", self.spin_text(self.run.state(self.ball, t)[4]) if there else "–"),
             ("moving", str(sum(speed > 0 for speed in speeds.values()))),
             ("cushions", str(rails)),
             *(self.vectors.entries(t) if there else [("cloth", "–")]),

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from sandbox.engine.setup import Setup
-from sandbox.picture.palette import mix, palette
-from sandbox.picture.plan import Ground, Line, Plan, Point, Spot, arc
-from sandbox.picture.table import Lamp, Pocket, Rails, Room, around, cushions, sights
+from sandbox.picture.palette import mix, scene_colours
+from sandbox.picture.places.plan import Ground, Line, Plan, Point, Spot, arc
+from sandbox.picture.places.table import Lamp, Pocket, Rails, Room, around, cushions, sights
 
 from .table import Snooker, Table
 
-BILLIARDS = palette("billiards")
+COLOURS = scene_colours(__file__)
 
 #: Wood beyond the cushions, at least, and what it is wider than the pockets; a line on the cloth and a spot, in m.
 WOOD, ROUND_POCKETS, LINE, SPOT = 0.10, 0.032, 0.004, 0.0055
@@ -20,9 +20,9 @@ SPOTS = (-0.5, 0.0, 0.5)
 #: Snooker's markings (WPBSA): from the head cushion to the line, the D's radius, from the foot cushion to the black, m.
 BAULK, D_RADIUS, BLACK_SPOT = 0.737, 0.292, 0.324
 
-MARKING = mix(BILLIARDS["cloth"], BILLIARDS["marking"], 0.55)
+MARKING = mix(COLOURS["cloth"], COLOURS["marking"], 0.55)
 #: The cloth between the jaws lies in the cushions' shadow.
-THROAT = mix(BILLIARDS["cloth"], BILLIARDS["rim"], 0.5)
+THROAT = mix(COLOURS["cloth"], COLOURS["rim"], 0.5)
 
 
 def outside(setup: Setup, table: Table) -> Point:
@@ -37,20 +37,19 @@ def place(setup: Setup, table: Table) -> Plan:
     """Room, rails, cloth with its markings, pockets, cushions, sights, and the lamp over them."""
     bed, outer = (0.5 * table.length, 0.5 * table.width), outside(setup, table)
     back = bed[0] + table.cushion_width, bed[1] + table.cushion_width
-    beds = (back, THROAT), (bed, BILLIARDS["cloth"])
+    beds = (back, THROAT), (bed, COLOURS["cloth"])
     middle = 0.55 * back[0] + 0.45 * outer[0], 0.55 * back[1] + 0.45 * outer[1]
-    colours = {name: tuple(BILLIARDS[name]) for name in ("room", "wood", "pocket", "leather", "cushion")}
     snooker = isinstance(table, Snooker)
     head = PLATE_INSIDE - outer[0]
-    plate = Line(((head, -0.5 * PLATE_LENGTH), (head, 0.5 * PLATE_LENGTH)), PLATE, BILLIARDS["plate"])
+    plate = Line(((head, -0.5 * PLATE_LENGTH), (head, 0.5 * PLATE_LENGTH)), PLATE, COLOURS["plate"])
     return (
-        Room(outer, colours["room"], BILLIARDS["room_shadow"]),
-        Rails(back, outer, colours["wood"], BILLIARDS["lip"]),
+        Room(outer, COLOURS["room"], COLOURS["room_shadow"]),
+        Rails(back, outer, COLOURS["wood"], COLOURS["lip"]),
         *(Ground(around(half), colour) for half, colour in beds),
         *(_snooker_markings(bed[0], bed[1]) if snooker else _spots(*((share * bed[0], 0.0) for share in SPOTS))),
-        *(Pocket(h.center, h.radius, beds, colours["leather"], colours["pocket"]) for h in setup.catches),
-        *cushions(setup.surfaces, back, colours["cushion"]),
-        *(() if snooker else sights(bed, middle, BILLIARDS["sight"], bool(setup.catches))),
+        *(Pocket(h.center, h.radius, beds, COLOURS["leather"], COLOURS["pocket"]) for h in setup.catches),
+        *cushions(setup.surfaces, back, COLOURS["cushion"]),
+        *(() if snooker else sights(bed, middle, COLOURS["sight"], bool(setup.catches))),
         plate,
         Lamp(bed, outer),
     )

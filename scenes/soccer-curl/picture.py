@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import cached_property
-from math import atan2, cos, degrees, hypot, pi, radians, sin, tan
+from math import atan2, cos, degrees, hypot, radians, sin, tan
 
 import numpy as np
 import pygame
@@ -13,11 +13,11 @@ from sandbox.picture.camera import Camera
 from sandbox.picture.painter import Painter
 from sandbox.picture.palette import mix, palette
 from sandbox.picture.path import chip
-from sandbox.picture.plan import BREADTH, Person, Plan, enlarged
+from sandbox.picture.places.plan import BREADTH, Person, Plan, enlarged
 from sandbox.picture.sheet import Entry, Sheet
 from sandbox.sport.amounts import metres, times
 
-from .pitch import BALL, KEEPER, PITCH, pitch
+from .pitch import BALL, COLOURS, KEEPER, pitch
 from .scene import Parameters
 
 CARD = palette("card")
@@ -33,9 +33,9 @@ LEAST_SPAN = 0.6
 class Picture(AboveView[Parameters]):
     """One kick, seen by a camera that stays near the ball."""
 
-    LOOK, TRACE, EARLIER = BALL, PITCH["trace"], PITCH["earlier"]
-    FAINT = mix(PITCH["trace"], PITCH["grass"][0], 0.3)
-    TRAIL, NEAREST, DUSK = 0.4, 34.0, PITCH["dusk"]
+    LOOK, TRACE, EARLIER = BALL, COLOURS["trace"], COLOURS["earlier"]
+    FAINT = mix(COLOURS["trace"], COLOURS["grass"][0], 0.3)
+    TRAIL, NEAREST, DUSK = 0.4, 34.0, COLOURS["dusk"]
 
     @property
     def balls(self) -> list[str]:
@@ -70,11 +70,11 @@ class Picture(AboveView[Parameters]):
 
     @cached_property
     def seen(self) -> np.ndarray:
-        """The kicker, the goal, and where the straight line meets the goal line."""
+        """The paths, the kicker, the goal, and where the straight line meets the goal line."""
         goal = self.parameters.goal
         half, back = goal.width / 2 + ASIDE, goal.distance + goal.depth
         corners = [(-KICKER, 0.0), (back, goal.offset - half), (back, goal.offset + half)]
-        return np.array(corners + ([self.straight] if self.straight else []))
+        return np.concatenate([self.points, corners, [self.straight] if self.straight else np.empty((0, 2))])
 
     def remarks(self, camera: Camera) -> list[str]:
         factor = enlarged(camera, self.unit)
@@ -110,7 +110,7 @@ class Picture(AboveView[Parameters]):
         """To the goal line once the ball is there, and until then as far as the ball is."""
         points = camera.pixels(np.array([(0.0, 0.0), self._without_spin(t)]))
         if np.hypot(*(points[1] - points[0])) > 20 * self.unit:
-            colour = mix(PITCH["straight"], PITCH["grass"][0], 0.4)
+            colour = mix(COLOURS["straight"], COLOURS["grass"][0], 0.4)
             painter.dashed_thread(points, 1.4 * self.unit, colour, 7 * self.unit, 6 * self.unit)
 
     def _without_spin(self, t: float) -> tuple[float, float]:
@@ -179,7 +179,7 @@ class Picture(AboveView[Parameters]):
             ("off the straight", f"{metres(abs(aside))} {_side(aside)}" if abs(aside) >= 0.005 else "–"),
             ("speed", f"{speed:.1f} m/s"),
             ("direction", f"{abs(degrees(atan2(vy, vx))):.0f}° {_side(vy)}" if speed > 0.01 else "–"),
-            ("spin", f"{abs(spin) * 30 / pi:.0f} rpm"),
+            ("spin", self.spin_text(spin)),
             *self.vectors.entries(t),
         ]
 

@@ -6,16 +6,16 @@ from math import acos, degrees
 
 from sandbox.picture.ball import Look, patches
 from sandbox.picture.camera import Box
-from sandbox.picture.palette import palette
-from sandbox.picture.plan import BREADTH, Bar, Ground, Kit, Line, Net, Person, Plan, Spot, Stripes, Worn, arc
+from sandbox.picture.palette import scene_colours
+from sandbox.picture.places.plan import BREADTH, Bar, Ground, Kit, Line, Net, Person, Plan, Spot, Stripes, Worn, arc
 
 from .scene import BOARDS_ASIDE, BOARDS_BEHIND, BOARDS_BEYOND, Goal, Parameters, Wall
 
-PITCH = palette("soccer-curl")
+COLOURS = scene_colours(__file__)
 
-BALL = Look(PITCH["ball"], PITCH["ball_shade"], patches(PITCH["patch"], PITCH["ball_seam"]))
+BALL = Look(COLOURS["ball"], COLOURS["ball_shade"], patches(COLOURS["patch"], COLOURS["ball_seam"]))
 WALL, KICKER, KEEPER = (
-    Kit(PITCH["skin"], PITCH["skin_far"], PITCH["hair"], shirt, PITCH["gloves"]) for shirt in PITCH["shirts"]
+    Kit(COLOURS["skin"], COLOURS["skin_far"], COLOURS["hair"], shirt, COLOURS["gloves"]) for shirt in COLOURS["shirts"]
 )
 
 #: Stripes as wide as the goal area is deep, lines, and what they bound (Laws of the Game, law 1), in m.
@@ -43,9 +43,9 @@ def _grass(right: float, goal_line: float) -> Plan:
     left, aside = BOARDS_BEHIND, BOARDS_ASIDE
     boards = (Box(left - BOARD, -aside, left, aside), Box(right, -aside, right + BOARD, aside))
     return (
-        Ground(Box(-FAR, -FAR, FAR, FAR), PITCH["beyond"]),
-        Stripes(Box(left, -aside, right, aside), tuple(PITCH["grass"]), STRIPE, goal_line),
-        *(Stripes(box, tuple(PITCH["boards"]), BOARD_LENGTH, -aside, along=True) for box in boards),
+        Ground(Box(-FAR, -FAR, FAR, FAR), COLOURS["beyond"]),
+        Stripes(Box(left, -aside, right, aside), COLOURS["grass"], STRIPE, goal_line),
+        *(Stripes(box, COLOURS["boards"], BOARD_LENGTH, -aside, along=True) for box in boards),
     )
 
 
@@ -62,7 +62,7 @@ def _lines(end: float, middle: float) -> Plan:
         lines += [((front, middle - aside), (front, middle + aside))] if end - deep > start else []
     spot, turn = (end - SPOT, middle), degrees(acos((PENALTY_AREA[0] - SPOT) / CIRCLE))
     curve = arc(spot, CIRCLE, 180 - turn, 180 + turn)
-    return (*(Line(points, LINE, PITCH["line"]) for points in (*lines, curve)), Spot(spot, LINE, PITCH["line"]))
+    return (*(Line(points, LINE, COLOURS["line"]) for points in (*lines, curve)), Spot(spot, LINE, COLOURS["line"]))
 
 
 def _goal(goal: Goal) -> Plan:
@@ -70,9 +70,9 @@ def _goal(goal: Goal) -> Plan:
     line, aside = goal.distance, goal.width / 2 + goal.post_radius
     right, left = goal.offset - aside, goal.offset + aside
     return (
-        Worn((line - 0.3, goal.offset), 1.2, 0.42 * goal.width, PITCH["worn"], 0.4),
-        Net(Box(line, right, line + goal.depth, left), MESH, PITCH["net"]),
-        Bar((line, right), (line, left), goal.post_radius, PITCH["post"]),
+        Worn((line - 0.3, goal.offset), 1.2, 0.42 * goal.width, COLOURS["worn"], 0.4),
+        Net(Box(line, right, line + goal.depth, left), MESH, COLOURS["net"]),
+        Bar((line, right), (line, left), goal.post_radius, COLOURS["post"]),
     )
 
 

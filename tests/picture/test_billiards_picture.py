@@ -8,7 +8,6 @@ import pytest
 
 import sandbox
 from sandbox.picture.painter import Painter
-from sandbox.picture.palette import palette
 from sandbox.picture.sheet import Sheet
 from scenes.billiards import balls
 from tests.picture.legible import assert_legible
@@ -143,7 +142,7 @@ def test_where_a_ball_has_been_stays_in_sight():
 
 def test_every_path_has_its_balls_colour_and_can_be_told_from_the_cloth():
     """Of the pool balls, only a solid and its striped twin share one; and the struck ball's is its own too."""
-    cloth = palette("billiards")["cloth"]
+    cloth = balls.COLOURS["cloth"]
     colours = {name: balls.on_cloth(balls.colour_of(name)) for name in ("cue", *map(str, range(1, 16)))}
     assert len(set(colours.values())) == 1 + 8
     for name, colour in colours.items():
@@ -168,7 +167,7 @@ def test_dots_stand_closer_as_the_ball_slows(monkeypatch):
     dots: list[tuple[float, float]] = []
 
     def note(self, at, radius, colour, *_, **__):
-        if colour == palette("billiards")["rim"]:
+        if colour == balls.COLOURS["rim"]:
             dots.append(at)
 
     monkeypatch.setattr(Painter, "disc", note)

@@ -5,10 +5,10 @@ import pygame
 import pytest
 
 import sandbox
-from sandbox.picture import plan
 from sandbox.picture.camera import Box, Camera
 from sandbox.picture.painter import Painter, blank
-from sandbox.picture.table import cushions
+from sandbox.picture.places import plan
+from sandbox.picture.places.table import cushions
 from scenes.billiards.place import place
 
 SIZE = (320, 180)

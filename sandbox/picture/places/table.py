@@ -17,7 +17,7 @@ from sandbox.engine.setup import Segment, Surface
 from sandbox.picture.camera import Box, Camera
 from sandbox.picture.painter import Painter, Point, around_corners, blank, from_colours
 from sandbox.picture.palette import Colour, mix
-from sandbox.picture.plan import Line, Shape, on_pixels
+from sandbox.picture.places.plan import Line, Shape, on_pixels
 
 #: Light is computed at every so many px and smoothed between.
 COARSE = 4
