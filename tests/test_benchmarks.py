@@ -8,6 +8,7 @@ import math
 import os
 import subprocess
 import sys
+import time
 from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 from types import ModuleType
@@ -154,7 +155,7 @@ def test_the_page_has_a_place_for_each(opened: Callable[[str], ModuleType]):
         page.filled(text, "nothing", [])
     run = {command.split()[0] for command in page.SCRIPTS.values()}
     scripts = {f"benchmarks/{path.name}" for path in FOLDER.glob("*.py") if "--json" in path.read_text("utf-8")}
-    assert run == scripts - {"benchmarks/page.py"}
+    assert run == scripts - {"benchmarks/page.py", "benchmarks/soak.py"}
 
 
 def test_the_page_names_the_machine(opened: Callable[[str], ModuleType]):
@@ -162,3 +163,29 @@ def test_the_page_names_the_machine(opened: Callable[[str], ModuleType]):
     assert f"{os.cpu_count()} cores" in lines[0]
     assert "pymunk 7" in lines[1]
     assert lines[2].endswith("0.0.")
+
+
+@pytest.mark.parametrize(("part", "first"), [("scenes", 3), ("setups", 0), ("faulty", 5), ("replays", 0)])
+def test_the_soak_tries_each_part(opened: Callable[[str], ModuleType], part: str, first: int):
+    soak = opened("soak")
+    found = soak.cases(part, 1, first, first + 3)
+    assert {outcome for outcome, _ in found} <= set(soak.GOOD), found
+    assert found == soak.cases(part, 1, first, first + 3)
+
+
+def test_the_soak_notices_what_is_not_named(opened: Callable[[str], ModuleType], monkeypatch: pytest.MonkeyPatch):
+    soak = opened("soak")
+    monkeypatch.setitem(soak.CASES, "setups", lambda draw: 1 / 0)
+    ((outcome, details),) = soak.cases("setups", 1, 7, 8)
+    assert outcome == "a raw exception"
+    assert details.startswith("--only setups:7: ")
+    assert "ZeroDivisionError" in details
+    assert outcome not in soak.GOOD
+
+
+def test_the_soak_kills_sweeps(opened: Callable[[str], ModuleType]):
+    soak, noted = opened("soak"), []
+    kills = soak.Kills(4, 2, time.monotonic() + 60.0, lambda part, outcome: noted.append(outcome))
+    kills.run()
+    assert kills.done == 2
+    assert {outcome for outcome, _ in noted} <= set(soak.GOOD), noted

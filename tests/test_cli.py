@@ -619,6 +619,16 @@ def test_exit_in_a_sweep_fails_its_points(call, drop: Path, tmp_path: Path, jobs
             "the fact loop must return what does not contain itself",
         ),
         (
+            "FACTS = (",
+            "FACTS = (Fact('odd', '', '', lambda run, parameters: [1j]),",
+            "the fact odd must return a number, a text, true or false, or a list of those, and returned [1j]",
+        ),
+        (
+            "FACTS = (",
+            "FACTS = (Fact('odd', '', '', lambda run, parameters: 10**400),",
+            "the fact odd must return a num",
+        ),
+        (
             "        return 0.0 * velocity[0],",
             "        return 1j,",
             "Gravity is called with (t, position, velocity, spin)",

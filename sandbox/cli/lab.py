@@ -107,7 +107,7 @@ def sweep(
 ) -> None:
     """Run a scene once for each point of a grid, or for random points, and write a row for each.
 
-    Ctrl-C keeps the rows that are done; the same command again goes on from there. What another sweep left in the file
+    Ctrl-C keeps the rows that are done; the same command again resumes from there. What another sweep left in the file
     is kept as F.csv~. A point that fails is a row with its error.
 
     \b

@@ -118,6 +118,8 @@ class Scene:
         for key, value in result.items():
             if _is_circular(value):
                 raise self._wrong(f"the fact {key}", "what does not contain itself", value)
+            if not _can_be_told(value):
+                raise self._wrong(f"the fact {key}", "a number, a text, true or false, or a list of those", value)
         return result
 
     def rows(self, run: Run, errors: Mapping[str, float] | None = None, also: bool = False) -> list[tuple[str, str]]:
@@ -166,6 +168,15 @@ def _is_circular(value: Any, around: tuple[int, ...] = ()) -> bool:
         return False
     inside = value.values() if isinstance(value, Mapping) else value
     return id(value) in around or any(_is_circular(item, (*around, id(value))) for item in inside)
+
+
+def _can_be_told(value: Any) -> bool:
+    """Whether cards, JSON and tables know what to do with a value."""
+    if isinstance(value, Mapping | list | tuple):
+        return all(map(_can_be_told, value.values() if isinstance(value, Mapping) else value))
+    if isinstance(value, int) and not isinstance(value, bool):
+        return value.bit_length() < 1000  # a float holds it
+    return value is None or isinstance(value, bool | float | str) or hasattr(value, "tolist")  # numpy's
 
 
 def _revived(name: str, preset: str | None, folder: Path, values: dict[str, Any]) -> Scene:

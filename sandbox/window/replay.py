@@ -67,12 +67,14 @@ def read(path: Path, scene: str | None = None, running: Path | None = None) -> t
     body = record.get("body")
     if not isinstance(body, dict) or _sum(body) != record.get("check"):
         raise RequestError(f"{path}: damaged: its contents are not those that were written")
+    if not all(isinstance(body.get(part), dict) for part in ("changes", "parameters", "run")):
+        raise RequestError(f"{path}: damaged: a part of it is missing")
     try:
         source = scene if scene is not None else _allowed(str(body["scene"]), path, running)
         session = Session(source, body["changes"])
         recorded = load(source, body["parameters"])
         shot = Shot(recorded, run_of(recorded, body["run"]), dict(body["changes"]), source, recorded=True)
-    except (KeyError, IndexError, TypeError, ValueError) as error:
+    except (AttributeError, KeyError, IndexError, TypeError, ValueError, OverflowError) as error:
         raise RequestError(f"{path}: damaged: {type(error).__name__} {error}") from None
     return session, shot
 

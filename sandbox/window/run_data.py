@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import asdict
+from math import isfinite
 from typing import Any
 
 from sandbox.engine.accuracy import Accuracy
@@ -32,6 +33,8 @@ def run_of(scene: Scene, record: dict[str, Any]) -> Run:
     """The run of a scene. Raises KeyError, TypeError, ValueError or IndexError where the record is none of it."""
     setup = scene.build()
     balls = {ball.name: ball for ball in setup.balls}
+    if record["arcs"].keys() != balls.keys() or not all(record["arcs"].values()) or not _is_time(record["duration"]):
+        raise ValueError("not all balls have a path")
     arcs = {name: [_arc(item, setup, balls[name]) for item in items] for name, items in record["arcs"].items()}
     return Run(
         setup,
@@ -57,6 +60,9 @@ def _plain_arc(arc: Arc, places: dict[int, int]) -> tuple[Any, ...]:
 
 def _arc(item: Any, setup: Setup, ball: Ball) -> Arc:
     t0, t1, start, x, y, vx, vy, spin, contact, rolling, end = item
+    curves = [start, x, y, vx, vy, spin, *rolling, *([] if end is None else [end])]
+    if not all(map(_is_time, (t0, t1))) or not all(_is_number(part) for curve in curves for part in curve):
+        raise ValueError("a path has what is not a number")
     if contact is not None:
         mode, place, (gap, nx, ny, curvature, center, feature), direction, spin_rate = contact
         touching = Touching(gap, nx, ny, curvature, tuple(center), feature)
@@ -64,3 +70,11 @@ def _arc(item: Any, setup: Setup, ball: Ball) -> Arc:
     last = None if end is None else tuple(end)
     turning = tuple(map(tuple, rolling))
     return Arc(t0, t1, tuple(start), tuple(x), tuple(y), tuple(vx), tuple(vy), tuple(spin), contact, turning, last)
+
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool) and isfinite(value)
+
+
+def _is_time(value: Any) -> bool:
+    return _is_number(value) and value >= 0.0

@@ -260,3 +260,20 @@ def test_cloth_does_not_push(what, value):
 def test_sizes_of_errors_and_steps_are_positive(what, value):
     with pytest.raises(RequestError, match=f"accuracy.{what}: {value} .* must be positive"):
         resolve(**{what: value})
+
+
+@pytest.mark.parametrize("accuracy", [resolve("balanced"), PLAIN], ids=["exact", "plain"])
+@pytest.mark.parametrize(
+    ("mass", "radius", "place"), [(1e-10, 1e-200, 1.0), (1e-320, 0.03, 1.0), (0.1, 1e-170, 1.0), (0.1, 0.03, 1e300)]
+)
+def test_numbers_that_no_float_holds_are_a_named_error(accuracy, mass, radius, place):
+    """The moment of inertia of the first is 0, squares of the last are infinite."""
+
+    def run():
+        floor = Surface("floor", Segment((-9.0, 0.0), (9.0, 0.0)), 0.5, 0.5)
+        ball = Ball("ball", mass, radius, (place, 2.0), (1.0, 0.0), forces=(Gravity(mass, G),))
+        other = Ball("other", mass, radius, (-place, 2.0), (1e160, 0.0))
+        simulate(Setup((ball, other), (floor,), 1.0), accuracy)
+
+    with pytest.raises((RequestError, RunError)):
+        run()

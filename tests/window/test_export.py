@@ -71,10 +71,21 @@ class TestReplays:
             replay.read(path)
         assert str(path) in str(error.value)
 
-    def test_one_that_was_written_with_other_contents_says_so(self, recorded):
+    @pytest.mark.parametrize(
+        "forge",
+        [
+            lambda body: body["run"].pop("arcs"),
+            lambda body: body.update(parameters=5),
+            lambda body: body.update(changes=[1]),
+            lambda body: body["run"].update(arcs={"ball": []}),
+            lambda body: body["run"]["arcs"]["ball"][0].__setitem__(2, [None] * 5),
+            lambda body: body["run"].update(duration=1e999),
+        ],
+    )
+    def test_one_that_was_written_with_other_contents_says_so(self, recorded, forge):
         path = recorded[1]
         record = json.loads(path.read_text("utf-8"))
-        del record["body"]["run"]["arcs"]
+        forge(record["body"])
         record["check"] = replay._sum(record["body"])
         path.write_text(json.dumps(record), encoding="utf-8")
         with pytest.raises(RequestError, match="damaged"):
