@@ -1,4 +1,4 @@
-"""Whose fault it was: the part of a traceback that a user wrote."""
+"""The user's part of a traceback."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ import traceback
 from pathlib import Path
 
 from sandbox import resources
+from sandbox.errors import SandboxError
 
 
 def of_user_code(error: BaseException) -> str | None:
@@ -19,6 +20,17 @@ def of_user_code(error: BaseException) -> str | None:
     shown = [frame for frame in frames[first:] if not _is_machinery(frame.filename)] if first is not None else []
     head = ["your scene failed\n", "Traceback (most recent call last):\n"] if shown else ["your scene failed\n"]
     return "".join([*head, *traceback.format_list(shown), *traceback.format_exception_only(error)])
+
+
+def in_a_line(error: Exception) -> str:
+    """What went wrong, for a cell of a table; of a user's own code also in which line: ``"ZeroDivisionError: division
+    by zero (volleyball/scene.py, line 12)"``."""
+    text = " ".join(str(error).split())
+    if isinstance(error, SandboxError):
+        return text
+    own = [frame for frame in traceback.extract_tb(error.__traceback__) if not _is_ours(frame.filename)]
+    place = f" ({'/'.join(Path(own[-1].filename).parts[-2:])}, line {own[-1].lineno})" if own else ""
+    return f"{type(error).__name__}: {text}{place}"
 
 
 def _is_ours(filename: str) -> bool:

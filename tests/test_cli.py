@@ -597,7 +597,7 @@ def test_exit_in_a_sweep_fails_its_points(call, drop: Path, tmp_path: Path, jobs
     out = tmp_path / "rows.csv"
     assert call("sweep", drop, "--over", "launch.height=1,2", "--out", out, "--jobs", jobs).code == 0
     errors = [row["error"] for row in read_rows(out)]
-    assert "sys.exit(0)" in errors[0]
+    assert re.fullmatch(r"ExitCalled: sys\.exit\(0\) .* \(drop/scene\.py, line \d+\)", errors[0])
     assert errors[1] == ""
 
 

@@ -12,11 +12,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from sandbox.errors import RequestError, SandboxError
+from sandbox.errors import RequestError
 from sandbox.lab.axes import MOST_POINTS, Axis, Span, Values
 from sandbox.lab.provenance import Provenance, provenance
 from sandbox.lab.runs import fly_together, runs
 from sandbox.scene import Scene, compare
+from sandbox.tracebacks import in_a_line
 
 if TYPE_CHECKING:
     from sandbox.engine.run import Run
@@ -178,7 +179,7 @@ def failed(plan: Plan, start: int, stop: int, why: str) -> list[Record]:
 def _record(keys: Sequence[str], values: Sequence[Any], run: Run | Exception) -> Record:
     row: Record = dict(zip(keys, values, strict=True))
     if isinstance(run, Exception):
-        return row | {"error": _in_a_line(run)}
+        return row | {"error": in_a_line(run)}
     row.update(run.result)
     row.setdefault("ended", run.ended)
     for flag in FLAGS:
@@ -192,12 +193,7 @@ def _trust(run: Run | Exception, finer: Run | Exception) -> Record:
     if isinstance(run, Exception):
         return {}
     if isinstance(finer, Exception):
-        return {HANGS: f"a finer run fails: {_in_a_line(finer)}"}
+        return {HANGS: f"a finer run fails: {in_a_line(finer)}"}
     outcome = compare(run, finer)
     numbers = [name for name, value in run.result.items() if name in outcome.errors or value is None]
     return {f"{name}_error": outcome.errors.get(name) for name in numbers} | {HANGS: " ".join(outcome.changed)}
-
-
-def _in_a_line(error: Exception) -> str:
-    text = " ".join(str(error).split())
-    return text if isinstance(error, SandboxError) else f"{type(error).__name__}: {text}"
