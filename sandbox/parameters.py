@@ -9,7 +9,8 @@ A scene declares its parameters as nested groups::
     class Parameters(Group):
         launch: Launch = group(Launch(), "how the ball starts")
 
-That declaration feeds the reading of scene files, ``--set``, the JSON schema, sliders and documentation.
+That declaration feeds the reading of scene files, ``--set``, the JSON schema, sliders and documentation. A default of
+``...`` stands in the scene's own file, ``<name>.toml``: every other file of the scene is laid over that.
 Values are floats in the declared unit; a string may carry a unit of its own (``"171 mph"``).
 """
 
@@ -24,6 +25,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence, Siz
 from dataclasses import dataclass
 from numbers import Real
 from pathlib import Path
+from types import EllipsisType
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeVar, get_args, get_origin
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError
@@ -113,17 +115,21 @@ class Quantity:
         schema["unit"] = self.unit
 
 
-def quantity(default: float | str | None, unit: str, low: float, high: float, meaning: str) -> Any:
+def quantity(default: float | str | EllipsisType | None, unit: str, low: float, high: float, meaning: str) -> Any:
     """A number with ``unit`` and inclusive bounds ``low`` and ``high``; a default of None makes it optional."""
     return _declared(default, meaning, Quantity(unit, float(low), float(high), optional=default is None))
 
 
-def vector(default: tuple[float | str, ...], unit: str, low: float, high: float, meaning: str) -> Any:
-    """As many numbers as ``default`` has, each with ``unit`` and bounds; declare it as ``tuple[float, float]``."""
-    return _declared(default, meaning, Quantity(unit, float(low), float(high), length=len(default)))
+def vector(default: tuple[float | str, ...] | EllipsisType, unit: str, low: float, high: float, meaning: str) -> Any:
+    """As many numbers as ``default`` has (two for ``...``), each with ``unit`` and bounds; declare it as
+    ``tuple[float, float]``."""
+    length = 2 if isinstance(default, EllipsisType) else len(default)
+    return _declared(default, meaning, Quantity(unit, float(low), float(high), length=length))
 
 
-def vectors(default: list[tuple[float, ...]], length: int, unit: str, low: float, high: float, meaning: str) -> Any:
+def vectors(
+    default: list[tuple[float, ...]] | EllipsisType, length: int, unit: str, low: float, high: float, meaning: str
+) -> Any:
     """A list of vectors of ``length`` numbers, such as points; declare it as ``list[tuple[float, float]]``."""
     return _declared(default, meaning, Quantity(unit, float(low), float(high), length=length, several=True))
 
@@ -148,27 +154,27 @@ def _field(default: Any, meaning: str, reader: Callable[[Any], Any], **more: Any
     return field
 
 
-def choice(default: str | None, meaning: str) -> Any:
+def choice(default: str | EllipsisType | None, meaning: str) -> Any:
     """One of several words; declare it as ``Literal["launch", "club"]``."""
     return Field(default, description=meaning)
 
 
-def switch(default: bool, meaning: str) -> Any:
+def switch(default: bool | EllipsisType, meaning: str) -> Any:
     """True or false; declare it as ``bool``."""
     return Field(default, description=meaning, strict=True)
 
 
-def group(default: Group, meaning: str) -> Any:
+def group(default: Group | EllipsisType, meaning: str) -> Any:
     """A group of parameters with a heading of its own; a file that leaves keys out takes those of ``default``."""
     return _field(default, meaning, lambda value: _completed(value, default, None))
 
 
-def groups(default: list[Any], meaning: str) -> Any:
+def groups(default: list[Any] | EllipsisType, meaning: str) -> Any:
     """A list of groups, ``[[balls]]`` in a file; declare it as ``list[Spot]``. A file replaces it whole."""
     return Field(default, description=meaning)
 
 
-def either(default: Group, meaning: str, by: str = "model") -> Any:
+def either(default: Group | EllipsisType, meaning: str, by: str = "model") -> Any:
     """One of several groups, chosen by their word ``by``; declare it as ``ConstantDrag | NoDrag``.
 
     Each of the groups declares its word as ``model: Literal["constant"] = choice("constant", "...")``.
@@ -182,9 +188,9 @@ class Group(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True, validate_default=True, protected_namespaces=())
 
 
-def _completed(table: Any, default: Group, tag: str | None) -> Any:
+def _completed(table: Any, default: Group | EllipsisType, tag: str | None) -> Any:
     """``table`` with what it leaves out taken from ``default``, unless its ``tag`` asks for another kind of group."""
-    if not isinstance(table, Mapping):
+    if not isinstance(table, Mapping) or isinstance(default, EllipsisType):
         return table
     if tag is not None and tag in table and table[tag] not in get_args(type(default).model_fields[tag].annotation):
         return dict(table)
@@ -278,7 +284,8 @@ def _chosen(field: FieldInfo, inner: type[Group], table: Any) -> bool:
     if not isinstance(tag, str):
         return True
     word = table.get(tag) if isinstance(table, Mapping) else None
-    return (word or getattr(field.default, tag)) in get_args(inner.model_fields[tag].annotation)
+    word = word or getattr(field.default, tag, None)
+    return word is None or word in get_args(inner.model_fields[tag].annotation)
 
 
 def every_key(schema: type[Group], prefix: str = "") -> Iterator[str]:
@@ -292,18 +299,45 @@ def every_key(schema: type[Group], prefix: str = "") -> Iterator[str]:
                 yield from every_key(chosen, f"{prefix}{name}.")
 
 
-def json_schema(schema: type[Group], scene: str) -> dict[str, Any]:
-    """JSON schema of the scene file of ``scene``; numbers may be strings with a unit."""
-    body = _relaxed(schema.model_json_schema())
+def json_schema(parameters: Group, scene: str) -> dict[str, Any]:
+    """JSON schema of the files of ``scene``; numbers may be strings with a unit. A file may leave every key out:
+    ``parameters`` are the scene's own, which it then has."""
+    body = _relaxed(type(parameters).model_json_schema())
     path = r"|\.\.?(/.*)?|/.+"  # of a scene of one's own
     named = {
         "anyOf": [{"const": scene}, {"type": "string", "pattern": f"^({scene}/[A-Za-z0-9_-]+{path})$"}],
         "description": "the scene that this file is for, or the preset that it begins from",
     }
+    _fill_in(body, body["$defs"], parameters, json.dumps(body))
     properties = {"scene": named, **body["properties"]}
     # The draft that editors' TOML extensions know.
     head = {"$schema": "http://json-schema.org/draft-07/schema#", "title": f"{scene} scene file"}
     return {**head, **body, "properties": properties}
+
+
+def _fill_in(node: dict[str, Any], groups: dict[str, Any], values: Group, whole: str) -> None:
+    """Write into the schema of a group what its keys are where a file leaves them out. What several keys refer to is
+    left as it is; ``whole`` is the schema as text, to count them."""
+    node.pop("required", None)
+    for name, value in values:
+        entry = node.get("properties", {}).get(name, {})
+        if not isinstance(value, Group):
+            if value is not None:
+                entry["default"] = _plain(value)
+            continue
+        entry["default"] = value.model_dump(mode="json")
+        for reference in re.findall(r'"#/\$defs/(\w+)"', json.dumps(entry)):
+            chosen = groups[reference]
+            if type(value).__name__ == reference and whole.count(f'"#/$defs/{reference}"') == 1:
+                _fill_in(chosen, groups, value, whole)
+            chosen.pop("required", None)
+
+
+def _plain(value: Any) -> Any:
+    """A value as JSON has it."""
+    if isinstance(value, Group):
+        return value.model_dump(mode="json")
+    return [_plain(item) for item in value] if isinstance(value, list | tuple) else value
 
 
 def _relaxed(node: Any) -> Any:

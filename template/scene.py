@@ -11,6 +11,7 @@ from math import cos, radians, sin
 from typing import Any
 
 from sandbox.aerodynamics import Air, ConstantDrag, ConstantLift, NoDrag, NoLift, SpinRatioLift, aerodynamic_forces
+
 from sandbox.engine.run import Run
 from sandbox.engine.setup import HOLLOW_SPHERE, Ball, Segment, Setup, Surface
 from sandbox.parameters import Accuracy, Group, either, group, quantity

@@ -22,7 +22,6 @@ FLOORS = {
     "files": 3,
     "resources": 3,
     "parameters": 3,
-    "aerodynamics": 3,
     "sport": 3,
     "scene": 3,
     "picture": 4,

@@ -441,7 +441,7 @@ def _properties(schema: dict[str, Any], *path: str) -> dict[str, Any]:
 
 
 def test_json_schema():
-    schema = json_schema(Parameters, "shot")
+    schema = json_schema(Parameters(), "shot")
     assert json.loads(json.dumps(schema)) == schema
     assert schema["$schema"] == "http://json-schema.org/draft-07/schema#"
     assert {"const": "shot"} in schema["properties"]["scene"]["anyOf"]

@@ -48,14 +48,7 @@ def load(source: str | Path, overrides: Mapping[str, Any] | None = None, *, over
     found = _find(source)
     file, folder = found.file, found.folder
     where = shown(folder if file is None else file)
-    schema = parameters_class(folder)
-    values: dict[str, Any] = {}
-    if file is not None:
-        values = declared.read_toml(file)
-        values.pop("scene", None)
-        if found.base:
-            values = declared.over(schema, _preset_values(found, where), values)
-    parameters = declared.validate(schema, values, where, overrides, overrides_from)
+    parameters = _read(parameters_class(folder), _layers(found, where), where, overrides, overrides_from)
     elsewhere = file is not None and folder not in file.resolve().parents
     note = first_comment(file) if file is not None and elsewhere else ""
     return Scene(found.name, found.preset, parameters, folder, note)
@@ -76,10 +69,46 @@ def _preset_values(found: Found, where: str) -> dict[str, Any]:
     return values
 
 
-def parameters_of(source: str | Path) -> tuple[str, type[declared.Group]]:
-    """Name and Parameters class of the scene that ``source`` names; of a file only the key ``scene`` matters."""
+def _layers(found: Found, where: str) -> list[tuple[str, dict[str, Any]]]:
+    """What is read, each over the one before: the scene's own file, a preset that a file begins from, the file."""
+    own = _default_file(found.folder)
+    files = [] if own is None or found.file is None else [own]
+    if found.file is not None and (own is None or found.file.resolve() != own.resolve()):
+        files.append(found.file)
+    layers = [(where if file is found.file else shown(file), declared.read_toml(file)) for file in files]
+    if found.base:
+        layers.insert(len(layers) - 1, (where, _preset_values(found, where)))
+    for _, values in layers:
+        values.pop("scene", None)
+    return layers
+
+
+def _read(
+    schema: type[declared.Group],
+    layers: list[tuple[str, dict[str, Any]]],
+    where: str,
+    overrides: Mapping[str, Any] | None,
+    overrides_from: str,
+) -> declared.Group:
+    """The parameters in these layers. Raises RequestError, which names the first of them that is wrong."""
+    values: dict[str, Any] = {}
+    for _, layer in layers:
+        values = declared.over(schema, values, layer)
+    try:
+        return declared.validate(schema, values, where, overrides, overrides_from)
+    except RequestError:
+        for count in range(1, len(layers)):
+            _read(schema, layers[:count], layers[count - 1][0], None, "")
+        raise
+
+
+def parameters_of(source: str | Path) -> tuple[str, declared.Group]:
+    """Name and own parameters of the scene that ``source`` names; of a file only the key ``scene`` matters."""
     found = _find(source)
-    return found.name, parameters_class(found.folder)
+    own = _default_file(found.folder)
+    where = shown(own or found.folder)
+    layers = _layers(Found(found.name, found.folder, own), where)
+    return found.name, _read(parameters_class(found.folder), layers, where, None, "")
 
 
 def folder_of(source: str | Path) -> Path | None:

@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from math import atan2, degrees, hypot, pi
+from math import atan2, degrees, hypot
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from sandbox.sport.facts import Fact
+from sandbox.sport.flight import RPM
 
 if TYPE_CHECKING:
     from sandbox.engine.run import Event, Run
-
-RPM = pi / 30.0  # rad/s
 
 
 class Moment(NamedTuple):

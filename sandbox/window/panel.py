@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from math import inf
 from time import perf_counter
-from typing import Any
+from typing import Any, get_args
 
 import pygame
 import pygame_gui
@@ -235,7 +235,7 @@ class Panel:
         for part in path:
             values = getattr(values, part)
             node = type(values)
-        return node.model_fields[last].default is None
+        return type(None) in get_args(node.model_fields[last].annotation)
 
     def _span(self, row: Row) -> tuple[float, float]:
         """The ends of a slider: around the value of the file, within the bounds."""

@@ -16,105 +16,87 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import pairwise
-from math import cos, hypot, radians, sin
+from math import hypot
 from typing import Any
 
-from sandbox.aerodynamics import (
-    Air,
-    ConstantDrag,
-    ConstantLift,
-    NoDrag,
-    NoLift,
-    SpinRatioLift,
-    aerodynamic_forces,
-)
 from sandbox.engine.run import Event, Run
-from sandbox.engine.setup import HOLLOW_SPHERE, Ball, Circle, Patch, Segment, Setup, Surface, Vector
+from sandbox.engine.setup import Circle, Patch, Segment, Setup, Surface, Vector
 from sandbox.errors import RequestError
 from sandbox.parameters import Accuracy, Group, either, group, quantity, switch
 from sandbox.physics.elementwise import clip
-from sandbox.physics.forces import Gravity
 from sandbox.physics.integrators import State
+from sandbox.sport.air import Air, ConstantDrag, ConstantLift, NoDrag, NoLift, SpinRatioLift
 from sandbox.sport.amounts import roughly
 from sandbox.sport.controls import Controls, Spin, Spread
 from sandbox.sport.facts import ENDED, Fact, once
-from sandbox.sport.readings import LAUNCH, RPM, Moment, at, before
+from sandbox.sport.flight import Launch, Sphere, forces_in_flight, launched_ball
+from sandbox.sport.readings import LAUNCH, Moment, at, before
 
 # --------------------------------------------------------------------------------------------------------- parameters
-
-
-class Launch(Group):
-    """The ball just after it left the hand."""
-
-    speed: float = quantity(7.391, "m/s", 0, 340, "ball speed")
-    angle: float = quantity(52.0, "deg", -90, 180, "direction above the horizontal")
-    spin: float = quantity("3 rev/s", "rpm", -20000, 20000, "backspin positive")
 
 
 class Release(Group):
     """Where the ball leaves the hand."""
 
-    height: float = quantity("7 ft", "m", 0, 100, "of the ball's centre above the floor")
+    height: float = quantity(..., "m", 0, 100, "of the ball's centre above the floor")
 
 
-class BallParameters(Group):
+class Basketball(Sphere):
     """The basketball, a hollow sphere."""
 
-    mass: float = quantity(0.624, "kg", 0.001, 20, "mass")
-    radius: float = quantity(0.1194, "m", 0.01, 1, "radius")
-    drag: ConstantDrag | NoDrag = either(ConstantDrag(coefficient=0.5), "drag of the air")
-    lift: NoLift | ConstantLift | SpinRatioLift = either(SpinRatioLift(), "Magnus lift")
+    drag: ConstantDrag | NoDrag = either(..., "drag of the air")
+    lift: NoLift | ConstantLift | SpinRatioLift = either(..., "Magnus lift")
 
 
 class Hoop(Group):
     """The ring, seen from the side: two tubes."""
 
-    distance: float = quantity(4.191, "m", 0, 500, "from the release to the middle of the ring")
-    height: float = quantity(3.05, "m", 0.1, 100, "of the tubes' middle above the floor")
-    inner_diameter: float = quantity(0.4572, "m", 0.01, 5, "between the inner edges of the tubes")
-    tube_radius: float = quantity(0.009, "m", 0.0005, 0.2, "radius of the tube")
-    restitution: float = quantity(0.75, "", 0, 1, "of ball and rim")
-    friction: float = quantity(0.5, "", 0, 10, "of ball and rim")
+    distance: float = quantity(..., "m", 0, 500, "from the release to the middle of the ring")
+    height: float = quantity(..., "m", 0.1, 100, "of the tubes' middle above the floor")
+    inner_diameter: float = quantity(..., "m", 0.01, 5, "between the inner edges of the tubes")
+    tube_radius: float = quantity(..., "m", 0.0005, 0.2, "radius of the tube")
+    restitution: float = quantity(..., "", 0, 1, "of ball and rim")
+    friction: float = quantity(..., "", 0, 10, "of ball and rim")
 
 
 class Backboard(Group):
     """The board behind the ring."""
 
-    gap: float = quantity(0.15, "m", 0, 5, "from the inner edge of the ring to the face of the board")
-    bottom: float = quantity(2.9, "m", 0, 100, "lower edge above the floor")
-    top: float = quantity(3.97, "m", 0, 100, "upper edge above the floor")
-    thickness: float = quantity(0.03, "m", 0.001, 1, "thickness")
-    restitution: float = quantity(0.75, "", 0, 1, "of ball and board")
-    friction: float = quantity(0.4, "", 0, 10, "of ball and board")
+    gap: float = quantity(..., "m", 0, 5, "from the inner edge of the ring to the face of the board")
+    bottom: float = quantity(..., "m", 0, 100, "lower edge above the floor")
+    top: float = quantity(..., "m", 0, 100, "upper edge above the floor")
+    thickness: float = quantity(..., "m", 0.001, 1, "thickness")
+    restitution: float = quantity(..., "", 0, 1, "of ball and board")
+    friction: float = quantity(..., "", 0, 10, "of ball and board")
 
 
 class Net(Group):
     """The net below the ring."""
 
-    slows: bool = switch(False, "whether it slows the ball, or is only drawn")
-    length: float = quantity(0.45, "m", 0.1, 2, "length")
-    damping: float = quantity(6.0, "1/s", 0, 100, "deceleration over speed of a ball that slips down inside it")
+    slows: bool = switch(..., "whether it slows the ball, or is only drawn")
+    length: float = quantity(..., "m", 0.1, 2, "length")
+    damping: float = quantity(..., "1/s", 0, 100, "deceleration over speed of a ball that slips down inside it")
 
 
 class Floor(Group):
     """The floor."""
 
-    restitution: float = quantity(0.76, "", 0, 1, "of ball and floor")
-    friction: float = quantity(0.5, "", 0, 10, "of ball and floor")
+    restitution: float = quantity(..., "", 0, 1, "of ball and floor")
+    friction: float = quantity(..., "", 0, 10, "of ball and floor")
 
 
 class Parameters(Group):
     """All numbers of a shot."""
 
-    launch: Launch = group(Launch(), "the ball just after it left the hand")
-    release: Release = group(Release(), "where it left the hand")
-    gravity: float = quantity(9.81, "m/s^2", 0, 30, "gravity")
-    air: Air = group(Air(), "the air")
-    ball: BallParameters = group(BallParameters(), "the ball")
-    hoop: Hoop = group(Hoop(), "the ring")
-    backboard: Backboard = group(Backboard(), "the board")
-    net: Net = group(Net(), "the net")
-    floor: Floor = group(Floor(), "the floor")
+    launch: Launch = group(..., "the ball just after it left the hand")
+    release: Release = group(..., "where it left the hand")
+    gravity: float = quantity(..., "m/s^2", 0, 30, "gravity")
+    air: Air = group(..., "the air")
+    ball: Basketball = group(..., "the ball")
+    hoop: Hoop = group(..., "the ring")
+    backboard: Backboard = group(..., "the board")
+    net: Net = group(..., "the net")
+    floor: Floor = group(..., "the floor")
     accuracy: Accuracy = group(Accuracy(), "speed against accuracy")
 
 
@@ -187,24 +169,12 @@ def _smooth(x: Any) -> Any:
 def build(parameters: Parameters) -> Setup:
     """Ball, ring, board and floor. Raises RequestError where they do not go together."""
     _check(parameters)
-    launch, ball, hoop, net = parameters.launch, parameters.ball, parameters.hoop, parameters.net
-    angle = radians(launch.angle)
-    forces = aerodynamic_forces(parameters.air, ball.radius, ball.drag, ball.lift)
-    if parameters.gravity > 0.0:
-        forces.append(Gravity(ball.mass, parameters.gravity))
+    ball, hoop, net = parameters.ball, parameters.hoop, parameters.net
+    forces = forces_in_flight(ball, parameters.air, parameters.gravity)
     middle, half_width = (hoop.distance, hoop.height), 0.5 * hoop.inner_diameter
     if net.slows:
         forces.append(NetDrag(ball.mass, net.damping, middle, half_width, net.length))
-    shot = Ball(
-        "ball",
-        ball.mass,
-        ball.radius,
-        position=(0.0, parameters.release.height),
-        velocity=(launch.speed * cos(angle), launch.speed * sin(angle)),
-        spin=launch.spin * RPM,
-        inertia_factor=HOLLOW_SPHERE,
-        forces=forces,
-    )
+    shot = launched_ball(parameters.launch, ball, (0.0, parameters.release.height), forces)
     patches = [NetDrag.patch(middle, half_width, net.length)] if net.slows else []
     return Setup([shot], _court(parameters), duration=LONGEST, until=_is_tired, patches=patches)
 

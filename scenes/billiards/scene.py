@@ -51,19 +51,19 @@ class Spot(Group):
 class Cue(Group):
     """The stroke, with a level cue."""
 
-    ball: str = Field(default="cue", description="name of the ball that is struck", min_length=1, max_length=40)
-    speed: float = quantity(8.0, "m/s", 0, 30, "speed of the ball after the stroke")
-    angle: float = quantity(0.0, "deg", -360, 360, "direction, from +x counter-clockwise")
-    follow: float = quantity(0.0, "", -0.5, 0.5, "height of the tip over the ball's centre in radii; 0.4 rolls at once")
-    english: float = quantity(0.0, "", -0.5, 0.5, "tip to the right of the ball's centre in radii")
+    ball: str = Field(description="name of the ball that is struck", min_length=1, max_length=40)
+    speed: float = quantity(..., "m/s", 0, 30, "speed of the ball after the stroke")
+    angle: float = quantity(..., "deg", -360, 360, "direction, from +x counter-clockwise")
+    follow: float = quantity(..., "", -0.5, 0.5, "height of the tip over the ball's centre in radii; 0.4 rolls at once")
+    english: float = quantity(..., "", -0.5, 0.5, "tip to the right of the ball's centre in radii")
 
 
 class BallParameters(Group):
     """All balls alike, solid spheres."""
 
-    mass: float = quantity("6 oz", "kg", 0.001, 10, "mass")
-    radius: float = quantity("1.125 in", "m", 0.002, 0.2, "radius")
-    restitution: float = quantity(0.95, "", 0, 1, "of ball and ball")
+    mass: float = quantity(..., "kg", 0.001, 10, "mass")
+    radius: float = quantity(..., "m", 0.002, 0.2, "radius")
+    restitution: float = quantity(..., "", 0, 1, "of ball and ball")
     friction: float | None = quantity(
         None, "", 0, 10, "of ball and ball; where left out, less the faster the surfaces rub (Alciatore)"
     )
@@ -72,16 +72,16 @@ class BallParameters(Group):
 class ClothParameters(Group):
     """The cloth."""
 
-    sliding_friction: float = quantity(0.2, "", 0, 2, "deceleration of a sliding ball over gravity")
-    rolling_friction: float = quantity(0.01, "", 0, 1, "deceleration of a rolling ball over gravity")
-    spinning_friction: float = quantity(0.0127, "", 0, 1, "torque on a ball spinning upright, over m g r")
+    sliding_friction: float = quantity(..., "", 0, 2, "deceleration of a sliding ball over gravity")
+    rolling_friction: float = quantity(..., "", 0, 1, "deceleration of a rolling ball over gravity")
+    spinning_friction: float = quantity(..., "", 0, 1, "torque on a ball spinning upright, over m g r")
 
 
 class Cushion(Group):
     """The cushions, jaws included."""
 
-    restitution: float = quantity(0.85, "", 0, 1, "of ball and cushion")
-    friction: float = quantity(0.2, "", 0, 10, "of ball and cushion")
+    restitution: float = quantity(..., "", 0, 1, "of ball and cushion")
+    friction: float = quantity(..., "", 0, 10, "of ball and cushion")
 
 
 class Parameters(Group):
@@ -90,16 +90,16 @@ class Parameters(Group):
     rack: Literal["nine-ball", "eight-ball", "none"] | None = choice(
         None, "balls on the foot spot; where left out, nine-ball if no balls are listed and none else"
     )
-    rack_gap: float = quantity("0.01 mm", "m", 1e-7, 0.01, "between neighbours in the rack")
-    rack_scatter: float = quantity(0.0, "m", 0, 0.01, "how far a racked ball may lie from its place, at random")
-    rack_seed: float = quantity(1.0, "", 0, 1e9, "which of the random racks")
-    balls: list[Spot] = groups([], "balls laid out one by one, beside the rack")
-    cue: Cue = group(Cue(), "the stroke")
-    table: NineFoot | EightFoot | SevenFoot | Snooker | Carom = either(NineFoot(), "the table", by="kind")
-    ball: BallParameters = group(BallParameters(), "the balls")
-    cloth: ClothParameters = group(ClothParameters(), "the cloth")
-    cushion: Cushion = group(Cushion(), "the cushions")
-    gravity: float = quantity(9.81, "m/s^2", 0, 30, "gravity")
+    rack_gap: float = quantity(..., "m", 1e-7, 0.01, "between neighbours in the rack")
+    rack_scatter: float = quantity(..., "m", 0, 0.01, "how far a racked ball may lie from its place, at random")
+    rack_seed: float = quantity(..., "", 0, 1e9, "which of the random racks")
+    balls: list[Spot] = groups(..., "balls laid out one by one, beside the rack")
+    cue: Cue = group(..., "the stroke")
+    table: NineFoot | EightFoot | SevenFoot | Snooker | Carom = either(..., "the table", by="kind")
+    ball: BallParameters = group(..., "the balls")
+    cloth: ClothParameters = group(..., "the cloth")
+    cushion: Cushion = group(..., "the cushions")
+    gravity: float = quantity(..., "m/s^2", 0, 30, "gravity")
     accuracy: Accuracy = group(Accuracy(), "speed against accuracy")
 
 

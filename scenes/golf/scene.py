@@ -15,107 +15,106 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from math import cos, hypot, inf, radians, sin, sqrt
+from math import hypot, inf, radians, sqrt
 from typing import Literal
 
-from sandbox.aerodynamics import ConstantLift, NoDrag, NoLift, OutdoorAir, SpinRatioLift, wind_in
 from sandbox.engine.run import Event, Run
-from sandbox.engine.setup import SOLID_SPHERE, Ball, Bounce, Bounds, Force, Segment, Setup, Surface, Torque
+from sandbox.engine.setup import SOLID_SPHERE, Bounce, Bounds, Segment, Setup, Surface
 from sandbox.errors import RequestError
 from sandbox.parameters import Accuracy, Group, choice, either, group, groups, quantity, vectors
-from sandbox.physics import coefficients
 from sandbox.physics.club import Head, strike
-from sandbox.physics.forces import Drag, Gravity, Magnus, SpinDecay
+from sandbox.physics.club import Launch as Struck
+from sandbox.physics.coefficients import GOLF_DRAG, GOLF_LIFT, Coefficient
+from sandbox.physics.forces import SpinDecay
 from sandbox.physics.turf import penner_bounce, penner_restitution, stimp_resistance
+from sandbox.sport.air import (
+    ConstantDrag,
+    ConstantLift,
+    Lift,
+    Model,
+    NoDrag,
+    NoLift,
+    OutdoorAir,
+    SpinRatioLift,
+    wind_in,
+)
 from sandbox.sport.amounts import roughly
 from sandbox.sport.controls import Controls, Spin, Spread
 from sandbox.sport.facts import Fact, once
-from sandbox.sport.readings import BALL_SPEED, LAUNCH_ANGLE, LAUNCH_SPIN, RPM, Moment, at, before
+from sandbox.sport.flight import RPM, Launch, Sphere, forces_in_flight, launched_ball
+from sandbox.sport.readings import BALL_SPEED, LAUNCH_ANGLE, LAUNCH_SPIN, Moment, at, before
 
 # ----------------------------------------------------------------------------------------------------------- parameters
-
-
-class Launch(Group):
-    """The ball just after it was struck."""
-
-    speed: float = quantity("171 mph", "m/s", 0, 340, "ball speed")
-    angle: float = quantity(10.4, "deg", -90, 180, "direction above the horizontal")
-    spin: float = quantity(2545, "rpm", -20000, 20000, "backspin positive")
 
 
 class Club(Group):
     """The head that strikes the ball, where start is \"club\"."""
 
-    speed: float = quantity("115 mph", "m/s", 0, 150, "speed of the head")
-    mass: float = quantity(0.2, "kg", 0.01, 10, "mass of the head")
-    loft: float = quantity(10.5, "deg", 0, 80, "angle of the face from the vertical")
-    attack: float = quantity(0.0, "deg", -45, 45, "way of the head above the horizontal; negative hits down")
-    restitution: float = quantity(0.83, "", 0, 1, "of head and ball")
-    friction: float = quantity(0.4, "", 0, 10, "of face and ball; with too little the ball slides up the face")
-    stiffness: float = quantity(1.0, "", 0.1, 100, "of the ball along the face over that across it")
-    depth: float = quantity("42.3 mm", "m", 0, 0.2, "of the head's centre of mass behind the face")
-    inertia: float = quantity(2.843e-4, "kg m^2", 1e-5, 1, "of the head about the axis from heel to toe")
-    height: float = quantity(0.0, "m", -0.03, 0.03, "of the place that is hit above the one before the centre of mass")
+    speed: float = quantity(..., "m/s", 0, 150, "speed of the head")
+    mass: float = quantity(..., "kg", 0.01, 10, "mass of the head")
+    loft: float = quantity(..., "deg", 0, 80, "angle of the face from the vertical")
+    attack: float = quantity(..., "deg", -45, 45, "way of the head above the horizontal; negative hits down")
+    restitution: float = quantity(..., "", 0, 1, "of head and ball")
+    friction: float = quantity(..., "", 0, 10, "of face and ball; with too little the ball slides up the face")
+    stiffness: float = quantity(..., "", 0.1, 100, "of the ball along the face over that across it")
+    depth: float = quantity(..., "m", 0, 0.2, "of the head's centre of mass behind the face")
+    inertia: float = quantity(..., "kg m^2", 1e-5, 1, "of the head about the axis from heel to toe")
+    height: float = quantity(..., "m", -0.03, 0.03, "of the place that is hit above the one before the centre of mass")
 
 
-class GolfDrag(Group):
+class GolfDrag(Model):
     """Drag by a model of the golf ball."""
 
     model: Literal["tour-fit", "smits-smith", "lyu", "usga", "quadratic", "power-law"] = choice(
-        "tour-fit", "drag coefficient by its source"
+        ..., "drag coefficient by its source"
     )
 
+    def coefficient_law(self) -> Coefficient:
+        return GOLF_DRAG[self.model]
 
-class ConstantDrag(Group):
+
+class DimpledDrag(ConstantDrag):
     """One drag coefficient for all speeds."""
 
-    model: Literal["constant"] = choice("constant", "drag coefficient by its source")
     coefficient: float = quantity(0.25, "", 0, 10, "drag coefficient")
 
 
-class GolfLift(Group):
+class GolfLift(Lift):
     """Lift by a model of the golf ball."""
 
     model: Literal["tour-fit", "smits-smith", "lyu", "usga", "quadratic", "power-law"] = choice(
-        "tour-fit", "lift coefficient by its source"
+        ..., "lift coefficient by its source"
     )
-    velocity: Literal["air", "ground"] = choice("air", "velocity that lift is reckoned by: relative to air or ground")
+
+    def coefficient_law(self) -> Coefficient:
+        return GOLF_LIFT[self.model]
 
 
-class BallParameters(Group):
+class GolfBall(Sphere):
     """The golf ball, a solid sphere."""
 
-    mass: float = quantity(0.04593, "kg", 0.0001, 10, "mass")
-    radius: float = quantity(0.021335, "m", 0.0005, 0.5, "radius")
-    cross_section: float | None = quantity(None, "m^2", 1e-7, 1, "area against the air, where not that of the radius")
-    spin_decay: float = quantity(2e-5, "", 0, 0.01, "k of dw/dt = -k |u| w / r, in air of 1.204 kg/m^3")
-    drag: GolfDrag | ConstantDrag | NoDrag = either(GolfDrag(), "drag of the air")
-    lift: GolfLift | SpinRatioLift | ConstantLift | NoLift = either(GolfLift(), "Magnus lift")
-
-
-class Air(OutdoorAir):
-    """The air and how it moves."""
-
-    viscosity: float = quantity(1.789e-5, "Pa s", 1e-7, 10, "dynamic viscosity, for the Reynolds number")
+    spin_decay: float = quantity(..., "", 0, 0.01, "k of dw/dt = -k |u| w / r, in air of 1.204 kg/m^3")
+    drag: GolfDrag | DimpledDrag | NoDrag = either(..., "drag of the air")
+    lift: GolfLift | SpinRatioLift | ConstantLift | NoLift = either(..., "Magnus lift")
 
 
 class Turf(Group):
     """A kind of ground: how a ball bounces and rolls on it."""
 
-    bounce: float = quantity(1.0, "", 0, 2, "restitution over that of Penner's green")
-    friction: float = quantity(0.40, "", 0, 10, "friction of ball and ground")
-    give: float = quantity(1.0, "", 0, 2, "how far it gives way under a bounce, over Penner's green")
-    resistance: float = quantity(0.14, "", 0, 10, "deceleration of a rolling ball over gravity")
+    bounce: float = quantity(..., "", 0, 2, "restitution over that of Penner's green")
+    friction: float = quantity(..., "", 0, 10, "friction of ball and ground")
+    give: float = quantity(..., "", 0, 2, "how far it gives way under a bounce, over Penner's green")
+    resistance: float = quantity(..., "", 0, 10, "deceleration of a rolling ball over gravity")
 
 
 class Green(Group):
     """The green around the pin."""
 
-    length: float = quantity(30.0, "m", 0, 200, "length, the pin in its middle")
-    stimp: float = quantity("10 ft", "m", 0.3, 12, "reading of a stimpmeter")
-    bounce: float = quantity(1.0, "", 0, 2, "restitution over that of Penner's green")
-    friction: float = quantity(0.40, "", 0, 10, "friction of ball and ground")
-    give: float = quantity(1.0, "", 0, 2, "how far it gives way under a bounce, over Penner's green")
+    length: float = quantity(..., "m", 0, 200, "length, the pin in its middle")
+    stimp: float = quantity(..., "m", 0.3, 12, "reading of a stimpmeter")
+    bounce: float = quantity(..., "", 0, 2, "restitution over that of Penner's green")
+    friction: float = quantity(..., "", 0, 10, "friction of ball and ground")
+    give: float = quantity(..., "", 0, 2, "how far it gives way under a bounce, over Penner's green")
 
 
 class Strip(Group):
@@ -129,36 +128,36 @@ class Strip(Group):
 class Ground(Group):
     """The course, from the side."""
 
-    tee: Turf = group(Turf(), "tee")
-    fairway: Turf = group(Turf(), "fairway")
-    rough: Turf = group(Turf(bounce=0.7, friction=0.5, resistance=0.4), "rough")
-    bunker: Turf = group(Turf(bounce=0.2, friction=0.8, resistance=1.0), "bunker")
-    green: Green = group(Green(), "green")
-    strips: list[Strip] = groups([], "stretches laid over the fairway, later ones on top; the green lies over all")
+    tee: Turf = group(..., "tee")
+    fairway: Turf = group(..., "fairway")
+    rough: Turf = group(..., "rough")
+    bunker: Turf = group(..., "bunker")
+    green: Green = group(..., "green")
+    strips: list[Strip] = groups(..., "stretches laid over the fairway, later ones on top; the green lies over all")
     heights: list[tuple[float, float]] = vectors(
-        [], 2, "m", -1000, 3000, "points (x, height) of the ground's line, level beyond its ends; empty: level at 0"
+        ..., 2, "m", -1000, 3000, "points (x, height) of the ground's line, level beyond its ends; empty: level at 0"
     )
 
 
 class Pin(Group):
     """The flag and its cup."""
 
-    distance: float = quantity(277.0, "m", -500, 2500, "from the tee to the middle of the cup")
-    cup_width: float = quantity("108 mm", "m", 0, 10, "width of the cup; 0 for none")
-    cup_depth: float = quantity("101.6 mm", "m", 0.01, 2, "depth of the cup")
+    distance: float = quantity(..., "m", -500, 2500, "from the tee to the middle of the cup")
+    cup_width: float = quantity(..., "m", 0, 10, "width of the cup; 0 for none")
+    cup_depth: float = quantity(..., "m", 0.01, 2, "depth of the cup")
 
 
 class Parameters(Group):
     """All numbers of a golf shot."""
 
-    start: Literal["launch", "club"] = choice("launch", "begin with the ball's launch, or with the club head")
-    launch: Launch = group(Launch(), "the ball just after it was struck")
-    club: Club = group(Club(), "the club head")
-    gravity: float = quantity(9.81, "m/s^2", 0, 30, "gravity")
-    air: Air = group(Air(), "the air")
-    ball: BallParameters = group(BallParameters(), "the ball")
-    ground: Ground = group(Ground(), "the course")
-    pin: Pin = group(Pin(), "the flag and its cup")
+    start: Literal["launch", "club"] = choice(..., "begin with the ball's launch, or with the club head")
+    launch: Launch = group(..., "the ball just after it was struck")
+    club: Club = group(..., "the club head")
+    gravity: float = quantity(..., "m/s^2", 0, 30, "gravity")
+    air: OutdoorAir = group(..., "the air")
+    ball: GolfBall = group(..., "the ball")
+    ground: Ground = group(..., "the course")
+    pin: Pin = group(..., "the flag and its cup")
     accuracy: Accuracy = group(Accuracy(), "speed against accuracy")
 
 
@@ -198,67 +197,35 @@ CUP = (0.0, 0.4, 0.1)
 def build(parameters: Parameters) -> Setup:
     """Ball, course, and the forces that this shot needs. Raises RequestError where the course makes no sense."""
     air, ball = parameters.air, parameters.ball
-    surfaces = _course(parameters)
-    velocity, spin = launched(parameters)
-    wind = wind_in(air)
-    forces: list[Force] = []
-    torques: list[Torque] = []
-    if parameters.gravity > 0.0:
-        forces.append(Gravity(ball.mass, parameters.gravity))
-    if air.density > 0.0:
-        drag, lift, about = ball.drag, ball.lift, (wind, ball.cross_section, air.viscosity)
-        if not isinstance(drag, NoDrag):
-            forces.append(Drag(ball.radius, air.density, _drag_coefficient(drag), *about))
-        if not isinstance(lift, NoLift):
-            along_ground = lift.velocity == "ground"
-            forces.append(Magnus(ball.radius, air.density, _lift_coefficient(lift), *about, along_ground=along_ground))
-        if ball.spin_decay > 0.0:
-            inertia = SOLID_SPHERE * ball.mass * ball.radius**2
-            torques.append(SpinDecay(inertia, ball.radius, ball.spin_decay * air.density / STANDARD_DENSITY, wind))
-    start = (0.0, _resting_height(parameters, 0.0))
+    forces = forces_in_flight(ball, air, parameters.gravity)
+    teed = launched_ball(parameters.launch, ball, (0.0, _resting_height(parameters, 0.0)), forces, SOLID_SPHERE)
+    if parameters.start == "club":
+        struck = _struck(parameters.club, ball)
+        teed = replace(teed, velocity=(struck.vx, struck.vy), spin=struck.spin)
+    if air.density > 0.0 and ball.spin_decay > 0.0:
+        rate = ball.spin_decay * air.density / STANDARD_DENSITY
+        teed = replace(teed, torques=[SpinDecay(teed.inertia, ball.radius, rate, wind_in(air))])
     return Setup(
-        balls=[Ball("ball", ball.mass, ball.radius, start, velocity, spin, forces=forces, torques=torques)],
-        surfaces=surfaces,
+        balls=[teed],
+        surfaces=_course(parameters),
         duration=LONGEST,
         until=_is_in_water,
         bounds=Bounds(-FAR, -FAR, FAR, FAR),
     )
 
 
-def launched(parameters: Parameters) -> tuple[tuple[float, float], float]:
-    """Velocity (m/s) and spin (rad/s, counter-clockwise) of the ball as it leaves the tee."""
-    if parameters.start == "club":
-        club, ball = parameters.club, parameters.ball
-        if club.loft - club.attack > 90.0:
-            raise RequestError(
-                f"club.attack = {club.attack:g} deg: with club.loft = {club.loft:g} deg "
-                "the face moves away from the ball"
-            )
-        head = Head(club.mass, club.restitution, club.friction, club.stiffness, club.depth, club.inertia)
-        loft, attack = radians(club.loft), radians(club.attack)
-        struck = strike(head, club.speed, loft, attack, club.height, ball.mass, ball.radius)
-        return (struck.vx, struck.vy), struck.spin
-    launch = parameters.launch
-    angle = radians(launch.angle)
-    return (launch.speed * cos(angle), launch.speed * sin(angle)), launch.spin * RPM
+def _struck(club: Club, ball: GolfBall) -> Struck:
+    """The ball as it leaves the face."""
+    if club.loft - club.attack > 90.0:
+        raise RequestError(
+            f"club.attack = {club.attack:g} deg: with club.loft = {club.loft:g} deg the face moves away from the ball"
+        )
+    head = Head(club.mass, club.restitution, club.friction, club.stiffness, club.depth, club.inertia)
+    return strike(head, club.speed, radians(club.loft), radians(club.attack), club.height, ball.mass, ball.radius)
 
 
 def _is_in_water(event: Event) -> bool:
     return event.partner == "water"
-
-
-def _drag_coefficient(drag: GolfDrag | ConstantDrag) -> coefficients.Coefficient:
-    if isinstance(drag, ConstantDrag):
-        return coefficients.Constant(drag.coefficient)
-    return coefficients.GOLF_DRAG[drag.model]
-
-
-def _lift_coefficient(lift: GolfLift | SpinRatioLift | ConstantLift) -> coefficients.Coefficient:
-    if isinstance(lift, ConstantLift):
-        return coefficients.Constant(lift.coefficient)
-    if isinstance(lift, SpinRatioLift):
-        return coefficients.spin_ratio_lift
-    return coefficients.GOLF_LIFT[lift.model]
 
 
 # --------------------------------------------------------------------------------------------------------------- course

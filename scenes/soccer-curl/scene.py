@@ -13,27 +13,20 @@ from __future__ import annotations
 
 from dataclasses import replace
 from itertools import pairwise
-from math import cos, hypot, radians, sin, tan
-from typing import Literal
+from math import cos, hypot, radians, tan
 
-from sandbox.aerodynamics import (
-    Air,
-    ConstantDrag,
-    ConstantLift,
-    NoDrag,
-    NoLift,
-    SpinRatioLift,
-    aerodynamic_forces,
-)
 from sandbox.engine.run import Event, Run
-from sandbox.engine.setup import HOLLOW_SPHERE, Always, Ball, Bounce, Circle, Segment, Setup, Surface, Vector
+from sandbox.engine.setup import Always, Ball, Bounce, Circle, Segment, Setup, Surface, Vector
 from sandbox.errors import RequestError
-from sandbox.parameters import Accuracy, Group, choice, either, group, quantity, switch
-from sandbox.physics.coefficients import SOCCER_DRAG, SOCCER_LIFT
+from sandbox.parameters import Accuracy, Group, group, quantity, switch
+from sandbox.sport.air import Air
 from sandbox.sport.amounts import roughly
 from sandbox.sport.controls import Controls, Spin, Spread
 from sandbox.sport.facts import ENDED, Fact, once
-from sandbox.sport.readings import BALL_SPEED, LAUNCH_ANGLE, LAUNCH_SPIN, RPM, Moment, at, first_touch, passing
+from sandbox.sport.flight import forces_in_flight, launched_ball
+from sandbox.sport.readings import BALL_SPEED, LAUNCH_ANGLE, LAUNCH_SPIN, Moment, at, first_touch, passing
+
+from ..soccer.ball import SoccerBall
 
 # --------------------------------------------------------------------------------------------------------- parameters
 
@@ -41,84 +34,62 @@ from sandbox.sport.readings import BALL_SPEED, LAUNCH_ANGLE, LAUNCH_SPIN, RPM, M
 class Launch(Group):
     """The ball just after the kick."""
 
-    speed: float = quantity(27.0, "m/s", 0, 340, "ball speed")
-    angle: float = quantity(-12.0, "deg", -180, 180, "direction, to the left of straight at the goal line")
-    spin: float = quantity(500.0, "rpm", -20000, 20000, "positive bends the ball to the left")
+    speed: float = quantity(..., "m/s", 0, 340, "ball speed")
+    angle: float = quantity(..., "deg", -180, 180, "direction, to the left of straight at the goal line")
+    spin: float = quantity(..., "rpm", -20000, 20000, "positive bends the ball to the left")
     tilt: float = quantity(
-        0.0, "deg", -90, 90, "lean of the spin's axis from the upright; only its cosine bends the ball"
+        ..., "deg", -90, 90, "lean of the spin's axis from the upright; only its cosine bends the ball"
     )
-
-
-class ModelDrag(Group):
-    """Drag of a soccer ball by its source."""
-
-    model: Literal["goff-carre", "textbook"] = choice("goff-carre", "drag coefficient by its source")
-
-
-class ModelLift(Group):
-    """Magnus force of a soccer ball by its source."""
-
-    model: Literal["asai", "power-law"] = choice("asai", "lift coefficient by its source")
-    velocity: Literal["air", "ground"] = choice("air", "velocity that lift is reckoned by: relative to air or ground")
-
-
-class BallParameters(Group):
-    """The soccer ball, a hollow sphere."""
-
-    mass: float = quantity(0.430, "kg", 0.001, 10, "mass")
-    radius: float = quantity(0.110, "m", 0.01, 0.5, "radius")
-    drag: ModelDrag | ConstantDrag | NoDrag = either(ModelDrag(), "drag of the air")
-    lift: ModelLift | ConstantLift | SpinRatioLift | NoLift = either(ModelLift(), "Magnus force")
 
 
 class Goal(Group):
     """The goal from above."""
 
-    distance: float = quantity(22.0, "m", 0, 200, "from the ball straight to the middle of the goal line's width")
-    offset: float = quantity(0.0, "m", -40, 40, "middle of the goal to the left of the ball")
-    width: float = quantity(7.32, "m", 0, 20, "between the posts")
-    post_radius: float = quantity(0.06, "m", 0.001, 1, "radius of the posts; the goal line is as wide")
-    restitution: float = quantity(0.7, "", 0, 1, "of ball and post")
-    friction: float = quantity(0.3, "", 0, 10, "of ball and post")
-    depth: float = quantity(2.0, "m", 0.5, 5, "from the goal line to the back of the net")
-    net_restitution: float = quantity(0.05, "", 0, 1, "of ball and net")
-    net_friction: float = quantity(0.1, "", 0, 10, "of ball and net")
+    distance: float = quantity(..., "m", 0, 200, "from the ball straight to the middle of the goal line's width")
+    offset: float = quantity(..., "m", -40, 40, "middle of the goal to the left of the ball")
+    width: float = quantity(..., "m", 0, 20, "between the posts")
+    post_radius: float = quantity(..., "m", 0.001, 1, "radius of the posts; the goal line is as wide")
+    restitution: float = quantity(..., "", 0, 1, "of ball and post")
+    friction: float = quantity(..., "", 0, 10, "of ball and post")
+    depth: float = quantity(..., "m", 0.5, 5, "from the goal line to the back of the net")
+    net_restitution: float = quantity(..., "", 0, 1, "of ball and net")
+    net_friction: float = quantity(..., "", 0, 10, "of ball and net")
 
 
 class Wall(Group):
     """The wall of players."""
 
-    present: bool = switch(True, "whether there is a wall of players")
-    distance: float = quantity(9.15, "m", 0, 200, "from the ball straight to the middle of the wall")
-    offset: float = quantity(0.0, "m", -40, 40, "middle of the wall to the left of the ball")
-    width: float = quantity(2.0, "m", 0.1, 40, "from side to side")
-    thickness: float = quantity(0.3, "m", 0.01, 5, "how deep a player is")
-    restitution: float = quantity(0.4, "", 0, 1, "of ball and player")
-    friction: float = quantity(0.5, "", 0, 10, "of ball and player")
+    present: bool = switch(..., "whether there is a wall of players")
+    distance: float = quantity(..., "m", 0, 200, "from the ball straight to the middle of the wall")
+    offset: float = quantity(..., "m", -40, 40, "middle of the wall to the left of the ball")
+    width: float = quantity(..., "m", 0.1, 40, "from side to side")
+    thickness: float = quantity(..., "m", 0.01, 5, "how deep a player is")
+    restitution: float = quantity(..., "", 0, 1, "of ball and player")
+    friction: float = quantity(..., "", 0, 10, "of ball and player")
 
 
 class Keeper(Group):
     """The keeper, a heavy disc."""
 
-    present: bool = switch(True, "whether there is a keeper")
-    distance: float = quantity(0.5, "m", 0, 20, "in front of the goal line")
-    offset: float = quantity(0.5, "m", -20, 20, "at the kick, to the left of the middle of the goal")
-    speed: float = quantity(0.0, "m/s", -15, 15, "along the goal line from the kick on, to the left")
-    radius: float = quantity(0.4, "m", 0.05, 5, "half the width that he covers")
-    mass: float = quantity(80.0, "kg", 1, 1000, "mass")
-    restitution: float = quantity(0.3, "", 0, 1, "of ball and keeper")
-    friction: float = quantity(0.5, "", 0, 10, "of ball and keeper")
+    present: bool = switch(..., "whether there is a keeper")
+    distance: float = quantity(..., "m", 0, 20, "in front of the goal line")
+    offset: float = quantity(..., "m", -20, 20, "at the kick, to the left of the middle of the goal")
+    speed: float = quantity(..., "m/s", -15, 15, "along the goal line from the kick on, to the left")
+    radius: float = quantity(..., "m", 0.05, 5, "half the width that he covers")
+    mass: float = quantity(..., "kg", 1, 1000, "mass")
+    restitution: float = quantity(..., "", 0, 1, "of ball and keeper")
+    friction: float = quantity(..., "", 0, 10, "of ball and keeper")
 
 
 class Parameters(Group):
     """All numbers of a kick."""
 
-    launch: Launch = group(Launch(), "the ball just after the kick")
-    air: Air = group(Air(), "the air")
-    ball: BallParameters = group(BallParameters(), "the ball")
-    wall: Wall = group(Wall(), "the wall of players")
-    keeper: Keeper = group(Keeper(), "the keeper")
-    goal: Goal = group(Goal(), "the goal")
+    launch: Launch = group(..., "the ball just after the kick")
+    air: Air = group(..., "the air")
+    ball: SoccerBall = group(..., "the ball")
+    wall: Wall = group(..., "the wall of players")
+    keeper: Keeper = group(..., "the keeper")
+    goal: Goal = group(..., "the goal")
     accuracy: Accuracy = group(Accuracy(), "speed against accuracy")
 
 
@@ -144,21 +115,8 @@ def build(parameters: Parameters) -> Setup:
     """Ball, keeper, wall and goal. Raises RequestError where they do not go together."""
     _check(parameters)
     launch, ball, keeper = parameters.launch, parameters.ball, parameters.keeper
-    angle = radians(launch.angle)
-    share = cos(radians(launch.tilt))
-    forces = aerodynamic_forces(parameters.air, ball.radius, ball.drag, ball.lift, SOCCER_DRAG | SOCCER_LIFT, share)
-    balls = [
-        Ball(
-            "ball",
-            ball.mass,
-            ball.radius,
-            position=(0.0, 0.0),
-            velocity=(launch.speed * cos(angle), launch.speed * sin(angle)),
-            spin=launch.spin * RPM,
-            inertia_factor=HOLLOW_SPHERE,
-            forces=forces,
-        )
-    ]
+    forces = forces_in_flight(ball, parameters.air, lift_share=cos(radians(launch.tilt)))
+    balls = [launched_ball(launch, ball, (0.0, 0.0), forces)]
     if keeper.present:
         balls.append(
             Ball("keeper", keeper.mass, keeper.radius, position=_keeper(parameters), velocity=(0.0, keeper.speed))

@@ -13,105 +13,66 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from itertools import pairwise
-from math import cos, radians, sin
-from typing import Literal
 
-from sandbox.aerodynamics import (
-    ConstantDrag,
-    ConstantLift,
-    NoDrag,
-    NoLift,
-    OutdoorAir,
-    SpinRatioLift,
-    aerodynamic_forces,
-)
 from sandbox.engine.run import Event, Run
-from sandbox.engine.setup import HOLLOW_SPHERE, Ball, Circle, Segment, Setup, Surface
+from sandbox.engine.setup import Circle, Segment, Setup, Surface
 from sandbox.errors import RequestError
-from sandbox.parameters import Accuracy, Group, choice, either, group, quantity, switch
-from sandbox.physics.coefficients import SOCCER_DRAG, SOCCER_LIFT
-from sandbox.physics.forces import Gravity
+from sandbox.parameters import Accuracy, Group, group, quantity, switch
+from sandbox.sport.air import OutdoorAir
 from sandbox.sport.amounts import roughly
 from sandbox.sport.controls import Controls, Spin, Spread
 from sandbox.sport.facts import ENDED, Fact, once
-from sandbox.sport.readings import LAUNCH, RPM, Moment, at, first_touch, passing
+from sandbox.sport.flight import Launch, forces_in_flight, launched_ball
+from sandbox.sport.readings import LAUNCH, Moment, at, first_touch, passing
+
+from .ball import SoccerBall
 
 # --------------------------------------------------------------------------------------------------------- parameters
-
-
-class Launch(Group):
-    """The ball just after the kick."""
-
-    speed: float = quantity(27.0, "m/s", 0, 340, "ball speed")
-    angle: float = quantity(20.0, "deg", -90, 180, "direction above the horizontal")
-    spin: float = quantity(-300.0, "rpm", -20000, 20000, "backspin positive; topspin, negative, makes the ball dip")
-
-
-class ModelDrag(Group):
-    """Drag of a soccer ball by its source."""
-
-    model: Literal["goff-carre", "textbook"] = choice("goff-carre", "drag coefficient by its source")
-
-
-class ModelLift(Group):
-    """Lift of a soccer ball by its source."""
-
-    model: Literal["asai", "power-law"] = choice("asai", "lift coefficient by its source")
-    velocity: Literal["air", "ground"] = choice("air", "velocity that lift is reckoned by: relative to air or ground")
-
-
-class BallParameters(Group):
-    """The soccer ball, a hollow sphere."""
-
-    mass: float = quantity(0.430, "kg", 0.001, 10, "mass")
-    radius: float = quantity(0.110, "m", 0.01, 0.5, "radius")
-    drag: ModelDrag | ConstantDrag | NoDrag = either(ModelDrag(), "drag of the air")
-    lift: ModelLift | ConstantLift | SpinRatioLift | NoLift = either(ModelLift(), "Magnus lift")
 
 
 class Goal(Group):
     """The goal at the far end, seen from the side."""
 
-    present: bool = switch(True, "whether there is a goal")
-    distance: float = quantity(22.0, "m", 0, 2000, "from the ball to the middle of the goal line")
-    height: float = quantity(2.44, "m", 0.1, 100, "from the ground to the lower edge of the bar")
-    post_radius: float = quantity(0.06, "m", 0.001, 1, "radius of the bar; the goal line is as wide as the bar")
-    restitution: float = quantity(0.7, "", 0, 1, "of ball and bar")
-    friction: float = quantity(0.3, "", 0, 10, "of ball and bar")
-    depth: float = quantity(2.0, "m", 0.5, 10, "from the goal line to the back of the net, a box")
-    net_restitution: float = quantity(0.05, "", 0, 1, "of ball and net")
-    net_friction: float = quantity(0.1, "", 0, 10, "of ball and net")
+    present: bool = switch(..., "whether there is a goal")
+    distance: float = quantity(..., "m", 0, 2000, "from the ball to the middle of the goal line")
+    height: float = quantity(..., "m", 0.1, 100, "from the ground to the lower edge of the bar")
+    post_radius: float = quantity(..., "m", 0.001, 1, "radius of the bar; the goal line is as wide as the bar")
+    restitution: float = quantity(..., "", 0, 1, "of ball and bar")
+    friction: float = quantity(..., "", 0, 10, "of ball and bar")
+    depth: float = quantity(..., "m", 0.5, 10, "from the goal line to the back of the net, a box")
+    net_restitution: float = quantity(..., "", 0, 1, "of ball and net")
+    net_friction: float = quantity(..., "", 0, 10, "of ball and net")
 
 
 class Wall(Group):
     """The wall of players."""
 
-    present: bool = switch(True, "whether there is a wall of players")
-    distance: float = quantity(9.15, "m", 0, 2000, "from the ball to the middle of the wall")
-    height: float = quantity(1.85, "m", 0.05, 20, "height, a jump included")
-    thickness: float = quantity(0.3, "m", 0.01, 5, "how deep a player is")
-    restitution: float = quantity(0.4, "", 0, 1, "of ball and player")
-    friction: float = quantity(0.5, "", 0, 10, "of ball and player")
+    present: bool = switch(..., "whether there is a wall of players")
+    distance: float = quantity(..., "m", 0, 2000, "from the ball to the middle of the wall")
+    height: float = quantity(..., "m", 0.05, 20, "height, a jump included")
+    thickness: float = quantity(..., "m", 0.01, 5, "how deep a player is")
+    restitution: float = quantity(..., "", 0, 1, "of ball and player")
+    friction: float = quantity(..., "", 0, 10, "of ball and player")
 
 
 class Ground(Group):
     """The grass."""
 
-    restitution: float = quantity(0.6, "", 0, 1, "of ball and grass")
-    friction: float = quantity(0.5, "", 0, 10, "of ball and grass")
-    rolling_resistance: float = quantity(0.1, "", 0, 10, "deceleration of a rolling ball over gravity")
+    restitution: float = quantity(..., "", 0, 1, "of ball and grass")
+    friction: float = quantity(..., "", 0, 10, "of ball and grass")
+    rolling_resistance: float = quantity(..., "", 0, 10, "deceleration of a rolling ball over gravity")
 
 
 class Parameters(Group):
     """All numbers of a kick."""
 
-    launch: Launch = group(Launch(), "the ball just after the kick")
-    gravity: float = quantity(9.81, "m/s^2", 0, 30, "gravity")
-    air: OutdoorAir = group(OutdoorAir(), "the air")
-    ball: BallParameters = group(BallParameters(), "the ball")
-    wall: Wall = group(Wall(), "the wall of players")
-    goal: Goal = group(Goal(), "the goal")
-    ground: Ground = group(Ground(), "the grass")
+    launch: Launch = group(..., "the ball just after the kick")
+    gravity: float = quantity(..., "m/s^2", 0, 30, "gravity")
+    air: OutdoorAir = group(..., "the air")
+    ball: SoccerBall = group(..., "the ball")
+    wall: Wall = group(..., "the wall of players")
+    goal: Goal = group(..., "the goal")
+    ground: Ground = group(..., "the grass")
     accuracy: Accuracy = group(Accuracy(), "speed against accuracy")
 
 
@@ -141,21 +102,9 @@ BOARDS_BEHIND, BOARDS_BEYOND, BOARDS_HEIGHT = -30.0, 8.0, 0.9
 def build(parameters: Parameters) -> Setup:
     """Ball, pitch, wall and goal. Raises RequestError where they do not go together."""
     _check(parameters)
-    launch, ball = parameters.launch, parameters.ball
-    angle = radians(launch.angle)
-    forces = aerodynamic_forces(parameters.air, ball.radius, ball.drag, ball.lift, SOCCER_DRAG | SOCCER_LIFT)
-    if parameters.gravity > 0.0:
-        forces.append(Gravity(ball.mass, parameters.gravity))
-    kicked = Ball(
-        "ball",
-        ball.mass,
-        ball.radius,
-        position=(0.0, ball.radius),
-        velocity=(launch.speed * cos(angle), launch.speed * sin(angle)),
-        spin=launch.spin * RPM,
-        inertia_factor=HOLLOW_SPHERE,
-        forces=forces,
-    )
+    ball = parameters.ball
+    forces = forces_in_flight(ball, parameters.air, parameters.gravity)
+    kicked = launched_ball(parameters.launch, ball, (0.0, ball.radius), forces)
     return Setup([kicked], _pitch(parameters), duration=LONGEST, until=OutOfPlay(_beyond(parameters)))
 
 

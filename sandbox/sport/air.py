@@ -1,0 +1,90 @@
+"""The air, and models of the drag and lift that it exerts on a ball."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from sandbox.parameters import Group, choice, quantity, vector
+from sandbox.physics.air import LogWind, UniformWind
+from sandbox.physics.coefficients import Coefficient, Constant, spin_ratio_lift
+from sandbox.physics.forces import Wind
+
+
+class Air(Group):
+    """Still air, or an even wind."""
+
+    density: float = quantity(..., "kg/m^3", 0, 1100, "density")
+    viscosity: float = quantity(..., "Pa s", 1e-7, 10, "dynamic viscosity, for the Reynolds number")
+    wind: tuple[float, float] = vector(..., "m/s", -100, 100, "along x and y; negative x is a headwind")
+
+
+class OutdoorAir(Air):
+    """The air over level ground, and how it moves."""
+
+    profile: Literal["uniform", "log"] = choice(..., "even wind, or one that grows with height over the ground")
+    reference_height: float = quantity(..., "m", 0.1, 100, "height at which a log profile has the wind given")
+    roughness: float = quantity(..., "m", 0.0001, 2, "roughness length of a log profile")
+
+
+def wind_in(air: Air) -> Wind | None:
+    """The wind as a velocity field, or None for still air."""
+    if air.wind == (0.0, 0.0):
+        return None
+    if isinstance(air, OutdoorAir) and air.profile == "log":
+        return LogWind(air.wind, air.reference_height, air.roughness)
+    return UniformWind(*air.wind)
+
+
+class Model(Group):
+    """One model of drag or lift, chosen by its word ``model``; a sport adds those of its ball."""
+
+    def coefficient_law(self) -> Coefficient | None:
+        """The coefficient by Reynolds number and spin ratio; None for no force."""
+        return None
+
+
+class Lift(Model):
+    """A model of lift, or of any force across the flow."""
+
+    velocity: Literal["air", "ground"] = choice("air", "velocity that lift is computed from: relative to air or ground")
+
+
+class ConstantDrag(Model):
+    """One drag coefficient for all speeds."""
+
+    model: Literal["constant"] = choice("constant", "drag coefficient by its source")
+    coefficient: float = quantity(0.47, "", 0, 10, "drag coefficient")
+
+    def coefficient_law(self) -> Coefficient:
+        return Constant(self.coefficient)
+
+
+class NoDrag(Model):
+    """No drag."""
+
+    model: Literal["none"] = choice("none", "drag coefficient by its source")
+
+
+class ConstantLift(Lift):
+    """One lift coefficient for all spins."""
+
+    model: Literal["constant"] = choice("constant", "lift coefficient by its source")
+    coefficient: float = quantity(0.2, "", 0, 10, "lift coefficient")
+
+    def coefficient_law(self) -> Coefficient:
+        return Constant(self.coefficient)
+
+
+class SpinRatioLift(Lift):
+    """A lift coefficient equal to the spin ratio r w / v."""
+
+    model: Literal["spin-ratio"] = choice("spin-ratio", "lift coefficient by its source")
+
+    def coefficient_law(self) -> Coefficient:
+        return spin_ratio_lift
+
+
+class NoLift(Model):
+    """No lift."""
+
+    model: Literal["none"] = choice("none", "lift coefficient by its source")

@@ -1,0 +1,93 @@
+"""A ball that is launched into the air: its parameters, the forces on it, and the ball itself."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import cos, pi, radians, sin
+from typing import Protocol
+
+from sandbox.engine.setup import HOLLOW_SPHERE, Ball, Force, Vector
+from sandbox.parameters import Group, quantity
+from sandbox.physics.coefficients import Scaled
+from sandbox.physics.forces import Drag, Gravity, Magnus
+from sandbox.sport.air import Air, Lift, Model, wind_in
+
+RPM = pi / 30.0  # rad/s
+
+
+class Launch(Group):
+    """The ball as it leaves hand, foot or club, seen from the side."""
+
+    speed: float = quantity(..., "m/s", 0, 340, "ball speed")
+    angle: float = quantity(..., "deg", -90, 180, "direction above the horizontal")
+    spin: float = quantity(..., "rpm", -20000, 20000, "backspin positive, topspin negative")
+
+
+class Sphere(Group):
+    """A ball."""
+
+    mass: float = quantity(..., "kg", 0.0001, 20, "mass")
+    radius: float = quantity(..., "m", 0.0005, 0.5, "radius")
+    cross_section: float | None = quantity(None, "m^2", 1e-7, 1, "area against the air, where not that of the radius")
+
+
+class Flying(Protocol):
+    """A Sphere to which the sport has added its models of drag and lift."""
+
+    @property
+    def mass(self) -> float: ...
+    @property
+    def radius(self) -> float: ...
+    @property
+    def cross_section(self) -> float | None: ...
+    @property
+    def drag(self) -> Model: ...
+    @property
+    def lift(self) -> Model: ...
+
+
+class Launched(Protocol):
+    """Speed in m/s, angle in deg, spin in rpm."""
+
+    @property
+    def speed(self) -> float: ...
+    @property
+    def angle(self) -> float: ...
+    @property
+    def spin(self) -> float: ...
+
+
+def forces_in_flight(ball: Flying, air: Air, gravity: float = 0.0, lift_share: float = 1.0) -> list[Force]:
+    """Weight, drag and Magnus lift, each only where there is one.
+
+    Of the lift only ``lift_share`` lies in the scene's plane, less than 1 where the spin's axis leans.
+    """
+    forces: list[Force] = [Gravity(ball.mass, gravity)] if gravity > 0.0 else []
+    if air.density == 0.0:
+        return forces
+    about = (wind_in(air), ball.cross_section, air.viscosity)
+    drag, lift = ball.drag.coefficient_law(), ball.lift.coefficient_law()
+    if drag is not None:
+        forces.append(Drag(ball.radius, air.density, drag, *about))
+    if lift is not None:
+        lift = lift if lift_share == 1.0 else Scaled(lift, lift_share)
+        along_ground = isinstance(ball.lift, Lift) and ball.lift.velocity == "ground"
+        forces.append(Magnus(ball.radius, air.density, lift, *about, along_ground=along_ground))
+    return forces
+
+
+def launched_ball(
+    launch: Launched, ball: Flying, place: Vector, forces: Sequence[Force], inertia_factor: float = HOLLOW_SPHERE
+) -> Ball:
+    """The ball ``"ball"`` as it leaves ``place`` (m)."""
+    angle = radians(launch.angle)
+    return Ball(
+        "ball",
+        ball.mass,
+        ball.radius,
+        position=place,
+        velocity=(launch.speed * cos(angle), launch.speed * sin(angle)),
+        spin=launch.spin * RPM,
+        inertia_factor=inertia_factor,
+        forces=forces,
+    )
