@@ -196,7 +196,7 @@ CUP = (0.0, 0.4, 0.1)
 
 def build(parameters: Parameters) -> Setup:
     """Ball, course, and the forces that this shot needs. Raises RequestError where the course makes no sense."""
-    air, ball = parameters.air, parameters.ball
+    air, ball, course = parameters.air, parameters.ball, _course(parameters)
     forces = forces_in_flight(ball, air, parameters.gravity)
     teed = launched_ball(parameters.launch, ball, (0.0, _resting_height(parameters, 0.0)), forces, SOLID_SPHERE)
     if parameters.start == "club":
@@ -207,7 +207,7 @@ def build(parameters: Parameters) -> Setup:
         teed = replace(teed, torques=[SpinDecay(teed.inertia, ball.radius, rate, wind_in(air))])
     return Setup(
         balls=[teed],
-        surfaces=_course(parameters),
+        surfaces=course,
         duration=LONGEST,
         until=_is_in_water,
         bounds=Bounds(-FAR, -FAR, FAR, FAR),

@@ -29,9 +29,9 @@ def everything(schema: type[Group]) -> st.SearchStrategy[Overrides]:
     return st.fixed_dictionaries(dict(_keys(schema)))
 
 
-def nearby(schema: type[Group]) -> st.SearchStrategy[Overrides]:
+def nearby(parameters: Group) -> st.SearchStrategy[Overrides]:
     """Every number within a fifth of what the scene has, as far as its bounds allow; words as they are."""
-    numbers = [p for p in walk(schema()) if p.low is not None and p.high is not None and isinstance(p.value, float)]
+    numbers = [p for p in walk(parameters) if p.low is not None and p.high is not None and isinstance(p.value, float)]
     return st.fixed_dictionaries(
         {p.key: st.floats(*sorted(min(max(share * p.value, p.low), p.high) for share in _NEAR)) for p in numbers}
     )
