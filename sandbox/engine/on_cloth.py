@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import copysign, hypot
+from math import copysign, hypot, isfinite
 
 from sandbox.engine.arc import Arc, still
 from sandbox.engine.motion import Contact
 from sandbox.engine.run import Numerics
 from sandbox.engine.setup import Ball, Bounce
 from sandbox.engine.track import Track
+from sandbox.errors import RunError
 from sandbox.physics.cloth import Cloth
 from sandbox.physics.cushion import rebound
 from sandbox.physics.integrators import State
@@ -41,6 +42,11 @@ class OnCloth:
             return still(t, until, state), ""
         h = min(phase.duration, until - t)
         end = self._cloth.after(state, phase, h)
+        if not all(map(isfinite, end)):
+            raise RunError(
+                f"t = {t:.6g} s, ball {self.ball.name!r}: its motion on the cloth is beyond what can be computed with; "
+                "check its radius and speed, and the cloth's friction"
+            )
         x, y, vx, vy, spin, wx, wy = state
         x1, y1, vx1, vy1, spin1, wx1, wy1 = end
         half = 0.5 * h

@@ -2,17 +2,19 @@
 user's force.
 """
 
-from math import inf, nan, pi, sin, tanh
+from math import inf, isfinite, nan, pi, sin, tanh
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from sandbox.engine import simulate, simulate_many
 from sandbox.engine.accuracy import LEVELS, resolve
 from sandbox.engine.ledger import ledger
 from sandbox.engine.motion import Diverged
 from sandbox.engine.setup import Ball, Bounce, Bounds, Catch, Circle, Segment, Setup, Surface
-from sandbox.errors import RequestError, RunError
+from sandbox.errors import RequestError, RunError, SandboxError
 from sandbox.physics.cloth import Cloth
 from sandbox.physics.coefficients import Constant
 from sandbox.physics.forces import Drag, Gravity
@@ -277,3 +279,35 @@ def test_numbers_that_no_float_holds_are_a_named_error(accuracy, mass, radius, p
 
     with pytest.raises((RequestError, RunError)):
         run()
+
+
+EXTREME = st.sampled_from([1e-320, 1e-300, 1e-160, 1e-20, 0.1, 1.0, 1e20, 1e150, 1e300])
+
+
+@settings(max_examples=60, deadline=None)
+@given(
+    mass=EXTREME,
+    radius=EXTREME,
+    speed=EXTREME,
+    gravity=EXTREME,
+    size=EXTREME,
+    accuracy=st.sampled_from([resolve(), resolve(integrator="rk4", step=0.01), resolve(method="plain", step=0.01)]),
+    cloth=st.booleans(),
+)
+def test_sizes_beyond_arithmetic_are_named_errors(mass, radius, speed, gravity, size, accuracy, cloth):
+    """From the smallest to the largest numbers: a run, or an error that says what is wrong."""
+    try:
+        shot = Ball("ball", mass, radius, (0.0, 1.0), (speed, -speed), speed, forces=[Gravity(mass, gravity)])
+        post = Surface("post", Circle((size, 0.0), size), 0.5, 0.5)
+        floor = Surface("floor", Segment((-size, 0.0), (size, 0.0)), 0.5, 0.5, 0.1)
+        setup = Setup([shot], [floor, post], duration=0.1, cloth=Cloth(gravity=gravity) if cloth else None)
+        run = simulate(setup, accuracy)
+    except (ValueError, SandboxError):
+        return  # named
+    assert all(map(isfinite, run.state("ball", 0.1)))
+
+
+def test_a_force_that_divides_by_nothing_is_the_scenes_own_error():
+    ball = Ball("ball", 1.0, 0.1, (0.0, 0.0), forces=[lambda t, position, velocity, spin: (1.0 / position[0], 0.0)])
+    with pytest.raises(ZeroDivisionError):
+        simulate(Setup([ball], duration=1.0), resolve())
