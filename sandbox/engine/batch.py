@@ -76,9 +76,8 @@ def _one(setup: Setup, accuracy: Accuracy) -> Run | Exception:
 
 
 def _kind(setup: Setup, alike: Alike) -> Hashable:
-    """What setups of one batch have in common: they differ in numbers only, and in their laws and ends."""
-    surfaces = [(surface.name, surface.shape) for surface in setup.surfaces]
-    return alike.key((_moving(setup), surfaces))
+    """What setups of one batch have in common: they differ in numbers only, and in how they end."""
+    return tuple(map(alike.key, (setup.balls[0], setup.surfaces, setup.patches)))
 
 
 def _moving(setup: Setup) -> Moving:

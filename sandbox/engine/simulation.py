@@ -163,7 +163,10 @@ class Simulation:
         return t, "until" if self._over else "rest"
 
     def _all_rest(self) -> bool:
-        return all(track.rests or track.caught for track in self._tracks)
+        for track in self._tracks:  # noqa: SIM110  (twice as quick as all())
+            if not (track.rests or track.caught):
+                return False
+        return True
 
     def _go_on(self, t: float, index: int, reason: str) -> None:
         """An arc has come to its end."""
@@ -274,17 +277,17 @@ class Simulation:
         track.arc = arc
         self._note_rest(track, t)
         at, own = arc.t1, None if track.contact is None else track.contact.obstacle
-        limits = arc.box()
+        left, bottom, right, top = arc.box()
         for obstacles, what in ((track.obstacles, "touch"), (track.catches, "catch")):
             for obstacle in obstacles:
-                if obstacle is own or not obstacle.may_meet(limits):
+                west, south, east, north = obstacle.box
+                if left > east or right < west or bottom > north or top < south or obstacle is own:
                     continue
                 self._numerics.queries += 1
                 u = obstacle.first_touch(arc)
                 if u is not None and (touch := arc.t0 + u * (arc.t1 - arc.t0)) <= at:
                     at, kind = touch, what
         self._push(at, kind, index)
-        left, bottom, right, top = limits
         for other, neighbour in enumerate(self._tracks):
             if other == index or neighbour.caught:
                 continue

@@ -28,9 +28,13 @@ class Gravity:
 
     mass: float  # kg
     gravity: float  # m/s^2
+    _force: tuple[float, float] = field(init=False, repr=False)  # N
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "_force", (0.0, -self.mass * self.gravity))
 
     def __call__(self, t: float, position: Any, velocity: Any, spin: Any) -> tuple[Any, Any]:
-        return 0.0, -self.mass * self.gravity
+        return self._force
 
 
 @dataclass(frozen=True)
