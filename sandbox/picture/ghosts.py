@@ -34,7 +34,7 @@ class Ghost:
     """Another run: what it is called, its own picture, its colour, and how far it is moved (m) to lie over this one."""
 
     label: str
-    picture: Any  # of the same class as the picture that it is drawn on
+    picture: View[Any]  # of the same class as the picture that it is drawn on
     colour: Colour
     shift: tuple[float, float] = (0.0, 0.0)
 
@@ -92,15 +92,6 @@ def ghosts_on(picture: View[Any], runs: Mapping[str, Run]) -> list[Ghost]:
             raise RequestError(f"{label}: {what} is at {there_y:g} m, and here at {y:g} m: these cannot be compared")
         ghosts.append(Ghost(label, other, colours[i % len(colours)], (x - there_x, y - there_y)))
     return ghosts
-
-
-def ghosts_of(kind: Any, runs: Mapping[str, Any], size: tuple[int, int]) -> list[Ghost]:
-    """Ghosts for runs of a scene by their labels; ``kind`` is the scene's class of pictures."""
-    colours = colours_beside(kind)
-    return [
-        Ghost(label, kind(run, run.scene.parameters, size), colours[i % len(colours)])
-        for i, (label, run) in enumerate(runs.items())
-    ]
 
 
 def draw_in_frame(sheet: Sheet, ghost: Ghost, points: np.ndarray, at: Sequence[float]) -> None:

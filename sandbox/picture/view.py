@@ -34,6 +34,10 @@ TRACES, RIM = palette("trace")["colours"], palette("trace")["rim"]
 NEAR = 12.0
 #: In frames the ball is at least so much larger than it has to be to be seen.
 LARGER = 1.3
+#: The balls along the path are spread over at least this share of it.
+LEAST_SPAN = 0.25
+#: A ball that is larger by less than this factor is not said to be.
+UNSAID = 1.05
 #: Radius of a bead on the path: at most so much of that of the balls there, and so many px on 720 rows.
 BEAD, LARGEST_BEAD = 0.5, 3.0
 
@@ -94,8 +98,9 @@ class View(Generic[P]):
 
     @cached_property
     def span(self) -> float:
-        """The time in s over which the balls along the path are spread: mostly that of the flight."""
-        return self.told
+        """The time in s over which the balls along the path are spread: until the first touch, unless that is soon."""
+        touches = (event.t for event in self.run.events if self.ball in (event.ball, event.partner))
+        return max(min(next(touches, self.told), self.told), LEAST_SPAN * self.told)
 
     @property
     def moment(self) -> float:
@@ -120,8 +125,8 @@ class View(Generic[P]):
             *self.position(t),
             ("speed", f"{speed:.1f} m/s"),
             ("direction", signed(f"{degrees(atan2(vy, vx)):.0f}") + "°" if speed > 0.01 else "–"),
-            ("spin", self.spin_text(spin)),
             *self.vectors.entries(t),
+            ("spin", self.spin_text(spin)),
         ]
 
     def spin_text(self, spin: float) -> str:
@@ -267,7 +272,7 @@ class View(Generic[P]):
         notes = self.remarks(camera)
         if camera.stretch != 1:
             notes.insert(0, f"heights drawn {camera.stretch:g} times as large as lengths")
-        if (factor := self.least / (self.radius * camera.scale)) > 1:
+        if (factor := self.least / (self.radius * camera.scale)) > UNSAID:
             who, whose = ("ball", "its") if len(self.balls) == 1 else ("balls", "their")
             notes.append(f"{who} drawn {times(factor)} {whose} size")
         return notes
@@ -324,7 +329,7 @@ class View(Generic[P]):
         over = t >= self.told
         headline, *notes = (self.verdict(),) if over else self.progress(t)
         notes += [*(f"compared with {ghost.label}" for ghost in self.ghosts), *self.aligned]
-        if any(radius > 1.001 * self.radii[name] * camera.scale for name, (_, radius) in placed.items()):
+        if any(radius > UNSAID * self.radii[name] * camera.scale for name, (_, radius) in placed.items()):
             notes.append("ball drawn larger than it is" if len(self.balls) == 1 else "balls drawn larger than they are")
         sheet.headline(headline, [note for note in notes if note], room)
         sheet.columns(self.card_row, self.live(t), [ghost.live(t) for ghost in self.ghosts])
@@ -362,7 +367,7 @@ class View(Generic[P]):
         self, painter: Painter, camera: Camera, name: str, t: float, at: tuple[float, float], radius: float
     ) -> None:
         """A ball at time t in s, with a ring around it that says so where it is drawn larger than it is."""
-        larger = radius > 1.001 * self.radii[name] * camera.scale
+        larger = radius > UNSAID * self.radii[name] * camera.scale
         self.look_of(name).draw(painter, at, radius, self.run.angle(name, t), self.unit, larger)
 
     def impacts(self, camera: Camera) -> list[Mark]:

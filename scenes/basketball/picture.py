@@ -59,10 +59,6 @@ class Picture(SideView[Parameters]):
         """When the ball is on the floor."""
         return next((event.t for event in self.run.events if event.partner == "floor"), self.run.duration)
 
-    @cached_property
-    def span(self) -> float:
-        return self.run.result["flight_time"] or self.told
-
     @property
     def moment(self) -> float:
         return self.net.fullest

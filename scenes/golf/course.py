@@ -13,7 +13,7 @@ from sandbox.picture.camera import Box, Camera
 from sandbox.picture.depth import Eye
 from sandbox.picture.painter import OVERSAMPLING, Painter, Point
 from sandbox.picture.palette import Colour, mix, palette, scene_colours
-from sandbox.picture.places import Ground, Landscape, Line, Mown
+from sandbox.picture.places import Ground, Landscape, Line, Stripes
 from sandbox.picture.sheet import rows_of
 
 CARD, COLOURS = palette("card"), scene_colours(__file__)
@@ -96,7 +96,7 @@ class Course:
                 turn = np.linspace(0.0, pi, 41)
                 x, z = (a + b) / 2 + np.cos(turn) * (b - a) / 2, np.sin(turn) * eye.depth(1 - deep)
                 areas.append(([(b, near), *zip(x, z, strict=True), (a, near)], self.turf[name]))
-        stripes = Mown((self.turf["fairway"], self._light(eye.camera, stripe)), stripe)
+        stripes = Stripes((self.turf["fairway"], self._light(eye.camera, stripe)), stripe)
         beyond = self.turf["rough_far"], self.turf["rough"]
         return Ground(stripes, self.turf["soil"], areas=areas, far=FAR, beyond=beyond)
 

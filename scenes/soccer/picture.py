@@ -17,7 +17,7 @@ from sandbox.picture.figures import KICKING
 from sandbox.picture.painter import Painter
 from sandbox.picture.palette import mix, palette, scene_colours
 from sandbox.picture.path import chip
-from sandbox.picture.places import Ground, Group, Line, Mown, Person, Stands, Thing, goal
+from sandbox.picture.places import Ground, Group, Line, Person, Stands, Stripes, Thing, goal
 from sandbox.picture.sheet import Sheet
 from sandbox.picture.side import Length, Place, SideView
 from sandbox.sport.amounts import metres, roughly, times
@@ -61,10 +61,6 @@ class Picture(SideView[Parameters]):
         down = (e.t for e in self.run.events if e.kind == "impact" and e.partner == "ground" and e.t > flight)
         return next(down, self.run.duration)
 
-    @cached_property
-    def span(self) -> float:
-        return max(self.run.result["flight_time"] or 0.0, 0.25 * self.told)
-
     @property
     def datum(self) -> tuple[tuple[float, float], str]:
         return (self.parameters.goal.distance, 0.0), "the goal"
@@ -82,7 +78,7 @@ class Picture(SideView[Parameters]):
     def place(self) -> Place:
         mouth, wall = self.parameters.goal, self.parameters.wall
         ground = Ground(
-            Mown(PITCH["grass"], STRIPE, mouth.distance),
+            Stripes(PITCH["grass"], STRIPE, mouth.distance),
             PITCH["soil"],
             edges=[(PITCH["edge"], 6)],
             lines=_markings(mouth.distance),

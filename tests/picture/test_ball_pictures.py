@@ -90,7 +90,7 @@ class TestEveryShot:
         said = "ball drawn" in texts(picture)
         *along, (_, last, ring) = poster
         assert 2 * last >= SMALLEST * max(1.0, size[1] / 360)
-        assert ring == said == (last > 1.001 * picture.radius * picture.camera.scale)
+        assert ring == said == (last > 1.05 * picture.radius * picture.camera.scale)
         assert all(2 * radius >= SMALLEST for _, radius, _ in along)
         for share in np.linspace(0, 1, 5):
             drawn.clear()

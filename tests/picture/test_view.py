@@ -11,7 +11,7 @@ import pytest
 import sandbox
 from sandbox.picture.ball import Look
 from sandbox.picture.painter import Painter
-from sandbox.picture.places import Landscape, Mown, Stands
+from sandbox.picture.places import Landscape, Stands, Stripes
 from sandbox.picture.view import View
 
 SIDE = ["golf", "golf/golf-game", "golf/putt", "soccer", "soccer/goal-kick-in-a-gale", "basketball/rattle"]
@@ -156,7 +156,7 @@ def test_a_place_is_data(name: str):
         assert one.place.scenery == other.place.scenery
         assert hash(one.place.scenery) == hash(other.place.scenery)
         assert isinstance(one.place.scenery, Stands) == (name == "soccer")
-        assert isinstance(one.place.ground.surface, Mown) == (name == "soccer")
+        assert isinstance(one.place.ground.surface, Stripes) == (name == "soccer")
 
 
 def test_the_net_moves_with_a_swish_in_frames_and_in_the_window():

@@ -1,6 +1,6 @@
 """Of what a place is made, seen from the side: ground, what lies behind it, and things that stand on it."""
 
-from sandbox.picture.places.ground import Ground, Line, Mown, Planks
+from sandbox.picture.places.ground import Ground, Line, Planks, Stripes
 from sandbox.picture.places.landscape import Landscape
 from sandbox.picture.places.scenery import Hall, Scenery, Stands
 from sandbox.picture.places.things import Group, Net, Person, Post, Shape, Thing, goal
@@ -11,7 +11,6 @@ __all__ = [
     "Hall",
     "Landscape",
     "Line",
-    "Mown",
     "Net",
     "Person",
     "Planks",
@@ -19,6 +18,7 @@ __all__ = [
     "Scenery",
     "Shape",
     "Stands",
+    "Stripes",
     "Thing",
     "goal",
 ]

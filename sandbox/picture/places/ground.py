@@ -17,7 +17,7 @@ from sandbox.picture.palette import Colour, mix
 
 #: The ground differs little from place to place, so a lower factor than for other shapes will do.
 OVERSAMPLING = 2
-#: Mown stripes narrower than this, in px on 720 rows, are drawn twice as wide.
+#: Stripes stripes narrower than this, in px on 720 rows, are drawn twice as wide.
 LEAST_STRIPE = 12
 
 #: Points (x, z) of the ground in m: along the plane of play, and away from the eye.
@@ -27,8 +27,8 @@ Project = Callable[[Line], np.ndarray]
 
 
 @dataclass(frozen=True)
-class Mown:
-    """Grass in stripes across the plane of play, ``width`` m wide from ``start`` m on: even ones, odd ones."""
+class Stripes:
+    """Stripes across the plane of play, as of mown grass: even ones, odd ones, ``width`` m wide from ``start`` m on."""
 
     colours: tuple[Colour, Colour]
     width: float
@@ -77,7 +77,7 @@ class Ground:
     stands there; ``beyond`` colours the rest of the way to the horizon, far and near, where nothing does.
     """
 
-    surface: Mown | Planks
+    surface: Stripes | Planks
     soil: tuple[Colour, Colour, Colour]  # from the top down
     edges: Sequence[
         tuple[Colour, float]

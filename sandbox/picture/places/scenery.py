@@ -174,7 +174,7 @@ def _audience(hall: Hall, size: tuple[int, int], foot: int) -> pygame.Surface:
     width, unit, rows = size[0], rows_of(size) / 720, 8
     drawn = blank((width, foot), transparent=True)
     random, tall = np.random.default_rng(3), round(50 * unit)
-    for i in reversed(range(rows)):
+    for i in reversed(range(rows if hall.crowd else 0)):
         share = i / (rows - 1)
         row, opacity = foot - tall - (i + 1) * 27 * unit, (1 - share) ** 1.1
         people = blank((width, foot), transparent=True)

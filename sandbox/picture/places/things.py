@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from math import dist
 from typing import Protocol
 
 import numpy as np
@@ -16,7 +17,7 @@ from sandbox.picture.palette import Colour, palette
 SHADOW = palette("card")["shadow"]
 
 #: The least that is drawn of a net's mesh and of a post's width, px on 720 rows.
-LEAST_MESH, LEAST_POST = 5.0, 1.8
+LEAST_MESH, LEAST_POST = 4.0, 1.8
 
 #: A point in m: along the plane of play, up, and behind it.
 Point3 = tuple[float, float, float]
@@ -41,14 +42,14 @@ class Net:
     def draw(self, painter: Painter, eye: Eye, near: bool) -> None:
         if near != self.near:
             return
-        mesh, threads = max(self.mesh, LEAST_MESH * eye.unit / eye.camera.scale), []
+        threads = []
         for plane in self.planes:
             corner, one, other = (np.array(vector, float) for vector in plane)
             for along, across in ((one, other), (other, one)):
-                count = max(2, round(float(np.hypot.reduce(across)) / mesh) + 1)
-                threads += [
-                    (corner + share * across, corner + share * across + along) for share in np.linspace(0, 1, count)
-                ]
+                most = dist(*eye.points(np.array([corner, corner + across]))) / (LEAST_MESH * eye.unit)
+                count = 1 + max(1, round(min(most, float(np.linalg.norm(across)) / self.mesh)))
+                starts = [corner + share * across for share in np.linspace(0, 1, count)]
+                threads += [(start, start + along) for start in starts]
         lines = eye.points(np.reshape(threads, (-1, 3))).reshape(-1, 2, 2)
         painter.lines(list(lines), max(0.6, 0.8 * eye.unit), self.colour, self.opacity)
 
