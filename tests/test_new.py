@@ -334,7 +334,12 @@ def test_a_file_with_nul_bytes_is_named(call, scene: Path, file: str):
         ("scene.py", "def build(", "def built(", "a scene offers Parameters, build; build is missing"),
         ("picture.py", "class Picture", "class Pictures", "Picture(run, parameters, size) is missing"),
         ("picture.py", LENGTHS, f"    poster = None\n\n{LENGTHS}", "picture.py: Picture.poster(self) is missing"),
-        ("picture.py", LENGTHS, f"    def __init__(self, run): ...\n{LENGTHS}", "called as Picture(run, parameters)"),
+        (
+            "picture.py",
+            LENGTHS,
+            f"    def __init__(self, run): ...\n{LENGTHS}",
+            "called as Picture(run, parameters, size)",
+        ),
         ("picture.py", LENGTHS, f"    def frame(self, x, t): ...\n{LENGTHS}", "called as Picture.frame(self, t)"),
         (
             "picture.py",
