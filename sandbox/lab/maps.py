@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -33,6 +33,9 @@ _FEWEST_FOR_LINES = 8
 
 #: Most cells that are outlined, and most points of a curve that are marked with dots.
 _MOST_OUTLINED, _MOST_DOTS = 40_000, 60
+
+#: Most curves of a chart, and the largest difference of whole numbers that have a colour each.
+_MOST_CURVES, _MOST_COUNTS = 6, 12
 
 
 @dataclass(frozen=True)
@@ -69,15 +72,21 @@ def draw_sweep(plan: Plan, file: Path, path: Path, of: str | None = None) -> Non
     name = f"{plan.scene.name}/{plan.scene.preset}" if plan.scene.preset else plan.scene.name
     title = f"{name}: {found.name.replace('_', ' ')}"
     with chart(path, title, _about(plan)) as (axes, colours):
-        if len(plan.axes) == 1:
+        labels = [label(plan.scene, axis.key) for axis in plan.axes]
+        along = _along(plan, found)
+        if along is not None:
+            _curves(axes, plan, found, along, colours)
+            labels = [labels[along], found.label]
+        elif len(plan.axes) == 1:
             _line(axes, plan, found, colours)
+            _tick_words(axes, plan)
         elif plan.samples:
             _cloud(axes, found, colours)
+            _tick_words(axes, plan)
         else:
             _map(axes, plan, found, colours)
-        _tick_words(axes, plan)
-        _mark_own(axes, plan, found, colours)
-        labels = [label(plan.scene, axis.key) for axis in plan.axes]
+            _tick_words(axes, plan)
+        _mark_own(axes, plan, found, along, colours)
         axes.set_xlabel(labels[0])
         axes.set_ylabel(labels[1] if len(labels) == 2 else found.label if not found.words else "")
 
@@ -185,10 +194,32 @@ def _map(axes: Any, plan: Plan, found: Found, colours: Mapping[str, Any]) -> Non
         return
     assert found.numbers is not None
     heights = np.ma.masked_invalid(found.numbers.reshape(plan.shape)[np.ix_(*orders)].T)
+    if _are_counts(found.numbers):
+        _key(axes, axes.pcolormesh(*corners, heights, **_steps(heights)), found, colours)
+        return
     _key(axes, axes.pcolormesh(*corners, heights, cmap=_HEIGHTS), found, colours)
     if min(heights.shape) >= _FEWEST_FOR_LINES and heights.count() > 1:
         lines = axes.contour(across, up, heights, levels=8, colors="white", linewidths=0.7, alpha=0.8)
         axes.clabel(lines, fontsize=8.5, fmt=significant)
+
+
+def _are_counts(numbers: np.ndarray) -> bool:
+    """Whether they are whole numbers, between which there is nothing to draw lines through."""
+    known = numbers[np.isfinite(numbers)]
+    return bool(known.size and (known == np.round(known)).all() and np.ptp(known) <= _MOST_COUNTS)
+
+
+def _steps(heights: np.ma.MaskedArray[Any, Any]) -> dict[str, Any]:
+    """One colour for each whole number."""
+    import matplotlib
+    from matplotlib.colors import BoundaryNorm
+
+    low, high = int(heights.min()), int(heights.max())
+    count = high - low + 1
+    return {
+        "cmap": matplotlib.colormaps[_HEIGHTS].resampled(count),
+        "norm": BoundaryNorm(np.arange(low, high + 2) - 0.5, count),
+    }
 
 
 def _outline(axes: Any, across: np.ndarray, up: np.ndarray, cells: np.ndarray, colours: Mapping[str, Any]) -> None:
@@ -236,11 +267,39 @@ def _line(axes: Any, plan: Plan, found: Found, colours: Mapping[str, Any]) -> No
     _legend(axes, found, chosen, colours)
 
 
-def _mark_own(axes: Any, plan: Plan, found: Found, colours: Mapping[str, Any]) -> None:
+def _along(plan: Plan, found: Found) -> int | None:
+    """Which axis has the numbers, where a number is shown over numbers and words: there it is a curve for each word."""
+    numeric = [place for place, axis in enumerate(plan.axes) if _has_numbers(axis)]
+    words = [axis for axis in plan.axes if isinstance(axis, Values) and not _has_numbers(axis)]
+    if plan.samples or found.numbers is None or len(numeric) != 1 or len(words) != 1:
+        return None
+    return numeric[0] if len(words[0].values) <= _MOST_CURVES else None
+
+
+def _curves(axes: Any, plan: Plan, found: Found, along: int, colours: Mapping[str, Any]) -> None:
+    """A curve over the numbers of one axis for each word of the other."""
+    assert found.numbers is not None
+    words = plan.axes[1 - along]
+    assert isinstance(words, Values)
+    for place, (word, colour) in enumerate(zip(words.values, colours["trace"]["colours"], strict=False)):
+        here = found.axes[1 - along] == place
+        order = np.argsort(found.axes[along][here])
+        x, y = found.axes[along][here][order], found.numbers[here][order]
+        marker = "o" if len(x) <= _MOST_DOTS else ""
+        axes.plot(x, y, color=colour, linewidth=1.8, marker=marker, markersize=3.5, label=cell(word))
+    axes.grid(axis="y", color=colours["card"]["quiet"], linewidth=0.5, alpha=0.4)
+    axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1.0), borderaxespad=0.0, frameon=False, fontsize=10.5,
+                labelcolor=colours["card"]["ink"], title=label(plan.scene, words.key), alignment="left")  # fmt: skip
+
+
+def _mark_own(axes: Any, plan: Plan, found: Found, along: int | None, colours: Mapping[str, Any]) -> None:
     """A ring where the scene file's own shot is, or a line."""
     own = _own(plan)
     if own is None:
         return
+    if along is not None:
+        own = [own[along]]
+        found = replace(found, axes=[found.axes[along]])
     ink = colours["card"]["ink"]
     if len(own) == 1:
         axes.axvline(own[0], color=ink, linewidth=1.0, linestyle=(0, (4, 3)))
@@ -311,6 +370,8 @@ def _key(axes: Any, drawn: Any, found: Found, colours: Mapping[str, Any]) -> Non
     """The scale of heights."""
     bar = axes.figure.colorbar(drawn, ax=axes, aspect=30, pad=0.02)
     bar.outline.set_visible(False)
+    if found.numbers is not None and _are_counts(found.numbers):
+        bar.set_ticks(np.arange(np.nanmin(found.numbers), np.nanmax(found.numbers) + 1))
     bar.ax.tick_params(colors=colours["card"]["ink_quiet"], labelsize=9.5, length=0)
     bar.set_label(found.label, color=colours["card"]["ink_quiet"])
 

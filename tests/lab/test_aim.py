@@ -209,8 +209,10 @@ def test_intervals_and_pairs_are_told_and_drawn(tmp_path, capsys):
     made = ["aim", str(DROP), "--vary", "launch.height=0.1:20", "--target", "bounced=true"]
     assert main([*made, "--show", str(tmp_path / "a.png")]) == 0
     out = capsys.readouterr().out
-    assert "most forgiving: launch.height = 2.5275, with 2.4 m of room to either side" in out
-    assert "goes on beyond the range" in out
+    assert (
+        "most forgiving within this range: launch.height = 2.5275 m, with 2.4 m of room to either side; it goes on "
+        "beyond the range on the lower side: widen that to see its middle"
+    ) in out
     pair = [
         "--vary",
         "launch.angle=5:80",

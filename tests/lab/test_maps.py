@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from matplotlib.figure import Figure
 from PIL import Image
 
 from sandbox.lab import maps
@@ -13,6 +14,8 @@ from sandbox.lab.axes import parse_axis
 from sandbox.lab.plan import Plan
 from sandbox.lab.sweep import sweep_to_file, workers
 from sandbox.scene import load
+
+DROP = Path(__file__).parents[1] / "scenes" / "drop"
 
 
 def plan_of(source: str, *over: str) -> Plan:
@@ -35,11 +38,38 @@ def test_where_the_scene_files_own_shot_is(over, place):
 
 def test_a_picture_of_one_word_keeps_clear_of_the_edges(tmp_path: Path):
     plan, rows, plot = plan_of("basketball", "launch.angle=50:55:5"), tmp_path / "x.csv", tmp_path / "x.png"
-    with workers(1) as staff:
-        sweep_to_file(plan, rows, staff)
+    with workers(1) as pool:
+        sweep_to_file(plan, rows, pool)
     maps.draw_sweep(plan, rows, plot, "ended")
     with Image.open(plot) as picture:
         inked = np.asarray(picture.convert("RGB")).min(axis=2) < 250
     across, down = (np.flatnonzero(inked.any(axis=axis)) for axis in (0, 1))
     least = 0.015 * inked.shape[1]
     assert min(across[0], down[0], inked.shape[1] - across[-1], inked.shape[0] - down[-1]) > least
+
+
+def drawn(tmp_path: Path, of: str, *over: str) -> tuple[list[str], list[str]]:
+    """The kinds of what a chart shows, and the words of its legend."""
+    plan, rows, shown = plan_of(str(DROP), *over), tmp_path / "x.csv", []
+    with workers(1) as pool:
+        sweep_to_file(plan, rows, pool)
+    with pytest.MonkeyPatch.context() as patched:
+        patched.setattr(Figure, "savefig", lambda figure, *args, **kwargs: shown.append(figure.axes[0]))
+        maps.draw_sweep(plan, rows, tmp_path / "x.png", of)
+    (axes,) = shown
+    legend = axes.get_legend()
+    kinds = [type(part).__name__ for part in (*axes.collections, *axes.lines)]
+    return kinds, [] if legend is None else [text.get_text() for text in legend.get_texts()]
+
+
+def test_a_number_over_numbers_and_words_is_a_curve_for_each_word(tmp_path):
+    kinds, words = drawn(tmp_path, "final_height", "launch.height=1:2:4", "ball.drag.model=none,constant")
+    assert "QuadMesh" not in kinds
+    assert words == ["none", "constant"]
+
+
+@pytest.mark.parametrize(("of", "lines"), [("bounces", False), ("final_height", True)])
+def test_lines_of_equal_height_go_through_numbers_that_are_not_counts(tmp_path, of, lines):
+    kinds, _ = drawn(tmp_path, of, "launch.height=1:2:9", "launch.speed=0:2:9")
+    assert ("QuadContourSet" in kinds) == lines
+    assert "QuadMesh" in kinds

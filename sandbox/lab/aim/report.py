@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 
 from sandbox.files import plain
-from sandbox.lab.aim.question import Aim, Solution, Target
-from sandbox.lab.axes import label, unit_of
+from sandbox.lab.aim.question import Aim, Interval, Solution, Target
+from sandbox.lab.axes import label, result_label, unit_of
 from sandbox.lab.chart import chart
 from sandbox.lab.tables import significant, table
 
@@ -136,17 +136,35 @@ def _interval_lines(aim: Aim) -> list[str]:
         low, high = f"{interval.low:.7g}", f"{interval.high:.7g}"
         error = max((e for e in (interval.low_error, interval.high_error) if e is not None), default=None)
         unsure = "" if None not in (interval.low_error, interval.high_error) else "an end hangs on the accuracy"
-        cut = "goes on beyond the range" if interval.open_low or interval.open_high else ""
+        cut = "goes on beyond the range" if _is_cut(interval) else ""
         middle = f"{solution.values[key]:.7g}"
         rows.append(
             [middle, significant(interval.width, 3), low, high, _error(error), "; ".join(filter(None, (cut, unsure)))]
         )
     headings = [f"middle, {unit_of(aim.scene, key)}".rstrip(", "), "width", "from", "to", "±", ""]
-    best = aim.solutions[0]
-    half = 0.5 * best.interval.width if best.interval is not None else 0.0
-    room = f"{significant(half)} {unit_of(aim.scene, key)}".rstrip()
-    forgiving = f"  most forgiving: {key} = {best.values[key]:.6g}, with {room} of room to either side"
+    best = aim.solutions[0].interval
+    assert best is not None
+    room = _with_unit(aim, 0, significant(0.5 * best.width))
+    side = "both sides" if best.open_low and best.open_high else "the lower side" if best.open_low else "the upper side"
+    cut = f"; it goes on beyond the range on {side}: widen that to see its middle" if _is_cut(best) else ""
+    forgiving = f"  {_forgiving(aim)}, with {room} of room to either side{cut}"
     return [*table(headings, rows, "rrrrrl"), *_more(aim), "", forgiving]
+
+
+def _is_cut(interval: Interval) -> bool:
+    return interval.open_low or interval.open_high
+
+
+def _forgiving(aim: Aim) -> str:
+    """The middle of the widest interval, as far as the range shows it."""
+    best, key = aim.solutions[0], aim.spans[0].key
+    assert best.interval is not None
+    within = " within this range" if _is_cut(best.interval) else ""
+    return f"most forgiving{within}: {key} = {_with_unit(aim, 0, f'{best.values[key]:.6g}')}"
+
+
+def _with_unit(aim: Aim, axis: int, number: str) -> str:
+    return f"{number} {unit_of(aim.scene, aim.spans[axis].key)}".rstrip()
 
 
 def _more(aim: Aim) -> list[str]:
@@ -202,9 +220,10 @@ def _draw_one(axes: Any, aim: Aim, colours: Mapping[str, Any]) -> None:
         )
     axes.axhline(target.value, color=card["ink"], linewidth=1.0, linestyle=(0, (4, 3)), zorder=1, label="target")
     for solution in aim.solutions:
-        _mark(axes, (solution.values[aim.spans[0].key], target.value), f"{solution.values[aim.spans[0].key]:.6g}", card)
+        place = solution.values[aim.spans[0].key]
+        _mark(axes, (place, target.value), _with_unit(aim, 0, f"{place:.6g}"), card)
     axes.set_xlim(aim.spans[0].low, aim.spans[0].high)
-    axes.set_ylabel(target.name.replace("_", " "))
+    axes.set_ylabel(result_label(aim.scene, target.name))
     _legend(axes, card)
 
 
@@ -220,7 +239,7 @@ def _draw_two(axes: Any, aim: Aim, colours: Mapping[str, Any]) -> None:
         colour = traces[1 + index]
         if np.nanmin(heights) <= target.value <= np.nanmax(heights):
             axes.contour(*places, np.ma.masked_invalid(heights), levels=[target.value], colors=[colour], linewidths=1.8)
-        axes.plot([], [], color=colour, linewidth=1.8, label=f"{target.name} = {target.value:g}")
+        axes.plot([], [], color=colour, linewidth=1.8, label=f"{target.name} = {_value(target, aim)}")
     axes.scatter(
         *zip(*(each.values for each in scan), strict=True), s=5, color=card["quiet"], linewidths=0, label="scan"
     )
@@ -230,7 +249,7 @@ def _draw_two(axes: Any, aim: Aim, colours: Mapping[str, Any]) -> None:
                   label="solver" if number == 0 else None)  # fmt: skip
     for solution in aim.solutions:
         place = tuple(solution.values.values())
-        _mark(axes, place, ", ".join(f"{value:.5g}" for value in place), card)
+        _mark(axes, place, ", ".join(_with_unit(aim, axis, f"{value:.5g}") for axis, value in enumerate(place)), card)
     axes.set_ylabel(label(aim.scene, aim.spans[1].key))
     _legend(axes, card)
 
@@ -244,7 +263,7 @@ def _draw_intervals(axes: Any, aim: Aim, colours: Mapping[str, Any]) -> None:
         places = [each.values[0] for each in aim.tries if aim.targets[0].met(each.found[0]) == met]
         axes.scatter(places, [float(met)] * len(places), s=14, color=colour, linewidths=0, label=name, zorder=3)
     for solution in aim.solutions[:1]:
-        _mark(axes, (solution.values[key], 0.5), f"most forgiving: {solution.values[key]:.6g}", card)
+        _mark(axes, (solution.values[key], 0.5), _forgiving(aim), card)
     axes.set_yticks([0.0, 1.0], ["not met", "met"])
     axes.set_ylim(-0.3, 1.3)
     axes.set_xlim(aim.spans[0].low, aim.spans[0].high)
