@@ -37,6 +37,6 @@ def no_exit() -> Iterator[None]:
     try:
         yield
     except SystemExit as error:
-        raise ExitCalled(f"sys.exit({error.code!r}) is no way to end a run").with_traceback(
+        raise ExitCalled(f"sys.exit({error.code!r}) : a scene must not end the program").with_traceback(
             error.__traceback__
         ) from None

@@ -1,4 +1,4 @@
-"""Output files: checked before the work begins, written whole or not at all, and what of values JSON knows."""
+"""Output files: checked before the work begins, written whole or not at all; and values in the form that JSON has."""
 
 from __future__ import annotations
 

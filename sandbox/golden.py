@@ -4,15 +4,15 @@
         golden.check("my_scene", sandbox.simulate(sandbox.load("my_scene.toml")))
 
 The golden picture is ``golden/my_scene.png`` in the folder of the test or the nearest one above it; ``my_scene.json``
-keeps what happened in the run, so that a failure can say whether the physics changed or the drawing. A picture (a
+records what happened in the run, so that a failure can say whether the physics changed or the drawing. A picture (a
 pygame surface or a Pillow image) may be checked alone, too. ``pytest --golden-update`` makes and rewrites golden files
 and lists them for review; on CI, where the variable CI is set, nothing is ever written.
 
 Of a chaotic run only the beginning is the same on another processor: ``golden.check("break", run, until=0.3)`` shows it
-at that time in s and keeps what happened until then.
+at that time in s and records what happened until then.
 
 What is noticed in a picture: a pixel has changed if a channel is more than ROUNDING_LEVELS away from every level that
-its golden level can stand for, as golden pictures keep 6 bits. So a colour that is off by 6 levels or more is noticed
+its golden level can stand for, as golden pictures store 6 bits. So a colour that is off by 6 levels or more is noticed
 wherever more than STRAY_PIXELS pixels of it are together, a shade that runs over many levels from 4 on; a level or two
 everywhere, which is what another machine's rounding does, never is. The comparison is our own. Pixelmatch was tried: it
 forgives what it takes for anti-aliasing, and that is where a small white ball on a pale sky differs when it is larger
@@ -43,9 +43,9 @@ if TYPE_CHECKING:
     import numpy as np
     from PIL import Image
 
-#: Bits of each colour that a golden picture keeps; a level of it stands for those from LOWEST to HIGHEST around it.
-KEPT_BITS = 6
-LOWEST, HIGHEST = -(1 << (7 - KEPT_BITS)), (1 << (7 - KEPT_BITS)) - 1
+#: Bits of each colour that a golden picture stores; a level of it stands for those from LOWEST to HIGHEST around it.
+COLOUR_BITS = 6
+LOWEST, HIGHEST = -(1 << (7 - COLOUR_BITS)), (1 << (7 - COLOUR_BITS)) - 1
 #: Levels, of 255, by which another machine's rounding may move a pixel; a ball moved by a quarter of a pixel moves it
 #: by 20 and more.
 ROUNDING_LEVELS = 2
@@ -58,8 +58,8 @@ STRAY_SHARE = 0.0005
 
 #: Of a run the picture is drawn this large, in px: its PNG takes less than 60 kB.
 SIZE = (480, 270)
-#: So many changes of a run are told.
-MOST_TOLD = 5
+#: Most changes of a run that a message lists.
+MOST_CHANGES = 5
 
 NEW = "new"
 HOW_TO_ACCEPT = "if the change is meant: pytest --golden-update"
@@ -147,10 +147,10 @@ class Golden:
     """The fixture: compares runs and pictures with the golden ones of one test."""
 
     def __init__(
-        self, folder: Path, report: Path, update: bool, tell: Callable[[str], None], claim: Callable[[Path], str | None]
+        self, folder: Path, report: Path, update: bool, note: Callable[[str], None], claim: Callable[[Path], str | None]
     ):
         """``claim`` takes a golden file for this test, and gives the test that has it already, or None."""
-        self.folder, self.report, self.update, self.tell, self.claim = folder, report, update, tell, claim
+        self.folder, self.report, self.update, self.note, self.claim = folder, report, update, note, claim
         self.checked: set[str] = set()
 
     def check(self, name: str, subject: Any, until: float | None = None) -> None:
@@ -169,7 +169,7 @@ class Golden:
         run = subject if hasattr(subject, "setup") else None
         image = _as_image(subject, until)
         png, text = self.folder / f"{name}.png", self.folder / f"{name}.json"
-        self._mend(name, {png: _damaged_picture(png), text: None if run is None else _damaged_run(text)})
+        self._check_damage(name, {png: _damaged_picture(png), text: None if run is None else _damaged_run(text)})
         expected = _read(png)
         drawing = _changed_drawing(expected, image)
         physics = None if run is None else _changed_physics(text, run, until)
@@ -190,27 +190,27 @@ class Golden:
                 HOW_TO_ACCEPT,
             )
 
-    def _mend(self, name: str, damage: dict[Path, str | None]) -> None:
-        """Have damaged files made anew, or say which they are and how to."""
+    def _check_damage(self, name: str, damage: dict[Path, str | None]) -> None:
+        """Remove damaged files on an update, so that they are made again; else fail and say what is wrong."""
         for path, what in damage.items():
             if what is not None and self.update:
                 path.unlink()
             elif what is not None:
-                _fail(f"{name}: {path} is damaged: {what}", "fetch it again, or make it anew: pytest --golden-update")
+                _fail(f"{name}: {path} is damaged: {what}", "fetch it again, or make it again: pytest --golden-update")
 
     def _write_run(self, name: str, path: Path, run: Any, until: float | None, change: str) -> None:
         chaos = record.diverges(run, until)
         if chaos is not None:
             _fail(
                 f"{name} depends on rounding from t = {chaos:.3g} s on, another processor would not get the same; "
-                f"keep what is before that: golden.check({name!r}, run, until={0.8 * chaos:.2g})"
+                f"check what is before that: golden.check({name!r}, run, until={0.8 * chaos:.2g})"
             )
         self._write(path, record.as_text(record.record(run, until)).encode(), change)
 
     def _write(self, path: Path, data: bytes, change: str) -> None:
         path.parent.mkdir(parents=True, exist_ok=True)
         _save(path, data)
-        self.tell(f"{path}: {change}")
+        self.note(f"{path}: {change}")
 
     def _shown(self, name: str, expected: Image.Image, actual: Image.Image, drawing: str | None) -> Iterator[str]:
         if drawing is not None:
@@ -251,7 +251,7 @@ def _fail(*lines: str) -> NoReturn:
 
 
 def _changed_drawing(expected: Image.Image | None, actual: Image.Image) -> str | None:
-    """How the picture differs from the golden one, in words; None where it will do."""
+    """How the picture differs from the golden one, in words; None if it is close enough."""
     if expected is None:
         return NEW
     try:
@@ -267,34 +267,36 @@ def _changed_physics(path: Path, run: Any, until: float | None) -> str | None:
         return NEW
     expected = json.loads(path.read_text("utf-8"))
     if expected.get("until") != until:
-        return f"kept until {expected.get('until', 'its end')} and checked until {until or 'its end'}"
+        return f"recorded until {expected.get('until', 'its end')} and checked until {until or 'its end'}"
     actual = record.record(run, until, record.times_of(expected))
     first, results = record.first_change(expected, actual), record.changed_results(expected, actual)
     if first is None and not results:
         return None
     found = ["same motion, another result" if first is None else f"the physics changed: first at {first[1]}", *results]
-    shown = found if len(found) <= MOST_TOLD else [*found[: MOST_TOLD - 1], f"{len(found) - MOST_TOLD + 1} more"]
+    shown = (
+        found if len(found) <= MOST_CHANGES else [*found[: MOST_CHANGES - 1], f"{len(found) - MOST_CHANGES + 1} more"]
+    )
     return "; ".join(shown)
 
 
 def _damaged_picture(path: Path) -> str | None:
-    """What is wrong with a golden picture; None where it is whole or not there."""
+    """What is wrong with a golden picture; None if it is whole or missing."""
     try:
         _read(path)
-    except (OSError, SyntaxError, ValueError):  # Pillow's own words for any of it are no clearer
-        return "no picture, or only a part of one"
+    except (OSError, SyntaxError, ValueError):  # Pillow's messages are no clearer
+        return "not a picture, or only a part of one"
     return None
 
 
 def _damaged_run(path: Path) -> str | None:
-    """What is wrong with what is kept of a golden run; None where it is whole or not there."""
+    """What is wrong with the record of a golden run; None if it is whole or missing."""
     if not path.exists():
         return None
     try:
-        kept = json.loads(path.read_text("utf-8"))
+        found = json.loads(path.read_text("utf-8"))
     except ValueError as error:
-        return f"no JSON: {error}"
-    return record.damage(kept)
+        return f"not JSON: {error}"
+    return record.damage(found)
 
 
 def _as_image(subject: Any, until: float | None) -> Image.Image:
@@ -325,11 +327,11 @@ def _read(path: Path) -> Image.Image | None:
 
 
 def _coarser(image: Image.Image) -> Image.Image:
-    """With KEPT_BITS of each colour, which takes a third of the bytes away; no level moves by more than 2."""
+    """With COLOUR_BITS of each colour, which saves a third of the bytes; no level moves by more than 2."""
     import numpy as np
     from PIL import Image
 
-    lost = 8 - KEPT_BITS
+    lost = 8 - COLOUR_BITS
     return Image.fromarray(np.asarray(image) >> lost << lost | 1 << (lost - 1))
 
 
@@ -350,7 +352,7 @@ def _save(path: Path, data: bytes) -> None:
 
 
 def _folder_for(test: Path, root: Path) -> Path:
-    """The folder ``golden`` beside a test, or the nearest above it; where there is none, one will be made beside it."""
+    """The folder ``golden`` next to a test, or the nearest one above it; if there is none, one is made next to it."""
     for parent in test.parents:
         if (parent / FOLDER).is_dir():
             return parent / FOLDER
@@ -411,8 +413,8 @@ def _claimed(folder: Path, path: Path, test: str) -> str | None:
 def golden(request: pytest.FixtureRequest) -> Golden:
     """Compares runs and pictures with golden ones: ``golden.check("name", run)``."""
 
-    def tell(line: str) -> None:
-        # Kept with the test's report, which is how it gets home from another process.
+    def note(line: str) -> None:
+        # Part of the test's report, which pytest-xdist sends back from its processes.
         request.node.user_properties.append(("golden", line))
 
     def claim(path: Path) -> str | None:
@@ -420,7 +422,7 @@ def golden(request: pytest.FixtureRequest) -> Golden:
 
     config = request.config
     folder = _folder_for(request.path, config.rootpath)
-    return Golden(folder, config.rootpath / REPORT, bool(config.getoption("--golden-update")), tell, claim)
+    return Golden(folder, config.rootpath / REPORT, bool(config.getoption("--golden-update")), note, claim)
 
 
 def pytest_terminal_summary(terminalreporter: Any) -> None:

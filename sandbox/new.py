@@ -25,7 +25,7 @@ _WRITTEN_BY_TOOLS = shutil.ignore_patterns("__pycache__", "golden", "out", ".*",
 def new_scene(folder: Path, template: str = FROM_SIDE) -> list[Path]:
     """Write a scene that works into ``folder``, which must not exist yet; returns its files.
 
-    Raises RequestError where the name will not do, RunError where the folder cannot be written. Whole or not at all.
+    Raises RequestError for an invalid name, RunError where the folder cannot be written. Whole or not at all.
     """
     name = folder.name
     _check(folder, name)

@@ -267,7 +267,7 @@ def groups_of(annotation: Any) -> tuple[type[Group], ...]:
 
 
 def known_keys(schema: type[Group], values: Any = None, prefix: str = "") -> list[str]:
-    """Every dotted key that a scene file may hold beside ``values``, which choose between groups; headings included."""
+    """Every dotted key that a scene file with ``values`` may hold, which choose between groups; headings included."""
     keys: dict[str, None] = {}
     for name, field in schema.model_fields.items():
         keys[prefix + name] = None
@@ -459,7 +459,7 @@ def validate(
 def whole(
     schema: type[Group], values: Mapping[str, Any], source: str, changes: Mapping[str, Any], changed_by: str
 ) -> dict[str, Any]:
-    """The same changes by keys of whole parameters: an entry such as ``air.wind[0]`` is put into the list as it stands.
+    """The same changes by keys of whole parameters: an entry such as ``air.wind[0]`` is put into the list as it is.
 
     ``schema``, ``values``, ``source`` and ``changed_by`` are those of ``validate``. Raises RequestError.
     """
@@ -520,17 +520,17 @@ def _placed(node: Any, path: Sequence[str | int], value: Any, what: str) -> Any:
 
 def _without_leftovers(schema: type[Group], tables: dict[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
     """Where ``changes`` choose another kind of group, drop the keys that only the kind in the file had."""
-    kept = dict(tables)
+    result = dict(tables)
     for name, field in schema.model_fields.items():
-        table, change = kept.get(name), changes.get(name)
+        table, change = result.get(name), changes.get(name)
         if not isinstance(table, dict) or not isinstance(change, Mapping):
             continue
         for inner in groups_of(field.annotation):
             if field.discriminator is None:
-                kept[name] = _without_leftovers(inner, table, change)
+                result[name] = _without_leftovers(inner, table, change)
             elif field.discriminator in change and _chosen(field, inner, change):
-                kept[name] = {k: v for k, v in table.items() if k in inner.model_fields or k in change}
-    return kept
+                result[name] = {k: v for k, v in table.items() if k in inner.model_fields or k in change}
+    return result
 
 
 # ---------------------------------------------------------------------------------------------------------------------
@@ -539,7 +539,7 @@ def _without_leftovers(schema: type[Group], tables: dict[str, Any], changes: Map
 
 
 def nearest(word: str, known: Sequence[str]) -> str | None:
-    """The known dotted key most like ``word``: in the same group, or by its last part anywhere; None if none is."""
+    """The known dotted key most like ``word``: in the same group, or by its last part anywhere; else None."""
     inside, _, last = word.rpartition(".")
     anywhere = {key.rpartition(".")[2]: key for key in reversed(known)}
     siblings = {key.rpartition(".")[2]: key for key in known if key.rpartition(".")[0] == inside}
@@ -550,7 +550,7 @@ def nearest(word: str, known: Sequence[str]) -> str | None:
 
 
 def no_such_result(name: str, known: Sequence[str]) -> str:
-    """What there is to say of an entry of a result that is not there."""
+    """The end of a sentence about an entry that a result does not have."""
     near = nearest(name, known)
     return "no such result; " + (f"did you mean {near}?" if near else f"there are {', '.join(known)}")
 

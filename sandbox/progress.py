@@ -51,7 +51,7 @@ def bar(what: str) -> Iterator[Callable[[int, int], None]]:
 
 
 def _bar() -> Progress:
-    """Drawn only when it is told to be, without a thread of its own."""
+    """Drawn only when it is refreshed, without a thread of its own."""
     from rich.console import Console
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn
 

@@ -1,4 +1,4 @@
-"""What a golden test keeps of a run, and what has changed since: events, results, and states sampled along the way."""
+"""What a golden test records of a run, and what has changed since: events, results, states sampled along the way."""
 
 from __future__ import annotations
 
@@ -13,15 +13,15 @@ from sandbox.files import plain
 #: themselves. Rounding on another processor stays below 1e-9, unless the scene is chaotic; a force that is wrong by one
 #: part in ten thousand moves a ball by millimetres.
 TOLERANCE = 1e-6
-#: Numbers are kept to this many digits, so that files differ only where the tolerances see it.
+#: Numbers are rounded to this many digits, so that files differ only where the tolerances notice it.
 DIGITS = 9
 #: States along the run: so many for each ball, of many balls fewer.
 SAMPLES, MOST_STATES = 24, 240
-#: A run is chaotic where balls that begin this far aside, in m, end beyond the tolerances. It is a hundred times what
+#: A run is chaotic where balls that begin this far apart, in m, end beyond the tolerances. It is a hundred times what
 #: rounding does.
 NUDGE = 1e-12
 
-#: A result is told in so many characters.
+#: Longest text of a result in a message, in characters.
 LONGEST_WORD = 48
 
 COLUMNS = ("t", "x", "y", "vx", "vy", "spin")
@@ -39,42 +39,42 @@ def record(run: Any, until: float | None = None, times: Sequence[float] | None =
     if times is None:
         count = _samples(len(run.setup.balls))
         times = _rounded([end * i / (count - 1) for i in range(count)])  # as the file will have them
-    kept: Record = {} if until is None else {"until": until}
+    recorded: Record = {} if until is None else {"until": until}
     if until is None:
-        kept |= {"ended": run.ended, "duration": run.duration, "result": plain(run.result)}
-    kept["events"] = [
+        recorded |= {"ended": run.ended, "duration": run.duration, "result": plain(run.result)}
+    recorded["events"] = [
         [event.t, event.kind, event.ball, event.partner, event.speed] for event in run.events if event.t <= end
     ]
     # A run may end by an impact: its last state is the one after it, whatever rounding says of the time.
     when = [run.duration if abs(t - run.duration) <= TOLERANCE else t for t in times]
-    kept["states"] = {
+    recorded["states"] = {
         ball.name: [[t, *map(float, run.state(ball.name, at))] for t, at in zip(times, when, strict=True)]
         for ball in run.setup.balls
     }
-    return _rounded(kept)
+    return _rounded(recorded)
 
 
 def _samples(balls: int) -> int:
-    """How many states are kept of each of so many balls."""
+    """How many states are recorded of each of so many balls."""
     return max(6, min(SAMPLES, MOST_STATES // max(1, balls)))
 
 
-def damage(kept: Any) -> str | None:
+def damage(recorded: Any) -> str | None:
     """What is missing from a record that was read from a file, in words; None where it is whole."""
-    if not isinstance(kept, dict) or not {"states", "events"} <= set(kept):
+    if not isinstance(recorded, dict) or not {"states", "events"} <= set(recorded):
         return "not a record of a run"
-    states, events = kept["states"], kept["events"]
+    states, events = recorded["states"], recorded["events"]
     if not isinstance(states, dict) or not states or not isinstance(events, list):
         return "it has no states or no list of events"
-    if "until" not in kept and not {"ended", "duration", "result"} <= set(kept):
+    if "until" not in recorded and not {"ended", "duration", "result"} <= set(recorded):
         return "ended, duration or result is missing"
     if not all(isinstance(row, list) and len(row) == 5 for row in events):
         return "an event is not a row of time, kind, ball, partner and speed"
-    end = kept.get("duration")
+    end = recorded.get("duration")
     for ball, rows in states.items():
         if not isinstance(rows, list) or len(rows) != _samples(len(states)):
             found = len(rows) if isinstance(rows, list) else 0
-            return f"{ball} has {found} states, of {_samples(len(states))} that were kept"
+            return f"{ball} has {found} states, of {_samples(len(states))} that were recorded"
         if not all(isinstance(row, list) and len(row) == len(COLUMNS) and all(map(_is_number, row)) for row in rows):
             return f"a state of {ball} is not a row of {', '.join(COLUMNS)}"
         last = rows[-1][0] if end is None else end
@@ -84,15 +84,15 @@ def damage(kept: Any) -> str | None:
     return None
 
 
-def times_of(kept: Record) -> list[float]:
+def times_of(recorded: Record) -> list[float]:
     """The times of a record's states, in s."""
-    return [row[0] for row in next(iter(kept["states"].values()), [])]
+    return [row[0] for row in next(iter(recorded["states"].values()), [])]
 
 
-def as_text(kept: Record) -> str:
+def as_text(recorded: Record) -> str:
     """JSON with a row to a line, so that a change of one number is a change of one line."""
     parts = []
-    for key, value in kept.items():
+    for key, value in recorded.items():
         if key == "events":
             text = _lines("[", (json.dumps(row, ensure_ascii=False) for row in value), "]")
         elif key == "states":
@@ -122,7 +122,7 @@ def first_change(expected: Record, actual: Record, tolerance: float = TOLERANCE)
 def changed_results(expected: Record, actual: Record, tolerance: float = TOLERANCE) -> list[str]:
     """What else differs, each in words: results, how the run ended."""
     found = []
-    before, after = ({**kept.get("result", {}), "ended": kept.get("ended")} for kept in (expected, actual))
+    before, after = ({**recorded.get("result", {}), "ended": recorded.get("ended")} for recorded in (expected, actual))
     for name in [*before, *(name for name in after if name not in before)]:
         if name not in after or name not in before:
             found.append(f"{name} is {'new' if name in after else 'gone'}")
@@ -139,9 +139,9 @@ def diverges(run: Any, until: float | None = None) -> float | None:
         replace(ball, position=(ball.position[0] + (-1) ** i * NUDGE, ball.position[1] + NUDGE))
         for i, ball in enumerate(run.setup.balls)
     ]
-    kept = record(run, until)
-    other = record(simulate(replace(run.setup, balls=balls), run.accuracy), until, times_of(kept))
-    change = first_change(kept, other)
+    recorded = record(run, until)
+    other = record(simulate(replace(run.setup, balls=balls), run.accuracy), until, times_of(recorded))
+    change = first_change(recorded, other)
     return None if change is None else change[0]
 
 

@@ -64,7 +64,7 @@ def as_json(scene: Scene, run: Run, check: Check | None = None, other: Run | Non
         }
     try:
         return json.dumps(plain(report), allow_nan=False, ensure_ascii=False)
-    except TypeError as error:  # what a scene's result holds beside numbers, words and lists of them
+    except TypeError as error:  # a result that is more than numbers, words and lists of them
         raise RunError(f"{scene.name}: its result cannot be written as JSON: {error}") from None
 
 
@@ -93,13 +93,13 @@ def write_trajectory(run: Run, path: Path) -> None:
 def card(scene: Scene, run: Run, check: Check | None = None, other: tuple[str, Run] | None = None) -> list[str]:
     """Lines for the terminal: what was played, what came out, what happened on the way, what it cost.
 
-    ``other`` is a run to compare with and what it is called: its values stand beside ours.
+    ``other`` is a run to compare with and what it is called: its values are shown next to ours.
     """
     rows = scene.rows(run, None if check is None else check.errors, also=True)
     if other is None:
         numbers = table(("", ""), rows, "ll")
     else:
-        numbers = table(("", scene.title, other[0]), _beside(rows, scene.verdict(run), other[1]), "lll")
+        numbers = table(("", scene.title, other[0]), _compared(rows, scene.verdict(run), other[1]), "lll")
     return [
         *paragraph(f"{scene.title}: {scene.about}" if scene.about else scene.title, ""),
         "",
@@ -114,7 +114,7 @@ def card(scene: Scene, run: Run, check: Check | None = None, other: tuple[str, R
     ]
 
 
-def _beside(rows: list[tuple[str, str]], verdict: str, other: Run) -> list[tuple[str, str, str]]:
+def _compared(rows: list[tuple[str, str]], verdict: str, other: Run) -> list[tuple[str, str, str]]:
     """Labels, our texts and those of the run to compare with."""
     values = {"verdict": other.scene.verdict(other), **dict(other.scene.rows(other, also=True))}
     return [(label, text, values.get(label, "")) for label, text in [("verdict", verdict), *rows]]

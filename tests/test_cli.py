@@ -414,10 +414,10 @@ def test_one_of_a_list_may_be_set(call, monkeypatch):
             ["run", "golf", "--set", "launch.speed=150", "mph"],
             'a value with a space goes in quotes: launch.speed="150 m',
         ),
-        (["run", "golf", "--bogus"], "No such option: --bogus\nsandbox run --help shows how to ask"),
-        (["run", "golf", "--fps"], "Option '--fps' requires an argument.\nsandbox run --help shows how to ask"),
+        (["run", "golf", "--bogus"], "No such option: --bogus\nsandbox run --help lists what it takes"),
+        (["run", "golf", "--fps"], "Option '--fps' requires an argument.\nsandbox run --help lists what it takes"),
         (["run"], "Missing argument 'SCENE'"),
-        (["bogus"], "No such command 'bogus'.\nsandbox --help shows how to ask"),
+        (["bogus"], "No such command 'bogus'.\nsandbox --help lists what it takes"),
     ],
 )
 def test_a_wrong_request_is_refused_in_a_line(call, tmp_path: Path, monkeypatch, args: list[str], expected: str):

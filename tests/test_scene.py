@@ -239,7 +239,7 @@ def test_a_name_is_that_of_an_installed_scene_whatever_stands_beside(trap: Path,
         ("drop/moon", "unknown scene drop/moon; for the one in this folder write ./drop/moon"),
         ("drop/drop.toml", "a file alone does not run the scene.py of its folder: ask for ./drop"),
         ("drop/presets/moon.toml", "a file alone does not run the scene.py of its folder: ask for ./drop/moon"),
-        ("shot.toml", 'for the folder beside this file write scene = "./drop"'),
+        ("shot.toml", 'for the folder next to this file write scene = "./drop"'),
         ("bare.toml", "needs a line that names its scene"),
     ],
 )

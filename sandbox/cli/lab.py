@@ -30,7 +30,7 @@ def aim(
     """Find the values that give a result: all of them in the range, each with its numerical error.
 
     A target that is true or false, or a word, has intervals: the widest first, with the middle, which forgives most.
-    That there is no solution is an answer too: it is said, with how near it got, and the exit code is 0.
+    No solution is an answer too: it says how near it got, and the exit code is 0.
 
     \b
     Examples:
@@ -221,7 +221,7 @@ def validate(
     accuracy: Level = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print one JSON list in place of the tables.")] = False,
 ) -> None:
-    """Show published numbers beside ours, with their sources, for a scene or for all of them.
+    """Compare published numbers, with their sources, with ours, for a scene or for all of them.
 
     \b
     Examples:

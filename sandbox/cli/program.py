@@ -33,7 +33,7 @@ def _show_version(wanted: bool) -> None:
 @app.callback()
 def _program(
     version: Annotated[
-        bool, typer.Option("--version", callback=_show_version, is_eager=True, help="Show the version and leave.")
+        bool, typer.Option("--version", callback=_show_version, is_eager=True, help="Show the version and exit.")
     ] = False,
 ) -> None:
     """A 2D sports sandbox: pick a sport, let go, and see real physics.
@@ -70,7 +70,7 @@ def call(args: list[str] | None) -> int:
             raise KeyboardInterrupt
         return code
     except typer.TyperException as error:  # unknown command, missing argument, bad option
-        hint = _unquoted(given, error.format_message()) or f"{_asked(error, given)} --help shows how to ask"
+        hint = _unquoted(given, error.format_message()) or f"{_asked(error, given)} --help lists what it takes"
         return _fail(f"{error.format_message()}\n{hint}", error.exit_code)
     except Stopped as error:
         typer.echo(printable(str(error)), err=True)

@@ -44,7 +44,9 @@ def run(
     ] = None,
     compare: Annotated[
         str | None,
-        typer.Option(metavar="SCENE", help="Another preset or scene file: its numbers and its path beside this one's."),
+        typer.Option(
+            metavar="SCENE", help="Another preset or scene file: its numbers and its path next to this one's."
+        ),
     ] = None,
     fps: Annotated[
         int | None,

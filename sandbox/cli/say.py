@@ -12,7 +12,7 @@ from sandbox.text import printable
 
 
 def say(text: str) -> None:
-    """Print on stdout, at once. The reader of a pipe may go when it likes; a full disk is told."""
+    """Print on stdout, at once. The reader of a pipe may go when it likes; a full disk is reported."""
     if sys.stdout is None:
         raise RunError("stdout cannot be written: it is closed")
     try:

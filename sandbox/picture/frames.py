@@ -39,8 +39,8 @@ PALETTE_FRAMES = 16
 MOST_PIXELS = 100_000_000
 #: Viewers slow a GIF down that shows more frames per second than this.
 FASTEST_GIF = 50
-#: Of what a picture hands back in place of a surface, so many characters are told.
-LONGEST_TOLD = 60
+#: Longest text of what a picture returned in place of a surface, in characters.
+LONGEST_SHOWN = 60
 #: The last picture of an animation stays for so long, in s, before it begins again.
 PAUSE = 2.0
 
@@ -75,7 +75,7 @@ def frame_of(picture: Picture, t: float) -> pygame.Surface:
 
 def _surface(call: str, drawn: object) -> pygame.Surface:
     if not isinstance(drawn, pygame.Surface):
-        raise RunError(f"picture.py: {call} must return a pygame.Surface, and returned {drawn!r:.{LONGEST_TOLD}}")
+        raise RunError(f"picture.py: {call} must return a pygame.Surface, and returned {drawn!r:.{LONGEST_SHOWN}}")
     return drawn
 
 

@@ -311,13 +311,13 @@ def _preset(name: str, folder: Path, preset: str) -> Path:
         return file
     known = [path.stem for path in _presets(folder)]
     near = declared.nearest(preset, known)
-    few = f"it has {', '.join(known) or 'none'}" if len(known) <= 6 else f"sandbox list shows its {len(known)}"
-    hint = f"did you mean {name}/{near}?" if near else few
+    presets = f"it has {', '.join(known) or 'none'}" if len(known) <= 6 else f"sandbox list shows its {len(known)}"
+    hint = f"did you mean {name}/{near}?" if near else presets
     raise RequestError(f"{name} has no preset {preset}; {hint}")
 
 
 def _of_file(path: Path) -> Found:
-    """The scene that a scene file is for. A name is that of an installed scene, whatever stands beside the file; a
+    """The scene that a scene file is for. A name is that of an installed scene, whatever is next to the file; a
     path is the user's own."""
     values = declared.read_toml(path)
     if "scene" not in values:
@@ -335,7 +335,9 @@ def _of_file(path: Path) -> Found:
     if folder is None:
         own = path.parent / name
         if (own / "scene.py").is_file():
-            raise RequestError(f'{path}: {_unknown(name)}; for the folder beside this file write scene = "./{written}"')
+            raise RequestError(
+                f'{path}: {_unknown(name)}; for the folder next to this file write scene = "./{written}"'
+            )
         raise RequestError(f"{path}: {_unknown(name)}{_own_folder(path)}")
     is_preset = path.resolve().parent == folder / "presets"
     if is_preset and preset:

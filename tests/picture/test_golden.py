@@ -192,10 +192,10 @@ class TestRuns:
     @pytest.mark.parametrize(
         ("name", "content", "told"),
         [
-            ("it.json", "<<<<<<< HEAD\n", "no JSON: Expecting value: line 1 column 1*"),
+            ("it.json", "<<<<<<< HEAD\n", "not JSON: Expecting value: line 1 column 1*"),
             ("it.json", "[]", "not a record of a run"),
-            ("it.png", "", "no picture, or only a part of one"),
-            ("it.png", None, "no picture, or only a part of one"),
+            ("it.png", "", "not a picture, or only a part of one"),
+            ("it.png", None, "not a picture, or only a part of one"),
         ],
     )
     def test_a_damaged_file_is_named_and_made_anew(self, scene_project, name: str, content: str | None, told: str):
@@ -204,16 +204,16 @@ class TestRuns:
         whole = file.read_bytes()
         file.write_bytes(whole[:60] if content is None else content.encode())
         result = again(scene_project)
-        result.stdout.fnmatch_lines([f"it: *{name} is damaged: {told}", "*make it anew: pytest --golden-update"])
+        result.stdout.fnmatch_lines([f"it: *{name} is damaged: {told}", "*make it again: pytest --golden-update"])
         again(scene_project, "--golden-update").stdout.fnmatch_lines([f"*{name}: new"])
         assert file.read_bytes() == whole
 
     @pytest.mark.parametrize(
         ("spoil", "told"),
         [
-            (lambda kept: kept["states"]["ball"].clear(), "ball has 0 states, of 24 that were kept"),
-            (lambda kept: kept["states"]["ball"].pop(), "ball has 23 states, of 24 that were kept"),
-            (lambda kept: kept["states"]["ball"].pop(5), "ball has 23 states, of 24 that were kept"),
+            (lambda kept: kept["states"]["ball"].clear(), "ball has 0 states, of 24 that were recorded"),
+            (lambda kept: kept["states"]["ball"].pop(), "ball has 23 states, of 24 that were recorded"),
+            (lambda kept: kept["states"]["ball"].pop(5), "ball has 23 states, of 24 that were recorded"),
             (lambda kept: kept["states"]["ball"][3].pop(), "a state of ball is not a row of t, x, y, vx, vy, spin"),
             (lambda kept: kept["states"]["ball"][3].__setitem__(1, None), "a state of ball is not a row of t, x, *"),
             (lambda kept: kept["states"]["ball"][3].__setitem__(0, 0.0), "the times of ball are not spread evenly *"),
@@ -324,12 +324,12 @@ def test_a_chaotic_run_is_kept_until_it_diverges(pytester, monkeypatch):
     )
     result = again(pytester, "--golden-update")
     result.assert_outcomes(failed=1)
-    result.stdout.fnmatch_lines(["*it depends on rounding from t = 0.1* s on*golden.check('it', run, until=0.1*"])
+    result.stdout.fnmatch_lines(["*it depends on rounding from t = 0.4* s on*golden.check('it', run, until=0.3*"])
     monkeypatch.setenv("UNTIL", "0.12")
     again(pytester, "--golden-update").assert_outcomes(passed=1)
     again(pytester).assert_outcomes(passed=1)
     monkeypatch.setenv("UNTIL", "0.13")
-    again(pytester).stdout.fnmatch_lines(["*kept until 0.12 and checked until 0.13*"])
+    again(pytester).stdout.fnmatch_lines(["*recorded until 0.12 and checked until 0.13*"])
 
 
 class TestRecords:
