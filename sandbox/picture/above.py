@@ -13,7 +13,7 @@ from sandbox.picture.camera import Camera, Follow
 from sandbox.picture.painter import Painter
 from sandbox.picture.palette import Colour, palette
 from sandbox.picture.path import MOST_SAMPLES
-from sandbox.picture.places.plan import Plan, draw_moving, drawn, dusk
+from sandbox.picture.places.plan import BREADTH, Person, Plan, draw_moving, drawn, dusk, enlarged
 from sandbox.picture.sheet import Sheet
 from sandbox.picture.view import P, View
 
@@ -114,11 +114,14 @@ class AboveView(View[P]):
         painter.shadow(below, 1.05 * radius, 0.95 * radius, CARD["shadow"], 0.55)
 
     def dimensions(self, sheet: Sheet, camera: Camera) -> None:
-        """None; but no label goes to the headline or on the card, nor on a ball."""
+        """None; but no label goes to the headline or on the card, nor on a ball or a person."""
         sheet.labels.take(pygame.Rect(0, 0, self.size[0], sheet.top_row))
         sheet.labels.take(pygame.Rect(0, round(self.card_row), *self.size))
-        for at, radius in self._placed(camera, self.told, 1.0).values():
-            sheet.labels.take(pygame.Rect(at[0] - radius, at[1] - radius, 2 * radius, 2 * radius))
+        balls = self._placed(camera, self.told, 1.0).values()
+        people = [part for part in self.plan if isinstance(part, Person)]
+        reach = 0.8 * BREADTH * enlarged(camera, self.unit) * camera.scale
+        for (x, y), half in [*balls, *((person.place(camera, self.unit), reach) for person in people)]:
+            sheet.labels.take(pygame.Rect(round(x - half), round(y - half), round(2 * half), round(2 * half)))
 
     def scale(self, sheet: Sheet, camera: Camera) -> None:
         """A scale bar at the lower left."""

@@ -121,7 +121,10 @@ class Picture(AboveView[Parameters]):
 
     def annotate(self, sheet: Sheet, camera: Camera) -> None:
         """How far from its straight line the ball comes to the goal line."""
-        self._take_people(sheet, camera)
+        if self.parameters.keeper.present:
+            (x, y), reach = camera.pixel(*self.run.state("keeper", self.moment)[:2]), self.parameters.keeper.radius
+            half = round(reach * camera.scale)
+            sheet.labels.take(pygame.Rect(round(x) - half, round(y) - half, 2 * half, 2 * half))
         line = np.linspace(camera.pixel(0.0, 0.0), camera.pixel(*self._without_spin(self.moment)), 80)
         sheet.labels.take_path(line, 2 * self.unit)
         deviation = self.run.result["deviation"]
@@ -150,18 +153,6 @@ class Picture(AboveView[Parameters]):
         ]
         anchor = "midtop" if way > 0 else "midbottom"
         sheet.label("without spin", "small", [(*spot, anchor) for spot in beside], sheet.ink)
-
-    def _take_people(self, sheet: Sheet, camera: Camera) -> None:
-        """No label will be put on wall, keeper or kicker."""
-        wall, keeper = self.parameters.wall, self.parameters.keeper
-        places = [(0.0, 0.0, 1.0, 1.0)]
-        if wall.present:
-            places.append((wall.distance, wall.offset, 0.4, wall.width / 2))
-        if keeper.present:
-            places.append((*self.run.state("keeper", self.moment)[:2], keeper.radius, keeper.radius))
-        for x, y, ahead, aside in places:
-            (left, top), (right, bottom) = camera.pixel(x - ahead, y + aside), camera.pixel(x + ahead, y - aside)
-            sheet.labels.take(pygame.Rect(round(left), round(top), round(right - left), round(bottom - top)))
 
     # Frames
 

@@ -175,13 +175,6 @@ def arc(centre: Point, radius: float, start: float, end: float) -> tuple[Point, 
     return tuple((centre[0] + radius * cos(turn), centre[1] + radius * sin(turn)) for turn in turns)
 
 
-def outline(box: Box) -> tuple[tuple[Point, Point], ...]:
-    """The four sides of a rectangle."""
-    low, high = (box.left, box.bottom), (box.right, box.top)
-    corners = (low, (high[0], low[1]), high, (low[0], high[1]))
-    return tuple(zip(corners, (*corners[1:], low), strict=True))
-
-
 # ---------------------------------------------------------------------------------------------------------- what stands
 
 
@@ -248,11 +241,14 @@ class Person:
 
     def draw(self, painter: Painter, camera: Camera) -> None:
         larger, turn = enlarged(camera, unit_of(painter)), radians(self.facing)
-        back = self.behind * larger
-        at = camera.pixel(self.at[0] - back * cos(turn), self.at[1] - back * sin(turn))
-        breadth = self.breadth * larger * camera.scale
+        at, breadth = self.place(camera, unit_of(painter)), self.breadth * larger * camera.scale
         arms = max(self.arms * camera.scale, 0.75 * breadth) if self.arms else 0.0
         draw_from_above(painter, at, breadth, turn, self.kit._asdict(), arms)
+
+    def place(self, camera: Camera, unit: float) -> Point:
+        """Where the person stands, in px."""
+        turn, back = radians(self.facing), self.behind * enlarged(camera, unit)
+        return camera.pixel(self.at[0] - back * cos(turn), self.at[1] - back * sin(turn))
 
 
 def enlarged(camera: Camera, unit: float) -> float:
