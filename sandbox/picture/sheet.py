@@ -122,10 +122,24 @@ class Sheet:
     def headline(self, text: str, notes: Sequence[str], room: float) -> None:
         """What happened, large, at the top left, and a line of notes below it; ``room`` px wide at most.
 
-        Notes for which there is no room are left out, the last first.
+        What is too long in any size goes on in the line below. Notes for which there is no room are left out, the last
+        first.
         """
-        fitting = (size for size in (self.head, "medium") if self.lettering.width(text, size, bold=True) <= room)
-        size = next(fitting, "small")
+
+        def fits(words: str, size: str) -> bool:
+            return self.lettering.width(words, size, bold=True) <= room
+
+        if not fits(text, "small"):  # the rest goes in front of the notes, from a comma on if it can
+            parts = (text[:end].rpartition(mark) for mark in (", ", " ") for end in range(len(text), 0, -1))
+            text, notes = next(
+                (
+                    (start, [text[len(start + mark) :], *notes])
+                    for start, mark, _ in parts
+                    if start and fits(start, "small")
+                ),
+                (text, notes),
+            )
+        size = next((size for size in (self.head, "medium") if fits(text, size)), "small")
         rect = self.write(text, size, self.frame.topleft, self.ink, bold=True)
         lines = ["   ·   ".join(notes[:count]) for count in range(len(notes), 0, -1)]
         line = next((line for line in lines if self.lettering.width(line, "small") <= room), "")

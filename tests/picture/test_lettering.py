@@ -122,3 +122,21 @@ def test_nice_steps(least):
     step = nice(least)
     assert least * 0.99 < step <= least * 2.51
     assert f"{step:e}"[0] in "125"
+
+
+@pytest.mark.parametrize("room", [110, 150, 215, 300, 2000])
+@pytest.mark.parametrize(
+    "text", ["205 m carry, stops 69 m short of the pin", "The 1 into the right foot corner pocket"]
+)
+def test_a_headline_is_said_whole_in_the_room_it_has(room, text):
+    """What is too long for one line goes on in the next, after a comma where there is one."""
+    sheet = Sheet((320, 180))
+    sheet.headline(text, ["a ball every 1 s"], room)
+    (first, rect), (second, below) = sheet.written
+    assert max(rect.width, below.width) <= room
+    assert rect.bottom <= below.top
+    rest = text[len(first) :].lstrip(", ")
+    assert text.startswith(first)
+    assert "," not in first or not rest
+    if room >= 150:
+        assert second.startswith(rest or "a ball every 1 s")
