@@ -131,8 +131,8 @@ class View(Generic[P]):
 
     def spin_text(self, spin: float) -> str:
         """A spin in rad/s for people."""
-        rpm = spin * 30 / pi
-        return f"{abs(rpm):.0f} rpm {self.SPINS[rpm > 0.0]}" if abs(rpm) >= 0.5 else "none"
+        rpm, (below, above) = spin * 30 / pi, self.SPINS
+        return f"{abs(rpm):.0f} rpm {above if rpm > 0.0 else below}" if abs(rpm) >= 0.5 else "none"
 
     def position(self, t: float) -> list[Entry]:
         """Of the ball, for the frame's card."""
