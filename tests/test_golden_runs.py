@@ -17,9 +17,9 @@ RUNS = {
     "soccer/goal-kick-in-a-gale": None,
     "soccer-curl": None,
     "soccer-curl/roberto-carlos-1997": None,
-    "billiards": 0.14,  # into the middle of the rack, where a bit decides who goes left
+    "billiards": 0.3,  # into the rack, where in the end a bit decides who goes left
     "billiards/bank": None,
-    "billiards/nine-ball-break": 0.4,
+    "billiards/nine-ball-break": 4.0,
     "billiards/snooker-break": None,
     "billiards/three-rail-carom": None,
     "golf": None,

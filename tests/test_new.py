@@ -229,8 +229,9 @@ def test_extremes_run_and_draw(scene: Path, settings: dict[str, float]):
 def test_a_result_that_json_does_not_know(call, scene: Path):
     change(scene / "scene.py", "    ENDED,", '    Fact("run", "", "", lambda run, parameters: run),')
     outcome = call("run", f"./{NAME}", "--json")
-    expected = f"error: {NAME}: its result cannot be written as JSON: Object of type Run is not JSON serializable\n"
-    assert outcome == (1, "", expected)
+    assert outcome[:2] == (1, "")
+    expected = "the fact run must return a number, a text, true or false, or a list of those, and returned <Run of"
+    assert f"error: {NAME}/scene.py: {expected}" in outcome.err
 
 
 # Its golden test ------------------------------------------------------------------------------------------------------

@@ -250,7 +250,7 @@ class TestRuns:
         )
         picture.write_text(picture.read_text().replace("return surface", shows))
         result = self.changed(scene_project, monkeypatch, '{"gravity": 9.8100001}')
-        told = "*it: the run differs from its golden run by less than the tolerance of 1e-06: t = 0.0*, ball, vy is *"
+        told = "*it: the run differs from its golden run by less than the tolerance of 1e-06: t = 0.6*, ball impact *"
         result.stdout.fnmatch_lines([told, "the picture shows it: *of the pixels changed*"])
 
     def test_says_that_the_physics_changed_and_where_first(self, scene_project, monkeypatch):
