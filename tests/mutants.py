@@ -175,8 +175,8 @@ def main() -> None:
             tried += 1
             if not noticed(copied, file, source, arguments.timeout):
                 survivors += 1
-                sys.stdout.write(f"survived  {what}\n")
-            sys.stdout.flush()
+                sys.stdout.write(f"survived ({survivors} of {tried})  {what}\n")
+                sys.stdout.flush()
     sys.stdout.write(f"{survivors} of {tried} mutants survived\n")
 
 

@@ -150,6 +150,25 @@ def test_until_is_asked_after_each_impact():
         assert run.duration == run.events[-1].t
 
 
+def _is_partner(name: str, event: Event) -> bool:
+    return event.partner == name
+
+
+def test_a_ball_that_is_to_stay_is_asked_for_its_last_event():
+    """Dropped flat on dead ground after a bounce off a lively ledge: the second impact ends the run, and is lasting."""
+    ledge = Surface("ledge", Segment((-1.0, 1.0), (0.3, 1.0)), 0.9, 0.0)
+    dead = Surface("dead", Segment((-9.0, 0.0), (9.0, 0.0)), 0.0, 0.5)
+    drops = [Ball("ball", 0.6, 0.12, (0.0, 1.5 + 0.01 * i), (1.0, 0.0), forces=[Gravity(0.6, 9.81)]) for i in range(30)]
+    for ends in ("dead", "ledge"):
+        setups = [
+            Setup([ball], [ledge, dead], duration=3.0, until=lambda event, ends=ends: event.partner == ends)
+            for ball in drops
+        ]
+        for setup, run in zip(setups, simulate_many(setups, resolve()), strict=True):
+            assert_same(run, simulate(setup, resolve()))
+            assert run.ended == "until"
+
+
 def test_a_spin_that_changes_fast_asks_for_short_steps():
     def swinging(t: Any, position: Any, velocity: Any, spin: Any) -> Any:
         return np.sin(60.0 * t)

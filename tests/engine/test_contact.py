@@ -11,7 +11,19 @@ from hypothesis import strategies as st
 
 from sandbox.engine import simulate
 from sandbox.engine.accuracy import LEVELS, resolve
-from sandbox.engine.setup import Ball, Bounce, Circle, ContactModel, Segment, Setup, Surface, kinetic
+from sandbox.engine.setup import (
+    DISC,
+    HOLLOW_SPHERE,
+    SOLID_SPHERE,
+    Ball,
+    Bounce,
+    Circle,
+    ContactModel,
+    Segment,
+    Setup,
+    Surface,
+    kinetic,
+)
 from sandbox.engine.simulation import Stalled
 from sandbox.engine.touch import Obstacle
 from sandbox.errors import RequestError
@@ -422,3 +434,24 @@ def test_faint_impacts_count_only_without_others_between():
     mutual = [event for event in run.events if event.partner in ("fast1", "fast2", "slow1", "slow2")]
     assert sum(event.speed > 1e-4 for event in mutual) > 1100
     assert sum(event.speed < 1e-4 for event in mutual) > 1100
+
+
+@pytest.mark.parametrize("way", [1.0, -1.0])
+def test_turf_leans_against_the_motion_whichever_way_it_goes(way: float):
+    """Smooth ground that tilts by 0.2 rad turns a ball by twice that, upwards, without restitution lost."""
+    turf = Surface("turf", Segment((-9.0, 0.0), (9.0, 0.0)), 1.0, 0.0, law=lambda normal, along: Bounce(1.0, 0.0, 0.2))
+    shot = Ball("ball", 1.0, 0.1, (0.0, 0.2), (way * 5.0, -2.0))
+    vx, vy = simulate(Setup([shot], [turf], duration=0.2), resolve()).state("ball", 0.2)[2:4]
+    down = atan2(2.0, 5.0)
+    assert (way * vx, vy) == pytest.approx((29**0.5 * cos(down + 0.4), 29**0.5 * sin(down + 0.4)), rel=1e-6)
+
+
+@pytest.mark.parametrize(("factor", "body"), [(SOLID_SPHERE, 2 / 5), (HOLLOW_SPHERE, 2 / 3), (DISC, 1 / 2)])
+def test_a_ball_that_slides_comes_to_roll_at_the_share_its_inertia_leaves(factor: float, body: float):
+    """Angular momentum about the point of contact stays: v = v0 / (1 + I / m r^2)."""
+    floor = Surface("floor", Segment((-9.0, 0.0), (90.0, 0.0)), 0.5, 0.5)
+    slid = Ball("ball", 1.0, 0.1, (0.0, 0.1), (3.0, 0.0), inertia_factor=factor, forces=[Gravity(1.0, 9.81)])
+    assert slid.inertia == pytest.approx(body * 1.0 * 0.1**2)
+    assert simulate(Setup([slid], [floor], duration=2.0), resolve()).state("ball", 2.0)[2] == pytest.approx(
+        3.0 / (1.0 + body), rel=1e-6
+    )

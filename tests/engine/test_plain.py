@@ -95,3 +95,14 @@ def test_a_run_says_how_it_was_stepped():
     assert resolve(method="plain").steps == "steps of 4.17 ms"
     assert resolve(integrator="heun", step=0.01).steps == "heun, steps of 10 ms"
     assert resolve().steps == "dormand-prince"
+
+
+def test_a_bounce_below_the_lowest_is_lost_in_the_surface():
+    """Dropped from 4 mm, it would rise 1 mm: 10 mm of grass swallow that, and nothing of a bounce of 16 mm."""
+    grass = Surface("grass", Segment((-9.0, 0.0), (9.0, 0.0)), 0.5, 0.5, lowest_bounce=0.01)
+    for drop, rises in ((0.004, 0.0), (0.064, 0.016)):
+        ball = Ball("ball", 0.05, 0.02, (0.0, 0.02 + drop), forces=[Gravity(0.05, 9.81)])
+        run = simulate(Setup([ball], [grass], duration=1.0), resolve(**by_steps_of(2e-4)))
+        landed = next(event.t for event in run.events if event.kind == "impact")
+        highest = max(run.state("ball", landed + 0.01 * k)[1] for k in range(1, 30)) - 0.02
+        assert highest == pytest.approx(rises, abs=6e-4)

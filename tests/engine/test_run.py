@@ -1,7 +1,7 @@
 """The run record: samples, crossings, angles, events, and the energy ledger."""
 
 import re
-from dataclasses import replace
+from dataclasses import asdict, replace
 from math import cos, pi, sin, sqrt
 
 import numpy as np
@@ -12,6 +12,7 @@ from sandbox.engine import simulate
 from sandbox.engine.accuracy import resolve
 from sandbox.engine.arc import through
 from sandbox.engine.ledger import ledger
+from sandbox.engine.run import Numerics
 from sandbox.engine.setup import Ball, Bounce, Segment, Setup, Surface
 from sandbox.physics.coefficients import Constant
 from sandbox.physics.forces import Drag, Gravity, Magnus, SpinDecay
@@ -214,3 +215,9 @@ def test_spin_is_followed_where_nothing_else_changes():
     run = simulate(Setup([swinging], duration=1.0), resolve())
     for t in (0.25, 0.7, 1.0):
         assert run.state("ball", t)[4] == pytest.approx(10.0 * (1.0 - cos(60.0 * t)), abs=0.02)
+
+
+def test_a_ball_that_nothing_moves_costs_one_step_and_no_more():
+    run = simulate(Setup([Ball("ball", 1.0, 0.1, (0.0, 0.0))], duration=0.01), resolve())
+    assert replace(run.numerics, wall_s=0.0) == Numerics(force_evaluations=7, steps=1)
+    assert set(asdict(Numerics()).values()) == {0}
