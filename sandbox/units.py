@@ -45,6 +45,7 @@ KINDS: dict[str, dict[str, tuple[float, float]]] = {
     "energy": {"J": (1.0, 0.0), "kJ": (1e3, 0.0)},
     "power": {"W": (1.0, 0.0), "kW": (1e3, 0.0)},
     "stiffness": {"N/m": (1.0, 0.0), "N/mm": (1e3, 0.0)},
+    "contact stiffness": {"N/m^1.5": (1.0, 0.0)},
     "damping": {"N s/m": (1.0, 0.0)},
     "curvature": {"1/m": (1.0, 0.0), "1/cm": (1e2, 0.0)},
     "ratio": {"": (1.0, 0.0), "%": (1e-2, 0.0)},

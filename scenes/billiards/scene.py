@@ -2,13 +2,12 @@
 
 Models: sliding, rolling and spinning on cloth in closed form; the cue tip's offset, which gives follow, draw, stun and
 english; impacts of balls with restitution, and with friction that falls with their speed, so that cuts and english
-throw the object ball and spin passes on; cushions with restitution and friction; jaws as real shapes, and pockets that
-take a ball whose centre is over the hole.
+throw the object ball and spin passes on; racks and frozen balls that share a blow (Hertz); cushions whose nose is above
+the ball's centre; jaws as real shapes, and pockets that take a ball whose centre is over the hole.
 Leaves out, with what it is worth: hops, as friction lifts a rolling ball that hits another straight on at 3 m/s by
 1.1 mm for 0.03 s; squirt, as the ball leaves along the cue (2.7 deg at the most english, by a cue that pivots 0.3 m
-behind its tip). And, not measured: the elevated cue (swerve, masse, jump); the nose's height over the ball's centre,
-which changes how much of its roll a cushion takes; the cushions' give; the nap of the cloth; the pockets' depth, out of
-which a fast ball may rattle.
+behind its tip). And, not measured: the elevated cue (swerve, masse, jump); how long the cushions hold a ball; the nap
+of the cloth; the pockets' depth, out of which a fast ball may rattle.
 """
 
 from __future__ import annotations
@@ -24,7 +23,7 @@ from pydantic import Field
 
 from sandbox.engine.on_cloth import slowest_hop
 from sandbox.engine.run import Event, Run
-from sandbox.engine.setup import Always, Ball, Bounce, Setup, Vector
+from sandbox.engine.setup import Always, Ball, Bounce, ContactModel, Setup, Vector
 from sandbox.engine.touch import Obstacle
 from sandbox.errors import RequestError
 from sandbox.parameters import Accuracy, Group, choice, either, group, groups, quantity
@@ -80,8 +79,17 @@ class ClothParameters(Group):
 class Cushion(Group):
     """The cushions, jaws included."""
 
+    model: Literal["nose", "vertical"] = choice(..., "a nose above the ball's centre, or a wall")
+    nose_height: float = quantity(..., "m", 0.001, 0.4, "height of the nose over the cloth")
     restitution: float = quantity(..., "", 0, 1, "of ball and cushion")
     friction: float = quantity(..., "", 0, 10, "of ball and cushion")
+
+
+class Contact(Group):
+    """How balls meet that others can reach while they are pressed together."""
+
+    model: Literal["auto", "rigid", "hertz"] = choice(..., "contact mechanics where it matters, never, or always")
+    stiffness: float = quantity(..., "N/m^1.5", 1e3, 1e12, "of a pair of balls")
 
 
 class Parameters(Group):
@@ -99,6 +107,7 @@ class Parameters(Group):
     ball: BallParameters = group(..., "the balls")
     cloth: ClothParameters = group(..., "the cloth")
     cushion: Cushion = group(..., "the cushions")
+    contact: Contact = group(..., "how balls meet")
     gravity: float = quantity(..., "m/s^2", 0, 30, "gravity")
     accuracy: Accuracy = group(Accuracy(), "speed against accuracy")
 
@@ -138,7 +147,9 @@ def build(parameters: Parameters) -> Setup:
     """Table, balls and the stroke. Raises RequestError for balls that do not fit, and for a miscue."""
     check(parameters.table, parameters.ball.radius)
     spots = laid_out(parameters)
-    surfaces = cushions(parameters.table, parameters.cushion.restitution, parameters.cushion.friction)
+    surfaces = cushions(
+        parameters.table, parameters.cushion.restitution, parameters.cushion.friction, _nose(parameters)
+    )
     holes = catches(parameters.table)
     _check_spots(spots, parameters, [Obstacle(surface, parameters.ball.radius) for surface in surfaces])
     velocity, spin, rolling_spin = struck(parameters)
@@ -156,7 +167,21 @@ def build(parameters: Parameters) -> Setup:
         between_balls=_between_balls(ball),
         cloth=Cloth(cloth.sliding_friction, cloth.rolling_friction, cloth.spinning_friction, parameters.gravity),
         catches=holes,
+        contact=ContactModel(parameters.contact.model, parameters.contact.stiffness),
     )
+
+
+def _nose(parameters: Parameters) -> float | None:
+    """Height in m of the cushions' nose; None for walls."""
+    cushion, radius = parameters.cushion, parameters.ball.radius
+    if cushion.model == "vertical":
+        return None
+    if not radius <= cushion.nose_height < 2.0 * radius:
+        raise RequestError(
+            f"cushion.nose_height = {cushion.nose_height:g} m: must be between the centre of a ball, at {radius:g} m, "
+            f"and its top, at {2.0 * radius:g} m"
+        )
+    return cushion.nose_height
 
 
 def laid_out(parameters: Parameters) -> dict[str, Vector]:
@@ -188,8 +213,8 @@ def _rack(parameters: Parameters) -> str:
 def _racked(parameters: Parameters) -> Iterator[tuple[str, Vector]]:
     """The balls of the rack, its foremost on the foot spot.
 
-    Neighbours lie ``rack_gap`` apart: balls that touch would be one rigid lump to the solver, while with any gap from
-    0.001 to 0.1 mm the blow runs from ball to ball and the break comes out alike.
+    Neighbours lie ``rack_gap`` apart: a real rack is never quite tight, and while two balls touch they are pressed
+    together by 0.1 mm and more.
     """
     scatter = parameters.rack_scatter
     pitch = 2.0 * parameters.ball.radius + parameters.rack_gap + 2.0 * scatter

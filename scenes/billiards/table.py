@@ -194,8 +194,11 @@ def on_bed(table: Table, x: float, y: float) -> bool:
     return in_corner or in_side
 
 
-def cushions(table: Table, restitution: float, friction: float) -> list[Surface]:
-    """Noses and jaws. Head is at negative x, foot at positive x; left, seen from the head, is at positive y."""
+def cushions(table: Table, restitution: float, friction: float, nose: float | None = None) -> list[Surface]:
+    """Noses, ``nose`` m over the cloth (None for walls), and jaws.
+
+    Head is at negative x, foot at positive x; left, seen from the head, is at positive y.
+    """
     x, y = 0.5 * table.length, 0.5 * table.width
     if not table.pockets:
         lines = {
@@ -204,7 +207,7 @@ def cushions(table: Table, restitution: float, friction: float) -> list[Surface]
             "head cushion": Segment((-x, -y), (-x, y)),
             "foot cushion": Segment((x, -y), (x, y)),
         }
-        return [Surface(name, shape, restitution, friction) for name, shape in lines.items()]
+        return [Surface(name, shape, restitution, friction, nose_height=nose) for name, shape in lines.items()]
     corner, side = _mouths(table)
     cut = corner.mouth / sqrt(2.0)  # from the crossing of two rails' noses to a corner pocket's point
     noses: list[tuple[str, Segment]] = []
@@ -223,7 +226,7 @@ def cushions(table: Table, restitution: float, friction: float) -> list[Surface]
             jaws.append((name, Segment((sx * ax, sy * ay), (sx * bx, sy * by), radius)))
         (ay, ax), (by, bx) = _facing(y - cut, x, 1.0, corner)
         jaws.append((f"{flank} {end} corner jaw", Segment((sx * ax, sy * ay), (sx * bx, sy * by), corner.jaw_radius)))
-    return [Surface(name, shape, restitution, friction) for name, shape in (*noses, *jaws)]
+    return [Surface(name, shape, restitution, friction, nose_height=nose) for name, shape in (*noses, *jaws)]
 
 
 def _facing(point: float, nose: float, forward: float, pocket: _Mouth) -> tuple[Point, Point]:

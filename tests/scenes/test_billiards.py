@@ -225,15 +225,38 @@ def test_outside_english_that_rolls_round_the_object_ball_throws_nothing():
 
 
 def test_a_cushion_met_squarely_gives_back_its_restitution():
-    run = shot(spot("cue", 1.0, 0.2), cue__speed=2.0, cue__follow=0.4, cushion__friction=0.0)
+    run = shot(spot("cue", 1.0, 0.2), cushion__model="vertical", cue__speed=2.0, cue__follow=0.4, cushion__friction=0.0)
     t = impact(run)
     assert run.state("cue", t)[2] == pytest.approx(-0.85 * run.before("cue", t)[2], rel=1e-12)
     assert run.rolling_spin("cue", t) == pytest.approx(run.rolling_spin("cue", nextafter(t, 0.0)), rel=1e-12)
 
 
+def test_a_carom_ball_off_the_nose_goes_as_tracked_ones_do():
+    """45 deg in, 50.4 deg out once it rolls again, at 0.646 of its speed (329 tracked rebounds)."""
+    numbers = {
+        "table.kind": "carom",
+        "ball.radius": 0.03075,
+        "cloth.sliding_friction": 0.202,
+        "cloth.rolling_friction": 0,
+    }
+    nose = {"cushion.nose_height": 0.037, "cushion.restitution": 0.88, "cushion.friction": 0.265}
+    stroke = {"cue.speed": 1.0, "cue.angle": 45.0, "cue.follow": 0.4, "cloth.spinning_friction": 0.0}
+    run = sandbox.simulate(sandbox.load("billiards", {"balls": [spot("cue", 0.9, -0.3)], **numbers, **nose, **stroke}))
+    t = impact(run)
+    vx, vy = next(run.state("cue", t + 0.01 * k)[2:4] for k in range(200) if rolls(run, t + 0.01 * k))
+    assert degrees(atan2(vy, -vx)) == pytest.approx(50.4, abs=0.1)
+    assert hypot(vx, vy) == pytest.approx(0.646, abs=2e-3)
+
+
+def rolls(run: Run, t: float) -> bool:
+    _, _, vx, vy, _ = run.state("cue", t)
+    wx, wy = run.rolling_spin("cue", t)
+    return hypot(vx - 0.03075 * wy, vy + 0.03075 * wx) < 1e-9
+
+
 def test_a_slanting_cushion_shot_without_spin_takes_friction_along_the_cushion():
     """Sliding contact: dv_t = -mu (1 + e) v_n, dwz = (5/2) mu (1 + e) v_n / r."""
-    run = shot(spot("cue", 0.3, 0.635 - R - NEAR), cue__speed=2.0, cue__angle=30.0)
+    run = shot(spot("cue", 0.3, 0.635 - R - NEAR), cushion__model="vertical", cue__speed=2.0, cue__angle=30.0)
     t = impact(run)
     _, _, vx, vy, wz = run.state("cue", t)
     push = 0.2 * 1.85 * 1.0  # m/s
@@ -244,7 +267,13 @@ def test_a_slanting_cushion_shot_without_spin_takes_friction_along_the_cushion()
 @pytest.mark.parametrize("friction", [0.05, 0.1, 0.2, 1.0])
 def test_a_cushion_takes_up_roll_until_it_grips(friction: float):
     """Head on, the front of a rolling ball moves down at v: friction takes (5/2) min(mu (1 + e), 2/7) v off r w."""
-    run = shot(spot("cue", 1.27 - R - NEAR, 0.2), cue__speed=2.0, cue__follow=0.4, cushion__friction=friction)
+    run = shot(
+        spot("cue", 1.27 - R - NEAR, 0.2),
+        cushion__model="vertical",
+        cue__speed=2.0,
+        cue__follow=0.4,
+        cushion__friction=friction,
+    )
     roll = R * run.rolling_spin("cue", impact(run))[1]
     assert roll == pytest.approx(2.0 - 2.5 * min(friction * 1.85, 2.0 / 7.0) * 2.0, rel=1e-4)
 
@@ -341,8 +370,8 @@ def test_a_ball_in_the_mouth_of_a_pocket_drops_and_none_leaves_the_table(kind: s
             nearest = min(hypot(x - c.center[0], y - c.center[1]) - c.radius for c in run.setup.catches)
             assert nearest == pytest.approx(0.0, abs=1e-9)
         else:
-            assert abs(x) <= 0.5 * table.length
-            assert abs(y) <= 0.5 * table.width
+            assert abs(x) <= 0.5 * table.length + radius  # some come to rest between the jaws
+            assert abs(y) <= 0.5 * table.width + radius
     assert dropped > 5
 
 
