@@ -20,29 +20,29 @@ from sandbox.sport.readings import travelled
 MASS, RADIUS, FROM_END = 0.0459, 0.02135, 0.4  # of a golf ball, in kg and m; of tee and cup from the ends, in m
 
 
-# quantity(default, unit, lowest, highest, meaning) is all that the file, --set, the sliders and sweep need to know.
+# Parameters: quantity(default, unit, lowest, highest, meaning). A default of ... stands in template_above.toml.
 class Launch(Group):
     """The ball as it leaves the putter."""
 
-    speed: float = quantity(3.6, "m/s", 0, 20, "ball speed")
-    angle: float = quantity(26.5, "deg", -180, 180, "direction, to the left of straight along the lane")
-    roll: float = quantity(0.3, "", -1, 1, "share of its roll that the ball has at once; 1 does not slide at all")
+    speed: float = quantity(..., "m/s", 0, 20, "ball speed")
+    angle: float = quantity(..., "deg", -180, 180, "direction, to the left of straight along the lane")
+    roll: float = quantity(..., "", -1, 1, "share of its roll that the ball has at once; 1 does not slide at all")
 
 
 class Lane(Group):
     """The lane, its middle the origin; the tee is at one end, the cup near the other."""
 
-    length: float = quantity(4.0, "m", 1, 50, "between the boards at its ends")
-    width: float = quantity(1.4, "m", 0.3, 20, "between the boards at its sides")
-    block: float = quantity(0.6, "m", 0.05, 10, "width of the block in the middle")
-    felt: float = quantity(0.06, "", 0.001, 1, "deceleration of a rolling ball over gravity")
+    length: float = quantity(..., "m", 1, 50, "between the boards at its ends")
+    width: float = quantity(..., "m", 0.3, 20, "between the boards at its sides")
+    block: float = quantity(..., "m", 0.05, 10, "width of the block in the middle")
+    felt: float = quantity(..., "", 0.001, 1, "deceleration of a rolling ball over gravity")
 
 
 class Parameters(Group):
     """All numbers of a putt."""
 
-    launch: Launch = group(Launch(), "the ball as it leaves the putter")
-    lane: Lane = group(Lane(), "the lane")
+    launch: Launch = group(..., "the ball as it leaves the putter")
+    lane: Lane = group(..., "the lane")
     accuracy: Accuracy = group(Accuracy(), "speed against accuracy")
 
 

@@ -289,7 +289,7 @@ def test_its_golden_test(scene: Path):
             "mass = -1.0 must be positive",
         ),
         ("picture.py", "Place(HALL", "Place(HOLE", "NameError: name 'HOLE' is not defined"),
-        ("picture.py", "launch.height)", "launch.hight)", "AttributeError: 'Launch' object has no"),
+        ("picture.py", "launch.height)", "launch.hight)", "AttributeError: 'Toss' object has no"),
         (
             "picture.py",
             "picture.figures",

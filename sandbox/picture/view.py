@@ -59,7 +59,7 @@ class View(Generic[P]):
     FAINT: ClassVar[Colour | None] = None
     EARLIER: ClassVar[Sequence[Colour]] = TRACES[1:]
     #: What a spin below and one above zero is called.
-    SPINS: ClassVar[tuple[str, str]] = ("top", "back")
+    SPINS: ClassVar[tuple[str, str]] = ("topspin", "backspin")
     #: s of path that the trail behind the ball shows.
     TRAIL: ClassVar[float] = 0.5
     #: Impacts are marked that are at least so hard, in m/s, and as a share of the hardest.
