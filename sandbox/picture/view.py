@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from functools import cached_property
-from math import atan2, degrees, dist, hypot, inf, pi
+from math import atan2, degrees, dist, floor, hypot, inf, log2, pi
 from typing import ClassVar, Generic, TypeVar
 
 import numpy as np
@@ -21,7 +21,7 @@ from sandbox.parameters import Group
 from sandbox.picture.ball import SMALLEST, Look, least_radius, mark_radius
 from sandbox.picture.camera import Camera
 from sandbox.picture.ghosts import draw_ghost, draw_in_frame, ghosts_on, label_ghost
-from sandbox.picture.painter import Painter
+from sandbox.picture.painter import Painter, blank
 from sandbox.picture.palette import Colour, palette
 from sandbox.picture.path import Mark, Path, apart, draw_trace, mark_impacts
 from sandbox.picture.sheet import Entry, Sheet
@@ -205,7 +205,7 @@ class View(Generic[P]):
         self.radius = self.radii[self.ball]
         self.ghosts = ghosts_on(self, ghosts or {})
         self._standing: tuple[Camera, pygame.Surface] | None = None
-        self._tracks: dict[str, tuple[tuple[float, float], np.ndarray, np.ndarray]] = {}
+        self._tracks: dict[str, tuple[int, np.ndarray, np.ndarray]] = {}
 
     @cached_property
     def paths(self) -> dict[str, Path]:
@@ -427,8 +427,8 @@ class View(Generic[P]):
         sheet.surface.set_clip(None)
 
     def _track(self, name: str, camera: Camera) -> tuple[np.ndarray, np.ndarray]:
-        """Times (s) and places (m) along a ball's path that can be told apart; kept while the camera's scale stays."""
-        scale, path = (camera.scale, camera.stretch), self.paths[name]
+        """Times (s) and places (m) along a ball's path that can be told apart; kept while the scale is similar."""
+        scale, path = floor(2 * log2(camera.scale)), self.paths[name]
         if name not in self._tracks or self._tracks[name][0] != scale:
             some = apart(camera.pixels(path.points), 3.0)
             self._tracks[name] = scale, path.samples[some, 0], path.points[some]
@@ -466,9 +466,9 @@ class View(Generic[P]):
     def _still(self, camera: Camera) -> pygame.Surface:
         """What stands still; kept while the camera does."""
         if self._standing is None or self._standing[0] != camera:
-            sheet = Sheet(self.size, self.on_dark)
-            self.backdrop(sheet.painter, camera)
-            self._standing = camera, sheet.surface
+            surface = blank(self.size) if self._standing is None else self._standing[1]  # new memory is slow
+            self.backdrop(Painter(surface), camera)
+            self._standing = camera, surface
         return self._standing[1]
 
     def _room(self, sheet: Sheet, camera: Camera, t: float | None) -> float:

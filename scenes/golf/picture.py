@@ -156,7 +156,7 @@ class Picture(SideView[Parameters]):
         """A map in frames: the whole path, small, and where on it the ball is."""
         if t is None:
             return None
-        rect, small, ground = self._map
+        rect, small, ground, kept = self._map
         painter, unit, thin = sheet.painter, self.unit, max(1, round(1.6 * self.unit))
         painter.panel(rect, CARD["background"], CARD["opacity"], 8 * unit)
         sheet.surface.set_clip(rect)
@@ -164,12 +164,10 @@ class Picture(SideView[Parameters]):
         for ghost in self.ghosts:
             points = small.pixels(ghost.points)
             painter.thread(points[apart(points, 1.5)], 1, ghost.light)
-        path = small.pixels(self.path.points)
-        kept = apart(path, 1.5)
-        past = self.path.samples[kept, 0] <= t
+        path, past = small.pixels(self.path.points[kept]), self.path.samples[kept, 0] <= t
         at = small.pixel(*self.run.state(self.ball, t)[:2])
-        painter.thread(path[kept], 1, CARD["quiet"])
-        painter.thread([*path[kept][past], at], thin + 1, TRACE["colours"][0])
+        painter.thread(path, 1, CARD["quiet"])
+        painter.thread([*path[past], at], thin + 1, TRACE["colours"][0])
         pin = self.parameters.pin.distance
         (px, py), tall = small.pixel(pin, self._under(pin)), 24 * unit
         pygame.draw.line(sheet.surface, COLOURS["hole"]["pole"], (px, py), (px, py - tall), thin)
@@ -181,8 +179,8 @@ class Picture(SideView[Parameters]):
         return rect
 
     @cached_property
-    def _map(self) -> tuple[pygame.Rect, Camera, np.ndarray]:
-        """The map's place, its camera, and the ground in px."""
+    def _map(self) -> tuple[pygame.Rect, Camera, np.ndarray, list[int]]:
+        """The map's place, its camera, the ground in px, and which points of the path can be told apart."""
         sheet, inset = self.sheet, 2.4 * self.sheet.gap
         left, (right, top) = self.points[:, 0].min(), self.points.max(axis=0)
         pin = self.parameters.pin.distance
@@ -198,4 +196,5 @@ class Picture(SideView[Parameters]):
         anchor = rect.left + camera.anchor[0], rect.bottom - inset
         camera = Camera(camera.at, anchor, camera.scale, camera.stretch)
         edges = (camera.world(px, 0)[0] for px in (rect.left + sheet.gap, rect.right - sheet.gap))
-        return rect, camera, np.add(camera.pixels(self.course.between(*edges)), (0, 1))
+        ground = np.add(camera.pixels(self.course.between(*edges)), (0, 1))
+        return rect, camera, ground, apart(camera.pixels(self.path.points), 1.5)

@@ -57,12 +57,13 @@ class Planks:
         plank, length, width = eye.distance * 0.04, eye.distance * 0.30, drawn.get_width()
         least = eye.share(far)
         for i in range(ceil(far / plank)):
-            (_, low), (_, top) = project([(0.0, i * plank), (0.0, (i + 1) * plank)])
-            share, shift = eye.share((i + 0.5) * plank), i * 0.618 % 1
+            middle, shift = (i + 0.5) * plank, i * 0.618 % 1
+            share = eye.share(middle)
             colour = mix(distant, close, (share - least) / (1 - least))
-            ends = (eye.along(px, (i + 0.5) * plank) / length - shift for px in (0, width / OVERSAMPLING))
-            first, last = (floor(end) for end in ends)
-            edges = [(project([((j + shift) * length, (i + 0.5) * plank)])[0, 0], j) for j in range(first, last + 2)]
+            first, last = (floor(eye.along(px, middle) / length - shift) for px in (0, width / OVERSAMPLING))
+            joints = [((j + shift) * length, middle) for j in range(first, last + 2)]
+            seen = project([(0.0, i * plank), (0.0, (i + 1) * plank), *joints])
+            low, top, edges = seen[0, 1], seen[1, 1], zip(seen[2:, 0], range(first, last + 2), strict=True)
             for (a, j), (b, _) in pairwise(edges):
                 tone = (i * 0.7549 + j * 0.5698) % 1
                 rect = (round(a), round(top), round(b) - round(a), round(low) - round(top))
