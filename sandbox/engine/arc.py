@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Any
 
 from sandbox.engine.bernstein import evaluate, until
@@ -13,6 +14,7 @@ from sandbox.physics.integrators import Acceleration, State
 _SHORT = 1e-3
 
 
+@dataclass(slots=True, eq=False)
 class Arc:
     """The path of one ball from t0 to t1.
 
@@ -23,34 +25,18 @@ class Arc:
     components.
     """
 
-    __slots__ = ("_box", "contact", "end", "rolling_spin", "spin", "start", "t0", "t1", "vx", "vy", "x", "y")
-
-    def __init__(
-        self,
-        t0: float,
-        t1: float,
-        start: State,
-        x: Sequence[float],
-        y: Sequence[float],
-        vx: Sequence[float],
-        vy: Sequence[float],
-        spin: Sequence[float],
-        contact: object = None,
-        rolling_spin: tuple[Sequence[float], ...] = (),
-        end: State | None = None,
-    ) -> None:
-        self.t0 = t0  # s
-        self.t1 = t1  # s
-        self.start = start
-        self.x = x  # m
-        self.y = y
-        self.vx = vx  # m/s
-        self.vy = vy
-        self.spin = spin  # rad/s
-        self.contact = contact
-        self.rolling_spin = rolling_spin
-        self.end = end  # the state at t1 where it is known without evaluating
-        self._box: tuple[float, float, float, float] | None = None
+    t0: float  # s
+    t1: float  # s
+    start: State
+    x: Sequence[float]  # m
+    y: Sequence[float]
+    vx: Sequence[float]  # m/s
+    vy: Sequence[float]
+    spin: Sequence[float]  # rad/s
+    contact: object = None
+    rolling_spin: tuple[Sequence[float], ...] = ()
+    end: State | None = None  # the state at t1 where it is known without evaluating
+    _box: tuple[float, float, float, float] | None = None
 
     def state(self, t: float) -> State:
         """Position, velocity and spin at time t in [t0, t1]."""

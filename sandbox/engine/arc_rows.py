@@ -9,17 +9,11 @@ import numpy as np
 
 from sandbox.engine.arc import Arc
 
-#: Where the parts of an arc stand in its row.
-TIMES, START, X, Y, VX, VY, SPIN, END = (
-    slice(0, 2),
-    slice(2, 7),
-    slice(7, 13),
-    slice(13, 19),
-    slice(19, 24),
-    slice(24, 29),
-    slice(29, 33),
-    slice(33, 38),
-)
+#: Where the parts of an arc stand in its row: times, state at the start, curves, state at the end.
+START = slice(2, 7)
+X, Y, VX, VY, SPIN = slice(7, 13), slice(13, 19), slice(19, 24), slice(24, 29), slice(29, 33)
+CURVES = {"x": X, "y": Y, "vx": VX, "vy": VY, "spin": SPIN}
+END = slice(33, 38)
 COLUMNS = END.stop
 
 
@@ -38,11 +32,11 @@ class ArcRows(Sequence[Arc]):
     def __getitem__(self, index: slice) -> list[Arc]: ...
     def __getitem__(self, index: int | slice) -> Arc | list[Arc]:
         if isinstance(index, slice):
-            return [_arc(row) for row in self._rows[index].tolist()]
-        return _arc(self._rows[index].tolist())
+            return [arc_of(row) for row in self._rows[index].tolist()]
+        return arc_of(self._rows[index].tolist())
 
     def __iter__(self) -> Iterator[Arc]:
-        return map(_arc, self._rows.tolist())
+        return map(arc_of, self._rows.tolist())
 
     def passing(self, px: float, py: float, nx: float, ny: float) -> list[Arc]:
         """Those that may pass the line through (px, py) with the normal (nx, ny)."""
@@ -55,15 +49,7 @@ class ArcRows(Sequence[Arc]):
         return [self[i] for i in np.flatnonzero(y.max(axis=1) >= max(y[:, 0].max(), y[:, -1].max())).tolist()]
 
 
-def _arc(row: list[float]) -> Arc:
-    return Arc(
-        row[0],
-        row[1],
-        tuple(row[START]),
-        row[X],
-        row[Y],
-        row[VX],
-        row[VY],
-        row[SPIN],
-        end=tuple(row[END]),
-    )
+def arc_of(row: list[float]) -> Arc:
+    """The arc of one row."""
+    start, end = tuple(row[START]), tuple(row[END])
+    return Arc(row[0], row[1], start, row[X], row[Y], row[VX], row[VY], row[SPIN], end=end)

@@ -16,8 +16,8 @@ import numpy as np
 from sandbox.engine import flies_in_batches, simulate
 from sandbox.engine.accuracy import Accuracy
 from sandbox.engine.acting import acceleration, by_cause
-from sandbox.engine.arc import Arc, through
-from sandbox.engine.arc_rows import COLUMNS, ArcRows
+from sandbox.engine.arc import through
+from sandbox.engine.arc_rows import COLUMNS, CURVES, END, ArcRows, X, Y, arc_of
 from sandbox.engine.bernstein_many import until
 from sandbox.engine.blame import blamed
 from sandbox.engine.event import Event
@@ -257,34 +257,18 @@ class _Batch:
         shots, h = self._shot[lanes], h[lanes]
         t0, t1 = self._t[lanes], self._t[lanes] + h
         start, after = self._state[:, lanes], after[:, lanes]
-        curves = through(t0, h, tuple(start), tuple(acceleration[:, lanes]), tuple(after), tuple(last[:, lanes]))
-        x, y = np.array(curves.x), np.array(curves.y)
-        velocity, spin = np.array((curves.vx, curves.vy)).transpose(1, 0, 2), np.array(curves.spin)
-
-        def arc(i: int) -> Arc:
-            return Arc(
-                float(t0[i]),
-                float(t1[i]),
-                tuple(start[:, i].tolist()),
-                x[:, i].tolist(),
-                y[:, i].tolist(),
-                velocity[:, 0, i].tolist(),
-                velocity[:, 1, i].tolist(),
-                spin[:, i].tolist(),
-                end=tuple(after[:, i].tolist()),
-            )
-
-        u, looked_at = self._outlines.first_touch(shots, x, y, arc)
+        arc = through(t0, h, tuple(start), tuple(acceleration[:, lanes]), tuple(after), tuple(last[:, lanes]))
+        rows = np.vstack((t0, t1, start, *(np.array(getattr(arc, part)) for part in CURVES), after))
+        u, looked_at = self._outlines.first_touch(shots, rows[X], rows[Y], lambda i: arc_of(rows[:, i].tolist()))
         self._counts[QUERIES, shots] += looked_at
         hits = np.flatnonzero(t0 + u * h <= t1)
-        touch = u[hits]
-        t1[hits] = t0[hits] + touch * h[hits]
-        x[:, hits], y[:, hits] = until(x[:, hits], touch), until(y[:, hits], touch)
-        velocity[:, :, hits], spin[:, hits] = until(velocity[:, :, hits], touch), until(spin[:, hits], touch)
-        after[:, hits] = x[-1, hits], y[-1, hits], *velocity[-1][:, hits], spin[-1, hits]
-        rows = np.vstack((t0, t1, start, x, y, velocity[:, 0], velocity[:, 1], spin, after))
+        t1[hits] = t0[hits] + u[hits] * h[hits]
+        rows[1, hits] = t1[hits]
+        for number, curve in enumerate(CURVES.values()):
+            rows[curve, hits] = until(rows[curve, hits], u[hits])
+            rows[END.start + number, hits] = rows[curve.stop - 1, hits]
         self._paths.append((shots, rows))
-        self._t[lanes], self._state[:, lanes] = t1, after
+        self._t[lanes], self._state[:, lanes] = t1, rows[END]
         leaving = t1 >= np.broadcast_to(self._now.duration, self._t.shape)[lanes]
         leaving[hits] = False
         for lane in lanes[leaving].tolist():

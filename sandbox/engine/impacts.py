@@ -135,10 +135,11 @@ class Impacts:
         while the normal speeds are forced back): friction then counts for less, down to nothing. If it is not that,
         as where a light ball is squeezed between a wall and a heavy one, restitution does: without either nothing is
         gained."""
+        if len(found) == 1:
+            self._contacts.exchange(cluster, found)
+            return
         start = [replace(moving) for moving in cluster]
         self._contacts.exchange(cluster, found)
-        if len(found) == 1:
-            return
         most = (1.0 + _GAIN) * self._in_the_plane(start) + len(found) * self._heaviest * self._slowest_hop**2
         friction = restitution = 1.0
         while self._in_the_plane(cluster) > most and restitution > 0.0:

@@ -85,6 +85,16 @@ def _check_pair(what: str, pair: Vector) -> None:
         raise ValueError(f"{what} = {pair} must be two numbers, (x, y)")
 
 
+def _check_shape(shape: Segment | Circle, kind: str, *points: str) -> None:
+    """Raise ValueError where a shape cannot be; its points become tuples, however they were given."""
+    for name in points:
+        _check_pair(f"{kind}: {name}", getattr(shape, name))
+        object.__setattr__(shape, name, tuple(getattr(shape, name)))
+    numbers = [number for name in points for number in getattr(shape, name)]
+    if not all(map(isfinite, (*numbers, shape.radius))) or shape.radius < 0.0:
+        raise ValueError(f"{shape}: points must be finite, and the radius no less than 0")
+
+
 @dataclass(frozen=True)
 class Segment:
     """A straight piece from a to b, rounded by ``radius`` (half its thickness); touched from either side."""
@@ -94,10 +104,7 @@ class Segment:
     radius: float = 0.0  # m
 
     def __post_init__(self) -> None:
-        _check_pair("segment: a", self.a)
-        _check_pair("segment: b", self.b)
-        if not all(map(isfinite, (*self.a, *self.b, self.radius))) or self.radius < 0.0:
-            raise ValueError(f"{self}: points must be finite, and the radius no less than 0")
+        _check_shape(self, "segment", "a", "b")
 
     @property
     def length(self) -> float:
@@ -112,9 +119,7 @@ class Circle:
     radius: float  # m
 
     def __post_init__(self) -> None:
-        _check_pair("circle: center", self.center)
-        if not all(map(isfinite, (*self.center, self.radius))) or self.radius < 0.0:
-            raise ValueError(f"{self}: the centre must be finite, and the radius no less than 0")
+        _check_shape(self, "circle", "center")
 
 
 class Bounce(NamedTuple):

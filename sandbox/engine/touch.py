@@ -9,6 +9,7 @@ at any speed.
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from functools import lru_cache
 from math import sqrt
 from typing import Any, NamedTuple
 
@@ -130,14 +131,20 @@ class Outline(NamedTuple):
         )
 
 
+@lru_cache(maxsize=4096)
+def _prepared(shape: Segment | Circle, radius: float) -> tuple[Outline, tuple[float, float, float, float]]:
+    """An outline and its box; a scene's shapes are the same in run after run."""
+    outline = Outline.of(shape, radius)
+    return outline, outline.box()
+
+
 class Obstacle:
     """A surface, prepared for one ball radius; touched where a ball overlaps it by ``skin`` (m)."""
 
     def __init__(self, surface: Surface, radius: float, skin: float = SKIN) -> None:
         self.surface = surface
         self._skin = skin
-        self.outline = Outline.of(surface.shape, radius)
-        self.box = self.outline.box()
+        self.outline, self.box = _prepared(surface.shape, radius)
 
     def may_meet(self, path: tuple[float, float, float, float]) -> bool:
         """Whether a path inside this box (left, bottom, right, top) could touch."""

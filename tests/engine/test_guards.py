@@ -311,3 +311,10 @@ def test_a_force_that_divides_by_nothing_is_the_scenes_own_error():
     ball = Ball("ball", 1.0, 0.1, (0.0, 0.0), forces=[lambda t, position, velocity, spin: (1.0 / position[0], 0.0)])
     with pytest.raises(ZeroDivisionError):
         simulate(Setup([ball], duration=1.0), resolve())
+
+
+def test_points_may_be_given_as_lists_and_arrays():
+    post = Surface("post", Circle([2.0, 0.0], 0.1), 0.5, 0.5)
+    floor = Surface("floor", Segment(np.array([-9.0, -1.0]), [9.0, -1.0]), 0.5, 0.5)
+    run = simulate(Setup([Ball("ball", 1.0, 0.1, (0.0, 0.0), (1.0, 0.0))], [post, floor], duration=3.0), resolve())
+    assert run.events[0].partner == "post"
