@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from sandbox.engine import flies_in_batches, simulate_many
@@ -16,11 +17,12 @@ if TYPE_CHECKING:
 
 
 def runs(
-    scene: Scene, keys: Sequence[str], points: Sequence[Sequence[Any]], finer: bool = False
+    scene: Scene, keys: Sequence[str], points: Sequence[Sequence[Any]], finer: bool = False, asked: Sequence[str] = ()
 ) -> Iterator[Run | Exception]:
     """The run at each of the points, in order, with its result; or the exception that it ended in.
 
-    Shots that are alike fly together. ``finer`` runs with half the steps, to estimate errors by.
+    Shots that are alike fly together. ``finer`` runs with half the steps, to estimate errors by. Where only some facts
+    are ``asked`` for, each run ends when these are settled, and its result has no others.
     """
     varied = Varied(scene, keys)
     built: list[tuple[Scene, Accuracy, Setup] | Exception] = []
@@ -28,7 +30,7 @@ def runs(
         try:
             point = varied.scene(values)
             accuracy = resolve(**point.parameters.accuracy.model_dump())
-            built.append((point, accuracy.finer() if finer else accuracy, point.build()))
+            built.append((point, accuracy.finer() if finer else accuracy, _ended(point, asked)))
         except Exception as error:
             built.append(error)
     setups: dict[Accuracy, list[Setup]] = {}
@@ -37,14 +39,24 @@ def runs(
             setups.setdefault(made[1], []).append(made[2])
     found = {accuracy: simulate_many(alike, accuracy) for accuracy, alike in setups.items()}
     for made in built:
-        yield made if isinstance(made, Exception) else _finished(next(found[made[1]]), made[0])
+        yield made if isinstance(made, Exception) else _finished(next(found[made[1]]), made[0], asked)
 
 
-def _finished(run: Run | Exception, scene: Scene) -> Run | Exception:
+def _ended(scene: Scene, asked: Sequence[str]) -> Setup:
+    """The setup of a scene, which ends as soon as what is asked for is settled."""
+    setup = scene.build()
+    settled = scene.settles(asked) if asked else None
+    if settled is None:
+        return setup
+    own = setup.until
+    return replace(setup, until=lambda event: settled(event) or (own is not None and own(event)))
+
+
+def _finished(run: Run | Exception, scene: Scene, asked: Sequence[str]) -> Run | Exception:
     if isinstance(run, Exception):
         return run
     try:
-        run.result = scene.result(run)
+        run.result = scene.result(run, asked)
     except Exception as error:
         return error
     return run

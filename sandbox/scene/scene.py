@@ -11,7 +11,7 @@ import importlib
 import inspect
 import os
 import tokenize
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import takewhile
 from pathlib import Path
@@ -25,6 +25,7 @@ from sandbox.sport.controls import Controls
 from sandbox.sport.facts import PLAIN_FACTS, Fact, mistake_in, plain_verdict
 
 if TYPE_CHECKING:
+    from sandbox.engine.event import Event
     from sandbox.engine.run import Run
     from sandbox.engine.setup import Setup
 
@@ -111,16 +112,32 @@ class Scene:
         """The unit of each fact, "" for what has none."""
         return {key: fact.unit for key, fact in self.facts.items()}
 
-    def result(self, run: Run) -> dict[str, Any]:
-        """The facts of a run, in their units; None for what did not happen."""
+    def result(self, run: Run, asked: Collection[str] = ()) -> dict[str, Any]:
+        """The facts of a run, or those that are asked for, in their units; None for what did not happen."""
         with no_exit():
-            result = {key: fact.how(run, self.parameters) for key, fact in self.facts.items()}
+            facts = {key: fact for key, fact in self.facts.items() if not asked or key in asked}
+            result = {key: fact.how(run, self.parameters) for key, fact in facts.items()}
         for key, value in result.items():
             if _is_circular(value):
                 raise self._wrong(f"the fact {key}", "what does not contain itself", value)
             if not _can_be_told(value):
                 raise self._wrong(f"the fact {key}", "a number, a text, true or false, or a list of those", value)
         return result
+
+    def settles(self, asked: Collection[str]) -> Callable[[Event], bool] | None:
+        """Tells, event by event, when all of these facts can no longer change; None where one may until the end."""
+        facts = [self.facts[key] for key in asked if key in self.facts]
+        if len(facts) < len(asked) or any(fact.settled == "end" for fact in facts):
+            return None
+        events: list[Event] = []
+
+        def settled(event: Event) -> bool:
+            if events and event.t < events[-1].t:  # the run begins again, on another way through the engine
+                events.clear()
+            events.append(event)
+            return all(fact.is_settled(events, self.parameters) for fact in facts)
+
+        return settled
 
     def rows(self, run: Run, errors: Mapping[str, float] | None = None, also: bool = False) -> list[tuple[str, str]]:
         """The facts for people: label and text of each that happened.

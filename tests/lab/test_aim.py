@@ -14,6 +14,8 @@ from sandbox.cli import main
 from sandbox.errors import RequestError, RunError
 from sandbox.lab.aim import Target, aim, as_target, parse_target, search
 from sandbox.lab.axes import parse_span
+from sandbox.lab.runs import runs
+from sandbox.parameters import walk
 from sandbox.scene import load
 
 DROP = Path(__file__).parents[1] / "scenes" / "drop"
@@ -226,3 +228,20 @@ def test_intervals_and_pairs_are_told_and_drawn(tmp_path, capsys):
     assert main(["aim", "golf", "--set", "air.density=0", *pair, "--show", str(tmp_path / "b.png")]) == 0
     assert "39.80557" in capsys.readouterr().out  # atan(4 25 / 120)
     assert {path.name for path in tmp_path.iterdir()} == {"a.png", "b.png"}
+
+
+@pytest.mark.parametrize("source", ["golf", "basketball", "basketball/bank-shot", "soccer", "soccer-curl"])
+def test_a_run_that_ends_when_its_fact_is_settled_says_the_same(source):
+    """Whatever way through the engine it takes: alone, or many together."""
+    scene = load(source)
+    parameter = next(p for p in walk(scene.parameters) if p.key.endswith("speed") and p.value)
+    points = [(share * parameter.value,) for share in (0.7, 0.98, 1.0, 1.02)]
+    whole = list(runs(scene, [parameter.key], points))
+    asked = [key for key, fact in scene.facts.items() if fact.settled != "end"]
+    assert asked
+    for keys in (*([key] for key in asked), asked):
+        for run, full in zip(runs(scene, [parameter.key], points, asked=keys), whole, strict=True):
+            assert run.result == {key: full.result[key] for key in keys}
+            assert run.duration <= full.duration
+    soonest = sum(run.duration for run in runs(scene, [parameter.key], points, asked=asked[:1]))
+    assert soonest < sum(run.duration for run in whole) or source == "soccer-curl"  # which ends there by itself

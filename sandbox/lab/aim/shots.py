@@ -41,6 +41,7 @@ class Shots:
         self.targets = targets
         self.tries: list[Try] = []
         self.failures = 0
+        self._asked = _asked(scene, [target.name for target in targets])
         self._progress = progress
         self._first_error: Exception | None = None
         self._known: dict[tuple[float, ...], dict[str, Any] | None] = {}
@@ -50,9 +51,9 @@ class Shots:
     ) -> list[dict[str, Any] | None]:
         """The results at some points; None where the run failed."""
         if finer:
-            return [self._result(run) for run in runs(self.scene, self._keys, points, finer=True)]
+            return [self._result(run) for run in runs(self.scene, self._keys, points, True, self._asked)]
         new = [point for point in dict.fromkeys(points) if point not in self._known]
-        for point, run in zip(new, runs(self.scene, self._keys, new), strict=True):
+        for point, run in zip(new, runs(self.scene, self._keys, new, False, self._asked), strict=True):
             result = self._known[point] = self._result(run)
             self._check_names(result)
             found = tuple(None if result is None else result.get(target.name) for target in self.targets)
@@ -132,6 +133,15 @@ class Shots:
                 raise RequestError(f"--target {target.name}: is a number, such as {target.name}={value:.4g}")
             if isinstance(value, list | tuple | dict):
                 raise RequestError(f"--target {target.name}: is a list and cannot be aimed at")
+
+
+def _asked(scene: Scene, names: Sequence[str]) -> list[str]:
+    """What runs are asked for, which end as soon as it is settled: the targets, and what is settled with them, as where
+    that changes a target may jump. All, by an empty list, where a target may change until the end."""
+    if scene.settles(names) is None:
+        return []
+    by = [scene.facts[name].settled for name in names]
+    return [key for key, fact in scene.facts.items() if fact.settled in by]
 
 
 def _signature(result: Mapping[str, Any] | None) -> Any:
