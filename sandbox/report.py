@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import csv
 import json
-from collections.abc import Mapping
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -25,6 +24,9 @@ EVENTS_SHOWN = 6
 
 #: Longest value in a sentence, in letters; a list of what a ball touched may have hundreds.
 LONGEST_WORD = 40
+
+#: Errors of numbers that the card leaves out are told from this size on, in their units.
+LEAST_UNSEEN = 1e-3
 
 
 def as_json(scene: Scene, run: Run, check: Check | None = None, other: Run | None = None) -> str:
@@ -110,7 +112,7 @@ def card(scene: Scene, run: Run, check: Check | None = None, other: tuple[str, R
         "",
         f"  {_numerics(run)}",
         *(f"  warning: {warning}" for warning in run.warnings),
-        *([] if check is None else _verdict(check, scene.units)),
+        *([] if check is None else _verdict(check, scene)),
     ]
 
 
@@ -148,8 +150,9 @@ def _count(number: int, noun: str) -> str:
     return f"{number} {noun}{'' if number == 1 else 's'}"
 
 
-def _verdict(check: Check, units: Mapping[str, str]) -> list[str]:
-    """What depends on the accuracy, and what on where exactly the balls start."""
+def _verdict(check: Check, scene: Scene) -> list[str]:
+    """What depends on the accuracy, and what on where exactly the balls start; errors of what has no row as well."""
+    units = scene.units
     away = f"{check.nudges} runs from starts {NUDGE:g} m away"
     said = [
         f"depends on the accuracy: {name} is {_word(here)} here and {_word(finer)} in a finer run"
@@ -164,6 +167,12 @@ def _verdict(check: Check, units: Mapping[str, str]) -> list[str]:
         f"chaotic: {name.replace('_', ' ')} is another in {len(others)} of {away}, such as {_word(others[0])}"
         for name, others in check.unsettled.items()
     ]
+    unseen = [
+        f"{name.replace('_', ' ')} ± {error:.2g} {units.get(name, '')}".rstrip()
+        for name, error in check.errors.items()
+        if error >= LEAST_UNSEEN and not scene.facts[name].label
+    ]
+    said += [f"not on the card: {', '.join(unseen)}"] if unseen else []
     said = said or [f"checked against a finer run and {away}: only the numbers move, by no more than their ±"]
     return [line for text in said for line in paragraph(text)]
 

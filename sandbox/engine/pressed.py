@@ -18,6 +18,10 @@ from sandbox.engine.track import Track
 from sandbox.physics.hertz import contact_time
 from sandbox.physics.integrators import State
 
+#: Restitution of balls below which they stay together, pressed by the cloth: those get impulses, as their contact has
+#: no end.
+STICKY = 0.25
+
 #: Approach speed in m/s below which balls push each other and do not strike: those stay with impulses.
 FAINTEST = 1e-3
 
@@ -148,6 +152,8 @@ class Pressed:
             if self._gap(i, members[i], j, members[j]) <= 2.0 * reach + CONTACT
         ]
         links = [self._link(place, members, i, j, speed) for i, j in pairs]
+        if any(link.restitution < STICKY for link in links):
+            raise StaysPressed("balls that do not bounce off each other stay together")
         links += [self._wall_link(place[index], members[index], obstacle) for index, obstacle in walls]
         names = [self._tracks[j].ball.name for _, j in pairs] + [obstacle.surface.name for _, obstacle in walls]
         firsts = [i for i, _ in pairs] + [index for index, _ in walls]

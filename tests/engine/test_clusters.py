@@ -7,6 +7,7 @@ from math import cos, hypot, radians, sin, sqrt
 import numpy as np
 import pytest
 
+import sandbox
 from sandbox.engine.clusters import Body, Cluster, Link, StaysPressed
 from sandbox.physics.hertz import contact_time
 
@@ -147,3 +148,11 @@ def test_what_stays_pressed_is_an_error():
     floor = Link(0, None, STIFFNESS, 0.1, lambda slip: 0.0, wall=lambda x, y: (y - RADIUS, 0.0, 1.0))
     with pytest.raises(StaysPressed, match="do not part"):
         Cluster(pressed, [floor]).pass_through(STEP)
+
+
+@pytest.mark.parametrize(("restitution", "through"), [(0.0, False), (0.2, False), (0.3, True)])
+def test_balls_that_hardly_bounce_get_impulses(restitution, through):
+    """They stay together: followed through their contact a break of them took three minutes."""
+    run = sandbox.simulate(sandbox.load("billiards", {"ball.restitution": restitution}))
+    assert run.ended == "rest"
+    assert bool(run.numerics.clusters) is through
