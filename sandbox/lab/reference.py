@@ -107,7 +107,7 @@ def converge(scene: Scene) -> Reference:
 
 def looked_at(scene: Scene, run: Run, time: float) -> list[Point]:
     """The scene's measure of a run: points in m."""
-    own = getattr(scene.module, "measure", None)
+    own = scene.measure
     if own is None:
         return places(run, [ball.name for ball in run.setup.balls], time)
     found = own(run, scene.parameters)

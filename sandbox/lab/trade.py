@@ -291,7 +291,7 @@ def _about(reference: Reference) -> list[str]:
         f"  measure    where {many} after {reference.time:.4g} s",
         f"  reference  good to {length(reference.error)}, {how}",
     ]
-    if hasattr(scene.module, "measure"):
+    if scene.measure is not None:
         lines[1] = "  measure    the scene's own"
     if reference.exact_error is not None:
         lines.append(

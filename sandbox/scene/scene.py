@@ -124,6 +124,12 @@ class Scene:
                 raise self._wrong(f"the fact {key}", "a number, a text, true or false, or a list of those", value)
         return result
 
+    @property
+    def measure(self) -> Callable[[Run, Any], Any] | None:
+        """What ``sandbox trade`` compares runs by, where the scene has a ``measure(run, parameters)`` of its own."""
+        own: Callable[[Run, Any], Any] | None = getattr(self.module, "measure", None)
+        return own
+
     def settles(self, asked: Collection[str]) -> Callable[[Event], bool] | None:
         """Tells, event by event, when all of these facts can no longer change; None where one may until the end."""
         facts = [self.facts[key] for key in asked if key in self.facts]
