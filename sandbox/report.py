@@ -8,6 +8,7 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from sandbox.engine.ledger import warnings
 from sandbox.errors import RunError
 from sandbox.files import plain, written_whole
 from sandbox.lab.tables import paragraph, table
@@ -36,7 +37,7 @@ def as_json(scene: Scene, run: Run, check: Check | None = None, other: Run | Non
         "preset": scene.preset,
         "parameters": scene.parameters.model_dump(mode="json"),
         "accuracy": asdict(run.accuracy),
-        "warnings": run.warnings,
+        "warnings": warnings(run),
         "result": run.result,
         "verdict": scene.verdict(run),
         "ended": run.ended,
@@ -111,7 +112,7 @@ def card(scene: Scene, run: Run, check: Check | None = None, other: tuple[str, R
         *_events(run),
         "",
         f"  {_numerics(run)}",
-        *(f"  warning: {warning}" for warning in run.warnings),
+        *(f"  warning: {warning}" for warning in warnings(run)),
         *([] if check is None else _verdict(check, scene)),
     ]
 

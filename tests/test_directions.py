@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterator
+from graphlib import TopologicalSorter
 from pathlib import Path
 
 import pytest
@@ -149,3 +150,19 @@ def test_the_rules_can_be_broken(own: str, source: str):
 )
 def test_the_rules_allow_what_they_should(own: str, source: str):
     assert broken_rules(source, "here", own) == []
+
+
+def test_no_two_modules_of_the_engine_need_each_other():
+    """Not even for types: what happened (run) knows what was set up, and not the other way round."""
+    engine = ROOT / "sandbox" / "engine"
+    needs = {
+        path.stem: {
+            name.split(".")[2]
+            for name in imported(ast.parse(path.read_text("utf-8")), "sandbox.engine")
+            if name.startswith("sandbox.engine.") and (engine / f"{name.split('.')[2]}.py").is_file()
+        }
+        for path in engine.glob("*.py")
+        if path.stem != "__init__"
+    }
+    order = list(TopologicalSorter(needs).static_order())  # raises CycleError, which names the circle
+    assert order.index("event") < order.index("setup") < order.index("run") < order.index("simulation")

@@ -38,7 +38,7 @@ _FEWEST = 24
 STEPS, REFINED, IMPACTS, QUERIES = range(4)
 
 #: Pieces of path in a batch, 300 bytes each, beyond which its shots go on one at a time, where no run goes on for ever.
-_MOST_PIECES = 500_000
+MOST_PIECES = 500_000
 
 #: Share of a ball's forces by which arrays and floats may differ, beyond which they are not the same forces.
 _ROUNDING = 1e-9
@@ -58,7 +58,7 @@ def simulate_many(setups: Sequence[Setup], accuracy: Accuracy) -> Iterator[Run |
     batch_of: dict[int, Iterator[Run | Exception]] = {}
     for members in groups.values():
         if len(members) >= _FEWEST:
-            batch = _Batch([setups[member] for member in members], accuracy)
+            batch = Batch([setups[member] for member in members], accuracy)
             try:
                 batch.fly()
             except _OnlyFloats:
@@ -122,11 +122,11 @@ class _Left(NamedTuple):
     wanted: float  # s, the next step
 
 
-class _Batch:
+class Batch:
     """Shots that fly together. Arrays have one entry for each shot still in flight, or rows of them."""
 
     def __init__(self, setups: Sequence[Setup], accuracy: Accuracy) -> None:
-        self._setups = setups
+        self.setups = setups
         self._accuracy = accuracy
         self._control = StepControl(accuracy)
         self._method = INTEGRATORS[accuracy.integrator]
@@ -155,7 +155,7 @@ class _Batch:
             self._check_forces(some, np.array(self._acceleration(self._t, tuple(self._state))))
             self._begin()
             rounds = pieces = 0
-            while len(self._shot) >= _FEWEST and pieces < _MOST_PIECES:
+            while len(self._shot) >= _FEWEST and pieces < MOST_PIECES:
                 self._round(rounds % len(self._shot))
                 rounds += 1
                 pieces += len(self._paths[-1][0])
@@ -168,7 +168,7 @@ class _Batch:
         shots = np.concatenate([shots for shots, _ in self._paths])
         order = np.argsort(shots, kind="stable")
         rows = np.ascontiguousarray(np.concatenate([columns for _, columns in self._paths], axis=1)[:, order].T)
-        ends = np.cumsum(np.bincount(shots, minlength=len(self._setups)))
+        ends = np.cumsum(np.bincount(shots, minlength=len(self.setups)))
         for number, path in enumerate(np.split(rows, ends[:-1])):
             yield self._run(number, path)
 
@@ -190,7 +190,7 @@ class _Batch:
         """Whether arrays, by which these lanes have these accelerations, give what floats give; not so where a force
         mixes shots up. Where they give no numbers the shot alone says why."""
         for lane in lanes.tolist():
-            ball, now = self._setups[self._shot[lane]].balls[0], tuple(self._state[:, lane].tolist())
+            ball, now = self.setups[self._shot[lane]].balls[0], tuple(self._state[:, lane].tolist())
             try:
                 alone = np.array(acceleration(ball, float(self._t[lane]), now))
                 terms = by_cause(ball.forces, float(self._t[lane]), now)
@@ -289,7 +289,7 @@ class _Batch:
         plain = (count == 1) & (approach > STILL)
         answers = np.zeros((len(lanes), 3))  # restitution, friction, tilt
         for i in np.flatnonzero(plain).tolist():
-            setup = self._setups[shots[i]]
+            setup = self.setups[shots[i]]
             surface, speed = setup.surfaces[obstacle[i]], float(approach[i])
             try:
                 answers[i] = answer(surface, speed, float(along[i]))
@@ -340,11 +340,11 @@ class _Batch:
         state, (nx, ny, curvature) = self._state[:, at], self._normal[:, at]
         pressed = press(tuple(state), tuple(acceleration[:, at]), nx, ny, curvature)
         away = state[2] * nx + state[3] * ny
-        lowest = [self._setups[self._shot[lane]].surfaces[self._touched[lane]].lowest_bounce for lane in at.tolist()]
+        lowest = [self.setups[self._shot[lane]].surfaces[self._touched[lane]].lowest_bounce for lane in at.tolist()]
         stays = away <= leaves_at(pressed, np.maximum(self._accuracy.settle, lowest))
         for lane, kept in zip(at.tolist(), stays.tolist(), strict=True):
             shot = self._shot[lane]
-            setup = self._setups[shot]
+            setup = self.setups[shot]
             if kept:
                 self._leave(lane, "after")
                 flying[lane] = False
@@ -372,11 +372,11 @@ class _Batch:
         self._left[int(self._shot[lane])] = _Left(float(self._t[lane]), how, state, float(self._wanted[lane]))
 
     def _run(self, number: int, rows: np.ndarray) -> Run | Exception:
-        setup = self._setups[number]
+        setup = self.setups[number]
         if number not in self._left:  # not even begun
             return _one(setup, self._accuracy)
         steps, refined, impacts, queries = self._counts[:, number].tolist()
-        seconds = self._seconds / len(self._setups)
+        seconds = self._seconds / len(self.setups)
         numerics = Numerics(
             (self._method.evaluations + 1) * steps, steps, refined, impacts, 2 * impacts, queries, seconds
         )

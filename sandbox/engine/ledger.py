@@ -15,10 +15,15 @@ from sandbox.engine.motion import PINNED, RESTING, Contact, on_surface
 from sandbox.engine.run import Run
 from sandbox.engine.setup import Ball, kinetic
 from sandbox.engine.track import PRESSED
+from sandbox.physics.integrators import INTEGRATORS
 
 #: Gauss-Legendre nodes and weights on [0, 1]: exact for polynomials of degree 9.
 _NODES = (0.04691007703066802, 0.23076534494715845, 0.5, 0.7692346550528415, 0.953089922969332)
 _WEIGHTS = (0.11846344252809454, 0.23931433524968324, 0.28444444444444444, 0.23931433524968324, 0.11846344252809454)
+
+
+#: Share of the energy that an integrator without error control may gain or lose by itself unsaid.
+_LOST = 0.03
 
 
 @dataclass(frozen=True)
@@ -64,6 +69,22 @@ def ledger(run: Run) -> Ledger:
             else:
                 residue += jump
     return Ledger(start, end, dict(work), dict(impacts), dict(contacts), residue)
+
+
+def warnings(run: Run) -> list[str]:
+    """What makes a run doubtful, in a sentence each; nothing, as a rule."""
+    accuracy = run.accuracy
+    if accuracy.method == "plain" or INTEGRATORS[accuracy.integrator].controls_error:
+        return []
+    found = ledger(run)
+    most = max(found.start, found.end, *map(abs, found.work.values()), 0.0)
+    if abs(found.residue) <= _LOST * most:
+        return []
+    how = "appeared" if found.residue > 0.0 else "was lost"
+    return [
+        f"{abs(found.residue):.3g} J {how} by the error of {accuracy.integrator} with steps of {accuracy.step:.3g} s "
+        f"(most energy at a time: {most:.3g} J); lower accuracy.step, or use an integrator with error control"
+    ]
 
 
 def _hits(run: Run) -> dict[tuple[str, float], str]:

@@ -5,7 +5,6 @@ from __future__ import annotations
 from bisect import bisect_left, bisect_right
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
-from functools import cached_property
 from math import inf
 from typing import TYPE_CHECKING, Any
 
@@ -13,7 +12,7 @@ from sandbox.engine.arc import Arc
 from sandbox.engine.bernstein import downward_crossings
 from sandbox.engine.event import Event
 from sandbox.errors import RequestError
-from sandbox.physics.integrators import INTEGRATORS, State
+from sandbox.physics.integrators import State
 
 if TYPE_CHECKING:
     import numpy as np
@@ -21,10 +20,6 @@ if TYPE_CHECKING:
     from sandbox.engine.accuracy import Accuracy
     from sandbox.engine.arc_rows import ArcRows
     from sandbox.engine.setup import Setup, Vector
-
-
-#: Share of the energy that an integrator without error control may gain or lose by itself unsaid.
-_ENERGY_LOST = 0.03
 
 
 @dataclass(slots=True)
@@ -58,23 +53,6 @@ class Run:
     def __repr__(self) -> str:
         what = "" if self.scene is None else f" of {self.scene.title}"
         return f"<Run{what}: {self.duration:.2f} s, {len(self.events)} events, ended by {self.ended}>"
-
-    @cached_property
-    def warnings(self) -> list[str]:
-        """What makes this run doubtful, in a sentence each; nothing, as a rule."""
-        from sandbox.engine.ledger import ledger  # which knows of runs
-
-        if self.accuracy.method == "plain" or INTEGRATORS[self.accuracy.integrator].controls_error:
-            return []
-        found = ledger(self)
-        most = max(found.start, found.end, *map(abs, found.work.values()), 0.0)
-        if abs(found.residue) <= _ENERGY_LOST * most:
-            return []
-        kind, lost = ("appeared", found.residue) if found.residue > 0.0 else ("was lost", -found.residue)
-        return [
-            f"{lost:.3g} J {kind} by the error of {self.accuracy.integrator} with steps of {self.accuracy.step:.3g} s "
-            f"(most energy at a time: {most:.3g} J); lower accuracy.step, or use an integrator with error control"
-        ]
 
     def state(self, ball: str, t: float) -> State:
         """(x, y, vx, vy, spin) of a ball at time t, held at its last state beyond the end; m, m/s, rad/s.

@@ -11,7 +11,7 @@ import sandbox
 from sandbox.engine import simulate
 from sandbox.engine.accuracy import resolve
 from sandbox.engine.arc import through
-from sandbox.engine.ledger import ledger
+from sandbox.engine.ledger import ledger, warnings
 from sandbox.engine.run import Numerics
 from sandbox.engine.setup import Ball, Bounce, Segment, Setup, Surface
 from sandbox.physics.coefficients import Constant
@@ -187,9 +187,9 @@ def test_what_the_last_impact_did_is_in_the_path(restitution):
 def test_energy_from_nowhere_is_said():
     """Euler's steps carry a light ball, whose drag is strong, further than the drag allows."""
     light = {"ball.mass": 1e-4, "accuracy.integrator": "explicit-euler"}
-    (warning,) = sandbox.simulate(sandbox.load("golf", light)).warnings
+    (warning,) = warnings(sandbox.simulate(sandbox.load("golf", light)))
     assert re.match(r"0\.08\d+ J appeared by the error of explicit-euler with steps of 0.00417 s", warning)
-    assert sandbox.simulate(sandbox.load("golf", {"accuracy.integrator": "rk4"})).warnings == []
+    assert warnings(sandbox.simulate(sandbox.load("golf", {"accuracy.integrator": "rk4"}))) == []
 
 
 def test_a_ball_that_still_rises_is_highest_at_the_end():
