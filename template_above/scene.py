@@ -15,7 +15,6 @@ from sandbox.parameters import Accuracy, Group, group, quantity
 from sandbox.physics.cloth import Cloth
 from sandbox.sport.controls import Controls
 from sandbox.sport.facts import ENDED, Fact
-from sandbox.sport.readings import travelled
 
 MASS, RADIUS, FROM_END = 0.0459, 0.02135, 0.4  # of a golf ball, in kg and m; of tee and cup from the ends, in m
 
@@ -76,7 +75,7 @@ def _to_cup(run: Run, parameters: Parameters) -> float | None:
 FACTS = (
     Fact("to_cup", "to the cup", "m", _to_cup),
     Fact("bounces", "bounces", "", lambda run, _: sum(event.kind == "impact" for event in run.events)),
-    Fact("path", "path", "m", lambda run, _: travelled(run, "ball")),
+    Fact("time", "time", "s", lambda run, _: run.duration),
     Fact("holed", "", "", lambda run, _: run.caught_at("ball") is not None),
     ENDED,
 )
