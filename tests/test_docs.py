@@ -142,10 +142,10 @@ def test_the_walk_through_works_as_it_stands(golden, tmp_path: Path):
         with file.open("a" if file in written else "w", encoding="utf-8") as opened:
             opened.write(rest)
         written.add(file)
-    with Image.open(tmp_path / "volleyball" / "golden" / "volleyball.png") as image:
-        golden.check("volleyball", image)
+    with Image.open(tmp_path / "beachvolley" / "golden" / "beachvolley.png") as image:
+        golden.check("beachvolley", image)
     for how in (["check", "--ignore=I001"], ["format", "--check"]):  # here the sandbox is a library like others
-        command = [sys.executable, "-m", "ruff", *how, "--config", str(ROOT / "pyproject.toml"), "volleyball"]
+        command = [sys.executable, "-m", "ruff", *how, "--config", str(ROOT / "pyproject.toml"), "beachvolley"]
         assert subprocess.run(command, cwd=tmp_path, capture_output=True).returncode == 0
 
 
@@ -168,7 +168,7 @@ def test_commands_of_the_readme_can_be_given(command: str):
     shown = CliRunner().invoke(app, [name, "--help"], env={"COLUMNS": "200"}).output
     assert [arg for arg in args if arg.startswith("--") and arg not in shown] == []
     scene = args[0] if args and not args[0].startswith("--") else None
-    if scene is None or name == "new" or scene in ("./volleyball", "my-shot.toml"):
+    if scene is None or name == "new" or scene in ("./beachvolley", "my-shot.toml"):
         return
     known = {parameter.key for parameter in walk(sandbox.load(scene).parameters)}
     settings = [args[i + 1] for i, arg in enumerate(args) if arg in ("--set", "--vary", "--over")]

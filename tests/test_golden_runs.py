@@ -22,6 +22,7 @@ RUNS = {
     "billiards/nine-ball-break": 3.2,
     "billiards/snooker-break": None,
     "billiards/three-rail-carom": None,
+    "volleyball": None,
     "golf": None,
     "golf/blow-up": None,
     "golf/golf-game": None,

@@ -17,7 +17,7 @@ import sandbox
 from sandbox.cli import main
 
 COMMAND = [sys.executable, "-c", "import sys; from sandbox.cli import main; sys.exit(main())"]
-NAME = "volleyball"
+NAME = "beachvolley"
 
 
 class Outcome(NamedTuple):
@@ -160,7 +160,7 @@ def test_it_is_found_in_all_ways(call, scene: Path):
     presets = [f"./{NAME}/still", f"{scene}/still"]
     outcomes = [json.loads(call("run", source, "--json").out) for source in presets]
     assert [outcome["preset"] for outcome in outcomes] == ["still"] * 2
-    assert "did you mean volleyball/still?" in call("run", f"./{NAME}/stil").err
+    assert "did you mean beachvolley/still?" in call("run", f"./{NAME}/stil").err
 
 
 def test_it_is_listed_where_it_stands(call, scene: Path):

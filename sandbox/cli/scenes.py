@@ -49,8 +49,8 @@ def new_scene(
 
     \b
     Example:
-      sandbox new volleyball
-      sandbox run ./volleyball
+      sandbox new beachvolley
+      sandbox run ./beachvolley
     """
     from sandbox import new
 

@@ -84,11 +84,11 @@ def _moving(setup: Setup) -> Moving:
     return Moving(setup.balls[0], setup.patches, setup.bounds, setup.duration)
 
 
-def _over(setup: Setup, event: Event) -> str:
-    """ "until" where this event ends the run, "" where not; "after" where that cannot be told, which its shot alone
-    then says."""
+def _over(setup: Setup, events: Sequence[Event]) -> str:
+    """ "until" where the last of these events ends the run, "" where not; "after" where that cannot be told, which its
+    shot alone then says."""
     try:
-        return "until" if setup.until is not None and setup.until(event) else ""
+        return "until" if setup.ends_with(events) else ""
     except FAILURES:
         return "after"
 
@@ -348,7 +348,7 @@ class Batch:
             if kept:
                 self._leave(lane, "after")
                 flying[lane] = False
-            elif self._events[shot] and (how := _over(setup, self._events[shot][-1])):
+            elif self._events[shot] and (how := _over(setup, self._events[shot])):
                 self._leave(lane, how)
                 flying[lane] = False
         return flying

@@ -50,8 +50,10 @@ def _is_ours(error: BaseException) -> bool:
 
 def _functions(setup: Setup) -> Iterator[tuple[str, Callable[..., Any], tuple[str, ...]]]:
     """The functions of a setup by their names, with what they are called with."""
-    if setup.until is not None:
+    if callable(setup.until):
         yield "until", setup.until, ("event",)
+    for one, other, law in setup.pairs:
+        yield f"the law of {one} and {other}", law, ("normal_speed", "slip_speed")
     yield "between_balls", setup.between_balls, ("normal_speed", "slip_speed")
     for surface in setup.surfaces:
         if surface.law is not None:

@@ -204,7 +204,7 @@ class Impacts:
             approach = (wx - vx) * nx + (wy - vy) * ny
             flat = (vx - wx) * ny - (vy - wy) * nx + a.radius * spin + b.radius * other_spin
             slip = flat, slip_over(a, here, nx, ny) - slip_over(b, there, -nx, -ny)
-            bounce = answer_of_balls(self._setup, approach, hypot(*slip), b.name)
+            bounce = answer_of_balls(self._setup, approach, hypot(*slip), a.name, b.name)
             yield _contact(place, later, (nx, ny), bounce, approach, 1.0, b.name, slip)
 
 

@@ -211,7 +211,7 @@ class PlainSimulation:
 
     def _note(self, event: Event) -> None:
         self._events.append(event)
-        if self._setup.until is not None and self._setup.until(event):
+        if self._setup.ends_with(self._events):
             self._over = True
 
     # ------------------------------------------------------------------ callbacks
@@ -334,7 +334,9 @@ class PlainSimulation:
         here, there = a.state(), b.state()
         flat = along + a.ball.radius * here[4] + b.ball.radius * there[4]
         slip = flat, slip_over(a.ball, here, -nx, -ny) - slip_over(b.ball, there, nx, ny)
-        bounce = answer_of_balls(self._setup, approach, (flat * flat + slip[1] * slip[1]) ** 0.5, b.ball.name)
+        bounce = answer_of_balls(
+            self._setup, approach, (flat * flat + slip[1] * slip[1]) ** 0.5, a.ball.name, b.ball.name
+        )
         arbiter.restitution, arbiter.friction = bounce.restitution, in_plane(bounce.friction, *slip)
         a.pending[second] = _Pending(bounce.friction, slip)
 

@@ -190,8 +190,8 @@ class Pressed:
     def _link(self, place: dict[int, int], members: dict[int, State], i: int, j: int, speed: float) -> Link:
         first, second = self._tracks[i].ball, self._tracks[j].ball
         approach = max(speed, self._approach(members[i], members[j]))
-        bounce = answer_of_balls(self._setup, approach, 0.0, second.name)
-        rubs = partial(_friction, self._setup.between_balls, approach)
+        bounce = answer_of_balls(self._setup, approach, 0.0, first.name, second.name)
+        rubs = partial(_friction, self._setup.between(first.name, second.name), approach)
         stiffness = self._setup.contact.between(first.radius, second.radius)
         return Link(place[i], place[j], stiffness, bounce.restitution, rubs)
 

@@ -229,24 +229,41 @@ class ContactModel:
 
 
 @dataclass(frozen=True)
+class Touches:
+    """Ends a run when something is touched for the ``times``-th time: ``until=Touches("floor", 2)``, the second bounce.
+
+    ``what`` is the name of a surface, a ball or a catch.
+    """
+
+    what: str
+    times: int = 1
+
+    def counts(self, event: Event) -> bool:
+        """Whether an event is such a touch."""
+        return event.kind not in ("leave", "rest") and self.what in (event.ball, event.partner)
+
+
+@dataclass(frozen=True)
 class Setup:
-    """One run's beginning. It is over when all balls rest, when ``until(event)`` is true, or after ``duration`` s.
+    """One run's beginning. It is over when all balls rest, when ``until`` says so, or after ``duration`` s.
 
     It is data: made of dataclasses, tuples and functions of a module, it can be pickled, compared and stacked.
-    ``between_balls(normal_speed, slip_speed)`` says how two balls answer each other. With ``cloth`` the balls are
-    seen from above, sliding and rolling on it in closed form; their own forces play no part then.
+    ``until`` is a function of the latest event, or ``Touches``. ``between_balls(normal_speed, slip_speed)`` says how
+    two balls answer each other; ``pairs`` say it of two by name: ``("ball", "keeper", law)``. With ``cloth`` the balls
+    are seen from above, sliding and rolling on it in closed form; their own forces play no part then.
     """
 
     balls: Sequence[Ball]
     surfaces: Sequence[Surface] = ()
     duration: float = 60.0  # s
-    until: Callable[[Event], bool] | None = None
+    until: Callable[[Event], bool] | Touches | None = None
     between_balls: Callable[[float, float], Bounce] = ELASTIC
     cloth: Cloth | None = None
     catches: Sequence[Catch] = ()
     bounds: Bounds = Bounds()
     patches: Sequence[Patch] = ()
     contact: ContactModel = ContactModel()
+    pairs: Sequence[tuple[str, str, Callable[[float, float], Bounce]]] = ()
 
     def __post_init__(self) -> None:
         names = [ball.name for ball in self.balls]
@@ -257,3 +274,14 @@ class Setup:
                 raise ValueError(f"two balls are named {name!r}: each needs a name of its own")
         if not 0.0 < self.duration < inf:
             raise ValueError(f"duration = {self.duration} s must be positive, and end")
+
+    def between(self, one: str, other: str) -> Callable[[float, float], Bounce]:
+        """How two balls answer each other."""
+        return next((law for *pair, law in self.pairs if {*pair} == {one, other}), self.between_balls)
+
+    def ends_with(self, events: Sequence[Event]) -> bool:
+        """Whether the run is over with the last of these events."""
+        until = self.until
+        if isinstance(until, Touches):
+            return until.counts(events[-1]) and sum(map(until.counts, events)) >= until.times
+        return until is not None and until(events[-1])

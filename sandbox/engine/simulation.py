@@ -122,8 +122,8 @@ class Simulation:
         assert isinstance(track.mover, Mover)  # nobody else has steps
         track.mover.suggest(step)
         self._events = events
-        if how == "after" and events and self._setup.until is not None:
-            self._over = self._setup.until(events[-1])  # of those before it has been asked
+        if how == "after" and events:
+            self._over = self._setup.ends_with(events)  # of those before it has been asked
         if how == "flight":
             self._plan(0, t)
         elif how == "before":
@@ -233,7 +233,7 @@ class Simulation:
 
     def _note(self, event: Event) -> None:
         self._events.append(event)
-        if self._setup.until is not None and self._setup.until(event):
+        if self._setup.ends_with(self._events):
             self._over = True
 
     # ------------------------------------------------------------------ planning

@@ -28,9 +28,9 @@ def answer(surface: Surface, approach: float, along: float) -> Bounce:
     return _possible(surface.law(approach, abs(along)), surface.name)
 
 
-def answer_of_balls(setup: Setup, approach: float, slip: float, partner: str) -> Bounce:
+def answer_of_balls(setup: Setup, approach: float, slip: float, ball: str, partner: str) -> Bounce:
     """How two balls answer each other, at these speeds (m/s)."""
-    return _possible(setup.between_balls(max(approach, 0.0), slip), partner)
+    return _possible(setup.between(ball, partner)(max(approach, 0.0), slip), partner)
 
 
 def _possible(bounce: Bounce, partner: str) -> Bounce:

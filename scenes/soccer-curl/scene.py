@@ -127,7 +127,7 @@ def build(parameters: Parameters) -> Setup:
         _pitch(parameters),
         duration=min(LONGEST, PATIENCE * needed + MOMENT),
         until=_is_over,
-        between_balls=Always(Bounce(keeper.restitution, keeper.friction)),
+        pairs=[("ball", "keeper", Always(Bounce(keeper.restitution, keeper.friction)))],
     )
 
 

@@ -10,8 +10,8 @@ from sandbox.new import new_scene
 
 
 def test_it_plays(player, tmp_path: Path):
-    new_scene(tmp_path / "volleyball")
-    player = player(str(tmp_path / "volleyball"))
+    new_scene(tmp_path / "beachvolley")
+    player = player(str(tmp_path / "beachvolley"))
     player.pull((-120, 160), let_go=False)
     aimed = pygame.surfarray.array3d(player.screen)
     assert 45 < player.game.session.value("launch.angle") < 60
@@ -22,9 +22,9 @@ def test_it_plays(player, tmp_path: Path):
 
 
 def test_saving_its_file_changes_the_path(player, tmp_path: Path):
-    new_scene(tmp_path / "volleyball")
-    file = tmp_path / "volleyball" / "volleyball.toml"
-    player = player(str(tmp_path / "volleyball"))
+    new_scene(tmp_path / "beachvolley")
+    file = tmp_path / "beachvolley" / "beachvolley.toml"
+    player = player(str(tmp_path / "beachvolley"))
     before = player.game.shot.run.result["distance"]
     file.write_text(file.read_text("utf-8").replace("push = 4.0", "push = 0.0"), "utf-8")
     player.frames(120)

@@ -1,0 +1,52 @@
+"""Volleyball from the side: court, net and players in a hall."""
+
+from __future__ import annotations
+
+from functools import cached_property
+
+from sandbox.picture.ball import Look, seams
+from sandbox.picture.camera import Box
+from sandbox.picture.figures import REACHING
+from sandbox.picture.palette import scene_colours
+from sandbox.picture.places import Ground, Hall, Net, Person, Planks, Post, Shape
+from sandbox.picture.side import Place, SideView
+
+from .scene import Parameters
+
+COLOURS = scene_colours(__file__)
+FLOOR, NET = COLOURS["floor"], COLOURS["net"]
+WIDE, ATTACK = 9.0, 3.0  # m: the court's width, and the attack line from the net (FIVB, rule 1)
+PLAYERS = ((4.2, 2.0), (6.0, 4.5), (4.2, 7.0))  # m, beyond the net and behind the plane of play
+
+
+class Picture(SideView[Parameters]):
+    LOOK = Look(COLOURS["ball"]["colour"], COLOURS["ball"]["shade"], seams(COLOURS["ball"]["seam"]))
+    TRACE, FAINT, EARLIER = COLOURS["trace"], COLOURS["trace"], COLOURS["earlier"]
+    LENGTHS, SECOND_UNIT = 0, "ft"
+
+    @property
+    def target(self) -> Box:
+        return Box(-1.0, 0.0, self.parameters.court.length + 1.0, 1.4 * self.parameters.net.height)
+
+    @cached_property
+    def place(self) -> Place:
+        """What the ball flies through: parts in m, x along the court, z across it, the farthest first."""
+        court, launch, top = self.parameters.court, self.parameters.launch, self.parameters.net.height
+        end, net, low = court.length, 0.5 * court.length, top - self.parameters.net.depth
+        tall = min(2.0, launch.height / 1.27)
+        across = [[(x, 0.0), (x, WIDE)] for x in (0.0, net - ATTACK, net, net + ATTACK, end)]
+        ground = Ground(
+            Planks(FLOOR["wood"]),
+            FLOOR["beneath"],
+            edges=[(FLOOR["lit"], 2), (FLOOR["cut"], 7)],
+            areas=[([(0.0, 0.0), (end, 0.0), (end, WIDE), (0.0, WIDE)], FLOOR["court"])],
+            lines=[*across, [(0.0, WIDE), (end, WIDE)]],
+            line=(FLOOR["line"], 0.05),
+            far=0.44,
+        )
+        posts = [Post([(net, 0.0, z), (net, top + 0.1, z)], 0.05, NET["post"], near=z == 0.0) for z in (WIDE, 0.0)]
+        mesh = Net([((net, low, 0.0), (0.0, top - low, 0.0), (0.0, 0.0, WIDE))], NET["mesh"], 0.6)
+        band = Shape([(net, top - down, z) for down, z in ((0, 0), (0.07, 0), (0.07, WIDE), (0, WIDE))], NET["band"])
+        players = [Person(net + x, 1.9, COLOURS["players"], z=z, facing=-1) for x, z in reversed(PLAYERS)]
+        striker = Person(launch.place - 0.2 * tall, tall, COLOURS["players"], REACHING, up=launch.height - 1.27 * tall)
+        return Place(Hall(**COLOURS["hall"]), ground, [posts[0], mesh, band, *players, striker, posts[1]])

@@ -1,0 +1,160 @@
+"""Volleyball in side view: serves, spikes and sets, over the net and into the court or not.
+
+Models: gravity; drag with its crisis; Magnus lift; net and floor as things to hit.
+Leaves out: everything sideways, and with it the wobble of a float serve; the give of the net; players who touch the
+ball; the ball's loss of spin.
+"""
+
+from __future__ import annotations
+
+from typing import Any, Literal
+
+from sandbox.engine.run import Run
+from sandbox.engine.setup import Segment, Setup, Surface, Touches
+from sandbox.errors import RequestError
+from sandbox.parameters import Accuracy, Group, choice, either, group, quantity
+from sandbox.physics.coefficients import Coefficient
+from sandbox.physics.elementwise import clip, exp
+from sandbox.sport.air import Air, ConstantDrag, ConstantLift, Model, NoDrag, NoLift, SpinRatioLift
+from sandbox.sport.amounts import roughly
+from sandbox.sport.controls import Controls, Spin, Spread
+from sandbox.sport.facts import ENDED, Fact, once
+from sandbox.sport.flight import Launch, Sphere, forces_in_flight, launched_ball
+from sandbox.sport.readings import LAUNCH, Moment, at, before, passing
+
+
+class Hit(Launch):
+    """The ball as it leaves the hand."""
+
+    place: float = quantity(..., "m", -20, 30, "from the player's own end line towards the net")
+    height: float = quantity(..., "m", 0.2, 10, "of the ball's centre above the floor")
+
+
+class CrisisDrag(Model):
+    """Drag of a volleyball, which falls as its boundary layer turns turbulent."""
+
+    model: Literal["hong"] = choice(..., "drag coefficient by its source")
+
+    def coefficient_law(self) -> Coefficient:
+        return hong_drag
+
+
+class Volleyball(Sphere):
+    """The ball, a hollow sphere."""
+
+    drag: CrisisDrag | ConstantDrag | NoDrag = either(..., "drag of the air")
+    lift: SpinRatioLift | ConstantLift | NoLift = either(..., "Magnus lift")
+
+
+class Net(Group):
+    """The net across the middle of the court."""
+
+    height: float = quantity(..., "m", 1.2, 10, "of its upper edge above the floor")
+    depth: float = quantity(..., "m", 0.1, 1.2, "from its upper to its lower edge")
+    restitution: float = quantity(..., "", 0, 1, "of ball and net")
+    friction: float = quantity(..., "", 0, 10, "of ball and net")
+
+
+class Court(Group):
+    """The court and its floor."""
+
+    length: float = quantity(..., "m", 2, 200, "from end line to end line")
+    restitution: float = quantity(..., "", 0, 1, "of ball and floor")
+    friction: float = quantity(..., "", 0, 10, "of ball and floor")
+
+
+class Parameters(Group):
+    """All numbers of a shot."""
+
+    launch: Hit = group(..., "the ball as it leaves the hand")
+    gravity: float = quantity(..., "m/s^2", 0, 30, "gravity")
+    air: Air = group(..., "the air")
+    ball: Volleyball = group(..., "the ball")
+    net: Net = group(..., "the net")
+    court: Court = group(..., "the court")
+    accuracy: Accuracy = group(Accuracy(), "speed against accuracy")
+
+
+CONTROLS = Controls(
+    strongest=35.0,
+    spins=(Spin("launch.spin", 30.0),),
+    sliders=("launch.place", "launch.height", "net.height", "court.length", "air.wind"),
+    scores="in",
+    spread=(Spread("launch.speed", 0.03), Spread("launch.angle", least=1.0), Spread("launch.spin", 0.1)),  # assumed
+)
+
+
+def hong_drag(reynolds: Any, spin_ratio: Any) -> Any:
+    """0.47 for a slow ball, 0.16 for a fast one, past the drag crisis at Re = 2.3e5 (16 m/s).
+
+    After Hong, Ozaki, Watanabe & Asai 2020, Appl. Sci. 10:3256 (Mikasa V200W: 0.15 to 0.17 at Re = 2.6e5 to 2.9e5);
+    the curve is ours.
+    """
+    return 0.16 + 0.31 / (1.0 + exp(clip((reynolds - 2.3e5) / 0.2e5, -50.0, 50.0)))
+
+
+def build(parameters: Parameters) -> Setup:
+    """Ball, net and floor, on which the rally is over. Raises RequestError where the ball begins in the net."""
+    launch, ball, net, court = parameters.launch, parameters.ball, parameters.net, parameters.court
+    middle, start = 0.5 * court.length, max(launch.height, ball.radius)
+    if abs(launch.place - middle) <= ball.radius + 0.01 and start - ball.radius < net.height:
+        raise RequestError(f"launch.place = {launch.place:g} m puts the ball on the net, at {middle:g} m: move it away")
+    forces = forces_in_flight(ball, parameters.air, parameters.gravity)
+    mesh = Segment((middle, max(0.0, net.height - net.depth)), (middle, net.height), 0.01)
+    floor = Segment((-1e4, 0.0), (1e4, 0.0))
+    surfaces = [
+        Surface("floor", floor, court.restitution, court.friction),
+        Surface("net", mesh, net.restitution, net.friction),
+    ]
+    return Setup([launched_ball(launch, ball, (launch.place, start), forces)], surfaces, 20.0, Touches("floor"))
+
+
+@once
+def landing(run: Run, parameters: Parameters) -> Moment | None:
+    """The ball as it comes down on the floor."""
+    return next((before(run, event.t) for event in run.events if event.partner == "floor"), None)
+
+
+def clearance(run: Run, parameters: Parameters) -> float | None:
+    """Room in m between ball and net as it passes over; negative where it passes below the upper edge."""
+    at_net = passing(run, 0.5 * parameters.court.length)
+    return None if at_net is None else at_net.y - parameters.ball.radius - parameters.net.height
+
+
+def word(run: Run, parameters: Parameters) -> str:
+    """in; out, beyond the far end line; net, into or under it; short, on the player's own side; gone, never down."""
+    landed, over = landing(run, parameters), clearance(run, parameters)
+    if landed is None:
+        return "gone"
+    if any(event.partner == "net" for event in run.events) and landed.x < 0.5 * parameters.court.length:
+        return "net"
+    if over is None:
+        return "short"
+    if over < -parameters.ball.radius:
+        return "net"
+    return "in" if landed.x <= parameters.court.length else "out"
+
+
+FACTS = (
+    Fact("in", "", "", lambda run, parameters: word(run, parameters) == "in", settled="floor"),
+    Fact("verdict", "", "", word, settled="floor"),
+    Fact("clearance", "over the net", "m", clearance, settled="floor"),
+    Fact("landing", "landing", "m", at(landing, lambda ball: ball.x), settled="floor"),
+    Fact("landing_speed", "landing speed", "m/s", at(landing, lambda ball: ball.speed), settled="floor", also="km/h"),
+    Fact("apex", "apex", "m", lambda run, parameters: run.highest("ball")[1][1], settled="floor"),
+    Fact("flight_time", "flight time", "s", at(landing, lambda ball: ball.t), settled="floor"),
+    *LAUNCH,
+    ENDED,
+)
+
+
+def verdict(run: Run, parameters: Parameters) -> str:
+    """What happened, in a sentence."""
+    said, landing, length = run.result["verdict"], run.result["landing"], parameters.court.length
+    if said == "in":
+        return f"In, {roughly(length - landing)} before the end line"
+    if said == "out":
+        return f"Out by {roughly(landing - length)}"
+    if said == "short":
+        return f"Comes down on its own side, {roughly(abs(0.5 * length - landing))} from the net"
+    return "Into the net" if said == "net" else "Did not come down"

@@ -1,0 +1,41 @@
+"""What a setup says of balls and surfaces by their names: which pair answers how, and what ends the run when."""
+
+from __future__ import annotations
+
+import pytest
+
+from sandbox.engine import simulate
+from sandbox.engine.accuracy import resolve
+from sandbox.engine.setup import Always, Ball, Bounce, Segment, Setup, Surface, Touches
+from sandbox.physics.forces import Gravity
+
+FLOOR = Surface("floor", Segment((-100.0, 0.0), (100.0, 0.0)), restitution=0.8, friction=0.0)
+
+
+@pytest.mark.parametrize("method", ["exact", "plain"])
+@pytest.mark.parametrize("order", [("a", "b"), ("b", "a")])
+def test_a_pair_of_balls_answers_by_its_own_law(method: str, order: tuple[str, str]):
+    """Equal balls in a line: with restitution e the struck one leaves with (1 + e) / 2 of the speed."""
+    balls = [
+        Ball("a", 1.0, 0.1, (0.0, 0.0), (1.0, 0.0)),
+        Ball("b", 1.0, 0.1, (0.5, 0.0)),
+        Ball("c", 1.0, 0.1, (3.0, 0.0), (0.0, 1.0)),
+        Ball("d", 1.0, 0.1, (3.0, 1.0)),
+    ]
+    setup = Setup(balls, duration=1.5, pairs=[(*order, Always(Bounce(0.4, 0.0)))])
+    run = simulate(setup, resolve(method=method, step=1e-3 if method == "plain" else None))
+    assert run.state("b", 1.5)[2] == pytest.approx(0.7, abs=1e-6)
+    assert run.state("d", 1.5)[3] == pytest.approx(1.0, abs=1e-6)  # all others as between_balls says: elastic
+
+
+@pytest.mark.parametrize("method", ["exact", "plain"])
+@pytest.mark.parametrize("times", [1, 2, 3])
+def test_a_run_ends_at_the_touch_that_was_asked_for(method: str, times: int):
+    """From h it is down after sqrt(2 h / g), and the bounce after the n-th touch takes 2 e^n of that."""
+    g, h, e = 9.81, 1.0, FLOOR.restitution
+    ball = Ball("ball", 1.0, 0.1, (0.0, h + 0.1), forces=[Gravity(1.0, g)])
+    setup = Setup([ball], [FLOOR], until=Touches("floor", times))
+    run = simulate(setup, resolve(method=method, step=1e-4 if method == "plain" else None))
+    fall = (2.0 * h / g) ** 0.5
+    assert run.ended == "until"
+    assert run.duration == pytest.approx(fall * (1.0 + 2.0 * sum(e**n for n in range(1, times))), abs=2e-3)
