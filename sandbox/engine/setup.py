@@ -228,8 +228,16 @@ class ContactModel:
         return PHENOLIC.between(radius, other) if self.stiffness is None else self.stiffness
 
 
+class Until:
+    """When a run is over, where that takes more than its latest event."""
+
+    def over(self, events: Sequence[Event]) -> bool:
+        """Whether the run ends with the last of these events."""
+        raise NotImplementedError
+
+
 @dataclass(frozen=True)
-class Touches:
+class Touches(Until):
     """Ends a run when something is touched for the ``times``-th time: ``until=Touches("floor", 2)``, the second bounce.
 
     ``what`` is the name of a surface, a ball or a catch.
@@ -238,8 +246,10 @@ class Touches:
     what: str
     times: int = 1
 
-    def counts(self, event: Event) -> bool:
-        """Whether an event is such a touch."""
+    def over(self, events: Sequence[Event]) -> bool:
+        return self._counts(events[-1]) and sum(map(self._counts, events)) >= self.times
+
+    def _counts(self, event: Event) -> bool:
         return event.kind not in ("leave", "rest") and self.what in (event.ball, event.partner)
 
 
@@ -248,15 +258,16 @@ class Setup:
     """One run's beginning. It is over when all balls rest, when ``until`` says so, or after ``duration`` s.
 
     It is data: made of dataclasses, tuples and functions of a module, it can be pickled, compared and stacked.
-    ``until`` is a function of the latest event, or ``Touches``. ``between_balls(normal_speed, slip_speed)`` says how
-    two balls answer each other; ``pairs`` say it of two by name: ``("ball", "keeper", law)``. With ``cloth`` the balls
-    are seen from above, sliding and rolling on it in closed form; their own forces play no part then.
+    ``until`` is a function of the latest event, or an ``Until`` such as ``Touches``.
+    ``between_balls(normal_speed, slip_speed)`` says how two balls answer each other; ``pairs`` say it of two by name:
+    ``("ball", "keeper", law)``. With ``cloth`` the balls are seen from above, sliding and rolling on it in closed form;
+    their own forces play no part then.
     """
 
     balls: Sequence[Ball]
     surfaces: Sequence[Surface] = ()
     duration: float = 60.0  # s
-    until: Callable[[Event], bool] | Touches | None = None
+    until: Callable[[Event], bool] | Until | None = None
     between_balls: Callable[[float, float], Bounce] = ELASTIC
     cloth: Cloth | None = None
     catches: Sequence[Catch] = ()
@@ -282,6 +293,6 @@ class Setup:
     def ends_with(self, events: Sequence[Event]) -> bool:
         """Whether the run is over with the last of these events."""
         until = self.until
-        if isinstance(until, Touches):
-            return until.counts(events[-1]) and sum(map(until.counts, events)) >= until.times
+        if isinstance(until, Until):
+            return until.over(events)
         return until is not None and until(events[-1])

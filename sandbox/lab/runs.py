@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import replace
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from sandbox.engine import flies_in_batches, simulate_many
 from sandbox.engine.accuracy import Accuracy, resolve
+from sandbox.engine.setup import Setup, Until
 from sandbox.lab.axes import Varied
 from sandbox.scene import Scene
 
 if TYPE_CHECKING:
+    from sandbox.engine.event import Event
     from sandbox.engine.run import Run
-    from sandbox.engine.setup import Setup
 
 
 def runs(
@@ -48,8 +49,18 @@ def _ended(scene: Scene, asked: Sequence[str]) -> Setup:
     settled = scene.settles(asked) if asked else None
     if settled is None:
         return setup
-    own = setup.until
-    return replace(setup, until=lambda event: settled(event) or (own is not None and own(event)))
+    return replace(setup, until=_Settled(settled, setup))
+
+
+@dataclass(frozen=True)
+class _Settled(Until):
+    """What is asked for is settled, or the setup's own run is over."""
+
+    settled: Callable[[Event], bool]
+    setup: Setup
+
+    def over(self, events: Sequence[Event]) -> bool:
+        return self.settled(events[-1]) or self.setup.ends_with(events)
 
 
 def _finished(run: Run | Exception, scene: Scene, asked: Sequence[str]) -> Run | Exception:
