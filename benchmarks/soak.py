@@ -59,6 +59,9 @@ GOOD = (
     "one wrote, the other was refused",
 )
 
+#: A line of a traceback of this program, once it has begun: before that it is Python that starts.
+OURS = re.compile(r'File "[^"]*/sandbox/(?!__init__|__main__|cli/__init__)')
+
 PROGRAM = [sys.executable, "-m", "sandbox"]
 
 Outcome = tuple[str, str]  # class, and details of one that is not good
@@ -537,7 +540,7 @@ class Kills:
         except subprocess.TimeoutExpired:
             os.killpg(process.pid, signal.SIGKILL)
             return "does not end", f"{by.name} after {after:.2f} s"
-        if "leaked" in said or ("Traceback" in said and after > 0.08):  # before that it is Python that starts
+        if "leaked" in said or OURS.search(said):
             return "a traceback of our own", f"{by.name} after {after:.2f} s: {said[-600:]}"
         for _ in range(100):
             try:

@@ -8,9 +8,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
-
+TYPE_CHECKING = False  # as typing has it, whose import takes longer than all else here: Ctrl-C is not heard until then
 if TYPE_CHECKING:
+    from typing import Any
+
     from sandbox.errors import RequestError, RunError, SandboxError
     from sandbox.lab.aim import Aim, aim
     from sandbox.lab.sweep import Sweep, sweep

@@ -185,7 +185,7 @@ def test_the_soak_notices_what_is_not_named(opened: Callable[[str], ModuleType],
 
 def test_the_soak_kills_sweeps(opened: Callable[[str], ModuleType]):
     soak, noted = opened("soak"), []
-    kills = soak.Kills(4, 2, time.monotonic() + 60.0, lambda part, outcome: noted.append(outcome))
+    kills = soak.Kills(4, 2, time.monotonic() + 600.0, lambda part, outcome: noted.append(outcome))
     kills.run()
     assert kills.done == 2
     assert {outcome for outcome, _ in noted} <= set(soak.GOOD), noted
