@@ -455,3 +455,11 @@ def test_a_ball_that_slides_comes_to_roll_at_the_share_its_inertia_leaves(factor
     assert simulate(Setup([slid], [floor], duration=2.0), resolve()).state("ball", 2.0)[2] == pytest.approx(
         3.0 / (1.0 + body), rel=1e-6
     )
+
+
+@pytest.mark.parametrize("speed", [0.05, 0.5, 5.0])
+def test_a_law_is_asked_about_slow_impacts_too(speed: float):
+    lively = Surface("lively", Segment((-9.0, 0.0), (9.0, 0.0)), 0.0, 0.0, law=lambda normal, along: Bounce(0.8, 0.0))
+    shot = Ball("ball", 1.0, 0.1, (0.0, 0.1001), (0.0, -speed))
+    run = simulate(Setup([shot], [lively], duration=1.0), resolve())
+    assert run.state("ball", 1.0)[3] == pytest.approx(0.8 * speed)
