@@ -30,7 +30,7 @@ from sandbox.window.app import App
 from sandbox.window.background import steady
 from sandbox.window.game import Game
 from sandbox.window.session import Session
-from sandbox.window.worker import Worker
+from sandbox.workers import Processes
 
 SIZE, FRAME = (1280, 720), 1 / 60  # px, s
 #: The mouse is this far from the ball in px, and swings so far, in px along and in rad, so many times.
@@ -55,7 +55,7 @@ def post(kind: int, at: tuple[int, int]) -> None:
     pygame.event.post(pygame.event.Event(kind, pos=at, **values))
 
 
-def measure(source: str, frames: int, worker: Worker) -> dict[str, dict[str, float]]:
+def measure(source: str, frames: int, worker: Processes) -> dict[str, dict[str, float]]:
     """For each thing that a player does: median and 95th percentile in ms, and shares of frames."""
     game = Game(Session(source), worker)
     app = App(game, pygame.display.set_mode(SIZE))
@@ -111,7 +111,7 @@ def main() -> None:
     sources = arguments.scenes or [item.name for item in listings() if "/" not in item.name or item.name in hard]
     pygame.display.init()
     rows: dict[str, dict[str, dict[str, float]]] = {}
-    worker = Worker()
+    worker = Processes(1)
     head = f"{'':<26} {'':<14} {'median':>9} {'95 %':>9} {'processor':>10} {'share':>6} {'in time':>8} {'path':>6}"
     sys.stdout.write(head + "\n")
     for source in sources:
@@ -123,7 +123,7 @@ def main() -> None:
                 f"{'' if number else source:<26} {name:<14} {row['median_ms']:>6.1f} ms {row['p95_ms']:>6.1f} ms "
                 f"{row['processor_ms']:>7.1f} ms {share:>6.0%} {row['in_time']:>8.0%} {path}\n"
             )
-    worker.close()
+    worker.close(abandon=True)
     if arguments.json:
         arguments.json.write_text(json.dumps(rows, indent=1))
 

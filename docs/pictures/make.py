@@ -18,7 +18,7 @@ from sandbox.window import aim
 from sandbox.window.app import App
 from sandbox.window.game import Game
 from sandbox.window.session import Session
-from sandbox.window.worker import Worker
+from sandbox.workers import Processes
 
 HERE = Path(__file__).resolve().parent
 
@@ -69,7 +69,7 @@ def compare() -> None:
 def window() -> None:
     """The window while a free throw is aimed, with its fan and the panel open: by events, without a display."""
     pygame.display.init()
-    worker = Worker()
+    worker = Processes(1)
     game = Game(Session("basketball"), worker, patience=60.0)
     app = App(game, pygame.display.set_mode(WINDOW))
     view = app.view
@@ -87,7 +87,7 @@ def window() -> None:
     while game.fan is None or not game.fan.complete or view.busy:
         app.tick(FRAME)
     app.close()
-    worker.close()
+    worker.close(abandon=True)
     to_image(view.screen).save(HERE / "window.jpg", quality=QUALITY, subsampling=0, optimize=True, progressive=True)
 
 

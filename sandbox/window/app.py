@@ -18,7 +18,7 @@ from sandbox.window.pointer import Pointer
 from sandbox.window.session import Session
 from sandbox.window.sound import Sound
 from sandbox.window.view import SIZE, View
-from sandbox.window.worker import Worker
+from sandbox.workers import Processes
 
 if TYPE_CHECKING:
     from sandbox.window.panel import Panel
@@ -183,7 +183,7 @@ def play(source: str, changes: Mapping[str, Any] | None = None, scene: str | Non
     if scene is not None and not recorded:
         raise RequestError(f"--scene {scene}: says which scene a replay is of, and {source} is not a replay")
     session = replay.read(Path(source), scene)[0] if recorded else Session(source, changes)
-    worker = Worker()
+    worker = Processes(1)
     try:
         game = Game(session, worker)
         with opened(SIZE, f"{session.title} – Sports sandbox") as screen:
@@ -191,4 +191,4 @@ def play(source: str, changes: Mapping[str, Any] | None = None, scene: str | Non
                 game.open_replay(Path(source), scene)
             App(game, screen, Sound()).run()
     finally:
-        worker.close()
+        worker.close(abandon=True)

@@ -10,7 +10,8 @@ import numpy as np
 from sandbox import parameters as declared
 from sandbox.sport.controls import Spread
 from sandbox.window.shot import Shot
-from sandbox.window.worker import FanShot, Worker, varied
+from sandbox.window.worker import FanShot, varied
+from sandbox.workers import Processes
 
 SHOTS = 200
 #: Where a scene states no spread: of the speed, as a share of it, and of the angle, in deg.
@@ -48,7 +49,7 @@ class Fan:
     def complete(self) -> bool:
         return len(self.shots) + self.failed >= SHOTS or not self.spread
 
-    def advance(self, worker: Worker) -> None:
+    def advance(self, worker: Processes) -> None:
         """Take the shots that were computed, and have more of them computed."""
         if self.work is not None and self.work.done():
             self._take(self.work)

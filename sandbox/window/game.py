@@ -25,8 +25,8 @@ from sandbox.window.run_data import run_of
 from sandbox.window.session import Changes, Session
 from sandbox.window.shot import Shot
 from sandbox.window.watch import Watch
-from sandbox.window.worker import Worker, computed, described, reread, warm_up
-from sandbox.workers import WorkerLost
+from sandbox.window.worker import computed, described, reread, warm_up
+from sandbox.workers import Processes, WorkerLost
 
 #: How long a message stays, in s.
 MESSAGE = 6.0
@@ -67,7 +67,7 @@ class Pending(NamedTuple):
 class Game:
     """A session that is played. What changes what can be seen also changes ``revision``."""
 
-    def __init__(self, session: Session, worker: Worker, patience: float = PATIENCE) -> None:
+    def __init__(self, session: Session, worker: Processes, patience: float = PATIENCE) -> None:
         """A frame waits for the path of what was changed where that takes no longer than ``patience`` s."""
         self.session, self.worker, self.patience = session, worker, patience
         self.running = True
@@ -250,7 +250,7 @@ class Game:
             self._keep(shot)
 
     def _stop_worker(self) -> None:
-        self.worker.stop()
+        self.worker.kill()
         self.pending, self.jobs = None, []
         if self.fan is not None:
             self.fan.work = None

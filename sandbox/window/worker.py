@@ -1,10 +1,9 @@
-"""The process that runs scenes for the window, and what it computes: drawing has the window's own for itself."""
+"""What the window's worker computes: scenes run in a process of their own, so that drawing never waits for them."""
 
 from __future__ import annotations
 
 import traceback
-from collections.abc import Callable, Sequence
-from concurrent.futures import Future
+from collections.abc import Sequence
 from contextlib import suppress
 from pathlib import Path
 from time import perf_counter
@@ -18,27 +17,6 @@ from sandbox.scene import Scene, check, load, simulate
 from sandbox.scene.modules import forget
 from sandbox.window.run_data import plain
 from sandbox.window.shot import Shot
-from sandbox.workers import Processes
-
-
-class Worker:
-    """One process, which does one thing after another, and can be stopped whatever it does."""
-
-    def __init__(self) -> None:
-        self._processes = Processes(1)
-
-    def submit(self, work: Callable[..., Any], *args: Any) -> Future[Any]:
-        """Have ``work(*args)`` done after what was asked for before."""
-        return self._processes.submit(work, *args)
-
-    def stop(self) -> None:
-        """Drop all that is under way. Another process starts with the next call."""
-        self.close()
-        self._processes = Processes(1)
-
-    def close(self) -> None:
-        """Nothing more is asked for."""
-        self._processes.close(abandon=True)
 
 
 def warm_up(source: str) -> None:

@@ -17,7 +17,7 @@ from sandbox.window.app import App
 from sandbox.window.game import Game
 from sandbox.window.session import Session
 from sandbox.window.shot import Shot
-from sandbox.window.worker import Worker
+from sandbox.workers import Processes
 
 FRAME = 1 / 60  # s
 
@@ -25,7 +25,7 @@ FRAME = 1 / 60  # s
 class Player:
     """Does with a window what a person would: every call is one event, and one frame."""
 
-    def __init__(self, worker: Worker, source: str, size: tuple[int, int] = (1280, 720)) -> None:
+    def __init__(self, worker: Processes, source: str, size: tuple[int, int] = (1280, 720)) -> None:
         pygame.display.init()
         self.screen = pygame.display.set_mode(size, pygame.RESIZABLE)
         pygame.event.clear()
@@ -93,9 +93,9 @@ def shot_of():
 
 @pytest.fixture(scope="session")
 def worker():
-    one = Worker()
+    one = Processes(1)
     yield one
-    one.close()
+    one.close(abandon=True)
 
 
 @pytest.fixture

@@ -36,7 +36,7 @@ class Here:
             future.set_exception(error)
         return future
 
-    def stop(self) -> None:
+    def kill(self) -> None:
         self.stopped, self.never = self.stopped + 1, False
 
 

@@ -17,7 +17,7 @@ from sandbox.window.session import Session
 def watched(player):
     """A shot that has come to rest."""
     player = player("billiards", (640, 400))
-    player.game.change({"cue.speed": 3.0, "cue.angle": 4.0})
+    player.game.change({"cue.speed": 3.0, "cue.angle": 10.0})
     player.key(pygame.K_SPACE)
     player.game.playback.seek(1e9)
     player.frames(1)
@@ -63,7 +63,7 @@ def test_a_key_racks_again(watched):
     watched.key(pygame.K_RETURN)
     watched.key(pygame.K_b)
     assert places(watched.game.session) == before
-    assert watched.game.session.changes.values == {"cue.speed": 3.0, "cue.angle": 4.0}
+    assert watched.game.session.changes.values == {"cue.speed": 3.0, "cue.angle": 10.0}
     watched.key(pygame.K_b)
     assert "where they began" in watched.game.notices[-1][0]
 

@@ -298,7 +298,7 @@ class TestASlowRun:
 
     def test_a_process_that_is_killed_is_begun_again(self, player):
         player = player("golf/putt")
-        player.game.worker._processes.kill()
+        player.game.worker.kill()
         player.key(pygame.K_UP)
         player.key(pygame.K_UP)
         player.settle()
