@@ -55,8 +55,8 @@ def own(tmp_path):
         new_scene(tmp_path / "own")
         file = tmp_path / "own" / "scene.py"
         code = file.read_text("utf-8")
-        assert "forces=[\n" in code
-        file.write_text(code.replace("forces=[\n", "forces=[\n            stuck,\n") + force, "utf-8")
+        assert "    forces = [" in code
+        file.write_text(code.replace("    forces = [", "    forces = [stuck, ") + force, "utf-8")
         return Game(Session(str(file.parent), {"launch.speed": 8.0}), Here())
 
     return make
