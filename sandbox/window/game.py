@@ -11,7 +11,7 @@ from concurrent.futures import CancelledError, Future
 from dataclasses import replace
 from enum import Enum
 from pathlib import Path
-from time import perf_counter
+from time import perf_counter, sleep
 from typing import Any, NamedTuple
 
 from sandbox.errors import SandboxError
@@ -91,6 +91,7 @@ class Game:
         self.message: Message | None = None
         self.unreadable: str | None = None  # what is wrong with the files as they were saved last
         self.opened: list[str] = [session.source]  # all scene files so far
+        self.dropped: list[Future[Any]] = []  # what the worker still has to be stopped from
         self._waited = 0  # s that were reported last
         self.jobs: list[tuple[Future[Any], Callable[[Any], object]]] = []
         self.watch_files = Watch(session.files)
@@ -180,6 +181,7 @@ class Game:
         if files:
             self._reload(files)
         self.still += dt
+        self._end_dropped()
         self._compute()
         self._finish_jobs()
         self._advance_fan()
@@ -196,6 +198,9 @@ class Game:
 
     def settle(self) -> None:
         """Wait until the shot is that of the parameters: for tests and programs, never in a window."""
+        while self.dropped:
+            self._end_dropped()
+            sleep(0.01)
         while not self.settled:
             self._begin_run()
             self._take_run(None)
@@ -250,11 +255,21 @@ class Game:
             self._keep(shot)
 
     def _stop_worker(self) -> None:
-        self.worker.kill()
+        asked: list[Future[Any]] = [self.pending.result] if self.pending is not None else []
+        asked += [result for result, _ in self.jobs]
         self.pending, self.jobs = None, []
-        if self.fan is not None:
+        if self.fan is not None and self.fan.work is not None:
+            asked.append(self.fan.work)
             self.fan.work = None
+        self.dropped = [result for result in asked if not result.cancel()]
+        self._end_dropped()
         self.revision += 1
+
+    def _end_dropped(self) -> None:
+        """End what was dropped: more than once where its process had not begun yet."""
+        self.dropped = [result for result in self.dropped if not result.done()]
+        if self.dropped:
+            self.worker.kill()
 
     def stop(self) -> bool:
         """Stop a run that takes long; whether there was one."""

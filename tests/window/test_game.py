@@ -14,6 +14,7 @@ from sandbox.window.aim import nudged
 from sandbox.window.game import KEPT, LONG, Game, State
 from sandbox.window.session import Session
 from sandbox.window.worker import computed
+from sandbox.workers import WorkerLost
 
 STUCK = "\n\ndef stuck(t, position, velocity, spin):\n    while velocity[0] > 9:\n        pass\n    return 0.0, 0.0\n"
 RAISES = "\n\ndef stuck(t, position, velocity, spin):\n    return 1 / (velocity[0] < 9), 0.0\n"
@@ -24,11 +25,14 @@ class Here:
 
     def __init__(self) -> None:
         self.stopped = 0
+        self.stuck: list[Future] = []
         self.never = False  # what is asked for next never ends
 
     def submit(self, work, *args):
         future: Future = Future()
         if self.never and work is computed:
+            future.set_running_or_notify_cancel()
+            self.stuck.append(future)
             return future
         try:
             future.set_result(work(*args))
@@ -38,6 +42,8 @@ class Here:
 
     def kill(self) -> None:
         self.stopped, self.never = self.stopped + 1, False
+        while self.stuck:
+            self.stuck.pop().set_exception(WorkerLost("killed"))
 
 
 @pytest.fixture
