@@ -463,3 +463,14 @@ def test_a_law_is_asked_about_slow_impacts_too(speed: float):
     shot = Ball("ball", 1.0, 0.1, (0.0, 0.1001), (0.0, -speed))
     run = simulate(Setup([shot], [lively], duration=1.0), resolve())
     assert run.state("ball", 1.0)[3] == pytest.approx(0.8 * speed)
+
+
+@pytest.mark.parametrize("way", [1.0, -1.0])
+@pytest.mark.parametrize("resistance", [0.05, 0.2])
+def test_a_rolling_ball_stops_where_its_resistance_says(resistance: float, way: float):
+    """a = c g: it stops after v^2 / (2 c g), whether it starts rolling or slides first."""
+    floor = Surface("floor", Segment((-90.0, 0.0), (90.0, 0.0)), 0.5, 0.5, resistance)
+    rolls = Ball("ball", 0.2, 0.05, (0.0, 0.05), (way * 2.0, 0.0), -way * 2.0 / 0.05, forces=[Gravity(0.2, 9.81)])
+    run = simulate(Setup([rolls], [floor], duration=20.0), resolve())
+    assert run.ended == "rest"
+    assert way * run.state("ball", 20.0)[0] == pytest.approx(2.0**2 / (2.0 * resistance * 9.81), rel=1e-6)
