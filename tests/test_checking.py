@@ -14,7 +14,7 @@ from sandbox.engine.accuracy import LEVELS
 from sandbox.scene.checking import NUDGE, NUDGES, nudged
 
 #: Breaks, by the cue ball's place across the table (m), its speed (m/s) and its direction (deg).
-BREAKS = [(0.2, 8.0, -8.938), (0.11, 11.0, -4.2), (-0.23, 6.5, 10.6), (0.05, 9.5, -2.6), (-0.15, 12.0, 6.1)]
+BREAKS = [(0.2, 8.0, -8.938), (-0.23, 6.5, 10.6), (0.05, 9.5, -2.6)]
 
 
 def broken(y: float, speed: float, angle: float, rolling: float = 0.005) -> sandbox.scene.Scene:
