@@ -72,6 +72,7 @@ def test_the_step_follows_the_order_of_the_method():
 def test_finer_means_half_the_step_for_each_order():
     third, fifth = chosen("bogacki-shampine").finer(), LEVELS["balanced"].finer()
     assert third.tolerance == pytest.approx(1e-4 / 8)
+    assert fifth.step == 0.5 * LEVELS["balanced"].step
     assert (fifth.tolerance, fifth.settle) == pytest.approx((1e-3 / 32, 1e-8 / 1024))
 
 

@@ -221,3 +221,10 @@ def test_a_ball_that_nothing_moves_costs_one_step_and_no_more():
     run = simulate(Setup([Ball("ball", 1.0, 0.1, (0.0, 0.0))], duration=0.01), resolve())
     assert replace(run.numerics, wall_s=0.0) == Numerics(force_evaluations=7, steps=1)
     assert set(asdict(Numerics()).values()) == {0}
+
+
+def test_the_place_on_an_arc_is_that_of_its_state():
+    arc = through(1.0, 0.5, (0.0, 2.0, 3.0, 4.0, 5.0), (0.0, -G, 0.0), (1.5, 3.0, 3.0, -1.0, 5.0), (0.0, -G, 0.0))
+    for t in (1.0, 1.1, 1.37, 1.5):
+        assert arc.position(t) == pytest.approx(arc.state(t)[:2])
+    assert (arc.position(0.0), arc.position(9.0)) == (arc.state(1.0)[:2], arc.state(1.5)[:2])

@@ -61,3 +61,7 @@ def test_stimpmeter(feet: float):
     resistance = stimp_resistance(0.3048 * feet)
     assert resistance == pytest.approx(0.56 / feet, rel=1e-3)
     assert 1.83**2 / (2.0 * resistance * 9.81) == pytest.approx(0.3048 * feet)
+
+
+def test_turf_gives_as_penners_does_where_nothing_is_said():
+    assert penner_bounce(12.0, 9.0) == penner_bounce(12.0, 9.0, give=1.0) != penner_bounce(12.0, 9.0, give=2.0)
