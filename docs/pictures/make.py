@@ -71,7 +71,7 @@ def window() -> None:
     pygame.display.init()
     worker = Processes(1)
     game = Game(Session("basketball"), worker, patience=60.0)
-    app = App(game, pygame.display.set_mode(WINDOW))
+    app = App(game, pygame.display.set_mode(WINDOW), patience=60.0)
     view = app.view
     while not view.complete:
         app.tick(FRAME)

@@ -36,9 +36,9 @@ FIRST = 1.5
 class App:
     """One window on a game. ``tick`` makes one frame; ``run`` makes them until the window is closed."""
 
-    def __init__(self, game: Game, screen: pygame.Surface, sound: Sound | None = None) -> None:
+    def __init__(self, game: Game, screen: pygame.Surface, sound: Sound | None = None, patience: float = 0.0) -> None:
         self.game, self.sound = game, sound
-        self.view = View(game, screen, sound)
+        self.view = View(game, screen, sound, patience)
         self.pointer = Pointer(self.view)
         self.hidden = False  # minimised
         self.held: set[int] = set()  # keys

@@ -55,7 +55,10 @@ NEAREST, FARTHEST = 60.0, 0.2
 class View:
     """Draws a game on a screen; ``tick`` passes time, ``draw`` makes the picture of now."""
 
-    def __init__(self, game: Game, screen: pygame.Surface, sound: Sound | None = None) -> None:
+    def __init__(self, game: Game, screen: pygame.Surface, sound: Sound | None = None, patience: float = 0.0) -> None:
+        """A frame waits up to ``patience`` s for a stage or the panel: in a window, where the last picture stays for as
+        long, not at all."""
+        self.patience = patience
         self.game, self.screen, self.sound = game, screen, sound
         self.background = Background()
         self.on = {"ghosts"}  # which of commands.SWITCHES
@@ -117,7 +120,7 @@ class View:
 
     def _take_panel(self) -> None:
         """Show the panel once it is built."""
-        if self.building is None or not ready(self.building, self.game.patience):
+        if self.building is None or not ready(self.building, self.patience):
             return
         building, self.building = self.building, None
         self.panel_wanted = self.game.trying(lambda: self._make_room(building.result()))
@@ -276,7 +279,7 @@ class View:
 
     def _take_stage(self) -> None:
         """Go over to a stage that was composed."""
-        if self.composing is None or not ready(self.composing, self.game.patience):
+        if self.composing is None or not ready(self.composing, self.patience):
             return
         composing, self.composing, self.composed, self.changed = self.composing, None, 0.0, True
         try:

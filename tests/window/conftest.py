@@ -30,7 +30,7 @@ class Player:
         self.screen = pygame.display.set_mode(size, pygame.RESIZABLE)
         pygame.event.clear()
         self.game = Game(Session(source), worker, patience=60.0)  # this machine may be busy
-        self.app = App(self.game, self.screen)
+        self.app = App(self.game, self.screen, patience=60.0)
         self.view, self.pointer = self.app.view, self.app.pointer
         self.settle()
 

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import ast
 import subprocess
 import sys
 from concurrent.futures import Future
+from graphlib import TopologicalSorter
+from pathlib import Path
 
 import pytest
 
+import sandbox.window
 from sandbox.engine.accuracy import LEVELS
 from sandbox.new import new_scene
 from sandbox.window.aim import nudged
@@ -236,3 +240,21 @@ def test_it_says_what_an_accuracy_costs(game, level):
 
     game.change({"accuracy.level": level})
     assert " ms a run; " in trusted(game.session.scene)
+
+
+def test_the_modules_of_the_window_import_each_other_in_one_direction():
+    room = Path(sandbox.window.__file__).parent
+    known = {file.stem for file in room.glob("*.py")} - {"__init__"}
+    uses: dict[str, set[str]] = {}
+    for name in known:
+        tree = ast.parse((room / f"{name}.py").read_text("utf-8"))
+        found = set()
+        for node in ast.walk(tree):
+            if isinstance(node, ast.ImportFrom) and node.module == "sandbox.window":
+                found |= {alias.name for alias in node.names}
+            elif isinstance(node, ast.ImportFrom) and (node.module or "").startswith("sandbox.window."):
+                found.add(node.module.rpartition(".")[2])
+        uses[name] = found & known
+    order = list(TopologicalSorter(uses).static_order())  # raises CycleError
+    chain = [order.index(name) for name in ("game", "view", "commands", "pointer", "app")]
+    assert chain == sorted(chain)

@@ -92,7 +92,7 @@ def settled(app: App) -> None:
 )
 def test_the_stage_belongs_to_the_shot(screen, source, actions):
     app = App(Game(Session(source), Here(), patience=5.0), screen)
-    app.view = app.pointer.view = Watched(app.game, screen)
+    app.view = app.pointer.view = Watched(app.game, screen, patience=5.0)
     try:
         settled(app)
         for action in actions:
@@ -102,6 +102,7 @@ def test_the_stage_belongs_to_the_shot(screen, source, actions):
                 app.game.open(source)
             ACTIONS[action](app.view)
             app.tick(0.016)
+        app.game.release()
         settled(app)
         stage, shot = app.view.stage, app.game.shot
         assert stage.shot.scene.parameters == shot.scene.parameters
