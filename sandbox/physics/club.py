@@ -79,7 +79,7 @@ def strike(
     stretch = rubbed = 0.0  # m/s: stretch of the spring along, times the frequency of the one across; and N s
     for share, wave in ((1.0, _CLOSING), (head.restitution, _PARTING)):
         step = share * _STEP  # time, times the frequency of the spring across
-        for part, end in wave if share > 0.0 else ():
+        for part, end in wave if step > 0.0 else ():  # which of the smallest restitution is 0
             push = share * squeezed * part
             force = stiffness * (stretch + 0.5 * step * slip)
             most = head.friction * push / step
