@@ -103,8 +103,10 @@ def test_a_scene_may_have_a_measure_of_its_own(tmp_path: Path):
 def test_every_method_has_its_points_and_finer_ones_are_better(basketball: lab.Trade):
     assert {"plain", "rk4", "dormand-prince", "heun"} <= {point.method for point in basketball.points}
     for method in ("plain", "heun", "rk4", "dormand-prince"):
-        errors = [point.error_m for point in basketball.points if point.method == method]
+        points = [point for point in basketball.points if point.method == method]
+        errors = [point.error_m for point in points if point.error_m is not None]
         assert errors[-1] < 0.1 * errors[0]
+        assert len(errors) == len(points) or method == "plain"  # at long steps it goes through the rim, and says so
     fast, balanced, precise = (basketball.levels[name].error_m for name in ("fast", "balanced", "precise"))
     assert fast > balanced > precise
     assert set(basketball.levels) == set(LEVELS)
