@@ -190,11 +190,18 @@ class Stage:
             return
         thin = max(1, round(1.4 * sheet.unit))
         for ball in shot.movers[:-1]:
-            draw_line(sheet.surface, self._line(shot, ball, until), thin, CARD["text"])
+            draw_line(sheet.surface, self._line(shot, ball, until), thin, self._path_colour(ball, CARD["text"]))
         width, line = max(3, round(3.6 * sheet.unit)), self._line(shot, shot.ball, until)
         draw_line(sheet.surface, line, width + 2, TRACE["rim"])
-        draw_line(sheet.surface, line, width, getattr(self.picture, "TRACE", TRACE["colours"][0]))
+        draw_line(sheet.surface, line, width, self._path_colour(shot.ball, TRACE["colours"][0]))
         self._contacts(sheet, shot, until)
+
+    def _path_colour(self, ball: str, otherwise: Colour) -> Colour:
+        """Of a ball's path: as the picture has it."""
+        if not hasattr(self.picture, "colour_of"):
+            return otherwise
+        colour: Colour = self.picture.colour_of(ball)
+        return colour
 
     def draw_balls(self, sheet: Canvas, t: float) -> None:
         """The balls of the composed shot at time t in s."""
