@@ -1,14 +1,16 @@
 """Basketball in side view: from the hand to the ring, by way of rim and backboard where it must be.
 
-Models: gravity; drag and lift in flight; impacts with rim, bracket, backboard and floor, where the spin takes part;
-wind and a net that slows the ball only where the scene file asks for them.
-Leaves out: wind; the ball's loss of spin in the air; everything sideways, so the ring is two tubes and a shot is never
-off to the side; the give of ball, rim and board.
+Models: gravity; drag and lift in flight; impacts with rim, bracket, backboard and floor, where the spin takes part; the
+net, which slows a ball that falls through it (its form and strength are assumed: no measurement was found); wind where
+the scene file asks for it.
+Leaves out: the ball's loss of spin in the air; everything sideways, so the ring is two tubes and a shot is never off to
+the side; the give of ball, rim and board.
 
 What that is worth, measured on the default free throw as the shift of the place where the ball comes down to the ring:
 1 m/s of headwind, 7.5 cm shorter. Of what is kept, drag takes 45 cm, and lift as large as the spin ratio (assumed),
 Cl = S = 0.3, carries it 9.5 cm further and makes it 1.4 deg steeper: without it the same shot takes 0.07 m/s more. The
-swish is 10 cm wide: from 4.7 cm short of the middle of the ring to 5.3 cm beyond it.
+swish is 10 cm wide: from 4.7 cm short of the middle of the ring to 5.3 cm beyond it. The net costs 76 % more force
+evaluations (524 for 298, 60 % more time) and brings a swish down 1.6 m nearer.
 """
 
 from __future__ import annotations
