@@ -2,22 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from math import cos, pi, sin
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
-from sandbox.engine.run import Run
-from sandbox.errors import RequestError
 from sandbox.picture.palette import Colour, mix, palette
-from sandbox.picture.path import FINEST, apart, chip
+from sandbox.picture.path import FINEST, Path, apart, chip
 from sandbox.picture.sheet import CARD, Entry, Sheet
-
-if TYPE_CHECKING:
-    from sandbox.picture.view import View
 
 TRACE = palette("trace")
 
@@ -31,27 +26,28 @@ MOST_POINTS = 480
 
 @dataclass(frozen=True)
 class Ghost:
-    """Another run: what it is called, its own picture, its colour, and how far it is moved (m) to lie over this one."""
+    """Another run: what it is called, the path of its ball, its colour, and how far it is moved (m) to lie over this
+    one; ``said`` is what a frame's card says of it at a time in s."""
 
     label: str
-    picture: View[Any]  # of the same class as the picture that it is drawn on
+    path: Path
     colour: Colour
-    shift: tuple[float, float] = (0.0, 0.0)
+    shift: tuple[float, float]
+    said: Callable[[float], list[Entry]]
 
     @cached_property
     def points(self) -> np.ndarray:
         """Its path where it is drawn, in m, shape (n, 2)."""
-        return self.picture.path.points + self.shift
+        return self.path.points + self.shift
 
     def at(self, t: float) -> np.ndarray:
         """Its ball where it is drawn at time t in s, in m, shape (1, 2)."""
-        x, y, *_ = self.picture.run.state(self.picture.ball, min(t, self.picture.run.duration))
-        return np.array([(x + self.shift[0], y + self.shift[1])])
+        return np.array([self.path.run.state(self.path.name, min(t, self.path.run.duration))[:2]]) + self.shift
 
     @property
     def row(self) -> tuple[Colour, list[Entry]]:
         """Its numbers for the card, in its colour."""
-        return self.light, self.picture.run.scene.rows(self.picture.run)
+        return self.light, self.path.run.scene.rows(self.path.run)
 
     @property
     def light(self) -> Colour:
@@ -60,7 +56,7 @@ class Ghost:
 
     def live(self, t: float) -> tuple[Colour, list[Entry]]:
         """The same for a frame at time t in s."""
-        return self.light, self.picture.live(min(t, self.picture.run.duration))
+        return self.light, self.said(min(t, self.path.run.duration))
 
     def colour_on(self, sheet: Sheet) -> Colour:
         """Lighter where the picture's ground is dark."""
@@ -68,30 +64,13 @@ class Ghost:
 
     @property
     def note(self) -> str:
-        verdict = self.picture.run.scene.verdict(self.picture.run)
+        verdict = self.path.run.scene.verdict(self.path.run)
         return f"{self.label}: {verdict[0].lower()}{verdict[1:]}"
 
 
 def colours_beside(kind: Any) -> Sequence[Colour]:
     """Of other runs on pictures of this class: its own ``EARLIER`` where the usual ones would be hard to see."""
     return getattr(kind, "EARLIER", TRACE["colours"][1:])
-
-
-def ghosts_on(picture: View[Any], runs: Mapping[str, Run]) -> list[Ghost]:
-    """Ghosts on a picture for runs of the same scene by their labels, laid over it where its ``datum`` says.
-
-    Raises RequestError where they cannot be: from the side, all share one ground.
-    """
-    kind, colours, ghosts = type(picture), colours_beside(type(picture)), []
-    (x, y), what = picture.datum
-    for i, (label, run) in enumerate(runs.items()):
-        assert run.scene is not None
-        other = kind(run, run.scene.parameters, picture.size)
-        (there_x, there_y), _ = other.datum
-        if picture.ONE_GROUND and there_y != y:
-            raise RequestError(f"{label}: {what} is at {there_y:g} m, and here at {y:g} m: these cannot be compared")
-        ghosts.append(Ghost(label, other, colours[i % len(colours)], (x - there_x, y - there_y)))
-    return ghosts
 
 
 def draw_in_frame(sheet: Sheet, ghost: Ghost, points: np.ndarray, at: Sequence[float]) -> None:

@@ -17,10 +17,11 @@ import pygame
 
 from sandbox.engine.run import Run
 from sandbox.engine.setup import Segment
+from sandbox.errors import RequestError
 from sandbox.parameters import Group
 from sandbox.picture.ball import SMALLEST, Look, least_radius, mark_radius
 from sandbox.picture.camera import Camera
-from sandbox.picture.ghosts import draw_ghost, draw_in_frame, ghosts_on, label_ghost
+from sandbox.picture.ghosts import Ghost, draw_ghost, draw_in_frame, label_ghost
 from sandbox.picture.painter import Painter, blank
 from sandbox.picture.palette import Colour, palette
 from sandbox.picture.path import Mark, Path, apart, draw_trace, mark_impacts
@@ -203,9 +204,21 @@ class View(Generic[P]):
         self.unit, self.rows = self.sheet.unit, self.sheet.rows
         self.radii = {ball.name: ball.radius for ball in run.setup.balls}  # m
         self.radius = self.radii[self.ball]
-        self.ghosts = ghosts_on(self, ghosts or {})
+        self.ghosts = [self._ghost(i, *other) for i, other in enumerate((ghosts or {}).items())]
         self._standing: tuple[Camera, pygame.Surface] | None = None
         self._tracks: dict[str, tuple[int, np.ndarray, np.ndarray]] = {}
+
+    def _ghost(self, i: int, label: str, run: Run) -> Ghost:
+        """Another run of the same scene, laid over this one where its ``datum`` says.
+
+        Raises RequestError where it cannot be: from the side, all share one ground.
+        """
+        assert run.scene is not None
+        other = type(self)(run, run.scene.parameters, self.size)
+        ((x, y), what), ((there_x, there_y), _) = self.datum, other.datum
+        if self.ONE_GROUND and there_y != y:
+            raise RequestError(f"{label}: {what} is at {there_y:g} m, and here at {y:g} m: these cannot be compared")
+        return Ghost(label, other.path, self.EARLIER[i % len(self.EARLIER)], (x - there_x, y - there_y), other.live)
 
     @cached_property
     def paths(self) -> dict[str, Path]:

@@ -93,7 +93,7 @@ def test_frames_show_both_at_the_same_time(pair):
 def test_the_camera_shows_both_paths(pair):
     picture = compared(pair)
     run = run_of(pair[1])
-    ball = picture.ghosts[0].picture.struck if hasattr(picture, "struck") else run.setup.balls[0].name
+    ball = picture.ball
     end = run.duration if run.caught_at(ball) is None else run.caught_at(ball)
     points = np.array([run.state(ball, t)[:2] for t in np.linspace(0.0, 0.9 * end, 50)]) + picture.ghosts[0].shift
     points = picture.camera.pixels(points)

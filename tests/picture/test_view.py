@@ -87,9 +87,9 @@ def test_shots_over_other_distances_are_laid_over_each_other_at_their_target(nam
     picture = picture_of(name, other=other)
     ghost = picture.ghosts[0]
     (x, _), _ = picture.datum
-    (there, _), _ = ghost.picture.datum
+    (there, _), _ = picture_of(other).datum
     assert there != x
-    assert ghost.points - ghost.picture.path.points == pytest.approx(np.full(ghost.points.shape, (x - there, 0.0)))
+    assert ghost.points - ghost.path.points == pytest.approx(np.full(ghost.points.shape, (x - there, 0.0)))
     picture.poster()
     assert words in written(picture)
     picture.frame(0.1)
