@@ -1,7 +1,7 @@
 """Smooth shapes on a pygame surface. Positions and sizes are in px and may lie between pixels.
 
-pygame's own shapes have rough edges, so discs and shadows are computed exactly and kept, and everything else is drawn
-larger and scaled down.
+pygame's own shapes have rough edges, so discs and shadows are computed exactly, and everything else is drawn larger and
+scaled down. What is not large is kept: as long as the camera stands, or moves by whole px, it is the same again.
 """
 
 from __future__ import annotations
@@ -26,6 +26,8 @@ OVERSAMPLING = 4
 ARROW = 0.62
 #: Discs are kept for centres this far apart (px) and radii half as far: finer than the eye, coarse enough to be reused.
 PHASE = 1 / 8
+#: Shapes of more than so many px are not kept.
+LARGEST_KEPT = 40_000
 
 
 def blank(size: tuple[int, int], transparent: bool = False) -> pygame.Surface:
@@ -148,32 +150,17 @@ class Painter:
         self._blit(sprite, (round(left), round(top)), opacity)
 
     def polygon(self, points: Points, colour: Colour, opacity: float = 1.0) -> None:
-        self._shape(
-            points, 0, colour, opacity, lambda mask, drawn, _: pygame.draw.polygon(mask, colour, drawn.tolist())
-        )
+        self._shape(points, 0, colour, opacity, pygame.draw.polygon)
 
     def line(self, points: Points, width: float, colour: Colour, opacity: float = 1.0) -> None:
         """A line through the points with round ends and joints."""
-
-        def draw(mask: pygame.Surface, drawn: np.ndarray, larger: int) -> None:
-            radius, places = width * larger / 2, drawn.tolist()
-            for a, b in pairwise(places):
-                pygame.draw.polygon(mask, colour, _quad(a, b, radius))
-            for point in places:
-                pygame.draw.circle(mask, colour, point, radius)
-
-        self._shape(points, width, colour, opacity, draw)
+        self._shape(points, width, colour, opacity, _line, width * OVERSAMPLING / 2)
 
     def lines(self, lines: Sequence[Points], width: float, colour: Colour, opacity: float = 1.0) -> None:
         """Many thin lines at once, such as the mesh of a net; where they cross they are no denser."""
-        ends = list(accumulate((len(line) for line in lines), initial=0))
-
-        def draw(mask: pygame.Surface, drawn: np.ndarray, larger: int) -> None:
-            thick, points = max(1, round(width * larger)), drawn.tolist()
-            for start, end in pairwise(ends):
-                pygame.draw.lines(mask, colour, False, points[start:end], thick)
-
-        self._shape(np.concatenate(lines), width, colour, opacity, draw)
+        ends = tuple(accumulate((len(line) for line in lines), initial=0))
+        thick = max(1, round(width * OVERSAMPLING))
+        self._shape(np.concatenate(lines), width, colour, opacity, _lines, thick, ends)
 
     def thread(self, points: Points, width: float, colour: Colour) -> None:
         """A line of whole px, at least one, without round joints: quick enough for every frame."""
@@ -210,14 +197,9 @@ class Painter:
         across = np.column_stack([-ahead[:, 1], ahead[:, 0]]) / np.maximum(np.hypot(*ahead.T), 1e-9)[:, None]
         share = np.linspace(0, 1, len(array))
         half = across * (share * width / 2)[:, None]
-
-        def draw(mask: pygame.Surface, drawn: np.ndarray, larger: int) -> None:
-            one, other = (drawn + half * larger).tolist(), (drawn - half * larger).tolist()
-            for i in range(len(drawn) - 1):
-                corners = [one[i], one[i + 1], other[i + 1], other[i]]
-                pygame.draw.polygon(mask, (*colour, round(255 * share[i + 1])), corners)
-
-        self._shape(array, width, colour, opacity, draw, larger=3)
+        edges = np.concatenate([array + half, array - half])
+        opacities = tuple(round(255 * part) for part in share[1:])
+        self._shape(edges, 0, colour, opacity, _fading, opacities, larger=3)
 
     def arrow(
         self,
@@ -245,15 +227,10 @@ class Painter:
         neck = b[0] - along[0] * (head + wider), b[1] - along[1] * (head + wider)
         half = ARROW * (head + wider + beyond)
 
-        def draw(mask: pygame.Surface, drawn: np.ndarray, larger: int) -> None:
-            tail, neck, *head = drawn.tolist()
-            pygame.draw.polygon(mask, colour, _quad(tail, neck, (width / 2 + wider) * larger))
-            pygame.draw.circle(mask, colour, tail, (width / 2 + wider) * larger)
-            pygame.draw.polygon(mask, colour, head)
-
         across = -along[1] * half, along[0] * half
         sides = [(neck[0] + across[0], neck[1] + across[1]), tip, (neck[0] - across[0], neck[1] - across[1])]
-        self._shape([a, neck, *sides], width + 2 * wider, colour, opacity, draw)
+        thick = width + 2 * wider
+        self._shape([a, neck, *sides], thick, colour, opacity, _arrow, thick * OVERSAMPLING / 2)
 
     def panel(self, rect: pygame.Rect, colour: Colour, opacity: float, corner: float) -> None:
         """A rectangle with round corners."""
@@ -281,23 +258,59 @@ class Painter:
         width: float,
         colour: Colour,
         opacity: float,
-        draw: Callable[[pygame.Surface, np.ndarray, int], object],
+        draw: Callable[..., object],
+        *how: object,
         larger: int = OVERSAMPLING,
     ) -> None:
-        """Call ``draw`` on a surface ``larger`` times the size of what is seen of the shape, and put it on ours."""
+        """Put on our surface what of a shape is seen, which ``draw`` draws ``larger`` times its size."""
         array = np.asarray(points, dtype=float)
         low, high = array.min(axis=0) - width / 2 - 1, array.max(axis=0) + width / 2 + 1
         box = pygame.Rect(floor(low[0]), floor(low[1]), ceil(high[0] - low[0]) + 1, ceil(high[1] - low[1]) + 1)
         seen = box.clip(self.surface.get_rect())
         if seen.width == 0 or seen.height == 0:
             return
-        mask = scratch((seen.width * larger, seen.height * larger), colour)
-        draw(mask, (array - seen.topleft) * larger, larger)
-        self._blit(pygame.transform.smoothscale(mask, seen.size), seen.topleft, opacity)
+        drawn = ((array - seen.topleft) * larger).round(6) + 0.0  # no -0.0: the same places are the same bytes
+        make = _drawn if seen.width * seen.height <= LARGEST_KEPT else _drawn.__wrapped__
+        self._blit(make(draw, drawn.tobytes(), seen.size, larger, colour, *how), seen.topleft, opacity)
 
     def _blit(self, sprite: pygame.Surface, position: tuple[int, int], opacity: float) -> None:
         sprite.set_alpha(round(255 * opacity))
         self.surface.blit(sprite, position)
+
+
+@lru_cache(maxsize=512)
+def _drawn(
+    draw: Callable[..., object], points: bytes, size: tuple[int, int], larger: int, colour: Colour, *how: object
+) -> pygame.Surface:
+    """A shape of ``size`` px from its points in px, larger; kept for when it stands still, or moves by whole px."""
+    mask = scratch((size[0] * larger, size[1] * larger), colour)
+    draw(mask, colour, np.frombuffer(points).reshape(-1, 2).tolist(), *how)
+    return pygame.transform.smoothscale(mask, size)
+
+
+def _line(mask: pygame.Surface, colour: Colour, points: list[Point], radius: float) -> None:
+    for a, b in pairwise(points):
+        pygame.draw.polygon(mask, colour, _quad(a, b, radius))
+    for point in points:
+        pygame.draw.circle(mask, colour, point, radius)
+
+
+def _lines(mask: pygame.Surface, colour: Colour, points: list[Point], thick: int, ends: tuple[int, ...]) -> None:
+    for start, end in pairwise(ends):
+        pygame.draw.lines(mask, colour, False, points[start:end], thick)
+
+
+def _fading(mask: pygame.Surface, colour: Colour, points: list[Point], opacities: tuple[int, ...]) -> None:
+    one, other = points[: len(points) // 2], points[len(points) // 2 :]
+    for i, opacity in enumerate(opacities):
+        pygame.draw.polygon(mask, (*colour, opacity), [one[i], one[i + 1], other[i + 1], other[i]])
+
+
+def _arrow(mask: pygame.Surface, colour: Colour, points: list[Point], radius: float) -> None:
+    tail, neck, *head = points
+    pygame.draw.polygon(mask, colour, _quad(tail, neck, radius))
+    pygame.draw.circle(mask, colour, tail, radius)
+    pygame.draw.polygon(mask, colour, head)
 
 
 def _quad(a: Point, b: Point, radius: float) -> list[Point]:
