@@ -82,11 +82,12 @@ class TestTheBar:
 @pytest.mark.parametrize("pull", [False, True])
 def test_long_numbers_end_where_their_room_does(player, written, pull):
     player = player("soccer-curl", (480, 400))
+    player.settle()
+    written.clear()
     player.key(pygame.K_TAB)
     if pull:
         player.pull((-60, 40), let_go=False)
-    written.clear()
-    player.view.draw()
+    player.settle()
     shot = player.game.shot
     said = [text for _, text in shot.card] + [shot.aimed]
     numbers = [
