@@ -42,9 +42,9 @@ class Accuracy:
 
     @property
     def contact_step(self) -> float:
-        """The step through a contact of several balls, as a share of the shortest contact there can be: 0.05, 0.025 and
-        0.0125 at the levels."""
-        return float(0.025 * (self.tolerance / 1e-3) ** 0.15)
+        """The step through a contact of several balls, as a share of the shortest contact there can be: 0.07, 0.035 and
+        0.0175 at the levels."""
+        return float(0.035 * (self.tolerance / 1e-3) ** 0.15)
 
     @property
     def steps(self) -> str:

@@ -2,8 +2,8 @@
 
 An impulse is right for a lone pair. Where a third body is reached while two are pressed together, who gets how much
 depends on how the contacts share the fraction of a millisecond that they last. So the bodies are moved through it:
-positions and velocities under the forces of Hertz's law (``physics/hertz.py``), and with each step friction, as the
-impulses that bring every slip to rest as far as the step's normal impulses reach (Coulomb).
+positions and velocities under the forces of Hertz's law (``physics/hertz.py``) by Dormand and Prince's pair, and with
+each step friction, as the impulses that bring every slip to rest as far as the normal impulses allow (Coulomb).
 
 All contacts are treated at once, as rows of arrays, so that the outcome does not depend on the order of the bodies.
 """
@@ -18,17 +18,9 @@ import numpy as np
 
 from sandbox.errors import RunError
 from sandbox.physics.hertz import contact_time, damping
+from sandbox.physics.integrators import DORMAND_PRINCE, DORMAND_PRINCE_ERROR
 
-#: The pair of Dormand & Prince 1980: its stages, the last of which is the fifth order, and the error.
-_STAGES = (
-    np.array([1 / 5]),
-    np.array([3 / 40, 9 / 40]),
-    np.array([44 / 45, -56 / 15, 32 / 9]),
-    np.array([19372 / 6561, -25360 / 2187, 64448 / 6561, -212 / 729]),
-    np.array([9017 / 3168, -355 / 33, 46732 / 5247, 49 / 176, -5103 / 18656]),
-    np.array([35 / 384, 0.0, 500 / 1113, 125 / 192, -2187 / 6784, 11 / 84]),
-)
-_ERROR = np.array([71 / 57600, 0.0, -71 / 16695, 71 / 1920, -17253 / 339200, 22 / 525, -1 / 40])
+_STAGES, _ERROR = tuple(np.array(weights) for weights in DORMAND_PRINCE), np.array(DORMAND_PRINCE_ERROR)
 
 #: Largest error of a step by the embedded pair, over the fastest speed; with more than that all is done again by half
 #: the step. Steps are even otherwise: so what comes out depends smoothly on what went in, and rounding stays rounding.
@@ -41,7 +33,7 @@ _FEW, _GRADES = 6, (4.0**-6, *(3.0 * 4.0**-power for power in range(6, 0, -1)))
 _LONGEST = 200.0
 
 #: Rounds of friction, and the change of a slip over the fastest body's speed that ends them.
-_ROUNDS, _SETTLED = 500, 1e-12
+_ROUNDS, _SETTLED = 500, 1e-10
 
 #: Speed in m/s that is rounding, and depth in m.
 _STILL, _TOUCH = 1e-9, 1e-12

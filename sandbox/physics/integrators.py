@@ -101,24 +101,43 @@ def _rk4(law: Law, t: Any, state: State, acceleration: Acceleration, dt: Any) ->
     )
 
 
+#: The pair of Dormand & Prince, RK5(4)7M: the weights of each further stage, of which the last is the fifth order, and
+#: those of its difference from the fourth.
+DORMAND_PRINCE = (
+    (1 / 5,),
+    (3 / 40, 9 / 40),
+    (44 / 45, -56 / 15, 32 / 9),
+    (19372 / 6561, -25360 / 2187, 64448 / 6561, -212 / 729),
+    (9017 / 3168, -355 / 33, 46732 / 5247, 49 / 176, -5103 / 18656),
+    (35 / 384, 0.0, 500 / 1113, 125 / 192, -2187 / 6784, 11 / 84),
+)
+DORMAND_PRINCE_ERROR = (71 / 57600, 0.0, -71 / 16695, 71 / 1920, -17253 / 339200, 22 / 525, -1 / 40)
+
+(_A21,), (_A31, _A32), (_A41, _A42, _A43), (_A51, _A52, _A53, _A54), (_A61, _A62, _A63, _A64, _A65), _LAST = (
+    DORMAND_PRINCE
+)
+_A71, _, _A73, _A74, _A75, _A76 = _LAST
+_E1, _, _E3, _E4, _E5, _E6, _E7 = DORMAND_PRINCE_ERROR
+
+
 def _dormand_prince(law: Law, t: Any, state: State, acceleration: Acceleration, dt: Any) -> Step:
     """Seven stages, the last of which is the first of the next step; error by the embedded fourth order."""
     x, y, vx, vy, w = state
     ax1, ay1, al1 = acceleration
 
-    h = dt * (1 / 5)
+    h = dt * _A21
     vx2 = vx + h * ax1
     vy2 = vy + h * ay1
     ax2, ay2, al2 = law(t + h, (x + h * vx, y + h * vy, vx2, vy2, w + h * al1))
 
-    p, q = dt * (3 / 40), dt * (9 / 40)
+    p, q = dt * _A31, dt * _A32
     vx3 = vx + p * ax1 + q * ax2
     vy3 = vy + p * ay1 + q * ay2
     ax3, ay3, al3 = law(
         t + dt * (3 / 10), (x + p * vx + q * vx2, y + p * vy + q * vy2, vx3, vy3, w + p * al1 + q * al2)
     )
 
-    p, q, r = dt * (44 / 45), dt * (-56 / 15), dt * (32 / 9)
+    p, q, r = dt * _A41, dt * _A42, dt * _A43
     vx4 = vx + p * ax1 + q * ax2 + r * ax3
     vy4 = vy + p * ay1 + q * ay2 + r * ay3
     ax4, ay4, al4 = law(
@@ -132,7 +151,7 @@ def _dormand_prince(law: Law, t: Any, state: State, acceleration: Acceleration, 
         ),
     )
 
-    p, q, r, s = dt * (19372 / 6561), dt * (-25360 / 2187), dt * (64448 / 6561), dt * (-212 / 729)
+    p, q, r, s = dt * _A51, dt * _A52, dt * _A53, dt * _A54
     vx5 = vx + p * ax1 + q * ax2 + r * ax3 + s * ax4
     vy5 = vy + p * ay1 + q * ay2 + r * ay3 + s * ay4
     ax5, ay5, al5 = law(
@@ -146,13 +165,7 @@ def _dormand_prince(law: Law, t: Any, state: State, acceleration: Acceleration, 
         ),
     )
 
-    p, q, r, s, z = (
-        dt * (9017 / 3168),
-        dt * (-355 / 33),
-        dt * (46732 / 5247),
-        dt * (49 / 176),
-        dt * (-5103 / 18656),
-    )
+    p, q, r, s, z = dt * _A61, dt * _A62, dt * _A63, dt * _A64, dt * _A65
     vx6 = vx + p * ax1 + q * ax2 + r * ax3 + s * ax4 + z * ax5
     vy6 = vy + p * ay1 + q * ay2 + r * ay3 + s * ay4 + z * ay5
     ax6, ay6, al6 = law(
@@ -166,7 +179,7 @@ def _dormand_prince(law: Law, t: Any, state: State, acceleration: Acceleration, 
         ),
     )
 
-    p, r, s, z, o = dt * (35 / 384), dt * (500 / 1113), dt * (125 / 192), dt * (-2187 / 6784), dt * (11 / 84)
+    p, r, s, z, o = dt * _A71, dt * _A73, dt * _A74, dt * _A75, dt * _A76
     vx7 = vx + p * ax1 + r * ax3 + s * ax4 + z * ax5 + o * ax6
     vy7 = vy + p * ay1 + r * ay3 + s * ay4 + z * ay5 + o * ay6
     after = (
@@ -178,14 +191,7 @@ def _dormand_prince(law: Law, t: Any, state: State, acceleration: Acceleration, 
     )
     last = law(t + dt, after)
 
-    p, r, s, z, o, f = (
-        dt * (71 / 57600),
-        dt * (-71 / 16695),
-        dt * (71 / 1920),
-        dt * (-17253 / 339200),
-        dt * (22 / 525),
-        dt * (-1 / 40),
-    )
+    p, r, s, z, o, f = dt * _E1, dt * _E3, dt * _E4, dt * _E5, dt * _E6, dt * _E7
     error = (
         p * vx + r * vx3 + s * vx4 + z * vx5 + o * vx6 + f * vx7,
         p * vy + r * vy3 + s * vy4 + z * vy5 + o * vy6 + f * vy7,
