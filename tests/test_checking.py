@@ -53,7 +53,7 @@ def test_what_a_nanometre_changes_the_check_has_said(shot):
 
 def test_a_chaotic_break_is_called_so():
     check = sandbox.check("billiards")  # square on the rack: kept symmetric by rounding alone
-    assert check.chaotic["positions"] > 0.01  # m
+    assert check.chaotic["positions"] > 1e-3  # m, a million times the nudge
     assert check.errors["positions"] >= check.spread["positions"]
 
 
@@ -91,5 +91,5 @@ def test_card_and_json_say_what_is_chaotic(capsys):
     report = json.loads(capsys.readouterr().out)
     assert report["nudges"]["size_m"] == NUDGE
     assert "positions" in report["nudges"]["chaotic"]
-    assert report["nudges"]["spread"]["positions"] > 0.01
+    assert report["nudges"]["spread"]["positions"] > 1e-3
     assert all(len(others) <= NUDGES for others in report["nudges"]["changed"].values())
