@@ -368,8 +368,8 @@ class View(Generic[P]):
         return self.LOOK
 
     def colour_of(self, name: str) -> Colour:
-        """Of a ball's path."""
-        others = [other for other in self.balls if other != self.ball]
+        """Of the path of a ball, or of anything else that moves."""
+        others = [ball.name for ball in self.run.setup.balls if ball.name != self.ball]
         return self.TRACE if name == self.ball else self.EARLIER[others.index(name) % len(self.EARLIER)]
 
     def faint_of(self, name: str) -> Colour:
