@@ -106,22 +106,12 @@ def _panel(size: tuple[int, int], colour: Colour, corner: float) -> pygame.Surfa
     return from_coverage(corner - outside + 0.5, colour)
 
 
-def rounded(surface: pygame.Surface, rect: pygame.Rect, corner: float) -> pygame.Surface:
-    """A copy of a surface's rectangle with round corners."""
-    return _under(surface, rect, pygame.surfarray.array_alpha(_panel(rect.size, (0, 0, 0), corner)))
-
-
 def around_corners(surface: pygame.Surface, rect: pygame.Rect, corner: float) -> pygame.Surface:
     """What of a surface's rectangle lies outside its round corners: to be put back when the rectangle is filled."""
-    return _under(surface, rect, 255 - pygame.surfarray.array_alpha(_panel(rect.size, (0, 0, 0), corner)))
-
-
-def _under(surface: pygame.Surface, rect: pygame.Rect, opacity: np.ndarray) -> pygame.Surface:
-    """A copy of a surface's rectangle, as opaque as the array says (0 to 255)."""
     kept = blank(rect.size, transparent=True)
     kept.blit(surface, (0, 0), rect)
     alpha = pygame.surfarray.pixels_alpha(kept)
-    alpha[...] = opacity
+    alpha[...] = 255 - pygame.surfarray.array_alpha(_panel(rect.size, (0, 0, 0), corner))
     del alpha  # unlocks the surface
     return kept
 
@@ -156,11 +146,11 @@ class Painter:
         """A line through the points with round ends and joints."""
         self._shape(points, width, colour, opacity, _line, width * OVERSAMPLING / 2)
 
-    def lines(self, lines: Sequence[Points], width: float, colour: Colour, opacity: float = 1.0) -> None:
+    def lines(self, lines: Sequence[Points] | np.ndarray, width: float, colour: Colour, opacity: float = 1.0) -> None:
         """Many thin lines at once, such as the mesh of a net; where they cross they are no denser."""
-        ends = tuple(accumulate((len(line) for line in lines), initial=0))
-        thick = max(1, round(width * OVERSAMPLING))
-        self._shape(np.concatenate(lines), width, colour, opacity, _lines, thick, ends)
+        points = lines.reshape(-1, 2) if isinstance(lines, np.ndarray) else np.concatenate(lines)
+        ends = tuple(accumulate(map(len, lines), initial=0))
+        self._shape(points, width, colour, opacity, _lines, max(1, round(width * OVERSAMPLING)), ends)
 
     def thread(self, points: Points, width: float, colour: Colour) -> None:
         """A line of whole px, at least one, without round joints: quick enough for every frame."""

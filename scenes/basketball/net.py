@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from math import cos, exp, pi, sin, tau
 
 import numpy as np
@@ -29,6 +30,7 @@ class Net:
         (front, self.top), (back, _) = rims(parameters)
         self.middle, self.wide = (front + back) / 2, (back - front) / 2
         self.length, self.radius = parameters.net.length, parameters.ball.radius
+        self._lines = lru_cache(maxsize=8)(self._strings)  # the same as long as net and camera rest
         self.entered, self.left = self._passage() if run.result["made"] else (np.inf, np.inf)
 
     def _passage(self) -> tuple[float, float]:
@@ -41,6 +43,12 @@ class Net:
 
     def draw(self, painter: Painter, eye: Eye, near: bool, t: float) -> None:
         """The half before the ball or that behind it, as it hangs at time t in s."""
+        width = max(0.9 * eye.unit, 0.012 * eye.camera.scale)
+        lines = self._lines(eye, near, 0.0 if self.rests(t) else t)
+        painter.lines(lines, width, COLOURS["net"], 0.75 if near else 0.3)
+
+    def _strings(self, eye: Eye, near: bool, t: float) -> np.ndarray:
+        """Their ends in px, shape (n, 2, 2)."""
         down = np.linspace(0, 1, KNOTS)
         aside, wide = self._shape(down, t)
         strand = np.arange(2 * STRANDS)[:, None]
@@ -53,9 +61,7 @@ class Net:
         points = eye.points(np.stack([x, y, z], axis=-1).reshape(-1, 3)).reshape(*turn.shape, 2)
         seen = (np.sin(turn) < 0) == near
         shown = seen[:, :-1] | seen[:, 1:]
-        lines = list(np.stack([points[:, :-1], points[:, 1:]], axis=2)[shown])
-        width = max(0.9 * eye.unit, 0.012 * eye.camera.scale)
-        painter.lines(lines, width, COLOURS["net"], 0.75 if near else 0.3)
+        return np.stack([points[:, :-1], points[:, 1:]], axis=2)[shown]
 
     def _shape(self, down: np.ndarray, t: float) -> tuple[np.ndarray, np.ndarray]:
         """How far aside the net is and how wide, in m, at shares of its length down from the ring."""

@@ -14,13 +14,13 @@ from sandbox.picture.camera import Box, Camera
 from sandbox.picture.depth import Eye
 from sandbox.picture.figures import REACHING, SHOOTING
 from sandbox.picture.lettering import Labels
-from sandbox.picture.painter import Painter, around_corners, rounded
+from sandbox.picture.painter import Painter, around_corners
 from sandbox.picture.palette import mix, palette, scene_colours
 from sandbox.picture.path import Mark, draw_trace, mark_impacts
 from sandbox.picture.places import Ground, Group, Hall, Line, Person, Planks
 from sandbox.picture.sheet import Entry, Sheet
 from sandbox.picture.side import Length, Place, SideView
-from sandbox.sport.amounts import metres, roughly, signed, times
+from sandbox.sport.amounts import metres, roughly, times
 
 from .hoop import Hoop, Stand
 from .net import Net
@@ -193,9 +193,6 @@ class Picture(SideView[Parameters]):
 
     # The lens
 
-    #: As it is while nothing moves in it.
-    _quiet_lens: pygame.Surface | None = None
-
     @cached_property
     def lens(self) -> pygame.Rect:
         """Where the lens is, in px."""
@@ -222,10 +219,6 @@ class Picture(SideView[Parameters]):
         """The ring from near by, unless that would hide the ring itself: how the ball came, what it touched."""
         if not self.has_lens or (t is not None and self._under_lens(camera)):
             return None
-        quiet = t is not None and self.net.rests(t) and not self._in_lens(self.run.state(self.ball, t)[:2], self.radius)
-        if quiet and self._quiet_lens is not None:
-            sheet.surface.blit(self._quiet_lens, self.lens)
-            return self.lens
         eye, painter, hoop = self._lens_eye, sheet.painter, self.hoop.things[1]
         moment = self.moment if t is None else t
         corners = around_corners(sheet.surface, self.lens, 10 * self.unit)
@@ -249,8 +242,6 @@ class Picture(SideView[Parameters]):
             sheet.label(f"{self._lens_factor(self.camera):.1f}×", "small", [(*corner, "bottomleft")], CARD["quiet"])
             sheet.labels = outside
         sheet.surface.set_clip(None)
-        if quiet:
-            self._quiet_lens = rounded(sheet.surface, self.lens, 10 * self.unit)
         sheet.surface.blit(corners, self.lens)
         return self.lens
 
@@ -308,8 +299,3 @@ def _markings(ring: float, throw: float, end: float) -> list[Line]:
         [*((ring + ARC * cos(turn), ARC * sin(turn)) for turn in turns), (end, CORNER)],
         [(end, 0.0), (end, HALF_WIDTH), (end - LENGTH, HALF_WIDTH)],
     ]
-
-
-def _from_centre(length: float) -> str:
-    """How far beyond the middle of the ring, with its sign, as one says it near a ring."""
-    return signed(f"{100 * length:+.1f}") + " cm" if abs(length) < 0.995 else signed(f"{length:+.1f}") + " m"

@@ -145,11 +145,6 @@ class Picture(SideView[Parameters]):
         start = self.path.points[0, 1] - self.radius
         return (start - self._under(carry)) * camera.scale * camera.stretch
 
-    @property
-    def _landed(self) -> bool:
-        """Whether it flew at all, and came down."""
-        return (self.run.result["flight_time"] or 0.0) > 0.02
-
     # Frames
 
     def inset(self, sheet: Sheet, camera: Camera, t: float | None) -> pygame.Rect | None:

@@ -39,10 +39,12 @@ class Stripes:
         drawn.fill(self.colours[0])
         width = self.width * 2.0 ** max(0, ceil(log2(LEAST_STRIPE * eye.unit / (self.width * eye.camera.scale))))
         low, high = (eye.along(px, far) for px in (0, drawn.get_width() / OVERSAMPLING))
-        for i in range(floor((low - self.start) / width), ceil((high - self.start) / width)):
-            if i % 2:
-                a, b = self.start + i * width, self.start + (i + 1) * width
-                pygame.draw.polygon(drawn, self.colours[1], project([(a, near), (b, near), (b, far), (a, far)]))
+        odd = range(floor((low - self.start) / width) | 1, ceil((high - self.start) / width), 2)
+        corners = [
+            (self.start + (i + j) * width, z) for i in odd for j, z in ((0, near), (1, near), (1, far), (0, far))
+        ]
+        for stripe in project(corners).reshape(-1, 4, 2) if corners else ():
+            pygame.draw.polygon(drawn, self.colours[1], stripe)
 
 
 @dataclass(frozen=True)
@@ -80,9 +82,7 @@ class Ground:
 
     surface: Stripes | Planks
     soil: tuple[Colour, Colour, Colour]  # from the top down
-    edges: Sequence[
-        tuple[Colour, float]
-    ] = ()  # thin layers at the top of the cut, and how deep they go, px on 720 rows
+    edges: Sequence[tuple[Colour, float]] = ()  # thin layers at the top of the cut, how deep they go, px on 720 rows
     areas: Sequence[tuple[Line, Colour]] = ()
     lines: Sequence[Line] = ()
     line: tuple[Colour, float] = ((255, 255, 255), 0.05)  # their colour, and width in m
@@ -102,9 +102,8 @@ class Ground:
         drawn = drawn.subsurface((0, 0, width * OVERSAMPLING, (deepest - foot) * OVERSAMPLING))
         begin = 0
         if self.beyond is not None:
-            begin, (distant, close) = round(self.far * (eye.base - eye.level) * OVERSAMPLING), self.beyond
-            for row in range(begin):
-                drawn.fill(mix(distant, close, row / begin), (0, row, drawn.get_width(), 1))
+            begin = round(self.far * (eye.base - eye.level) * OVERSAMPLING)
+            drawn.blit(_beyond((drawn.get_width(), begin), self.beyond), (0, 0))
 
         def project(line: Line) -> np.ndarray:
             seen = eye.points(np.array([(x, eye.camera.at[1], z) for x, z in line]))
@@ -138,6 +137,15 @@ class Ground:
 def _canvas(size: tuple[int, int]) -> pygame.Surface:
     """Where ground is drawn, larger: new memory is slow."""
     return blank(size)
+
+
+@lru_cache(maxsize=4)
+def _beyond(size: tuple[int, int], colours: tuple[Colour, Colour]) -> pygame.Surface:
+    """The rest of the way to the horizon, far and near."""
+    column = blank((1, size[1]))
+    for row in range(size[1]):
+        column.set_at((0, row), mix(*colours, row / size[1]))
+    return pygame.transform.scale(column, size)
 
 
 @lru_cache(maxsize=4)

@@ -51,7 +51,7 @@ class Net:
                 starts = [corner + share * across for share in np.linspace(0, 1, count)]
                 threads += [(start, start + along) for start in starts]
         lines = eye.points(np.reshape(threads, (-1, 3))).reshape(-1, 2, 2)
-        painter.lines(list(lines), max(0.6, 0.8 * eye.unit), self.colour, self.opacity)
+        painter.lines(lines, max(0.6, 0.8 * eye.unit), self.colour, self.opacity)
 
 
 @dataclass(frozen=True)
