@@ -26,8 +26,8 @@ OVERSAMPLING = 4
 ARROW = 0.62
 #: Discs are kept for centres this far apart (px) and radii half as far: finer than the eye, coarse enough to be reused.
 PHASE = 1 / 8
-#: Shapes of more than so many px are not kept.
-LARGEST_KEPT = 40_000
+#: So many shapes are kept, none of more than so many px.
+MOST_KEPT, LARGEST_KEPT = 512, 40_000
 
 
 def blank(size: tuple[int, int], transparent: bool = False) -> pygame.Surface:
@@ -53,6 +53,8 @@ def scratch(size: tuple[int, int], colour: Colour) -> pygame.Surface:
 
 
 _kept = threading.local()
+#: Shapes by what draws them, their points and their colour.
+_sprites: dict[tuple[object, ...], pygame.Surface] = {}
 
 
 def from_coverage(coverage: np.ndarray, colour: Colour) -> pygame.Surface:
@@ -259,23 +261,22 @@ class Painter:
         seen = box.clip(self.surface.get_rect())
         if seen.width == 0 or seen.height == 0:
             return
-        drawn = ((array - seen.topleft) * larger).round(6) + 0.0  # no -0.0: the same places are the same bytes
-        make = _drawn if seen.width * seen.height <= LARGEST_KEPT else _drawn.__wrapped__
-        self._blit(make(draw, drawn.tobytes(), seen.size, larger, colour, *how), seen.topleft, opacity)
+        drawn = (array - seen.topleft) * larger
+        key = draw, drawn.round(6).tobytes(), seen.size, colour, how
+        sprite = _sprites.get(key)
+        if sprite is None:
+            mask = scratch((seen.width * larger, seen.height * larger), colour)
+            draw(mask, colour, drawn.tolist(), *how)
+            sprite = pygame.transform.smoothscale(mask, seen.size)
+            if seen.width * seen.height <= LARGEST_KEPT:
+                _sprites[key] = sprite
+                if len(_sprites) > MOST_KEPT:
+                    _sprites.pop(next(iter(_sprites)), None)
+        self._blit(sprite, seen.topleft, opacity)
 
     def _blit(self, sprite: pygame.Surface, position: tuple[int, int], opacity: float) -> None:
         sprite.set_alpha(round(255 * opacity))
         self.surface.blit(sprite, position)
-
-
-@lru_cache(maxsize=512)
-def _drawn(
-    draw: Callable[..., object], points: bytes, size: tuple[int, int], larger: int, colour: Colour, *how: object
-) -> pygame.Surface:
-    """A shape of ``size`` px from its points in px, larger; kept for when it stands still, or moves by whole px."""
-    mask = scratch((size[0] * larger, size[1] * larger), colour)
-    draw(mask, colour, np.frombuffer(points).reshape(-1, 2).tolist(), *how)
-    return pygame.transform.smoothscale(mask, size)
 
 
 def _line(mask: pygame.Surface, colour: Colour, points: list[Point], radius: float) -> None:
