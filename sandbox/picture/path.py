@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from math import ceil, cos, dist, floor, hypot, pi, sin
 from typing import Any
@@ -66,17 +66,12 @@ class Path:
                 for i in range(floor(arc.t0 / every) + 1, ceil(last / every)):
                     yield i * every, *arc.position(i * every)
 
-    def traced(self, camera: Camera) -> np.ndarray:
-        """The path in px, shape (n, 2), in as many points as can be told apart."""
-        points = camera.pixels(self.points)
-        return points[apart(points, FINEST)]
-
-    def even_times(self, span: float | None = None) -> tuple[float, list[float]]:
+    def even_times(self, span: float) -> tuple[float, list[float]]:
         """The time between balls along the path, and the times of all of them but the one at its end; in s.
 
-        Over ``span`` s, or the whole path, there are BALLS at most.
+        Over ``span`` s there are BALLS at most.
         """
-        every = nice(max(self.until if span is None else span, 0.01) / BALLS)
+        every = nice(max(span, 0.01) / BALLS)
         return every, [i * every for i in range(max(1, ceil(self.until / every - 1e-9)))]
 
     def marks(self) -> Iterator[Mark]:
@@ -145,7 +140,6 @@ def mark_impacts(
     sheet: Sheet,
     camera: Camera,
     marks: Iterable[Mark],
-    labelled: Callable[[Mark], bool] = lambda mark: True,
     last: tuple[tuple[float, float], float] | None = None,
 ) -> None:
     """Impacts as marks with the speed at which the ball came; those at one place share a label, the first first.
@@ -166,8 +160,7 @@ def mark_impacts(
     for at, _ in places:
         sheet.labels.take_path([at], 4 * sheet.unit)
     for at, found in places:
-        if labelled(found[0]):
-            label_mark(sheet, at, found[0].towards, ", ".join(f"{mark.speed:.1f}" for mark in found) + " m/s")
+        label_mark(sheet, at, found[0].towards, ", ".join(f"{mark.speed:.1f}" for mark in found) + " m/s")
 
 
 def label_mark(sheet: Sheet, at: tuple[float, float], towards: tuple[float, float], text: str) -> None:

@@ -45,7 +45,6 @@ class SideRows(NamedTuple):
     base: int  # the ground
     lengths: list[float]  # under it, the lowest first; none in a low picture
     ruler: float
-    card: int
 
 
 class Sheet:
@@ -117,7 +116,7 @@ class Sheet:
         lowest = ruler - above - 0.8 * self.gap - small / 2
         rows = [lowest - i * (small + 0.7 * self.gap) for i in range(lengths if self.rows >= ROWS_FOR_LENGTHS else 0)]
         ground = rows[-1] - small / 2 if rows else ruler - above
-        return SideRows(self.top_row, round(ground - 2.4 * self.gap), rows, ruler, card)
+        return SideRows(self.top_row, round(ground - 2.4 * self.gap), rows, ruler)
 
     def headline(self, text: str, notes: Sequence[str], room: float) -> None:
         """What happened, large, at the top left, and a line of notes below it; ``room`` px wide at most.

@@ -196,10 +196,6 @@ class SideView(View[P]):
         """How far to the right the eye has gone from where it was at first, in px of that distance."""
         return 0.0 if camera == self.camera else (camera.at[0] - self.home.at[0]) * self.home.scale
 
-    @property
-    def card_row(self) -> float:
-        return self.rows_at.card
-
     def position(self, t: float) -> list[Entry]:
         x, y, *_ = self.run.state(self.ball, t)
         return [("height", metres(max(0.0, y - self.radius - self._under(x))))]

@@ -20,6 +20,8 @@ FACE = 128
 PHASE = 1 / 4
 #: Where the light comes from: over the left shoulder.
 LIGHT = np.array([-0.42, 0.50, 0.76])
+#: s over which a spin whose axis turns is taken as even.
+STEP = 1 / 60
 #: How much of its colour a ball shows where no light falls, and how bright the light's image on it is.
 DARK, GLOSS = 0.48, 0.75
 
@@ -60,7 +62,7 @@ class Turning:
     """How a ball lies at any time, from its spin (rad/s, about x, y and z) as a function of time.
 
     ``times`` (s) are where the spin or its rate may jump; between two of them it changes evenly, and is followed in
-    steps of ``step`` s where that turns its axis. The columns of the matrices are the ball's own axes.
+    steps of STEP s where that turns its axis. The columns of the matrices are the ball's own axes.
     """
 
     def __init__(
@@ -68,7 +70,6 @@ class Turning:
         spin: Callable[[float], tuple[float, float, float]],
         times: Sequence[float],
         start: np.ndarray,
-        step: float = 1 / 60,
     ):
         self.spin = spin
         self.times: list[float] = []
@@ -76,7 +77,7 @@ class Turning:
         matrix = start
         for a, b in zip(times, [*times[1:], times[-1]], strict=True):
             straight = _parallel(spin(a + (b - a) / 3), spin(b - (b - a) / 3))
-            pieces = 1 if straight else ceil((b - a) / step)
+            pieces = 1 if straight else ceil((b - a) / STEP)
             for i in range(pieces):
                 t, until = a + (b - a) * i / pieces, a + (b - a) * (i + 1) / pieces
                 self.times.append(t)
@@ -102,14 +103,11 @@ def _parallel(a: Sequence[float], b: Sequence[float]) -> bool:
     return hypot(*across) <= 1e-9 * hypot(*a) * hypot(*b)
 
 
-def draw(
-    painter: Painter, centre: Point, radius: float, skin: np.ndarray, matrix: np.ndarray, opacity: float = 1.0
-) -> None:
+def draw(painter: Painter, centre: Point, radius: float, skin: np.ndarray, matrix: np.ndarray) -> None:
     """A ball of ``radius`` px with its skin turned by the matrix."""
     x, y = (round(value / PHASE) * PHASE for value in centre)
     column, row = floor(x), floor(y)
     sprite = _sprite(round(radius * 8) / 8, (x - column - 0.5, y - row - 0.5), _Kept(skin, np.round(matrix, 3)))
-    sprite.set_alpha(round(255 * opacity))
     painter.surface.blit(sprite, (column - sprite.get_width() // 2, row - sprite.get_height() // 2))
 
 

@@ -23,7 +23,7 @@ MARGIN, HOLE, GAP = 0.11, 0.05, 0.022
 HOLES = 8
 
 
-def strip_times(run: Run, count: int = FRAMES) -> list[float]:
+def strip_times(run: Run) -> list[float]:
     """Times in s, the first and the last among them, between which all balls together go equally far.
 
     Where something is struck, that counts as a part of the way, the more the harder, and the frame next to it shows it.
@@ -36,9 +36,9 @@ def strip_times(run: Run, count: int = FRAMES) -> list[float]:
         places = np.array([run.state(ball.name, float(t))[:2] for t in times])
         way[1:] += np.cumsum(np.hypot(*np.diff(places, axis=0).T))
     if way[-1] == 0.0:
-        return [float(t) for t in np.linspace(0.0, run.duration, count)]
+        return [float(t) for t in np.linspace(0.0, run.duration, FRAMES)]
     way += TOUCHES * way[-1] * hardness[np.searchsorted(hits, times, side="right")] / max(hardness[-1], 1e-9)
-    shares = np.linspace(0.0, way[-1], count)
+    shares = np.linspace(0.0, way[-1], FRAMES)
     near = shares[1] * NEAR
     inner = []
     for share in shares[1:-1]:

@@ -24,7 +24,7 @@ from sandbox.picture.camera import Camera
 from sandbox.picture.ghosts import Ghost, draw_ghost, draw_in_frame, label_ghost
 from sandbox.picture.painter import Painter, blank
 from sandbox.picture.palette import Colour, palette
-from sandbox.picture.path import Mark, Path, apart, draw_trace, mark_impacts
+from sandbox.picture.path import FINEST, Mark, Path, apart, draw_trace, mark_impacts
 from sandbox.picture.sheet import Entry, Sheet
 from sandbox.picture.vectors import Vectors
 from sandbox.sport.amounts import metres, signed, times
@@ -296,9 +296,9 @@ class View(Generic[P]):
         camera, painter = self.camera, sheet.painter
         self.backdrop(painter, camera)
         self.behind(painter, camera, self.moment)
-        traces = {name: self._trace(camera, path.points) for name, path in self.paths.items()}
+        traces = {name: self.traced(camera, path.points) for name, path in self.paths.items()}
         self.trace = traces.pop(self.ball)
-        others = [(ghost, self._trace(camera, ghost.points)) for ghost in self.ghosts]
+        others = [(ghost, self.traced(camera, ghost.points)) for ghost in self.ghosts]
         for ghost, points in others:
             draw_ghost(sheet, ghost, points)
         for name, points in traces.items():
@@ -471,10 +471,10 @@ class View(Generic[P]):
         for name, (at, radius) in placed.items():
             self.shadow(painter, camera, self.run.state(name, t)[:2], at, radius)
 
-    def _trace(self, camera: Camera, points: np.ndarray) -> np.ndarray:
+    def traced(self, camera: Camera, points: np.ndarray) -> np.ndarray:
         """A path in px, in as many points as can be told apart."""
         traced = self.spots(camera, points, 0.0)
-        return traced[apart(traced, 1.5)]
+        return traced[apart(traced, FINEST)]
 
     def _still(self, camera: Camera) -> pygame.Surface:
         """What stands still; kept while the camera does."""

@@ -77,7 +77,7 @@ class Picture(AboveView[Parameters]):
             at, radius = camera.pixel(*self.run.state(name, 0.0)[:2]), max(self.radius * camera.scale, self.least)
             painter.ring(at, radius - 0.5 * unit, max(1.0, 1.1 * unit), COLOURS["start"], 0.75)
             if balls.striped(name):
-                painter.line(self.paths[name].traced(camera), 0.9 * unit, COLOURS["ivory"])
+                painter.line(self.traced(camera, self.paths[name].points), 0.9 * unit, COLOURS["ivory"])
         if self.ball not in self._movers:
             return []
         steps = np.any(np.diff(self.path.points, axis=0) != 0.0, axis=1)

@@ -11,6 +11,7 @@ import pygame
 
 from sandbox.picture.painter import blank, from_colours, from_coverage
 from sandbox.picture.palette import Colour, mix
+from sandbox.picture.places.scenery import beside_itself, glowing
 from sandbox.picture.sheet import rows_of
 
 #: How far each layer moves when the eye moves by 1 px: the far hills hardly, the near trees most.
@@ -40,9 +41,9 @@ class Layers:
     Layers are twice as wide as the picture and join at their ends, so a camera may move for ever.
     """
 
-    def __init__(self, size: tuple[int, int], horizon: int, colours: Landscape, seed: int = 7):
+    def __init__(self, size: tuple[int, int], horizon: int, colours: Landscape):
         self.size, self.horizon, self.colours = size, horizon, colours
-        self.random = np.random.default_rng(seed)
+        self.random = np.random.default_rng(7)
         self.unit = rows_of(size) / 720
         self.width = 2 * size[0]
         self.sky = self._sky()
@@ -56,20 +57,15 @@ class Layers:
         """Draw the landscape as seen by an eye that has moved ``shift`` px to the right."""
         surface.blit(self.sky, (0, 0))
         for (layer, top), speed in self.layers:
-            left = -(round(shift * speed) % self.width)
-            for x in (left, left + self.width):
-                if x < self.size[0]:
-                    surface.blit(layer, (x, top))
+            beside_itself(surface, layer, shift * speed, top)
 
     def _sky(self) -> pygame.Surface:
         width, height = self.size[0], self.horizon
         top, low = (np.array(colour, float) for colour in self.colours.sky)
         sky = top + (low - top) * np.linspace(0, 1, height)[None, :, None] ** 1.15
-        across = (np.arange(width)[:, None] - 0.74 * width) / (0.34 * width)
-        along = (np.arange(height)[None, :] / height - 0.80) / 0.62
-        glow = np.exp(-(across**2) - along**2)[:, :, None] * 0.75
         sky = np.broadcast_to(sky, (width, height, 3))
-        return from_colours(sky + (np.array(self.colours.sun, float) - sky) * glow)
+        sun = (0.74 * width, 0.80 * height), (0.34 * width, 0.62 * height)
+        return from_colours(glowing(sky, self.colours.sun, *sun, 0.75))
 
     def _wave(self, periods: tuple[int, ...], weights: tuple[float, ...]) -> np.ndarray:
         """A soft line over the layer's width that joins at its ends; between 0 and 1."""

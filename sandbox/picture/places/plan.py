@@ -260,7 +260,7 @@ def enlarged(camera: Camera, unit: float) -> float:
 
 
 @lru_cache(maxsize=4)
-def dusk(size: tuple[int, int], colour: Colour, opacity: float = 0.92) -> pygame.Surface:
+def dusk(size: tuple[int, int], colour: Colour) -> pygame.Surface:
     """Darkness that grows from the middle of a picture to its edges, most above and below, where text stands."""
     width, height = size
     across = abs(np.arange(width)[:, None] / width * 2 - 1)
@@ -268,6 +268,6 @@ def dusk(size: tuple[int, int], colour: Colour, opacity: float = 0.92) -> pygame
     surface = blank(size, transparent=True)
     surface.fill((*colour, 0))
     alpha = pygame.surfarray.pixels_alpha(surface)
-    alpha[...] = np.clip(0.40 * across**3 + 2.6 * np.clip(down - 0.52, 0, 1), 0, 1) * 255 * opacity
+    alpha[...] = np.clip(0.40 * across**3 + 2.6 * np.clip(down - 0.52, 0, 1), 0, 1) * 255 * 0.92
     del alpha  # unlocks the surface
     return surface

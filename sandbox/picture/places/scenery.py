@@ -41,7 +41,7 @@ class Stands:
     def draw(self, surface: pygame.Surface, foot: int, moved: float) -> None:
         size = surface.get_size()
         surface.blit(_evening(self, size, foot), (0, 0))
-        _beside_itself(surface, _stands(self, size, foot), 0.25 * moved)
+        beside_itself(surface, _stands(self, size, foot), 0.25 * moved)
 
 
 @dataclass(frozen=True)
@@ -56,22 +56,25 @@ class Hall:
     def draw(self, surface: pygame.Surface, foot: int, moved: float) -> None:
         size = surface.get_size()
         surface.blit(_wall(self, size, foot), (0, 0))
-        _beside_itself(surface, _audience(self, size, foot), 0.44 * moved)
+        beside_itself(surface, _audience(self, size, foot), 0.44 * moved)
 
 
-def _beside_itself(surface: pygame.Surface, layer: pygame.Surface, moved: float) -> None:
-    """A layer as wide as the picture whose ends join, moved to the left."""
-    width = surface.get_width()
+def beside_itself(surface: pygame.Surface, layer: pygame.Surface, moved: float, top: int = 0) -> None:
+    """A layer at least as wide as the picture, whose ends join, moved to the left."""
+    width = layer.get_width()
     left = -(round(moved) % width)
     for x in (left, left + width):
-        surface.blit(layer, (x, 0))
+        if x < surface.get_width():
+            surface.blit(layer, (x, top))
 
 
-def _glowing(sky: np.ndarray, colour: Colour, middle: tuple[float, float], reach: tuple[float, float]) -> np.ndarray:
+def glowing(
+    sky: np.ndarray, colour: Colour, middle: tuple[float, float], reach: tuple[float, float], share: float = 0.58
+) -> np.ndarray:
     """Colours of shape (width, height, 3) with a soft light in them, around a point in px."""
     across = (np.arange(sky.shape[0])[:, None] - middle[0]) / reach[0]
     down = (np.arange(sky.shape[1])[None, :] - middle[1]) / reach[1]
-    glow = 0.58 * np.exp(-(across**2) - down**2)[:, :, None]
+    glow = share * np.exp(-(across**2) - down**2)[:, :, None]
     return sky + (np.array(colour, float) - sky) * glow
 
 
@@ -103,7 +106,7 @@ def _evening(stands: Stands, size: tuple[int, int], foot: int) -> pygame.Surface
     upper = top + (middle - top) * np.clip(share / turn, 0, 1) ** 1.3
     sky = upper + (low - upper) * (np.clip((share - turn) / (1 - turn), 0, 1) ** 1.3)
     sky = np.broadcast_to(sky, (width, foot, 3))
-    return from_colours(_glowing(sky, stands.glow, (0.70 * width, foot - 120 * unit), (0.30 * width, 120 * unit)))
+    return from_colours(glowing(sky, stands.glow, (0.70 * width, foot - 120 * unit), (0.30 * width, 120 * unit)))
 
 
 @lru_cache(maxsize=4)
@@ -165,7 +168,7 @@ def _wall(hall: Hall, size: tuple[int, int], foot: int) -> pygame.Surface:
     width = size[0]
     top, low = (np.array(colour, float) for colour in hall.wall)
     wall = np.broadcast_to(top + (low - top) * np.linspace(0, 1, foot)[None, :, None] ** 1.2, (width, foot, 3))
-    return from_colours(_glowing(wall, hall.light, (0.62 * width, 0.30 * foot), (0.42 * width, 0.75 * foot)))
+    return from_colours(glowing(wall, hall.light, (0.62 * width, 0.30 * foot), (0.42 * width, 0.75 * foot)))
 
 
 @lru_cache(maxsize=4)
