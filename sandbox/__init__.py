@@ -8,7 +8,7 @@
 
 from __future__ import annotations
 
-TYPE_CHECKING = False  # as typing has it, whose import takes longer than all else here: Ctrl-C is not heard until then
+TYPE_CHECKING = False  # not from typing, which is slow to import: Ctrl-C is not handled until imports are done
 if TYPE_CHECKING:
     from typing import Any
 
@@ -19,8 +19,8 @@ if TYPE_CHECKING:
 
 __version__ = "0.1.0"
 
-#: Where each name is; imported on first use, as ``sandbox --help`` needs none of it.
-_HOMES = {
+#: The module of each name, imported on first use: ``sandbox --help`` needs none of them.
+_MODULES = {
     **dict.fromkeys(("RequestError", "RunError", "SandboxError"), "sandbox.errors"),
     **dict.fromkeys(("Check", "Scene", "check", "load", "simulate"), "sandbox.scene"),
     **dict.fromkeys(("Aim", "aim"), "sandbox.lab.aim"),
@@ -44,11 +44,11 @@ __all__ = [
 
 
 def __getattr__(name: str) -> Any:
-    if name not in _HOMES:
+    if name not in _MODULES:
         raise AttributeError(f"module 'sandbox' has no attribute {name!r}")
     from importlib import import_module
 
-    return getattr(import_module(_HOMES[name]), name)
+    return getattr(import_module(_MODULES[name]), name)
 
 
 def __dir__() -> list[str]:

@@ -1,11 +1,11 @@
-"""Errors that are meant for people: one or two plain lines, and the exit code they lead to."""
+"""Errors shown to the user: one or two lines, and the exit code."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager
 
 
 class SandboxError(Exception):
-    """Anything the program can explain; the command line prints it without a traceback."""
+    """An error with a message for the user; the command line prints it without a traceback."""
 
     exit_code = 1
 
@@ -21,19 +21,19 @@ class RunError(SandboxError):
 
 
 class Stopped(SandboxError):
-    """Ctrl-C, with something to say about what is kept."""
+    """Stopped by Ctrl-C; the message says what was kept."""
 
     exit_code = 130
 
 
 class ExitCalled(Exception):
-    """A scene's own code called ``sys.exit``: it failed, whatever code it gave."""
+    """A scene's own code called ``sys.exit``, which is a failure whatever the exit code."""
 
 
 @contextmanager
 def no_exit() -> Iterator[None]:
-    """Around a scene's own code: ``sys.exit`` in it is an ExitCalled at the same place, so that it does not end the
-    program, or a worker, as if all were well."""
+    """Turn ``sys.exit`` in a scene's own code into an ExitCalled, so that it cannot end the program or a worker as if
+    nothing were wrong."""
     try:
         yield
     except SystemExit as error:

@@ -1,4 +1,4 @@
-"""Output files: checked before the work begins, written whole or not at all; and values in the form that JSON has."""
+"""Output files, checked before the work begins and written completely or not at all; and values in JSON's types."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from sandbox.errors import RequestError
 
 
 def reason(error: OSError) -> str:
-    """Why the system refused, in its words: ``"permission denied"``."""
+    """The system's message: ``"permission denied"``."""
     return (error.strerror or str(error)).lower()
 
 
@@ -37,18 +37,18 @@ def check_folder(option: str, path: Path) -> None:
     """Raise RequestError if the folder for ``option`` could not be made or written into."""
     _check_name(option, path)
     if path.exists() and not path.is_dir():
-        raise RequestError(f"{option} {path}: is a file, and a folder is needed")
+        raise RequestError(f"{option} {path}: is a file; a folder is needed")
     _check_folder(option, next(folder for folder in (path, *path.absolute().parents) if folder.exists()))
 
 
-def check_apart(outputs: Mapping[str, Path | None]) -> None:
-    """Raise RequestError if two of the files, by their options, are one; a device may be."""
+def check_distinct(outputs: Mapping[str, Path | None]) -> None:
+    """Raise RequestError if two options name the same file; a device may be named twice."""
     first: dict[str, str] = {}
     for option, path in outputs.items():
         if path is not None and not _is_device(path):
             other = first.setdefault(os.path.realpath(path), option)
             if other != option:
-                raise RequestError(f"{option} {path}: is the file of {other} too; name another")
+                raise RequestError(f"{option} {path}: is also the file of {other}; name another")
 
 
 def _check_name(option: str, path: Path) -> None:
@@ -56,14 +56,14 @@ def _check_name(option: str, path: Path) -> None:
     try:
         path.stat()
     except (FileNotFoundError, NotADirectoryError):
-        pass  # a new file; or no folder to put it in, which is refused by its own check
+        pass  # a new file; a missing folder is reported by _check_folder
     except (OSError, ValueError) as error:
         why = reason(error) if isinstance(error, OSError) else str(error)
         raise RequestError(f"{option} {shortened(str(path))}: {why}") from None
 
 
 def shortened(text: str, most: int = 80) -> str:
-    """The text for a message: no longer than so many characters."""
+    """The text cut to at most ``most`` characters, for a message."""
     return text if len(text) <= most else text[: most - 3] + "..."
 
 
@@ -78,20 +78,20 @@ def _check_folder(option: str, folder: Path) -> None:
         raise RequestError(f"{option}: cannot write into {folder}: {reason(error)}") from None
 
 
-def plain(value: Any) -> Any:
-    """The same in what JSON knows; what is not finite is null."""
+def json_ready(value: Any) -> Any:
+    """The value in JSON's types; NaN and infinities become null."""
     if isinstance(value, Mapping):
-        return {str(key): plain(item) for key, item in value.items()}
+        return {str(key): json_ready(item) for key, item in value.items()}
     if isinstance(value, list | tuple):
-        return [plain(item) for item in value]
+        return [json_ready(item) for item in value]
     if hasattr(value, "tolist"):  # numpy's numbers and arrays
-        return plain(value.tolist())
+        return json_ready(value.tolist())
     return None if isinstance(value, float) and not isfinite(value) else value
 
 
 @contextmanager
 def written_whole(path: Path) -> Iterator[TextIO]:
-    """A text file that takes its name only when it is complete; a device such as /dev/stdout is written directly."""
+    """A text file that appears under its name only when complete; a device such as /dev/stdout is written directly."""
     if _is_device(path):
         with path.open("w", encoding="utf-8", newline="") as file:
             yield file
@@ -108,7 +108,7 @@ def written_whole(path: Path) -> Iterator[TextIO]:
 
 @contextmanager
 def no_empty_folder(path: Path) -> Iterator[None]:
-    """Where the work inside fails, the folders that it made on the way to ``path`` go again if they are empty."""
+    """If the work inside fails, remove the empty folders that it made on the way to ``path``."""
     missing = [folder for folder in (path, *path.parents) if not folder.exists()]
     try:
         yield

@@ -4,19 +4,19 @@
         golden.check("my_scene", sandbox.simulate(sandbox.load("my_scene.toml")))
 
 The golden picture is ``golden/my_scene.png`` in the folder of the test or the nearest one above it; ``my_scene.json``
-records what happened in the run, so that a failure can say whether the physics changed or the drawing. A picture (a
-pygame surface or a Pillow image) may be checked alone, too. ``pytest --golden-update`` makes and rewrites golden files
+records the run, so that a failure can say whether the physics or the drawing changed. A picture (a
+pygame surface or a Pillow image) can also be checked alone. ``pytest --golden-update`` makes and rewrites golden files
 and lists them for review; on CI, where the variable CI is set, nothing is ever written.
 
-Of a chaotic run only the beginning is the same on another processor: ``golden.check("break", run, until=0.3)`` shows it
+Only the beginning of a chaotic run is the same on another processor: ``golden.check("break", run, until=0.3)`` shows it
 at that time in s and records what happened until then.
 
-What is noticed in a picture: a pixel has changed if a channel is more than ROUNDING_LEVELS away from every level that
-its golden level can stand for, as golden pictures store 6 bits. So a colour that is off by 6 levels or more is noticed
-wherever more than STRAY_PIXELS pixels of it are together, a shade that runs over many levels from 4 on; a level or two
-everywhere, which is what another machine's rounding does, never is. The comparison is our own. Pixelmatch was tried: it
-forgives what it takes for anti-aliasing, and that is where a small white ball on a pale sky differs when it is larger
-by a pixel all around (it counts 0 pixels, this counts 44); and it takes 0.8 s for 640x360.
+What counts as a change in a picture: a pixel has changed if a channel is more than ROUNDING_LEVELS away from every
+level that its golden level can stand for, since golden pictures store 6 bits. So a colour that is off by 6 levels or
+more is noticed wherever more than STRAY_PIXELS of its pixels are close together, in a gradient from 4 levels on; a
+level or two everywhere, as another machine's rounding gives, is not. Pixelmatch was tried instead: it ignores what it
+takes for anti-aliasing, so it misses a small white ball on a pale sky that is a pixel larger all around (it counts 0
+pixels, this comparison 44), and it takes 0.8 s for 640x360.
 """
 
 from __future__ import annotations
@@ -43,26 +43,26 @@ if TYPE_CHECKING:
     import numpy as np
     from PIL import Image
 
-#: Bits of each colour that a golden picture stores; a level of it stands for those from LOWEST to HIGHEST around it.
+#: Bits per colour channel in a golden picture; a stored level stands for the levels from LOWEST to HIGHEST around it.
 COLOUR_BITS = 6
 LOWEST, HIGHEST = -(1 << (7 - COLOUR_BITS)), (1 << (7 - COLOUR_BITS)) - 1
 #: Levels, of 255, by which another machine's rounding may move a pixel; a ball moved by a quarter of a pixel moves it
 #: by 20 and more.
 ROUNDING_LEVELS = 2
-#: So many changed pixels may stand within NEIGHBOURHOOD px of each other: an edge pixel or two that was rounded the
-#: other way. A ball of 7 px that is moved by half a pixel changes a dozen.
+#: Most changed pixels allowed within NEIGHBOURHOOD px of each other: an edge pixel or two that was rounded the other
+#: way. A ball of 7 px that is moved by half a pixel changes a dozen.
 STRAY_PIXELS = 3
 NEIGHBOURHOOD = 9
-#: Share of all pixels that may have changed, strays all over the picture.
+#: Largest share of pixels that may have changed, spread over the picture.
 STRAY_SHARE = 0.0005
 
-#: Of a run the picture is drawn this large, in px: its PNG takes less than 60 kB.
+#: Size of the picture of a run, in px: its PNG takes less than 60 kB.
 SIZE = (480, 270)
 #: Most changes of a run that a message lists.
 MOST_CHANGES = 5
 
 NEW = "new"
-HOW_TO_ACCEPT = "if the change is meant: pytest --golden-update"
+HOW_TO_ACCEPT = "if the change is intended: pytest --golden-update"
 FOLDER = "golden"
 REPORT = Path("out", "golden")
 
@@ -89,14 +89,14 @@ class Difference:
 
 
 def compare(expected: Image.Image, actual: Image.Image) -> Difference:
-    """How two pictures of the same size differ. Raises ValueError where their sizes do."""
+    """How two pictures of the same size differ. Raises ValueError if their sizes differ."""
     import numpy as np
 
     if expected.size != actual.size:
         raise ValueError(f"it is {actual.width}x{actual.height}, the golden one {expected.width}x{expected.height}")
     difference = _difference(expected, actual)
     changed = _changed(difference)
-    # Sums over squares, from the sums over all that is above and to the left.
+    # Sums over squares, from the sums over everything above and to the left.
     reach = NEIGHBOURHOOD // 2
     sums = np.pad(np.pad(changed, reach).cumsum(0).cumsum(1), ((1, 0), (1, 0)))
     near = sums[NEIGHBOURHOOD:, NEIGHBOURHOOD:] - sums[:-NEIGHBOURHOOD, NEIGHBOURHOOD:]
@@ -107,7 +107,7 @@ def compare(expected: Image.Image, actual: Image.Image) -> Difference:
 
 
 def _difference(expected: Image.Image, actual: Image.Image) -> np.ndarray:
-    """By how many levels each channel is higher than expected, shape (height, width, 3)."""
+    """How many levels each channel is above the expected one, shape (height, width, 3)."""
     import numpy as np
 
     a, b = (np.asarray(image.convert("RGB")).astype(np.int16) for image in (expected, actual))
@@ -149,22 +149,22 @@ class Golden:
     def __init__(
         self, folder: Path, report: Path, update: bool, note: Callable[[str], None], claim: Callable[[Path], str | None]
     ):
-        """``claim`` takes a golden file for this test, and gives the test that has it already, or None."""
+        """``claim`` reserves a golden file for this test; it returns the test that already has it, or None."""
         self.folder, self.report, self.update, self.note, self.claim = folder, report, update, note, claim
         self.checked: set[str] = set()
 
     def check(self, name: str, subject: Any, until: float | None = None) -> None:
-        """Fail unless the subject is like the golden one of that name.
+        """Fail unless the subject matches the golden one of that name.
 
-        The subject is a run of a scene, of which the poster is drawn, or with ``until`` the frame at that time in s; or
-        it is a picture.
+        The subject is a picture, or a run of a scene: its poster is drawn, or with ``until`` the frame at that time in
+        s.
         """
         if until is not None and not (isfinite(until) and until > 0.0):
-            _fail(f"{name}: until = {until}: must be a time of more than 0 s")
+            _fail(f"{name}: until = {until}: must be a time greater than 0 s")
         other = self.claim(self.folder / name)
         if other is not None:
-            _fail(f"{name} is the golden name of {other} too: each test needs a name of its own")
-        update = self.update and name not in self.checked  # a second check in one test has to be like the first
+            _fail(f"{name} is also the golden name of {other}: each test needs its own name")
+        update = self.update and name not in self.checked  # a second check in one test must match the first
         self.checked.add(name)
         run = subject if hasattr(subject, "setup") else None
         image = _as_image(subject, until)
@@ -191,7 +191,7 @@ class Golden:
             )
 
     def _check_damage(self, name: str, damage: dict[Path, str | None]) -> None:
-        """Remove damaged files on an update, so that they are made again; else fail and say what is wrong."""
+        """Remove damaged files on an update, to make them again; otherwise fail and say what is wrong."""
         for path, what in damage.items():
             if what is not None and self.update:
                 path.unlink()
@@ -202,8 +202,8 @@ class Golden:
         chaos = record.diverges(run, until)
         if chaos is not None:
             _fail(
-                f"{name} depends on rounding from t = {chaos:.3g} s on, another processor would not get the same; "
-                f"check what is before that: golden.check({name!r}, run, until={0.8 * chaos:.2g})"
+                f"{name} depends on rounding from t = {chaos:.3g} s on, so another processor would differ; "
+                f"check only the part before that: golden.check({name!r}, run, until={0.8 * chaos:.2g})"
             )
         self._write(path, record.as_text(record.record(run, until)).encode(), change)
 
@@ -223,9 +223,9 @@ class Golden:
 def _kind_of_change(
     name: str, path: Path, run: Any, until: float | None, physics: str | None, drawing: str | None
 ) -> Iterator[str]:
-    """What kind of change it is, a line each."""
+    """What kind of change it is, one line each."""
     if physics is not None:
-        yield f"{name} is not like its golden run: {physics}"
+        yield f"{name} differs from its golden run: {physics}"
         if drawing is not None:
             yield f"the drawing: {drawing}"
         return
@@ -234,13 +234,13 @@ def _kind_of_change(
         yield f"{name}: the run differs from its golden run by less than the tolerance of {record.TOLERANCE:g}: {small}"
         yield f"the picture shows it: {drawing}"
     else:
-        yield f"{name} is not like its golden picture: {'same physics, the drawing changed: ' if run else ''}{drawing}"
+        yield f"{name} differs from its golden picture: {'same physics, the drawing changed: ' if run else ''}{drawing}"
 
 
 def _difference_below_tolerance(path: Path, run: Any, until: float | None) -> str | None:
-    """The first event or result of a run that has other digits than the golden one, in words; None if there is none.
+    """The first event or result whose digits differ from those of the golden run, in words; None if there is none.
 
-    States are left out: the times that they are taken at are rounded, which moves a fast ball by a few nanometres.
+    States are left out: their times are rounded, which moves a fast ball by a few nanometres.
     """
     expected = {**json.loads(path.read_text("utf-8")), "states": {}}
     actual = {**record.record(run, until), "states": {}}
@@ -265,7 +265,7 @@ def _changed_drawing(expected: Image.Image | None, actual: Image.Image) -> str |
 
 
 def _changed_physics(path: Path, run: Any, until: float | None) -> str | None:
-    """How the run differs from the golden one, in words; None where it is the same."""
+    """How the run differs from the golden one, in words; None if it is the same."""
     if not path.exists():
         return NEW
     expected = json.loads(path.read_text("utf-8"))
@@ -275,7 +275,10 @@ def _changed_physics(path: Path, run: Any, until: float | None) -> str | None:
     first, results = record.first_change(expected, actual), record.changed_results(expected, actual)
     if first is None and not results:
         return None
-    found = ["same motion, another result" if first is None else f"the physics changed: first at {first[1]}", *results]
+    found = [
+        "same motion, different result" if first is None else f"the physics changed: first at {first[1]}",
+        *results,
+    ]
     shown = (
         found if len(found) <= MOST_CHANGES else [*found[: MOST_CHANGES - 1], f"{len(found) - MOST_CHANGES + 1} more"]
     )
@@ -283,16 +286,16 @@ def _changed_physics(path: Path, run: Any, until: float | None) -> str | None:
 
 
 def _damaged_picture(path: Path) -> str | None:
-    """What is wrong with a golden picture; None if it is whole or missing."""
+    """What is wrong with a golden picture; None if it is complete or missing."""
     try:
         _read(path)
     except (OSError, SyntaxError, ValueError):  # Pillow's messages are no clearer
-        return "not a picture, or only a part of one"
+        return "not a picture, or an incomplete one"
     return None
 
 
 def _damaged_run(path: Path) -> str | None:
-    """What is wrong with the record of a golden run; None if it is whole or missing."""
+    """What is wrong with the record of a golden run; None if it is complete or missing."""
     if not path.exists():
         return None
     try:
@@ -330,7 +333,7 @@ def _read(path: Path) -> Image.Image | None:
 
 
 def _coarser(image: Image.Image) -> Image.Image:
-    """With COLOUR_BITS of each colour, which saves a third of the bytes; no level moves by more than 2."""
+    """With COLOUR_BITS per channel, which saves a third of the bytes; no level changes by more than 2."""
     import numpy as np
     from PIL import Image
 
@@ -345,7 +348,7 @@ def _png(image: Image.Image) -> bytes:
 
 
 def _save(path: Path, data: bytes) -> None:
-    """Whole or not at all."""
+    """Write the file completely or not at all."""
     part = path.with_suffix(f"{path.suffix}.{os.getpid()}.part")
     try:
         part.write_bytes(data)
@@ -355,7 +358,7 @@ def _save(path: Path, data: bytes) -> None:
 
 
 def _folder_for(test: Path, root: Path) -> Path:
-    """The folder ``golden`` next to a test, or the nearest one above it; if there is none, one is made next to it."""
+    """The folder ``golden`` next to a test, or the nearest one above it; or, if there is none, next to the test."""
     for parent in test.parents:
         if (parent / FOLDER).is_dir():
             return parent / FOLDER
@@ -375,7 +378,7 @@ def pytest_configure(config: pytest.Config) -> None:
 
 @pytest.hookimpl(optionalhook=True)
 def pytest_configure_node(node: Any) -> None:
-    """Tell a process of pytest-xdist where the tests of all of them claim their golden files."""
+    """Give each process of pytest-xdist the folder in which all tests claim their golden files."""
     node.workerinput["golden_claims"] = str(_claims_folder(node.config))
 
 
@@ -390,7 +393,7 @@ _CLAIMS = pytest.StashKey[Path]()
 
 
 def _claims_folder(config: pytest.Config) -> Path:
-    """Where golden names are claimed, by the tests of all processes; made when it is first asked for."""
+    """The folder in which the tests of all processes claim golden names; made on first use."""
     if _CLAIMS not in config.stash:
         given = getattr(config, "workerinput", {}).get("golden_claims")
         config.stash[_CLAIMS] = Path(given or tempfile.mkdtemp(prefix="golden-"))
@@ -398,12 +401,12 @@ def _claims_folder(config: pytest.Config) -> Path:
 
 
 def _claimed(folder: Path, path: Path, test: str) -> str | None:
-    """Claim a golden file for a test; the test that has claimed it already, or None."""
+    """Claim a golden file for a test; returns the test that has already claimed it, or None."""
     claim = folder / hashlib.sha256(str(path).encode()).hexdigest()
     own = folder / f"{claim.name}.{os.getpid()}"
     own.write_text(test, "utf-8")
     try:
-        claim.hardlink_to(own)  # whole, and only where there is none
+        claim.hardlink_to(own)  # atomic, and only if there is none
     except FileExistsError:
         other = claim.read_text("utf-8")
         return None if other == test else other
@@ -432,6 +435,6 @@ def pytest_terminal_summary(terminalreporter: Any) -> None:
     reports = [report for kind in ("passed", "failed") for report in terminalreporter.stats.get(kind, [])]
     lines = sorted({line for r in reports for key, line in getattr(r, "user_properties", ()) if key == "golden"})
     if lines:
-        terminalreporter.section("golden files written, to be looked at")
+        terminalreporter.section("golden files written: look at them")
         for line in lines:
             terminalreporter.line(line)

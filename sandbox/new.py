@@ -1,4 +1,4 @@
-"""A scene of one's own, to begin from: a template for its view, copied and renamed."""
+"""A new scene for the user to edit: a copy of the template for its view, renamed."""
 
 from __future__ import annotations
 
@@ -16,16 +16,16 @@ from sandbox.files import reason
 from sandbox.parameters import json_schema
 from sandbox.scene import listings, parameters_of
 
-#: The folder of each template; in names of files and inside them, its scene is called so too.
+#: The folder of each template, which is also the name of its scene, in file names and in the files.
 FROM_SIDE, FROM_ABOVE = "template", "template_above"
 
 _WRITTEN_BY_TOOLS = shutil.ignore_patterns("__pycache__", "golden", "out", ".*", "*.schema.json")
 
 
 def new_scene(folder: Path, template: str = FROM_SIDE) -> list[Path]:
-    """Write a scene that works into ``folder``, which must not exist yet; returns its files.
+    """Write a working scene into ``folder``, which must not exist yet; returns its files.
 
-    Raises RequestError for an invalid name, RunError where the folder cannot be written. Whole or not at all.
+    Raises RequestError for an invalid name, RunError if the folder cannot be written. Writes all files or none.
     """
     name = folder.name
     _check(folder, name)
@@ -46,15 +46,15 @@ def new_scene(folder: Path, template: str = FROM_SIDE) -> list[Path]:
 
 
 def next_steps(folder: Path) -> list[str]:
-    """What to try in the new scene, a line each."""
+    """What to try with the new scene, one line each."""
     shown = folder if folder.is_absolute() or folder.parts[0] == ".." else f"./{folder}"
     installed = importlib.util.find_spec("pytest") is not None
     return [
         "now try:",
         f"  sandbox run {shown} --poster {folder.name}.png",
-        f"  sandbox play {shown}    # the window: what you save is there at once",
+        f"  sandbox play {shown}    # the window: shows what you save at once",
         *([] if installed else ["  python -m pip install pytest    # for the next line"]),
-        f"  pytest {folder} --golden-update    # makes the golden picture: look at it; from then on: pytest {folder}",
+        f"  pytest {folder} --golden-update    # makes the golden picture: look at it; afterwards: pytest {folder}",
     ]
 
 
@@ -62,15 +62,15 @@ def _check(folder: Path, name: str) -> None:
     if not re.fullmatch(r"[A-Za-z][A-Za-z0-9_-]{0,63}", name):
         raise RequestError(f'new {folder}: a scene\'s name has letters, digits, "-" and "_", and begins with a letter')
     if name in {listing.name for listing in listings()}:
-        raise RequestError(f"new {folder}: there is a scene {name} already; choose another name")
+        raise RequestError(f"new {folder}: a scene named {name} already exists; choose another name")
     if os.path.lexists(folder):
-        raise RequestError(f"new {folder}: it exists already; choose another name, or remove it first")
+        raise RequestError(f"new {folder}: already exists; choose another name, or remove it first")
     if not folder.parent.is_dir():
         raise RequestError(f"new {folder}: there is no folder {folder.parent}; make it first")
 
 
 def _rename(file: Path, template: str, name: str) -> None:
-    """``template.toml`` to ``<name>.toml``, and the name inside it; a test's name is one that Python can import."""
+    """``template.toml`` to ``<name>.toml``, and the name in the file; the name of a test must be importable."""
     text = file.read_text(encoding="utf-8")
     if file.suffix in (".toml", ".py"):
         file.write_text(re.sub(rf"\b{template}\b", name, text), encoding="utf-8")

@@ -10,7 +10,7 @@ A scene declares its parameters as nested groups::
         launch: Launch = group(Launch(), "how the ball starts")
 
 That declaration feeds the reading of scene files, ``--set``, the JSON schema, sliders and documentation. A default of
-``...`` stands in the scene's own file, ``<name>.toml``: every other file of the scene is laid over that.
+``...`` is in the scene's own file, ``<name>.toml``, on which every other file of the scene is based.
 Values are floats in the declared unit; a string may carry a unit of its own (``"171 mph"``).
 """
 
@@ -43,7 +43,7 @@ from sandbox.physics.integrators import INTEGRATORS
 
 @dataclass(frozen=True)
 class Quantity:
-    """What a number is: its unit, its inclusive bounds, and how many belong together."""
+    """What a number is: its unit, its inclusive bounds, and its shape."""
 
     unit: str
     low: float
@@ -70,7 +70,7 @@ class Quantity:
         return tuple(self._entry(item) for item in value)
 
     def _entry(self, item: Any) -> float:
-        """One number of a vector; what is wrong with it names it, for the whole vector is shown."""
+        """One number of a vector; its error names it, since the message shows the whole vector."""
         try:
             return self._number(item)
         except ValueError as error:
@@ -99,7 +99,7 @@ class Quantity:
         return f"from {self.low:.10g} to {self.high:.10g} {self.unit}".rstrip()
 
     def __call__(self, schema: dict[str, Any]) -> None:
-        """Write the JSON schema of this number; pydantic hands in what it knows."""
+        """Write the JSON schema of this number; ``schema`` is what pydantic knows of it."""
         number: dict[str, Any] = {"type": "number", "minimum": self.low, "maximum": self.high}
         ending = "|".join(other.replace("^", r"\^") for other in units.alternatives(self.unit) if other)
         text = {"type": "string", "pattern": rf"^\s*[+-]?[0-9.]+([eE][+-]?[0-9]+)?\s*({ending})?\s*$"}
@@ -121,7 +121,7 @@ def quantity(default: float | str | EllipsisType | None, unit: str, low: float, 
 
 
 def vector(default: tuple[float | str, ...] | EllipsisType, unit: str, low: float, high: float, meaning: str) -> Any:
-    """As many numbers as ``default`` has (two for ``...``), each with ``unit`` and bounds; declare it as
+    """A tuple as long as ``default`` (two for ``...``), each number with ``unit`` and bounds; declare it as
     ``tuple[float, float]``."""
     length = 2 if isinstance(default, EllipsisType) else len(default)
     return _declared(default, meaning, Quantity(unit, float(low), float(high), length=length))
@@ -142,14 +142,14 @@ def _declared(default: Any, meaning: str, kind: Quantity) -> Any:
     if kind.unit not in units.KIND_OF:
         meant = units.suggestion(kind.unit)
         known = f"did you mean {meant}?" if meant else f"use {', '.join(unit for unit in units.KIND_OF if unit)}"
-        raise ValueError(f'"{kind.unit}" is not a unit known here; {known}; or "" for a number without one')
+        raise ValueError(f'"{kind.unit}" is not a known unit; {known}; or "" for a number without one')
     return _field(default, meaning, kind.read, json_schema_extra=kind)
 
 
 def _field(default: Any, meaning: str, reader: Callable[[Any], Any], **more: Any) -> FieldInfo:
-    """A field whose ``reader`` turns what stands in the file into a value, before pydantic looks at it."""
+    """A field whose ``reader`` converts the value in the file before pydantic validates it."""
     field = Field(default, description=meaning, **more)
-    assert isinstance(field, FieldInfo)  # its declared type is that of the default, for the sake of annotations
+    assert isinstance(field, FieldInfo)  # Field is declared to return the type of its default
     field.metadata.append(BeforeValidator(reader))
     return field
 
@@ -165,19 +165,19 @@ def switch(default: bool | EllipsisType, meaning: str) -> Any:
 
 
 def group(default: Group | EllipsisType, meaning: str) -> Any:
-    """A group of parameters with a heading of its own; a file that leaves keys out takes those of ``default``."""
+    """A group of parameters with its own heading; keys that a file leaves out are those of ``default``."""
     return _field(default, meaning, lambda value: _completed(value, default, None))
 
 
 def groups(default: list[Any] | EllipsisType, meaning: str) -> Any:
-    """A list of groups, ``[[balls]]`` in a file; declare it as ``list[Spot]``. A file replaces it whole."""
+    """A list of groups, ``[[balls]]`` in a file; declare it as ``list[Spot]``. A file replaces the whole list."""
     return Field(default, description=meaning)
 
 
 def either(default: Group | EllipsisType, meaning: str, by: str = "model") -> Any:
-    """One of several groups, chosen by their word ``by``; declare it as ``ConstantDrag | NoDrag``.
+    """One of several groups, chosen by the word at the key ``by``; declare it as ``ConstantDrag | NoDrag``.
 
-    Each of the groups declares its word as ``model: Literal["constant"] = choice("constant", "...")``.
+    Each group declares its word as ``model: Literal["constant"] = choice("constant", "...")``.
     """
     return _field(default, meaning, lambda value: _completed(value, default, by), discriminator=by)
 
@@ -189,7 +189,7 @@ class Group(BaseModel):
 
 
 def _completed(table: Any, default: Group | EllipsisType, tag: str | None) -> Any:
-    """``table`` with what it leaves out taken from ``default``, unless its ``tag`` asks for another kind of group."""
+    """``table`` with missing keys taken from ``default``, unless its ``tag`` chooses another kind of group."""
     if not isinstance(table, Mapping) or isinstance(default, EllipsisType):
         return table
     if tag is not None and tag in table and table[tag] not in get_args(type(default).model_fields[tag].annotation):
@@ -215,7 +215,7 @@ class Accuracy(Group):
     level: Literal["fast", "balanced", "precise"] = choice("balanced", "speed against accuracy")
     tolerance: float | None = quantity(None, "m", 1e-12, 1.0, "error allowed in each step of the motion")
     method: Literal["exact", "plain"] | None = choice(
-        None, "exact: stop at the moment of touching; plain: pymunk alone, at a fixed step"
+        None, "exact: stop at the moment of contact; plain: pymunk alone, at a fixed step"
     )
     integrator: IntegratorName | None = choice(None, "the integrator of the motion")
     step: float | None = quantity(None, "s", 1e-6, 0.1, "fixed step, instead of one that follows the tolerance")
@@ -267,7 +267,7 @@ def groups_of(annotation: Any) -> tuple[type[Group], ...]:
 
 
 def known_keys(schema: type[Group], values: Any = None, prefix: str = "") -> list[str]:
-    """Every dotted key that a scene file with ``values`` may hold, which choose between groups; headings included."""
+    """Every dotted key that a scene file may have, headings included; its ``values`` choose between groups."""
     keys: dict[str, None] = {}
     for name, field in schema.model_fields.items():
         keys[prefix + name] = None
@@ -279,7 +279,7 @@ def known_keys(schema: type[Group], values: Any = None, prefix: str = "") -> lis
 
 
 def _chosen(field: FieldInfo, inner: type[Group], table: Any) -> bool:
-    """Whether the ``table`` of a file is for the group ``inner``, one of those that the field may hold."""
+    """Whether the ``table`` of a file is for the group ``inner``, one of those that the field may have."""
     tag = field.discriminator
     if not isinstance(tag, str):
         return True
@@ -300,30 +300,30 @@ def every_key(schema: type[Group], prefix: str = "") -> Iterator[str]:
 
 
 def json_schema(parameters: Group, scene: str) -> dict[str, Any]:
-    """JSON schema of the files of ``scene``; numbers may be strings with a unit. A file may leave every key out:
-    ``parameters`` are the scene's own, which it then has."""
+    """JSON schema of the files of ``scene``; numbers may be strings with a unit. A file may leave every key out; the
+    defaults are ``parameters``, the scene's own."""
     body = _relaxed(type(parameters).model_json_schema())
-    path = r"|\.\.?(/.*)?|/.+"  # of a scene of one's own
+    path = r"|\.\.?(/.*)?|/.+"  # of a scene that is not installed
     named = {
         "anyOf": [{"const": scene}, {"type": "string", "pattern": f"^({scene}/[A-Za-z0-9_-]+{path})$"}],
         "description": "the scene that this file is for, or the preset that it begins from",
     }
     _fill_in(body, body["$defs"], parameters, json.dumps(body))
     properties = {"scene": named, **body["properties"]}
-    # The draft that editors' TOML extensions know.
+    # The draft that the TOML extensions of editors support.
     head = {"$schema": "http://json-schema.org/draft-07/schema#", "title": f"{scene} scene file"}
     return {**head, **body, "properties": properties}
 
 
 def _fill_in(node: dict[str, Any], groups: dict[str, Any], values: Group, whole: str) -> None:
-    """Write into the schema of a group what its keys are where a file leaves them out. What several keys refer to is
-    left as it is; ``whole`` is the schema as text, to count them."""
+    """Write the defaults into the schema of a group. A group that several keys refer to is left as it is; ``whole`` is
+    the schema as text, to count them."""
     node.pop("required", None)
     for name, value in values:
         entry = node.get("properties", {}).get(name, {})
         if not isinstance(value, Group):
             if value is not None:
-                entry["default"] = _plain(value)
+                entry["default"] = _json_value(value)
             continue
         entry["default"] = value.model_dump(mode="json")
         for reference in re.findall(r'"#/\$defs/(\w+)"', json.dumps(entry)):
@@ -333,16 +333,16 @@ def _fill_in(node: dict[str, Any], groups: dict[str, Any], values: Group, whole:
             chosen.pop("required", None)
 
 
-def _plain(value: Any) -> Any:
+def _json_value(value: Any) -> Any:
     """A value as JSON has it."""
     if isinstance(value, Group):
         return value.model_dump(mode="json")
-    return [_plain(item) for item in value] if isinstance(value, list | tuple) else value
+    return [_json_value(item) for item in value] if isinstance(value, list | tuple) else value
 
 
 def _relaxed(node: Any) -> Any:
-    """The same schema for a file that may leave the word of a choice out: ``anyOf`` in place of ``oneOf``; no titles,
-    which only say the key again."""
+    """The same schema for a file that may leave the word of a choice out: ``anyOf`` in place of ``oneOf``; without
+    titles, which only repeat the key."""
     if isinstance(node, list):
         return [_relaxed(item) for item in node]
     if not isinstance(node, dict):
@@ -379,8 +379,8 @@ def read_toml(path: Path) -> dict[str, Any]:
 
 
 def _toml_hint(text: str, error: str) -> str:
-    """What is likely to be wrong in the line that a TOML error names: quotes that are missing, as the end of a
-    sentence; empty where it is something else."""
+    """What is probably wrong in the line that a TOML error names: missing quotes, as the end of a sentence; "" if it is
+    something else."""
     number = re.search(r"at line (\d+)", error)
     lines = text.splitlines()
     if number is None or not 1 <= int(number[1]) <= len(lines):
@@ -394,7 +394,7 @@ def _toml_hint(text: str, error: str) -> str:
 
 
 def parse_assignment(text: str) -> tuple[str, Any]:
-    """``key.path=value`` as a dotted key and a value: a TOML value, and a plain string where it is none."""
+    """``key.path=value`` as a dotted key and a value, read as TOML, or as a string if it is not valid TOML."""
     key, equals, value = text.partition("=")
     key, value = key.strip(), value.strip()
     if not equals or not all(part.strip() for part in key.split(".")):
@@ -407,7 +407,7 @@ def parse_assignment(text: str) -> tuple[str, Any]:
 
 
 def nested(dotted: Mapping[str, Any]) -> dict[str, Any]:
-    """``{"launch.speed": 70}`` as ``{"launch": {"speed": 70}}``; later keys win over earlier ones."""
+    """``{"launch.speed": 70}`` as ``{"launch": {"speed": 70}}``; later keys override earlier ones."""
     tables: dict[str, Any] = {}
     for key, value in dotted.items():
         for part in reversed(key.split(".")):
@@ -417,7 +417,7 @@ def nested(dotted: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def merged(base: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
-    """``base`` with ``changes`` over it: tables are merged, all other values, lists too, are replaced whole."""
+    """``base`` with ``changes`` applied: tables are merged, all other values, lists too, are replaced."""
     result = dict(base)
     for key, value in changes.items():
         old = result.get(key)
@@ -426,7 +426,8 @@ def merged(base: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any
 
 
 def over(schema: type[Group], values: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
-    """Nested ``values`` with nested ``changes`` over them; a drag of another model leaves the old one's keys behind."""
+    """Nested ``values`` with nested ``changes`` applied; where these choose another drag model, say, the keys of the
+    old one are dropped."""
     return _without_leftovers(schema, merged(values, changes), changes)
 
 
@@ -440,11 +441,11 @@ def validate(
     changes: Mapping[str, Any] | None = None,
     changed_by: str = "override",
 ) -> Schema:
-    """Check the nested ``values`` of ``source`` (a file's name) with ``changes`` over them.
+    """Check the nested ``values`` of ``source`` (a file's name) with ``changes`` applied.
 
     Raises RequestError with a line that names file (or ``changed_by``), key, value, bound and unit.
     """
-    changes = nested(whole(schema, values, source, changes or {}, changed_by))
+    changes = nested(without_indices(schema, values, source, changes or {}, changed_by))
     combined = over(schema, values, changes)
     try:
         return schema.model_validate(combined)
@@ -456,10 +457,10 @@ def validate(
     raise RequestError(first + more)
 
 
-def whole(
+def without_indices(
     schema: type[Group], values: Mapping[str, Any], source: str, changes: Mapping[str, Any], changed_by: str
 ) -> dict[str, Any]:
-    """The same changes by keys of whole parameters: an entry such as ``air.wind[0]`` is put into the list as it is.
+    """The same changes without indices in their keys: for ``air.wind[0]`` the whole list ``air.wind`` is given.
 
     ``schema``, ``values``, ``source`` and ``changed_by`` are those of ``validate``. Raises RequestError.
     """
@@ -473,7 +474,7 @@ def whole(
         name = key.partition("[")[0]
         path = steps[len(name.split(".")) :]
         node: Any = validate(schema, values, source, found, changed_by)
-        if name in known_keys(schema, node.model_dump()):  # else it is refused as any other
+        if name in known_keys(schema, node.model_dump()):  # otherwise it is refused like any unknown key
             for part in name.split("."):
                 node = getattr(node, part)
             value = _placed(node, path, value, f"{changed_by} {key}")
@@ -482,11 +483,11 @@ def whole(
 
 
 def _check_keys(value: Any, what: str) -> None:
-    """Raise RequestError for a table with a key that is not a text; files have none, Python may."""
+    """Raise RequestError for a table with a key that is not a string, which is possible in Python only."""
     if isinstance(value, Mapping):
         for key, inside in value.items():
             if not isinstance(key, str):
-                raise RequestError(f"{what}: {key!r} in it is not a key; a key is a text, such as speed")
+                raise RequestError(f"{what}: {key!r} in it is not a key; a key is a string, such as speed")
             _check_keys(inside, f"{what}.{key}")
 
 
@@ -496,7 +497,7 @@ _STEP = re.compile(r"([^.\[\]]+)|\[(\d+)\]")
 def path_of(option: str, key: str) -> tuple[str | int, ...]:
     """``"air.wind[0]"`` as ``("air", "wind", 0)``."""
     if not isinstance(key, str):
-        raise RequestError(f"{option} {key!r}: a key is a text, such as launch.speed")
+        raise RequestError(f"{option} {key!r}: a key is a string, such as launch.speed")
     steps = tuple(name or int(number) for name, number in _STEP.findall(key))
     if "".join(f"[{step}]" if isinstance(step, int) else f".{step}" for step in steps) != f".{key}":
         raise RequestError(f"{option} {key}: a key is written like launch.speed, or air.wind[0] for one of a list")
@@ -504,7 +505,7 @@ def path_of(option: str, key: str) -> tuple[str | int, ...]:
 
 
 def _placed(node: Any, path: Sequence[str | int], value: Any, what: str) -> Any:
-    """A list, or a group in it, with ``value`` at ``path``."""
+    """``node``, a list or a group in one, with ``value`` at ``path``."""
     if not path:
         return value
     head, *rest = path
@@ -519,7 +520,7 @@ def _placed(node: Any, path: Sequence[str | int], value: Any, what: str) -> Any:
 
 
 def _without_leftovers(schema: type[Group], tables: dict[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
-    """Where ``changes`` choose another kind of group, drop the keys that only the kind in the file had."""
+    """Where ``changes`` choose another kind of group, drop the keys that only the old kind has."""
     result = dict(tables)
     for name, field in schema.model_fields.items():
         table, change = result.get(name), changes.get(name)
@@ -539,7 +540,7 @@ def _without_leftovers(schema: type[Group], tables: dict[str, Any], changes: Map
 
 
 def nearest(word: str, known: Sequence[str]) -> str | None:
-    """The known dotted key most like ``word``: in the same group, or by its last part anywhere; else None."""
+    """The known dotted key most similar to ``word``: in the same group, or by its last part anywhere; or None."""
     inside, _, last = word.rpartition(".")
     anywhere = {key.rpartition(".")[2]: key for key in reversed(known)}
     siblings = {key.rpartition(".")[2]: key for key in known if key.rpartition(".")[0] == inside}
@@ -550,9 +551,9 @@ def nearest(word: str, known: Sequence[str]) -> str | None:
 
 
 def no_such_result(name: str, known: Sequence[str]) -> str:
-    """The end of a sentence about an entry that a result does not have."""
+    """The end of a message about an entry that a result does not have."""
     near = nearest(name, known)
-    return "no such result; " + (f"did you mean {near}?" if near else f"there are {', '.join(known)}")
+    return "no such result; " + (f"did you mean {near}?" if near else f"the results are {', '.join(known)}")
 
 
 def _explained(
@@ -564,10 +565,10 @@ def _explained(
     changed_by: str,
 ) -> str:
     """One line for one error of pydantic's."""
-    key, plain = _path(error["loc"], values, missing=error["type"] == "missing")
-    prefix = f"{changed_by} " if _holds(changes, plain) else f"{source}: " if source else ""
+    key, dotted = _path(error["loc"], values, missing=error["type"] == "missing")
+    prefix = f"{changed_by} " if _holds(changes, dotted) else f"{source}: " if source else ""
     if error["type"] == "extra_forbidden":
-        return f"{prefix}{key}: unknown key{_suggestion('.'.join(plain), schema, values)}"
+        return f"{prefix}{key}: unknown key{_suggestion('.'.join(dotted), schema, values)}"
     if error["type"] == "missing":
         return f"{prefix}{key}: missing"
     return f"{prefix}{key} = {shown(error['input'])}: {_problem(error)}" if key else f"{prefix}{_problem(error)}"
@@ -578,16 +579,16 @@ def _path(loc: tuple[int | str, ...], values: Any, missing: bool) -> tuple[str, 
 
     pydantic puts the word that chose a group between its key and the group's own; the file has no such level.
     """
-    shown, plain = "", []
+    shown, dotted = "", []
     for index, item in enumerate(loc):
         if isinstance(item, int):
             shown += f"[{item}]"
             values = values[item] if isinstance(values, list) and item < len(values) else None
         elif (isinstance(values, Mapping) and item in values) or (missing and index == len(loc) - 1):
             shown += f".{item}" if shown else item
-            plain.append(item)
+            dotted.append(item)
             values = values.get(item) if isinstance(values, Mapping) else None
-    return shown, tuple(plain)
+    return shown, tuple(dotted)
 
 
 def _holds(tables: Any, path: tuple[str, ...]) -> bool:
@@ -602,7 +603,7 @@ def _holds(tables: Any, path: tuple[str, ...]) -> bool:
 
 
 def _suggestion(key: str, schema: type[Group], values: Mapping[str, Any]) -> str:
-    """What may have been meant by an unknown key, as the end of a sentence."""
+    """What an unknown key probably means, as the end of a message."""
     inside = key.rpartition(".")[0]
     for word in _words_for(key, schema):
         return f" here; it goes with {inside}.{word}"
@@ -611,11 +612,11 @@ def _suggestion(key: str, schema: type[Group], values: Mapping[str, Any]) -> str
     if near is not None:
         return f"; did you mean {near}?"
     siblings = [k.rpartition(".")[2] for k in known if k.rpartition(".")[0] == inside]
-    return f"; {inside or 'the file'} knows {', '.join(siblings)}" if siblings else ""
+    return f"; {inside or 'the file'} has {', '.join(siblings)}" if siblings else ""
 
 
 def _words_for(key: str, schema: type[Group]) -> Iterator[str]:
-    """The choices, such as ``model = "constant"``, with which a group would know ``key``."""
+    """The choices, such as ``model = "constant"``, with which a group would have ``key``."""
     *path, last = key.split(".")
     fields = [FieldInfo(annotation=schema)]
     for part in path:
@@ -640,7 +641,7 @@ def _problem(error: Any) -> str:
         case "bool_type":
             return "must be true or false"
         case "string_type":
-            return "must be a text in quotes"
+            return "must be text in quotes"
         case "list_type" | "tuple_type":
             return "must be a list"
         case "model_type" | "model_attributes_type" | "dict_type":

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from rich.progress import Progress
 
-#: Work that is done within so many seconds shows no bar.
+#: Work that takes less than this shows no bar, in s.
 PATIENCE = 2.0
 #: Seconds between two refreshes of the bar.
 INTERVAL = 0.1
@@ -19,9 +19,9 @@ INTERVAL = 0.1
 
 @contextmanager
 def bar(what: str) -> Iterator[Callable[[int, int], None]]:
-    """Gives a function to call with how much is done and how much there is; a bar shows on a terminal only.
+    """Yield a function to call with the amount done and the total; the bar shows on a terminal only.
 
-    Rate and time left are computed from its first call on, which may come with work that was done before.
+    Rate and time left are measured from its first call, which may already count work done earlier.
     """
     begun = time.monotonic()
     refreshed = 0.0
@@ -51,7 +51,7 @@ def bar(what: str) -> Iterator[Callable[[int, int], None]]:
 
 
 def _bar() -> Progress:
-    """Drawn only when it is refreshed, without a thread of its own."""
+    """The bar, drawn only when it is refreshed, without a thread of its own."""
     from rich.console import Console
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn
 

@@ -1,4 +1,4 @@
-"""What a golden test records of a run, and what has changed since: events, results, states sampled along the way."""
+"""The record of a run for a golden test, and what has changed since: events, results and sampled states."""
 
 from __future__ import annotations
 
@@ -7,18 +7,18 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
-from sandbox.files import plain
+from sandbox.files import json_ready
 
 #: Two numbers are the same when they differ by no more than this, in s, m, m/s or rad/s, or by this share of
 #: themselves. Rounding on another processor stays below 1e-9, unless the scene is chaotic; a force that is wrong by one
 #: part in ten thousand moves a ball by millimetres.
 TOLERANCE = 1e-6
-#: Numbers are rounded to this many digits, so that files differ only where the tolerances notice it.
+#: Numbers are rounded to this many digits, so that files differ only where the tolerance is exceeded.
 DIGITS = 9
-#: States along the run: so many for each ball, of many balls fewer.
+#: States recorded for each ball, and the most for all balls together.
 SAMPLES, MOST_STATES = 24, 240
-#: A run is chaotic where balls that begin this far apart, in m, end beyond the tolerances. It is a hundred times what
-#: rounding does.
+#: A run is chaotic if moving its balls this far, in m, at the start moves the result by more than the tolerance. It is
+#: a hundred times the effect of rounding.
 NUDGE = 1e-12
 
 #: Longest text of a result in a message, in characters.
@@ -31,7 +31,7 @@ Record = dict[str, Any]
 
 
 def record(run: Any, until: float | None = None, times: Sequence[float] | None = None) -> Record:
-    """What happened, in what JSON knows: up to ``until`` s, or to the end and with its results.
+    """What happened, in JSON's types: up to ``until`` s, or to the end and with the results.
 
     ``times`` are those of the states, in s; without them they are spread evenly.
     """
@@ -41,11 +41,11 @@ def record(run: Any, until: float | None = None, times: Sequence[float] | None =
         times = _rounded([end * i / (count - 1) for i in range(count)])  # as the file will have them
     recorded: Record = {} if until is None else {"until": until}
     if until is None:
-        recorded |= {"ended": run.ended, "duration": run.duration, "result": plain(run.result)}
+        recorded |= {"ended": run.ended, "duration": run.duration, "result": json_ready(run.result)}
     recorded["events"] = [
         [event.t, event.kind, event.ball, event.partner, event.speed] for event in run.events if event.t <= end
     ]
-    # A run may end by an impact: its last state is the one after it, whatever rounding says of the time.
+    # A run may end with an impact: its last state is the one after it, however the time was rounded.
     when = [run.duration if abs(t - run.duration) <= TOLERANCE else t for t in times]
     recorded["states"] = {
         ball.name: [[t, *map(float, run.state(ball.name, at))] for t, at in zip(times, when, strict=True)]
@@ -55,12 +55,12 @@ def record(run: Any, until: float | None = None, times: Sequence[float] | None =
 
 
 def _samples(balls: int) -> int:
-    """How many states are recorded of each of so many balls."""
+    """How many states are recorded of each ball, if there are ``balls`` of them."""
     return max(6, min(SAMPLES, MOST_STATES // max(1, balls)))
 
 
 def damage(recorded: Any) -> str | None:
-    """What is missing from a record that was read from a file, in words; None where it is whole."""
+    """What is missing from a record that was read from a file, in words; None if it is complete."""
     if not isinstance(recorded, dict) or not {"states", "events"} <= set(recorded):
         return "not a record of a run"
     states, events = recorded["states"], recorded["events"]
@@ -90,7 +90,7 @@ def times_of(recorded: Record) -> list[float]:
 
 
 def as_text(recorded: Record) -> str:
-    """JSON with a row to a line, so that a change of one number is a change of one line."""
+    """JSON with one row per line, so that a change of one number changes one line."""
     parts = []
     for key, value in recorded.items():
         if key == "events":
@@ -114,13 +114,13 @@ def _lines(opening: str, rows: Iterator[str], closing: str, deep: int = 1) -> st
 
 
 def first_change(expected: Record, actual: Record, tolerance: float = TOLERANCE) -> tuple[float, str] | None:
-    """Time in s and description of the first difference in how the balls moved; None where there is none."""
+    """Time in s and description of the first difference in how the balls moved; None if there is none."""
     changes = [*_changed_states(expected, actual, tolerance), *_changed_events(expected, actual, tolerance)]
     return min(changes, default=None)
 
 
 def changed_results(expected: Record, actual: Record, tolerance: float = TOLERANCE) -> list[str]:
-    """What else differs, each in words: results, how the run ended."""
+    """What else differs, in words: results, how the run ended."""
     found = []
     before, after = ({**recorded.get("result", {}), "ended": recorded.get("ended")} for recorded in (expected, actual))
     for name in [*before, *(name for name in after if name not in before)]:
@@ -132,7 +132,7 @@ def changed_results(expected: Record, actual: Record, tolerance: float = TOLERAN
 
 
 def diverges(run: Any, until: float | None = None) -> float | None:
-    """The time in s from which a run depends on rounding: of two that begin ``NUDGE`` apart. None where it does not."""
+    """The time in s at which a run and one that begins ``NUDGE`` away differ; None if they never do."""
     from sandbox.engine import simulate
 
     balls = [
@@ -146,7 +146,7 @@ def diverges(run: Any, until: float | None = None) -> float | None:
 
 
 def _changed_states(expected: Record, actual: Record, tolerance: float) -> Iterator[tuple[float, str]]:
-    """For each ball the first number that is another."""
+    """For each ball the first number that differs."""
     for ball, rows in expected["states"].items():
         others = actual["states"].get(ball)
         if others is None:
@@ -165,7 +165,7 @@ def _changed_states(expected: Record, actual: Record, tolerance: float) -> Itera
 
 
 def _changed_events(expected: Record, actual: Record, tolerance: float) -> Iterator[tuple[float, str]]:
-    """The first event that is another, is missing or is new."""
+    """The first event that differs, is missing or is new."""
     before, after = expected["events"], actual["events"]
     for old, new in zip(before, after, strict=False):
         if old[1:4] != new[1:4]:
@@ -190,7 +190,7 @@ def _event(row: Sequence[Any]) -> str:
 
 
 def _amounts(now: float, then: float, unit: str) -> str:
-    """Both with as many digits as tell them apart."""
+    """Both numbers, with enough digits to tell them apart."""
     digits = next((n for n in range(4, DIGITS) if f"{now:.{n}g}" != f"{then:.{n}g}"), DIGITS)
     return f"{now:.{digits}g} {unit}, was {then:.{digits}g} {unit}"
 

@@ -1,4 +1,4 @@
-"""What a run says: to people as a card, to programs as JSON and CSV."""
+"""The report of a run: a card for people, JSON and CSV for programs."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from sandbox.engine.ledger import warnings
 from sandbox.errors import RunError
-from sandbox.files import plain, written_whole
+from sandbox.files import json_ready, written_whole
 from sandbox.lab.tables import paragraph, table
 from sandbox.scene.checking import NUDGE
 from sandbox.text import csv_text
@@ -23,15 +23,15 @@ if TYPE_CHECKING:
 #: Events shown on a card; a ball that rolls through a rack has hundreds.
 EVENTS_SHOWN = 6
 
-#: Longest value in a sentence, in letters; a list of what a ball touched may have hundreds.
+#: Longest value in a sentence, in characters; a list of what a ball touched may have hundreds.
 LONGEST_WORD = 40
 
-#: Errors of numbers that the card leaves out are told from this size on, in their units.
-LEAST_UNSEEN = 1e-3
+#: Smallest error, in its unit, that is reported for a number which the card leaves out.
+LEAST_REPORTED = 1e-3
 
 
 def as_json(scene: Scene, run: Run, check: Check | None = None, other: Run | None = None) -> str:
-    """One JSON object; what is not a number (NaN) or has no bound is null. ``other`` is a run to compare with."""
+    """One JSON object; NaN and infinities are null. ``other`` is a run to compare with."""
     report = {
         "scene": scene.name,
         "preset": scene.preset,
@@ -66,8 +66,8 @@ def as_json(scene: Scene, run: Run, check: Check | None = None, other: Run | Non
             "changed": check.unsettled,
         }
     try:
-        return json.dumps(plain(report), allow_nan=False, ensure_ascii=False)
-    except TypeError as error:  # a result that is more than numbers, words and lists of them
+        return json.dumps(json_ready(report), allow_nan=False, ensure_ascii=False)
+    except TypeError as error:  # a result with other values than numbers, words and lists of them
         raise RunError(f"{scene.name}: its result cannot be written as JSON: {error}") from None
 
 
@@ -94,9 +94,9 @@ def write_trajectory(run: Run, path: Path) -> None:
 
 
 def card(scene: Scene, run: Run, check: Check | None = None, other: tuple[str, Run] | None = None) -> list[str]:
-    """Lines for the terminal: what was played, what came out, what happened on the way, what it cost.
+    """Lines for the terminal: scene, results, events and numerical cost.
 
-    ``other`` is a run to compare with and what it is called: its values are shown next to ours.
+    ``other`` is a run to compare with, after its name: its values are shown in a second column.
     """
     rows = scene.rows(run, None if check is None else check.errors, also=True)
     if other is None:
@@ -113,12 +113,12 @@ def card(scene: Scene, run: Run, check: Check | None = None, other: tuple[str, R
         "",
         f"  {_numerics(run)}",
         *(f"  warning: {warning}" for warning in warnings(run)),
-        *([] if check is None else _verdict(check, scene)),
+        *([] if check is None else _check_lines(check, scene)),
     ]
 
 
 def _compared(rows: list[tuple[str, str]], verdict: str, other: Run) -> list[tuple[str, str, str]]:
-    """Labels, our texts and those of the run to compare with."""
+    """Labels, the texts of this run, and those of the other."""
     values = {"verdict": other.scene.verdict(other), **dict(other.scene.rows(other, also=True))}
     return [(label, text, values.get(label, "")) for label, text in [("verdict", verdict), *rows]]
 
@@ -151,8 +151,8 @@ def _count(number: int, noun: str) -> str:
     return f"{number} {noun}{'' if number == 1 else 's'}"
 
 
-def _verdict(check: Check, scene: Scene) -> list[str]:
-    """What depends on the accuracy, and what on where exactly the balls start; errors of what has no row as well."""
+def _check_lines(check: Check, scene: Scene) -> list[str]:
+    """What depends on the accuracy, what is chaotic, and the errors of results without a row."""
     units = scene.units
     away = f"{check.nudges} runs from starts {NUDGE:g} m away"
     said = [
@@ -165,19 +165,19 @@ def _verdict(check: Check, scene: Scene) -> list[str]:
         for name, spread in check.chaotic.items()
     ]
     said += [
-        f"chaotic: {name.replace('_', ' ')} is another in {len(others)} of {away}, such as {_word(others[0])}"
+        f"chaotic: {name.replace('_', ' ')} differs in {len(others)} of {away}, for example {_word(others[0])}"
         for name, others in check.unsettled.items()
     ]
     unseen = [
         f"{name.replace('_', ' ')} ± {error:.2g} {units.get(name, '')}".rstrip()
         for name, error in check.errors.items()
-        if error >= LEAST_UNSEEN and not scene.facts[name].label
+        if error >= LEAST_REPORTED and not scene.facts[name].label
     ]
     said += [f"not on the card: {', '.join(unseen)}"] if unseen else []
-    said = said or [f"checked against a finer run and {away}: only the numbers move, by no more than their ±"]
+    said = said or [f"checked against a finer run and {away}: only the numbers change, by no more than their ±"]
     return [line for text in said for line in paragraph(text)]
 
 
 def _word(value: Any) -> str:
-    text = json.dumps(plain(value), ensure_ascii=False, default=str)
+    text = json.dumps(json_ready(value), ensure_ascii=False, default=str)
     return text if len(text) <= LONGEST_WORD else text[: LONGEST_WORD - 3] + "..."

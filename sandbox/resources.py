@@ -1,4 +1,4 @@
-"""Where the scenes and assets are: beside the package in a checkout, inside it in an installed wheel."""
+"""Where the scenes and assets are: next to the package in a checkout, inside it in an installed wheel."""
 
 from __future__ import annotations
 

@@ -11,20 +11,20 @@ from sandbox.errors import SandboxError
 
 
 def of_user_code(error: BaseException) -> str | None:
-    """The traceback from the first line of a user's own code on, without lines of ours; None if it was all ours."""
+    """The traceback from the first frame of the user's code, without the sandbox's own frames; None without any."""
     frames = traceback.extract_tb(error.__traceback__)
     first = next((index for index, frame in enumerate(frames) if not _is_ours(frame.filename)), None)
-    blamed = isinstance(error, SyntaxError) and error.filename is not None and not _is_ours(error.filename)
-    if first is None and not blamed:
+    is_users_syntax = isinstance(error, SyntaxError) and error.filename is not None and not _is_ours(error.filename)
+    if first is None and not is_users_syntax:
         return None
-    shown = [frame for frame in frames[first:] if not _is_machinery(frame.filename)] if first is not None else []
+    shown = [frame for frame in frames[first:] if not _is_hidden(frame.filename)] if first is not None else []
     head = ["your scene failed\n", "Traceback (most recent call last):\n"] if shown else ["your scene failed\n"]
     return "".join([*head, *traceback.format_list(shown), *traceback.format_exception_only(error)])
 
 
-def in_a_line(error: Exception) -> str:
-    """What went wrong, for a cell of a table; of a user's own code also in which line: ``"ZeroDivisionError: division
-    by zero (volleyball/scene.py, line 12)"``."""
+def one_line_error(error: Exception) -> str:
+    """The error on one line, for a table cell; for a user's code with file and line: ``"ZeroDivisionError: division by
+    zero (volleyball/scene.py, line 12)"``."""
     text = " ".join(str(error).split())
     if isinstance(error, SandboxError):
         return text
@@ -34,7 +34,7 @@ def in_a_line(error: Exception) -> str:
 
 
 def _is_ours(filename: str) -> bool:
-    """Whether a file came with the sandbox, Python or an installed package, be that in this environment or another."""
+    """Whether a file came with the sandbox, Python or an installed package, in this environment or another."""
     installed = not {"site-packages", "dist-packages"}.isdisjoint(Path(filename).parts)
     libraries = {sysconfig.get_path(name) for name in ("stdlib", "purelib", "platlib")}
     return (
@@ -45,8 +45,8 @@ def _is_ours(filename: str) -> bool:
     )
 
 
-def _is_machinery(filename: str) -> bool:
-    """Whether a file is ours, made by a library, or of the one that the scene's groups of parameters are made with."""
+def _is_hidden(filename: str) -> bool:
+    """Whether a file is the sandbox's, generated code, or pydantic's, which validates a scene's parameters."""
     import pydantic
 
     return filename.startswith("<") or _is_sandbox(filename) or _inside(filename, Path(pydantic.__file__).parent)

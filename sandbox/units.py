@@ -57,7 +57,7 @@ _QUANTITY = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?|[+-]?(?:n
 _SPELLINGS = str.maketrans({"²": "^2", "³": "^3", "°": "", "·": " "})
 
 
-#: How else units are written, in lower case and the singular.
+#: Other spellings of units, in lower case and singular.
 _OTHER_SPELLINGS = {
     "m": "meter metre mtr",
     "cm": "centimeter centimetre",
@@ -88,31 +88,31 @@ _OTHER_SPELLINGS = {
 
 
 def alternatives(unit: str) -> list[str]:
-    """The units that may stand in place of ``unit``, itself first."""
+    """The units of the same kind as ``unit``, itself first."""
     return [unit, *(other for other in KINDS[KIND_OF[unit]] if other != unit)]
 
 
 def listed(unit: str) -> str:
-    """The units that may stand in place of ``unit``, for a sentence: ``"m/s, km/h, mph, kn or ft/s"``."""
+    """The units of the same kind as ``unit``, for a message: ``"m/s, km/h, mph, kn or ft/s"``."""
     names = [other or "no unit" for other in alternatives(unit)]
     return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} or {names[-1]}"
 
 
 def suggestion(given: str) -> str:
-    """The unit that is meant by ``given``: itself, or one that it is another spelling of; "" where there is none."""
+    """The unit meant by ``given``, which may be another spelling of it; "" if none is known."""
     if given in KIND_OF:
         return given
-    plain = given.lower().rstrip(".")
+    lowered = given.lower().rstrip(".")
     spellings = {unit.lower(): unit for unit in KIND_OF} | {
         other: unit for unit, others in _OTHER_SPELLINGS.items() for other in others.split()
     }
-    return spellings.get(plain) or spellings.get(plain.removesuffix("s"), "")
+    return spellings.get(lowered) or spellings.get(lowered.removesuffix("s"), "")
 
 
 def parse(text: str, unit: str) -> float:
-    """The number in ``text`` expressed in ``unit``; a text that names no unit is in ``unit`` already.
+    """The number in ``text`` expressed in ``unit``; a text without a unit is in ``unit``.
 
-    Raises ValueError where the text is not a number with a unit of the same kind.
+    Raises ValueError if the text is not a number with a unit of the same kind.
     """
     match = _QUANTITY.fullmatch(text)
     if match is None:
@@ -125,7 +125,7 @@ def parse(text: str, unit: str) -> float:
 def convert(number: float, given: str, unit: str) -> float:
     """``number`` of unit ``given`` expressed in ``unit``.
 
-    Raises ValueError where the two are not units of the same kind.
+    Raises ValueError if the two are not units of the same kind.
     """
     if given == unit:
         return number
@@ -135,9 +135,9 @@ def convert(number: float, given: str, unit: str) -> float:
             raise ValueError(f"{given} is a unit of {KIND_OF[given]}; use {listed(unit)}")
         meant = suggestion(given)
         if meant in units:
-            raise ValueError(f"{given} is not a unit known here; did you mean {meant}?")
-        raise ValueError(f"{given} is not a unit known here; use {listed(unit)}")
+            raise ValueError(f"{given} is not a known unit; did you mean {meant}?")
+        raise ValueError(f"{given} is not a known unit; use {listed(unit)}")
     factor, offset = units[given]
     target_factor, target_offset = units[unit]
-    # 14 digits: "140 F" is 60 C, not a rounding error above it and out of bounds.
+    # 14 digits: "140 F" is exactly 60 C, not out of bounds by a rounding error.
     return float(f"{(number + offset) * factor / target_factor - target_offset:.14g}")

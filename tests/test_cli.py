@@ -217,7 +217,7 @@ def test_the_card_names_the_preset(call):
 def test_check_adds_errors_and_the_verdict(call):
     out = call("run", DROP, "--check").out
     assert "1.21 m ± less than 0.001 mm" in out
-    assert "only the numbers move" in " ".join(out.split())
+    assert "only the numbers change" in " ".join(out.split())
     report = json.loads(call("run", DROP, "--check", "--json").out)
     assert set(report["errors"]) == {"bounces", "first_touch", "final_height"}
     assert report["changed"] == {}
@@ -408,16 +408,16 @@ def test_one_of_a_list_may_be_set(call, monkeypatch):
         (["run", "golf", "--size", "16x9"], "--size 16x9: must be between 320x180 and 7680x4320 px"),
         (["run", "golf", "--compare", "golff"], "unknown scene golff; did you mean golf?"),
         (["run", "golf", "--compare", "soccer"], "--compare soccer: is soccer, and only golf can"),
-        (["run", "golf", "--set", "launch.speed=150 MPH"], "MPH is not a unit known here; did you mean mph?"),
-        (["run", "golf", "--set", "launch.speed=70 metres"], "metres is not a unit known here; use m/s"),
+        (["run", "golf", "--set", "launch.speed=150 MPH"], "MPH is not a known unit; did you mean mph?"),
+        (["run", "golf", "--set", "launch.speed=70 metres"], "metres is not a known unit; use m/s"),
         (
             ["run", "golf", "--set", "launch.speed=150", "mph"],
             'a value with a space goes in quotes: launch.speed="150 m',
         ),
-        (["run", "golf", "--bogus"], "No such option: --bogus\nsandbox run --help lists what it takes"),
-        (["run", "golf", "--fps"], "Option '--fps' requires an argument.\nsandbox run --help lists what it takes"),
+        (["run", "golf", "--bogus"], "No such option: --bogus\nsandbox run --help shows its arguments"),
+        (["run", "golf", "--fps"], "Option '--fps' requires an argument.\nsandbox run --help shows its arguments"),
         (["run"], "Missing argument 'SCENE'"),
-        (["bogus"], "No such command 'bogus'.\nsandbox --help lists what it takes"),
+        (["bogus"], "No such command 'bogus'.\nsandbox --help shows its arguments"),
     ],
 )
 def test_a_wrong_request_is_refused_in_a_line(call, tmp_path: Path, monkeypatch, args: list[str], expected: str):
@@ -464,7 +464,7 @@ def test_an_unreadable_file_is_refused(call, tmp_path: Path):
         (["--trajectory", "missing/path.csv"], "--trajectory: there is no folder missing; make it first"),
         (["--trajectory", ".."], "--trajectory ..: is a folder; name a file in it"),
         (["--poster", ""], '--poster: "" and "." are not files; name one, such as out.png'),
-        (["--poster", "shot.png", "--energy", "./shot.png"], "--energy shot.png: is the file of --poster too"),
+        (["--poster", "shot.png", "--energy", "./shot.png"], "--energy shot.png: is also the file of --poster"),
         (["--poster", "x" * 300 + ".png"], "xxx...: file name too long"),
         (["--trajectory", "x" * 300 + ".csv"], "xxx...: file name too long"),
         (["--frames", "x" * 300], "xxx...: file name too long"),
@@ -476,7 +476,7 @@ def test_an_unreadable_file_is_refused(call, tmp_path: Path):
         (["--gif", "shot.png"], "--gif shot.png: its name must end in .gif"),
         (["--webp", "shot.gif"], "--webp shot.gif: its name must end in .webp"),
         (["--energy", "shot.gif"], "--energy shot.gif: its name must end in .png"),
-        (["--frames", "file"], "--frames file: is a file, and a folder is needed"),
+        (["--frames", "file"], "--frames file: is a file; a folder is needed"),
         (["--frames", "file/frames"], "--frames: there is no folder"),
         (["--frames", "/proc/some/frames"], "--frames: cannot write into /proc"),
     ],
@@ -559,8 +559,8 @@ def test_a_link_is_written_through(call, tmp_path: Path):
         ("FACTS = (", "FACTS = [", "SyntaxError: "),
         ('return "Bounced"', 'return run.result["gone"] and "Bounced"', "KeyError: 'gone'"),
         ("duration=parameters.duration", "length=parameters.duration", "TypeError: "),
-        ('"m/s", low=0, high=340', '"furlong", low=0, high=340', 'ValueError: "furlong" is not a unit known here; use'),
-        ('"m/s", low=0, high=340', '"MPH", low=0, high=340', 'ValueError: "MPH" is not a unit known here; did you me'),
+        ('"m/s", low=0, high=340', '"furlong", low=0, high=340', 'ValueError: "furlong" is not a known unit; use'),
+        ('"m/s", low=0, high=340', '"MPH", low=0, high=340', 'ValueError: "MPH" is not a known unit; did you me'),
         ("import Accuracy", "import Accuracies, Accuracy", "ImportError: cannot import name 'Accuracies'"),
         ("class Launch", "raise SystemExit(0)\nclass Launch", "ExitCalled: sys.exit(0)"),
         ("    ball = Ball(", "    exit(0)\n    ball = Ball(", "ExitCalled: sys.exit(0)"),
@@ -616,12 +616,12 @@ def test_exit_in_a_sweep_fails_its_points(call, drop: Path, tmp_path: Path, jobs
         (
             "FACTS = (",
             "loop = []\nloop.append(loop)\nFACTS = (Fact('loop', '', '', lambda run, parameters: loop),",
-            "the fact loop must return what does not contain itself",
+            "the fact loop must return a value that does not contain itself",
         ),
         (
             "FACTS = (",
             "FACTS = (Fact('odd', '', '', lambda run, parameters: [1j]),",
-            "the fact odd must return a number, a text, true or false, or a list of those, and returned [1j]",
+            "the fact odd must return a number, a text, true or false, or a list of those, but returned [1j]",
         ),
         (
             "FACTS = (",
@@ -649,9 +649,9 @@ def test_what_a_scene_hands_over_wrongly_is_said_in_a_line(
 @pytest.mark.parametrize(
     ("old", "new", "expected"),
     [
-        ('"bounces", "bounces"', '"bounces", 5', "FACTS: key and label must be text, and are 'bounces' and 5"),
-        ('"", bounces)', '"", lambda run: 1)', "FACTS: bounces is read as how(run, parameters): too many"),
-        ('"", bounces)', '"", 1)', "FACTS: bounces is read as how(run, parameters): 1 is not a callable"),
+        ('"bounces", "bounces"', '"bounces", 5', "FACTS: key and label must be text, but are 'bounces' and 5"),
+        ('"", bounces)', '"", lambda run: 1)', "FACTS: bounces is computed as how(run, parameters): too many"),
+        ('"", bounces)', '"", 1)', "FACTS: bounces is computed as how(run, parameters): 1 is not a callable"),
     ],
 )
 def test_what_is_wrong_with_a_fact_is_said(call, drop: Path, old: str, new: str, expected: str):

@@ -105,10 +105,10 @@ def test_names(call, name: str):
 @pytest.mark.parametrize(
     ("name", "expected"),
     [
-        ("golf", "there is a scene golf already"),
-        ("there", "it exists already"),
-        ("file", "it exists already"),
-        ("link", "it exists already"),
+        ("golf", "a scene named golf already exists"),
+        ("there", "already exists"),
+        ("file", "already exists"),
+        ("link", "already exists"),
         ("nowhere/new", "there is no folder nowhere"),
         ("", "a scene's name has letters"),
         ("2balls", "begins with a letter"),
@@ -230,7 +230,7 @@ def test_a_result_that_json_does_not_know(call, scene: Path):
     change(scene / "scene.py", "    ENDED,", '    Fact("run", "", "", lambda run, parameters: run),')
     outcome = call("run", f"./{NAME}", "--json")
     assert outcome[:2] == (1, "")
-    expected = "the fact run must return a number, a text, true or false, or a list of those, and returned <Run of"
+    expected = "the fact run must return a number, a text, true or false, or a list of those, but returned <Run of"
     assert f"error: {NAME}/scene.py: {expected}" in outcome.err
 
 
@@ -325,14 +325,14 @@ def test_a_file_with_nul_bytes_is_named(call, scene: Path, file: str):
 @pytest.mark.parametrize(
     ("file", "old", "new", "expected"),
     [
-        ("scene.py", "return Setup([", "Setup([", "scene.py: build must return a Setup, and returned None"),
-        ("scene.py", 'return "On the mat"', '"On the mat"', "verdict must return a text, and returned None"),
-        ("scene.py", "FACTS = (", "FACTS = (3,", "FACTS must be a tuple of facts, and 3 is not one"),
+        ("scene.py", "return Setup([", "Setup([", "scene.py: build must return a Setup, but returned None"),
+        ("scene.py", 'return "On the mat"', '"On the mat"', "verdict must return text, but returned None"),
+        ("scene.py", "FACTS = (", "FACTS = (3,", "FACTS must be a tuple of facts, but 3 is not one"),
         ("scene.py", '"apex", "m"', '"apex", "metres"', 'FACTS: apex has the unit "metres", which is not known'),
         ("scene.py", '"apex", "apex"', '"distance", "apex"', "FACTS: two are called distance"),
         ("scene.py", "def build(parameters: Parameters)", "def build()", "build is called as build(parameters)"),
         ("scene.py", "def verdict(run: Run, ", "def verdict(", "verdict is called as verdict(run, parameters)"),
-        ("scene.py", "def build(", "def built(", "a scene offers Parameters, build; build is missing"),
+        ("scene.py", "def build(", "def built(", "a scene needs Parameters, build; build is missing"),
         ("picture.py", "class Picture", "class Pictures", "Picture(run, parameters, size) is missing"),
         ("picture.py", LENGTHS, f"    poster = None\n\n{LENGTHS}", "picture.py: Picture.poster(self) is missing"),
         (
@@ -361,7 +361,7 @@ def test_a_file_with_nul_bytes_is_named(call, scene: Path, file: str):
         ("scene.py", "strongest=20.0", 'speed="launch.sped"', 'CONTROLS speed "launch.sped": unknown key; did'),
         ("scene.py", '(Spin("launch.spin", 20.0),)', '(Spin("launch.spin", 20.0))', "CONTROLS spins = Spin("),
         ("scene.py", 'scores="hit"', 'scores="hitt"', 'CONTROLS scores "hitt": no such result; did you mean hit?'),
-        ("scene.py", 'scores="hit"', 'tells="apx"', 'CONTROLS tells "apx": no such result; did you mean apex?'),
+        ("scene.py", 'scores="hit"', 'fan_fact="apx"', 'CONTROLS fan_fact "apx": no such result; did you mean apex?'),
     ],
 )
 def test_what_is_handed_back_wrongly_is_said_in_a_line(call, scene: Path, file: str, old: str, new: str, expected: str):

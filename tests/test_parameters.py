@@ -209,7 +209,7 @@ def test_groups_are_frozen_and_their_defaults_are_checked():
 
 
 def test_an_unknown_unit_is_an_error_of_the_scene():
-    with pytest.raises(ValueError, match='"furlong" is not a unit known here; use m, cm'):
+    with pytest.raises(ValueError, match='"furlong" is not a known unit; use m, cm'):
         quantity(1.0, "furlong", low=0, high=1, meaning="")
 
 
@@ -223,7 +223,7 @@ def test_an_unknown_unit_is_an_error_of_the_scene():
         (-1e-9, "shot.toml: launch.speed = -1e-09: must be from 0 to 340 m/s"),
         ("900 mph", 'shot.toml: launch.speed = "900 mph": must be from 0 to 340 m/s, and this is 402.336 m/s'),
         ("70 kg", 'shot.toml: launch.speed = "70 kg": kg is a unit of mass; use m/s, km/h, mph, kn or ft/s'),
-        ("70 mp/h", "mp/h is not a unit known here; use m/s, km/h, mph, kn or ft/s"),
+        ("70 mp/h", "mp/h is not a known unit; use m/s, km/h, mph, kn or ft/s"),
         ("fast", "is not a number with a unit; use m/s, km/h, mph, kn or ft/s"),
         ("", "is not a number with a unit"),
         (math.nan, "shot.toml: launch.speed = nan: must be a finite number from 0 to 340 m/s"),
@@ -250,14 +250,14 @@ def test_a_bad_number_is_refused_with_file_key_value_bound_and_unit(value: Any, 
         ({"ball": {"temperature": 1}}, "ball.temperature: unknown key; did you mean air.temperature?"),
         (
             {"qqqqqq": 1},
-            "qqqqqq: unknown key; the file knows gravity, launch, ball, air, holed, balls, heights, accuracy",
+            "qqqqqq: unknown key; the file has gravity, launch, ball, air, holed, balls, heights, accuracy",
         ),
-        ({"ball": {"drag": {"qqq": 1}}}, "ball.drag.qqq: unknown key; ball.drag knows model, critical, velocity"),
+        ({"ball": {"drag": {"qqq": 1}}}, "ball.drag.qqq: unknown key; ball.drag has model, critical, velocity"),
         (
             {"ball": {"drag": {"coefficient": 1}}},
             'ball.drag.coefficient: unknown key here; it goes with ball.drag.model = "const',
         ),
-        ({"balls": [{"name": "one", "y": 0}]}, "balls[0].y: unknown key; balls knows name, x"),
+        ({"balls": [{"name": "one", "y": 0}]}, "balls[0].y: unknown key; balls has name, x"),
     ],
 )
 def test_an_unknown_key_is_refused_with_the_nearest_one(values: dict[str, Any], expected: str):
@@ -285,7 +285,7 @@ def test_an_unknown_key_is_refused_with_the_nearest_one(values: dict[str, Any], 
         ({"balls": [4]}, "balls[0] = 4: must be a group of keys"),
         ({"balls": [{"x": 0.5}]}, "balls[0].name: missing"),
         ({"balls": [{"name": "a"}, {"name": "b", "x": 3}]}, "balls[1].x = 3: must be from 0 to 1 m"),
-        ({"balls": [{"name": 3}]}, "balls[0].name = 3: must be a text in quotes"),
+        ({"balls": [{"name": 3}]}, "balls[0].name = 3: must be text in quotes"),
         ({"accuracy": {"level": "best"}}, 'accuracy.level = "best": must be "fast", "balanced" or "precise"'),
         ({"accuracy": {"integrator": "rk5"}}, 'accuracy.integrator = "rk5": must be "explicit-euler"'),
     ],

@@ -56,10 +56,10 @@ def test_a_scene_may_be_named_wherever_one_is_asked_for():
         (lambda: sandbox.simulate(DROP).trajectory(every=-1), "every = -1: must be more than 0 s"),
         (lambda: sandbox.simulate(DROP).trajectory(every=math.inf), "every = inf: must be more than 0 s, and finite"),
         (lambda: sandbox.load(5), "5 is not a scene: give its name as text"),
-        (lambda: sandbox.load("golf", {5: 1}), "override 5: a key is a text, such as launch.speed"),
+        (lambda: sandbox.load("golf", {5: 1}), "override 5: a key is a string, such as launch.speed"),
         (lambda: sandbox.load("golf", {"ball": {5: 1}}), "override ball: 5 in it is not a key"),
         (lambda: sandbox.load("golf", {"ball": {"drag": {None: 1}}}), "override ball.drag: None in it is not a key"),
-        (lambda: sandbox.sweep("golf", {5: [1, 2]}), "over 5: a key is a text, such as launch.speed"),
+        (lambda: sandbox.sweep("golf", {5: [1, 2]}), "over 5: a key is a string, such as launch.speed"),
         (lambda: sandbox.sweep("golf", {"launch.angle": 5}), "over launch.angle: 5 is neither a list of values nor a"),
         (lambda: sandbox.aim("golf", {"launch.angle": 5}, {"carry": 200}), "vary launch.angle: 5 is neither a list"),
         (lambda: sandbox.aim("golf", {"gravity": (1, 2, 3)}, {"carry": 200}), "vary gravity: only numbers have a ra"),
@@ -328,7 +328,7 @@ def test_a_scene_file_elsewhere_says_what_it_is(tmp_path: Path):
 def test_a_preset_begins_from_no_other(drop: Path):
     preset = next((drop / "presets").glob("*.toml"))
     preset.write_text(f'scene = "drop/{preset.stem}"')
-    assert "but here it is a file for drop" in refusal(drop / preset.stem)
+    assert "but a file in this folder is for drop" in refusal(drop / preset.stem)
 
 
 def test_a_scene_can_be_sent_to_another_process(drop: Path):
@@ -356,7 +356,7 @@ def test_what_python_shows_of_a_run_fits_a_line():
     [
         ("golff", "unknown scene golff; did you mean golf?"),
         ("Golf", "unknown scene Golf; did you mean golf?"),
-        ("qqqqqq", "unknown scene qqqqqq; sandbox list shows all there are"),
+        ("qqqqqq", "unknown scene qqqqqq; sandbox list shows them all"),
         ("", "unknown scene"),
         ("golf/qqqqqq", "golf has no preset qqqqqq"),
         ("golf/../golf", "unknown scene golf/../golf"),
@@ -395,13 +395,13 @@ def test_a_file_that_names_no_scene_is_refused(tmp_path: Path, content: str, exp
 
 def test_a_file_for_another_scene_is_refused(drop: Path):
     (drop / "drop.toml").write_text('scene = "golf"')
-    assert 'scene = "golf", but here it is a file for drop' in refusal(drop)
+    assert 'scene = "golf", but a file in this folder is for drop' in refusal(drop)
 
 
 @pytest.mark.parametrize(
     ("old", "new", "expected"),
     [
-        ("def build", "def construct", "a scene offers Parameters, build; build is missing"),
+        ("def build", "def construct", "a scene needs Parameters, build; build is missing"),
         ("class Parameters(Group)", "class Numbers(Group)", "Parameters is missing"),
         ("class Parameters(Group)", "class Parameters(dict)", "Parameters must be a sandbox.parameters.Group"),
         ("    accuracy: Accuracy", "    precision: Accuracy", "Parameters needs a line accuracy: Accuracy"),

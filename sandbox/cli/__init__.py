@@ -1,4 +1,4 @@
-"""The ``sandbox`` program. This file imports next to nothing, so that Ctrl-C is heard from the start."""
+"""The ``sandbox`` program. This file imports almost nothing, so that Ctrl-C works from the start."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ STOPPED = 130
 
 
 def main(args: list[str] | None = None) -> int:
-    """Run one command; what goes wrong becomes a line on stderr and an exit code.
+    """Run one command; an error becomes a line on stderr and an exit code.
 
-    Called as the program (without ``args``), Ctrl-C and SIGTERM both stop it, and all it began is put away first.
+    Called as the program (without ``args``), Ctrl-C and SIGTERM both stop it after cleaning up.
     """
     interrupts = Interrupts()
     try:

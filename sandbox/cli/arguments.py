@@ -1,4 +1,4 @@
-"""What several commands take: a scene, changes to it, whole numbers; read and checked."""
+"""Arguments that several commands share: a scene, changes to it, whole numbers; read and checked."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ SceneArgument = Annotated[
 ]
 OptionalScene = Annotated[
     str | None,
-    typer.Argument(metavar="[SCENE]", help="As above; all scenes where it is left out.", show_default=False),
+    typer.Argument(metavar="[SCENE]", help="A scene, preset or scene file; all scenes if none.", show_default=False),
 ]
 Settings = Annotated[
     list[str] | None,
@@ -40,8 +40,8 @@ Level = Annotated[
 ]
 
 
-def whole(option: str, low: int, high: float = float("inf"), unit: str = "") -> Callable[[str], int]:
-    """Reads the whole number of an option; its bounds are in ``unit``."""
+def whole_number(option: str, low: int, high: float = float("inf"), unit: str = "") -> Callable[[str], int]:
+    """A parser for the whole number of an option; its bounds are in ``unit``."""
     bounds = f"of {low} or more" if high == float("inf") else f"from {low} to {high}"
 
     def read(text: str) -> int:
@@ -57,7 +57,7 @@ def whole(option: str, low: int, high: float = float("inf"), unit: str = "") -> 
 
 
 def load(source: str, settings: list[str] | None, accuracy: str | None) -> Scene:
-    """The scene with ``--set`` and ``--accuracy`` over its file."""
+    """The scene with ``--set`` and ``--accuracy`` applied."""
     from sandbox import scene
 
     return scene.load(source, changes(settings, accuracy), overrides_from="--set")

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from sandbox.cli.arguments import Level, OptionalScene, SceneArgument, Settings, changes, load, loaded, whole
+from sandbox.cli.arguments import Level, OptionalScene, SceneArgument, Settings, changes, load, loaded, whole_number
 from sandbox.cli.outputs import writing
 from sandbox.cli.say import json_text, say
 from sandbox.errors import RequestError, RunError
@@ -20,17 +20,17 @@ def aim(
     ],
     target: Annotated[
         list[str],
-        typer.Option(metavar="NAME=VALUE", help="A result and what it shall be; once or twice.", show_default=False),
+        typer.Option(metavar="NAME=VALUE", help="A result and its target value; once or twice.", show_default=False),
     ],
     set_: Settings = None,
     accuracy: Level = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object in place of the card.")] = False,
-    show: Annotated[Path | None, typer.Option(metavar="F.png", help="Write a picture of the tries.")] = None,
+    show: Annotated[Path | None, typer.Option(metavar="F.png", help="Draw the results of all tries.")] = None,
 ) -> None:
     """Find the values that give a result: all of them in the range, each with its numerical error.
 
-    A target that is true or false, or a word, has intervals: the widest first, with the middle, which forgives most.
-    No solution is an answer too: it says how near it got, and the exit code is 0.
+    For a target that is true or false, or a word, it finds intervals: the widest first, with its middle, which is the
+    most forgiving value. If there is no solution it reports the nearest result, and the exit code is 0.
 
     \b
     Examples:
@@ -79,11 +79,14 @@ def sweep(
     samples: Annotated[
         int | None,
         typer.Option(
-            metavar="N", parser=whole("--samples", 1), help="So many random points: within ranges, from lists."
+            metavar="N",
+            parser=whole_number("--samples", 1),
+            help="Number of random points, within ranges and from lists.",
         ),
     ] = None,
     seed: Annotated[
-        int | None, typer.Option(metavar="N", parser=whole("--seed", 0), help="Which random points.  [default: 0]")
+        int | None,
+        typer.Option(metavar="N", parser=whole_number("--seed", 0), help="Seed of the random points.  [default: 0]"),
     ] = None,
     check: Annotated[bool, typer.Option("--check", help="Run each point again, finer, and add its errors.")] = False,
     plot: Annotated[
@@ -91,23 +94,23 @@ def sweep(
     ] = None,
     of: Annotated[str | None, typer.Option(metavar="NAME", help="The result that --plot shows.")] = None,
     parquet: Annotated[
-        Path | None, typer.Option(metavar="F.parquet", help="The rows once more; needs pyarrow.")
+        Path | None, typer.Option(metavar="F.parquet", help="Write the rows as Parquet too; needs pyarrow.")
     ] = None,
     jobs: Annotated[
         int | None,
         typer.Option(
             metavar="N",
-            parser=whole("--jobs", 1, unit="processes"),
-            help="Processes.  [default: one for each core that saves time]",
+            parser=whole_number("--jobs", 1, unit="processes"),
+            help="Number of processes.  [default: as many as save time]",
         ),
     ] = None,
     scheduler: Annotated[
-        str | None, typer.Option(metavar="ADDRESS", help="Have the workers of a Dask scheduler compute.")
+        str | None, typer.Option(metavar="ADDRESS", help="Run on the workers of a Dask scheduler.")
     ] = None,
 ) -> None:
     """Run a scene once for each point of a grid, or for random points, and write a row for each.
 
-    Ctrl-C keeps the rows that are done; the same command again resumes from there. What another sweep left in the file
+    Ctrl-C keeps the rows that are done; the same command again resumes from there. If the file holds another sweep, it
     is kept as F.csv~. A point that fails is a row with its error.
 
     \b
@@ -153,7 +156,7 @@ def sweep(
         written = [f"wrote {path}" for path in (out, plot, parquet) if path is not None]
         say("\n".join([done.as_text(), *written]))
     if done.failures == done.points - done.resumed > 0:
-        raise RunError(f"every point failed, first with: {done.first_error}")
+        raise RunError(f"every point failed, the first with: {done.first_error}")
 
 
 def trade(
@@ -165,9 +168,9 @@ def trade(
         Path | None, typer.Option(metavar="F.png", help="Draw error against speed, a curve for each method.")
     ] = None,
 ) -> None:
-    """Measure speed against accuracy for a scene: every method, the levels, and what each part of the model is worth.
+    """Measure speed against accuracy for a scene: every method and level, and what each part of the model contributes.
 
-    Takes half a minute, on a machine that does nothing else.
+    Takes half a minute on an idle machine.
 
     \b
     Examples:
@@ -198,11 +201,11 @@ def stress(
     accuracy: Level = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print one JSON list in place of the tables.")] = False,
 ) -> None:
-    """Run a scene, or all of them, at the extremes by every method, and tell what happened at each.
+    """Run a scene, or all of them, at extreme values with every method, and report what happened at each.
 
     \b
     Examples:
-      sandbox stress             # all scenes, and setups of no scene
+      sandbox stress             # all scenes, and setups without a scene
       sandbox stress golf
       sandbox stress golf/driver --accuracy fast --json
     """
@@ -221,7 +224,7 @@ def validate(
     accuracy: Level = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print one JSON list in place of the tables.")] = False,
 ) -> None:
-    """Compare published numbers, with their sources, with ours, for a scene or for all of them.
+    """Compare results with published numbers and their sources, for a scene or for all of them.
 
     \b
     Examples:

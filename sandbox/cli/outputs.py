@@ -1,4 +1,4 @@
-"""The files that a run can be written as: one table of options, with what each holds and who writes it."""
+"""The files that a run can be written to: a table of options, with each file's type and the function that writes it."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from sandbox.errors import RequestError, RunError
 if TYPE_CHECKING:
     from sandbox.engine.run import Run
 
-#: Smallest and largest pictures, in px, and what is drawn where nothing is asked.
+#: Smallest and largest pictures, in px, and the default.
 SMALLEST, LARGEST, USUAL = (320, 180), (7680, 4320), (1280, 720)
 
 Size = tuple[int, int]
@@ -22,7 +22,7 @@ Size = tuple[int, int]
 
 @dataclass(frozen=True)
 class Drawn:
-    """A run to be written, and how its pictures were asked for; ``rate`` is in frames per second."""
+    """A run to write, and the requested size and rate of its pictures; ``rate`` is in frames per second."""
 
     run: Run
     size: Size | None = None
@@ -75,7 +75,7 @@ def _energy(drawn: Drawn, path: Path) -> None:
 
 
 def _animation(saver: str, rate: int) -> Callable[[Drawn, Path], None]:
-    """Writes with a function of sandbox.picture.frames; ``rate`` where none was asked for."""
+    """Writes with a function of sandbox.picture.frames; ``rate`` is the default."""
 
     def write(drawn: Drawn, path: Path) -> None:
         from sandbox.files import no_empty_folder
@@ -100,10 +100,10 @@ OUTPUTS = (
 )
 
 
-def asked(paths: Mapping[str, Path | None], size: str | None, rate: int | None) -> dict[Output, Path]:
-    """The outputs that were asked for, by their options. Raises RequestError, before any work is done, for one that
-    could not be written, and for a size or rate that nothing would have."""
-    from sandbox.files import check_apart, check_file, check_folder
+def requested(paths: Mapping[str, Path | None], size: str | None, rate: int | None) -> dict[Output, Path]:
+    """The requested outputs with their paths. Raises RequestError, before any work is done, for one that cannot be
+    written, and for a size or rate that no output uses."""
+    from sandbox.files import check_distinct, check_file, check_folder
 
     chosen = {output: path for output in OUTPUTS if (path := paths[output.option]) is not None}
     for output, path in chosen.items():
@@ -114,7 +114,7 @@ def asked(paths: Mapping[str, Path | None], size: str | None, rate: int | None) 
 
             check_folder(output.option, path)
             check_frames_folder(output.option, path)
-    check_apart(paths)
+    check_distinct(paths)
     if rate is not None and not any(output.moves for output in chosen):
         raise RequestError(f"--fps {rate}: goes with --frames, --gif or --webp")
     if size is not None and not any(output.is_picture for output in chosen):
@@ -145,7 +145,7 @@ def read_size(text: str) -> Size:
 
 @contextmanager
 def writing(option: str, path: Path) -> Iterator[None]:
-    """A disk that is full, or a folder that went away, in one line."""
+    """Report a full disk, or a folder that was removed, in one line."""
     from sandbox.files import reason
     from sandbox.tracebacks import of_user_code
 

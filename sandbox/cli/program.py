@@ -1,4 +1,4 @@
-"""The program: its commands, and how each ends."""
+"""The program: its commands, their errors and exit codes."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ def _program(
 
     \b
     Begin with:
-      sandbox list                                  # what there is
+      sandbox list                                  # all scenes and presets
       sandbox run golf                              # one shot, and its numbers
       sandbox run golf --set launch.speed="150 mph" --poster golf.png
     """
@@ -59,7 +59,7 @@ app.command("validate")(lab.validate)
 
 
 def call(args: list[str] | None) -> int:
-    """Run one command; what goes wrong becomes a line on stderr and an exit code. Ctrl-C is a KeyboardInterrupt."""
+    """Run one command; an error becomes a line on stderr and an exit code. Ctrl-C is a KeyboardInterrupt."""
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, TextIOWrapper):
             stream.reconfigure(errors="replace")  # a terminal without "±" shows "?"
@@ -70,7 +70,7 @@ def call(args: list[str] | None) -> int:
             raise KeyboardInterrupt
         return code
     except typer.TyperException as error:  # unknown command, missing argument, bad option
-        hint = _unquoted(given, error.format_message()) or f"{_asked(error, given)} --help lists what it takes"
+        hint = _unquoted(given, error.format_message()) or f"{_command_of(error, given)} --help shows its arguments"
         return _fail(f"{error.format_message()}\n{hint}", error.exit_code)
     except Stopped as error:
         typer.echo(printable(str(error)), err=True)
@@ -87,7 +87,7 @@ def call(args: list[str] | None) -> int:
 
 
 def _unquoted(args: list[str], message: str) -> str:
-    """What to write where a unit stands apart from its number, as in ``--set launch.speed=150 mph``, or ""."""
+    """A hint for a unit that is separated from its number, as in ``--set launch.speed=150 mph``, or ""."""
     from sandbox.units import suggestion
 
     for value, unit in pairwise(args):
@@ -97,12 +97,12 @@ def _unquoted(args: list[str], message: str) -> str:
     return ""
 
 
-def _asked(error: typer.TyperException, args: list[str]) -> str:
-    """The program, or the command of it, that was asked wrongly."""
+def _command_of(error: typer.TyperException, args: list[str]) -> str:
+    """The program or the command that had the wrong arguments."""
     context = getattr(error, "ctx", None)
     if context is not None:
         return str(context.command_path)
-    first = args[0]  # of an option without its value only that is known
+    first = args[0]  # an error about a missing value has no context
     return "sandbox" if first.startswith("-") else f"sandbox {first}"
 
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from sandbox.cli import outputs
-from sandbox.cli.arguments import Level, SceneArgument, Settings, load, whole
+from sandbox.cli.arguments import Level, SceneArgument, Settings, load, whole_number
 from sandbox.cli.say import say
 from sandbox.errors import RequestError
 
@@ -36,7 +36,7 @@ def run(
     ] = None,
     gif: Annotated[Path | None, typer.Option(metavar="F.gif", help="Write the run as an animation.")] = None,
     webp: Annotated[
-        Path | None, typer.Option(metavar="F.webp", help="The same in all colours, and in fewer bytes.")
+        Path | None, typer.Option(metavar="F.webp", help="Write it as WebP: all colours, smaller file.")
     ] = None,
     strip: Annotated[Path | None, typer.Option(metavar="F.png", help="Write five frames side by side.")] = None,
     energy: Annotated[
@@ -52,7 +52,7 @@ def run(
         int | None,
         typer.Option(
             metavar="N",
-            parser=whole("--fps", 1, 240, "frames per second"),
+            parser=whole_number("--fps", 1, 240, "frames per second"),
             help="Frames per second of the run, from 1 to 240.  [default: 60 for --frames, else 25]",
         ),
     ] = None,
@@ -90,10 +90,10 @@ def run(
         "--frames": frames,
     }
     pixels = None if size is None else outputs.read_size(size)
-    files = outputs.asked(paths, size, fps)
+    files = outputs.requested(paths, size, fps)
     try:
         done = simulate(chosen)
-    except RequestError as error:  # what only the scene itself can see: two balls in one place
+    except RequestError as error:  # what only the scene can check: two balls in one place
         raise RequestError(f"{scene}: {error}") from None
     checked = check_scene(chosen, done) if check else None
     other = None if compare is None else (compare, simulate(_comparable(chosen, compare, accuracy)))
@@ -108,7 +108,7 @@ def run(
 
 
 def _comparable(scene: Scene, source: str, accuracy: str | None) -> Scene:
-    """The scene to compare with, which must be one of the same sport; ``--set`` is for the other alone."""
+    """The scene to compare with, which must be of the same sport; ``--set`` does not apply to it."""
     other = load(source, None, accuracy)
     if other.folder.resolve() != scene.folder.resolve():
         raise RequestError(

@@ -1,4 +1,4 @@
-"""What the program prints on stdout, and JSON of what it found."""
+"""Printing on stdout, and JSON text."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from sandbox.text import printable
 
 
 def say(text: str) -> None:
-    """Print on stdout, at once. The reader of a pipe may go when it likes; a full disk is reported."""
+    """Print on stdout, at once. A closed pipe ends the program quietly; a full disk is reported."""
     if sys.stdout is None:
         raise RunError("stdout cannot be written: it is closed")
     try:
@@ -27,9 +27,9 @@ def say(text: str) -> None:
 
 
 def json_text(value: Any) -> str:
-    """JSON of plain values; what is not finite is null."""
+    """JSON of numbers, words and lists; NaN and infinities are null."""
     import json
 
-    from sandbox.files import plain
+    from sandbox.files import json_ready
 
-    return json.dumps(plain(value), allow_nan=False, ensure_ascii=False)
+    return json.dumps(json_ready(value), allow_nan=False, ensure_ascii=False)

@@ -16,7 +16,7 @@ def list_scenes(
         str | None, typer.Argument(metavar="[SCENE]", help="Only this scene and its presets.", show_default=False)
     ] = None,
 ) -> None:
-    """Show the scenes and presets there are, and the scenes and scene files of this folder."""
+    """List all scenes and presets, and the scenes and scene files in this folder."""
     from sandbox.lab.tables import table
     from sandbox.scene import listings, listings_in, listings_of, scene_files_in
 
@@ -43,9 +43,9 @@ def schema(scene: SceneArgument) -> None:
 
 def new_scene(
     name: Annotated[Path, typer.Argument(metavar="NAME", help="The folder to make: its name is the scene's.")],
-    from_above: Annotated[bool, typer.Option("--from-above", help="Seen from above, not from the side.")] = False,
+    from_above: Annotated[bool, typer.Option("--from-above", help="Show it from above, not from the side.")] = False,
 ) -> None:
-    """Write a scene of your own: one that works, to change.
+    """Create a scene of your own: one that works, for you to edit.
 
     \b
     Example:
@@ -63,13 +63,12 @@ def play(
     set_: Settings = None,
     accuracy: Level = None,
     scene_of_replay: Annotated[
-        str | None, typer.Option("--scene", metavar="FOLDER", help="the scene that a replay is of")
+        str | None, typer.Option("--scene", metavar="FOLDER", help="The scene of a replay file.")
     ] = None,
 ) -> None:
-    """Open the window: pull back anywhere, let go, and see. H lists the keys.
+    """Open the window: pull back anywhere and let go to shoot. H lists the keys.
 
-    A replay file is played in its place. It never runs code of its own: of a scene that is not installed, --scene
-    says which to take.
+    SCENE may also be a replay file, which contains no code: if its scene is not installed, --scene names the folder.
 
     \b
     Examples:
@@ -80,10 +79,10 @@ def play(
     from sandbox.window.app import play as play_in_window
 
     changed = changes(set_, accuracy)
-    if any("[" in key for key in changed):  # the window keeps what was changed by whole parameters
-        from sandbox.parameters import whole
+    if any("[" in key for key in changed):  # the window keeps changes by whole parameters
+        from sandbox.parameters import without_indices
         from sandbox.scene import load
 
         parameters = load(scene).parameters
-        changed = whole(type(parameters), parameters.model_dump(), scene, changed, "--set")
+        changed = without_indices(type(parameters), parameters.model_dump(), scene, changed, "--set")
     play_in_window(scene, changed, scene_of_replay)

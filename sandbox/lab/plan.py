@@ -17,7 +17,7 @@ from sandbox.lab.axes import MOST_POINTS, Axis, Span, Values
 from sandbox.lab.provenance import Provenance, provenance
 from sandbox.lab.runs import fly_together, runs
 from sandbox.scene import Scene, compare
-from sandbox.tracebacks import in_a_line
+from sandbox.tracebacks import one_line_error
 
 if TYPE_CHECKING:
     from sandbox.engine.run import Run
@@ -179,7 +179,7 @@ def failed(plan: Plan, start: int, stop: int, why: str) -> list[Record]:
 def _record(keys: Sequence[str], values: Sequence[Any], run: Run | Exception) -> Record:
     row: Record = dict(zip(keys, values, strict=True))
     if isinstance(run, Exception):
-        return row | {"error": in_a_line(run)}
+        return row | {"error": one_line_error(run)}
     row.update(run.result)
     row.setdefault("ended", run.ended)
     for flag in FLAGS:
@@ -193,7 +193,7 @@ def _trust(run: Run | Exception, finer: Run | Exception) -> Record:
     if isinstance(run, Exception):
         return {}
     if isinstance(finer, Exception):
-        return {HANGS: f"a finer run fails: {in_a_line(finer)}"}
+        return {HANGS: f"a finer run fails: {one_line_error(finer)}"}
     outcome = compare(run, finer)
     numbers = [name for name, value in run.result.items() if name in outcome.errors or value is None]
     return {f"{name}_error": outcome.errors.get(name) for name in numbers} | {HANGS: " ".join(outcome.changed)}

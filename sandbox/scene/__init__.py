@@ -1,4 +1,4 @@
-"""Scenes: what one is, how it is found, how it is run, and how far its result is to be trusted."""
+"""Scenes: what they are, how they are found and run, and how accurate their results are."""
 
 from sandbox.scene.checking import Check, check, compare
 from sandbox.scene.finding import (

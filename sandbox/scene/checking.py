@@ -1,4 +1,4 @@
-"""How far a result is to be trusted: the run again, finer, and again from starts that differ by a nanometre."""
+"""How accurate a result is: the scene run again, finer, and again from starts that differ by a nanometre."""
 
 from __future__ import annotations
 
@@ -17,42 +17,44 @@ if TYPE_CHECKING:
     from sandbox.engine.run import Run
     from sandbox.engine.setup import Setup
 
-#: How far in m every ball is moved for a nudged run, each its own way, and how many such runs there are. Nobody places
-#: a ball to a nanometre.
+#: How far in m every ball is moved for a nudged run, each in its own direction, and the number of such runs. Nobody
+#: places a ball to a nanometre.
 NUDGE, NUDGES = 1e-9, 8
 
-#: How far in m every ball is moved for the finer run: below what the method resolves (its contact skin), so that
-#: motion known in closed form is checked as well.
+#: How far in m every ball is moved for the finer run: less than the method resolves (its contact skin), so that motion
+#: known in closed form is checked as well.
 _ROUNDING = 1e-11
 
 #: A number is chaotic where a nudge grows by this factor or more: a nanometre to a millimetre.
 _CHAOTIC = 1e6
 
-#: Angle in rad by which the direction of one nudge is turned from the last: the golden angle, so that they spread.
+#: Angle in rad between the directions of successive nudges: the golden angle, which spreads them.
 _TURN = math.pi * (3.0 - math.sqrt(5.0))
 
 
 @dataclass(frozen=True)
 class Check:
-    """How far a result is to be trusted, by runs that ought to agree with it."""
+    """How accurate a result is, according to runs that should agree with it."""
 
     finer: Run
-    errors: dict[str, float] = field(default_factory=dict)  # estimated, for each number of the result, in its unit
-    changed: dict[str, tuple[Any, Any]] = field(default_factory=dict)  # what else differs: in the run, in the finer one
-    #: How far each number moves at most where every ball starts a nanometre elsewhere, in its unit.
+    errors: dict[str, float] = field(default_factory=dict)  # estimated, of each number in the result, in its unit
+    changed: dict[str, tuple[Any, Any]] = field(
+        default_factory=dict
+    )  # other results that differ: in the run, in the finer one
+    #: The most that each number changes if every ball starts a nanometre away, in its unit.
     spread: dict[str, float] = field(default_factory=dict)
-    #: What else such nudges change, and what it is in each of them that differs.
+    #: Other results that such nudges change, with the values in the runs that differ.
     unsettled: dict[str, list[Any]] = field(default_factory=dict)
     nudges: int = 0  # runs from nudged starts
 
     @property
     def chaotic(self) -> dict[str, float]:
-        """The numbers that a nudge of a nanometre moves by 1e6 times as much or more, and how far."""
+        """The numbers that a nudge of a nanometre changes by at least 1e6 times as much, and by how much."""
         return {name: spread for name, spread in self.spread.items() if spread >= _CHAOTIC * NUDGE}
 
 
 def check(scene: Scene | str | Path, run: Run | None = None) -> Check:
-    """Estimate the errors of the scene's result: run it again, finer, and from nudged starts, and compare.
+    """Estimate the errors of the scene's result: run it again, finer and from nudged starts, and compare.
 
     The error of a number is the largest difference to any of those runs.
     """
@@ -73,12 +75,12 @@ def check(scene: Scene | str | Path, run: Run | None = None) -> Check:
 
 
 def compare(run: Run, finer: Run) -> Check:
-    """The estimated errors of a run's result, by those of a finer run of the same scene."""
+    """The estimated errors of a run's result, compared with a finer run of the same scene."""
     return Check(finer, *_differences(run.result, finer.result))
 
 
 def nudged(setup: Setup, distance: float, turn: int) -> Setup:
-    """The setup with every ball moved by ``distance`` (m), each its own way; ``turn`` chooses among the ways."""
+    """The setup with every ball moved by ``distance`` (m), each in its own direction, which ``turn`` chooses."""
     balls = []
     for place, ball in enumerate(setup.balls):
         angle = _TURN * (turn * len(setup.balls) + place + 1)
@@ -89,7 +91,7 @@ def nudged(setup: Setup, distance: float, turn: int) -> Setup:
 
 
 def _nudged_results(scene: Scene, run: Run) -> Iterator[Mapping[str, Any]]:
-    """The results from nudged starts; of a run that fails, that it does."""
+    """The results from nudged starts; for a run that fails, its error in place of each result."""
     for turn in range(NUDGES):
         try:
             yield simulate_at(scene, run.accuracy, nudged(scene.build(), NUDGE, turn)).result
@@ -100,7 +102,7 @@ def _nudged_results(scene: Scene, run: Run) -> Iterator[Mapping[str, Any]]:
 def _differences(
     result: Mapping[str, Any], other: Mapping[str, Any]
 ) -> tuple[dict[str, float], dict[str, tuple[Any, Any]]]:
-    """How far the numbers of two results are apart, and what else differs."""
+    """The differences between the numbers of two results, and what else differs."""
     apart: dict[str, float] = {}
     changed: dict[str, tuple[Any, Any]] = {}
     for name, value in result.items():
@@ -122,6 +124,6 @@ def _taken_apart(value: Any) -> tuple[Any, list[float]]:
     elif isinstance(value, list | tuple):
         items, forms = list(value), []
     else:
-        return value if value == value else None, []  # NaN is a result that is not there
+        return value if value == value else None, []  # NaN counts as no result
     parts = [_taken_apart(item) for item in items]
     return [*forms, *(form for form, _ in parts)], [number for _, numbers in parts for number in numbers]

@@ -1,9 +1,9 @@
 """Finding scenes: those that come with the sandbox, with an installed package (entry point group ``sandbox.scenes``),
-and those that stand anywhere on disk.
+and those anywhere on disk.
 
-Opening data runs no code but that of installed scenes: a name, on the command line or in a file, is always theirs. A
-``scene.py`` of one's own runs only where its folder is given as a path: ``./volleyball``, ``../volleyball`` or an
-absolute one; on the command line, or as ``scene = "./volleyball"`` in a scene file, from where that file stands.
+Opening data runs only the code of installed scenes: a name, on the command line or in a file, always means one of them.
+A user's own ``scene.py`` runs only if its folder is given as a path: ``./volleyball``, ``../volleyball`` or an absolute
+one; on the command line, or as ``scene = "./volleyball"`` in a scene file, relative to that file.
 """
 
 from __future__ import annotations
@@ -23,13 +23,13 @@ from sandbox.scene.scene import Scene, docstring, first_comment, parameters_clas
 
 ENTRY_POINTS = "sandbox.scenes"
 
-#: No scene file is larger than this, in bytes; a TOML file that is holds something else.
+#: A TOML file larger than this, in bytes, is not a scene file.
 LARGEST_FILE = 1_000_000
 
 
 @dataclass(frozen=True)
 class Found:
-    """What a name or a path leads to."""
+    """What a name or a path refers to."""
 
     name: str
     folder: Path
@@ -39,11 +39,11 @@ class Found:
 
 
 def load(source: str | Path, overrides: Mapping[str, Any] | None = None, *, overrides_from: str = "override") -> Scene:
-    """The scene named by ``source``, with ``overrides`` (by keys such as ``"air.wind"``, or ``"air.wind[0]"`` for one
-    of a list) over its scene file.
+    """The scene named by ``source``, with ``overrides`` of its scene file, by keys such as ``"air.wind"``, or
+    ``"air.wind[0]"`` for one entry of a list.
 
     ``source`` is a scene (``"golf"``), a preset (``"golf/driver"``), or a path to a scene file or a scene's folder.
-    Raises RequestError for what cannot be found, read or accepted; ``overrides_from`` names the overrides in it.
+    Raises RequestError if it is not found, not readable or invalid; ``overrides_from`` names the overrides in messages.
     """
     found = _find(source)
     file, folder = found.file, found.folder
@@ -60,7 +60,7 @@ def as_scene(scene: Scene | str | Path) -> Scene:
 
 
 def _preset_values(found: Found, where: str) -> dict[str, Any]:
-    """What stands in the preset that a scene file begins from."""
+    """The values of the preset that a scene file begins from."""
     try:
         values = declared.read_toml(_preset(found.name, found.folder, found.base))
     except RequestError as error:
@@ -70,7 +70,7 @@ def _preset_values(found: Found, where: str) -> dict[str, Any]:
 
 
 def _layers(found: Found, where: str) -> list[tuple[str, dict[str, Any]]]:
-    """What is read, each over the one before: the scene's own file, a preset that a file begins from, the file."""
+    """The layers to read, each overriding the one before: the scene's own file, a file's preset, the file."""
     own = _default_file(found.folder)
     files = [] if own is None or found.file is None else [own]
     if found.file is not None and (own is None or found.file.resolve() != own.resolve()):
@@ -90,7 +90,7 @@ def _read(
     overrides: Mapping[str, Any] | None,
     overrides_from: str,
 ) -> declared.Group:
-    """The parameters in these layers. Raises RequestError, which names the first of them that is wrong."""
+    """The parameters in these layers. Raises RequestError, which names the first layer that is invalid."""
     values: dict[str, Any] = {}
     for _, layer in layers:
         values = declared.over(schema, values, layer)
@@ -103,7 +103,7 @@ def _read(
 
 
 def parameters_of(source: str | Path) -> tuple[str, declared.Group]:
-    """Name and own parameters of the scene that ``source`` names; of a file only the key ``scene`` matters."""
+    """Name and default parameters of the scene that ``source`` names; only the key ``scene`` of a file matters."""
     found = _find(source)
     own = _default_file(found.folder)
     where = shown(own or found.folder)
@@ -112,7 +112,7 @@ def parameters_of(source: str | Path) -> tuple[str, declared.Group]:
 
 
 def folder_of(source: str | Path) -> Path | None:
-    """The folder of the scene that ``source`` names, without importing anything from it; None where there is none."""
+    """The folder of the scene that ``source`` names, without importing anything from it; None if there is none."""
     try:
         return _find(source).folder
     except RequestError:
@@ -146,13 +146,13 @@ class Listing:
 
 
 def listings() -> Iterator[Listing]:
-    """Every scene that can be named, each followed by its presets."""
+    """Every installed scene, each followed by its presets."""
     for name, folder in sorted(_named_folders().items()):
         yield from _listed(name, folder)
 
 
 def listings_in(place: Path) -> Iterator[Listing]:
-    """The scenes whose folders stand in ``place``, each followed by its presets; named as found from there."""
+    """The scenes with folders in ``place``, each followed by its presets; named by paths from there."""
     ours = (resources.PACKAGE, resources.folder("template"))  # in a checkout
     for folder in sorted(file.parent for file in place.glob("*/scene.py")):
         if folder.resolve() not in ours:
@@ -166,7 +166,7 @@ def scene_files_in(place: Path) -> Iterator[Listing]:
             if file.is_file() and file.stat().st_size <= LARGEST_FILE and "scene" in declared.read_toml(file):
                 yield Listing(file.name, first_comment(file))
         except (OSError, RequestError):
-            continue  # not one that could be run
+            continue  # it could not be run
 
 
 def listings_of(source: str) -> list[Listing]:
@@ -193,7 +193,7 @@ def _find(source: str | Path) -> Found:
     except OSError as error:  # a name too long, a folder that may not be entered
         raise RequestError(f"{shortened(str(source))}: cannot be read: {reason(error)}") from None
     except ValueError:
-        raise RequestError(f"{shortened(repr(source))}: a name or path has no NUL character") from None
+        raise RequestError(f"{shortened(repr(source))}: a name or path cannot contain a NUL character") from None
 
 
 def _named(source: str) -> Found:
@@ -240,13 +240,13 @@ def _in_folder(path: Path, preset: str = "") -> Found:
         written = declared.read_toml(file).get("scene", folder.name)
         if written != folder.name and not _leads_to(folder, file, written):
             raise RequestError(
-                f"{shown(file)}: scene = {declared.shown(written)}, but here it is a file for {folder.name}"
+                f"{shown(file)}: scene = {declared.shown(written)}, but a file in this folder is for {folder.name}"
             )
     return Found(folder.name, folder, file, preset=preset or None)
 
 
 def _leads_to(folder: Path, file: Path, written: Any) -> bool:
-    """Whether what a scene file says of its scene is a path to this folder."""
+    """Whether a scene file names its scene by a path to this folder."""
     return isinstance(written, str) and _is_path(written) and (file.parent / written).resolve() == folder
 
 
@@ -256,9 +256,7 @@ def _is_word(name: str) -> bool:
 
 def _unknown(name: str) -> str:
     near = declared.nearest(name, [listing.name for listing in listings()])
-    return f"unknown scene {shortened(name)}; " + (
-        f"did you mean {near}?" if near else "sandbox list shows all there are"
-    )
+    return f"unknown scene {shortened(name)}; " + (f"did you mean {near}?" if near else "sandbox list shows them all")
 
 
 def _built_in(name: str) -> Path | None:
@@ -280,7 +278,7 @@ def _from_package(name: str) -> Path | None:
 
 
 def _folder_of(module_name: str) -> Path | None:
-    """Where the module ``package.scene`` of an installed package stands."""
+    """The folder of the module ``package.scene`` of an installed package."""
     try:
         spec = importlib.util.find_spec(module_name.partition(":")[0])
     except ModuleNotFoundError:
@@ -317,8 +315,8 @@ def _preset(name: str, folder: Path, preset: str) -> Path:
 
 
 def _of_file(path: Path) -> Found:
-    """The scene that a scene file is for. A name is that of an installed scene, whatever is next to the file; a
-    path is the user's own."""
+    """The scene that a scene file is for. A name means an installed scene, whatever is next to the file; a path means
+    the user's own."""
     values = declared.read_toml(path)
     if "scene" not in values:
         raise RequestError(f'{path}: needs a line that names its scene, such as scene = "golf"{_own_folder(path)}')
@@ -341,12 +339,12 @@ def _of_file(path: Path) -> Found:
         raise RequestError(f"{path}: {_unknown(name)}{_own_folder(path)}")
     is_preset = path.resolve().parent == folder / "presets"
     if is_preset and preset:
-        raise RequestError(f'{path}: scene = "{written}", but here it is a file for {name}')
+        raise RequestError(f'{path}: scene = "{written}", but a file in this folder is for {name}')
     return Found(name, folder, path, preset, path.stem if is_preset else None)
 
 
 def _by_path(path: Path, written: str) -> Found:
-    """The scene of a scene file that says where its folder is."""
+    """The scene of a scene file that gives the path of its folder."""
     place = path.parent / written
     base = "" if (place / "scene.py").is_file() else place.name
     folder = (place.parent if base else place).resolve()
@@ -359,7 +357,7 @@ def _by_path(path: Path, written: str) -> Found:
 
 
 def _own_folder(path: Path) -> str:
-    """How to ask for a file in the folder of a scene of one's own, as the end of a sentence; empty for any other."""
+    """How to name a file in the folder of a user's own scene, as the end of a message; "" for any other file."""
     parent = path.parent
     folder = parent.parent if parent.name == "presets" else parent
     if not (folder / "scene.py").is_file():

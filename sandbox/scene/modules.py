@@ -16,7 +16,7 @@ from types import ModuleType
 from sandbox import resources
 from sandbox.errors import RequestError, no_exit
 
-#: Scene folders are imported as packages below this name, which nothing else can have taken.
+#: Scene folders are imported as packages below this name, which nothing else uses.
 NAMESPACE = "sandbox_scenes"
 
 
@@ -28,7 +28,7 @@ def module_in(folder: Path, name: str) -> ModuleType:
         with no_exit():
             _package(package, folder)
             return importlib.import_module(f"{package}.{name}")
-    except (SyntaxError, ValueError):  # of NUL bytes Python says neither where nor always as a SyntaxError
+    except (SyntaxError, ValueError):  # for NUL bytes Python names no file, and not always a SyntaxError
         file = folder / f"{name}.py"
         if b"\0" in file.read_bytes():
             raise RequestError(f"{file}: not a text file, it holds NUL bytes") from None
@@ -36,7 +36,7 @@ def module_in(folder: Path, name: str) -> ModuleType:
 
 
 def forget(folder: Path) -> dict[str, ModuleType]:
-    """Have the modules of a scene's folder read again when they are next asked for; returns what they were."""
+    """Make the next import read the modules of a scene's folder again; returns the modules so far."""
     package = _package_of(folder)
     names = [name for name in sys.modules if name == package or name.startswith(f"{package}.")]
     for file in folder.glob("*.py"):  # two versions of the same length, saved within a second, look alike to Python
@@ -48,7 +48,7 @@ def forget(folder: Path) -> dict[str, ModuleType]:
 
 @contextmanager
 def read_again(folder: Path) -> Iterator[None]:
-    """The modules of a scene's folder as they stand in its files now; as they were, if that fails."""
+    """Read the modules of a scene's folder again; if the work inside fails, restore the modules so far."""
     before = forget(folder)
     try:
         yield
@@ -62,7 +62,7 @@ def _package_of(folder: Path) -> str:
     """Name of the package that a scene's folder is imported as."""
     package = f"{NAMESPACE}.{re.sub(r'[^0-9A-Za-z_]', '_', folder.name)}"
     if folder.parent != resources.folder("scenes"):
-        # Two folders of one name may be in use at once.
+        # Two folders with the same name may be in use at once.
         package += "_" + hashlib.sha256(str(folder).encode()).hexdigest()[:12]
     return package
 

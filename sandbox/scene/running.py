@@ -23,7 +23,7 @@ def simulate(scene: Scene | str | Path) -> Run:
 
 
 def simulate_at(scene: Scene, accuracy: Accuracy, setup: Setup | None = None) -> Run:
-    """Run the scene at an accuracy; ``setup`` is one like the scene's own, to be run in its place."""
+    """Run the scene at an accuracy; ``setup`` is a variation of the scene's own, to run in its place."""
     from sandbox.engine import simulate as run_setup
 
     run = run_setup(setup or scene.build(), accuracy)

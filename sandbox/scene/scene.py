@@ -1,7 +1,7 @@
-"""A scene: its numbers, and what its modules offer.
+"""A scene: its parameters, and what its modules define.
 
-A scene is a folder with a ``scene.py`` that offers ``Parameters`` and ``build``, and if it likes ``FACTS``, ``verdict``
-and ``CONTROLS``; a scene file ``<name>.toml``; presets in ``presets/*.toml``; and, if it likes, a ``picture.py``.
+A scene is a folder with a ``scene.py`` that defines ``Parameters`` and ``build``, and optionally ``FACTS``, ``verdict``
+and ``CONTROLS``; a scene file ``<name>.toml``; presets in ``presets/*.toml``; and optionally a ``picture.py``.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from sandbox import parameters as declared
 from sandbox.errors import RequestError, RunError, no_exit
 from sandbox.scene.modules import module_in
 from sandbox.sport.controls import Controls
-from sandbox.sport.facts import PLAIN_FACTS, Fact, mistake_in, plain_verdict
+from sandbox.sport.facts import FALLBACK_FACTS, Fact, fallback_verdict, mistake_in
 
 if TYPE_CHECKING:
     from sandbox.engine.event import Event
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from sandbox.engine.setup import Setup
 
 #: Draws any scene that has no picture.py.
-PLAIN_PICTURE = "sandbox.picture.plain"
+FALLBACK_PICTURE = "sandbox.picture.plain"
 OFFERS = ("Parameters", "build")
 #: How the functions of a scene, and its picture, are called.
 CALLS = {
@@ -44,13 +44,13 @@ CALLS = {
 
 @dataclass(frozen=True)
 class Scene:
-    """A sport with all its numbers, ready to run."""
+    """A sport with all its parameters, ready to run."""
 
     name: str
     preset: str | None
     parameters: Any  # the scene's own Parameters
     folder: Path
-    note: str = field(default="", compare=False)  # the first comment of a scene file that stands elsewhere
+    note: str = field(default="", compare=False)  # the first comment of a scene file outside the scene's folder
 
     @property
     def module(self) -> ModuleType:
@@ -59,17 +59,17 @@ class Scene:
 
     @property
     def about(self) -> str:
-        """What it is, in a line: of the preset if there is one, of a scene file elsewhere, else of the scene."""
+        """One line on what it is: from the preset, a scene file elsewhere, or the scene itself."""
         if self.preset is not None:
             return first_comment(self.folder / "presets" / f"{self.preset}.toml")
         return self.note or docstring(self.folder / "scene.py")
 
     def picture_module(self) -> ModuleType:
-        """The scene's ``picture.py``, or a plain one for a scene without; imported when first asked for: it brings
-        pygame with it."""
-        os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")  # its greeting on stdout, which belongs to --json
+        """The scene's ``picture.py``, or a simple one for a scene without; imported on first use, as it imports
+        pygame."""
+        os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")  # no greeting on stdout, which is for --json
         if not (self.folder / "picture.py").is_file():
-            return importlib.import_module(PLAIN_PICTURE)
+            return importlib.import_module(FALLBACK_PICTURE)
         module = module_in(self.folder, "picture")
         picture = getattr(module, "Picture", None)
         _check_calls(self.folder / "picture.py", "Picture", picture)
@@ -78,16 +78,16 @@ class Scene:
         return module
 
     def picture(self, run: Run, size: tuple[int, int] | None = None, ghosts: Mapping[str, Run] | None = None) -> Any:
-        """The scene's picture of a run, with ``poster()`` and ``frame(t)``; ``size`` in px, or what the scene likes.
+        """The scene's picture of a run, with ``poster()`` and ``frame(t)``; ``size`` in px, or the scene's own choice.
 
-        ``ghosts`` are other runs of the scene by what they are called, to be drawn pale behind this one. Raises
-        RequestError where the scene's picture shows none.
+        ``ghosts`` are other runs of the scene by name, drawn pale behind this one. Raises RequestError if the scene's
+        picture cannot show them.
         """
         picture = self.picture_module().Picture
         chosen: dict[str, Any] = {} if size is None else {"size": size}
         if ghosts:
             if "ghosts" not in inspect.signature(picture).parameters:
-                raise RequestError(f"{self.name} shows one run alone: its Picture has no parameter ghosts")
+                raise RequestError(f"{self.name} shows one run alone: its Picture has no parameter named ghosts")
             chosen["ghosts"] = ghosts
         return picture(run, self.parameters, **chosen)
 
@@ -103,42 +103,43 @@ class Scene:
 
     @property
     def facts(self) -> Mapping[str, Fact]:
-        """What a run of this scene says of itself, by the names in its result, the most important first."""
-        facts: Sequence[Fact] = getattr(self.module, "FACTS", PLAIN_FACTS)
+        """The facts of a run of this scene, by their names in its result, the most important first."""
+        facts: Sequence[Fact] = getattr(self.module, "FACTS", FALLBACK_FACTS)
         return {fact.key: fact for fact in facts}
 
     @property
     def units(self) -> Mapping[str, str]:
-        """The unit of each fact, "" for what has none."""
+        """The unit of each fact, "" for a fact without one."""
         return {key: fact.unit for key, fact in self.facts.items()}
 
     def result(self, run: Run, asked: Collection[str] = ()) -> dict[str, Any]:
-        """The facts of a run, or those that are asked for, in their units; None for what did not happen."""
+        """The facts of a run, or those in ``asked``, in their units; None for what did not happen."""
         with no_exit():
             facts = {key: fact for key, fact in self.facts.items() if not asked or key in asked}
             result = {key: fact.how(run, self.parameters) for key, fact in facts.items()}
         for key, value in result.items():
             if _is_circular(value):
-                raise self._wrong(f"the fact {key}", "what does not contain itself", value)
-            if not _can_be_told(value):
+                raise self._wrong(f"the fact {key}", "a value that does not contain itself", value)
+            if not _is_reportable(value):
                 raise self._wrong(f"the fact {key}", "a number, a text, true or false, or a list of those", value)
         return result
 
     @property
     def measure(self) -> Callable[[Run, Any], Any] | None:
-        """What ``sandbox trade`` compares runs by, where the scene has a ``measure(run, parameters)`` of its own."""
+        """What ``sandbox trade`` compares runs by, if the scene has its own ``measure(run, parameters)``."""
         own: Callable[[Run, Any], Any] | None = getattr(self.module, "measure", None)
         return own
 
     def settles(self, asked: Collection[str]) -> Callable[[Event], bool] | None:
-        """Tells, event by event, when all of these facts can no longer change; None where one may until the end."""
+        """A function that takes each event and says whether all these facts are final; None if one is not until the
+        end."""
         facts = [self.facts[key] for key in asked if key in self.facts]
         if len(facts) < len(asked) or any(fact.settled == "end" for fact in facts):
             return None
         events: list[Event] = []
 
         def settled(event: Event) -> bool:
-            if events and event.t < events[-1].t:  # the run begins again, on another way through the engine
+            if events and event.t < events[-1].t:  # the run begins again, by another method of the engine
                 events.clear()
             events.append(event)
             return all(fact.is_settled(events, self.parameters) for fact in facts)
@@ -146,9 +147,9 @@ class Scene:
         return settled
 
     def rows(self, run: Run, errors: Mapping[str, float] | None = None, also: bool = False) -> list[tuple[str, str]]:
-        """The facts for people: label and text of each that happened.
+        """Label and text of each fact that happened, for a card.
 
-        With estimated errors where there are any, and, if ``also``, in a second unit where the sport has one.
+        With estimated errors if there are any and, if ``also``, in a second unit where the sport has one.
         """
         rows = []
         for key, fact in self.facts.items():
@@ -159,21 +160,21 @@ class Scene:
     def verdict(self, run: Run) -> str:
         """What happened, in a sentence."""
         with no_exit():
-            said = getattr(self.module, "verdict", plain_verdict)(run, self.parameters)
+            said = getattr(self.module, "verdict", fallback_verdict)(run, self.parameters)
         if not isinstance(said, str):
-            raise self._wrong("verdict", "a text", said)
+            raise self._wrong("verdict", "text", said)
         return said
 
     @property
     def controls(self) -> Controls:
-        """How a player plays it."""
+        """How a player controls it."""
         controls: Controls = getattr(self.module, "CONTROLS", Controls())
         return controls
 
     def _wrong(self, function: str, expected: str, value: Any) -> RunError:
-        """A scene's function handed back something else: mostly a forgotten return."""
+        """A scene's function returned something else, often because of a missing return."""
         file = shown(self.folder / "scene.py")
-        return RunError(f"{file}: {function} must return {expected}, and returned {shortened(repr(value))}")
+        return RunError(f"{file}: {function} must return {expected}, but returned {shortened(repr(value))}")
 
     @property
     def title(self) -> str:
@@ -193,10 +194,10 @@ def _is_circular(value: Any, around: tuple[int, ...] = ()) -> bool:
     return id(value) in around or any(_is_circular(item, (*around, id(value))) for item in inside)
 
 
-def _can_be_told(value: Any) -> bool:
-    """Whether cards, JSON and tables know what to do with a value."""
+def _is_reportable(value: Any) -> bool:
+    """Whether cards, JSON and tables can show a value."""
     if isinstance(value, Mapping | list | tuple):
-        return all(map(_can_be_told, value.values() if isinstance(value, Mapping) else value))
+        return all(map(_is_reportable, value.values() if isinstance(value, Mapping) else value))
     if isinstance(value, int) and not isinstance(value, bool):
         return value.bit_length() < 1000  # a float holds it
     return value is None or isinstance(value, bool | float | str) or hasattr(value, "tolist")  # numpy's
@@ -210,7 +211,7 @@ def parameters_class(folder: Path) -> type[declared.Group]:
     module = module_in(folder, "scene")
     missing = [name for name in OFFERS if not callable(getattr(module, name, None))]
     if missing:
-        raise RequestError(f"{folder / 'scene.py'}: a scene offers {', '.join(OFFERS)}; {missing[0]} is missing")
+        raise RequestError(f"{folder / 'scene.py'}: a scene needs {', '.join(OFFERS)}; {missing[0]} is missing")
     for name in OFFERS[1:]:
         _check_calls(folder / "scene.py", name, getattr(module, name))
     parameters = module.Parameters
@@ -221,7 +222,7 @@ def parameters_class(folder: Path) -> type[declared.Group]:
         raise RequestError(
             f'{folder / "scene.py"}: Parameters needs a line accuracy: Accuracy = group(Accuracy(), "...")'
         )
-    facts = getattr(module, "FACTS", PLAIN_FACTS)
+    facts = getattr(module, "FACTS", FALLBACK_FACTS)
     wrong = mistake_in(facts)
     if wrong is not None:
         raise RequestError(f"{folder / 'scene.py'}: FACTS{wrong}")
@@ -237,7 +238,7 @@ def parameters_class(folder: Path) -> type[declared.Group]:
 
 
 def _check_calls(file: Path, name: str, function: Any) -> None:
-    """Raise RequestError unless the function can be called as the sandbox is going to."""
+    """Raise RequestError unless the function can be called the way the sandbox calls it."""
     for arguments in CALLS[name]:
         call = f"{name}({', '.join(arguments)})"
         if not callable(function):
@@ -249,7 +250,7 @@ def _check_calls(file: Path, name: str, function: Any) -> None:
 
 
 def docstring(file: Path) -> str:
-    """The first line of a module's docstring. The module is neither imported nor parsed: it may be anybody's."""
+    """The first line of a module's docstring. The module is neither imported nor parsed, since it may be untrusted."""
     passed = (tokenize.ENCODING, tokenize.COMMENT, tokenize.NL)
     try:
         if not file.is_file():  # reading a pipe would wait for ever
@@ -263,7 +264,7 @@ def docstring(file: Path) -> str:
 
 
 def first_comment(file: Path) -> str:
-    """The first comment of a scene file that is meant for people, before all keys."""
+    """The first comment for people in a scene file, before all keys."""
     try:
         lines = file.read_text(encoding="utf-8").splitlines() if file.is_file() else []
     except (UnicodeDecodeError, OSError):
@@ -273,7 +274,7 @@ def first_comment(file: Path) -> str:
 
 
 def shown(path: Path) -> str:
-    """A path as short as it can be said from the current folder."""
+    """A path, relative to the current folder if it is in there."""
     try:
         return str(path.resolve().relative_to(Path.cwd()))
     except (ValueError, OSError):

@@ -1,1 +1,1 @@
-"""What sports share: facts, controls, and the parameters and forces of a ball. It names no sport."""
+"""What the sports share: facts, controls, and the parameters and forces of a ball. It depends on no single sport."""

@@ -11,7 +11,7 @@ from sandbox.physics.forces import Wind
 
 
 class Air(Group):
-    """Still air, or an even wind."""
+    """Still air, or a uniform wind."""
 
     density: float = quantity(..., "kg/m^3", 0, 1100, "density")
     viscosity: float = quantity(..., "Pa s", 1e-7, 10, "dynamic viscosity, for the Reynolds number")
@@ -21,8 +21,8 @@ class Air(Group):
 class OutdoorAir(Air):
     """The air over level ground, and how it moves."""
 
-    profile: Literal["uniform", "log"] = choice(..., "even wind, or one that grows with height over the ground")
-    reference_height: float = quantity(..., "m", 0.1, 100, "height at which a log profile has the wind given")
+    profile: Literal["uniform", "log"] = choice(..., "uniform wind, or one that grows with height above the ground")
+    reference_height: float = quantity(..., "m", 0.1, 100, "height at which a log profile has the given wind")
     roughness: float = quantity(..., "m", 0.0001, 2, "roughness length of a log profile")
 
 
@@ -36,10 +36,10 @@ def wind_in(air: Air) -> Wind | None:
 
 
 class Model(Group):
-    """One model of drag or lift, chosen by its word ``model``; a sport adds those of its ball."""
+    """One model of drag or lift, chosen by the key ``model``; a sport adds the models of its ball."""
 
     def coefficient_law(self) -> Coefficient | None:
-        """The coefficient by Reynolds number and spin ratio; None for no force."""
+        """The coefficient as a function of Reynolds number and spin ratio; None for no force."""
         return None
 
 

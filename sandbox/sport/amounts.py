@@ -29,7 +29,7 @@ def converted(value: float, unit: str, other: str) -> str:
 
 
 def margin(error: float, unit: str, count: bool = False) -> str:
-    """An estimated error: ``± 0.4 mm``; of a count that stays the same none."""
+    """An estimated error: ``± 0.4 mm``; "" for a count that stays the same."""
     if count and error == int(error):
         return f"± {error:.0f}" if error else ""
     if unit == "m" and error < 0.1:
@@ -39,12 +39,12 @@ def margin(error: float, unit: str, count: bool = False) -> str:
 
 
 def signed(number: str) -> str:
-    """With a true minus sign, and none before a zero."""
+    """With a real minus sign, and without one before zero."""
     return number.replace("-", "−") if float(number) else number.lstrip("-")
 
 
 def metres(value: float, digits: int | None = None) -> str:
-    """A length as people write it: 0.42 m, 8.31 m, 251.4 m, 12.3 km; or with so many digits after the point."""
+    """A length as people write it: 0.42 m, 8.31 m, 251.4 m, 12.3 km; or with ``digits`` after the point."""
     if abs(value) >= 10_000:
         return signed(f"{value / 1000:.1f}") + " km"
     if digits is None:
@@ -53,7 +53,7 @@ def metres(value: float, digits: int | None = None) -> str:
 
 
 def roughly(value: float) -> str:
-    """A length of 0 or more as one says it: 0.14 m, 2.9 m, 252 m."""
+    """A length of 0 or more, rounded for a sentence: 0.14 m, 2.9 m, 252 m."""
     return metres(value, 0 if value >= 9.95 else 1 if value >= 0.995 else 2)
 
 

@@ -1,6 +1,6 @@
 """Controls: which parameters a pull of the mouse sets, and which are worth a slider.
 
-A scene offers them beside its parameters::
+A scene defines them next to its parameters::
 
     CONTROLS = Controls(strongest=90.0, spins=(Spin("launch.spin", 100.0),), sliders=("launch.speed", "air.wind"))
 """
@@ -16,7 +16,7 @@ from sandbox.parameters import Group, every_key, nearest, no_such_result
 
 @dataclass(frozen=True)
 class Spin:
-    """A parameter that the wheel turns, by ``step`` a notch, in its unit."""
+    """A parameter that the mouse wheel changes, by ``step`` per notch, in its unit."""
 
     key: str
     step: float
@@ -24,7 +24,8 @@ class Spin:
 
 @dataclass(frozen=True)
 class Spread:
-    """How well a practised player hits a parameter: the standard deviation is a ``share`` of it, or at least ``least``.
+    """How precisely a practised player sets a parameter: with a standard deviation of ``share`` times its value, or at
+    least ``least``.
 
     ``least`` is in the parameter's unit.
     """
@@ -40,21 +41,21 @@ class Spread:
 
 @dataclass(frozen=True)
 class Controls:
-    """How a player plays: every name is the key of a parameter."""
+    """How a player controls a scene: most fields are keys of parameters."""
 
     speed: str = "launch.speed"
     angle: str = "launch.angle"  # deg, counter-clockwise from +x
     strongest: float = 30.0  # speed of a full pull, in the speed's unit
-    spins: tuple[Spin, ...] = ()  # the wheel's, and the wheel's with Shift
+    spins: tuple[Spin, ...] = ()  # of the wheel, and of the wheel with Shift
     ball: str = "ball"  # the ball that is pulled: its name, or the key that holds its name
     also: Mapping[str, Any] = field(default_factory=dict)  # what else a pull sets, such as how the shot begins
     sliders: tuple[str, ...] = ()  # shown first
-    scores: str = ""  # the fact that is true, or not empty, when the shot scored
+    scores: str = ""  # the fact that is true, or not empty, if the shot scored
     spread: tuple[Spread, ...] = ()  # of a fan of shots; where empty, of speed and angle
-    tells: str = ""  # the fact of which a fan says the mean and the spread
-    #: From a run and its parameters to the changes with which the next shot begins; where there is none, every shot
-    #: begins alike.
-    goes_on: Callable[[Any, Any], Mapping[str, Any]] | None = None
+    fan_fact: str = ""  # the fact whose mean and spread a fan reports
+    #: From a run and its parameters to the changes with which the next shot begins; without it, every shot begins the
+    #: same way.
+    next_start: Callable[[Any, Any], Mapping[str, Any]] | None = None
 
     def mistake(self, schema: type[Group], facts: Sequence[str]) -> str | None:
         """What is wrong with these controls for a scene with such parameters and facts, in a line; None if nothing."""
@@ -62,8 +63,8 @@ class Controls:
             entries = getattr(self, name)
             if not isinstance(entries, tuple | list) or not all(isinstance(entry, kind) for entry in entries):
                 what = "keys" if kind is str else kind.__name__
-                return f"{name} = {entries!r}: must be a tuple of {what}; one alone has a comma after it"
-        for name, fact in (("scores", self.scores), ("tells", self.tells)):
+                return f"{name} = {entries!r}: must be a tuple of {what}; a single one needs a trailing comma"
+        for name, fact in (("scores", self.scores), ("fan_fact", self.fan_fact)):
             if fact and fact not in facts:
                 return f'{name} "{fact}": {no_such_result(fact, facts)}'
         known = list(every_key(schema))
@@ -74,10 +75,10 @@ class Controls:
         return None
 
     def _keys(self) -> Iterator[tuple[str, str]]:
-        """Each field with the key of a parameter that it names; a scene may lack those that are not its own choice."""
-        plain = Controls()
-        yield from (("speed", self.speed),) if self.speed != plain.speed else ()
-        yield from (("angle", self.angle),) if self.angle != plain.angle else ()
+        """Each field that names a parameter, with its key; a scene may lack those of the defaults."""
+        defaults = Controls()
+        yield from (("speed", self.speed),) if self.speed != defaults.speed else ()
+        yield from (("angle", self.angle),) if self.angle != defaults.angle else ()
         yield from (("spins", spin.key) for spin in self.spins)
         yield from (("also", key) for key in self.also)
         yield from (("sliders", key) for key in self.sliders)

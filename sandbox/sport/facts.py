@@ -1,4 +1,4 @@
-"""Facts: what a run says of itself, each said once.
+"""Facts: the results of a run, each defined once.
 
 A scene lists them, the most important first, and adds one sentence::
 
@@ -10,7 +10,7 @@ A scene lists them, the most important first, and adds one sentence::
     def verdict(run, parameters) -> str:
         return f"{roughly(run.result['carry'])} carry"
 
-The terminal's card, JSON, posters, frames, the window, charts and the units of all of them follow from that.
+The terminal's card, JSON, posters, frames, the window, charts and all their units are made from these.
 """
 
 from __future__ import annotations
@@ -29,33 +29,33 @@ from sandbox.sport.amounts import amount, converted, margin, metres
 if TYPE_CHECKING:
     from sandbox.engine.run import Event, Run
 
-#: ``"start"``, ``"end"``, or what must have been touched; else whether the events so far settle it.
+#: ``"start"``, ``"end"``, the name of what must have been touched, or a function of the events so far.
 Settled = str | Callable[[Sequence["Event"], Any], bool]
 Value = TypeVar("Value")
 
 
 @dataclass(frozen=True)
 class Fact:
-    """One thing that a run says: a number with its unit, a word, true or false, or a list of words.
+    """One result of a run: a number with its unit, a word, true or false, or a list of words.
 
-    ``how(run, parameters)`` gives the value in ``unit``, None where it did not happen. ``settled`` says from when on
-    it can no longer change: ``"start"``, ``"end"``, the first touch of a surface or ball of that name (``"floor"``), or
+    ``how(run, parameters)`` gives the value in ``unit``, None if it did not happen. ``settled`` says when it
+    can no longer change: ``"start"``, ``"end"``, the first touch of a surface or ball of that name (``"floor"``), or
     a function of the events so far and the parameters.
     """
 
     key: str  # its name in the result, in JSON and CSV
-    label: str  # what people read; "" keeps it off their cards
-    unit: str  # "" for what has none
+    label: str  # on cards; "" leaves it out of them
+    unit: str  # "" for a value without one
     how: Callable[[Run, Any], Any]
     settled: Settled = "end"
-    also: str = ""  # a second unit that the sport's people think in, where there is room
+    also: str = ""  # a second unit that is common in the sport, shown where there is room
     sides: tuple[str, str] | None = None  # words for below and above zero, in place of a sign
     where: Callable[[Run, Any], bool] | None = None  # on cards only where this holds
 
     def text(self, value: Any, error: float | None = None, also: bool = False) -> str:
-        """The value for people; "" for what did not happen.
+        """The value as text; "" for what did not happen.
 
-        With an estimated error where there is one, and, if ``also``, in the second unit too.
+        With its estimated error if there is one and, if ``also``, in the second unit too.
         """
         if value is None or (not value and isinstance(value, Sequence | Mapping)):
             return ""
@@ -88,7 +88,7 @@ class Fact:
 
 
 def once(how: Callable[[Run, Any], Value]) -> Callable[[Run, Any], Value]:
-    """What several facts are read from, such as the landing: computed once for a run, not once for each of them."""
+    """Cache a value that several facts are computed from, such as the landing: computed once for each run."""
     last: list[tuple[ref[Run], Any, Value]] = []
 
     @wraps(how)
@@ -104,22 +104,22 @@ def once(how: Callable[[Run, Any], Value]) -> Callable[[Run, Any], Value]:
 
 
 def mistake_in(facts: Any) -> str | None:
-    """What is wrong with a scene's facts, to be read after their name; None if nothing is."""
+    """What is wrong with a scene's FACTS, as the end of a message; None if nothing is."""
     if not isinstance(facts, tuple | list):
-        return f" must be a tuple of facts, and is {facts!r}"
+        return f" must be a tuple of facts, but is {facts!r}"
     keys: set[str] = set()
     for fact in facts:
         if not isinstance(fact, Fact):
-            return f" must be a tuple of facts, and {fact!r} is not one"
+            return f" must be a tuple of facts, but {fact!r} is not one"
         if not isinstance(fact.key, str) or not isinstance(fact.label, str):
-            return f": key and label must be text, and are {fact.key!r} and {fact.label!r}"
+            return f": key and label must be text, but are {fact.key!r} and {fact.label!r}"
         if fact.key in keys:
             return f": two are called {fact.key}"
         keys.add(fact.key)
         try:
             signature(fact.how).bind("run", "parameters")
         except TypeError as error:
-            return f": {fact.key} is read as how(run, parameters): {error}"
+            return f": {fact.key} is computed as how(run, parameters): {error}"
         for unit in (fact.unit, fact.also):
             if unit not in units.KIND_OF:
                 return f': {fact.key} has the unit "{unit}", which is not known'
@@ -134,15 +134,15 @@ def _travelled(run: Run, parameters: Any) -> float:
     return dist(run.state(ball, 0.0)[:2], run.state(ball, run.duration)[:2])
 
 
-#: What a scene without facts of its own says.
-PLAIN_FACTS = (
+#: The facts of a scene that defines none.
+FALLBACK_FACTS = (
     Fact("distance", "distance", "m", _travelled),
     Fact("duration", "time", "s", lambda run, parameters: run.duration),
     ENDED,
 )
 
 
-def plain_verdict(run: Run, parameters: Any) -> str:
-    """What a scene without a verdict of its own says."""
+def fallback_verdict(run: Run, parameters: Any) -> str:
+    """The verdict of a scene that defines none."""
     how = {"rest": "At rest", "duration": "Still moving"}.get(run.ended, "Over")
     return f"{how} after {run.duration:.2f} s, {metres(_travelled(run, parameters))} from the start"

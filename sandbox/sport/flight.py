@@ -28,11 +28,11 @@ class Sphere(Group):
 
     mass: float = quantity(..., "kg", 0.0001, 20, "mass")
     radius: float = quantity(..., "m", 0.0005, 0.5, "radius")
-    cross_section: float | None = quantity(None, "m^2", 1e-7, 1, "area against the air, where not that of the radius")
+    cross_section: float | None = quantity(None, "m^2", 1e-7, 1, "frontal area, if it does not follow from the radius")
 
 
 class Flying(Protocol):
-    """A Sphere to which the sport has added its models of drag and lift."""
+    """A Sphere with the sport's models of drag and lift."""
 
     @property
     def mass(self) -> float: ...
@@ -58,9 +58,9 @@ class Launched(Protocol):
 
 
 def forces_in_flight(ball: Flying, air: Air, gravity: float = 0.0, lift_share: float = 1.0) -> list[Force]:
-    """Weight, drag and Magnus lift, each only where there is one.
+    """Weight, drag and Magnus lift; those that are zero are left out.
 
-    Of the lift only ``lift_share`` lies in the scene's plane, less than 1 where the spin's axis leans.
+    Only ``lift_share`` of the lift is in the scene's plane, less than 1 if the spin axis is tilted.
     """
     forces: list[Force] = [Gravity(ball.mass, gravity)] if gravity > 0.0 else []
     if air.density == 0.0:

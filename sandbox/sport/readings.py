@@ -1,4 +1,4 @@
-"""What facts are read from: how a ball was launched, where it is at a moment, how far it went."""
+"""What facts are computed from: how a ball was launched, its state at a moment, how far it went."""
 
 from __future__ import annotations
 
@@ -30,12 +30,12 @@ class Moment(NamedTuple):
 
     @property
     def descent(self) -> float:
-        """Angle below the horizontal in deg, whichever way the ball flies."""
+        """Angle below the horizontal in deg, in whichever direction the ball flies."""
         return degrees(atan2(0.0 - self.vy, abs(self.vx)))
 
 
 def at(moment: Callable[[Run, Any], Moment | None], what: Callable[[Moment], float]) -> Callable[[Run, Any], Any]:
-    """How a fact is read from a moment; None where the run has no such moment."""
+    """The function that reads a fact from a moment; it gives None if the run has no such moment."""
 
     def how(run: Run, parameters: Any) -> float | None:
         found = moment(run, parameters)
@@ -59,16 +59,16 @@ def first_touch(run: Run) -> Event | None:
     return next((e for e in run.events if e.kind != "leave" and "ball" in (e.ball, e.partner)), None)
 
 
-#: Gauss-Legendre: places and weights on an arc from 0 to 1.
-_PLACES = ((0.5 - 0.15**0.5, 5 / 18), (0.5, 8 / 18), (0.5 + 0.15**0.5, 5 / 18))
+#: Gauss-Legendre: nodes and weights on an arc from 0 to 1.
+_NODES = ((0.5 - 0.15**0.5, 5 / 18), (0.5, 8 / 18), (0.5 + 0.15**0.5, 5 / 18))
 
 
 def travelled(run: Run, ball: str) -> float:
-    """Length in m of the way of a ball, from start to end."""
+    """Length in m of a ball's path, from start to end."""
     return sum(
         (arc.t1 - arc.t0) * weight * hypot(*arc.state(arc.t0 + place * (arc.t1 - arc.t0))[2:4])
         for arc in run.arcs[ball]
-        for place, weight in _PLACES
+        for place, weight in _NODES
     )
 
 

@@ -210,7 +210,7 @@ NUDGES: dict[str, Callable[[Game, bool], dict[str, Any]]] = {
 
 COMMANDS: dict[str, Callable[[View], object]] = {
     "go": _go,
-    "again": lambda view: view.game.aim_again(goes_on=True),
+    "again": lambda view: view.game.aim_again(from_rest=True),
     "restart": lambda view: _watching(view, "restart"),
     "step": lambda view: _watching(view, "step", 1),
     "step_back": lambda view: _watching(view, "step", -1),

@@ -58,7 +58,7 @@ class Fan:
         if self.work is None and not self.complete:
             controls = self.shot.scene.controls
             points = [self._point(draws) for draws in self.draws[done : done + self.next]]
-            self.work = worker.submit(varied, self.shot.scene, list(self.spread), points, controls.tells)
+            self.work = worker.submit(varied, self.shot.scene, list(self.spread), points, controls.fan_fact)
 
     def _take(self, work: Future[tuple[list[FanShot | None], float]]) -> None:
         try:
@@ -95,7 +95,7 @@ class Fan:
             share = f"{scored} of {count} score: {100 * p:.0f} ± {max(1.0, 100 * off):.0f} %"
         else:
             share = f"{count} shots"
-        fact = self.shot.scene.facts.get(self.shot.scene.controls.tells)
+        fact = self.shot.scene.facts.get(self.shot.scene.controls.fan_fact)
         numbers = [shot.value for shot in self.shots if shot.value is not None]
         if fact is not None and len(numbers) > 1:
             share += f"; {fact.label} {np.mean(numbers):.1f} ± {np.std(numbers):.1f} {fact.unit}"

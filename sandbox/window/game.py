@@ -284,7 +284,7 @@ class Game:
         """Change parameters, and aim with them; whether they are valid."""
         if not values:
             return False
-        self.aim_again(goes_on=True)
+        self.aim_again(from_rest=True)
         return self._changing(lambda: self.session.change(values))
 
     def _changing(self, action: Callable[[], object]) -> bool:
@@ -383,7 +383,7 @@ class Game:
         now = self.shots.index(self.shot) if self.playback and self.shot in self.shots else len(self.shots)
         self.watch(self.shots[min(max(now + by, 0), len(self.shots) - 1)])
 
-    def aim_again(self, goes_on: bool = False) -> None:
+    def aim_again(self, from_rest: bool = False) -> None:
         """Leave the shot that is watched; after its end the next may begin where it ended, in scenes that offer it."""
         playback, shot = self.playback, self.shot
         if playback is None:
@@ -391,7 +391,7 @@ class Game:
         self.playback, self.stale = None, True
         self.revision += 1
         ours = shot is not None and shot.source == self.session.source
-        if goes_on and playback.over and ours and self.session.controls.goes_on is not None:
+        if from_rest and playback.over and ours and self.session.controls.next_start is not None:
             assert shot is not None
             if self._changing(lambda: self.session.go_on(shot)):
                 self.tell("from where the balls rest; B puts them back where they began")

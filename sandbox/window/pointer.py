@@ -127,7 +127,7 @@ class Pointer:
         elif self.pressed is not None:
             # a shot that was watched to its end is left by a pull, and not by a mere click
             if abs(at[0] - self.pressed[0]) + abs(at[1] - self.pressed[1]) >= aim.LEAST:
-                game.aim_again(goes_on=True)
+                game.aim_again(from_rest=True)
                 self._begin_pull(self.pressed)
                 self.pressed = None
                 game.pull_to(at)

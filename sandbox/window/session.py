@@ -144,9 +144,9 @@ class Session:
 
     def go_on(self, shot: Shot) -> bool:
         """Let the next shot begin where the balls of one came to rest, in scenes that offer it; whether they do."""
-        if self.controls.goes_on is None:
+        if self.controls.next_start is None:
             return False
-        values = dict(self.controls.goes_on(shot.run, shot.scene.parameters))
+        values = dict(self.controls.next_start(shot.run, shot.scene.parameters))
         positions = self.changes.positions | values.keys()
         self._set(Changes({**self.changes.values, **values}, positions), frozenset())
         return True

@@ -450,7 +450,7 @@ class View:
         name = f"{'replay' if shot.recorded else 'shot'} {shot.number}"
         if playback.over:
             colour = CARD["good"] if shot.scored else CARD["text"]
-            again = "go on" if game.session.controls.goes_on is not None else "aim again"
+            again = "go on" if game.session.controls.next_start is not None else "aim again"
             notes = [name, f"Enter to {again}, R to see it again", *stage.notes]
             self.head = headline(sheet, shot.verdict, notes, colour)
             sheet.numbers([*shot.card, *forces])

@@ -121,7 +121,7 @@ CONTROLS = Controls(
     sliders=("cue.speed", "cue.angle", "cue.follow", "cue.english", "rack", "cloth.rolling_friction", "ball.friction"),
     scores="scored",
     spread=(Spread("cue.speed", 0.03), Spread("cue.angle", least=0.2)),  # assumed
-    goes_on=lambda run, parameters: from_rest(run, parameters),
+    next_start=lambda run, parameters: from_rest(run, parameters),
 )
 
 # -------------------------------------------------------------------------------------------------------------- build

@@ -168,7 +168,7 @@ CONTROLS = Controls(
     sliders=("launch.speed", "launch.angle", "launch.spin", "air.wind", "gravity", "pin.distance"),
     scores="holed",
     spread=(Spread("launch.speed", 0.015), Spread("launch.angle", 0.08), Spread("launch.spin", 0.06)),  # assumed
-    tells="total",
+    fan_fact="total",
 )
 
 # ---------------------------------------------------------------------------------------------------------------- build

@@ -694,7 +694,7 @@ def test_a_sweep_in_which_all_points_fail_says_so(tmp_path, capsys):
     assert main(["sweep", str(scene), "--over", "launch.height=1:2:3", "--jobs", "1", "--out", str(out)]) == 1
     errors = {row["error"] for row in table(out)}
     assert len(errors) == 1
-    assert capsys.readouterr().err == f"error: every point failed, first with: {(error := errors.pop())}\n"
+    assert capsys.readouterr().err == f"error: every point failed, the first with: {(error := errors.pop())}\n"
     assert re.fullmatch(r"ValueError: never \(drop/scene\.py, line \d+\)", error)
 
 

@@ -257,7 +257,7 @@ class TestRuns:
         result = self.changed(scene_project, monkeypatch, '{"floor.restitution": 0.79}')
         result.assert_outcomes(failed=1)
         result.stdout.fnmatch_lines(
-            ["*it is not like its golden run: the physics changed: first at t = 0.652 s, ball, *"]
+            ["*it differs from its golden run: the physics changed: first at t = 0.652 s, ball, *"]
         )
         assert "final_height is" in result.stdout.str()
 
@@ -277,9 +277,9 @@ class TestRuns:
         result = again(scene_project)
         result.stdout.fnmatch_lines(
             [
-                "*it is not like its golden picture: same physics, the drawing changed: *of the pixels changed*",
+                "*it differs from its golden picture: same physics, the drawing changed: *of the pixels changed*",
                 "expected, actual and difference, side by side: *it.png",
-                "if the change is meant: pytest --golden-update",
+                "if the change is intended: pytest --golden-update",
             ]
         )
 
@@ -287,7 +287,7 @@ class TestRuns:
         again(scene_project, "--golden-update")
         scene = scene_project.path / "drop" / "scene.py"
         scene.write_text(scene.read_text().replace("return sum(", "return 99 or sum("))
-        again(scene_project).stdout.fnmatch_lines(["*same motion, another result; bounces is 99, was *"])
+        again(scene_project).stdout.fnmatch_lines(["*same motion, different result; bounces is 99, was *"])
 
     def test_a_picture_without_a_surface_is_said_in_a_line(self, scene_project):
         picture = scene_project.path / "drop" / "picture.py"

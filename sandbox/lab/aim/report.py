@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from sandbox.files import plain
+from sandbox.files import json_ready
 from sandbox.lab.aim.question import Aim, Interval, Solution, Target
 from sandbox.lab.axes import label, result_label, unit_of
 from sandbox.lab.chart import chart
@@ -44,7 +44,7 @@ def as_json(aim: Aim) -> str:
         "tries": len(aim.tries),
         "failures": aim.failures,
     }
-    return json.dumps(plain(told), allow_nan=False, ensure_ascii=False)
+    return json.dumps(json_ready(told), allow_nan=False, ensure_ascii=False)
 
 
 def _solution(solution: Solution) -> dict[str, Any]:
