@@ -1,4 +1,4 @@
-# Everything sets itself up: Python >= 3.11 with venv and pip, and make, are all that is needed.
+# Each target installs what it needs. Required: Python >= 3.11 with venv and pip, and make.
 PYTHON ?= python3
 
 BIN := .venv/bin
@@ -27,16 +27,16 @@ format: .venv/ready-dev
 	$(BIN)/ruff check --fix .
 	$(BIN)/ruff format .
 
-# What editors complete and check scene files by.
+# With these, editors complete and check scene files.
 schemas: .venv/ready
 	@set -e; for scene in $(SCENES); do $(BIN)/sandbox schema $$scene > scenes/$$scene/$$scene.schema.json; done
 
 pictures: .venv/ready-dev
 	$(BIN)/python docs/pictures/make.py
 
-# Beside the others, into docs/benchmarks.md: some minutes, on a machine that is left alone.
+# Comparisons with other libraries, into docs/benchmarks.md: a few minutes on an idle machine.
 bench: .venv/ready-dev
-	@$(MAKE) --no-print-directory .venv/pooltool/ready || echo "pooltool cannot be had here: what it is compared in stays as it is"
+	@$(MAKE) --no-print-directory .venv/pooltool/ready || echo "pooltool cannot be installed here: its block of the page stays as it is"
 	$(BIN)/python benchmarks/page.py
 
 wheel: .venv/ready-dev
@@ -46,7 +46,7 @@ wheel: .venv/ready-dev
 clean:
 	rm -rf .venv out build dist .pytest_cache .mypy_cache .ruff_cache .hypothesis
 
-# The stamps: installed again only when the dependencies change.
+# Stamps: packages are installed again only when the dependencies change.
 .venv/ready: pyproject.toml constraints.txt
 	@$(PYTHON) -c 'import sys; sys.exit("Python >= 3.11 is needed, this is %d.%d: make PYTHON=python3.12 ..." % sys.version_info[:2] if sys.version_info < (3, 11) else 0)'
 	$(PYTHON) -m venv .venv
@@ -57,7 +57,7 @@ clean:
 	$(PIP) --editable '.[dev]'
 	@touch $@
 
-# What pooltool pins cannot be met beside ours: it gets a place of its own, and what it needs without its pins.
+# pooltool's pinned versions conflict with ours: it gets its own environment, without its pins.
 .venv/pooltool/ready: | .venv/ready-dev
 	$(BIN)/python -m venv .venv/pooltool
 	.venv/pooltool/bin/python -m pip --disable-pip-version-check install --quiet panda3d==1.10.15 "numba<0.62" \

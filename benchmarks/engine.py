@@ -52,6 +52,8 @@ SCIPY_ON_THE_RIM = (
     ("DOP853", 1e-9, 0.01),
 )
 SCIPY_IN_FLIGHT = tuple((method, tolerance, inf) for method in ("RK45", "DOP853") for tolerance in (1e-3, 1e-6, 1e-9))
+#: Steps per second; at 60 the ball falls through the ground, which the plain method reports as an error.
+PLAIN_IN_FLIGHT = (1_000, 2_000, 4_000)
 
 
 class End(NamedTuple):
@@ -63,7 +65,7 @@ class End(NamedTuple):
 
 
 class Case(NamedTuple):
-    """A shot, and what flies it beside ours: steps per second, and scipy's settings."""
+    """A shot and the methods compared with ours: steps per second, and scipy's settings."""
 
     name: str
     shot: Shot
@@ -82,7 +84,7 @@ def cases(quick: bool) -> list[Case]:
     fine = (60, 1_000, 4_000, 16_000, 32_000)
     return [
         Case(*rim, (*fine, 64_000, 256_000), fine, SCIPY_ON_THE_RIM),
-        Case(*golf, (60, 1_000, 2_000, 4_000, 16_000), (60, 1_000, 2_000, 4_000), SCIPY_IN_FLIGHT),
+        Case(*golf, (60, 1_000, 2_000, 4_000, 16_000), PLAIN_IN_FLIGHT, SCIPY_IN_FLIGHT),
     ]
 
 
@@ -186,7 +188,7 @@ def show(name: str, rows: list[dict[str, Any]]) -> None:
     words = {"scipy": "scipy", "bare": "bare pymunk", "plain": "plain"}
     told = [f"{words[kind]} {_short(ratio)} times" for kind, ratio in ratios_at(rows, TARGET).items()]
     out.write(
-        f"  at an error of {100 * TARGET:g} cm, over the quickest of ours: {', '.join(told) or 'none gets there'}\n"
+        f"  at an error of {100 * TARGET:g} cm, relative to our fastest: {', '.join(told) or 'none gets there'}\n"
     )
 
 

@@ -1,8 +1,8 @@
-"""Runs the comparisons again and writes what they print into docs/benchmarks.md: ``make bench``, or for some of them
+"""Runs the comparisons again and writes their output into docs/benchmarks.md: ``make bench``, or only some of them with
 ``python benchmarks/page.py NAME ...``.
 
-Names are engine, billiards, forces, frames, sweep, start and window. What is not run stays as it is on the page, so run
-all on one machine, left alone, before the page is committed. The JSON of each goes to out/benchmarks.
+Names are engine, billiards, forces, frames, sweep, start and window. Blocks that are not run stay as they are, so run
+all on one idle machine before you commit the page. The JSON of each goes to out/benchmarks.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ PAGE = ROOT / "docs" / "benchmarks.md"
 JSON = ROOT / "out" / "benchmarks"
 PEER = ROOT / ".venv" / "pooltool" / "bin" / "python"
 
-#: The script of each block and what it is given.
+#: The script of each block, with its arguments.
 SCRIPTS = {
     "engine": "benchmarks/engine.py",
     "billiards": "benchmarks/billiards_pooltool.py --pooltool .venv/pooltool/bin/python --cold",
@@ -34,7 +34,7 @@ SCRIPTS = {
     "start": "benchmarks/start.py",
     "window": "benchmarks/window.py --frames 60",
 }
-#: Versions that are told.
+#: Packages whose versions are listed.
 PACKAGES = ("pymunk", "numpy", "scipy", "pillow", "pygame-ce", "pydantic", "typer")
 
 
@@ -49,22 +49,24 @@ def main() -> None:
     load = os.getloadavg()[0]
     for name in wanted:
         if name == "billiards" and not PEER.exists():
-            sys.stderr.write("billiards: no pooltool in .venv/pooltool (make .venv/pooltool/ready); stays as it is\n")
+            sys.stderr.write(
+                "billiards: no pooltool in .venv/pooltool (make .venv/pooltool/ready); its block stays as it is\n"
+            )
             continue
         began = perf_counter()
-        printed = said_by(name)
+        printed = output_of(name)
         sys.stderr.write(f"{name}: {perf_counter() - began:.0f} s\n")
         write(name, ["```console", f"$ python {SCRIPTS[name]}", *printed, "```"])
     write("machine", machine(load))
 
 
-def said_by(name: str) -> list[str]:
-    """What the script prints, as lines."""
+def output_of(name: str) -> list[str]:
+    """The lines that the script prints."""
     command = [sys.executable, *shlex.split(SCRIPTS[name]), "--json", str(JSON / f"{name}.json")]
     quiet = os.environ | {"PYGAME_HIDE_SUPPORT_PROMPT": "1"}
     done = subprocess.run(command, cwd=ROOT, env=quiet, stdout=subprocess.PIPE, text=True)
     if done.returncode != 0:
-        raise SystemExit(f"{name} failed; its error stands above")
+        raise SystemExit(f"{name} failed; see its error above")
     return [line.rstrip() for line in done.stdout.strip("\n").splitlines()]
 
 
@@ -75,14 +77,14 @@ def machine(load: float) -> list[str]:
         f"{processor()}, {os.cpu_count()} cores, {platform.system()} {platform.machine()}, "
         f"Python {platform.python_version()};",
         f"{packages}.",
-        f"Processes that wanted a core in the minute before the start: {load:.1f}.",
+        f"Load average in the minute before the start: {load:.1f}.",
     ]
 
 
 def processor() -> str:
-    """Its model, where the system tells."""
-    told = Path("/proc/cpuinfo")
-    found = re.search(r"^model name\s*: (.+)$", told.read_text("utf-8"), re.MULTILINE) if told.exists() else None
+    """Its model, where the system says."""
+    info = Path("/proc/cpuinfo")
+    found = re.search(r"^model name\s*: (.+)$", info.read_text("utf-8"), re.MULTILINE) if info.exists() else None
     return found[1] if found else platform.processor() or "unknown processor"
 
 
@@ -92,7 +94,7 @@ def write(block: str, lines: Iterable[str]) -> None:
 
 
 def filled(page: str, block: str, lines: Iterable[str]) -> str:
-    """The page with these lines in the block."""
+    """The page with new lines in the block."""
     text = "\n".join([f"<!-- {block} -->", *lines, "<!-- end -->"])
     page, count = re.subn(rf"<!-- {block} -->\n.*?<!-- end -->", lambda match: text, page, flags=re.DOTALL)
     if count != 1:

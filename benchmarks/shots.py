@@ -13,8 +13,8 @@ from sandbox.engine.setup import Setup
 #: (vx, vy, spin) in m/s and rad/s to (ax, ay, alpha) in m/s^2 and rad/s^2: none of these flights asks for more.
 Law = Callable[[float, float, float], tuple[float, float, float]]
 
-#: Off the front of the rim, then high; without lift, so that the law is short.
-RIM = {"launch.speed": 7.3, "launch.angle": 52.0, "launch.spin": 180.0, "ball.lift.model": "none"}
+#: Off the front of the rim, then high; without lift and without the net, so that the law is short.
+RIM = {"launch.speed": 7.3, "launch.angle": 52.0, "launch.spin": 180.0, "ball.lift.model": "none", "net.slows": False}
 
 
 class Shot(NamedTuple):
