@@ -1,7 +1,7 @@
 """Measures the tables and pictures of accuracy.md again: ``python docs/measure_accuracy.py``.
 
-Or only some of it, by name: ``trade`` (two minutes, on a machine that is left alone), ``stress`` (two minutes),
-``validate`` (a second), ``rim`` (ten seconds). The page is written after each.
+Or only some of them, by name: ``trade`` (two minutes on an idle machine), ``stress`` (two minutes), ``validate`` (a
+second), ``rim`` (ten seconds). The page is written after each.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ PAGE = DOCS / "accuracy.md"
 #: Scenes in the tables, those of them with a picture, and those whose parts are listed.
 SCENES = ("golf", "soccer", "soccer-curl", "basketball", "basketball/rattle", "billiards", "billiards/cut")
 PICTURES = ("golf", "basketball/rattle")
-#: Shots at the rim, and how many of a kind are compared with the reference.
+#: Shots at the rim, and how many per number of touches are compared with the reference.
 SHOTS, ENOUGH = 3000, 150
 
 DEFAULTS = ("golf", "soccer", "soccer-curl", "basketball", "billiards")
@@ -48,7 +48,7 @@ def main(wanted: Sequence[str]) -> None:
             PAGE.write_text(page, "utf-8")
 
 
-def told(what: str, started: float) -> None:
+def report(what: str, started: float) -> None:
     sys.stderr.write(f"{what}: {time(perf_counter() - started)}\n")
 
 
@@ -57,7 +57,7 @@ def traded() -> dict[str, list[str]]:
     for name in SCENES:
         started = perf_counter()
         found[name] = trade(load(name))
-        told(f"trade {name}", started)
+        report(f"trade {name}", started)
     for name in PICTURES:
         chart.draw_trade(found[name], DOCS / "images" / f"trade-{name.replace('/', '-')}.png")
     return {
@@ -71,26 +71,26 @@ def traded() -> dict[str, list[str]]:
 def stressed() -> dict[str, list[str]]:
     started = perf_counter()
     outcomes = stress([])
-    told("stress, bare setups", started)
+    report("stress, bare setups", started)
     for name in DEFAULTS:
         started = perf_counter()
         outcomes += stress([load(name)], with_bare=False)
-        told(f"stress {name}", started)
+        report(f"stress {name}", started)
     return {"stress": extremes(outcomes), "failed": failed(outcomes)}
 
 
 def validated() -> dict[str, list[str]]:
     started = perf_counter()
     rows = validate()
-    told("validate", started)
+    report("validate", started)
     return {"published": published(rows), "not held": not_held(rows)}
 
 
 def rimmed() -> dict[str, list[str]]:
     started = perf_counter()
     found = rattled()
-    told("rim", started)
-    headings = ["touches of the rim", "shots", "median", "one in ten above", "worst", "another way"]
+    report("rim", started)
+    headings = ["touches of the rim", "shots", "median", "one in ten above", "worst", "other touches"]
     rows = []
     for touches, errors in sorted(found.items()):
         known = sorted(error for error in errors if error is not None)
@@ -100,7 +100,7 @@ def rimmed() -> dict[str, list[str]]:
 
 
 def rattled() -> dict[str, list[float | None]]:
-    """Errors in m of random shots at the level balanced, by how often they touch the rim; None where the reference
+    """Errors in m of random shots at the level balanced, by how often they touch the rim; None if the reference
     touches other things."""
     chance = random.Random(1)
     found: dict[str, list[float | None]] = {}
@@ -149,7 +149,7 @@ def levels(found: dict[str, Trade]) -> list[str]:
         when = f"{at:.3g} s" if chaos is None else f"{at:.3g} s, chaotic from {chaos:.3g} s"
         rows.append([f"`{name}`", when, *cells, f"{speed:.0f} x"])
     aims = [f"{name}, aims at {length(p.accuracy.tolerance)}" for name, p in found["golf"].levels.items()]
-    return markdown(["scene", "looked at after", *aims, "balanced over real time"], rows)
+    return markdown(["scene", "measured after", *aims, "balanced over real time"], rows)
 
 
 def cheapest(found: dict[str, Trade]) -> list[str]:
@@ -163,7 +163,7 @@ def cheapest(found: dict[str, Trade]) -> list[str]:
 
 def verdicts(found: dict[str, Trade]) -> list[str]:
     maps = {name: one.verdicts for name, one in found.items() if one.verdicts is not None}
-    methods = max((list(one.changed) for one in maps.values()), key=len)  # a scene may lack what is too slow there
+    methods = max((list(one.changed) for one in maps.values()), key=len)  # slow methods are left out
     rows = [
         [f"`{name}`", str(one.shots), *(_share(one.changed.get(method)) for method in methods)]
         for name, one in maps.items()
@@ -193,9 +193,9 @@ def extremes(outcomes: list[Outcome]) -> list[str]:
 def failed(outcomes: list[Outcome]) -> list[str]:
     own = [o for o in outcomes if o.outcome == FAILED and o.method not in ("plain", "explicit-euler")]
     if not own:
-        return ["Of the exact method no other row failed."]
+        return ["No other row of the exact method failed."]
     rows = [[o.method, o.scene or "bare", o.extreme, o.message] for o in own]
-    return ["What else failed of the exact method:", "", *markdown(["integrator", "scene", "extreme", "what"], rows, 4)]
+    return ["Other failures of the exact method:", "", *markdown(["integrator", "scene", "extreme", "what"], rows, 4)]
 
 
 def published(rows: list[Compared]) -> list[str]:
