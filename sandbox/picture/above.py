@@ -10,9 +10,9 @@ import numpy as np
 import pygame
 
 from sandbox.picture.camera import Camera, Follow
+from sandbox.picture.chase import sampled, settling
 from sandbox.picture.painter import Painter
 from sandbox.picture.palette import Colour, palette
-from sandbox.picture.path import MOST_SAMPLES
 from sandbox.picture.places.plan import BREADTH, Person, Plan, draw_moving, drawn, dusk, enlarged
 from sandbox.picture.sheet import Sheet
 from sandbox.picture.view import P, View
@@ -23,8 +23,6 @@ CARD = palette("card")
 SHADOW = (0.4, 0.5)
 #: The camera of frames keeps the ball in so much of the picture's middle.
 MIDDLE = 0.72
-#: It moves smoothly over so long, in s; with a fast ball, over so much of the picture's width.
-SETTLE, SETTLE_WIDTH = 0.25, 0.05
 
 
 class Margins(NamedTuple):
@@ -79,15 +77,12 @@ class AboveView(View[P]):
         if self.NEAREST is None:
             return None
         scale = max(home.scale, width / self.NEAREST)
-        moments = np.linspace(0.0, self.run.duration, max(2, min(MOST_SAMPLES, round(self.run.duration * 60))))
-        states = np.array([self.run.state(self.ball, t) for t in moments])
+        moments, states = sampled(self.run, self.ball)
         (left, top), (right, bottom) = self._area
         reach = MIDDLE / 2 * np.array([width, bottom - top]) / scale
         at = np.clip(home.at, states[:, :2] - reach, states[:, :2] + reach)
-        fastest = max(float(np.hypot(states[:, 2], states[:, 3]).max()), 1e-9)
-        settle = min(SETTLE, SETTLE_WIDTH * width / scale / fastest)
         anchor = float(round((left + right) / 2)), float(round((top + bottom) / 2))
-        return Follow(moments, at, np.full(len(moments), scale), anchor, settle)
+        return Follow(moments, at, np.full(len(moments), scale), anchor, settling(states, width / scale))
 
     def view(self, t: float) -> Camera:
         """The camera of ``frame(t)``, on whole px."""

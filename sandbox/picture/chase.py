@@ -15,6 +15,18 @@ from sandbox.picture.path import MOST_SAMPLES
 SETTLE, SETTLE_WIDTH = 0.25, 0.05
 
 
+def sampled(run: Run, ball: str) -> tuple[np.ndarray, np.ndarray]:
+    """Even times of a run in s, and the ball's state at each."""
+    times = np.linspace(0.0, run.duration, max(2, min(MOST_SAMPLES, round(run.duration * 60))))
+    return times, np.array([run.state(ball, t) for t in times])
+
+
+def settling(states: np.ndarray, width: float) -> float:
+    """Over how long, in s, a camera that shows ``width`` m moves smoothly when it goes with the ball."""
+    fastest = max(float(np.hypot(states[:, 2], states[:, 3]).max()), 1e-9)
+    return min(SETTLE, SETTLE_WIDTH * width / fastest)
+
+
 class Chase:
     """Keeps the ball between two columns (px) and under ``top`` (px), seen from ``home`` if it can.
 
@@ -34,14 +46,11 @@ class Chase:
         self.run, self.ball, self.home, self.columns = run, ball, home, columns
         self.radius: float = next(b.radius for b in run.setup.balls if b.name == ball)
         self.room = home.anchor[1] - top
-        times = np.linspace(0.0, run.duration, max(2, min(MOST_SAMPLES, round(run.duration * 60))))
-        states = np.array([run.state(ball, t) for t in times])
+        times, states = sampled(run, ball)
         under = ground(states[:, 0])
         scales = np.minimum(home.scale, 0.8 * self.room / np.maximum(states[:, 1] + self.radius - under, 1e-9))
         at = np.clip(home.at[0], *self._bounds(states[:, 0], home.anchor[0], scales))
-        fastest = max(float(np.hypot(states[:, 2], states[:, 3]).max()), 1e-9)
-        width = SETTLE_WIDTH * (columns[1] - columns[0])
-        settle = min(SETTLE, width / home.scale / fastest)
+        settle = settling(states, (columns[1] - columns[0]) / home.scale)
         self.follow = Follow(times, np.column_stack([at, under]), scales, home.anchor, settle)
 
     def _bounds(self, x: Any, anchor: float, scale: Any) -> tuple[Any, Any]:
