@@ -1,4 +1,4 @@
-"""The slingshot: a pull in px becomes the parameters of a shot; and what keys and the wheel change."""
+"""The slingshot: converts a pull in px to the parameters of a shot; and what keys and the wheel change."""
 
 from __future__ import annotations
 
@@ -11,17 +11,17 @@ from sandbox.window.session import Changes, Session
 
 #: A full pull, as a share of the stage's height.
 FULL = 0.42
-#: A shorter pull in px is a click and no shot.
+#: A shorter pull in px is a click, not a shot.
 LEAST = 8.0
-#: A full pull gives this many times the speed that the shot, or that of the scene file, has; and at least this share of
-#: the strongest shot.
+#: A full pull gives this many times the speed of the current shot or of the scene file, whichever is larger; and at
+#: least this share of the strongest shot.
 TIMES, WEAKEST = 2.0, 0.005
 #: What one press of a key changes: the angle in deg, the speed as a share of a full pull; finer with Shift.
 TURN, PUSH, FINER = 1.0, 0.01, 0.1
 
 
 def strongest(session: Session) -> float:
-    """The speed of a full pull, in the speed's unit: it suits the shot, as the same hand putts and drives."""
+    """The speed of a full pull, in the speed's unit: scaled to the shot, since one pull serves putts and drives."""
     controls = session.controls
     speeds = [session.value(controls.speed), session.base_value(controls.speed)]
     speed = max((value for value in speeds if isinstance(value, float)), default=0.0)
@@ -30,13 +30,13 @@ def strongest(session: Session) -> float:
 
 @dataclass
 class Pull:
-    """A pull of the mouse, which may start anywhere; what it means stays the same until it ends."""
+    """A pull of the mouse, which may start anywhere; its scale stays the same until it ends."""
 
     start: tuple[int, int]  # px
     before: Changes  # what was changed until then
     strongest: float  # of a full pull
     height: float  # of the stage, px
-    stretch: float  # how many times heights are drawn as large as lengths
+    stretch: float  # vertical scale over horizontal scale
     vector: tuple[float, float] = (0.0, 0.0)  # px, y down
 
     @property
@@ -46,7 +46,7 @@ class Pull:
 
     @property
     def drawn(self) -> tuple[float, float]:
-        """As much of it as counts, in px."""
+        """The part of it that counts, in px."""
         shorter = min(1.0, FULL * self.height / max(self.length, 1e-9))
         return self.vector[0] * shorter, self.vector[1] * shorter
 
@@ -61,13 +61,13 @@ class Pull:
         return min(1.0, max(0.0, (self.length - LEAST) / (FULL * self.height - LEAST)))
 
     def changes(self, session: Session) -> dict[str, Any] | None:
-        """The changes that the pull asks for; None where it is not a shot. The ball goes the other way."""
+        """The changes that the pull makes; None if it is not a shot. The ball goes in the opposite direction."""
         controls = session.controls
         speed, angle = session.parameter(controls.speed), session.parameter(controls.angle)
         if not self.shoots or speed is None or angle is None:
             return None
         along, down = self.vector
-        # More than in proportion, so that soft shots have room too.
+        # More than proportional, for finer control of soft shots.
         return {
             **controls.also,
             controls.speed: _within(speed, float(f"{self.strongest * self.share**1.5:.4g}")),
@@ -75,7 +75,7 @@ class Pull:
         }
 
     def vector_of(self, session: Session) -> tuple[float, float]:
-        """The pull that would give the shot as it stands."""
+        """The pull that would give the current shot."""
         controls = session.controls
         speed, angle = session.value(controls.speed), session.value(controls.angle)
         if not isinstance(speed, float) or not isinstance(angle, float):

@@ -1,4 +1,4 @@
-"""The window's loop: events go to panel, commands and pointer, time goes to the game, and the view draws."""
+"""The window's loop: passes events to panel, commands and pointer, time to the game, and has the view drawn."""
 
 from __future__ import annotations
 
@@ -23,13 +23,13 @@ from sandbox.workers import Processes
 if TYPE_CHECKING:
     from sandbox.window.panel import Panel
 
-#: Columns and rows that each goes on.
+#: The step of each in columns and rows.
 ARROWS = {pygame.K_LEFT: (-1, 0), pygame.K_RIGHT: (1, 0), pygame.K_UP: (0, -1), pygame.K_DOWN: (0, 1)}
 
 FRAMES = 60  # per second
-#: While nothing is going on, files are looked at so often, in s; an event ends the wait.
+#: How often files are checked while nothing happens, in s; an event ends the wait.
 IDLE = 0.25
-#: The window is shown with its first shot, but no later than after so many s.
+#: The window is shown with its first shot, but after this time, in s, in any case.
 FIRST = 1.5
 
 
@@ -60,14 +60,14 @@ class App:
 
     @staticmethod
     def _wait() -> None:
-        """Until something happens in the window, or it is time to look at the files. pygame's own waiting looks for
-        events a thousand times a second."""
+        """Wait until something happens in the window, or it is time to check the files. pygame's own wait polls a
+        thousand times a second."""
         end = perf_counter() + IDLE
         while perf_counter() < end and not pygame.event.peek():
             sleep(1 / FRAMES)
 
     def close(self) -> None:
-        """End what goes on by itself."""
+        """End the background thread."""
         self.view.background.close()
 
     @property
@@ -76,7 +76,7 @@ class App:
         return self.game.running and (self.game.busy or (self.view.busy and not self.hidden))
 
     def tick(self, dt: float) -> bool:
-        """Take in what happened, pass ``dt`` s, and draw if something changed; whether it did."""
+        """Handle events, advance by ``dt`` s, and draw if something changed; returns whether it did."""
         started = perf_counter()
         self._repeated.clear()
         events = pygame.event.get()
@@ -93,7 +93,7 @@ class App:
         return True
 
     def _sound(self, start: float, end: float) -> None:
-        """The impacts of this frame."""
+        """Play the impacts of this frame."""
         shot = self.game.shot
         if self.sound is None or shot is None or end <= start:
             return
@@ -137,8 +137,8 @@ class App:
                 self.pointer.handle(event)
 
     def _fresh(self, event: pygame.event.Event) -> bool:
-        """Whether a key was pressed, or is held for something that repeats, once in a frame: after a frame that took
-        long its repeats have piled up."""
+        """Whether a key was pressed, or is held for a command that repeats, at most once a frame: after a slow frame
+        its repeats have piled up."""
         repeats = event.key in self.held
         self.held.add(event.key)
         if not repeats:
@@ -161,7 +161,7 @@ class App:
             self.game.open(menu.chosen)
 
     def _for_panel(self, panel: Panel, event: pygame.event.Event) -> bool:
-        """Let the panel take an event; whether it is for nobody else."""
+        """Pass an event to the panel; returns whether it is for the panel alone."""
         typing, view = panel.typing, self.view
         used = panel.handle(event)
         if event.type == pygame.KEYDOWN:
@@ -176,7 +176,7 @@ class App:
 
 def play(source: str, changes: Mapping[str, Any] | None = None, scene: str | None = None) -> None:
     """Open the window on a scene or a replay, until it is closed; ``scene`` is that of the replay. Raises RequestError
-    where there is no display."""
+    if there is no display."""
     from sandbox.window.display import opened
 
     recorded = source.endswith(replay.SUFFIX)

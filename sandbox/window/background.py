@@ -1,4 +1,4 @@
-"""Work in another thread, and how long a frame waits for what is done elsewhere."""
+"""Work in another thread, and how long a frame waits for such work."""
 
 from __future__ import annotations
 
@@ -14,33 +14,33 @@ from typing import Any
 
 #: How long a frame waits for a run, in s: the rest of a frame is for drawing.
 PATIENCE = 0.005
-#: How often Python lets threads take turns, in s: its own 5 ms would be a third of a frame.
-TURNS = 0.0005
+#: How often Python switches between threads, in s: its default of 5 ms would be a third of a frame.
+SWITCH_INTERVAL = 0.0005
 
 
 def steady() -> None:
-    """Have Python look for unused memory only among what comes from now on: all there is takes it two frames."""
+    """Make garbage collection skip all objects that exist now: going through them takes two frames."""
     gc.unfreeze()
     gc.collect()
     gc.freeze()
 
 
 class Background:
-    """One thread that does one thing after another while the window draws. The program may end before it is done."""
+    """A thread that works through a queue while the window draws. The program may end before it is done."""
 
     def __init__(self) -> None:
-        sys.setswitchinterval(TURNS)
+        sys.setswitchinterval(SWITCH_INTERVAL)
         self.queue: SimpleQueue[tuple[Future[Any], Callable[[], Any]] | None] = SimpleQueue()
         Thread(target=self._work, name="background", daemon=True).start()
 
     def submit(self, work: Callable[..., Any], *args: Any) -> Future[Any]:
-        """Do it once what was asked for before is done."""
+        """Do the work once everything submitted before is done."""
         future: Future[Any] = Future()
         self.queue.put((future, partial(work, *args)))
         return future
 
     def close(self) -> None:
-        """End when what was asked for is done."""
+        """End when everything submitted is done."""
         self.queue.put(None)
 
     def _work(self) -> None:
@@ -53,5 +53,5 @@ class Background:
 
 
 def ready(future: Future[Any], patience: float | None) -> bool:
-    """Whether it is done, after waiting for at most so many s (None: until it is)."""
+    """Whether it is done, after waiting for at most ``patience`` s (None: until it is)."""
     return bool(wait_for([future], patience).done)

@@ -1,4 +1,4 @@
-"""The bar along the bottom: the scene's name, the buttons of a player, the time line, and what may be opened."""
+"""The bar along the bottom: the scene's name, playback buttons, the time line, and buttons for panel and lists."""
 
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ HEIGHT = 48  # px on 720 rows
 APART = 8  # px, at least, between two marks on the time line
 LEAST = 160  # px on 720 rows, of the time line
 WIDEST_RATE = "×1/16"
-#: What goes in a narrow window until the time line has room, the first first: the scene's part of a preset's name, how
-#: long the shot is, and buttons whose commands have a key, or stand in the list "more".
+#: What is left out in a narrow window until the time line has room, in this order: the scene's part of a preset's name,
+#: the shot's duration, and buttons whose commands have a key or are in the list "more".
 SPARED = (
     frozenset({"scene"}),
     frozenset({"duration"}),
@@ -83,7 +83,7 @@ def _icon(name: str, side: int, colour: Colour) -> pygame.Surface:
 
 @dataclass(frozen=True)
 class Shown:
-    """What the bar tells."""
+    """What the bar shows."""
 
     title: str
     playing: bool
@@ -96,13 +96,13 @@ class Shown:
 
 
 class Bar:
-    """Lies in ``rect`` of a window that is made for ``rows`` rows."""
+    """The bar in ``rect`` of a window that is laid out for ``rows`` rows."""
 
     def __init__(self, rect: pygame.Rect, rows: int) -> None:
         self.rect, self.unit = rect, rows / 720
         self.lettering = Lettering(rows)
         self.places: dict[str, pygame.Rect] = {}  # of everything by name: commands, "rate", "line" and "time"
-        self.title = ""  # as much of it as there is room for
+        self.title = ""  # cut to fit
         self._laid_out: tuple[str, tuple[str, ...], str] | None = None
 
     @property
@@ -118,7 +118,7 @@ class Bar:
         return next((name for name, rect in self.buttons.items() if rect.collidepoint(position)), None)
 
     def share_at(self, position: tuple[int, int]) -> float | None:
-        """Where on the time line a point is, 0 to 1; None off it."""
+        """The position of a point on the time line, 0 to 1; None if it is not on it."""
         if not self.line.inflate(16, self.rect.height - 12).collidepoint(position):
             return None
         return self.share(position)
@@ -129,7 +129,7 @@ class Bar:
     # Places
 
     def _lay_out(self, shown: Shown) -> None:
-        """Places for all that there is room for."""
+        """Place everything that fits."""
         letters, least = self.lettering, round(LEAST * self.unit)
         time = "0" * max(2, len(f"{shown.duration:.0f}")) + ".00 s"
         if self._laid_out == (shown.title, shown.texts, time):
@@ -147,7 +147,7 @@ class Bar:
         self._place(shown, time, without)
 
     def _place(self, shown: Shown, time: str, without: frozenset[str]) -> None:
-        """Places for all but what is left out; the time line has what is left over."""
+        """Place everything except ``without``; the time line takes the rest."""
         gap, side, thick = round(8 * self.unit), round(30 * self.unit), max(3, round(4 * self.unit))
         places = self.places = {}
 

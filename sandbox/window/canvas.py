@@ -16,14 +16,14 @@ class Canvas(Sheet):
         super().__init__(surface.get_size(), surface=surface)
 
     def ended(self, text: str, size: str, room: float, bold: bool = False) -> str:
-        """As much of a text as ``room`` px hold, up to a comma where there is one."""
+        """The text cut to ``room`` px, at a comma if there is one."""
         while ", " in text and self.lettering.width(text, size, bold) > room:
             text = text.rpartition(", ")[0]
         return self.lettering.cut(text, size, room, bold)
 
     def numbers(self, entries: Sequence[Entry]) -> None:
-        """The card along the bottom; of a number that is too long for it the beginning."""
+        """The card along the bottom; a value that is too long is cut."""
         room = self.frame.width - 6 * self.gap
         ended = [self.ended(entry[1], "medium", room, bold=True) for entry in entries]
-        kept = [e if text == e[1] else (e[0], text) for e, text in zip(entries, ended, strict=True)]
-        self.columns(self.frame.bottom - self.card_height(), kept)
+        shown = [e if text == e[1] else (e[0], text) for e, text in zip(entries, ended, strict=True)]
+        self.columns(self.frame.bottom - self.card_height(), shown)

@@ -16,9 +16,9 @@ from sandbox.window.shot import Shot
 
 CARD, ENERGY = palette("card"), palette("energy")
 
-#: Points of a line; width of the card, where there is room and beside a table, and height of a strip, px on 720 rows.
+#: Points of a line; width of the card, usually and next to a table, and height of a strip, px on 720 rows.
 SAMPLES, WIDTH, NARROW, STRIP = 200, 280, 170, 46
-#: The card is no wider than this share of the picture, if what stands on it is not.
+#: The card is at most this share of the picture's width, unless its text is wider.
 SHARE = 0.22
 #: Before the largest value of all, of either sign.
 PEAK = "peak "
@@ -31,10 +31,10 @@ class Charts:
     """The strips of one shot."""
 
     def __init__(self, shot: Shot, picture: Any = None) -> None:
-        """``picture`` knows where the ground is, where it does: heights are those of the ball above it."""
+        """Heights are above the ground of ``picture``, if it has one."""
         self.shot = shot
         end = shot.run.duration
-        #: A moment before each impact, and the impact, so that steps are upright.
+        #: A moment before each impact, and the impact, so that steps are vertical.
         hits = [e.t for e in shot.run.events if e.kind == "impact" and e.ball == shot.ball][:100]
         times = np.union1d(np.linspace(0.0, end, SAMPLES), [t for hit in hits for t in (max(0.0, hit - 1e-6), hit)])
         self.times = times
@@ -48,7 +48,7 @@ class Charts:
         self.strips.append(("spin", "rpm", spin * 30 / pi, 0))
 
     def draw(self, sheet: Sheet, top: float, t: float | None, avoid: pygame.Rect) -> None:
-        """A card at the right below the row ``top``, or from above at the left, where nothing is shot at.
+        """A card at the right below the row ``top``, or at the left in a view from above.
 
         ``t`` in s is marked.
         """
@@ -59,9 +59,9 @@ class Charts:
             float(values[np.abs(values).argmax()] if t is None else np.interp(t, self.times, values))
             for _, _, values, _ in self.strips
         ]
-        texts = [_told(value, strip) for value, strip in zip(shown, self.strips, strict=True)]
+        texts = [_text(value, strip) for value, strip in zip(shown, self.strips, strict=True)]
         written = max(
-            letters.width(strip[0], "small") + letters.width(_told(value, strip), "small", bold=True)
+            letters.width(strip[0], "small") + letters.width(_text(value, strip), "small", bold=True)
             for strip in self.strips
             for value in (strip[2].min(), strip[2].max())
         )
@@ -97,7 +97,7 @@ class Charts:
 
 
 def heights(shot: Shot, picture: Any, x: np.ndarray, y: np.ndarray) -> np.ndarray:
-    """How high the played ball is above the ground at places in m, as the pictures say it."""
+    """How high the played ball is above the ground at places in m, as in the pictures."""
     ground = getattr(picture, "ground", None)
     if ground is None:
         return y
@@ -105,6 +105,6 @@ def heights(shot: Shot, picture: Any, x: np.ndarray, y: np.ndarray) -> np.ndarra
     return np.asarray(np.maximum(0.0, y - radius - ground(x)))
 
 
-def _told(value: float, strip: Strip) -> str:
+def _text(value: float, strip: Strip) -> str:
     _, unit, _, digits = strip
     return signed(f"{value:.{digits}f}") + f" {unit}"

@@ -1,4 +1,4 @@
-"""What each command does: those of the keys, of the bar's buttons and of its lists."""
+"""What each command of the keys, the bar's buttons and its lists does."""
 
 from __future__ import annotations
 
@@ -17,18 +17,18 @@ from sandbox.window.game import Game
 from sandbox.window.keys import LISTED
 from sandbox.window.shot import Shot
 from sandbox.window.view import View
-from sandbox.window.worker import trusted
+from sandbox.window.worker import cost_and_errors
 
-#: What is shown or not: each is switched by the command of its name.
+#: What can be shown or hidden: the command of the same name switches it.
 SWITCHES = ("view", "ghosts", "arrows", "charts", "cost", "help", "tape")
-#: Of the picture: how many times larger one step shows it, and by how many px one moves it.
+#: One step enlarges the picture by this factor, or moves it by this many px.
 ZOOM, PAN = 1.25, 60.0
 
 NO_SHOTS = "no shots yet: pull back and let go"
 
 
 def do(view: View, command: str, fine: bool = False) -> None:
-    """What a key or a button asks for; ``fine`` with Shift."""
+    """Carry out the command of a key or a button; ``fine`` with Shift."""
     view.changed = True
     if command in NUDGES:
         view.game.nudge(NUDGES[command](view.game, fine))
@@ -46,7 +46,7 @@ def do(view: View, command: str, fine: bool = False) -> None:
 
 
 def _watching(view: View, action: str, *arguments: Any) -> None:
-    """Something that only a shot that is being watched can do."""
+    """Call a method of the playback, if a shot is being watched."""
     if view.game.playback is not None:
         getattr(view.game.playback, action)(*arguments)
 
@@ -82,17 +82,17 @@ def _fan(view: View) -> None:
 
 
 def _accuracy(view: View) -> None:
-    """The next level, with what it costs and how far its result is off."""
+    """Go to the next level, and report its cost and errors."""
     game, levels = view.game, list(LEVELS)
     level = levels[(levels.index(game.session.value("accuracy.level")) + 1) % len(levels)]
     if game.change({"accuracy.level": level}):
         game.tell(f"accuracy {level} ...")
-        result = game.worker.submit(trusted, game.session.scene)
+        result = game.worker.submit(cost_and_errors, game.session.scene)
         game.ask(result, lambda said: game.tell(f"accuracy {level}: {said}"))
 
 
 def _energy(view: View) -> None:
-    """The energy of the shot that is shown, over the picture; or not any more."""
+    """Show the energy chart of the current shot over the picture, or hide it."""
     shot, again = view.game.shot, view.energy is not None
     view.close_overlays()
     if shot is not None and not again:
@@ -133,7 +133,7 @@ def _export(view: View, write: Callable[[], Path]) -> None:
 
 
 def _with_shot(view: View, action: Callable[[Shot], object]) -> None:
-    """Do something with the shot that is watched, or the last."""
+    """Do something with the shot that is watched, or the last one."""
     game = view.game
     shot = game.shot if game.playback is not None else game.shots[-1] if game.shots else None
     if shot is None:
@@ -159,7 +159,7 @@ def _open_replay(view: View) -> None:
 
 def _animate(view: View, shot: Shot) -> None:
     if view.exporter is not None and view.exporter.is_alive():
-        view.game.tell("the animation before is still being written")
+        view.game.tell("the previous animation is still being written")
         return
     view.game.tell("writing the animation ...")
     title = view.game.session.title
@@ -185,7 +185,7 @@ def _quit(view: View) -> None:
     view.game.running = False
 
 
-#: Commands for the panel, which is opened first.
+#: Commands for the panel, which they open if it is closed.
 PANEL: dict[str, Callable[[Any, bool], object]] = {
     "row_down": lambda panel, fine: panel.choose(1),
     "row_up": lambda panel, fine: panel.choose(-1),
@@ -196,7 +196,7 @@ PANEL: dict[str, Callable[[Any, bool], object]] = {
     "group_up": lambda panel, fine: panel.turn(-1),
 }
 
-#: Commands that change the aim, finely with Shift: from the game to the changes.
+#: Commands that change the aim, finely with Shift: functions from the game to the changes.
 NUDGES: dict[str, Callable[[Game, bool], dict[str, Any]]] = {
     "turn_left": lambda game, fine: aim.nudged(game.session, turn=1, fine=fine),
     "turn_right": lambda game, fine: aim.nudged(game.session, turn=-1, fine=fine),

@@ -11,17 +11,17 @@ import pygame
 
 from sandbox.errors import RequestError
 
-#: What SDL falls back to where there is nothing to show a window on.
+#: What SDL falls back to if there is no display.
 UNSEEN = ("offscreen", "dummy")
-#: One of these says where the display is, or which driver to take.
+#: Variables of which one names the display or the driver.
 SEEN_BY = ("DISPLAY", "WAYLAND_DISPLAY", "SDL_VIDEODRIVER")
 NO_DISPLAY = "no display to open a window on; without one use sandbox run SCENE with --poster F.png or --gif F.gif"
 
 
 @contextmanager
 def opened(size: tuple[int, int], title: str) -> Iterator[pygame.Surface]:
-    """A window that can be resized. Raises RequestError where there is no display."""
-    os.environ.setdefault("SDL_WINDOWS_DPI_AWARENESS", "permonitorv2")  # a pixel is a pixel on fine displays
+    """A window that can be resized. Raises RequestError if there is no display."""
+    os.environ.setdefault("SDL_WINDOWS_DPI_AWARENESS", "permonitorv2")  # no scaling on high-resolution displays
     if sys.platform == "linux" and not any(os.environ.get(name) for name in SEEN_BY):
         raise RequestError(NO_DISPLAY)
     try:
@@ -36,4 +36,4 @@ def opened(size: tuple[int, int], title: str) -> Iterator[pygame.Surface]:
         pygame.key.set_repeat(350, 40)
         yield screen
     finally:
-        pygame.display.quit()  # and not the fonts, which are kept for the next window
+        pygame.display.quit()  # but not the fonts, which the next window uses again

@@ -1,4 +1,4 @@
-"""What the window writes: a picture of itself, an animation of a shot, a scene file with what was changed."""
+"""Files that the window writes: a screenshot, an animation of a shot, a scene file with the changes."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ def animation(shot: Shot, stem: str) -> Path:
 
 
 def scene_file(session: Session) -> Path:
-    """A new scene file: that of the scene, its comments kept, with what was changed."""
+    """A new scene file: a copy of the scene's, with its comments, and the changes."""
     import tomlkit
 
     path = free(session.title, ".toml")
@@ -63,7 +63,7 @@ def scene_file(session: Session) -> Path:
         text = session.file.read_text("utf-8-sig") if session.file is not None else ""
     except OSError as error:
         raise RunError(f"{session.file}: cannot be read: {reason(error)}") from None
-    if not re.search(r"(?m)^\s*scene\s*=", text):  # a preset, whose folder says what it is for
+    if not re.search(r"(?m)^\s*scene\s*=", text):  # a preset, whose folder is that of its scene
         text = f'scene = ""\n\n{text}'
     document = tomlkit.parse(text)
     document["scene"] = _named(session, str(document["scene"]), path.parent)
@@ -78,7 +78,7 @@ def scene_file(session: Session) -> Path:
 
 
 def _named(session: Session, written: str, place: Path) -> str:
-    """What a scene file in ``place`` says of its scene; the preset that the session's own file begins from stays."""
+    """How a scene file in ``place`` names its scene; it keeps the preset that the session's own file begins from."""
     scene = session.base
     own = reference(scene.folder, place)
     begins_from = written.rpartition("/")[2]

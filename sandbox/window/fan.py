@@ -1,4 +1,4 @@
-"""A fan: the same shot varied at random by a stated spread, and the share of such shots that score."""
+"""A fan: the same shot varied at random with a given spread, and the share of such shots that score."""
 
 from __future__ import annotations
 
@@ -14,16 +14,16 @@ from sandbox.window.worker import FanShot, varied
 from sandbox.workers import Processes
 
 SHOTS = 200
-#: Where a scene states no spread: of the speed, as a share of it, and of the angle, in deg.
+#: Spread if the scene gives none: of the speed, as a share of it, and of the angle, in deg.
 SPEED, ANGLE = 0.01, 0.5
-#: A spread may be made so many times wider or narrower.
+#: The spread can be made this many times wider or narrower.
 WIDEST = 16.0
-#: Shots are computed so many at first, and then so many as take this long, in s: another aim must not wait for more.
+#: Size of the first batch of shots, and the duration of the later ones in s: a new aim must not wait for longer.
 FIRST, AT_ONCE = 8, 0.05
 
 
 class Fan:
-    """Shots around one of them; ``advance`` after each frame has them computed."""
+    """Random variations of a shot; ``advance`` after each frame computes more of them."""
 
     def __init__(self, shot: Shot, width: float = 1.0) -> None:
         self.shot, self.width = shot, width
@@ -40,7 +40,7 @@ class Fan:
         controls = self.shot.scene.controls
         values = {key: parameter.value for key, parameter in self.known.items()}
         if any(values.get(key) != value for key, value in controls.also.items()):
-            return {}  # the shot begins otherwise than a player's, and what a player varies would change nothing
+            return {}  # the shot does not start as a player's does, so these parameters have no effect
         spread = controls.spread or (Spread(controls.speed, SPEED), Spread(controls.angle, least=ANGLE))
         sigmas = {item.key: item.sigma(values[item.key]) for item in spread if isinstance(values.get(item.key), float)}
         return {key: sigma for key, sigma in sigmas.items() if sigma > 0}
@@ -50,7 +50,7 @@ class Fan:
         return len(self.shots) + self.failed >= SHOTS or not self.spread
 
     def advance(self, worker: Processes) -> None:
-        """Take the shots that were computed, and have more of them computed."""
+        """Take the shots that were computed, and start computing more."""
         if self.work is not None and self.work.done():
             self._take(self.work)
             self.work = None
@@ -72,7 +72,7 @@ class Fan:
         self.next = max(1, round(AT_ONCE * len(found) / seconds))
 
     def _point(self, draws: np.ndarray) -> list[float]:
-        """Each parameter of the spread moved, within its bounds."""
+        """The values of one random shot, within their bounds."""
         values = []
         for (key, sigma), draw in zip(self.spread.items(), draws, strict=True):
             low, high = self.known[key].low, self.known[key].high
@@ -81,7 +81,7 @@ class Fan:
         return values
 
     def summary(self) -> tuple[str, str]:
-        """How many score, and by what the shots differ."""
+        """How many score, and the spread of the shots."""
         count = len(self.shots)
         name = self.shot.scene.controls.scores
         if not self.spread:

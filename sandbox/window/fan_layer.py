@@ -1,4 +1,4 @@
-"""A fan as a cloud of faint paths."""
+"""Draws a fan as a cloud of faint paths."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ from sandbox.window.worker import FanShot
 
 CARD = palette("card")
 
-#: So many paths are drawn in one frame; the others in the next.
+#: Number of paths that are drawn in one frame; the others follow in the next.
 PER_FRAME = 6
-#: Opacity of a path, of 255: where many go, it is dense.
+#: Opacity of a path, of 255, if it scores and if it misses.
 FAINT, FAINT_MISS = 70, 50
 
 
@@ -31,7 +31,7 @@ class FanLayer:
 
     @property
     def complete(self) -> bool:
-        """Whether all paths that there are so far are drawn."""
+        """Whether all paths so far are drawn."""
         return self.drawn >= len(self.fan.shots)
 
     def draw(self, sheet: Sheet) -> None:

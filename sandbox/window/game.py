@@ -1,6 +1,6 @@
-"""What is played, without a picture: a scene file and its changes, the shot they give, the shots so far.
+"""The state of the game, without drawing: a scene file and its changes, the resulting shot, the shots so far.
 
-A game aims (``shot`` is the path of the parameters as they stand, computed by the worker while they change), or a shot
+While aiming, ``shot`` is the path for the current parameters, computed by the worker as they change; otherwise a shot
 is watched, paused, or replayed from a recording. ``advance`` passes time and never waits for a run.
 """
 
@@ -30,16 +30,16 @@ from sandbox.workers import Processes, WorkerLost
 
 #: How long a message stays, in s.
 MESSAGE = 6.0
-#: A fan is begun when the shot has not changed for so long, in s.
+#: A fan starts when the shot has not changed for this time, in s.
 STILL = 0.1
-#: After so many s a run that has not ended may be stopped; one whose parameters have changed since is.
+#: A run that takes longer than this, in s, can be stopped; it is stopped if its parameters have changed since.
 LONG = 2.0
-#: So many shots can be watched again.
-KEPT = 50
+#: Number of shots that can be watched again.
+MOST_SHOTS = 50
 
 
 class State(Enum):
-    """What a game does."""
+    """What the game is doing."""
 
     AIMING = "aiming"
     WATCHING = "watching"
@@ -56,7 +56,7 @@ class Message(NamedTuple):
 
 
 class Pending(NamedTuple):
-    """A run that is computed."""
+    """A run that is being computed."""
 
     scene: Scene
     changes: Changes
@@ -65,17 +65,17 @@ class Pending(NamedTuple):
 
 
 class Game:
-    """A session that is played. What changes what can be seen also changes ``revision``."""
+    """A session that is played. Every change that can be seen also changes ``revision``."""
 
     def __init__(self, session: Session, worker: Processes, patience: float = PATIENCE) -> None:
-        """A frame waits for the path of what was changed where that takes no longer than ``patience`` s."""
+        """A frame waits for the path after a change if that takes no longer than ``patience`` s."""
         self.session, self.worker, self.patience = session, worker, patience
         self.running = True
         self.revision = 0
         self.code = 0  # how often the scene's code was read again
         self.shot: Shot | None = None  # as aimed, or as watched
-        self.failure: str | None = None  # why the parameters as they stand have no shot
-        self.stale = True  # the shot is not that of the parameters, nor is one computed
+        self.failure: str | None = None  # why there is no shot for the current parameters
+        self.stale = True  # the shot is outdated, and no new one is being computed
         self.pending: Pending | None = None
         self.shooting = False  # the shot is watched as soon as it is computed
         self.playback: Playback | None = None  # None while aiming
@@ -89,15 +89,15 @@ class Game:
         self.still = 0.0  # s since the shot changed
         self.cost = 0.0  # s, of the last run
         self.message: Message | None = None
-        self.unreadable: str | None = None  # what is wrong with the files as they were saved last
+        self.unreadable: str | None = None  # what is wrong with the files as last saved
         self.opened: list[str] = [session.source]  # all scene files so far
-        self.dropped: list[Future[Any]] = []  # what the worker still has to be stopped from
+        self.dropped: list[Future[Any]] = []  # work that the worker still has to abandon
         self._waited = 0  # s that were reported last
         self.jobs: list[tuple[Future[Any], Callable[[Any], object]]] = []
         self.watch_files = Watch(session.files)
         self.worker.submit(warm_up, session.source)
 
-    # -------------------------------------------------------------------------------------------------------- what is
+    # ---------------------------------------------------------------------------------------------------------- state
 
     @property
     def state(self) -> State:
@@ -109,19 +109,19 @@ class Game:
 
     @property
     def settled(self) -> bool:
-        """Whether the shot is that of the parameters, or known not to exist."""
+        """Whether the shot is that of the current parameters, or is known to have failed."""
         return not self.stale and self.pending is None
 
     @property
     def busy(self) -> bool:
-        """Whether something is computed, or a shot goes on."""
+        """Whether something is being computed, or a shot is playing."""
         playing = self.playback is not None and self.playback.playing
         fan = self.fan_wanted and self.failure is None and (self.fan is None or not self.fan.complete)
         return playing or not self.settled or bool(self.jobs) or fan
 
     @property
     def waited(self) -> float:
-        """How long the run that is computed has taken so far, in s."""
+        """How long the current run has taken so far, in s."""
         return perf_counter() - self.pending.since if self.pending is not None else 0.0
 
     @property
@@ -136,7 +136,7 @@ class Game:
 
     @property
     def notices(self) -> list[tuple[str, bool]]:
-        """What the player is told now: each text, and whether it is bad. An error stays for as long as it is true."""
+        """The current messages for the player: each text, and whether it is bad. An error stays while it is true."""
         found = [(text, True) for text in (self.failure, self.unreadable) if text is not None]
         if self.playback is None and self.waited >= LONG:
             found.append((f"still computing after {self.waited:.0f} s; Esc stops it", False))
@@ -150,7 +150,7 @@ class Game:
         self.revision += 1
 
     def trying(self, action: Callable[[], object]) -> bool:
-        """Do something that may fail because of what was asked for; the player is told, and the game goes on."""
+        """Do something that may fail because of the input; a failure is reported and the game continues."""
         try:
             action()
         except Exception as error:
@@ -171,8 +171,8 @@ class Game:
     # ----------------------------------------------------------------------------------------------------- time passes
 
     def advance(self, dt: float, hold: bool = False) -> tuple[float, float]:
-        """Pass ``dt`` s; ``hold`` stops the clock of the shot that is watched, as it cannot be seen yet. Returns from
-        when to when, in s, that shot went on."""
+        """Pass ``dt`` s; ``hold`` stops the clock of the shot that is watched, while it cannot be seen. Returns the
+        times in s between which the shot was played."""
         if self.message is not None:
             text, bad, left = self.message
             self.message = Message(text, bad, left - dt) if left > dt else None
@@ -219,15 +219,15 @@ class Game:
     # ------------------------------------------------------------------------------------------------------- the shot
 
     def _compute(self) -> None:
-        """Have the scene run as it stands, and take the path that this frame shows."""
+        """Run the scene with the current parameters, and take the path that this frame shows."""
         self._take_run(0.0)
-        if self.stale and self.waited >= LONG:  # what is computed is of no use any more
+        if self.stale and self.waited >= LONG:  # the run is outdated
             self._stop_worker()
         if self._begin_run() and self.cost <= self.patience and self.shot is not None:
             self._take_run(self.patience)
 
     def _begin_run(self) -> bool:
-        """Have the scene run as it stands, once the run before has ended; whether there is one to wait for."""
+        """Start a run with the current parameters, once the one before has ended; whether there is one to wait for."""
         if self.stale and self.pending is None:
             self.stale, scene = False, self.session.scene
             result = self.worker.submit(computed, scene)
@@ -235,7 +235,7 @@ class Game:
         return self.pending is not None
 
     def _take_run(self, patience: float | None) -> None:
-        """Take what has been run."""
+        """Take the result of the run."""
         if self.pending is None or not ready(self.pending.result, patience):
             return
         (scene, changes, result, _), self.pending = self.pending, None
@@ -266,13 +266,13 @@ class Game:
         self.revision += 1
 
     def _end_dropped(self) -> None:
-        """End what was dropped: more than once where its process had not begun yet."""
+        """End abandoned work: repeatedly, if its process had not started yet."""
         self.dropped = [result for result in self.dropped if not result.done()]
         if self.dropped:
             self.worker.kill()
 
     def stop(self) -> bool:
-        """Stop a run that takes long; whether there was one."""
+        """Stop a long run; returns whether there was one."""
         if self.waited < LONG:
             return False
         self._stop_worker()
@@ -281,14 +281,14 @@ class Game:
         return True
 
     def change(self, values: Mapping[str, Any]) -> bool:
-        """Change parameters, and aim with them; whether they are valid."""
+        """Change parameters, and aim with them; returns whether they are valid."""
         if not values:
             return False
         self.aim_again(from_rest=True)
         return self._changing(lambda: self.session.change(values))
 
     def _changing(self, action: Callable[[], object]) -> bool:
-        """Do what changes the parameters; whether they are valid."""
+        """Do something that changes the parameters; returns whether they are valid."""
         scene, changes = self.session.scene, self.session.changes
         if not self.trying(action):
             return False
@@ -301,7 +301,7 @@ class Game:
         """Take back what was changed in the window: one parameter, or all of them."""
         self.aim_again()
         if self._changing(lambda: self.session.reset(key)) and key is None:
-            self.tell("all parameters as in the file; Ctrl Z takes that back")
+            self.tell("all parameters as in the file; Ctrl Z to undo")
 
     def undo(self) -> None:
         """Take back the last change."""
@@ -311,9 +311,9 @@ class Game:
         self._changing(self.session.undo)
 
     def begin_again(self) -> None:
-        """The balls back where they were before any shot went on from another."""
+        """Put the balls back where the first of the continued shots began."""
         if not self.session.changes.positions:
-            self.tell("the balls are where they began")
+            self.tell("the balls are already where they began")
             return
         self.aim_again()
         self._changing(self.session.begin_again)
@@ -364,7 +364,7 @@ class Game:
         """Count a shot, and watch it."""
         self.count += 1
         self.shots.append(replace(shot, start=self.start, number=self.count))
-        del self.shots[:-KEPT]
+        del self.shots[:-MOST_SHOTS]
         self.watch(self.shots[-1])
 
     def watch(self, shot: Shot) -> None:
@@ -376,7 +376,7 @@ class Game:
         self.revision += 1
 
     def watch_other(self, by: int) -> None:
-        """Play the shot so many before or after the one that is watched."""
+        """Play the shot ``by`` places after the one that is watched."""
         if not self.shots:
             self.tell("no shots yet: pull back and let go")
             return
@@ -384,7 +384,7 @@ class Game:
         self.watch(self.shots[min(max(now + by, 0), len(self.shots) - 1)])
 
     def aim_again(self, from_rest: bool = False) -> None:
-        """Leave the shot that is watched; after its end the next may begin where it ended, in scenes that offer it."""
+        """Stop watching a shot; with ``from_rest``, if it is over, the next begins where the balls came to rest."""
         playback, shot = self.playback, self.shot
         if playback is None:
             return
@@ -393,13 +393,13 @@ class Game:
         ours = shot is not None and shot.source == self.session.source
         if from_rest and playback.over and ours and self.session.controls.next_start is not None:
             assert shot is not None
-            if self._changing(lambda: self.session.go_on(shot)):
+            if self._changing(lambda: self.session.start_from(shot)):
                 self.tell("from where the balls rest; B puts them back where they began")
 
     # The fan
 
     def _advance_fan(self) -> None:
-        """The fan of the shot that is shown, once it stands still."""
+        """Compute the fan of the current shot, once it no longer changes."""
         if not self.fan_wanted or self.shot is None or self.failure is not None:
             self.fan = None
             return
@@ -435,7 +435,7 @@ class Game:
         self.tell(f"{path}: as it was recorded; F6 computes it again")
 
     def _opened(self) -> None:
-        """The session is on another scene: nothing of the one before is left but its shots."""
+        """Start on another scene: only the shots of the one before are kept."""
         self.playback = self.pull = self.before_save = self.fan = self.failure = self.unreadable = None
         self.stale, self.shooting = True, False
         self.start += 1
@@ -445,7 +445,7 @@ class Game:
         self.revision += 1
 
     def _reload(self, files: list[Path]) -> None:
-        """Files were saved: aim by them, with the path as it was still drawn."""
+        """Files were saved: aim with them, with the path from before still drawn."""
         before, folder = self.shot, self.session.base.folder
         code = any(file.suffix == ".py" for file in files)
         self.revision += 1
@@ -465,7 +465,7 @@ class Game:
         self.tell(f"read {', '.join(str(file) for file in files)} again")
 
     def compare(self, shot: Shot) -> None:
-        """Compute a shot again, and say how far the two are apart."""
+        """Compute a shot again, and report how far apart the two are."""
 
         def then(result: tuple[dict[str, Any], float]) -> None:
             self.tell(replay.compared(shot.run, run_of(shot.scene, result[0])))
@@ -473,7 +473,7 @@ class Game:
         self.ask(self.worker.submit(computed, shot.scene), then)
 
     def nudge(self, values: Mapping[str, Any]) -> bool:
-        """Change what a player aims with, by key or wheel; while a shot is watched it is left alone."""
+        """Change what a player aims with, by key or wheel; not while a shot is watched."""
         if self.playback is not None:
             self.tell("Enter to aim again")
             return False

@@ -1,4 +1,4 @@
-"""Every key of the window, in one table: what it does is read by the window, and the help from the same."""
+"""Every key of the window, in one table, from which the window reads its commands and the help its texts."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ CTRL, ALT = pygame.KMOD_CTRL, pygame.KMOD_ALT
 
 
 class Binding(NamedTuple):
-    """A key with its command; ``shown`` is how the help names it, and "" where another line says it."""
+    """A key with its command; ``shown`` is how the help names it, "" if another line does."""
 
     key: int
     command: str
@@ -92,7 +92,7 @@ BINDINGS = (
     Binding(pygame.K_BACKSPACE, "row_reset", "Ctrl Backspace", "as in the file", "Panel", CTRL),
 )
 
-#: Commands that a key goes on giving while it is held: nudges and steps.
+#: Commands that repeat while a key is held: nudges and steps.
 NUDGES = ("turn_left", "turn_right", "stronger", "weaker", "spin_up", "spin_down", "other_up", "other_down")
 STEPS = ("step", "step_back", "zoom_in", "zoom_out", "pan_left", "pan_right", "pan_up", "pan_down")
 ROWS = ("row_down", "row_up", "row_more", "row_less")
@@ -102,12 +102,12 @@ LISTED = ("See", "Keep", "More")
 
 
 def listed(group: str) -> list[Binding]:
-    """What the bar's list of a group offers."""
+    """The commands in the bar's list of a group."""
     return [binding for binding in BINDINGS if binding.group == group and binding.shown]
 
 
 def command_for(key: int, modifiers: int) -> str | None:
-    """The command of a key that was pressed; with Ctrl or Alt only those that ask for it."""
+    """The command of a key that was pressed; with Ctrl or Alt only those that need it."""
     held = (bool(modifiers & CTRL), bool(modifiers & ALT))
     for binding in BINDINGS:
         if binding.key == key and held == (bool(binding.modifier & CTRL), bool(binding.modifier & ALT)):

@@ -17,7 +17,7 @@ from sandbox.window.shot import Shot
 
 CARD = palette("card")
 
-#: So near to a trace, in px on 720 rows, the mouse reads it.
+#: The mouse reads a trace from this distance, in px on 720 rows.
 NEAR = 11.0
 
 
@@ -53,7 +53,7 @@ def reading(shot: Shot, camera: Camera, mouse: tuple[int, int], near: float, unt
 
 
 def state_entries(shot: Shot, ball: str, t: float) -> list[tuple[str, str]]:
-    """What a ball does at a time: speed, height or place, direction, spin."""
+    """The state of a ball at a time: speed, height or place, direction, spin."""
     x, y, vx, vy, spin = shot.run.state(ball, t)
     places = [("height", metres(y, 2)), ("distance", metres(x, 2))] if shot.upright else [
         ("x", metres(x, 2)), ("y", metres(y, 2))]  # fmt: skip
@@ -64,7 +64,7 @@ def state_entries(shot: Shot, ball: str, t: float) -> list[tuple[str, str]]:
 
 
 def draw_reading(sheet: Sheet, shot: Shot, read: Reading, entries: Sequence[Entry]) -> None:
-    """A mark on the trace, and beside it what the ball does there."""
+    """A mark on the trace, and next to it the ball's state there."""
     unit = sheet.unit
     sheet.painter.disc(read.at, 7 * unit, CARD["background"], 0.9)
     sheet.painter.disc(read.at, 5 * unit, CARD["text"])
@@ -75,7 +75,7 @@ def draw_reading(sheet: Sheet, shot: Shot, read: Reading, entries: Sequence[Entr
 
 
 def draw_rows(sheet: Sheet, rows: Sequence[tuple[str, str]], at: tuple[float, float]) -> None:
-    """A small card of labels and values beside a point in px, where there is room."""
+    """A small card of labels and values next to a point in px, where there is room."""
     letters, gap = sheet.lettering, sheet.gap
     left = max(letters.width(label, "small") for label, _ in rows)
     right = max(letters.width(value, "small", bold=True) for _, value in rows)

@@ -1,4 +1,4 @@
-"""What lies over everything for a while: the list of keys, the list of scenes, messages."""
+"""What is drawn over the picture for a while: the list of keys, the list of scenes, messages."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from sandbox.window.keys import listed
 
 CARD = palette("card")
 
-#: Groups of keys in two columns of the help, and in as many as it may have, the first that there is room for.
+#: Groups of keys in two columns of the help, and all its layouts, of which the first that fits is used.
 TWO = ("Play", "Watch", "See"), ("Keep", "More", "Panel")
 LAYOUTS = (("Play", "Keep", "Watch"), ("See", "Panel"), ("More",)), TWO, ((*TWO[0], *TWO[1]),)
 
@@ -33,7 +33,7 @@ def _card(sheet: Sheet, width: int, height: int) -> pygame.Rect:
 
 
 def draw_help(sheet: Sheet) -> None:
-    """All keys, in columns by what they are for: in as many as there is room for, or in two with shorter lines."""
+    """All keys, in columns by group: in the first layout that fits, or in two columns with lines cut."""
     letters, gap = sheet.lettering, sheet.gap
     row, between = letters.height("small") + max(1, gap // 2), 2 * gap
     for layout in (*LAYOUTS, TWO):
@@ -75,7 +75,7 @@ class Choices:
     def __init__(self, group: str) -> None:
         self.group = group.lower()
         self.bindings = listed(group)
-        self.stays = group == "See"  # several may be switched one after the other
+        self.stays = group == "See"  # so that several can be switched in turn
         self.places: list[tuple[pygame.Rect, str]] = []
 
     def command_at(self, position: tuple[int, int]) -> str | None:
@@ -89,7 +89,7 @@ class Choices:
         words: Mapping[str, str],
         mouse: tuple[int, int],
     ) -> None:
-        """At the foot of the picture, above its button; ``words`` instead of what the help says of a command."""
+        """At the bottom of the picture, above its button; ``words`` replace the help's text of a command."""
         letters, unit, gap = sheet.lettering, sheet.unit, sheet.gap
         row = round(letters.height("small") + 1.6 * gap)
         texts = [words.get(binding.command, binding.meaning) for binding in self.bindings]
@@ -116,7 +116,7 @@ class Choices:
 
 
 def draw_note(sheet: Sheet, lines: Sequence[tuple[str, Colour]], top: float, avoid: pygame.Rect) -> float:
-    """A small card at the right with its lines, off what is to be avoided; returns where there is room below it."""
+    """A small card at the right, below ``avoid`` if they overlap; returns the row below it."""
     letters, gap = sheet.lettering, sheet.gap
     row = letters.height("small") + gap // 2
     room = sheet.frame.width - 4 * gap
@@ -134,8 +134,8 @@ def draw_note(sheet: Sheet, lines: Sequence[tuple[str, Colour]], top: float, avo
 
 
 class Menu:
-    """Scenes and presets to choose from, by mouse or key: those that are installed, in a column for each sport, and
-    files of one's own in a column before them."""
+    """Scenes and presets to choose from, by mouse or key: the installed ones in a column for each sport, and the user's
+    files in a column before them."""
 
     def __init__(self, listings: Sequence[Listing], own: Sequence[str] = ()) -> None:
         by_scene = groupby(listings, lambda item: item.name.partition("/")[0])

@@ -30,9 +30,9 @@ from sandbox.window.session import Session
 from sandbox.window.theme import NAMED, theme
 
 WIDTH, NARROWEST = 320, 280  # px on 720 rows; px
-#: In a small window rows stay this high, for letters that can still be read.
+#: Smallest scale, so that text in a small window can still be read.
 LEAST_UNIT = 0.8
-#: A slider reaches this many times its value in the file to either side, and at least this share of the bounds.
+#: A slider reaches this many times the value in the file to either side, and at least this share of the bounds.
 REACH, LEAST_REACH = 1.5, 0.02
 FAVOURITES = "this shot"
 #: Layers from the panel up to the knobs of its sliders.
@@ -66,14 +66,14 @@ class Row:
 
 
 class Over(UIContainer):
-    """Lies over the rows with what opens over them, and lets the mouse through to them."""
+    """A layer over the rows for lists that open there; it lets the mouse through to the rows."""
 
     def check_hover(self, time_delta: float, hovered_higher_element: bool) -> bool:
         return False
 
 
 class Panel:
-    """Lies in ``rect`` of a window of ``size``; tells ``change`` what was changed, ``reset`` what to take back."""
+    """The panel in ``rect`` of a window of ``size``; calls ``change`` with changes, ``reset`` with keys to reset."""
 
     def __init__(
         self,
@@ -140,10 +140,10 @@ class Panel:
         return not self._waiting
 
     def _add_rows(self) -> None:
-        """Make as many rows as there is time for in a frame; the others come with the next."""
+        """Make as many rows as a frame has time for; the others follow in the next."""
         started = perf_counter()
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore", UserWarning)  # a long name is cut off, and its tooltip tells the rest
+            warnings.simplefilter("ignore", UserWarning)  # a long name is cut; its tooltip has all of it
             while self._waiting and perf_counter() - started < self.patience:
                 row = self._waiting.pop(0)
                 self._foot = self._place(row, self._foot) + round(10 * self.unit)
@@ -152,7 +152,7 @@ class Panel:
             self.container.set_scrollable_area_dimensions((self.wide, self._foot))
 
     def _groups(self) -> dict[str, list[Parameter]]:
-        """Parameters by heading, what is worth a slider first."""
+        """Parameters by heading, those with a slider in the scene's controls first."""
         groups: dict[str, list[Parameter]] = {FAVOURITES: []}
         by_key = {p.key: p for p in walk(self.scene.parameters)}
         groups[FAVOURITES] = [by_key[key] for key in self.session.controls.sliders if key in by_key]
@@ -217,7 +217,7 @@ class Panel:
         return int(end)
 
     def _label(self, row: Row, room: int) -> str:
-        """The name of a row with its unit, as much of it as there is room for."""
+        """The name of a row with its unit, shortened to fit."""
         key, unit = row.parameter.key, row.parameter.unit
         part = "" if row.index is None else f" {'xyz'[row.index]}"
         ending = f"  [{unit}]" if unit else ""
@@ -260,7 +260,7 @@ class Panel:
         return any(row.entry is not None and row.entry.is_focused for row in self.rows)
 
     def handle(self, event: pygame.event.Event) -> bool:
-        """Take in an event; whether it was the panel's."""
+        """Handle an event; returns whether it was the panel's."""
         used = self.manager.process_events(event)
         match event.type:
             case pygame_gui.UI_BUTTON_PRESSED:
@@ -305,7 +305,7 @@ class Panel:
     # By key
 
     def choose(self, by: int) -> None:
-        """Another row, so many on."""
+        """Go to another row, ``by`` rows on."""
         self.chosen = (self.chosen + by if self.chosen is not None else min(by, 0)) % max(1, len(self.rows))
         bar = self.container.vert_scroll_bar
         label = self.rows[self.chosen].label
@@ -338,7 +338,7 @@ class Panel:
             self._set(row, float(f"{value:.5g}"))
 
     def turn(self, by: int) -> None:
-        """Another group, so many on."""
+        """Go to another group, ``by`` groups on."""
         groups = list(self._groups())
         self.group = groups[(groups.index(self.group) + by) % len(groups)]
         self._build()
@@ -352,7 +352,7 @@ class Panel:
             self.chosen = chosen
 
     def _typed(self, row: Row, text: str) -> None:
-        """A number, or a text with a unit of its own; nothing leaves an optional number out."""
+        """Set a number, or text with a unit; an empty field leaves an optional number out."""
         value: Any = text
         try:
             value = float(text)
@@ -364,7 +364,7 @@ class Panel:
         self.refresh(everything=True)
 
     def refresh(self, everything: bool = False) -> None:
-        """Show the parameters as they are now."""
+        """Show the current parameters."""
         if self.session.scene is self.scene and not everything:
             return
         if self.session.base.folder != self.scene.folder:

@@ -1,4 +1,4 @@
-"""The path of a ball as points, quickly: for a line that is drawn in every frame."""
+"""The path of a ball as points, computed fast enough to be drawn in every frame."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ CLOSEST, LONGEST, BEND = 3.0, 60.0, 0.12
 
 @lru_cache
 def _basis(terms: int) -> np.ndarray:
-    """Bernstein polynomials at POINTS even places, shape (POINTS, terms)."""
+    """Bernstein polynomials at POINTS evenly spaced points, shape (POINTS, terms)."""
     u = np.linspace(0.0, 1.0, POINTS)[:, None]
     k = np.arange(terms)[None, :]
     return np.array([comb(terms - 1, i) for i in range(terms)]) * u**k * (1 - u) ** (terms - 1 - k)
@@ -42,14 +42,14 @@ def points(run: Run, ball: str) -> np.ndarray:
 
 
 def moves(run: Run, ball: str) -> bool:
-    """Whether a ball leaves its place at all."""
+    """Whether a ball moves at all."""
     return any(len(arc.x) > 1 or len(arc.y) > 1 for arc in run.arcs[ball])
 
 
 def simplify(pixels: np.ndarray) -> np.ndarray:
-    """As few of the points (px, shape (n, 2)) as give the same line to the eye: more where it bends, and each corner.
+    """As few of the points (px, shape (n, 2)) as give the same visible line: more where it bends, and each corner.
 
-    Pieces of a smooth line that are short show where they meet.
+    Joints would show between short pieces of a smooth line.
     """
     pixels = pixels[_apart(pixels)]
     steps = np.diff(pixels, axis=0)
@@ -67,7 +67,6 @@ def _apart(pixels: np.ndarray) -> np.ndarray:
 
 
 def _firsts(growing: np.ndarray, count: int) -> np.ndarray:
-    """Of ``count`` points the first, those at which a value that only grows comes to another whole number, and the
-    last."""
-    kept = np.flatnonzero(np.diff(np.floor(growing))) + 1
-    return np.concatenate([[0], kept, [count - 1]] if not len(kept) or kept[-1] < count - 1 else [[0], kept])
+    """Indices of the first of ``count`` points, those at which a growing value passes a whole number, and the last."""
+    passed = np.flatnonzero(np.diff(np.floor(growing))) + 1
+    return np.concatenate([[0], passed, [count - 1]] if not len(passed) or passed[-1] < count - 1 else [[0], passed])

@@ -1,15 +1,15 @@
-"""The clock of a shot that is being watched."""
+"""The playback clock of a shot that is being watched."""
 
 from __future__ import annotations
 
 RATES = (1 / 16, 1 / 8, 1 / 4, 1 / 2, 1.0, 2.0, 4.0, 8.0)
 STEP = 1 / 60  # s of the shot, for one step by hand
-#: Longest time in s that one frame moves the clock at rate 1: a late frame slows the shot, and nothing is skipped.
+#: Longest time in s that one frame moves the clock at rate 1: a late frame slows the shot down instead of skipping.
 LONGEST_FRAME = 1 / 30
 
 
 class Playback:
-    """Where in a shot of ``duration`` s we are."""
+    """The current time in a shot of ``duration`` s."""
 
     def __init__(self, duration: float, rate: float = 1.0) -> None:
         self.duration, self.rate = duration, rate
@@ -21,13 +21,13 @@ class Playback:
         return self.t >= self.duration
 
     def advance(self, dt: float) -> None:
-        """``dt`` s of the wall's clock have passed."""
+        """``dt`` s of real time have passed."""
         if self.playing:
             self.seek(self.t + min(dt, LONGEST_FRAME) * self.rate)
             self.playing = not self.over
 
     def toggle(self) -> None:
-        """Pause, go on, or begin again at the end."""
+        """Pause, resume, or start again at the end."""
         if self.over:
             self.restart()
         else:

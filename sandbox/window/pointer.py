@@ -1,4 +1,4 @@
-"""What the mouse does: pull, drag the time line, lay the tape, zoom and move the picture, press buttons."""
+"""The mouse: pull, drag the time line or the tape, zoom and move the picture, press buttons."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from sandbox.window.view import View
 
 Place = tuple[int, int]  # px
 
-#: One notch of the wheel shows the picture so many times as large.
+#: One notch of the wheel enlarges the picture by this factor.
 NOTCH = 1.15
 
 
@@ -22,7 +22,7 @@ class Pointer:
         self.scrubbing = False  # the time line is dragged
         self.laying = False  # the tape is dragged
         self.panning = False  # the picture is dragged
-        self.pressed: Place | None = None  # where the button went down on a shot that is watched to its end
+        self.pressed: Place | None = None  # where the button was pressed on a shot that is over
 
     @property
     def at(self) -> Place:
@@ -30,7 +30,7 @@ class Pointer:
 
     @property
     def dragging(self) -> bool:
-        """Whether a button is held for something that goes on outside of where it began."""
+        """Whether a drag is in progress, which may leave the area where it began."""
         return self.scrubbing or self.laying or self.panning or self.view.game.pull is not None
 
     def handle(self, event: pygame.event.Event) -> None:
@@ -125,7 +125,7 @@ class Pointer:
         elif self.panning:
             view.pan(at[0] - before[0], at[1] - before[1])
         elif self.pressed is not None:
-            # a shot that was watched to its end is left by a pull, and not by a mere click
+            # a pull ends the watching of a shot that is over, a click does not
             if abs(at[0] - self.pressed[0]) + abs(at[1] - self.pressed[1]) >= aim.LEAST:
                 game.aim_again(from_rest=True)
                 self._begin_pull(self.pressed)

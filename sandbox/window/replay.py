@@ -1,4 +1,4 @@
-"""A shot in a file: its parameters and the run as recorded. JSON: read back exactly, checked, never executed."""
+"""Replay files: a shot's parameters and its recorded run, in JSON: read back exactly, checked, never executed."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from sandbox.errors import RequestError, RunError
 from sandbox.files import reason, written_whole
 from sandbox.scene import load
 from sandbox.scene.finding import folder_of, is_installed
-from sandbox.window.run_data import plain, run_of
+from sandbox.window.run_data import data_of, run_of
 from sandbox.window.session import Session
 from sandbox.window.shot import Shot
 
@@ -28,7 +28,7 @@ def save(shot: Shot, path: Path) -> None:
         "scene": shot.source,
         "changes": shot.changes,
         "parameters": shot.scene.parameters.model_dump(mode="json"),
-        "run": _plain(plain(shot.run)),
+        "run": _through_json(data_of(shot.run)),
     }
     record = {"format": FORMAT, "version": VERSION, "check": _sum(body), "body": body}
     try:
@@ -38,8 +38,8 @@ def save(shot: Shot, path: Path) -> None:
         raise RunError(f"{path}: cannot be written: {reason(error)}") from None
 
 
-def _plain(values: dict[str, Any]) -> Any:
-    """As JSON gives it back."""
+def _through_json(values: dict[str, Any]) -> Any:
+    """The values as JSON returns them."""
     return json.loads(json.dumps(values, default=str))
 
 
@@ -49,24 +49,24 @@ def _sum(body: dict[str, Any]) -> str:
 
 
 def read(path: Path, scene: str | None = None, running: Path | None = None) -> tuple[Session, Shot]:
-    """The shot of a file with its session. Raises RequestError where it is damaged or of another version.
+    """The shot of a file with its session. Raises RequestError if it is damaged or of another version.
 
-    A file from somebody else runs no code: its scene is one of those that are installed, or the ``scene`` that the
-    player names, or the one in the folder whose code is ``running`` already.
+    A file from somebody else runs no code: its scene must be installed, or be the ``scene`` that the player names, or
+    be in the folder ``running``, whose code runs already.
     """
     try:
         record = json.loads(path.read_text("utf-8"))
     except OSError as error:
         raise RequestError(f"{path}: cannot be read: {reason(error)}") from None
     except (ValueError, RecursionError):
-        raise RequestError(f"{path}: damaged: it is not JSON to its end") from None
+        raise RequestError(f"{path}: damaged: not complete JSON") from None
     if not isinstance(record, dict) or record.get("format") != FORMAT:
         raise RequestError(f"{path}: not a replay")
     if record.get("version") != VERSION:
-        raise RequestError(f"{path}: a replay of version {record.get('version')}, and this program reads {VERSION}")
+        raise RequestError(f"{path}: a replay of version {record.get('version')}, but this program reads {VERSION}")
     body = record.get("body")
     if not isinstance(body, dict) or _sum(body) != record.get("check"):
-        raise RequestError(f"{path}: damaged: its contents are not those that were written")
+        raise RequestError(f"{path}: damaged: its contents do not match its checksum")
     if not all(isinstance(body.get(part), dict) for part in ("changes", "parameters", "run")):
         raise RequestError(f"{path}: damaged: a part of it is missing")
     try:
@@ -91,15 +91,15 @@ def _allowed(source: str, path: Path, running: Path | None) -> str:
 
 
 def compared(recorded: Run, again: Run) -> str:
-    """In words, how far a recorded run and the same shot, simulated again, are apart."""
+    """In words, how far apart a recorded run and the same shot, simulated again, are."""
     if again.arcs.keys() != recorded.arcs.keys():
-        return "simulated again there are other balls"
+        return "simulated again: different balls"
     apart = 0.0
     times = [recorded.duration * i / 500 for i in range(501)]
     for ball in again.arcs:
         for t in times:
             a, b = recorded.state(ball, t), again.state(ball, t)
             apart = max(apart, ((a[0] - b[0]) ** 2 + (a[1] - b[1]) ** 2) ** 0.5)
-    if apart == 0.0 and _plain(again.result) == _plain(recorded.result):
-        return "simulated again it is the same to the last bit"
-    return f"simulated again it is up to {apart:.2g} m away"
+    if apart == 0.0 and _through_json(again.result) == _through_json(recorded.result):
+        return "simulated again: identical to the last bit"
+    return f"simulated again: up to {apart:.2g} m apart"

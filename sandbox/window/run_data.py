@@ -1,4 +1,4 @@
-"""A run as plain data, and back: for a replay's file, and from one process to another."""
+"""Converts a run to numbers, words and lists, and back: for replay files, and between processes."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ from sandbox.engine.touch import Obstacle, Touching
 from sandbox.scene import Scene
 
 
-def plain(run: Run) -> dict[str, Any]:
-    """All of a run but its setup, which the scene builds again; surfaces go by their places in it."""
+def data_of(run: Run) -> dict[str, Any]:
+    """A run without its setup, which the scene builds again; surfaces are given by their indices in it."""
     places = {id(surface): place for place, surface in enumerate(run.setup.surfaces)}
     return {
         "accuracy": asdict(run.accuracy),
@@ -25,12 +25,12 @@ def plain(run: Run) -> dict[str, Any]:
         "numerics": asdict(run.numerics),
         "result": run.result,
         "events": [(e.t, e.kind, e.ball, e.partner, e.speed, e.x, e.y) for e in run.events],
-        "arcs": {ball: [_plain_arc(arc, places) for arc in arcs] for ball, arcs in run.arcs.items()},
+        "arcs": {ball: [_arc_data(arc, places) for arc in arcs] for ball, arcs in run.arcs.items()},
     }
 
 
 def run_of(scene: Scene, record: dict[str, Any]) -> Run:
-    """The run of a scene. Raises KeyError, TypeError, ValueError or IndexError where the record is none of it."""
+    """The run of a scene. Raises KeyError, TypeError, ValueError or IndexError if the record is not one of it."""
     setup = scene.build()
     balls = {ball.name: ball for ball in setup.balls}
     if record["arcs"].keys() != balls.keys() or not all(record["arcs"].values()) or not _is_time(record["duration"]):
@@ -49,7 +49,7 @@ def run_of(scene: Scene, record: dict[str, Any]) -> Run:
     )
 
 
-def _plain_arc(arc: Arc, places: dict[int, int]) -> tuple[Any, ...]:
+def _arc_data(arc: Arc, places: dict[int, int]) -> tuple[Any, ...]:
     contact = None
     if isinstance(arc.contact, Contact):
         mode, obstacle, touching, direction, spin_rate = arc.contact
@@ -62,7 +62,7 @@ def _arc(item: Any, setup: Setup, ball: Ball) -> Arc:
     t0, t1, start, x, y, vx, vy, spin, contact, rolling, end = item
     curves = [start, x, y, vx, vy, spin, *rolling, *([] if end is None else [end])]
     if not all(map(_is_time, (t0, t1))) or not all(_is_number(part) for curve in curves for part in curve):
-        raise ValueError("a path has what is not a number")
+        raise ValueError("a path contains something that is not a number")
     if contact is not None:
         mode, place, (gap, nx, ny, curvature, center, feature), direction, spin_rate = contact
         touching = Touching(gap, nx, ny, curvature, tuple(center), feature)

@@ -1,4 +1,4 @@
-"""A scene file with what was changed over it, and the way back."""
+"""A scene file with the changes made in the window, and undo."""
 
 from __future__ import annotations
 
@@ -13,37 +13,37 @@ from sandbox.scene.modules import read_again
 from sandbox.sport.controls import Controls
 from sandbox.window.shot import Shot, place_of, value_at
 
-#: So many changes can be undone.
+#: Number of changes that can be undone.
 UNDOABLE = 100
 
 
 class Changes(NamedTuple):
-    """What was changed over the scene file."""
+    """The changes from the scene file."""
 
     values: dict[str, Any]  # by key
-    positions: frozenset[str]  # the keys that were changed because a shot began where one before it ended
+    positions: frozenset[str]  # keys that were changed because a shot began where the one before it ended
 
     @property
     def moved(self) -> dict[str, Any]:
-        """What was changed at these keys."""
+        """The values at these keys."""
         return {key: self.values.get(key) for key in self.positions}
 
 
 class Session:
-    """One scene file with changes over it. Raises SandboxError for a scene or a change that is invalid."""
+    """One scene file with changes. Raises SandboxError for an invalid scene or change."""
 
     def __init__(self, source: str, changes: Mapping[str, Any] | None = None) -> None:
-        self._declared: dict[str, declared.Parameter] = {}  # walking takes longer than a frame has
+        self._declared: dict[str, declared.Parameter] = {}  # listing them takes longer than a frame
         self.open(source, changes)
 
     def open(self, source: str, changes: Mapping[str, Any] | None = None) -> None:
-        """Play another scene; if that is invalid, this one stays."""
+        """Switch to another scene; if that is invalid, keep this one."""
         base = load(source)
         scene = load(source, changes or {}, overrides_from="--set")
         scene.build()  # reports values that are invalid together
         self.source, self.base, self.scene = source, base, scene
         self.changes = Changes(dict(changes or {}), frozenset())
-        self.undoable: list[tuple[frozenset[str], Changes]] = []  # what each change was of, and what was before it
+        self.undoable: list[tuple[frozenset[str], Changes]] = []  # the keys of each change, and the changes before it
         self._place: tuple[Scene | None, tuple[Any, ...]] = (None, ())
         self._declared.clear()
 
@@ -53,7 +53,7 @@ class Session:
 
     @property
     def file(self) -> Path | None:
-        """The scene file behind all this."""
+        """The scene file, if there is one."""
         if Path(self.source).is_file():
             return Path(self.source)
         if self.base.preset is not None:
@@ -70,14 +70,14 @@ class Session:
 
     @property
     def title(self) -> str:
-        """``golf``, ``golf/putt``, or the name of a file of one's own."""
+        """``golf``, ``golf/putt``, or the name of the user's file."""
         path = Path(self.source)
         if path.suffix == ".toml" and path.is_file():
             return path.name
         return f"{self.base.name}/{self.base.preset}" if self.base.preset else self.base.name
 
     def value(self, key: str) -> Any:
-        """The value of a parameter now; None for a key that the scene does not know."""
+        """The current value of a parameter; None for a key that the scene does not have."""
         return value_at(self.scene.parameters, key)
 
     def base_value(self, key: str) -> Any:
@@ -85,7 +85,7 @@ class Session:
         return value_at(self.base.parameters, key)
 
     def parameter(self, key: str) -> declared.Parameter | None:
-        """A parameter with its value now."""
+        """A parameter with its current value."""
         if key not in self._declared:
             self._declared = {p.key: p for p in declared.walk(self.scene.parameters)}
         found = self._declared.get(key)
@@ -107,7 +107,7 @@ class Session:
         return replace(self.base, parameters=parameters)
 
     def _set(self, changes: Changes, what: frozenset[str]) -> None:
-        """Take over other changes; ``what`` says of what, and a run of changes of the same is undone at once."""
+        """Apply changes; ``what`` names the keys: successive changes of the same keys are undone together."""
         scene = self._with(changes.values)
         same = what and self.undoable and self.undoable[-1][0] == what
         if changes.values != self.changes.values and not same:
@@ -116,11 +116,11 @@ class Session:
         self.scene, self.changes = scene, changes
 
     def change(self, values: Mapping[str, Any]) -> None:
-        """Keep these changes too."""
+        """Add these changes."""
         self._set(Changes({**self.changes.values, **values}, self.changes.positions), frozenset(values))
 
     def end_change(self) -> None:
-        """What is changed from here on is undone by itself, even if it is of the same keys."""
+        """Later changes are undone separately, even those of the same keys."""
         if self.undoable:
             self.undoable[-1] = frozenset(), self.undoable[-1][1]
 
@@ -130,11 +130,11 @@ class Session:
         self._set(Changes(values, self.changes.positions & values.keys()), frozenset())
 
     def restore(self, changes: Changes) -> None:
-        """These changes and no others, as they once were."""
+        """Return to these earlier changes."""
         self.scene, self.changes = self._with(changes.values), changes
 
     def undo(self) -> bool:
-        """Take back the last change; whether there was one."""
+        """Take back the last change; returns whether there was one."""
         if not self.undoable:
             return False
         _, before = self.undoable[-1]
@@ -142,8 +142,8 @@ class Session:
         self.undoable.pop()
         return True
 
-    def go_on(self, shot: Shot) -> bool:
-        """Let the next shot begin where the balls of one came to rest, in scenes that offer it; whether they do."""
+    def start_from(self, shot: Shot) -> bool:
+        """Begin the next shot where the balls of ``shot`` came to rest; returns whether the scene supports it."""
         if self.controls.next_start is None:
             return False
         values = dict(self.controls.next_start(shot.run, shot.scene.parameters))
@@ -152,13 +152,13 @@ class Session:
         return True
 
     def begin_again(self) -> None:
-        """Take back what ``go_on`` changed."""
+        """Take back what ``start_from`` changed."""
         values = {key: value for key, value in self.changes.values.items() if key not in self.changes.positions}
         self._set(Changes(values, frozenset()), frozenset())
 
     def reload(self, code: bool = False) -> None:
-        """Read the scene file again, and with ``code`` the scene's modules too. What was changed here stays changed,
-        where it is still the same scene."""
+        """Read the scene file again, and with ``code`` the scene's modules too. Changes are kept if it is still the
+        same scene."""
         if code:
             with read_again(self.base.folder):
                 self.reload()
@@ -189,7 +189,7 @@ class Session:
 
 
 def _toml(value: Any) -> str:
-    """A value as TOML writes it on a line."""
+    """A value as TOML on one line."""
     import tomlkit
 
     if isinstance(value, Mapping):

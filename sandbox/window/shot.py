@@ -26,7 +26,7 @@ def value_at(parameters: Any, key: str) -> Any:
 
 
 def place_of(scene: Scene) -> tuple[Any, ...]:
-    """What a scene is apart from what a player aims with: equal for two scenes that are the same place."""
+    """A scene without the parameters that a player aims with: equal for two scenes at the same place."""
     values = scene.parameters.model_dump()
     for key in aimed_with(scene.controls):
         *groups, last = key.split(".")
@@ -51,12 +51,12 @@ class Shot:
     changes: dict[str, Any] = field(default_factory=dict)  # over the scene file
     source: str = ""  # the scene file, as it was opened
     start: int = 0  # shots with the same number began from the same positions
-    number: int = 0  # counted from 1 in the order in which they were shot; 0 while it is only aimed
+    number: int = 0  # from 1 in the order of shooting; 0 while aiming
     recorded: bool = False  # read from a replay
 
     @cached_property
     def place(self) -> tuple[Any, ...]:
-        """What the scene is apart from what a player aims with."""
+        """The scene without the parameters that a player aims with."""
         return place_of(self.scene)
 
     @cached_property
@@ -73,12 +73,12 @@ class Shot:
 
     @cached_property
     def upright(self) -> bool:
-        """Whether y is height: seen from above, no weight pulls along the picture."""
+        """Whether y is height: seen from above, gravity does not act in the plane."""
         return any(isinstance(force, Gravity) for ball in self.run.setup.balls for force in ball.forces)
 
     @cached_property
     def movers(self) -> list[str]:
-        """Names of the balls that leave their place, the played one last."""
+        """Names of the balls that move, the played one last."""
         others = [b.name for b in self.run.setup.balls if b.name != self.ball and moves(self.run, b.name)]
         return [*others, self.ball]
 
@@ -94,7 +94,7 @@ class Shot:
 
     @cached_property
     def card(self) -> list[tuple[str, str]]:
-        """The facts for people."""
+        """The facts as labels and texts."""
         return self.scene.rows(self.run)
 
     @cached_property

@@ -1,4 +1,4 @@
-"""Sound made by the program: a short knock at every impact, louder with speed. Without a device there is silence."""
+"""Synthesised sound: a short knock at every impact, louder with speed. Without a sound device there is none."""
 
 from __future__ import annotations
 
@@ -25,16 +25,16 @@ def knock(pitch: float) -> np.ndarray:
         -t * 70
     )
     wave += 0.35 * noise * np.exp(-t * 260)
-    wave *= 1 - np.exp(-t * 4000)  # no click of the loudspeaker's own
+    wave *= 1 - np.exp(-t * 4000)  # starts without a click
     samples = np.round(wave / np.abs(wave).max() * 0.7 * 32767).astype(np.int16)
     return np.ascontiguousarray(np.column_stack([samples, samples]))
 
 
 @contextmanager
 def _no_stderr() -> Iterator[None]:
-    """Without what libraries write there by themselves: ALSA reports each device that it does not find."""
+    """Hide what libraries write to stderr: ALSA reports each device that it does not find."""
     try:
-        kept, nothing = os.dup(2), os.open(os.devnull, os.O_WRONLY)
+        saved, nothing = os.dup(2), os.open(os.devnull, os.O_WRONLY)
     except OSError:  # stderr is closed
         yield
         return
@@ -42,8 +42,8 @@ def _no_stderr() -> Iterator[None]:
         os.dup2(nothing, 2)
         yield
     finally:
-        os.dup2(kept, 2)
-        os.close(kept)
+        os.dup2(saved, 2)
+        os.close(saved)
         os.close(nothing)
 
 

@@ -1,4 +1,4 @@
-"""The standing view: the place seen whole, with the path of the shot, its contacts, earlier shots and the balls."""
+"""The static view: the whole place, with the path of the shot, its contacts, earlier shots and the balls."""
 
 from __future__ import annotations
 
@@ -22,22 +22,22 @@ from sandbox.window.shot import Shot
 
 CARD, TRACE = palette("card"), palette("trace")
 
-#: A path that comes so near to an edge of the stage, as a share of its size, has it composed anew.
+#: A path closer than this to an edge of the stage, as a share of its size, makes it be composed anew.
 EDGE = 0.02
 #: Where a line bends by more than this, in rad, it has a round joint.
 JOINT = 0.2
-#: So far from its edge, in px, the second smooth line of a line lies, and its filling, whose edge is rough, ends.
+#: Distance in px from the edge of a line to its second smooth line, and to the end of its filling with rough edges.
 INSIDE, FILLED = 1.2, 0.9
 #: Up to this width, in px, the smooth lines fill a line between them.
 NARROW = 3.0
-#: Pieces of a line lie over each other by so much, in px, or a gap would show where they meet.
+#: Overlap in px of the pieces of a line; without it a gap would show where they meet.
 OVERLAP = 0.35
-#: The camera goes nearer once the shot could be shown so many times as large.
+#: The camera zooms in once the shot could be shown this many times larger.
 NEARER = 1.35
-#: Of the earlier shots so many are shown, this opaque (of 255); how much lighter than its line a label is; and a label
-#: may stand at so many places of its line.
+#: Number of earlier shots shown, their opacity (of 255), how much lighter a label is than its line, and how many places
+#: on its line are tried for a label.
 SHOWN, EARLIER, LIGHTER, PLACES = 5, 215, 0.45, 9
-#: Contacts nearer to each other than this, in px, are marked once; and at most so many.
+#: Contacts closer together than this, in px, are marked once; and the largest number of marks.
 NEAR, MOST_CONTACTS = 14, 24
 
 
@@ -52,18 +52,18 @@ class Stage:
         chosen: Camera | None = None,
         before: Stage | None = None,
     ) -> None:
-        """Composed by the scene's code as it was read for the ``code``-th time.
+        """``code`` counts how often the scene's code was read again.
 
-        The camera is the ``chosen`` one if there is one, and else shows all of the shot; but that of ``before``, the
-        stage so far, stays where it serves as well, or each little change of an aim would shift the picture.
+        The camera is ``chosen`` if given, and otherwise shows all of the shot; the camera of ``before``, the stage so
+        far, is kept if it does so too, or each small change of the aim would shift the picture.
         """
         self.shot, self.size, self.code, self.chosen = shot, size, code, chosen
         self.picture: Any = shot.scene.picture(shot.run, size)
-        #: None for a scene whose picture offers no stage: then its poster is shown, and nothing over it.
+        #: None for a scene whose picture has no stage: then only its poster is shown.
         self.camera: Camera | None = None
-        self.whole: Camera | None = None  # the camera that the picture has by itself
-        self.turns = False  # whether the picture can show the place by another
-        self.notes: list[str] = []  # what is not drawn as it is
+        self.whole: Camera | None = None  # the picture's own camera
+        self.turns = False  # whether the picture accepts another camera
+        self.notes: list[str] = []  # what is not drawn to scale
         self.foot_of_wind = 0  # px
         if all(hasattr(self.picture, name) for name in ("stage", "camera", "draw_balls")):
             self.camera = self.whole = self.picture.camera
@@ -72,12 +72,12 @@ class Stage:
             self._label()
         else:
             self.backdrop = self.picture.poster()
-        self._ghosts: tuple[Any, pygame.Surface] | None = None  # their lines, and of which shots
+        self._ghosts: tuple[Any, pygame.Surface] | None = None  # their lines, with the shots they belong to
         self._labels: tuple[Any, pygame.Surface] | None = None
-        self._lines: dict[str, tuple[Any, np.ndarray]] = {}  # whole lines drawn last, by ball, in px
+        self._lines: dict[str, tuple[Any, np.ndarray]] = {}  # the last complete lines, by ball, in px
 
     def _camera_of(self, before: Stage | None) -> Camera | None:
-        """The camera so far, if it shows the same place, all of the shot, and this not too small."""
+        """The camera so far, if it shows the same place and all of the shot, large enough."""
         if before is None or before.camera is None or before.chosen is not None or self.camera is None:
             return None
         if before.size != self.size or before.shot.place != self.shot.place or before.code != self.code:
@@ -86,7 +86,7 @@ class Stage:
         return before.camera if near and before.holds(self.shot) else None
 
     def _turn_to(self, camera: Camera) -> None:
-        """Have the picture show the place by a camera, where it can."""
+        """Give the picture another camera, if it accepts one."""
         try:
             self.picture.camera = camera
         except AttributeError:  # it is computed each time
@@ -94,7 +94,7 @@ class Stage:
         self.camera, self.turns = camera, True
 
     def _label(self) -> None:
-        """What is measured on the place: ruler, labels, the wind; and what is not drawn as it is."""
+        """Draw ruler, labels and wind; and note what is not drawn to scale."""
         picture, camera = self.picture, self.camera
         sheet = Sheet(self.size, getattr(picture, "on_dark", False), self.backdrop)
         if hasattr(picture, "measure"):
@@ -106,7 +106,7 @@ class Stage:
             self.foot_of_wind = sheet.wind(along, up, sheet.frame.right, sheet.frame.top).bottom + sheet.gap
 
     def shows(self, shot: Shot, code: int, chosen: Camera | None) -> bool:
-        """Whether it was composed for a shot, as the scene's code is now and as the camera was chosen."""
+        """Whether it was composed for this shot, this version of the scene's code and this choice of camera."""
         return self.shot.run is shot.run and (self.code, self.chosen) == (code, chosen)
 
     def is_place_of(self, shot: Shot, code: int) -> bool:
@@ -142,7 +142,7 @@ class Stage:
         return sheet
 
     def draw_ghosts(self, sheet: Canvas, ghosts: Sequence[Shot], around: Shot | None) -> None:
-        """Earlier shots, the last five; with their numbers and results beside the path of ``around``, if it stands."""
+        """Earlier shots, the last five; with their numbers and results around the path of ``around``, if given."""
         shown = ghosts[-SHOWN:]
         if self.camera is None or not shown:
             return
@@ -180,7 +180,7 @@ class Stage:
         chip(labels, text, spots, mix(self._colour_of(shot), CARD["text"], LIGHTER))
 
     def _colour_of(self, shot: Shot) -> Colour:
-        """Of an earlier shot: it keeps its colour."""
+        """The colour of an earlier shot, which stays the same."""
         colours = colours_beside(type(self.picture))
         return colours[(shot.number - 1) % len(colours)]
 
@@ -197,7 +197,7 @@ class Stage:
         self._contacts(sheet, shot, until)
 
     def _path_colour(self, ball: str, otherwise: Colour) -> Colour:
-        """Of a ball's path: as the picture has it."""
+        """The colour of a ball's path: the picture's, if it has one."""
         if not hasattr(self.picture, "colour_of"):
             return otherwise
         colour: Colour = self.picture.colour_of(ball)
@@ -211,7 +211,7 @@ class Stage:
     def _pixels(self, points: np.ndarray) -> np.ndarray:
         """Where points in m are drawn, in px; both of shape (n, 2)."""
         assert self.camera is not None
-        if hasattr(self.picture, "spots"):  # where balls are drawn that are shown larger than they are
+        if hasattr(self.picture, "spots"):  # the picture draws balls enlarged
             pixels: np.ndarray = self.picture.spots(self.camera, points, 0.0)
             return pixels
         return self.camera.pixels(points)
@@ -244,7 +244,7 @@ class Stage:
             sheet.painter.disc(at, 3.6 * sheet.unit, CARD["accent"])
 
     def draw_pull(self, sheet: Canvas, start: tuple[float, float], pull: tuple[float, float], text: str) -> None:
-        """The rubber band from where the pull began to the hand, and what it will do."""
+        """The rubber band from where the pull began to the hand, and the speed and angle that it gives."""
         hand = start[0] + pull[0], start[1] + pull[1]
         length = hypot(*pull)
         if length < 1:
@@ -269,9 +269,9 @@ class Stage:
 
 
 def draw_line(surface: pygame.Surface, points: np.ndarray, width: float, colour: Colour) -> None:
-    """A line through points (px, shape (n, 2)), as wide in every direction, and smooth: quicker than the painter's.
+    """A smooth line through points (px, shape (n, 2)), equally wide in every direction: faster than the painter's.
 
-    pygame's own smooth lines are as wide as ``width`` only where they run straight along or down.
+    pygame's own smooth lines are ``width`` px wide only where they are horizontal or vertical.
     """
     if width < 2.5:
         for a, b in pairwise(points):
@@ -279,13 +279,13 @@ def draw_line(surface: pygame.Surface, points: np.ndarray, width: float, colour:
         return
     steps = np.diff(points, axis=0)
     lengths = np.maximum(np.hypot(*steps.T), 1e-9)
-    ahead = steps / lengths[:, None]
-    across = np.column_stack([-ahead[:, 1], ahead[:, 0]])
+    along = steps / lengths[:, None]
+    across = np.column_stack([-along[:, 1], along[:, 0]])
     bends = np.hypot(*np.diff(across, axis=0).T) > JOINT
     for point in points[1:-1][bends]:
         pygame.draw.aacircle(surface, colour, point, width / 2)
     sides = np.array([width / 2 - 0.5, width / 2 - INSIDE, INSIDE - width / 2, 0.5 - width / 2])[:, None, None]
-    starts, ends = points[:-1] - OVERLAP * ahead, points[1:] + OVERLAP * ahead
+    starts, ends = points[:-1] - OVERLAP * along, points[1:] + OVERLAP * along
     if width > NARROW:
         half = (width / 2 - FILLED) * across
         begin, end = starts + 0.5, ends + 0.5  # pygame cuts the corners of a polygon off to whole px

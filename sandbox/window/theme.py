@@ -1,4 +1,4 @@
-"""The look of the panel: assets/theme.json with the colours of the palette and the type of the pictures."""
+"""The theme of the panel: assets/theme.json with the palette's colours and the pictures' fonts."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ NAMED = {
     "lifted": mix(CARD["background"], CARD["quiet"], 0.3),
     "groove": mix(CARD["background"], CARD["quiet"], 0.1),
 }
-#: Elements with letters.
+#: Elements with text.
 WRITTEN_ON = ("button", "label", "text_entry_line", "drop_down_menu", "text_box")
 #: Lengths in px on 720 rows, by element.
 LENGTHS = {
@@ -30,21 +30,21 @@ def _hex(colour: Colour) -> str:
 
 
 def _filled(node: Any) -> Any:
-    """``$accent`` by its colour, at any depth."""
+    """Replace names such as ``$accent`` by their colours, at any depth."""
     if isinstance(node, dict):
         return {key: _filled(value) for key, value in node.items()}
     return _hex(NAMED[node[1:]]) if isinstance(node, str) and node.startswith("$") else node
 
 
 def theme(unit: float) -> dict[str, Any]:
-    """For a panel on which 1 px on 720 rows is ``unit`` px."""
+    """The theme for a panel on which 1 px on 720 rows is ``unit`` px."""
     found = _filled(json.loads((ASSETS / "theme.json").read_text("utf-8")))
     files = {f"{style}_path": str(ASSETS / "fonts" / f"NotoSans-{name}.ttf") for style, name in
              (("regular", "Regular"), ("bold", "Bold"), ("italic", "Regular"), ("bold_italic", "Bold"))}  # fmt: skip
-    plain = {"size": str(max(11, round(14 * unit))), "bold": "0", "italic": "0"}
+    upright = {"size": str(max(11, round(14 * unit))), "bold": "0", "italic": "0"}
     for element in WRITTEN_ON:  # pygame_gui reads no font from the defaults
-        found.setdefault(element, {})["font"] = {"name": "noto", **plain, **files}
-    found["drop_down_menu.#expand_button"] = {"font": {"name": "fira_code_symbols", **plain}}  # pygame_gui's, for ▼
+        found.setdefault(element, {})["font"] = {"name": "noto", **upright, **files}
+    found["drop_down_menu.#expand_button"] = {"font": {"name": "fira_code_symbols", **upright}}  # pygame_gui's, for ▼
     for element, lengths in LENGTHS.items():
         misc = found.setdefault(element, {}).setdefault("misc", {})
         misc |= {name: str(round(length * unit)) for name, length in lengths.items()}

@@ -1,7 +1,7 @@
-"""How a game is drawn: what lies where in the window, and what is switched on.
+"""How a game is drawn: the layout of the window, and what is switched on.
 
-The picture is that of a shot on the stage that was composed for its parameters. As long as there is none for the shot
-as it stands, the picture that was drawn last stays: a path is never drawn on the stage of another place.
+The picture shows a shot on the stage that was composed for its parameters. Until the stage of the current shot is
+ready, the last picture stays: a path is never drawn on the stage of another place.
 """
 
 from __future__ import annotations
@@ -37,27 +37,27 @@ if TYPE_CHECKING:
 CARD = palette("card")
 
 SIZE = (1280, 720)
-#: Everything is drawn at least this large; of a smaller window a part is seen.
+#: Everything is drawn at least this large; a smaller window shows a part of it.
 SMALLEST = (480, 400)
-#: While an aim changes, the stage is composed anew no sooner than after so many s: the place must not jitter.
+#: While an aim changes, the stage is composed anew at most this often, in s: the place must not jitter.
 STEADY = 0.3
-#: An aim that has not changed for so long, in s, is composed as it stands.
+#: An aim that has not changed for this time, in s, gets a stage of its own.
 AT_REST = 0.15
-#: While the mouse pulls, words and numbers stay for so many s: quicker ones cannot be read.
+#: While the mouse pulls, words and numbers stay for at least this time, in s, to be readable.
 LEGIBLE = 0.05
-#: What appears when the mouse stays somewhere, and a cursor that blinks, are drawn for so many s after an event, and
-#: from then on once in so many s where somebody types.
+#: The panel, for its tooltips and blinking cursor, is drawn in every frame until the first time, in s, after an event;
+#: later at intervals of the second while somebody types.
 LIVELY, BLINK = 1.5, 0.25
-#: How many times larger or smaller than the whole shot the picture may be shown.
+#: Largest and smallest zoom, compared with a view of the whole shot.
 NEAREST, FARTHEST = 60.0, 0.2
 
 
 class View:
-    """Draws a game on a screen; ``tick`` passes time, ``draw`` makes the picture of now."""
+    """Draws a game on a screen; ``tick`` passes time, ``draw`` makes the current picture."""
 
     def __init__(self, game: Game, screen: pygame.Surface, sound: Sound | None = None, patience: float = 0.0) -> None:
-        """A frame waits up to ``patience`` s for a stage or the panel: in a window, where the last picture stays for as
-        long, not at all."""
+        """A frame waits up to ``patience`` s for a stage or the panel; in a window, where the last picture stays until
+        then, it does not wait."""
         self.patience = patience
         self.game, self.screen, self.sound = game, screen, sound
         self.background = Background()
@@ -73,14 +73,14 @@ class View:
         self.stage: Stage | None = None
         self.composing: Future[Stage] | None = None  # the next one
         self.composed = 0.0  # s since the last one
-        self.composed_for: Shot | None = None  # what the last one was asked for
+        self.composed_for: Shot | None = None  # the shot of the last one
         self.undrawable: str | None = None  # why there is none
         self.chosen: Camera | None = None  # by zooming; None shows all of the shot
         self.head = pygame.Rect(0, 0, 0, 0)  # where the headline is
         self.frame_cost = 0.0  # s, smoothed
         self.changed = True  # something other than the game
         self.exporter: Thread | None = None  # writes an animation, which takes seconds
-        self.windowed = SIZE  # while it fills the display, its size before
+        self.windowed = SIZE  # its size before full screen
         self.caption = ""
         self._seen: Any = None  # what was drawn last
         self._lively = 0.0  # s since the last event
@@ -111,7 +111,7 @@ class View:
         self._make_room(None)
 
     def _make_room(self, panel: Panel | None) -> None:
-        """The picture has all of the width that a panel leaves."""
+        """Give the picture the width that the panel leaves."""
         self.panel = panel
         wide = panel.rect.width if panel is not None else 0
         self.area = pygame.Rect(0, 0, self.canvas.get_width() - wide, self.bar.rect.top)
@@ -131,14 +131,14 @@ class View:
         self.lay_out()
 
     def resized(self) -> None:
-        """The window may have another size."""
+        """Lay out again if the window's size has changed."""
         screen = pygame.display.get_surface()
         if screen is not None and self.laid_out != screen.get_size():  # it may be the same surface, now larger
             self.screen = screen
             self.lay_out()
 
     def toggle_full_screen(self) -> None:
-        """The whole display, or the window again as it was."""
+        """Switch between full screen and the window."""
         if pygame.display.is_fullscreen():
             pygame.display.set_mode(self.windowed, pygame.RESIZABLE)
         else:
@@ -147,7 +147,7 @@ class View:
         self.resized()
 
     def close_overlays(self) -> bool:
-        """Put away what lies over the picture; whether there was anything."""
+        """Close what covers the picture; returns whether there was anything."""
         was = self.covered
         self.menu = self.choices = self.energy = None
         self.on.discard("help")
@@ -156,7 +156,7 @@ class View:
 
     @property
     def covered(self) -> bool:
-        """Whether something lies over the picture."""
+        """Whether something covers the picture."""
         return self.menu is not None or self.choices is not None or "help" in self.on or self.energy is not None
 
     @property
@@ -170,13 +170,13 @@ class View:
 
     @property
     def follows(self) -> bool:
-        """Whether the view goes with the ball."""
+        """Whether the view follows the ball."""
         stage = self.stage
         return self.game.playback is not None and ("view" in self.on or stage is None or stage.camera is None)
 
     @property
     def camera(self) -> Camera | None:
-        """Of what is shown; None where the scene does not say."""
+        """The current camera; None if the scene has none."""
         playback, shot = self.game.playback, self.game.shot
         if not self.follows or playback is None or shot is None:
             return self.stage.camera if self.stage is not None else None
@@ -184,7 +184,7 @@ class View:
         return view(playback.t) if view is not None else None
 
     def near(self, shot: Shot) -> Any:
-        """The picture of a shot that goes with its ball."""
+        """The picture of a shot that follows its ball."""
         if self.stage is not None and self.stage.shot.run is shot.run and self.stage.chosen is None:
             return self.stage.picture
         if self._near is None or self._near[0] is not shot:
@@ -192,7 +192,7 @@ class View:
         return self._near[1]
 
     def zoom(self, factor: float, at: tuple[float, float]) -> None:
-        """Show what is at a place (px) so many times as large; in a view from the side the ground stays where it is."""
+        """Zoom by ``factor`` around a place (px); in a view from the side the ground stays where it is."""
         camera, shot = self._standing_camera(), self.game.shot
         whole = self.stage.whole if self.stage is not None else None
         if camera is None or whole is None or shot is None:
@@ -203,19 +203,19 @@ class View:
         self.look(replace(camera, at=(x, camera.at[1] if shot.upright else y), anchor=anchor, scale=scale))
 
     def pan(self, across: float, down: float) -> None:
-        """Move the picture so many px."""
+        """Move the picture by so many px."""
         camera, shot = self._standing_camera(), self.game.shot
         if camera is not None and shot is not None:
             right, foot = camera.anchor
             self.look(replace(camera, anchor=(right + across, foot if shot.upright else foot + down)))
 
     def look(self, camera: Camera | None) -> None:
-        """Show the place by another camera; None shows all of the shot."""
+        """Use another camera; None shows all of the shot."""
         if self.stage is not None and not self.stage.turns:
             self.game.tell("the picture of this scene always shows all of it")
             return
         if self.follows:
-            self.game.tell("the view goes with the ball; V to leave it")
+            self.game.tell("the view follows the ball; V for the whole view")
             return
         self.chosen = camera
         self.changed = True
@@ -227,13 +227,13 @@ class View:
 
     @property
     def up_to_date(self) -> bool:
-        """Whether the stage belongs to the shot, and what is drawn is not a picture of before."""
+        """Whether the stage belongs to the shot, so that the current picture is drawn."""
         shot, stage = self.game.shot, self.stage
         return shot is None or (stage is not None and self._may_draw(stage, shot))
 
     @property
     def complete(self) -> bool:
-        """Whether there is a picture of the shot, or there will be none."""
+        """Whether the shot is drawn, or cannot be."""
         game = self.game
         if game.failure is not None or self.undrawable is not None:
             return True
@@ -241,7 +241,7 @@ class View:
 
     @property
     def busy(self) -> bool:
-        """Whether something is on its way that will be drawn, though nothing else happens."""
+        """Whether something is being prepared that will have to be drawn."""
         energy = self.energy is not None and not self.energy[1].done()
         fan = self._fan is not None and not self._fan.complete
         lively = self.panel is not None and (self._lively < LIVELY or not self.panel.complete)
@@ -250,7 +250,7 @@ class View:
         return coming or self._stage_wanted() or energy or fan or lively or exporting
 
     def _may_draw(self, stage: Stage, shot: Shot) -> bool:
-        """Whether a shot may be drawn on a stage: one that is watched on its own, an aim on one of the same place."""
+        """Whether a shot may be drawn on a stage: when watched only on its own, when aimed on one of the same place."""
         if stage.size != self.area.size:
             return False
         if stage.shows(shot, self.game.code, stage.chosen):
@@ -258,7 +258,7 @@ class View:
         return self.game.playback is None and stage.is_place_of(shot, self.game.code)
 
     def _stage_wanted(self) -> bool:
-        """Whether the stage is not that of the shot, and may be composed as things stand."""
+        """Whether the shot needs another stage, and one can be composed."""
         shot, stage = self.game.shot, self.stage
         if shot is None or (self.undrawable is not None and self.composed_for is shot):
             return False
@@ -278,7 +278,7 @@ class View:
             self.energy, self.changed = None, True
 
     def _take_stage(self) -> None:
-        """Go over to a stage that was composed."""
+        """Switch to a stage that was composed."""
         if self.composing is None or not ready(self.composing, self.patience):
             return
         composing, self.composing, self.composed, self.changed = self.composing, None, 0.0, True
@@ -288,7 +288,7 @@ class View:
             self.undrawable = f"{self.game.session.title} cannot be drawn: {self.game.reason(error)}"
 
     def _follow(self) -> None:
-        """Have the stage composed that shows the shot, if this one does not."""
+        """Start composing a stage for the shot, if this one does not show it."""
         game, stage = self.game, self.stage
         if self.composing is not None or not self._stage_wanted():
             return
@@ -355,7 +355,7 @@ class View:
         if drawn:
             assert shot is not None
             if game.failure is None:
-                self._draw_beside(sheet, shot)
+                self._draw_cards(sheet, shot)
             if self._picture is None:
                 self._picture = pygame.Surface(self.area.size)
             self._picture.blit(sheet.surface, (0, 0))
@@ -372,7 +372,7 @@ class View:
         overlay.draw_messages(sheet, [*undrawable, *game.notices])
 
     def _draw_over(self) -> None:
-        """What lies over all but the bar, the panel too: the keys, the scenes, the lists of commands."""
+        """What covers everything except the bar: the keys, the scenes, the lists of commands."""
         if "help" not in self.on and self.menu is None and self.choices is None:
             return
         sheet = Canvas(self.canvas.subsurface((0, 0), (self.canvas.get_width(), self.area.height)))
@@ -386,13 +386,13 @@ class View:
             self.choices.draw(sheet, button, self.switched, words, self.at)
 
     def _draw_failure(self, sheet: Canvas, stage: Stage) -> None:
-        """The place, dark and without a path: the parameters as they stand have none."""
+        """The place, dark and without a path: the current parameters have none."""
         sheet.surface.blit(stage.backdrop, (0, 0))
         _darken(sheet.surface)
         self.head = headline(sheet, "No path", ["the run of these parameters failed"], CARD["bad"])
 
     def _draw_aiming(self, sheet: Canvas, stage: Stage, shot: Shot) -> None:
-        """The shot as it would be."""
+        """The shot while it is aimed."""
         game = self.game
         sheet.surface.blit(stage.backdrop, (0, 0))
         if stage.camera is None:
@@ -414,7 +414,7 @@ class View:
             stage.draw_pull(sheet, pull.start, vector, words.aimed)
 
     def _words(self, shot: Shot) -> Shot:
-        """The shot whose words and numbers are shown: during a pull they wait a moment, to be read."""
+        """The shot whose words and numbers are shown: during a pull they change less often, to be readable."""
         pulling = self.game.pull is not None and self.game.pull.shoots
         if self._worded is None or not pulling or self._worded_for >= LEGIBLE or self._worded.place != shot.place:
             self._worded, self._worded_for = shot, 0.0
@@ -422,18 +422,18 @@ class View:
 
     @property
     def _words_late(self) -> bool:
-        """Whether the words that are shown are those of an aim before."""
+        """Whether the words that are shown are those of an earlier aim."""
         game = self.game
         aiming = game.playback is None and game.failure is None and self.up_to_date
         return aiming and self._worded is not None and self._worded is not game.shot
 
     def _hint(self) -> str:
         if self.game.pull is not None:
-            return "let go to shoot, Esc to leave it"
+            return "let go to shoot, Esc to cancel"
         return "pull back anywhere and let go, or press Space"
 
     def _draw_playing(self, sheet: Canvas, stage: Stage, shot: Shot, playback: Playback) -> None:
-        """The shot at a time of its play."""
+        """The shot during playback."""
         game, t = self.game, playback.t
         if self.follows:
             sheet.surface.blit(self.near(shot).frame(t), (0, 0))
@@ -450,7 +450,7 @@ class View:
         name = f"{'replay' if shot.recorded else 'shot'} {shot.number}"
         if playback.over:
             colour = CARD["good"] if shot.scored else CARD["text"]
-            again = "go on" if game.session.controls.next_start is not None else "aim again"
+            again = "continue" if game.session.controls.next_start is not None else "aim again"
             notes = [name, f"Enter to {again}, R to see it again", *stage.notes]
             self.head = headline(sheet, shot.verdict, notes, colour)
             sheet.numbers([*shot.card, *forces])
@@ -460,11 +460,11 @@ class View:
 
     @staticmethod
     def _state(stage: Stage, shot: Shot, t: float) -> Sequence[Entry]:
-        """What the ball does at a time: as the view that goes with it says it, where that says anything."""
+        """The state of the ball at a time: as in the picture's own frames, if it has them."""
         live: Callable[[float], Sequence[Entry]] | None = getattr(stage.picture, "live", None)
         return live(t) if live is not None else state_entries(shot, shot.ball, t)
 
-    # Beside the shot
+    # Around the shot
 
     def _draw_fan(self, sheet: Canvas, stage: Stage) -> None:
         fan = self.game.fan
@@ -484,7 +484,7 @@ class View:
         if "arrows" in self.on:
             self._forces(shot).draw(sheet, at, 9 * sheet.unit, t)
 
-    def _draw_beside(self, sheet: Canvas, shot: Shot) -> None:
+    def _draw_cards(self, sheet: Canvas, shot: Shot) -> None:
         """Cards down the right side, what the mouse reads, the tape."""
         game, top = self.game, float(sheet.frame.top)
         if not self.follows and self.stage is not None:
@@ -515,7 +515,7 @@ class View:
                 draw_reading(sheet, shot, read, entries)
 
     def _bar_shown(self) -> Shown:
-        """What the bar says."""
+        """The contents of the bar."""
         game, playback, shot = self.game, self.game.playback, self.game.shot
         opened = {"help": "help" in self.on, "panel": self.panel is not None}
         if self.choices is not None:
@@ -534,7 +534,7 @@ class View:
 
 def _panel(game: Game, size: tuple[int, int], height: int, group: str) -> Panel:
     """The panel of a window of ``size`` px."""
-    from sandbox.window.panel import FAVOURITES, NARROWEST, WIDTH, Panel  # brings pygame_gui, which takes its time
+    from sandbox.window.panel import FAVOURITES, NARROWEST, WIDTH, Panel  # imports pygame_gui, which is slow
 
     wide = min(max(NARROWEST, round(WIDTH * rows_of(size) / 720)), size[0] // 2)
     rect = pygame.Rect(size[0] - wide, 0, wide, height)
@@ -542,7 +542,7 @@ def _panel(game: Game, size: tuple[int, int], height: int, group: str) -> Panel:
 
 
 def _darken(surface: pygame.Surface) -> None:
-    """Make what is drawn look out of use."""
+    """Dim what is drawn."""
     veil = pygame.Surface(surface.get_size(), pygame.SRCALPHA)
     veil.fill((*CARD["background"], 150))
     surface.blit(veil, (0, 0))

@@ -5,18 +5,18 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-EVERY = 0.2  # s, between looks
+EVERY = 0.2  # s, between checks
 
 
 class Watch:
-    """Looks at the time and size of files now and then; a file that is away for a moment is an editor at work."""
+    """Checks the time and size of files at intervals; a file that is missing for a moment is being saved."""
 
     def __init__(self, files: Sequence[Path]) -> None:
         self.seen = {file: _state(file) for file in files}
         self.waited = 0.0
 
     def saved(self, dt: float) -> list[Path]:
-        """The files that changed since this was last asked; ``dt`` s have passed since."""
+        """The files that changed since the last call, ``dt`` s ago."""
         self.waited += dt
         if self.waited < EVERY:
             return []

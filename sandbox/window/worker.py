@@ -1,4 +1,4 @@
-"""What the window's worker computes: scenes run in a process of their own, so that drawing never waits for them."""
+"""What the window's worker process computes: scenes run there, so that drawing never waits for them."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from sandbox.errors import RunError, SandboxError
 from sandbox.lab.runs import runs
 from sandbox.scene import Scene, check, load, simulate
 from sandbox.scene.modules import forget
-from sandbox.window.run_data import plain
+from sandbox.window.run_data import data_of
 from sandbox.window.shot import Shot
 
 
@@ -26,7 +26,7 @@ def warm_up(source: str) -> None:
 
 
 def reread(folder: Path) -> None:
-    """Take the code of a scene from its files as they are now."""
+    """Read the code of a scene from its files again."""
     forget(folder)
 
 
@@ -37,13 +37,13 @@ def computed(scene: Scene) -> tuple[dict[str, Any], float]:
         run = simulate(scene)
     except SandboxError:
         raise
-    except Exception as error:  # a scene's own code, and maybe of a kind that the window's process does not know
+    except Exception as error:  # from a scene's own code, maybe of a class that the window's process cannot import
         raise RunError(described(error, scene.folder)) from None
-    return plain(run), perf_counter() - started
+    return data_of(run), perf_counter() - started
 
 
 def described(error: Exception, folder: Path) -> str:
-    """An error of a scene's own code in a line: the file and the line in the scene's folder, and what it says."""
+    """An error in a scene's own code on one line: the file and line in the scene's folder, and its message."""
     said = str(error) if isinstance(error, SandboxError) else f"{type(error).__name__}: {error}".rstrip(": ")
     if isinstance(error, SyntaxError) and error.filename:
         return f"{_short(error.filename)}, line {error.lineno}: {type(error).__name__}: {error.msg}"
@@ -53,42 +53,42 @@ def described(error: Exception, folder: Path) -> str:
 
 
 def _short(file: str) -> str:
-    """A path as short as it can be given from the current folder."""
+    """A path, relative to the current folder if it is in there."""
     path = Path(file).resolve()
     return str(path.relative_to(Path.cwd())) if path.is_relative_to(Path.cwd()) else str(path)
 
 
-def trusted(scene: Scene) -> str:
-    """What a run of the scene costs, and how far its results are off, in a line."""
+def cost_and_errors(scene: Scene) -> str:
+    """What a run of the scene costs, and the errors of its results, in a line."""
     run = simulate(scene)
     checked = check(scene, run)
     units = scene.units
     errors = [f"{name} ± {error:.1g} {units.get(name, '')}" for name, error in checked.errors.items() if error > 0]
     changed = [f"{name} would be {finer}" for name, (_, finer) in checked.changed.items()]
     changed += [f"{name} is chaotic" for name in (*checked.chaotic, *checked.unsettled)]
-    told = ", ".join(text.strip() for text in changed or errors[:4]) or "no difference to a finer run"
-    return f"{1e3 * run.numerics.wall_s:.1f} ms a run; {told.replace('_', ' ')}"
+    summary = ", ".join(text.strip() for text in changed or errors[:4]) or "the same in a finer run"
+    return f"{1e3 * run.numerics.wall_s:.1f} ms a run; {summary.replace('_', ' ')}"
 
 
 class FanShot(NamedTuple):
-    """What a fan shows of one of its shots."""
+    """One shot of a fan."""
 
     points: np.ndarray  # shape (n, 3): t in s, x and y in m
     scored: bool
-    value: float | None  # of what the scene says of its shots
+    value: float | None  # of the fact that the fan reports
 
 
 def varied(
-    scene: Scene, keys: Sequence[str], points: Sequence[Sequence[float]], told: str
+    scene: Scene, keys: Sequence[str], points: Sequence[Sequence[float]], fact: str
 ) -> tuple[list[FanShot | None], float]:
-    """Shots with other values at the keys, None for one that fails, and how long they took, in s; ``told`` is the
-    name of the result whose value is wanted."""
+    """Shots with other values at the keys, None for one that fails, and how long they took, in s; ``fact`` is the
+    name of the result to report."""
     started = perf_counter()
     found: list[FanShot | None] = []
     for run in runs(scene, keys, points):
         if isinstance(run, Exception):
             found.append(None)
             continue
-        shot, value = Shot(scene, run), run.result.get(told)
+        shot, value = Shot(scene, run), run.result.get(fact)
         found.append(FanShot(shot.track(shot.ball), shot.scored, value if isinstance(value, float) else None))
     return found, perf_counter() - started

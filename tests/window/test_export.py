@@ -47,18 +47,18 @@ class TestReplays:
         assert again.run.numerics == shot.run.numerics
 
     def test_simulated_again_it_is_the_same(self, recorded):
-        assert "the same to the last bit" in replay.compared(recorded[0].run, replay.read(recorded[1])[1].run)
+        assert "identical to the last bit" in replay.compared(recorded[0].run, replay.read(recorded[1])[1].run)
 
     def test_another_shot_is_told_from_it(self, recorded, shot_of):
         _, shot = replay.read(recorded[1])
         other = shot_of(Session("golf/putt", {"launch.speed": 2.4}))
-        assert "m away" in replay.compared(shot.run, other.run)
+        assert "m apart" in replay.compared(shot.run, other.run)
 
     @pytest.mark.parametrize(
         ("damage", "told"),
         [
-            (lambda text: text[: len(text) // 2], "not JSON to its end"),
-            (lambda text: text.replace('"launch.speed": 2.5', '"launch.speed": 2.6'), "not those that were written"),
+            (lambda text: text[: len(text) // 2], "not complete JSON"),
+            (lambda text: text.replace('"launch.speed": 2.5', '"launch.speed": 2.6'), "do not match its checksum"),
             (lambda text: text.replace('"version": 2', '"version": 99'), "version 99"),
             (lambda text: "[1, 2]", "not a replay"),
             (lambda text: "\x80\x81", "damaged"),
@@ -119,7 +119,7 @@ class TestReplays:
         assert player.game.playback.playing
         player.key(pygame.K_F6)
         player.settle()
-        assert "the same to the last bit" in player.game.notices[-1][0]
+        assert "identical to the last bit" in player.game.notices[-1][0]
 
 
 def test_a_scene_file_keeps_its_comments(elsewhere):

@@ -15,7 +15,7 @@ import sandbox.window
 from sandbox.engine.accuracy import LEVELS
 from sandbox.new import new_scene
 from sandbox.window.aim import nudged
-from sandbox.window.game import KEPT, LONG, Game, State
+from sandbox.window.game import MOST_SHOTS, LONG, Game, State
 from sandbox.window.session import Session
 from sandbox.window.worker import computed
 from sandbox.workers import WorkerLost
@@ -100,13 +100,13 @@ def test_nudges_leave_a_shot_that_is_watched_alone(game):
 
 
 def test_only_the_last_shots_are_kept(game):
-    for _ in range(KEPT + 5):
+    for _ in range(MOST_SHOTS + 5):
         game.shoot()
         game.aim_again()
         game.settle()
-    assert [shot.number for shot in game.shots] == list(range(6, KEPT + 6))
+    assert [shot.number for shot in game.shots] == list(range(6, MOST_SHOTS + 6))
     game.watch_other(-1)
-    assert game.shot.number == KEPT + 5
+    assert game.shot.number == MOST_SHOTS + 5
 
 
 class TestAFailure:
@@ -236,10 +236,10 @@ def test_shots_are_earlier_ones_of_the_same_file_from_the_same_start(game):
 
 @pytest.mark.parametrize("level", LEVELS)
 def test_it_says_what_an_accuracy_costs(game, level):
-    from sandbox.window.worker import trusted
+    from sandbox.window.worker import cost_and_errors
 
     game.change({"accuracy.level": level})
-    assert " ms a run; " in trusted(game.session.scene)
+    assert " ms a run; " in cost_and_errors(game.session.scene)
 
 
 def test_the_modules_of_the_window_import_each_other_in_one_direction():

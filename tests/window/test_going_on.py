@@ -72,13 +72,13 @@ def test_potted_balls_stay_away_and_a_potted_cue_ball_is_spotted(shot_of):
     session = Session("billiards", {"cue.speed": 3.0, **laid_out(cue=(0.5, 0.0), one=(0.7, 0.02))})
     shot = shot_of(session)
     shot.run.result["positions"] = {"9": [-0.635, 0.01]}
-    session.go_on(shot)
+    session.start_from(shot)
     found = places(session)
     assert found.keys() == {"cue", "9"}
     assert found["cue"][0] == pytest.approx(-0.635)
     assert abs(found["cue"][1] - 0.01) > 2 * shot.scene.parameters.ball.radius
     shot.run.result["positions"] = {"cue": [0.0, 0.0]}
-    session.go_on(shot)
+    session.start_from(shot)
     assert len(places(session)) == 10  # a cleared table is racked
 
 
