@@ -15,7 +15,7 @@ import sandbox.window
 from sandbox.engine.accuracy import LEVELS
 from sandbox.new import new_scene
 from sandbox.window.aim import nudged
-from sandbox.window.game import MOST_SHOTS, LONG, Game, State
+from sandbox.window.game import LONG, MOST_SHOTS, Game, State
 from sandbox.window.session import Session
 from sandbox.window.worker import computed
 from sandbox.workers import WorkerLost
