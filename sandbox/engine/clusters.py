@@ -168,7 +168,7 @@ class Cluster:
             approach[first], closed[first] = closing[first], t
             closing = closing_then
             t, steps = t + h, steps + 1
-            if not ((depth > 0.0) | ((self._gap < _TOUCH) & (closing > _STILL))).any():
+            if not ((depth > _TOUCH) | ((self._gap < _TOUCH) & (closing > _STILL))).any():
                 state = self._rub(state, normal, np.maximum(impulse - rubbed, 0.0), 0.0 * gain, rubbing)
                 break
             if t > _LONGEST * shortest:

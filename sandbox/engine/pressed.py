@@ -72,19 +72,28 @@ class Pressed:
         lasts = contact_time(mass, model.between(first.radius, second.radius), speed)
         fastest = 2.0 * speed * max(first.mass, second.mass) / (first.mass + second.mass)
         members = dict(touching)
+        met: set[frozenset[int]] = set()  # pairs that are within reach only as the others leave them
         while True:
             self._add_reached(t, members, fastest, lasts)
             walls = self._walls(members, fastest * lasts)
             if model.name == "auto" and len(members) == 2 and not walls:
                 return None
+            pairs = [
+                (i, j)
+                for i, j in combinations(members, 2)
+                if frozenset((i, j)) in met
+                or self._gap(i, members[i], j, members[j]) <= 2.0 * fastest * lasts + CONTACT
+            ]
             try:
-                parted = self._passed(t, members, walls, speed, fastest * lasts)
+                parted = self._passed(t, members, walls, pairs, speed)
             except StaysPressed:
                 return None
-            late = self._overlapping(parted)
+            late = self._overlapping(parted) - {frozenset(pair) for pair in pairs}
             if not late:
                 return parted
-            members.update({index: self._tracks[index].arc.state(t) for index in late})
+            met |= late
+            for index in frozenset().union(*late) - members.keys():
+                members[index] = self._tracks[index].arc.state(t)
 
     # ------------------------------------------------------------------ who takes part
 
@@ -126,31 +135,31 @@ class Pressed:
             if obstacle.near(state[0], state[1]).gap <= reach
         ]
 
-    def _overlapping(self, parted: Parted) -> set[int]:
-        """Balls that were left out and lie where members came to."""
-        late = set()
+    def _overlapping(self, parted: Parted) -> set[frozenset[int]]:
+        """The pairs that lie in each other once the balls have parted, of which one was touched at least."""
+        pairs = set()
         for index, state in parted.states.items():
             radius = self._tracks[index].ball.radius
             for other, track in enumerate(self._tracks):
-                if other not in parted.states and not track.caught:
-                    x, y = track.arc.position(parted.t)
+                if other != index and not track.caught:
+                    x, y = parted.states[other][:2] if other in parted.states else track.arc.position(parted.t)
                     if hypot(x - state[0], y - state[1]) < radius + track.ball.radius - CONTACT:
-                        late.add(other)
-        return late
+                        pairs.add(frozenset((index, other)))
+        return pairs
 
     # ------------------------------------------------------------------ there and back
 
     def _passed(
-        self, t: float, members: dict[int, State], walls: Sequence[tuple[int, Obstacle]], speed: float, reach: float
+        self,
+        t: float,
+        members: dict[int, State],
+        walls: Sequence[tuple[int, Obstacle]],
+        pairs: Sequence[tuple[int, int]],
+        speed: float,
     ) -> Parted:
         order = list(members)
         place = {index: number for number, index in enumerate(order)}
         bodies = [self._body(t, index, state) for index, state in members.items()]
-        pairs = [
-            (i, j)
-            for i, j in combinations(order, 2)
-            if self._gap(i, members[i], j, members[j]) <= 2.0 * reach + CONTACT
-        ]
         links = [self._link(place, members, i, j, speed) for i, j in pairs]
         if any(link.restitution < STICKY for link in links):
             raise StaysPressed("balls that do not bounce off each other stay together")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from math import cos, hypot, radians, sin, sqrt
 
 import numpy as np
@@ -9,6 +10,8 @@ import pytest
 
 import sandbox
 from sandbox.engine.clusters import Body, Cluster, Link, StaysPressed
+from sandbox.engine.ledger import ledger
+from sandbox.engine.pressed import Pressed
 from sandbox.physics.hertz import contact_time
 
 MASS, RADIUS, STIFFNESS = 0.170097, 0.028575, 5.262e8  # of pool balls: kg, m, N/m^1.5
@@ -156,3 +159,42 @@ def test_balls_that_hardly_bounce_get_impulses(restitution, through):
     run = sandbox.simulate(sandbox.load("billiards", {"ball.restitution": restitution}))
     assert run.ended == "rest"
     assert bool(run.numerics.clusters) is through
+
+
+@pytest.mark.parametrize(
+    ("speed", "angle", "english"),
+    [
+        (
+            3.0,
+            -92.25006174645455,
+            -0.21837248667408093,
+        ),  # rounding leaves two of the row 1e-17 m too close, at rest
+        (
+            12.0,
+            -123.89969905899652,
+            -0.3213740023291254,
+        ),  # the cue ball comes to one it could not reach
+    ],
+)
+def test_a_frozen_row_struck_across_parts_at_once(monkeypatch, speed, angle, english):
+    """Each contact ends, and is gone through a few times at most."""
+    passed, times = Pressed._passed, Counter()
+
+    def counted(self, t, *others):
+        times[t] += 1
+        assert times[t] < 5
+        return passed(self, t, *others)
+
+    monkeypatch.setattr(Pressed, "_passed", counted)
+    monkeypatch.setattr(StaysPressed, "__init__", lambda self, text: pytest.fail(text))
+    apart, way = 2 * 0.028575, radians(angle)
+    row = [{"name": f"{i}", "x": apart * i * cos(way), "y": apart * i * sin(way)} for i in range(5)]
+    changed = {
+        "balls": [{"name": "cue", "x": -0.3, "y": 0.0}, *row],
+        "cue": {"speed": speed, "angle": 0.0, "english": english},
+        "table.kind": "carom",
+        "contact.model": "hertz",
+    }
+    run = sandbox.simulate(sandbox.load("billiards", changed))
+    assert times
+    assert ledger(run).end < 1e-12
