@@ -1,7 +1,7 @@
-"""The hall from the side: a place made of parts, and the one drawing of our own, the fan's air.
+"""The hall from the side: a place made of parts, and one drawing of its own, the fan's air.
 
-Poster, frames, comparisons and the window's view come from SideView; what it may be told stands at the top of view.py
-and side.py in sandbox/picture.
+Poster, frames, comparisons and the window's view come from SideView; its options are listed at the top of view.py and
+side.py in sandbox/picture.
 """
 
 from __future__ import annotations

@@ -18,7 +18,7 @@ from sandbox.sport.facts import ENDED, Fact, once
 from sandbox.sport.flight import Launch, Sphere, forces_in_flight, launched_ball
 from sandbox.sport.readings import LAUNCH, Moment, at, before
 
-# Parameters: quantity(default, unit, lowest, highest, meaning). A default of ... stands in template.toml.
+# Parameters: quantity(default, unit, lowest, highest, meaning). A default of ... is in template.toml.
 
 
 class Toss(Launch):

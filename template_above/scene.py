@@ -1,7 +1,7 @@
 """A putt on a minigolf lane, seen from above: past a block, off the boards and into the cup.
 
-Models: sliding on felt until the ball rolls, rolling, bouncing off boards and block, and a cup that takes the ball.
-Leaves out: slopes; the cup's lip, over which a fast ball would leap.
+Models: sliding on felt until the ball rolls, rolling, bouncing off boards and block, and a cup that catches the ball.
+Leaves out: slopes; the cup's lip, which a fast ball would jump over.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from sandbox.sport.facts import ENDED, Fact
 MASS, RADIUS, FROM_END = 0.0459, 0.02135, 0.4  # of a golf ball, in kg and m; of tee and cup from the ends, in m
 
 
-# Parameters: quantity(default, unit, lowest, highest, meaning). A default of ... stands in template_above.toml.
+# Parameters: quantity(default, unit, lowest, highest, meaning). A default of ... is in template_above.toml.
 class Launch(Group):
     """The ball as it leaves the putter."""
 
@@ -38,7 +38,7 @@ class Lane(Group):
 
 
 class Parameters(Group):
-    """All numbers of a putt."""
+    """All parameters of a putt."""
 
     launch: Launch = group(..., "the ball as it leaves the putter")
     lane: Lane = group(..., "the lane")
@@ -66,12 +66,12 @@ def build(parameters: Parameters) -> Setup:
 
 
 def _to_cup(run: Run, parameters: Parameters) -> float | None:
-    """How far from the cup the ball stops, in m; None where it is in it."""
+    """How far from the cup the ball stops, in m; None if it is in the cup."""
     stop, cup = run.state("ball", run.duration)[:2], run.setup.catches[0].center
     return None if run.caught_at("ball") is not None else dist(stop, cup)
 
 
-# Fact(key, label, unit, how): the card, JSON, pictures, the window and charts follow from this list.
+# Fact(key, label, unit, how): the card, JSON, pictures, the window and charts are made from this list.
 FACTS = (
     Fact("to_cup", "to the cup", "m", _to_cup),
     Fact("bounces", "bounces", "", lambda run, _: sum(event.kind == "impact" for event in run.events)),

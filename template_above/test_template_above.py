@@ -1,4 +1,4 @@
-"""Tests of the scene; ``pytest --golden-update`` makes the golden files, or makes them anew."""
+"""Tests of the scene; ``pytest --golden-update`` makes the golden files, or replaces them."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ def test_putt(golden):
     golden.check("template_above", sandbox.simulate(sandbox.load(SCENE)))
 
 
-def test_a_ball_that_rolls_at_once_rolls_as_long_as_friction_lets_it():
+def test_a_rolling_ball_stops_after_the_time_that_friction_gives():
     """v / (c g), for the deceleration c g of a rolling ball."""
     rolling = {"launch.roll": 1.0, "launch.angle": 90.0, "launch.speed": 0.7}
     scene = sandbox.load(SCENE, rolling)

@@ -1,4 +1,4 @@
-"""Stand, board and ring as they are drawn; the net has a file of its own."""
+"""Drawing of stand, board and ring; the net is in its own file."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ class Stand:
 
 
 class Hoop:
-    """The glass board with its square, and the ring, whose near half is before the ball."""
+    """The glass board with its square, and the ring, whose near half is in front of the ball."""
 
     def __init__(self, parameters: Parameters):
         self.face, self.bottom, _, self.top = board(parameters)

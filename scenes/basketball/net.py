@@ -1,4 +1,4 @@
-"""The net as it is drawn, which is no part of the physics: it gives way to the ball and swings when that is out."""
+"""Drawing of the net, apart from the physics: it yields to the ball and swings after the ball has left."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ from sandbox.picture.painter import Painter
 from .hoop import COLOURS
 from .scene import Parameters, rims
 
-#: Strands around the ring, knots down each, and how wide the net is at its end against the ring.
+#: Strands around the ring, knots on each, and the width of the net's lower end over that of the ring.
 STRANDS, KNOTS, NARROW = 11, 9, 0.56
-#: After the ball is out the net swings this fast (rad/s) and settles this fast (1/s).
+#: After the ball has left, the net swings at this rate (rad/s) and settles at this rate (1/s).
 SWING, SETTLE = 11.0, 3.0
-#: It rests when it swings by less than exp(-SETTLED) of what it did.
+#: It counts as at rest once its swing has fallen to exp(-SETTLED).
 SETTLED = 5.0
 
 
@@ -34,7 +34,7 @@ class Net:
         self.entered, self.left = self._passage() if run.result["made"] else (np.inf, np.inf)
 
     def _passage(self) -> tuple[float, float]:
-        """When the ball goes into the net for good, and when it is out below, in s."""
+        """When the ball enters the net for the last time, and when it leaves it below, in s."""
         floor = next((event.t for event in self.run.events if event.partner == "floor"), self.run.duration)
         into = [t for t, _ in self.run.crossings("ball", (0.0, self.top), (0.0, 1.0)) if t <= floor]
         end = self.top - self.length - 0.5 * self.radius
@@ -42,7 +42,7 @@ class Net:
         return into[-1], next(out, floor)
 
     def draw(self, painter: Painter, eye: Eye, near: bool, t: float) -> None:
-        """The half before the ball or that behind it, as it hangs at time t in s."""
+        """The half in front of the ball or the one behind it, at time t in s."""
         width = max(0.9 * eye.unit, 0.012 * eye.camera.scale)
         lines = self._lines(eye, near, 0.0 if self.rests(t) else t)
         painter.lines(lines, width, COLOURS["net"], 0.75 if near else 0.3)
@@ -64,7 +64,7 @@ class Net:
         return np.stack([points[:, :-1], points[:, 1:]], axis=2)[shown]
 
     def _shape(self, down: np.ndarray, t: float) -> tuple[np.ndarray, np.ndarray]:
-        """How far aside the net is and how wide, in m, at shares of its length down from the ring."""
+        """How far the net is displaced and how wide it is, in m, at shares ``down`` of its length below the ring."""
         wide = self.wide * (1 - (1 - NARROW) * down**0.7)
         if self.rests(t):
             return 0.0 * down, wide

@@ -1,16 +1,16 @@
-"""Basketball in side view: from the hand to the ring, by way of rim and backboard where it must be.
+"""Basketball from the side: from the hand to the ring, directly or off rim and backboard.
 
-Models: gravity; drag and lift in flight; impacts with rim, bracket, backboard and floor, where the spin takes part; the
-net, which slows a ball that falls through it (its form and strength are assumed: no measurement was found); wind where
-the scene file asks for it.
+Models: gravity; drag and lift in flight; impacts with rim, bracket, backboard and floor, with spin and friction; the
+net, which slows a ball that falls through it (its form and strength are assumed: no measurement was found); wind if
+the scene file sets it.
 Leaves out: the ball's loss of spin in the air; everything sideways, so the ring is two tubes and a shot is never off to
-the side; the give of ball, rim and board.
+the side; the deformation of ball, rim and board.
 
-What that is worth, measured on the default free throw as the shift of the place where the ball comes down to the ring:
-1 m/s of headwind, 7.5 cm shorter. Of what is kept, drag takes 45 cm, and lift as large as the spin ratio (assumed),
+Sizes of effects, measured on the default free throw as the shift of the point where the ball comes down to the ring:
+1 m/s of headwind, 7.5 cm shorter. Of what is modelled, drag takes 45 cm, and lift as large as the spin ratio (assumed),
 Cl = S = 0.3, carries it 9.5 cm further and makes it 1.4 deg steeper: without it the same shot takes 0.07 m/s more. The
 swish is 10 cm wide: from 4.7 cm short of the middle of the ring to 5.3 cm beyond it. The net costs 76 % more force
-evaluations (524 for 298, 60 % more time) and brings a swish down 1.6 m nearer.
+evaluations (524 instead of 298, 60 % more time), and a swish lands 1.6 m nearer.
 """
 
 from __future__ import annotations
@@ -77,7 +77,7 @@ class Net(Group):
 
     slows: bool = switch(..., "whether it slows the ball, or is only drawn")
     length: float = quantity(..., "m", 0.1, 2, "length")
-    damping: float = quantity(..., "1/s", 0, 100, "deceleration over speed of a ball that slips down inside it")
+    damping: float = quantity(..., "1/s", 0, 100, "deceleration over speed of a ball falling through it")
 
 
 class Floor(Group):
@@ -88,10 +88,10 @@ class Floor(Group):
 
 
 class Parameters(Group):
-    """All numbers of a shot."""
+    """All parameters of a shot."""
 
-    launch: Launch = group(..., "the ball just after it left the hand")
-    release: Release = group(..., "where it left the hand")
+    launch: Launch = group(..., "the ball just after it leaves the hand")
+    release: Release = group(..., "where it leaves the hand")
     gravity: float = quantity(..., "m/s^2", 0, 30, "gravity")
     air: Air = group(..., "the air")
     ball: Basketball = group(..., "the ball")
@@ -112,16 +112,16 @@ CONTROLS = Controls(
 
 # -------------------------------------------------------------------------------------------------------------- build
 
-#: A shot still under way after this time in s is ended.
+#: A shot still moving after this time in s is ended.
 LONGEST = 60.0
 
-#: The floor reaches this far either way, in m: as far as the fastest ball gets in that time.
+#: The floor reaches this far in both directions, in m: as far as the fastest ball gets in that time.
 FAR = 25_000.0
 
 #: The run is over when the ball comes down on the floor no faster than this, in m/s: after a few bounces.
 TIRED = 3.0
 
-#: Thickness of the bracket over that of the tube: a ball between ring and board lies on the tube, not on it. Assumed.
+#: Thickness of the bracket over that of the tube: a ball between ring and board rests on the tube. Assumed.
 BRACKET_SHARE = 0.5
 
 
@@ -129,14 +129,14 @@ BRACKET_SHARE = 0.5
 class NetDrag:
     """The net around a ball that passes through: ``F = -m k (4 vx, vy)`` inside a box below the ring, k in 1/s.
 
-    It hangs in the way sideways, and lets the ball slip down. The force sets in and ends over a short way, so that it
-    has no jumps. All of it is assumed: no measurement of a net was found.
+    It resists sideways motion more than falling. The force begins and ends over a short distance, so that it has no
+    jumps. All of it is assumed: no measurement of a net was found.
     """
 
     #: Sideways over downwards.
     HOLD = 4.0
 
-    #: The way in m over which the net takes hold, and lets go.
+    #: The distance in m over which the force begins and ends.
     EDGE = 0.05
 
     mass: float  # kg
@@ -147,7 +147,7 @@ class NetDrag:
 
     @classmethod
     def patch(cls, middle: Vector, half_width: float, length: float) -> Patch:
-        """Where it is: no step may leap over it."""
+        """Where it acts: no integration step may skip it."""
         (x, y), aside = middle, half_width + cls.EDGE
         return Patch(x - aside, y - length, x + aside, y, step=0.02)
 
@@ -163,13 +163,13 @@ class NetDrag:
 
 
 def _smooth(x: Any) -> Any:
-    """0 below 0, 1 above 1, without corners between."""
+    """0 below 0, 1 above 1, smooth between."""
     s = clip(x, 0.0, 1.0)
     return s * s * (3.0 - 2.0 * s)
 
 
 def build(parameters: Parameters) -> Setup:
-    """Ball, ring, board and floor. Raises RequestError where they do not go together."""
+    """Ball, ring, board and floor. Raises RequestError if they overlap."""
     _check(parameters)
     ball, hoop, net = parameters.ball, parameters.hoop, parameters.net
     forces = forces_in_flight(ball, parameters.air, parameters.gravity)
@@ -267,18 +267,18 @@ def _through(run: Run, parameters: Parameters) -> float | None:
 
 
 def _downs(run: Run, parameters: Parameters) -> Iterator[tuple[float, State]]:
-    """Each time and state at which the ball's centre comes down to the ring's height."""
+    """Each time and state at which the ball's centre falls to the ring's height."""
     return run.crossings("ball", (parameters.hoop.distance, parameters.hoop.height), (0.0, 1.0))
 
 
 def _on_floor(run: Run) -> float:
-    """When the ball comes to the floor, or the run is over."""
+    """When the ball reaches the floor, or the run ends."""
     return next((event.t for event in run.events if event.partner == "floor"), run.duration)
 
 
 @once
 def entry(run: Run, parameters: Parameters) -> Moment | None:
-    """The ball as it first comes down to the ring's height, or first touches something up there if that is earlier."""
+    """The ball as it first falls to the ring's height, or first touches something there if that is earlier."""
     down = next((Moment(t, *state) for t, state in _downs(run, parameters)), None)
     first = next((event.t for event in run.events if event.partner != "floor"), None)
     floor = _on_floor(run)
@@ -288,7 +288,7 @@ def entry(run: Run, parameters: Parameters) -> Moment | None:
 
 
 def _touches(run: Run, parameters: Parameters) -> list[str]:
-    """The surfaces met until it was decided: by leaving the ring below, or by coming to the floor."""
+    """The surfaces touched until the shot was decided: by leaving the ring below, or by reaching the floor."""
     through = _through(run, parameters)
     decided = _on_floor(run) if through is None else through
     return [event.partner for event in run.events if event.kind in ("impact", "contact") and event.t <= decided]

@@ -1,4 +1,4 @@
-"""The balls as they look: colours, stripes, numbers and dots, and how they turn."""
+"""The look of the balls: colours, stripes, numbers and dots, and how they turn."""
 
 from __future__ import annotations
 
@@ -15,19 +15,19 @@ from sandbox.picture.palette import Colour, mix, scene_colours
 
 COLOURS = scene_colours(__file__)
 
-#: Half the angle that a number's white disc, a plain ball's dot and a stripe take as seen from the ball's middle, deg.
+#: Half the angle of a number's white disc, a dot and a stripe, as seen from the ball's centre, deg.
 DISC, DOT, STRIPE = 27, 14, 38
 #: A figure's height over the ball's radius.
 FIGURE = 0.52
-#: Paths differ from the cloth by so much, as a distance between colours of 0 to 255.
+#: Least difference between a path and the cloth, as a distance between colours of 0 to 255.
 LEAST_CONTRAST = 130
-#: The dots of a plain ball: its own six axes.
+#: The dots of a ball without a number: its own six axes.
 AXES = np.array([(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)], float)
 
 
 @cache
 def skin(name: str) -> np.ndarray:
-    """What a ball of that name looks like: 1 to 15 as in pool, colours as in snooker and carom, plain otherwise."""
+    """The surface of a ball by its name: 1 to 15 as in pool, colours as in snooker and carom, others in one colour."""
     number = int(name) if name.isdecimal() and 1 <= int(name) <= 15 else None
     if number is not None:
         return sphere.skin(lambda at: _numbered(at, number))
@@ -38,7 +38,7 @@ def skin(name: str) -> np.ndarray:
 
 
 def colour_of(name: str) -> Colour:
-    """The colour that a ball is called by."""
+    """The colour of a ball by its name."""
     if name.isdecimal() and 1 <= int(name) <= 15:
         return COLOURS["pool"][(int(name) - 1) % 8]
     named = COLOURS["named"]
@@ -47,18 +47,18 @@ def colour_of(name: str) -> Colour:
 
 
 def on_cloth(colour: Colour) -> Colour:
-    """The colour, lighter where it would be lost on the cloth."""
+    """The colour, lighter if it would be hard to see on the cloth."""
     lighter = (mix(colour, (255, 255, 255), share) for share in np.arange(0.0, 1.0, 0.05))
     return next(shade for shade in lighter if dist(shade, COLOURS["cloth"]) > LEAST_CONTRAST)
 
 
 def striped(name: str) -> bool:
-    """Whether a ball's colour is that of another, with a white band on either side."""
+    """Whether a ball is striped: a coloured band between white sides."""
     return name.isdecimal() and 9 <= int(name) <= 15
 
 
 def turning(run: Any, name: str) -> sphere.Turning:
-    """How a ball lies at any time: at random at first, each ball in its own way, then as its spin turns it."""
+    """The orientation of a ball at any time: random at first, different for each ball, then turned by its spin."""
     arcs = run.arcs[name]
 
     def spin(t: float) -> tuple[float, float, float]:
@@ -68,7 +68,7 @@ def turning(run: Any, name: str) -> sphere.Turning:
 
 
 def lying(name: str) -> np.ndarray:
-    """How a ball lies before anything moves: its number up, but not quite."""
+    """The orientation of a ball before the shot: its number roughly up."""
     chance = random.Random(name)
     lean = sphere.turned([radians(chance.uniform(-38, 38)), radians(chance.uniform(-38, 38)), 0.0])
     return lean @ sphere.turned([0.0, 0.0, radians(chance.uniform(-60, 60))]) @ NUMBER_UP

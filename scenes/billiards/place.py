@@ -1,4 +1,4 @@
-"""The table as it stands in the room: what it is made of, where, and in which colours."""
+"""Drawing of the table in the room: its parts, their places and colours."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ from .table import Snooker, Table
 
 COLOURS = scene_colours(__file__)
 
-#: Wood beyond the cushions, at least, and what it is wider than the pockets; a line on the cloth and a spot, in m.
+#: Least width of the wood beyond the cushions, and beyond the pockets; of a line on the cloth and of a spot, in m.
 WOOD, ROUND_POCKETS, LINE, SPOT = 0.10, 0.032, 0.004, 0.0055
 #: The maker's plate on the head rail: its width and length, and how far from the table's edge its middle lies, in m.
 PLATE, PLATE_LENGTH, PLATE_INSIDE = 0.013, 0.16, 0.026
-#: Where the head spot, the middle and the foot spot lie, as shares of half the length.
+#: Head spot, centre spot and foot spot, as shares of half the length.
 SPOTS = (-0.5, 0.0, 0.5)
 #: Snooker's markings (WPBSA): from the head cushion to the line, the D's radius, from the foot cushion to the black, m.
 BAULK, D_RADIUS, BLACK_SPOT = 0.737, 0.292, 0.324
@@ -56,7 +56,7 @@ def place(setup: Setup, table: Table) -> Plan:
 
 
 def _snooker_markings(x: float, y: float) -> Plan:
-    """Baulk line, D and spots, on a bed of those half sizes."""
+    """Baulk line, D and spots, on a bed of half sizes x and y."""
     baulk = BAULK - x
     d = arc((baulk, 0.0), D_RADIUS, 90.0, 270.0)
     spots = [(baulk, side * D_RADIUS) for side in (-1, 0, 1)] + [(0.0, 0.0), (0.5 * x, 0.0), (x - BLACK_SPOT, 0.0)]

@@ -2,10 +2,10 @@
 
 Models: sliding, rolling and spinning on cloth in closed form; the cue tip's offset, which gives follow, draw, stun and
 english; impacts of balls with restitution, and with friction that falls with their speed, so that cuts and english
-throw the object ball and spin passes on; racks and frozen balls that share a blow (Hertz); cushions whose nose is above
-the ball's centre; jaws as real shapes, and pockets that take a ball whose centre is over the hole.
-Leaves out, with what it is worth: hops, as friction lifts a rolling ball that hits another straight on at 3 m/s by
-1.1 mm for 0.03 s; squirt, as the ball leaves along the cue (2.7 deg at the most english, by a cue that pivots 0.3 m
+throw the object ball and spin passes on; racks and frozen balls that share an impact (Hertz); cushions whose nose is
+above the ball's centre; jaws as real shapes, and pockets that catch a ball whose centre is over the hole.
+Leaves out, with the size of the effect: hops, as friction lifts a rolling ball that hits another straight on at 3 m/s
+by 1.1 mm for 0.03 s; squirt, as the ball leaves along the cue (2.7 deg at the most english, by a cue that pivots 0.3 m
 behind its tip). And, not measured: the elevated cue (swerve, masse, jump); how long the cushions hold a ball; the nap
 of the cloth; the pockets' depth, out of which a fast ball may rattle.
 """
@@ -40,7 +40,7 @@ from .table import Carom, EightFoot, NineFoot, SevenFoot, Snooker, catches, chec
 
 
 class Spot(Group):
-    """A ball and where it lies; the table's centre is the origin, x runs along its length."""
+    """A ball and its position; the table's centre is the origin, x runs along its length."""
 
     name: str = Field(description="name of the ball", min_length=1, max_length=40)
     x: float = quantity(0.0, "m", -10, 10, "along the table")
@@ -53,7 +53,9 @@ class Cue(Group):
     ball: str = Field(description="name of the ball that is struck", min_length=1, max_length=40)
     speed: float = quantity(..., "m/s", 0, 30, "speed of the ball after the stroke")
     angle: float = quantity(..., "deg", -360, 360, "direction, from +x counter-clockwise")
-    follow: float = quantity(..., "", -0.5, 0.5, "height of the tip over the ball's centre in radii; 0.4 rolls at once")
+    follow: float = quantity(
+        ..., "", -0.5, 0.5, "height of the tip above the ball's centre in radii; 0.4 rolls at once"
+    )
     english: float = quantity(..., "", -0.5, 0.5, "tip to the right of the ball's centre in radii")
 
 
@@ -64,7 +66,7 @@ class BallParameters(Group):
     radius: float = quantity(..., "m", 0.002, 0.2, "radius")
     restitution: float = quantity(..., "", 0, 1, "of ball and ball")
     friction: float | None = quantity(
-        None, "", 0, 10, "of ball and ball; where left out, less the faster the surfaces rub (Alciatore)"
+        None, "", 0, 10, "of ball and ball; if left out, it falls with sliding speed (Alciatore)"
     )
 
 
@@ -80,28 +82,28 @@ class Cushion(Group):
     """The cushions, jaws included."""
 
     model: Literal["nose", "vertical"] = choice(..., "a nose above the ball's centre, or a wall")
-    nose_height: float = quantity(..., "m", 0.001, 0.4, "height of the nose over the cloth")
+    nose_height: float = quantity(..., "m", 0.001, 0.4, "height of the nose above the cloth")
     restitution: float = quantity(..., "", 0, 1, "of ball and cushion")
     friction: float = quantity(..., "", 0, 10, "of ball and cushion")
 
 
 class Contact(Group):
-    """How balls meet that others can reach while they are pressed together."""
+    """The contact of balls that are pressed together while others can reach them."""
 
     model: Literal["auto", "rigid", "hertz"] = choice(..., "contact mechanics where it matters, never, or always")
     stiffness: float = quantity(..., "N/m^1.5", 1e3, 1e12, "of a pair of balls")
 
 
 class Parameters(Group):
-    """All numbers of a shot."""
+    """All parameters of a shot."""
 
     rack: Literal["nine-ball", "eight-ball", "none"] | None = choice(
-        None, "balls on the foot spot; where left out, nine-ball if no balls are listed and none else"
+        None, "balls on the foot spot; if left out, nine-ball if no balls are listed, none otherwise"
     )
     rack_gap: float = quantity(..., "m", 1e-7, 0.01, "between neighbours in the rack")
-    rack_scatter: float = quantity(..., "m", 0, 0.01, "how far a racked ball may lie from its place, at random")
+    rack_scatter: float = quantity(..., "m", 0, 0.01, "random displacement of a racked ball, at most")
     rack_seed: float = quantity(..., "", 0, 1e9, "which of the random racks")
-    balls: list[Spot] = groups(..., "balls laid out one by one, beside the rack")
+    balls: list[Spot] = groups(..., "balls placed one by one, in addition to the rack")
     cue: Cue = group(..., "the stroke")
     table: NineFoot | EightFoot | SevenFoot | Snooker | Carom = either(..., "the table", by="kind")
     ball: BallParameters = group(..., "the balls")
@@ -126,13 +128,13 @@ CONTROLS = Controls(
 
 # -------------------------------------------------------------------------------------------------------------- build
 
-#: A shot still under way after this time in s is ended.
+#: A shot still moving after this time in s is ended.
 LONGEST = 300.0
 
 #: Distance of the tip from the ball's centre, in radii, beyond which a chalked tip slips off: a miscue (Alciatore).
 MISCUE = 0.5
 
-#: Overlap in m that is rounding of the numbers in a file; the balls are moved apart by it.
+#: Overlap in m that counts as rounding in the file; the balls are moved apart.
 ROUNDING = 1e-5
 
 #: Rows from the foot spot on, each from right to left as seen from the head.
@@ -282,7 +284,7 @@ def _between_balls(ball: BallParameters) -> Callable[[float, float], Bounce]:
 
 @dataclass(frozen=True)
 class SlowerThrowsMore:
-    """Two balls whose friction falls with the speed of the one surface over the other."""
+    """An impact of two balls with friction that falls with their sliding speed."""
 
     restitution: float
 
@@ -295,8 +297,8 @@ class SlowerThrowsMore:
 
 @once
 def _met(run: Run, parameters: Parameters) -> list[Event]:
-    """Every meeting of two balls or of a ball with cushion, jaw or pocket. What the cloth presses together hops, which
-    counts as one meeting."""
+    """Every meeting of two balls or of a ball with cushion, jaw or pocket. The hops of balls that are pressed together
+    count as one meeting."""
     assert run.setup.cloth is not None
     hop = 1.001 * slowest_hop(run.setup.cloth, run.accuracy.hop)
     last: dict[str, str] = {}  # what each ball met last
@@ -367,7 +369,7 @@ def _scored(run: Run, parameters: Parameters) -> bool:
 
 
 def _positions(run: Run, parameters: Parameters) -> dict[str, list[float]]:
-    """Where the balls lie that are still on the table, in m."""
+    """Positions in m of the balls that are still on the table."""
     caught = _caught(run, parameters)
     balls = (ball.name for ball in run.setup.balls if ball.name not in caught)
     return {name: list(run.state(name, run.duration)[:2]) for name in balls}
@@ -378,12 +380,12 @@ def _cushions(run: Run, parameters: Parameters) -> int:
 
 
 def _rails(run: Run, parameters: Parameters) -> int:
-    """Meetings of all balls with the cushions' noses; those on the pockets' jaws stand in the events alone."""
+    """Meetings of all balls with the cushions' noses, without those with the pockets' jaws."""
     return sum(event.partner.endswith(" cushion") for event in _met(run, parameters))
 
 
 def _tip(run: Run, parameters: Parameters) -> str:
-    """Where the tip meets the ball, in radii off its centre."""
+    """Where the tip hits the ball, in radii from its centre."""
     cue = parameters.cue
     up, aside = f"{abs(cue.follow):.2g} {'follow' if cue.follow > 0 else 'draw'}", f"{abs(cue.english):.2g} "
     aside += "right" if cue.english > 0 else "left"
@@ -452,7 +454,7 @@ def _named(names: list[str]) -> str:
 
 
 def from_rest(run: Run, parameters: Parameters) -> dict[str, Any]:
-    """Where the balls lie for the next shot: a cleared table is racked, a potted cue ball spotted."""
+    """Positions of the balls for the next shot: a cleared table is racked, a potted cue ball spotted."""
     spots: dict[str, Vector] = {name: (x, y) for name, (x, y) in run.result["positions"].items()}
     cue = parameters.cue.ball
     if not set(spots) - {cue}:

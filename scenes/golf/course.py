@@ -1,4 +1,4 @@
-"""The golf course as it is drawn: field, ground, hole and ball."""
+"""Drawing of the golf course: field, ground, hole and ball."""
 
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ from sandbox.picture.sheet import rows_of
 CARD, COLOURS = palette("card"), scene_colours(__file__)
 
 FLAGSTICK = 2.13  # m
-#: How much smaller things look at the far side of the fairway than on the line of play.
+#: Scale of things at the far side of the fairway, compared with the line of play.
 FAR = 0.42
 
 
 class Course:
-    """The place that the ball flies over, for pictures of one size."""
+    """The course, for pictures of one size."""
 
     def __init__(self, setup: Setup, pin: float, size: tuple[int, int], moon: bool = False):
         self.pin, self.size = pin, size
@@ -83,7 +83,7 @@ class Course:
         self._hole(painter, camera)
 
     def _ground(self, eye: Eye, stripe: float) -> Ground:
-        """The field behind the line of play: rough along the horizon, before it mown fairway, green and bunkers."""
+        """The field behind the line of play: rough along the horizon, in front of it fairway, green and bunkers."""
         far, near = eye.depth(FAR), eye.depth(2.0)
         low, high = eye.along(0, far), eye.along(self.size[0], far)
         areas: list[tuple[Line, Colour]] = []
@@ -101,7 +101,7 @@ class Course:
         return Ground(stripes, self.turf["soil"], areas=areas, far=FAR, beyond=beyond)
 
     def _light(self, camera: Camera, stripe: float) -> Colour:
-        """The lighter stripes' colour; it goes over into the darker one's where stripes are too narrow to see."""
+        """The colour of the lighter stripes; it fades to the darker one where stripes are too narrow to see."""
         fade = min(1.0, max(0.0, stripe * camera.scale / (12 * self.unit) - 0.5))
         return mix(self.turf["fairway"], self.turf["fairway_stripe"], fade)
 
@@ -121,7 +121,7 @@ class Course:
             painter.polygon([*outline, *np.add(outline[::-1], (0, thick))], lighter)
 
     def _hollow(self, painter: Painter, camera: Camera, a: float, b: float, colour: Colour) -> None:
-        """Sand or water lies in a shallow bowl."""
+        """Sand or water in a shallow hollow."""
         outline = camera.pixels(self.between(a, b))
         (left, top), (right, end) = outline[0], outline[-1]
         deep = min(16 * self.unit, 0.2 * (right - left))
@@ -132,7 +132,7 @@ class Course:
     # The hole
 
     def _hole(self, painter: Painter, camera: Camera) -> None:
-        """The cup, and a shadow at the flagstick's foot; larger than it is where it would be too small to see."""
+        """The cup, and a shadow at the flagstick's foot; enlarged if it would be too small to see."""
         if self.cup is None:
             return
         unit, (x, ground), (_, foot) = self.unit, self._foot(camera), camera.pixel(0, self.cup.bottom)
@@ -155,7 +155,7 @@ class Course:
         return pygame.Rect(round(x - cloth), round(ground - tall), round(2 * cloth), round(tall))
 
     def flag(self, painter: Painter, camera: Camera, t: float, wind: float) -> None:
-        """The flag, larger than it is where it would be too small to see; it flutters in the wind (m/s)."""
+        """The flag, enlarged if it would be too small to see; it flutters in the wind (m/s)."""
         unit, box, (x, ground) = self.unit, self.flag_box(camera), self._foot(camera)
         if not box.colliderect(painter.surface.get_rect()):
             return
@@ -175,7 +175,7 @@ class Course:
 
 
 def _pieces(turf: list[tuple[str, Point, Point]]) -> list[tuple[str, float, float]]:
-    """Kind and ends in m of each stretch of ground, from left to right; the two sides of the cup make one."""
+    """Kind and ends in m of each stretch of ground, from left to right; the two sides of the cup are joined."""
     merged: list[tuple[str, float, float]] = []
     for a, b, name in sorted((a[0], b[0], name) for name, a, b in turf):
         start = merged.pop()[1] if merged and merged[-1][0] == name else a
@@ -184,7 +184,7 @@ def _pieces(turf: list[tuple[str, Point, Point]]) -> list[tuple[str, float, floa
 
 
 def _dimples(face: pygame.Surface, radius: float) -> None:
-    """Dimples and a stripe, where there is room for them."""
+    """Dimples and a stripe, if the ball is large enough."""
     if radius < 6 * OVERSAMPLING:
         return
     middle, apart = face.get_width() // 2, radius / 3.4

@@ -1,10 +1,10 @@
-"""Golf in side view: from the tee, through the air, over the turf, to rest or into the cup.
+"""Golf from the side: from the tee, through the air, over the turf, to rest or into the cup.
 
-Models: gravity; drag and Magnus lift with coefficients by Reynolds number and spin ratio; wind, even or growing with
+Models: gravity; drag and Magnus lift with coefficients by Reynolds number and spin ratio; wind, uniform or growing with
 height; spin decay; the strike of the club head, a collision with springs along and across the face; bounces on turf
 that gives way (Penner 2002), sliding, rolling, slopes, water, and a cup with real walls, which a fast ball skips over.
 
-Leaves out, with what it is worth in carry on the default drive: the fading of lift below the drag crisis (2.6 m if half
+Leaves out, with the effect on the carry of the default drive: the fading of lift below the drag crisis (2.6 m if half
 of it went), air that thins with height (0.2 m), buoyancy (0.1 m), the turning Earth (less than 0.05 m). And, not
 measured: everything sideways (hook, slice, the break of a green), the deformation of the ball, the flagstick, grain and
 moisture of the grass.
@@ -48,18 +48,18 @@ from sandbox.sport.readings import BALL_SPEED, LAUNCH_ANGLE, LAUNCH_SPIN, Moment
 
 
 class Club(Group):
-    """The head that strikes the ball, where start is \"club\"."""
+    """The head that strikes the ball, if start is \"club\"."""
 
     speed: float = quantity(..., "m/s", 0, 150, "speed of the head")
     mass: float = quantity(..., "kg", 0.01, 10, "mass of the head")
     loft: float = quantity(..., "deg", 0, 80, "angle of the face from the vertical")
-    attack: float = quantity(..., "deg", -45, 45, "way of the head above the horizontal; negative hits down")
+    attack: float = quantity(..., "deg", -45, 45, "direction of the head above the horizontal; negative is downwards")
     restitution: float = quantity(..., "", 0, 1, "of head and ball")
-    friction: float = quantity(..., "", 0, 10, "of face and ball; with too little the ball slides up the face")
-    stiffness: float = quantity(..., "", 0.1, 100, "of the ball along the face over that across it")
+    friction: float = quantity(..., "", 0, 10, "of face and ball; if too low, the ball slides up the face")
+    stiffness: float = quantity(..., "", 0.1, 100, "of the ball along the face over that normal to it")
     depth: float = quantity(..., "m", 0, 0.2, "of the head's centre of mass behind the face")
     inertia: float = quantity(..., "kg m^2", 1e-5, 1, "of the head about the axis from heel to toe")
-    height: float = quantity(..., "m", -0.03, 0.03, "of the place that is hit above the one before the centre of mass")
+    height: float = quantity(..., "m", -0.03, 0.03, "of the impact point above the centre of mass")
 
 
 class GolfDrag(Model):
@@ -245,7 +245,7 @@ def height(parameters: Parameters, x: float) -> float:
 
 
 def kind_at(parameters: Parameters, x: float) -> str:
-    """Kind of ground at x: the green around the pin, else the last strip laid there, else fairway."""
+    """Kind of ground at x: the green around the pin, or the last strip that covers x, or fairway."""
     if abs(x - parameters.pin.distance) < 0.5 * parameters.ground.green.length:
         return "green"
     for strip in reversed(parameters.ground.strips):
@@ -305,7 +305,7 @@ def _course(parameters: Parameters) -> list[Surface]:
 
 @dataclass(frozen=True)
 class PennerTurf:
-    """How turf answers an impact: Penner's restitution times ``bounce``, and a tilt times ``give``."""
+    """The response of turf to an impact: Penner's restitution times ``bounce``, and a tilt times ``give``."""
 
     bounce: float
     friction: float
@@ -331,7 +331,7 @@ def _turf(parameters: Parameters, kind: str, a: tuple[float, float], b: tuple[fl
 
 @once
 def landing(run: Run, parameters: Parameters) -> Moment | None:
-    """The ball as it is back at launch height, or comes down on higher ground before that."""
+    """The ball as it returns to launch height, or lands on higher ground before that."""
     touched = next((event.t for event in run.events if is_down([event], parameters)), inf)
     back = next(iter(run.crossings("ball", run.setup.balls[0].position, (0.0, 1.0))), None)
     if touched < (inf if back is None else back[0]):
@@ -340,18 +340,18 @@ def landing(run: Run, parameters: Parameters) -> Moment | None:
 
 
 def is_down(events: Sequence[Event], parameters: Parameters) -> bool:
-    """Whether the ball came down: what is known of its flight then stays."""
+    """Whether the ball has landed: the facts of its flight are then final."""
     return any(event.kind in ("impact", "contact", "rest") for event in events)
 
 
 def _flew(run: Run, parameters: Parameters) -> bool:
-    """Whether there was a flight to speak of: a putt has none."""
+    """Whether the ball flew: a putt does not."""
     landed = landing(run, parameters)
     return landed is not None and landed.t > 0.02
 
 
 def _apex(run: Run, parameters: Parameters) -> float:
-    """Greatest height in m over the launch: of the flight, or of the whole run where a flight does not end."""
+    """Greatest height in m above the launch: of the flight, or of the whole run if the flight does not end."""
     landed = landing(run, parameters)
     if landed is not None and landed.t > 0.0:
         run = replace(run, arcs={"ball": [arc for arc in run.arcs["ball"] if arc.t0 < landed.t]})

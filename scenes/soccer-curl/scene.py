@@ -82,7 +82,7 @@ class Keeper(Group):
 
 
 class Parameters(Group):
-    """All numbers of a kick."""
+    """All parameters of a kick."""
 
     launch: Launch = group(..., "the ball just after the kick")
     air: Air = group(..., "the air")
@@ -103,8 +103,8 @@ CONTROLS = Controls(
 
 # -------------------------------------------------------------------------------------------------------------- build
 
-#: A kick still under way after this time in s is ended: no ball stays in the air so long. A fast one is ended earlier,
-#: after this many times what it needs to the goal line without air, and a moment to see it saved.
+#: A kick still moving after this time in s is ended: no ball stays in the air so long. A fast one is ended earlier,
+#: after this many times its flight time to the goal line without air, plus a moment to see it saved.
 LONGEST, PATIENCE, MOMENT = 10.0, 3.0, 1.0
 
 #: Advertising boards behind the ball, behind the goal line and on either side, in m; a ball that gets there is out.
@@ -112,7 +112,7 @@ BOARDS_BEHIND, BOARDS_BEYOND, BOARDS_ASIDE = -15.0, 8.0, 60.0
 
 
 def build(parameters: Parameters) -> Setup:
-    """Ball, keeper, wall and goal. Raises RequestError where they do not go together."""
+    """Ball, keeper, wall and goal. Raises RequestError if they overlap."""
     _check(parameters)
     launch, ball, keeper = parameters.launch, parameters.ball, parameters.keeper
     forces = forces_in_flight(ball, parameters.air, lift_share=cos(radians(launch.tilt)))
@@ -210,7 +210,7 @@ def _rectangle(left: float, right: float, bottom: float, top: float) -> list[Vec
 
 @once
 def at_goal(run: Run, parameters: Parameters) -> Moment | None:
-    """The ball as it passes the goal line; None where it does not get there, or is touched on its way."""
+    """The ball as it passes the goal line; None if it does not get there, or is touched on its way."""
     passed, touched = passing(run, parameters.goal.distance), first_touch(run)
     return None if passed is None or (touched is not None and touched.t < passed.t) else passed
 
@@ -236,7 +236,7 @@ def _offset(run: Run, parameters: Parameters) -> float | None:
 
 
 def _inside_post(run: Run, parameters: Parameters) -> float | None:
-    """Room in m between the ball and the nearer post; negative where the ball goes wide."""
+    """Gap in m between the ball and the nearer post; negative if the ball goes wide."""
     offset = _offset(run, parameters)
     return None if offset is None else 0.5 * parameters.goal.width - abs(offset) - parameters.ball.radius
 
@@ -293,5 +293,5 @@ def verdict(run: Run, parameters: Parameters) -> str:
         "saved": "Saved by the keeper",
         "post": "Off the post",
         "wall": "Into the wall",
-        "short": "Never at the goal line",
+        "short": "Short of the goal line",
     }[result["verdict"]]

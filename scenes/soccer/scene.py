@@ -1,12 +1,12 @@
-"""Soccer in side view: a free kick over the wall and under the bar, or a kick up the field.
+"""Soccer from the side: a free kick over the wall and under the bar, or a kick up the field.
 
-Models: gravity; drag with its crisis; Magnus lift and dip; an even wind; bouncing, sliding and rolling on grass; the
+Models: gravity; drag with its crisis; Magnus lift and dip; a uniform wind; bouncing, sliding and rolling on grass; the
 wall of players, the crossbar and the net as things to hit.
 Leaves out: everything sideways (see the view from above); the ball's loss of spin in the air; the wobble of a ball
-without spin; players who move; the give of grass, net and ball.
+without spin; players who move; the deformation of grass, net and ball.
 
-What that is worth: if a soccer ball lost its spin as a golf ball does (k = 6e-5 in dw/dt = -k v w / r; nothing
-published for soccer), the dipping free kick would come 1.2 cm higher to the goal.
+Size of an effect: if a soccer ball lost its spin like a golf ball (k = 6e-5 in dw/dt = -k v w / r; nothing
+published for soccer), the dipping free kick would reach the goal 1.2 cm higher.
 """
 
 from __future__ import annotations
@@ -64,7 +64,7 @@ class Ground(Group):
 
 
 class Parameters(Group):
-    """All numbers of a kick."""
+    """All parameters of a kick."""
 
     launch: Launch = group(..., "the ball just after the kick")
     gravity: float = quantity(..., "m/s^2", 0, 30, "gravity")
@@ -86,10 +86,10 @@ CONTROLS = Controls(
 
 # -------------------------------------------------------------------------------------------------------------- build
 
-#: A kick still under way after this time in s is ended.
+#: A kick still moving after this time in s is ended.
 LONGEST = 60.0
 
-#: The grass reaches this far either way, in m: as far as the fastest ball gets in that time.
+#: The grass reaches this far in both directions, in m: as far as the fastest ball gets in that time.
 FAR = 25_000.0
 
 #: Bounces lower than this, in m, are lost in the grass and the ball rolls; assumed.
@@ -100,7 +100,7 @@ BOARDS_BEHIND, BOARDS_BEYOND, BOARDS_HEIGHT = -30.0, 8.0, 0.9
 
 
 def build(parameters: Parameters) -> Setup:
-    """Ball, pitch, wall and goal. Raises RequestError where they do not go together."""
+    """Ball, pitch, wall and goal. Raises RequestError if they overlap."""
     _check(parameters)
     ball = parameters.ball
     forces = forces_in_flight(ball, parameters.air, parameters.gravity)
@@ -142,7 +142,7 @@ def _check(parameters: Parameters) -> None:
 
 
 def _beyond(parameters: Parameters) -> float:
-    """Where the boards beyond the goal stand, or beyond the wall where that is further."""
+    """Position of the boards beyond the goal, or beyond the wall if that is further."""
     wall = parameters.wall
     return max(parameters.goal.distance, wall.distance if wall.present else 0.0) + BOARDS_BEYOND
 
@@ -201,13 +201,13 @@ def scored(run: Run, parameters: Parameters) -> float | None:
 
 
 def _clearance(run: Run, parameters: Parameters) -> float | None:
-    """Room in m between ball and heads."""
+    """Gap in m between ball and heads."""
     passed, wall = at_wall(run, parameters), parameters.wall
     return passed.y - parameters.ball.radius - wall.height if passed and wall.present else None
 
 
 def _under_bar(run: Run, parameters: Parameters) -> float | None:
-    """Room in m between ball and bar; negative where the ball is too high."""
+    """Gap in m between ball and bar; negative if the ball is too high."""
     passed, goal = at_goal(run, parameters), parameters.goal
     return goal.height - passed.y - parameters.ball.radius if passed and goal.present else None
 
@@ -226,7 +226,7 @@ def _carry(run: Run, parameters: Parameters) -> float | None:
 
 
 def _apex(run: Run, parameters: Parameters) -> float:
-    """Greatest height in m over the point of the kick."""
+    """Greatest height in m above the point of the kick."""
     return run.highest("ball")[1][1] - run.setup.balls[0].position[1]
 
 

@@ -1,8 +1,8 @@
-"""Volleyball in side view: serves, spikes and sets, over the net and into the court or not.
+"""Volleyball from the side: serves, spikes and sets, over the net and into the court or not.
 
 Models: gravity; drag with its crisis; Magnus lift; net and floor as things to hit.
-Leaves out: everything sideways, and with it the wobble of a float serve; the give of the net; players who touch the
-ball; the ball's loss of spin.
+Leaves out: everything sideways, and with it the wobble of a float serve; the deformation of the net; players who touch
+the ball; the ball's loss of spin.
 """
 
 from __future__ import annotations
@@ -64,7 +64,7 @@ class Court(Group):
 
 
 class Parameters(Group):
-    """All numbers of a shot."""
+    """All parameters of a shot."""
 
     launch: Hit = group(..., "the ball as it leaves the hand")
     gravity: float = quantity(..., "m/s^2", 0, 30, "gravity")
@@ -88,13 +88,13 @@ def hong_drag(reynolds: Any, spin_ratio: Any) -> Any:
     """0.47 for a slow ball, 0.16 for a fast one, past the drag crisis at Re = 2.3e5 (16 m/s).
 
     After Hong, Ozaki, Watanabe & Asai 2020, Appl. Sci. 10:3256 (Mikasa V200W: 0.15 to 0.17 at Re = 2.6e5 to 2.9e5);
-    the curve is ours.
+    the curve between is our own fit.
     """
     return 0.16 + 0.31 / (1.0 + exp(clip((reynolds - 2.3e5) / 0.2e5, -50.0, 50.0)))
 
 
 def build(parameters: Parameters) -> Setup:
-    """Ball, net and floor, on which the rally is over. Raises RequestError where the ball begins in the net."""
+    """Ball, net and floor, where the run ends. Raises RequestError if the ball begins in the net."""
     launch, ball, net, court = parameters.launch, parameters.ball, parameters.net, parameters.court
     middle, start = 0.5 * court.length, max(launch.height, ball.radius)
     if abs(launch.place - middle) <= ball.radius + 0.01 and start - ball.radius < net.height:
@@ -111,12 +111,12 @@ def build(parameters: Parameters) -> Setup:
 
 @once
 def landing(run: Run, parameters: Parameters) -> Moment | None:
-    """The ball as it comes down on the floor."""
+    """The ball as it lands on the floor."""
     return next((before(run, event.t) for event in run.events if event.partner == "floor"), None)
 
 
 def clearance(run: Run, parameters: Parameters) -> float | None:
-    """Room in m between ball and net as it passes over; negative where it passes below the upper edge."""
+    """Gap in m between ball and net as it passes over; negative if it passes below the upper edge."""
     at_net = passing(run, 0.5 * parameters.court.length)
     return None if at_net is None else at_net.y - parameters.ball.radius - parameters.net.height
 
