@@ -97,7 +97,7 @@ class Picture(SideView[Parameters]):
 
     @property
     def thrower(self) -> list[Person]:
-        """Who threw, where a person can have thrown from there."""
+        """The thrower, if a person can have thrown from there."""
         height = self.parameters.release.height
         if not 1.6 <= height <= 3.1 or abs(self.parameters.launch.angle - 45) > 50:
             return []
@@ -152,7 +152,7 @@ class Picture(SideView[Parameters]):
 
     @cached_property
     def camera(self) -> Camera:
-        """Leaves room for the lens where there is one."""
+        """Leaves room for the lens if there is one."""
         return self._beside_lens if self.has_lens else self.fitted(self.area)
 
     @cached_property
@@ -179,7 +179,7 @@ class Picture(SideView[Parameters]):
         return [Length(f"{metres(distance)} to the ring, {metres(height)} up", 0.0, distance)]
 
     def annotate(self, sheet: Sheet, camera: Camera) -> None:
-        """How the ball goes on from the floor, fading."""
+        """The path of the ball after the floor, fading."""
         moments = np.linspace(self.told, min(self.run.duration, self.told + 0.45), 30)
         points = camera.pixels(np.array([self.run.state(self.ball, t)[:2] for t in moments]))
         if np.ptp(points, axis=0).max() > 2:

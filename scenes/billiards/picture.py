@@ -23,7 +23,7 @@ from .scene import Parameters
 
 CARD, COLOURS = palette("card"), scene_colours(__file__)
 
-#: At most so many dots stand on the struck ball's path.
+#: Most dots on the struck ball's path.
 DOTS = 16
 #: A ball that goes no further than this, in radii, is taken not to have moved.
 LEAST_WAY = 0.3
@@ -62,7 +62,7 @@ class Picture(AboveView[Parameters]):
         sphere.draw(painter, at, radius, balls.skin(name), self._turnings[name].at(t))
 
     def colour_of(self, name: str) -> Colour:
-        """Its own, lighter where it would be lost on the cloth."""
+        """The ball's own colour, lighter if it would be hard to see on the cloth."""
         return balls.on_cloth(balls.colour_of(name))
 
     def faint_of(self, name: str) -> Colour:
@@ -153,7 +153,7 @@ class Picture(AboveView[Parameters]):
     # Frames
 
     def progress(self, t: float) -> tuple[str, str]:
-        """The last thing that is worth telling."""
+        """The last event worth reporting."""
         told = f"struck at {self.parameters.cue.speed:.1f} m/s"
         first = self.run.result["first_contact"]
         for event in self.run.events:

@@ -92,7 +92,7 @@ class Picture(SideView[Parameters]):
         self.course.flag(painter, camera, t, self.wind[0])
 
     def before(self, painter: Painter, camera: Camera, t: float) -> None:
-        """Nothing: the ball is nearer than all of the course."""
+        """Nothing: the ball is in front of all of the course."""
 
     def landmarks(self, sheet: Sheet, camera: Camera) -> None:
         """How far the pin is."""

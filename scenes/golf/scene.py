@@ -176,7 +176,7 @@ CONTROLS = Controls(
 #: Density in kg/m^3 of the air that the spin decay is given for; thinner air slows the spin less, in proportion.
 STANDARD_DENSITY = 1.204
 
-#: The course goes on this far in m, behind and beyond: farther than a shot gets in LONGEST.
+#: The course extends this far in m, behind and beyond: farther than a shot gets in LONGEST.
 FAR = 2e5
 
 #: A shot that has not come to rest after this time in s is ended.
