@@ -56,7 +56,8 @@ class Pressed:
     def through(self, t: float, touching: dict[int, State]) -> Parted | None:
         """The cluster around the balls that touch at t (with their states), taken through its contact.
 
-        None where impulses are right: no two balls strike each other, or nobody else is reached meanwhile.
+        None where impulses are right: no two balls strike each other, what presses them together does more in the
+        time of a contact than their approach, or nobody else is reached meanwhile.
         """
         model = self._setup.contact
         struck = [
@@ -70,6 +71,8 @@ class Pressed:
         first, second = self._tracks[i].ball, self._tracks[j].ball
         mass = first.mass * second.mass / (first.mass + second.mass)
         lasts = contact_time(mass, model.between(first.radius, second.radius), speed)
+        if self._pushed_together(t, i, touching[i], j, touching[j]) * lasts > speed:
+            return None
         fastest = 2.0 * speed * max(first.mass, second.mass) / (first.mass + second.mass)
         members = dict(touching)
         met: set[frozenset[int]] = set()  # pairs that are within reach only as the others leave them
@@ -104,6 +107,12 @@ class Pressed:
     def _approach(a: State, b: State) -> float:
         dx, dy = a[0] - b[0], a[1] - b[1]
         return -((a[2] - b[2]) * dx + (a[3] - b[3]) * dy) / hypot(dx, dy)
+
+    def _pushed_together(self, t: float, i: int, a: State, j: int, b: State) -> float:
+        """The acceleration in m/s^2 by which all else brings two balls together; negative: apart."""
+        (ax, ay), (bx, by) = self._body(t, i, a).push, self._body(t, j, b).push
+        dx, dy = a[0] - b[0], a[1] - b[1]
+        return -((ax - bx) * dx + (ay - by) * dy) / hypot(dx, dy)
 
     def _add_reached(self, t: float, members: dict[int, State], fastest: float, lasts: float) -> None:
         """Add the balls that can be reached while the contact lasts, and those that these can reach."""

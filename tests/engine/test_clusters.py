@@ -198,3 +198,11 @@ def test_a_frozen_row_struck_across_parts_at_once(monkeypatch, speed, angle, eng
     run = sandbox.simulate(sandbox.load("billiards", changed))
     assert times
     assert ledger(run).end < 1e-12
+
+
+def test_balls_that_the_cloth_presses_together_get_impulses(monkeypatch):
+    """Two that creep on each other off a dead cushion: no contact is gone through that has no end."""
+    monkeypatch.setattr(StaysPressed, "__init__", lambda self, text: pytest.fail(text))
+    changed = {"contact": {"model": "hertz", "stiffness": 1e8}, "cushion": {"model": "vertical", "restitution": 0.0}}
+    scene = sandbox.load("billiards", {**changed, "cue": {"speed": 1.0, "follow": 0.045857955150968355}})
+    assert ledger(sandbox.simulate(scene)).end < 1e-12
