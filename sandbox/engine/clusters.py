@@ -29,8 +29,9 @@ _LARGEST_ERROR = 1e-3
 #: So many links at most are few: with them steps end where a link closes or opens, and are graded around that.
 _FEW, _GRADES = 6, (4.0**-6, *(3.0 * 4.0**-power for power in range(6, 0, -1)))
 
-#: Contact times after which bodies that press on one another are not going to part by themselves.
-_LONGEST = 200.0
+#: Contact times, for each body and besides, after which bodies that press on one another are not going to part by
+#: themselves; a chain of n equal balls takes 1 + (n - 1) / 2.
+_PATIENCE = 1.0, 10.0
 
 #: Rounds of friction, and the change of a slip over the fastest body's speed that ends them.
 _ROUNDS, _SETTLED = 500, 1e-10
@@ -134,7 +135,8 @@ class Cluster:
         surface = np.abs(state[5:8, :count]).max(axis=0) * [body.radius for body in self._bodies]
         fastest = max(2.0 * float(np.hypot(*state[2:4]).max()), _STILL)
         rubbing = max(fastest, float(surface.max()))
-        shortest = min(contact_time(m, k, fastest) for m, k in zip(self._mass, self._stiffness, strict=True))
+        times = [contact_time(m, k, fastest) for m, k in zip(self._mass, self._stiffness, strict=True)]
+        shortest, longest = min(times), max(times)
         scale = np.repeat([fastest * shortest, fastest], 2 * count + 2)
         whole, t, steps, worst = share * shortest, 0.0, 0, 0.0
         lands = links <= _FEW
@@ -171,10 +173,10 @@ class Cluster:
             if not ((depth > _TOUCH) | ((self._gap < _TOUCH) & (closing > _STILL))).any():
                 state = self._rub(state, normal, np.maximum(impulse - rubbed, 0.0), 0.0 * gain, rubbing)
                 break
-            if t > _LONGEST * shortest:
+            if t > (_PATIENCE[0] * count + _PATIENCE[1]) * longest:
                 raise StaysPressed(f"bodies do not part within {t:.3g} s")
-        if not self._push.any():
-            self._take_back(state, before)
+        worked = float(np.hypot(*self._push[:, :count]) @ self._inertia[0]) * fastest * t  # J, at the most
+        self._take_back(state, before + worked)
         position = (state[:2, :count] + origin).T
         velocity, spin = state[2:4, :count].T, state[5:8, :count].T
         return Passage(float(t), position, velocity, spin, impulse, approach, closed, steps), worst

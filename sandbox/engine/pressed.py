@@ -192,7 +192,7 @@ class Pressed:
             (x, y), (vx, vy) = outcome.position[place[index]].tolist(), outcome.velocity[place[index]].tolist()
             wx, wy, wz = outcome.spin[place[index]].tolist()
             rolling = (wx, wy) if self._setup.cloth is not None else ()
-            states[index] = (*self._clear(index, x, y), vx, vy, wz, *rolling)
+            states[index] = (x, y, vx, vy, wz, *rolling)
         return Parted(t + outcome.duration, states, sorted(blows))
 
     def _body(self, t: float, index: int, state: State) -> Body:
@@ -224,13 +224,6 @@ class Pressed:
 
         stiffness = self._setup.contact.wall_stiffness
         return Link(place, None, stiffness, bounce.restitution, lambda slip: bounce.friction, wall)
-
-    def _clear(self, index: int, x: float, y: float) -> tuple[float, float]:
-        """Out of the walls that give way more than balls do: they push back when the balls have parted."""
-        for _, touching in self._tracks[index].near(x, y):
-            if touching.gap < 0.0:
-                x, y = x - touching.gap * touching.nx, y - touching.gap * touching.ny
-        return x, y
 
 
 def _friction(between_balls: Any, approach: float, slip: float) -> float:

@@ -206,3 +206,17 @@ def test_balls_that_the_cloth_presses_together_get_impulses(monkeypatch):
     changed = {"contact": {"model": "hertz", "stiffness": 1e8}, "cushion": {"model": "vertical", "restitution": 0.0}}
     scene = sandbox.load("billiards", {**changed, "cue": {"speed": 1.0, "follow": 0.045857955150968355}})
     assert ledger(sandbox.simulate(scene)).end < 1e-12
+
+
+def test_a_step_that_is_far_too_long_is_halved():
+    assert passage(chain(3), step=1.5).velocity[:, 0] == pytest.approx(passage(chain(3)).velocity[:, 0], abs=1e-2)
+
+
+def test_what_errors_would_add_is_taken_back_without_moving_the_whole():
+    """Coarse steps without loss: the energy stays what it was, and the momentum."""
+    bodies = rack(8.0, 1e-5)
+    outcome = passage(bodies, step=0.1)
+    assert outcome.velocity.sum(axis=0) == pytest.approx([8.0, 0.0], abs=1e-9)
+    had = 0.5 * MASS * 8.0**2
+    assert energy(outcome.velocity, outcome.spin, bodies) == pytest.approx(had, rel=1e-3)
+    assert energy(outcome.velocity, outcome.spin, bodies) <= had * (1 + 1e-14)

@@ -1,0 +1,75 @@
+"""Runs in which balls are struck that others touch: who takes part, what comes out, and that walls wait their turn."""
+
+from __future__ import annotations
+
+from math import atan2, cos, degrees, radians, sin
+
+import pytest
+
+from sandbox.engine import simulate
+from sandbox.engine.accuracy import resolve
+from sandbox.engine.ledger import ledger
+from sandbox.engine.setup import Always, Ball, Bounce, ContactModel, Segment, Setup, Surface
+
+R, M = 0.028575, 0.170097  # of pool balls: m, kg
+
+
+def ball(name, x, y=0.0, vx=0.0, vy=0.0):
+    return Ball(name, M, R, (x, y), (vx, vy))
+
+
+def struck(balls, surfaces=(), model="auto", restitution=1.0, friction=0.0, duration=1.0):
+    between = Always(Bounce(restitution, friction))
+    setup = Setup(balls, surfaces, duration=duration, between_balls=between, contact=ContactModel(model))
+    return simulate(setup, resolve())
+
+
+@pytest.mark.parametrize(
+    ("model", "expected"),
+    [("auto", (-0.071, 0.0764, 0.9945)), ("hertz", (-0.071, 0.0764, 0.9945)), ("rigid", (-1 / 3, 2 / 3, 2 / 3))],
+)
+def test_two_balls_that_touch_share_the_blow(model, expected):
+    """By Hertz's law, or as one lump."""
+    run = struck([ball("cue", -0.5, vx=2.0), ball("1", 0.0), ball("2", 2 * R)], model=model)
+    assert [run.state(name, 1.0)[2] / 2.0 for name in ("cue", "1", "2")] == pytest.approx(expected, abs=1e-4)
+    assert (run.numerics.clusters == 0) == (model == "rigid")
+    assert abs(ledger(run).residue) < 1e-9
+
+
+def test_a_lone_pair_takes_no_contact_mechanics():
+    run = struck([ball("cue", -0.5, vx=2.0), ball("1", 0.0), ball("far", 1.0, 0.5)])
+    assert run.numerics.clusters == 0
+    assert run.state("1", 1.0)[2] == pytest.approx(2.0)
+
+
+def test_a_gap_that_a_contact_does_not_notice_changes_nothing():
+    """A frozen combination, struck at 30 deg to the line of the two: alike with no gap, and with one of 0.1 um."""
+    turn = radians(30.0)
+    ways = []
+    for gap in (0.0, 1e-7):
+        cue = ball("cue", -0.3 * cos(turn), -0.3 * sin(turn), 2 * cos(turn), 2 * sin(turn))
+        ways.append(struck([cue, ball("1", 0.0), ball("2", 2 * R + gap)], duration=0.5).state("1", 0.5)[2:4])
+    assert degrees(atan2(*ways[0][::-1])) == pytest.approx(degrees(atan2(*ways[1][::-1])), abs=0.1)
+
+
+@pytest.mark.parametrize("gap", [0.0, 1e-10])
+def test_a_ball_frozen_on_a_rail_bounces_off_it(gap):
+    """Cut at 45 deg into a rail with e = 0.85: it leaves at atan(0.85) = 40.4 deg, as the rail waits for the balls."""
+    rail = Surface("rail", Segment((-5.0, R + gap), (5.0, R + gap)), 0.85, 0.0)
+    turn = radians(45.0)
+    cue = ball("cue", -0.3 * cos(turn), -0.3 * sin(turn), 2 * cos(turn), 2 * sin(turn))
+    run = struck([cue, ball("1", 0.0)], [rail], duration=0.4)
+    vx, vy = run.state("1", 0.4)[2:4]
+    assert degrees(atan2(vy, vx)) == pytest.approx(-40.4, abs=0.1)
+    assert [event.partner for event in run.events if event.ball == "1"] == ["cue", "rail"]
+
+
+def test_three_on_a_rail_wait_for_the_balls_to_part():
+    """A rail behind a chain: the balls share the blow first, the rail pushes back afterwards; no energy comes in."""
+    rail = Surface("rail", Segment((5 * R, -1.0), (5 * R, 1.0)), 0.9, 0.0)
+    balls = [ball("cue", -0.4, vx=2.0), ball("1", 0.0), ball("2", 2 * R), ball("3", 4 * R)]
+    run = struck(balls, [rail], restitution=0.95, duration=0.6)
+    assert max(run.state("3", 0.6)[0] + R - 5 * R, 0.0) < 1e-6
+    book = ledger(run)
+    assert book.end < book.start
+    assert abs(book.residue) < 1e-9
