@@ -31,7 +31,7 @@ RELATED = {
     "batch": "batch methods",
     "bernstein": "bernstein contact exact",
     "bernstein_many": "batch",
-    "blame": "guards",
+    "setup_errors": "guards",
     "clusters": "clusters",
     "contacts": "contact cloth batch",
     "impacts": "contact cloth clusters",

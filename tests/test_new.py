@@ -280,7 +280,7 @@ def test_its_golden_test(scene: Path):
             "scene.py",
             "Fan(fan.place, fan.width, fan.push)]",
             "Fan]",
-            "ValueError: ball 'ball': 'Fan' is no force",
+            "ValueError: ball 'ball': 'Fan' is not a force",
         ),
         (
             "scene.py",

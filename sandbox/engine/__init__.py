@@ -1,10 +1,10 @@
-"""The engine: fly exactly, touch exactly, let pymunk push. The only room that imports pymunk."""
+"""The engine: exact flight, exact times of contact, impulses by pymunk. Only this package imports pymunk."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from sandbox.engine.blame import blamed
+from sandbox.engine.setup_errors import setup_errors_named
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
@@ -15,13 +15,13 @@ if TYPE_CHECKING:
 
 
 def simulate(setup: Setup, accuracy: Accuracy, progress: Callable[[float, float], None] | None = None) -> Run:
-    """Run a setup to its end. Raises RunError where that cannot be done, with the time, the ball and the quantity.
+    """Run a setup to its end. Raises RunError with the time, the ball and the quantity if it cannot be completed.
 
-    The plain method, whose steps may be many, calls ``progress`` now and then with the time simulated and the whole
-    duration, in s.
+    The plain method, which may take many steps, reports to ``progress`` the time simulated and the full duration, in
+    s.
     """
     # here, not above: they bring pymunk, which reading a scene does not need
-    with blamed(setup):
+    with setup_errors_named(setup):
         if accuracy.method == "plain":
             from sandbox.engine.plain import PlainSimulation
 
@@ -32,13 +32,13 @@ def simulate(setup: Setup, accuracy: Accuracy, progress: Callable[[float, float]
 
 
 def simulate_many(setups: Sequence[Setup], accuracy: Accuracy) -> Iterator[Run | Exception]:
-    """A run of each setup, in order, or the exception that it ended in; those that are alike fly together."""
+    """A run of each setup, in order, or the exception it ended with; similar setups are computed together."""
     from sandbox.engine.batch import simulate_many as together
 
     return together(setups, accuracy)
 
 
 def flies_in_batches(setup: Setup, accuracy: Accuracy) -> bool:
-    """Whether ``simulate_many`` is quicker with setups of this kind than ``simulate`` one by one."""
+    """Whether ``simulate_many`` is quicker for setups of this kind than ``simulate`` one by one."""
     one_at_a_time = setup.cloth is not None or setup.catches or len(setup.balls) > 1 or not setup.surfaces
     return accuracy.method == "exact" and not one_at_a_time

@@ -1,4 +1,4 @@
-"""What an accuracy level means: the method, its step, and its tolerances."""
+"""What each accuracy level means: the method, its step and its tolerances."""
 
 from __future__ import annotations
 
@@ -11,12 +11,11 @@ from sandbox.physics.integrators import INTEGRATORS
 METHODS = ("exact", "plain")
 
 #: Overlap in m at which two shapes count as touching. Positive, so that a ball rolling across the seam of two flush
-#: surfaces, off by rounding only (1e-13 m at 1 km), touches nothing. An impact on a round shape multiplies it by ten
-#: or more.
+#: surfaces, which rounding offsets by 1e-13 m at 1 km, does not touch the second one. An impact on a round shape
+#: multiplies it by ten or more.
 SKIN = 2e-11
 
-#: Lowest hop in m that is followed where the cloth presses a ball against another or a cushion, as it can while the
-#: ball slides.
+#: Lowest hop in m that is simulated where the cloth presses a sliding ball against another ball or a cushion.
 LOWEST_HOP = 1e-6
 
 
@@ -24,10 +23,10 @@ LOWEST_HOP = 1e-6
 class Accuracy:
     """How a run is computed.
 
-    ``method`` is "exact" (fly by an integrator, stop at the exact time of impact, let pymunk push) or "plain" (stock
-    pymunk at a fixed step). ``tolerance`` is the error aimed at, in m; an integrator with error control chooses its
-    steps by it, one without uses ``step``. ``settle`` is the height in m below which a bounce counts as lasting
-    contact, ``hop`` that to which a ball hops at least where the cloth presses it against something, and ``skin`` the
+    ``method`` is "exact" (flight by an integrator to the exact time of impact, impulses by pymunk) or "plain" (stock
+    pymunk at a fixed step). ``tolerance`` is the target error in m: an integrator with error control chooses its
+    steps from it, one without uses ``step``. ``settle`` is the height in m below which a bounce counts as lasting
+    contact, ``hop`` the minimum height of a hop where the cloth presses a ball against something, and ``skin`` the
     overlap in m at which two shapes count as touching.
     """
 
@@ -42,21 +41,21 @@ class Accuracy:
 
     @property
     def contact_step(self) -> float:
-        """The step through a contact of several balls, as a share of the shortest contact there can be: 0.07, 0.035 and
-        0.0175 at the levels."""
+        """The step through a contact of several balls, as a fraction of the shortest possible contact: 0.07, 0.035 and
+        0.0175 at the three levels."""
         return float(0.035 * (self.tolerance / 1e-3) ** 0.15)
 
     @property
     def steps(self) -> str:
-        """How it chooses its steps, in words: the integrator, and the length where that is fixed."""
+        """How the steps are chosen, in words: the integrator, and the step length if it is fixed."""
         fixed = f"steps of {1e3 * self.step:.3g} ms"
         if self.method == "plain":
             return fixed
         return self.integrator if INTEGRATORS[self.integrator].controls_error else f"{self.integrator}, {fixed}"
 
     def finer(self) -> Accuracy:
-        """The same with half the step, or a tolerance that leads to about half the step; and with less of what no step
-        governs: low bounces, low hops, and the overlap at a contact."""
+        """The same with half the step, or a tolerance that gives about half the step. What does not depend on the step
+        is reduced too: the lowest bounce, the lowest hop, and the overlap at a contact."""
         share = 0.5 ** INTEGRATORS[self.integrator].order
         return replace(
             self,
@@ -68,7 +67,7 @@ class Accuracy:
         )
 
 
-#: Chosen by measurement (``sandbox trade``): the error after several impacts stays below the level's promise.
+#: Chosen by measurement (``sandbox trade``): the error after several impacts stays below the level's tolerance.
 LEVELS = {
     "fast": Accuracy("fast", "exact", "dormand-prince", tolerance=1e-1, step=1 / 60, settle=1e-4, hop=1e-4),
     "balanced": Accuracy("balanced", "exact", "dormand-prince", tolerance=1e-3, step=1 / 240, settle=1e-8),
@@ -77,10 +76,10 @@ LEVELS = {
 
 
 def settle_for(tolerance: float) -> float:
-    """The height in m below which a bounce may be lost, for an error of ``tolerance`` (m) in the end.
+    """The height in m below which a bounce may be ignored, for a final error of ``tolerance`` (m).
 
-    Bounces of height h that are lost go on for a time in proportion to sqrt(h), in which the ball rolls too early and
-    is slowed: the error grows as sqrt(h). By measurement, on a ball that bounces to a roll: 0.3 mm for 1e-8 m.
+    Ignored bounces of height h would have lasted for a time proportional to sqrt(h), during which the ball now rolls
+    and is slowed: the error grows as sqrt(h). Measured for a ball that bounces and then rolls: 0.3 mm for 1e-8 m.
     """
     return min(1e-4, max(1e-14, 1e-2 * tolerance * tolerance))
 
@@ -92,8 +91,8 @@ def resolve(
     integrator: str | None = None,
     step: float | None = None,
 ) -> Accuracy:
-    """The accuracy that a level means, with single choices replaced. Raises RequestError for an unknown name,
-    and for a size that is not positive."""
+    """The accuracy that a level means, with individual settings replaced. Raises RequestError for an unknown
+    name and for a value that is not positive."""
     if level not in LEVELS:
         raise RequestError(f"accuracy.level: {level!r} is not one of {', '.join(LEVELS)}")
     for what, value, unit in (("tolerance", tolerance, "m"), ("step", step, "s")):
@@ -111,6 +110,6 @@ def resolve(
             raise RequestError(f"accuracy.integrator: {integrator!r} is not one of {', '.join(INTEGRATORS)}")
         accuracy = replace(accuracy, integrator=integrator)
     if step is not None:
-        # a step of one's own means a method that keeps it
+        # a user's own step needs an integrator with a fixed step
         accuracy = replace(accuracy, step=step, integrator=integrator or "rk4")
     return accuracy

@@ -1,4 +1,4 @@
-"""What acts on a ball: its forces and torques, one by one and in sum, for one shot or for many at once."""
+"""What acts on a ball: its forces and torques, individually and summed, for one shot or for many at once."""
 
 from __future__ import annotations
 
@@ -9,13 +9,13 @@ from sandbox.engine.setup import Ball
 from sandbox.errors import RunError
 from sandbox.physics.integrators import Acceleration, State
 
-#: Words for causes whose class is named for its physics.
+#: Everyday names of causes whose class is named after a physicist.
 CALLED = {"magnus": "lift"}
 
 
 def acceleration(ball: Ball, t: Any, state: State) -> Acceleration:
-    """What the forces and torques do to a ball in flight, in m/s^2 and rad/s^2. Raises RunError for those that return
-    something else than newtons."""
+    """Acceleration of a ball in flight from its forces and torques, in m/s^2 and rad/s^2. Raises RunError if one of
+    them returns anything but numbers."""
     x, y, vx, vy, spin = state
     position, velocity = (x, y), (vx, vy)
     fx = fy = torque = 0.0
@@ -35,7 +35,7 @@ def acceleration(ball: Ball, t: Any, state: State) -> Acceleration:
 
 
 def checked(ball: Ball, t: float, state: State) -> Acceleration:
-    """The same, of one ball. Raises RunError where it is not real numbers."""
+    """The same for one ball. Raises RunError if it is not made of real numbers."""
     found = acceleration(ball, t, state)
     if not isinstance(found[0] + found[1] + found[2], float):
         raise _not_real(ball, t, state)
@@ -43,20 +43,20 @@ def checked(ball: Ball, t: float, state: State) -> Acceleration:
 
 
 def by_cause(terms: Sequence[Any], t: float, state: State) -> Iterator[tuple[str, Any]]:
-    """Each of some forces, or torques, by name: (fx, fy) in N, or N m."""
+    """The name and value of each force or torque: (fx, fy) in N, or N m."""
     x, y, vx, vy, spin = state
     for term in terms:
         yield cause(term), term(t, (x, y), (vx, vy), spin)
 
 
 def cause(term: object) -> str:
-    """What people call a force or torque: ``SpinDecay`` is "spin decay"; a function goes by its own name."""
+    """Display name of a force or torque: ``SpinDecay`` is "spin decay"; a function keeps its own name."""
     words = "".join(f" {c.lower()}" if c.isupper() else c for c in _name(term)).replace("_", " ").strip()
     return CALLED.get(words, words)
 
 
 def _not_real(ball: Ball, t: float, state: State) -> RunError:
-    """What to raise where the forces and torques on a ball do not add up to real numbers."""
+    """The error for forces and torques on a ball that do not add up to real numbers."""
     where = f"t = {t:.6g} s, ball {ball.name!r}: "
     x, y, vx, vy, spin = state
     for term in (*ball.forces, *ball.torques):
@@ -73,7 +73,7 @@ def _name(term: object) -> str:
 
 
 def _rule(term: object) -> str:
-    """How a force or torque is called, for a sentence."""
+    """How a force or torque is called and what it must return, as part of an error message."""
     return (
         f"{_name(term)} is called with (t, position, velocity, spin) and must return (fx, fy) in N, a torque one "
         "number in N m"

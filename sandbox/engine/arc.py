@@ -1,4 +1,4 @@
-"""A piece of a ball's path: polynomials in time, from which the time of touching is found and every sample is read."""
+"""A piece of a ball's path: polynomials in time, used to find the time of contact and to sample the path."""
 
 from __future__ import annotations
 
@@ -18,11 +18,11 @@ _SHORT = 1e-3
 class Arc:
     """The path of one ball from t0 to t1.
 
-    The position is the quintic that meets position, velocity and acceleration at both ends (error of order h^6), the
-    velocity its derivative, the spin the cubic that meets spin and its rate; all kept as Bernstein coefficients over
-    u = (t - t0) / (t1 - t0). ``contact`` is what the ball slides or rolls on meanwhile, or None in flight;
-    ``rolling_spin`` the coefficients of the spin about x and about y, for a ball on cloth, whose state has two more
-    components.
+    The position is the quintic that matches position, velocity and acceleration at both ends (error of order h^6),
+    the velocity is its derivative, and the spin is the cubic that matches spin and its rate at both ends; all stored
+    as Bernstein coefficients in u = (t - t0) / (t1 - t0). ``contact`` is what the ball slides or rolls on, or None in
+    flight; ``rolling_spin`` holds the coefficients of the spin about x and about y of a ball on cloth, as its state
+    has two more components.
     """
 
     t0: float  # s
@@ -35,7 +35,7 @@ class Arc:
     spin: Sequence[float]  # rad/s
     contact: object = None
     rolling_spin: tuple[Sequence[float], ...] = ()
-    end: State | None = None  # the state at t1 where it is known without evaluating
+    end: State | None = None  # the state at t1, if known without evaluation
     _box: tuple[float, float, float, float] | None = None
 
     def state(self, t: float) -> State:
@@ -99,7 +99,8 @@ def through(
     end_acceleration: Acceleration,
     contact: object = None,
 ) -> Arc:
-    """The arc that meets both ends of a step of length h. Arrays of shape (n,) in place of floats: n arcs in one."""
+    """The arc that matches both ends of a step of length h. Arrays of shape (n,) in place of floats give n arcs in
+    one."""
     x0, y0, vx0, vy0, w0 = start
     x1, y1, vx1, vy1, w1 = end
     ax0, ay0, al0 = acceleration
@@ -128,9 +129,7 @@ def through(
 
 
 def still(t: float, until: float, state: State, contact: object = None, last_spin: float | None = None) -> Arc:
-    """A ball that keeps its place from t to ``until``; its spin goes evenly to ``last_spin`` (rad/s), if that is
-    given.
-    """
+    """A ball that stays in place from t to ``until``; its spin changes linearly to ``last_spin`` (rad/s), if given."""
     x, y, _, _, spin, *rolling_spin = state
     spins = (spin,) if last_spin is None else (spin, last_spin)
     rest = tuple((component,) for component in rolling_spin)

@@ -1,4 +1,4 @@
-"""A path as rows of numbers, whose arcs are made when somebody asks for them: most of a sweep's are never looked at."""
+"""A path as rows of numbers. Arcs are created on demand, since most arcs of a sweep are never read."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import numpy as np
 
 from sandbox.engine.arc import Arc
 
-#: Where the parts of an arc stand in its row: times, state at the start, curves, state at the end.
+#: Positions of an arc's parts in its row: times, state at the start, curves, state at the end.
 START = slice(2, 7)
 X, Y, VX, VY, SPIN = slice(7, 13), slice(13, 19), slice(19, 24), slice(24, 29), slice(29, 33)
 CURVES = {"x": X, "y": Y, "vx": VX, "vy": VY, "spin": SPIN}
@@ -39,12 +39,12 @@ class ArcRows(Sequence[Arc]):
         return map(arc_of, self._rows.tolist())
 
     def passing(self, px: float, py: float, nx: float, ny: float) -> list[Arc]:
-        """Those that may pass the line through (px, py) with the normal (nx, ny)."""
-        ahead = (self._rows[:, X] - px) * nx + (self._rows[:, Y] - py) * ny
-        return [self[i] for i in np.flatnonzero((ahead.min(axis=1) <= 0.0) & (ahead.max(axis=1) > 0.0)).tolist()]
+        """The arcs that may pass the line through (px, py) with the normal (nx, ny)."""
+        gap = (self._rows[:, X] - px) * nx + (self._rows[:, Y] - py) * ny
+        return [self[i] for i in np.flatnonzero((gap.min(axis=1) <= 0.0) & (gap.max(axis=1) > 0.0)).tolist()]
 
     def topmost(self) -> list[Arc]:
-        """Those that may hold the path's highest point."""
+        """The arcs that may contain the path's highest point."""
         y = self._rows[:, Y]
         return [self[i] for i in np.flatnonzero(y.max(axis=1) >= max(y[:, 0].max(), y[:, -1].max())).tolist()]
 

@@ -1,8 +1,8 @@
 """Many shots at once: flights and distances in arrays over the shots, impacts by pymunk.
 
-The shots of a batch are alike: one ball, the same kinds of forces and surfaces, other numbers. Each keeps its own time
-and its own steps, and goes the way that simulation.py would lead it. What is rare there (lasting contact, two surfaces
-at once, a state that makes no sense) is left to it: it takes the shot over from where it is.
+The shots of a batch are similar: one ball and the same kinds of forces and surfaces, with different numbers. Each shot
+has its own time and its own steps, and moves exactly as in simulation.py. Rare cases (lasting contact, two surfaces at
+once, an invalid state) are handed to simulation.py, which continues the shot from its current state.
 """
 
 from __future__ import annotations
@@ -19,36 +19,38 @@ from sandbox.engine.acting import acceleration, by_cause
 from sandbox.engine.arc import through
 from sandbox.engine.arc_rows import COLUMNS, CURVES, END, ArcRows, X, Y, arc_of
 from sandbox.engine.bernstein_many import until
-from sandbox.engine.blame import blamed
 from sandbox.engine.event import Event
 from sandbox.engine.lanes import Lanes
 from sandbox.engine.outlines import Outlines
 from sandbox.engine.run import Numerics, Run
 from sandbox.engine.setup import Ball, Bounds, Patch, Setup
+from sandbox.engine.setup_errors import setup_errors_named
 from sandbox.engine.simulation import Simulation
 from sandbox.engine.stacking import Alike, chosen, stacked
 from sandbox.engine.step_control import LONGEST, StepControl, size, within
-from sandbox.engine.surfaces import STILL, answer, leaves_at, press
+from sandbox.engine.surfaces import STILL, bounce_off, leaves_at, press
 from sandbox.physics.integrators import INTEGRATORS, Acceleration, State
 
-#: Fewer shots than this are quicker one at a time: a round of arrays costs as much as some thirty steps.
+#: Fewer shots than this are quicker one at a time: one step with arrays costs as much as about thirty single steps.
 _FEWEST = 24
 
-#: Rows of the counts.
+#: Rows of the counters.
 STEPS, REFINED, IMPACTS, QUERIES = range(4)
 
-#: Pieces of path in a batch, 300 bytes each, beyond which its shots go on one at a time, where no run goes on for ever.
+#: Pieces of path in a batch, 300 bytes each, beyond which its shots continue one at a time, where the number of steps
+#: is limited.
 MOST_PIECES = 500_000
 
-#: Share of a ball's forces by which arrays and floats may differ, beyond which they are not the same forces.
+#: Largest relative difference between the forces computed with arrays and with floats; beyond it the shots run one at
+#: a time.
 _ROUNDING = 1e-9
 
 
 def simulate_many(setups: Sequence[Setup], accuracy: Accuracy) -> Iterator[Run | Exception]:
-    """A run of each setup, in order, or the exception that it ended in.
+    """A run of each setup, in order, or the exception it ended with.
 
-    As ``simulate`` one by one, to rounding; much quicker for setups that are alike. Forces are called with arrays,
-    shape (n,), for time, position, velocity and spin; where one cannot take them, its shots run one at a time.
+    The results agree with ``simulate`` to rounding; similar setups run much faster. Forces are called with arrays of
+    shape (n,) for time, position, velocity and spin; the shots of a force that cannot take arrays run one at a time.
     """
     groups: dict[Hashable, list[int]] = {}
     alike = Alike()
@@ -62,13 +64,13 @@ def simulate_many(setups: Sequence[Setup], accuracy: Accuracy) -> Iterator[Run |
             try:
                 batch.fly()
             except _OnlyFloats:
-                continue  # one at a time they run, or say themselves what is wrong
+                continue  # one at a time they run, or raise an error of their own
             batch_of |= dict.fromkeys(members, batch.runs())
     for number, setup in enumerate(setups):
-        yield next(batch_of[number]) if number in batch_of else _one(setup, accuracy)
+        yield next(batch_of[number]) if number in batch_of else _run_or_error(setup, accuracy)
 
 
-def _one(setup: Setup, accuracy: Accuracy) -> Run | Exception:
+def _run_or_error(setup: Setup, accuracy: Accuracy) -> Run | Exception:
     try:
         return simulate(setup, accuracy)
     except Exception as error:
@@ -76,36 +78,36 @@ def _one(setup: Setup, accuracy: Accuracy) -> Run | Exception:
 
 
 def _kind(setup: Setup, alike: Alike) -> Hashable:
-    """What setups of one batch have in common: they differ in numbers only, and in how they end."""
+    """What the setups of one batch have in common: they differ only in numbers and in how they end."""
     return tuple(map(alike.key, (setup.balls[0], setup.surfaces, setup.patches)))
 
 
-def _moving(setup: Setup) -> Moving:
-    return Moving(setup.balls[0], setup.patches, setup.bounds, setup.duration)
+def _flight_terms(setup: Setup) -> FlightTerms:
+    return FlightTerms(setup.balls[0], setup.patches, setup.bounds, setup.duration)
 
 
-def _over(setup: Setup, events: Sequence[Event]) -> str:
-    """ "until" where the last of these events ends the run, "" where not; "after" where that cannot be told, which its
-    shot alone then says."""
+def _ending(setup: Setup, events: Sequence[Event]) -> str:
+    """ "until" if the last of these events ends the run, "" if not; "after" if the condition fails, so that the shot
+    runs alone and raises the error."""
     try:
         return "until" if setup.ends_with(events) else ""
     except FAILURES:
         return "after"
 
 
-#: What a scene's own function may end in.
+#: What a scene's own function may raise.
 FAILURES = (Exception, SystemExit)
 
-#: Shots whose forces are looked at one by one at the start; later it is one in each round.
+#: Shots whose forces are checked one by one at the start; later one shot is checked in each step.
 _WATCHED = 32
 
 
 class _OnlyFloats(Exception):
-    """Forces that cannot take arrays, or answer otherwise than with floats."""
+    """Forces that cannot take arrays, or that return other values for arrays than for floats."""
 
 
-class Moving(NamedTuple):
-    """What a flight needs of a setup; stacked, where many fly together."""
+class FlightTerms(NamedTuple):
+    """The parts of a setup that a flight needs; stacked if many fly together."""
 
     ball: Ball
     patches: Sequence[Patch]
@@ -114,7 +116,7 @@ class Moving(NamedTuple):
 
 
 class _Left(NamedTuple):
-    """How a shot left the batch: at its end (``how`` is "until" or "duration"), or to be taken over."""
+    """How a shot left the batch: at its end (``how`` is "until" or "duration"), or to be continued by simulation.py."""
 
     t: float  # s
     how: str
@@ -130,7 +132,7 @@ class Batch:
         self._accuracy = accuracy
         self._control = StepControl(accuracy)
         self._method = INTEGRATORS[accuracy.integrator]
-        self._all = stacked([_moving(setup) for setup in setups])
+        self._all = stacked([_flight_terms(setup) for setup in setups])
         self._outlines = Outlines(setups, accuracy.skin)
         self._lanes = Lanes()
         self._events: list[list[Event]] = [[] for _ in setups]
@@ -144,11 +146,11 @@ class Batch:
         self._t = np.zeros(len(setups))
         self._state = np.array([(*b.position, *b.velocity, b.spin) for b in (s.balls[0] for s in setups)], float).T
         self._wanted = np.full(len(setups), self._control.first)  # s, the next step
-        self._again = np.zeros(len(setups), dtype=bool)  # a step that was too long is tried again
-        self._now: Moving = self._all
+        self._again = np.zeros(len(setups), dtype=bool)  # the last step was too long and is repeated
+        self._now: FlightTerms = self._all
 
     def fly(self) -> None:
-        """All of them, to the end, or as far as they go here."""
+        """Fly all shots to their end, or until they leave the batch."""
         started = perf_counter()
         with np.errstate(all="ignore"):
             some = np.arange(0, len(self._shot), max(1, len(self._shot) // _WATCHED))
@@ -156,7 +158,7 @@ class Batch:
             self._begin()
             rounds = pieces = 0
             while len(self._shot) >= _FEWEST and pieces < MOST_PIECES:
-                self._round(rounds % len(self._shot))
+                self._advance_all(rounds % len(self._shot))
                 rounds += 1
                 pieces += len(self._paths[-1][0])
         for lane in range(len(self._shot)):
@@ -182,13 +184,13 @@ class Batch:
             every = np.broadcast_to(ax, t.shape), np.broadcast_to(ay, t.shape), np.broadcast_to(alpha, t.shape)
             if any(map(np.iscomplexobj, every)):
                 raise TypeError("complex numbers")
-        except FAILURES as error:  # among others, arrays of another shape
+        except FAILURES as error:  # such as arrays of the wrong shape
             raise _OnlyFloats from error
         return every
 
     def _check_forces(self, lanes: np.ndarray, together: np.ndarray) -> None:
-        """Whether arrays, by which these lanes have these accelerations, give what floats give; not so where a force
-        mixes shots up. Where they give no numbers the shot alone says why."""
+        """Raise _OnlyFloats if the accelerations of these lanes, computed with arrays, differ from those computed with
+        floats, as if a force mixes up shots. If they are not numbers, the shot run alone reports why."""
         for lane in lanes.tolist():
             ball, now = self.setups[self._shot[lane]].balls[0], tuple(self._state[:, lane].tolist())
             try:
@@ -201,7 +203,7 @@ class Batch:
             if not ((off <= _ROUNDING * size) | np.isnan(off)).all():
                 raise _OnlyFloats
 
-    # ------------------------------------------------------------------ a round: one step, or an impact, for each
+    # ------------------------------------------------------------------ one step, or an impact, for each shot
 
     def _begin(self) -> None:
         count, obstacle, near = self._outlines.near(self._shot, self._state[0], self._state[1])
@@ -209,15 +211,15 @@ class Batch:
         plain = (count == 0) | ((count == 1) & (near.gap >= -1e-12) & (away >= -STILL))
         self._touched = np.where(count == 1, obstacle, -1)  # surface that was just left, or -1
         self._normal = np.array((near.nx, near.ny, near.curvature))
-        self._go_on_with(plain)
+        self._keep_only(plain)
 
-    def _round(self, watched: int) -> None:
+    def _advance_all(self, watched: int) -> None:
         known = np.array(self._acceleration(self._t, tuple(self._state)))
         self._check_forces(np.array([watched]), known)
         flying = self._leaving(known)
         if not flying.all():
             known = known[:, flying]
-            self._go_on_with(flying)
+            self._keep_only(flying)
             if not len(self._shot):
                 return
         self._touched = np.full(len(self._shot), -1)
@@ -237,11 +239,11 @@ class Batch:
         staying[accepted] = True
         self._wanted = np.where(staying, following, h)
         for lane in np.flatnonzero(~staying).tolist():
-            self._leave(lane, "flight")  # which says what is wrong
+            self._leave(lane, "flight")  # which raises the error
         if len(accepted):
             staying[accepted[self._travel(accepted, h, known, *ends)]] = False
         if not staying.all():
-            self._go_on_with(staying)
+            self._keep_only(staying)
 
     def _makes_sense(self, state: np.ndarray) -> np.ndarray:
         left, bottom, right, top = self._now.bounds
@@ -253,7 +255,8 @@ class Batch:
     def _travel(
         self, lanes: np.ndarray, h: np.ndarray, acceleration: np.ndarray, after: np.ndarray, last: np.ndarray
     ) -> np.ndarray:
-        """Go the accepted step of these lanes, as far as the first touch; which of them leave the batch, as a mask."""
+        """Take the accepted step of these lanes, up to the first touch. Returns a mask of the lanes that leave the
+        batch."""
         shots, h = self._shot[lanes], h[lanes]
         t0, t1 = self._t[lanes], self._t[lanes] + h
         start, after = self._state[:, lanes], after[:, lanes]
@@ -280,21 +283,21 @@ class Batch:
     # ------------------------------------------------------------------ impacts
 
     def _impact(self, lanes: np.ndarray) -> np.ndarray:
-        """Let pymunk turn the velocities of shots that have come to touch; which of them stay in the batch."""
+        """Let pymunk change the velocities of shots that touch a surface. Returns a mask of the lanes that stay."""
         shots = self._shot[lanes]
         x, y, vx, vy, spin = self._state[:, lanes]
         count, obstacle, near = self._outlines.near(shots, x, y)
         approach = -(vx * near.nx + vy * near.ny)
         along = vx * near.ny - vy * near.nx
         plain = (count == 1) & (approach > STILL)
-        answers = np.zeros((len(lanes), 3))  # restitution, friction, tilt
+        bounces = np.zeros((len(lanes), 3))  # restitution, friction, tilt
         for i in np.flatnonzero(plain).tolist():
             setup = self.setups[shots[i]]
             surface, speed = setup.surfaces[obstacle[i]], float(approach[i])
             try:
-                answers[i] = answer(surface, speed, float(along[i]))
+                bounces[i] = bounce_off(surface, speed, float(along[i]))
             except FAILURES:
-                plain[i] = False  # its shot alone says what is wrong with the surface's law
+                plain[i] = False  # run alone, the shot reports what is wrong with the surface's law
                 continue
             t = float(self._t[lanes[i]])
             event = Event(t, "impact", setup.balls[0].name, surface.name, speed, float(x[i]), float(y[i]))
@@ -306,7 +309,7 @@ class Batch:
             here = lanes[at]
             self._counts[IMPACTS, shots[at]] += 1
             nx, ny = near.nx[at], near.ny[at]
-            self._state[2:, here] = self._exchanged(self._balls(here), nx, ny, vx[at], vy[at], spin[at], answers[at])
+            self._state[2:, here] = self._exchanged(self._balls(here), nx, ny, vx[at], vy[at], spin[at], bounces[at])
             self._touched[here] = obstacle[at]
             self._normal = np.zeros((3, len(self._shot)))
             self._normal[:, here] = nx, ny, near.curvature[at]
@@ -320,10 +323,10 @@ class Batch:
         vx: np.ndarray,
         vy: np.ndarray,
         spin: np.ndarray,
-        answers: np.ndarray,
+        bounces: np.ndarray,
     ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Velocities (m/s) and spins (rad/s) after impacts on surfaces with these normals."""
-        restitution, friction, tilt = answers.T
+        restitution, friction, tilt = bounces.T
         tilt = np.where(vx * ny - vy * nx >= 0.0, tilt, -tilt)
         c, s, (r, factor) = np.cos(tilt), np.sin(tilt), balls
         nx, ny = c * nx - s * ny, c * ny + s * nx
@@ -332,7 +335,8 @@ class Batch:
         return r * (level * ny + up * nx), r * (up * ny - level * nx), spin
 
     def _leaving(self, acceleration: np.ndarray) -> np.ndarray:
-        """Of the shots that touch a surface and do not close in on it: which fly on. The others leave the batch."""
+        """Which of the shots that touch a surface, and do not approach it, continue to fly. The others leave the
+        batch."""
         flying = np.ones(len(self._shot), dtype=bool)
         at = np.flatnonzero(self._touched >= 0)
         if not len(at):
@@ -348,14 +352,14 @@ class Batch:
             if kept:
                 self._leave(lane, "after")
                 flying[lane] = False
-            elif self._events[shot] and (how := _over(setup, self._events[shot])):
+            elif self._events[shot] and (how := _ending(setup, self._events[shot])):
                 self._leave(lane, how)
                 flying[lane] = False
         return flying
 
     # ------------------------------------------------------------------ leaving the batch
 
-    def _go_on_with(self, staying: np.ndarray) -> None:
+    def _keep_only(self, staying: np.ndarray) -> None:
         self._shot, self._t, self._state = self._shot[staying], self._t[staying], self._state[:, staying]
         self._wanted, self._again = self._wanted[staying], self._again[staying]
         self._touched = self._touched[staying]
@@ -373,8 +377,8 @@ class Batch:
 
     def _run(self, number: int, rows: np.ndarray) -> Run | Exception:
         setup = self.setups[number]
-        if number not in self._left:  # not even begun
-            return _one(setup, self._accuracy)
+        if number not in self._left:  # not started
+            return _run_or_error(setup, self._accuracy)
         steps, refined, impacts, queries = self._counts[:, number].tolist()
         seconds = self._seconds / len(self.setups)
         numerics = Numerics(
@@ -385,7 +389,7 @@ class Batch:
             arcs = {setup.balls[0].name: ArcRows(rows)}
             return Run(setup, self._accuracy, arcs, events, numerics, left.t, left.how)
         try:
-            with blamed(setup):
+            with setup_errors_named(setup):
                 simulation = Simulation(setup, self._accuracy, numerics)
                 return simulation.take_over(left.t, left.state, list(ArcRows(rows)), events, left.wanted, left.how)
         except Exception as error:

@@ -1,9 +1,9 @@
-"""Polynomials on [0, 1] in Bernstein form: bounds for free, and every root found, none missed.
+"""Polynomials on [0, 1] in Bernstein form: bounds for free, and no root missed.
 
 A polynomial ``f(u) = sum_k b[k] C(n, k) u**k (1 - u)**(n - k)`` lies between the smallest and the largest of its
-coefficients, and has at most as many roots in (0, 1) as they change sign (Descartes' rule). So a path whose
-coefficients of distance are all positive provably touches nothing, and where they are not, halving the interval
-isolates each root.
+coefficients, and has at most as many roots in (0, 1) as they change sign (Descartes' rule). So if all
+coefficients of a distance are positive, the path provably touches nothing; otherwise halving the interval isolates
+each root.
 
 Source: Farin, Curves and Surfaces for CAGD, 5th ed., chapters 4 to 6.
 """
@@ -15,7 +15,7 @@ from functools import lru_cache
 from itertools import pairwise
 from math import comb
 
-#: Deepest halving of [0, 1]: two roots nearer than 2**-40 of the interval count as one touch without crossing.
+#: Deepest halving of [0, 1]: two roots closer than 2**-40 of the interval count as a touch without crossing.
 _DEEPEST = 40
 
 
@@ -28,7 +28,7 @@ def binomials(n: int) -> list[int]:
 def evaluate(b: Sequence[float], u: float) -> float:
     """f(u), by Horner's rule in u / (1 - u) or its inverse, whichever is at most 1.
 
-    Written out for positions and velocities, of which a run asks most: three times as quick as the loop.
+    Written out for the degrees of positions and velocities, which a run needs most: three times as fast as a loop.
     """
     n = len(b) - 1
     w = 1.0 - u
@@ -93,7 +93,7 @@ def derivative(b: Sequence[float]) -> list[float]:
 
 
 def elevate(b: Sequence[float], degree: int) -> Sequence[float]:
-    """The same polynomial, written in a higher degree."""
+    """The same polynomial at a higher degree."""
     while len(b) - 1 < degree:
         n = len(b)
         b = [b[0], *((k * b[k - 1] + (n - k) * b[k]) / n for k in range(1, n)), b[-1]]
@@ -102,7 +102,7 @@ def elevate(b: Sequence[float], degree: int) -> Sequence[float]:
 
 @lru_cache
 def _product_weights(m: int, n: int) -> list[list[tuple[int, float]]]:
-    """For each coefficient k of a product: which b[i] c[k - i] enter it, and with what weight."""
+    """For each coefficient k of a product: which b[i] c[k - i] contribute, and with what weight."""
     return [
         [(i, comb(m, i) * comb(n, k - i) / comb(m + n, k)) for i in range(max(0, k - n), min(m, k) + 1)]
         for k in range(m + n + 1)
@@ -143,7 +143,7 @@ def _crossings(b: list[float], u0: float, u1: float, depth: int) -> Iterator[flo
     if changes == 0:
         return
     if changes == 1:
-        if previous < 0.0:  # it ends below, so it began above
+        if previous < 0.0:  # it ends negative, so it started positive
             yield u0 + (u1 - u0) * _single_root(b)
         return
     if depth == _DEEPEST:
@@ -153,13 +153,13 @@ def _crossings(b: list[float], u0: float, u1: float, depth: int) -> Iterator[flo
     middle = 0.5 * (u0 + u1)
     left, right = split(b, 0.5)
     yield from _crossings(left, u0, middle, depth + 1)
-    if left[-1] == 0.0 and left[-2] > 0.0 > right[1]:  # the root sits exactly on the cut
+    if left[-1] == 0.0 and left[-2] > 0.0 > right[1]:  # the root is exactly at the split
         yield middle
     yield from _crossings(right, middle, u1, depth + 1)
 
 
 def _single_root(b: list[float]) -> float:
-    """The root of a polynomial that has just one in [0, 1] and falls through it: Newton, kept inside a bracket."""
+    """The root of a polynomial with exactly one root in [0, 1], falling through it: Newton, kept inside a bracket."""
     n = len(b) - 1
     scaled = [m * c for m, c in zip(binomials(n), b, strict=True)]
     slopes = [m * c for m, c in zip(binomials(n - 1), derivative(b), strict=True)]
@@ -178,7 +178,7 @@ def _single_root(b: list[float]) -> float:
             high = u
         else:
             low = u
-        following = u - value / fall if fall < 0.0 else low  # where it rises there is no root of ours, only rounding
+        following = u - value / fall if fall < 0.0 else low  # where it rises the root is only rounding
         if (fall < 0.0 and abs(following - u) <= 2e-16) or high - low <= 1e-16:
             return min(max(following, low), high)
         if not low < following < high:

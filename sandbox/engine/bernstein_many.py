@@ -1,6 +1,6 @@
 """The polynomials of bernstein.py for many paths at once.
 
-Coefficients lie along the first axis, paths along the last: shape (degree + 1, ..., paths); u has shape (paths,).
+Coefficients are along the first axis, paths along the last: shape (degree + 1, ..., paths); u has shape (paths,).
 """
 
 from __future__ import annotations
@@ -9,7 +9,7 @@ import numpy as np
 
 from sandbox.engine.bernstein import binomials
 
-#: Most Newton steps to a root; five or six are needed, and halving gets there in 53.
+#: Most Newton steps to a root: five or six are typical, and bisection alone needs 53.
 _MOST_STEPS = 60
 
 
@@ -54,11 +54,11 @@ def _product_weights(n: int) -> np.ndarray:
 
 
 def first_downward_crossing(b: np.ndarray, halvings: int = 4) -> tuple[np.ndarray, np.ndarray]:
-    """The u in [0, 1] where each f first goes from positive to negative, inf where none does; and where that is not
-    plain.
+    """The u in [0, 1] where each f first goes from positive to negative, inf where none does; and a mask of
+    those that are unclear.
 
-    Plain are those whose coefficients change sign at most once, and are never exactly zero, on [0, 1] or on the pieces
-    after some ``halvings``. ``b`` has shape (degree + 1, paths); both arrays have shape (paths,).
+    A polynomial is clear if its coefficients change sign at most once and are never exactly zero, on [0, 1] or on its
+    pieces after ``halvings`` bisections. ``b`` has shape (degree + 1, paths); both arrays have shape (paths,).
     """
     u = np.full(b.shape[1], np.inf)
     positive = b > 0.0
@@ -88,7 +88,7 @@ def _halves(b: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _single_root(b: np.ndarray) -> np.ndarray:
-    """The root of polynomials that fall through zero just once in [0, 1]: Newton, kept inside a bracket."""
+    """The root of polynomials that fall through zero exactly once in [0, 1]: Newton, kept inside a bracket."""
     low, high = np.zeros(b.shape[1]), np.ones(b.shape[1])
     slope = (len(b) - 1) * (b[1:] - b[:-1])
     u = b[0] / (b[0] - b[-1])
@@ -97,7 +97,7 @@ def _single_root(b: np.ndarray) -> np.ndarray:
         value, fall = evaluate(b, u), evaluate(slope, u)
         low, high = np.where(value >= 0.0, u, low), np.where(value < 0.0, u, high)
         following = u - value / fall
-        falls = fall < 0.0  # where it rises there is no root of ours, only rounding
+        falls = fall < 0.0  # where it rises the root is only rounding
         near |= falls & ((value == 0.0) | (np.abs(following - u) <= 2e-16))
         near |= high - low <= 1e-16
         if near.all():

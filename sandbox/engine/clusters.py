@@ -1,9 +1,9 @@
-"""Balls that meet while others are pressed together: through the contact, with its forces, and out again.
+"""Impacts of several bodies at once, simulated through the contact with its forces.
 
-An impulse is right for a lone pair. Where a third body is reached while two are pressed together, who gets how much
-depends on how the contacts share the fraction of a millisecond that they last. So the bodies are moved through it:
-positions and velocities under the forces of Hertz's law (``physics/hertz.py``) by Dormand and Prince's pair, and with
-each step friction, as the impulses that bring every slip to rest as far as the normal impulses allow (Coulomb).
+An impulse is right for an isolated pair. If two bodies reach a third while they are in contact, the outcome depends on
+how the contacts overlap in the fraction of a millisecond they last. So the contact is simulated: positions and
+velocities under the forces of Hertz's law (``physics/hertz.py``) by Dormand and Prince's pair, and in each step friction
+impulses that reduce every slip towards zero, limited by the normal impulses (Coulomb).
 
 All contacts are treated at once, as rows of arrays, so that the outcome does not depend on the order of the bodies.
 """
@@ -22,30 +22,30 @@ from sandbox.physics.integrators import DORMAND_PRINCE, DORMAND_PRINCE_ERROR
 
 _STAGES, _ERROR = tuple(np.array(weights) for weights in DORMAND_PRINCE), np.array(DORMAND_PRINCE_ERROR)
 
-#: Largest error of a step by the embedded pair, over the fastest speed; with more than that all is done again by half
-#: the step. Steps are even otherwise: so what comes out depends smoothly on what went in, and rounding stays rounding.
+#: Largest error of a step by the embedded pair, relative to the fastest speed; if it is larger, all is repeated with
+#: half the step. Steps are otherwise equal, so that the outcome depends smoothly on the input and rounding stays small.
 _LARGEST_ERROR = 1e-3
 
-#: So many links at most are few: with them steps end where a link closes or opens, and are graded around that.
-_FEW, _GRADES = 6, (4.0**-6, *(3.0 * 4.0**-power for power in range(6, 0, -1)))
+#: Up to this many links, steps end where a link closes or opens, and are graded around that time.
+_MAX_GRADED_LINKS, _GRADES = 6, (4.0**-6, *(3.0 * 4.0**-power for power in range(6, 0, -1)))
 
-#: Contact times, for each body and besides, after which bodies that press on one another are not going to part by
-#: themselves; a chain of n equal balls takes 1 + (n - 1) / 2.
+#: Longest contact times, for each body and in addition, after which bodies that press on one another will not separate
+#: by themselves; a chain of n equal balls takes 1 + (n - 1) / 2.
 _PATIENCE = 1.0, 10.0
 
-#: Rounds of friction, and the change of a slip over the fastest body's speed that ends them.
-_ROUNDS, _SETTLED = 500, 1e-10
+#: Most iterations of friction, and the change of a slip relative to the fastest speed at which they stop.
+_ITERATIONS, _CONVERGED = 500, 1e-10
 
-#: Speed in m/s that is rounding, and depth in m.
+#: Speed in m/s and depth in m below which a value is rounding.
 _STILL, _TOUCH = 1e-9, 1e-12
 
 
 class StaysPressed(RunError):
-    """Bodies that do not part: something presses them together."""
+    """Bodies that do not separate: something presses them together."""
 
 
 class Body(NamedTuple):
-    """A ball as it enters: lengths in m, kg, s, rad; ``push`` is what else accelerates it meanwhile."""
+    """A ball at the start of the contact, in m, kg, s, rad; ``push`` is its acceleration from other causes."""
 
     mass: float
     radius: float
@@ -68,21 +68,21 @@ class Link(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Passage:
-    """How a cluster came out: arrays of one row for each body, and of one entry for each link."""
+class ClusterOutcome:
+    """The state of a cluster after the contact: arrays with a row for each body, or an entry for each link."""
 
     duration: float  # s
     position: np.ndarray  # m, shape (n, 2)
     velocity: np.ndarray  # m/s, shape (n, 2)
     spin: np.ndarray  # rad/s, shape (n, 3)
-    impulse: np.ndarray  # N s, normal, shape (links,); 0 where it never closed
-    approach: np.ndarray  # m/s, at which it closed first, shape (links,)
-    closed: np.ndarray  # s, when, shape (links,)
+    impulse: np.ndarray  # N s, normal, shape (links,); 0 if the link never closed
+    approach: np.ndarray  # m/s, when it first closed, shape (links,)
+    closed: np.ndarray  # s, time when it first closed, shape (links,)
     steps: int
 
 
 class Cluster:
-    """Bodies and the links between them. All of them matter at once: leave out what cannot be reached."""
+    """Bodies and the links between them. The cost grows with all of them: leave out what cannot be reached."""
 
     def __init__(self, bodies: Sequence[Body], links: Sequence[Link], on_cloth: bool = False) -> None:
         """``on_cloth``: friction acts out of the plane too, and turns the balls about x and y."""
@@ -110,10 +110,10 @@ class Cluster:
         self._walls = [(place, link.wall, link.first) for place, link in enumerate(links) if link.wall is not None]
         self._on_cloth = on_cloth
 
-    def pass_through(self, share: float) -> Passage:
-        """Through the contact until nothing touches, by steps of this share of the shortest contact there can be.
+    def pass_through(self, share: float) -> ClusterOutcome:
+        """Simulate the contact until nothing touches, in steps of this fraction of the shortest possible contact.
 
-        Raises StaysPressed where it has no end.
+        Raises StaysPressed if it does not end.
         """
         while True:
             passage, error = self._stepped_through(share)
@@ -121,14 +121,14 @@ class Cluster:
                 return passage
             share *= 0.5
 
-    def _stepped_through(self, share: float) -> tuple[Passage, float]:
+    def _stepped_through(self, share: float) -> tuple[ClusterOutcome, float]:
         count, links = self._count, len(self._links)
         state = np.zeros((8, count + 1))  # x, y, vx, vy, vz, and the spins
         for i, body in enumerate(self._bodies):
             state[:, i] = (*body.position, *body.velocity, 0.0, *body.spin)
         origin = state[:2, :1].copy()
         state[:2, :count] -= origin
-        state[:2, count] = 1e3  # m: the walls' place in the arrays, of which nothing is read
+        state[:2, count] = 1e3  # m: a placeholder for walls, never read
         self._origin = origin[:, 0]
         self._push = np.array([*(body.push for body in self._bodies), (0.0, 0.0)]).T
         before = self._energy(state)
@@ -139,17 +139,17 @@ class Cluster:
         shortest, longest = min(times), max(times)
         scale = np.repeat([fastest * shortest, fastest], 2 * count + 2)
         whole, t, steps, worst = share * shortest, 0.0, 0, 0.0
-        lands = links <= _FEW
+        lands = links <= _MAX_GRADED_LINKS
         impulse, approach, closed, rubbed = (np.zeros(links) for _ in range(4))
         rates, forces = np.empty((7, 4, count + 1)), np.empty((7, links))
         flat = rates.reshape(7, -1)
         rates[0], depth, closing, normal, force = self._motion(state[:4])
         gain, gap = rates[0, 2:].flatten(), self._gap  # m/s^2, m
         approach[:] = np.where(self._gap < _TOUCH, np.maximum(closing, 0.0), 0.0)
-        plan = _finer_behind(whole) if lands else [whole]
+        plan = _finer_at_start(whole) if lands else [whole]
         while True:
             h = plan[0]
-            # Friction of the half steps behind and ahead: second order, and in all mu times the impulse.
+            # Friction of the previous and next half step: second order, and mu times the impulse in total.
             reached = np.maximum(impulse + 0.5 * h * force, rubbed)
             start = self._rub(state, normal, reached - rubbed, 0.5 * h * gain, rubbing)
             rates[0], *_, forces[0] = self._motion(start[:4])
@@ -159,7 +159,7 @@ class Cluster:
             if lands and len(plan) == 1:
                 kink = _first_kink(h, gap, self._gap, closing, closing_then)
                 if kink is not None:
-                    plan = [*_finer_ahead(kink), *_finer_behind(h - kink)]
+                    plan = [*_finer_at_end(kink), *_finer_at_start(h - kink)]
                     continue
             worst = max(worst, float(np.abs(_ERROR @ flat / scale).max()) * h)
             plan, gap = plan[1:] or [whole], self._gap
@@ -174,15 +174,15 @@ class Cluster:
                 state = self._rub(state, normal, np.maximum(impulse - rubbed, 0.0), 0.0 * gain, rubbing)
                 break
             if t > (_PATIENCE[0] * count + _PATIENCE[1]) * longest:
-                raise StaysPressed(f"bodies do not part within {t:.3g} s")
-        worked = float(np.hypot(*self._push[:, :count]) @ self._inertia[0]) * fastest * t  # J, at the most
-        self._take_back(state, before + worked)
+                raise StaysPressed(f"bodies do not separate within {t:.3g} s")
+        worked = float(np.hypot(*self._push[:, :count]) @ self._inertia[0]) * fastest * t  # J, an upper bound
+        self._remove_excess_energy(state, before + worked)
         position = (state[:2, :count] + origin).T
         velocity, spin = state[2:4, :count].T, state[5:8, :count].T
-        return Passage(float(t), position, velocity, spin, impulse, approach, closed, steps), worst
+        return ClusterOutcome(float(t), position, velocity, spin, impulse, approach, closed, steps), worst
 
     def _motion(self, moving: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-        """The derivative of (x, y, vx, vy), and of each link the depth (m), closing speed (m/s), normal, force (N)."""
+        """The derivative of (x, y, vx, vy), and for each link the depth (m), closing speed (m/s), normal, force (N)."""
         apart = moving @ self._incidence
         distance = np.sqrt(apart[0] * apart[0] + apart[1] * apart[1])
         normal = apart[:2] / distance
@@ -201,11 +201,11 @@ class Cluster:
         return rate, depth, closing, normal, force
 
     def _energy(self, state: np.ndarray) -> float:
-        """Kinetic energy in J, that of turning included."""
+        """Kinetic energy in J, including rotation."""
         return 0.5 * float((state[2:, :-1] ** 2 * self._inertia).sum())
 
-    def _take_back(self, state: np.ndarray, before: float) -> None:
-        """Slow all down towards their common motion where the steps' errors have added to the energy ``before``."""
+    def _remove_excess_energy(self, state: np.ndarray, before: float) -> None:
+        """Slow all bodies towards their common motion if numerical errors have raised the energy above ``before``."""
         common = np.zeros((6, 1))
         if not self._walls:
             mass = self._inertia[0]
@@ -217,7 +217,8 @@ class Cluster:
             state[2:, :-1] = common + share * (state[2:, :-1] - common)
 
     def _grip(self, normal: np.ndarray) -> np.ndarray:
-        """From velocities and spins of all bodies to the slips of all links: shape (directions, links, ...)."""
+        """Matrix from the velocities and spins of all bodies to the slips of all links: shape (directions, links,
+        ...)."""
         nx, ny = normal
         none = np.zeros_like(self._arms)
         ways = [[self._incidence * ny, -self._incidence * nx, none, none, none, self._arms]]  # along it, in the plane
@@ -228,11 +229,11 @@ class Cluster:
     def _rub(
         self, state: np.ndarray, normal: np.ndarray, pressed: np.ndarray, coming: np.ndarray, fastest: float
     ) -> np.ndarray:
-        """The state after friction: of all impulses that the normal ones (N s) allow, those that leave the least slip.
+        """The state after friction impulses, limited by the normal impulses (N s), that leave the least slip.
 
-        The slips are those after a change of the velocities by ``coming`` (m/s). The impulses minimise the energy of
-        the slips; they are found by projected steps for all links at once, none longer than the sum of a row of the
-        matrix allows.
+        Slips are those after a change of the velocities by ``coming`` (m/s). The impulses minimise the energy of the
+        slips; they are found by projected gradient steps for all links at once, with step lengths bounded by the row
+        sums of the matrix.
         """
         acting = pressed > 0.0
         if not (self._rubs and acting.any()):
@@ -250,33 +251,34 @@ class Cluster:
         ease = np.abs(mobility) @ acting
         ease[:, ~acting] = 1.0
         impulse = np.zeros_like(slips)
-        for _ in range(_ROUNDS):
+        for _ in range(_ITERATIONS):
             wanted = impulse - slips / ease
             size = np.sqrt((wanted * wanted).sum(axis=0))
             change = wanted * np.minimum(1.0, limit / np.maximum(size, 1e-300)) - impulse
             impulse += change
             slips += (mobility @ change[:, :, None])[:, :, 0]
-            if float(np.abs(change * ease).max()) <= _SETTLED * fastest:
+            if float(np.abs(change * ease).max()) <= _CONVERGED * fastest:
                 break
         after = state.copy()
         after[2:] += (effect @ impulse[:, :, None]).sum(axis=0).reshape(6, -1)
         return after
 
 
-def _finer_behind(h: float) -> list[float]:
-    """A step of h s, divided more finely where it begins: at a kink of the force."""
+def _finer_at_start(h: float) -> list[float]:
+    """A step of h s, divided more finely towards its start, where the force has a kink."""
     return [h * share for share in _GRADES]
 
 
-def _finer_ahead(h: float) -> list[float]:
-    """A step of h s, divided more finely where it ends."""
+def _finer_at_end(h: float) -> list[float]:
+    """A step of h s, divided more finely towards its end."""
     return [h * share for share in reversed(_GRADES)]
 
 
 def _first_kink(
     h: float, gap: np.ndarray, gap_after: np.ndarray, closing: np.ndarray, closing_after: np.ndarray
 ) -> float | None:
-    """When in a step of h s the first link closes or opens, by the cubic that meets gaps and speeds; None if none."""
+    """The time in a step of h s at which the first link closes or opens, by the cubic through gaps and speeds, or
+    None."""
     first = None
     for link in np.flatnonzero(gap * gap_after < 0.0).tolist():
         a, b = float(gap[link]), float(gap_after[link])

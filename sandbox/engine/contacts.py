@@ -1,9 +1,8 @@
-"""Impacts: at the touching position pymunk exchanges the impulses.
+"""Impacts: pymunk computes the impulses of touching balls.
 
-The touching balls are placed in a small Space, each fixed shape as a short piece of its tangent plane there (a ball
-touches any shape as it touches its tangent plane), and one step of next to no length lets Chipmunk's solver do
-restitution, Coulomb friction and spin. Nothing moves in that step, so its size does not matter; position correction
-plays no part.
+The touching balls are placed in a small Space, each fixed shape as a short piece of its tangent plane (which is
+equivalent for contact with a ball), and one step of almost zero length lets Chipmunk's solver apply restitution,
+Coulomb friction and spin. Nothing moves in that step, so its length does not matter, nor does position correction.
 """
 
 from __future__ import annotations
@@ -21,19 +20,19 @@ from sandbox.engine.setup import Ball, Bounce
 #: Length in s of the step in which impulses are exchanged: at 340 m/s a ball moves 3e-13 m in it.
 _INSTANT = 1e-15
 
-#: Balls overlap by this share of their distances while impulses are exchanged, so that Chipmunk sees the contact. The
-#: impulse of round shapes depends on the directions of their contacts alone, which scaling leaves as they are.
+#: Balls overlap by this fraction of their distances during the exchange, so that Chipmunk sees the contact. The
+#: impulse of round shapes depends only on the directions of their contacts, which scaling does not change.
 _OVERLAP = 1e-6
 
-#: Solver rounds. One contact of round shapes is exact after one; a cluster of 16 balls needs 50 for 1e-7 m/s.
-_ROUNDS, _CLUSTER_ROUNDS = 1, 200
+#: Solver iterations. One contact of round shapes is exact after one; a cluster of 16 balls needs 50 for 1e-7 m/s.
+_ITERATIONS, _CLUSTER_ITERATIONS = 1, 200
 
-#: pymunk's type of the balls' shapes; the planes have its own, 0.
+#: Collision type of the balls' shapes in pymunk; planes have the default, 0.
 _BALL = 1
 
 
 @dataclass(slots=True)
-class Moving:
+class BallAtImpact:
     """A ball at the instant of an impact."""
 
     index: int  # which ball of the setup
@@ -46,13 +45,13 @@ class Moving:
 
 @dataclass(slots=True)
 class Contact:
-    """One touching place. The unit normal points to the first ball, from the surface or from the second ball."""
+    """A contact in an impact. The unit normal points to the first ball, from the surface or from the second ball."""
 
     first: int  # index into the cluster
     second: int | None  # index into the cluster, or None for a fixed surface
     nx: float
     ny: float
-    bounce: Bounce  # with the friction that acts in the plane
+    bounce: Bounce  # with the friction in the plane
     approach: float  # m/s, normal speed of approach, positive when closing
     forward: float = 1.0  # sign of the motion of the first ball along (ny, -nx)
     partner: str = ""  # name of the surface or of the second ball
@@ -60,7 +59,7 @@ class Contact:
     slip: tuple[float, float] = (0.0, 0.0)  # m/s, of the surfaces, in the plane and upward
 
 
-#: Two shapes that touch, whichever is the first: the ids of both.
+#: Two shapes that touch, in any order: the ids of both.
 _Pair = frozenset[int]
 
 
@@ -68,8 +67,8 @@ def _pair(first: pymunk.Shape, second: pymunk.Shape) -> _Pair:
     return frozenset((id(first), id(second)))
 
 
-class Contacts:
-    """The Space in which impulses are exchanged; one for each run."""
+class ImpulseSpace:
+    """The pymunk Space in which impulses are computed; one per run."""
 
     def __init__(self, balls: Sequence[Ball], numerics: Numerics) -> None:
         self._numerics = numerics
@@ -82,8 +81,8 @@ class Contacts:
         self._discs: list[pymunk.Circle] = []
         self._planes: list[pymunk.Segment] = []
         self.normal_impulses: list[float] = []  # N s, of the contacts of the last exchange
-        self._answers: dict[_Pair, Bounce] = {}  # of balls that touch
-        self._spread = 100.0 * max(ball.radius for ball in balls)  # m, between balls that take no part
+        self._bounces: dict[_Pair, Bounce] = {}  # of balls that touch
+        self._spread = 100.0 * max(ball.radius for ball in balls)  # m, between balls that are not involved
         for index, ball in enumerate(balls):
             body = pymunk.Body(ball.mass, ball.inertia)
             disc = pymunk.Circle(body, ball.radius)
@@ -94,17 +93,17 @@ class Contacts:
             self._discs.append(disc)
             self._park(index)
         if len(balls) > 1:
-            self._space.on_collision(_BALL, _BALL, pre_solve=self._answer)
+            self._space.on_collision(_BALL, _BALL, pre_solve=self._set_bounce)
 
-    def _answer(self, arbiter: pymunk.Arbiter, space: pymunk.Space, data: Any) -> None:
-        """Each two balls have restitution and friction of their own, which the product of two values cannot give."""
-        bounce = self._answers.get(_pair(*arbiter.shapes))
-        if bounce is None:  # near enough for the overlap, and no contact
+    def _set_bounce(self, arbiter: pymunk.Arbiter, space: pymunk.Space, data: Any) -> None:
+        """Set restitution and friction of a pair of balls, which the product of two values cannot express."""
+        bounce = self._bounces.get(_pair(*arbiter.shapes))
+        if bounce is None:  # close enough to overlap here, but not in contact
             arbiter.process_collision = False
         else:
             arbiter.restitution, arbiter.friction = bounce.restitution, bounce.friction
 
-    def exchange(self, cluster: Sequence[Moving], contacts: Sequence[Contact]) -> None:
+    def exchange(self, cluster: Sequence[BallAtImpact], contacts: Sequence[Contact]) -> None:
         """Give each ball of the cluster its velocity and spin after the impact."""
         origin = cluster[0]
         scale = 1.0 - _OVERLAP
@@ -114,15 +113,15 @@ class Contacts:
             body.velocity = (moving.vx, moving.vy)
             body.angular_velocity = moving.spin
         planes = 0
-        self._answers.clear()
+        self._bounces.clear()
         for contact in contacts:
             if contact.second is None:
                 self._lay_plane(planes, cluster[contact.first], contact)
                 planes += 1
             else:
                 first, second = (self._discs[cluster[place].index] for place in (contact.first, contact.second))
-                self._answers[_pair(first, second)] = contact.bounce
-        self._space.iterations = _ROUNDS if len(contacts) == 1 else _CLUSTER_ROUNDS
+                self._bounces[_pair(first, second)] = contact.bounce
+        self._space.iterations = _ITERATIONS if len(contacts) == 1 else _CLUSTER_ITERATIONS
         self._space.step(_INSTANT)
         self.normal_impulses = self._read_impulses(cluster, contacts)
         for moving in cluster:
@@ -132,10 +131,10 @@ class Contacts:
             self._park(moving.index)
         for plane in self._planes[:planes]:
             self._remove(plane)
-        self._space.step(_INSTANT)  # parted: forget the contact, so that the next impact starts from nothing
+        self._space.step(_INSTANT)  # moved apart: pymunk drops the contact, so that the next impact starts fresh
         self._numerics.pymunk_steps += 2
 
-    def _read_impulses(self, cluster: Sequence[Moving], contacts: Sequence[Contact]) -> list[float]:
+    def _read_impulses(self, cluster: Sequence[BallAtImpact], contacts: Sequence[Contact]) -> list[float]:
         """The normal impulse of each contact in N s, before the velocities are read back into the cluster."""
         if len(contacts) == 1:
             contact = contacts[0]
@@ -160,7 +159,7 @@ class Contacts:
             impulses.append(by_shapes.get(_pair(disc, other), 0.0))
         return impulses
 
-    def _lay_plane(self, number: int, moving: Moving, contact: Contact) -> None:
+    def _lay_plane(self, number: int, moving: BallAtImpact, contact: Contact) -> None:
         radius = self._balls[moving.index].radius
         nx, ny = contact.nx, contact.ny
         if contact.bounce.tilt != 0.0:

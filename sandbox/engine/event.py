@@ -1,4 +1,4 @@
-"""What happens to a ball at one instant."""
+"""An event of a ball: its time, kind, partner and speed."""
 
 from __future__ import annotations
 
@@ -9,14 +9,14 @@ from dataclasses import dataclass
 class Event:
     """Something that happened to a ball at one instant.
 
-    ``kind`` is ``"impact"`` (``speed`` is the normal approach speed in m/s), ``"contact"`` (from here on it slides or
-    rolls on the surface), ``"leave"`` (it lost the surface), ``"rest"``, or a kind of the scene's own.
+    ``kind`` is ``"impact"`` (``speed`` is the normal approach speed in m/s), ``"contact"`` (it starts to slide or
+    roll on the surface), ``"leave"`` (it leaves the surface), ``"rest"``, or a kind defined by the scene.
     """
 
     t: float  # s
     kind: str
     ball: str
-    partner: str  # name of the surface or of the other ball; "" where there is none
+    partner: str  # name of the surface or of the other ball; "" if none
     speed: float  # m/s
     x: float  # m, the ball's centre
     y: float  # m

@@ -1,4 +1,4 @@
-"""One instant of impact: who touches whom, what each contact is like, and the exchange of impulses."""
+"""Impacts at one instant: which bodies touch, the properties of each contact, and the exchange of impulses."""
 
 from __future__ import annotations
 
@@ -8,25 +8,25 @@ from itertools import combinations
 from math import hypot
 from typing import NamedTuple
 
-from sandbox.engine.contacts import Contact, Contacts, Moving
+from sandbox.engine.contacts import BallAtImpact, Contact, ImpulseSpace
 from sandbox.engine.on_cloth import in_plane, off_nose, rubbed, slip_over
 from sandbox.engine.setup import Bounce, Setup, kinetic
-from sandbox.engine.surfaces import STILL, answer, answer_of_balls
-from sandbox.engine.touch import CONTACT, Touching
+from sandbox.engine.surfaces import STILL, bounce_of_balls, bounce_off
+from sandbox.engine.touch import TOUCHING_GAP, Touching
 from sandbox.engine.track import Track
 from sandbox.physics.integrators import State
 
-#: Share of the energy that a cluster may gain in an impact: the rounding of Chipmunk's rounds.
+#: Largest relative energy gain of a cluster in an impact: rounding in Chipmunk's iterations.
 _GAIN = 1e-7
 
-#: Turns of balls and walls at one instant, after which all exchange their impulses at once.
+#: Alternations between balls and walls at one instant, after which all exchange impulses at once.
 _TURNS = 9
 
 
 class Hit(NamedTuple):
     """One contact that closed."""
 
-    ball: int  # its place among the balls of the setup
+    ball: int  # index into the balls of the setup
     partner: str
     speed: float  # m/s, normal speed of approach
 
@@ -34,29 +34,31 @@ class Hit(NamedTuple):
 class Impacts:
     """Resolves impacts among the balls of a run."""
 
-    def __init__(self, setup: Setup, tracks: Sequence[Track], contacts: Contacts, slowest_hop: float) -> None:
+    def __init__(self, setup: Setup, tracks: Sequence[Track], contacts: ImpulseSpace, slowest_hop: float) -> None:
         self._setup = setup
         self._tracks = tracks
         self._contacts = contacts
-        self._slowest_hop = slowest_hop  # m/s, at which balls on cloth part at least
-        # Walls that give way more than balls push back when the balls have parted.
-        self._gives_way = len(setup.balls) > 1 and setup.contact.name != "rigid" and setup.contact.wall_stiffness == 0.0
+        self._slowest_hop = slowest_hop  # m/s, minimum speed at which balls on cloth separate
+        # Walls softer than balls push back after the balls have separated.
+        self._soft_walls = (
+            len(setup.balls) > 1 and setup.contact.name != "rigid" and setup.contact.wall_stiffness == 0.0
+        )
         self._noses = any(surface.nose_height is not None for surface in setup.surfaces)
         self._heaviest = max(ball.mass for ball in setup.balls)  # kg
 
     def exchange(self, states: dict[int, State]) -> tuple[dict[int, State], list[Hit]]:
-        """The states after the impact of balls that touch, directly or through others, and what closed.
+        """The states after the impact of balls that touch, directly or through others, and the hits.
 
-        Where walls give way more than balls, balls exchange their impulses first and the walls push back afterwards.
+        If walls are softer than balls, balls exchange impulses first and the walls push back afterwards.
         """
-        if self._gives_way or self._noses:
+        if self._soft_walls or self._noses:
             hits: list[Hit] = []
             before = states
             for turn in range(_TURNS):
                 if turn % 2 == 0:
-                    after = self._exchange_at_once(before, True if self._gives_way else None, hits)
+                    after = self._exchange_at_once(before, True if self._soft_walls else None, hits)
                 else:
-                    after = self._exchange_at_once(before, False, hits) if self._gives_way else None
+                    after = self._exchange_at_once(before, False, hits) if self._soft_walls else None
                     after = self._off_noses(after or before, hits) or after
                 if after is None and turn > 0:
                     return before, hits
@@ -67,7 +69,8 @@ class Impacts:
         return self._exchange_at_once(states, None, hits) or states, hits
 
     def _off_noses(self, states: dict[int, State], hits: list[Hit]) -> dict[int, State] | None:
-        """The states after each ball has met the cushions' noses that it touches, one after another; None if none."""
+        """The states after each ball has met the cushion noses it touches, one after another; None if there are
+        none."""
         after = dict(states)
         for index, state in states.items():
             ball = self._tracks[index].ball
@@ -77,7 +80,7 @@ class Impacts:
                 approach, along = -(vx * nx + vy * ny), vx * ny - vy * nx
                 if surface.nose_height is None or approach <= STILL:
                     continue
-                bounce = answer(surface, approach, along)
+                bounce = bounce_off(surface, approach, along)
                 x, y, vx, vy, *spins = off_nose(ball, after[index], (nx, ny), surface.nose_height, bounce)
                 slow = max(0.0, self._slowest_hop - (vx * nx + vy * ny))
                 after[index] = (x, y, vx + slow * nx, vy + slow * ny, *spins)
@@ -90,7 +93,8 @@ class Impacts:
     def _exchange_at_once(
         self, states: dict[int, State], balls_only: bool | None, hits: list[Hit]
     ) -> dict[int, State] | None:
-        """The states after all contacts, or those of balls only, or of walls only, closed at once; None if none did."""
+        """The states after all contacts, or only those between balls, or only those with walls, closed at once; None if
+        none closed."""
         found = [] if balls_only is True else [*self._with_surfaces(states)]
         found += [] if balls_only is False else [*self._with_balls(states)]
         if not any(contact.approach > STILL for contact in found):
@@ -104,8 +108,8 @@ class Impacts:
         return after
 
     def _after(self, states: dict[int, State], found: Sequence[Contact]) -> dict[int, State]:
-        """The states after impulses are exchanged; balls on cloth part no slower than the slowest hop."""
-        cluster = [Moving(index, *state[:5]) for index, state in states.items()]
+        """The states after the exchange of impulses; balls on cloth separate no slower than the slowest hop."""
+        cluster = [BallAtImpact(index, *state[:5]) for index, state in states.items()]
         self._exchange_without_gain(cluster, [_hopping(contact, self._slowest_hop) for contact in found])
         after = {
             moving.index: (*states[moving.index][:2], moving.vx, moving.vy, moving.spin, *states[moving.index][5:])
@@ -122,19 +126,20 @@ class Impacts:
         return after
 
     def _pay_for_hops(self, before: dict[int, State], after: dict[int, State]) -> None:
-        """Take what energy the slowest hops added from all motion of the balls: there is never more than before."""
+        """Remove the energy that minimum hops added from the motion of all balls: energy never increases."""
         had, has = self._energy(before), self._energy(after)
         if has > had:
             share = (had / has) ** 0.5
             for index, (x, y, *motion) in after.items():
                 after[index] = (x, y, *(share * speed for speed in motion))
 
-    def _exchange_without_gain(self, cluster: Sequence[Moving], found: Sequence[Contact]) -> None:
-        """Exchange impulses. Where several contacts close at once, the speeds with which they are to part may ask for
-        energy that is not there. Restitution beside friction is known for it as Kane's paradox (the slip turns over
-        while the normal speeds are forced back): friction then counts for less, down to nothing. If it is not that,
-        as where a light ball is squeezed between a wall and a heavy one, restitution does: without either nothing is
-        gained."""
+    def _exchange_without_gain(self, cluster: Sequence[BallAtImpact], found: Sequence[Contact]) -> None:
+        """Exchange impulses without gaining energy.
+
+        If several contacts close at once, restitution may demand more energy than there is. With friction this is
+        known as Kane's paradox (the slip reverses while the normal speeds are imposed): friction is reduced, down to
+        zero. If energy still increases, as when a light ball is squeezed between a wall and a heavy ball, restitution
+        is reduced: with both at zero no energy is gained."""
         if len(found) == 1:
             self._contacts.exchange(cluster, found)
             return
@@ -151,15 +156,15 @@ class Impacts:
                 moving.vx, moving.vy, moving.spin = before.vx, before.vy, before.spin
             self._contacts.exchange(cluster, [_weaker(contact, friction, restitution) for contact in found])
 
-    def _in_the_plane(self, cluster: Sequence[Moving]) -> float:
+    def _in_the_plane(self, cluster: Sequence[BallAtImpact]) -> float:
         return self._energy({moving.index: (0.0, 0.0, moving.vx, moving.vy, moving.spin) for moving in cluster})
 
     def _energy(self, states: dict[int, State]) -> float:
-        """Kinetic energy in J, that of turning included."""
+        """Kinetic energy in J, including rotation."""
         return sum(kinetic(self._tracks[index].ball, state) for index, state in states.items())
 
     def touching(self, t: float, seeds: Sequence[int]) -> dict[int, State]:
-        """The states at t of all balls that touch those of ``seeds``, directly or through others."""
+        """The states at t of all balls that touch those in ``seeds``, directly or through others."""
         states: dict[int, State] = {}
         waiting = list(seeds)
         while waiting:
@@ -171,7 +176,7 @@ class Impacts:
             for other, neighbour in enumerate(self._tracks):
                 if other in states or neighbour.caught:
                     continue
-                reach = track.ball.radius + neighbour.ball.radius + CONTACT
+                reach = track.ball.radius + neighbour.ball.radius + TOUCHING_GAP
                 x, y = neighbour.arc.position(t)
                 if (x - state[0]) ** 2 + (y - state[1]) ** 2 <= reach * reach:
                     waiting.append(other)
@@ -186,11 +191,11 @@ class Impacts:
                 if obstacle.surface.nose_height is not None or any(
                     nx * other.nx + ny * other.ny > 1.0 - 1e-12 for other in met
                 ):
-                    continue  # laid flush with one already met
+                    continue  # flush with a surface already counted
                 met.append(touching)
                 approach, along = -(vx * nx + vy * ny), vx * ny - vy * nx
                 slip = along + ball.radius * spin, slip_over(ball, state, nx, ny)
-                bounce, forward = answer(obstacle.surface, approach, along), 1.0 if along >= 0.0 else -1.0
+                bounce, forward = bounce_off(obstacle.surface, approach, along), 1.0 if along >= 0.0 else -1.0
                 yield _contact(place, None, (nx, ny), bounce, approach, forward, obstacle.surface.name, slip)
 
     def _with_balls(self, states: dict[int, State]) -> Iterator[Contact]:
@@ -198,13 +203,13 @@ class Impacts:
             a, b = self._tracks[i].ball, self._tracks[j].ball
             (x, y, vx, vy, spin), (u, v, wx, wy, other_spin) = here[:5], there[:5]
             distance = ((x - u) ** 2 + (y - v) ** 2) ** 0.5
-            if distance > a.radius + b.radius + CONTACT:
+            if distance > a.radius + b.radius + TOUCHING_GAP:
                 continue
             nx, ny = (x - u) / distance, (y - v) / distance
             approach = (wx - vx) * nx + (wy - vy) * ny
             flat = (vx - wx) * ny - (vy - wy) * nx + a.radius * spin + b.radius * other_spin
             slip = flat, slip_over(a, here, nx, ny) - slip_over(b, there, -nx, -ny)
-            bounce = answer_of_balls(self._setup, approach, hypot(*slip), a.name, b.name)
+            bounce = bounce_of_balls(self._setup, approach, hypot(*slip), a.name, b.name)
             yield _contact(place, later, (nx, ny), bounce, approach, 1.0, b.name, slip)
 
 
@@ -218,13 +223,13 @@ def _contact(
     partner: str,
     slip: tuple[float, float],
 ) -> Contact:
-    """What pymunk, which sees the plane alone, is told."""
+    """The contact as passed to pymunk, which sees only the plane."""
     flat = bounce._replace(friction=in_plane(bounce.friction, *slip))
     return Contact(first, second, *normal, flat, approach, forward, partner, bounce.friction, slip)
 
 
 def _hopping(contact: Contact, slowest: float) -> Contact:
-    """The contact with as much restitution as parts it no slower than ``slowest`` (m/s)."""
+    """The contact with enough restitution to separate at ``slowest`` (m/s) or faster."""
     bounce, approach = contact.bounce, contact.approach
     if approach <= STILL or bounce.restitution * approach >= slowest:
         return contact
@@ -232,7 +237,7 @@ def _hopping(contact: Contact, slowest: float) -> Contact:
 
 
 def _weaker(contact: Contact, friction: float, restitution: float) -> Contact:
-    """The contact with shares of its friction and of its restitution."""
+    """The contact with its friction and restitution multiplied by these factors."""
     bounce = contact.bounce
     less = bounce._replace(restitution=restitution * bounce.restitution, friction=friction * bounce.friction)
     return replace(contact, bounce=less)

@@ -1,4 +1,4 @@
-"""From an instant of touching to what follows: flight, or lasting contact that slides, rolls, is wedged, or rests."""
+"""What follows a touch: flight, or lasting contact (sliding, rolling, wedged or at rest)."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from sandbox.engine.motion import (
     RESTING,
     ROLLING,
     SLIDING,
-    Contact,
+    LastingContact,
     Mover,
     friction_of_rolling,
     on_surface,
@@ -23,30 +23,30 @@ from sandbox.engine.touch import SIDE, Obstacle, Touching
 from sandbox.engine.track import Near, Track
 from sandbox.physics.integrators import Acceleration, State
 
-#: Speed in m/s, and acceleration in m/s^2, that is rounding.
+#: Speed in m/s and acceleration in m/s^2 below which a value is rounding.
 _STILL = 1e-10
 
-#: Share of the applied force below which a normal force is rounding, as where a ball has just come off a round top.
+#: Fraction of the applied force below which a normal force is rounding, as when a ball has just left a round top.
 _PRESSING = 1e-9
 
-#: Normals nearer than this (sine of the angle) are one: two surfaces laid flush.
+#: Normals closer than this (sine of the angle) count as one: two flush surfaces.
 _FLUSH = 1e-7
 
 
 class InPlane(Mover):
-    """A ball that flies in the plane of the picture, and slides, rolls and rests on what stands there."""
+    """A ball that flies in the plane of the picture, and slides, rolls and rests on the surfaces there."""
 
-    def settle(self, t: float, state: State, track: Track, height: float) -> tuple[State, Contact | None]:
-        """The state from which the ball goes on, and its lasting contact, or None for flight.
+    def settle(self, t: float, state: State, track: Track, height: float) -> tuple[State, LastingContact | None]:
+        """The state from which the ball continues, and its lasting contact, or None for flight.
 
-        A ball stays on a surface if it is pressed on and would not bounce higher than ``height`` (m). A bounce below
-        that is taken from the state; so is the overlap, of at most CONTACT, that the surface was found with.
+        A ball stays on a surface if it is pressed on it and would not bounce higher than ``height`` (m). A lower
+        bounce is removed from the state, as is the overlap, of at most TOUCHING_GAP, at which the surface was found.
         """
         near = track.near(*state[:2])
         if not near:
             return state, None
         applied = self.acceleration(t, state)
-        kept, hardest = _kept(near, state, applied, height)
+        kept, hardest = _stays_on(near, state, applied, height)
         if not kept:
             return state, None
         x, y, vx, vy, spin = state
@@ -54,7 +54,7 @@ class InPlane(Mover):
         together = [(obstacle, touching) for obstacle, touching in kept if _sine(touching, first) <= _FLUSH]
         if len(together) < len(kept) and hypot(vx, vy) <= leaves_at(hardest, height):
             vx = vy = 0.0  # held in two directions
-        else:  # along the surface that the ball leaves least; it may go off the others, but not into them
+        else:  # along the surface that the ball leaves most slowly; it may leave the others, but not enter them
             kept = together
             for _, touching in kept:
                 leaving = vx * touching.nx + vy * touching.ny
@@ -64,11 +64,11 @@ class InPlane(Mover):
                 return state, None
         state = (x, y, vx, vy, spin)
 
-        held: list[Contact] = []
+        held: list[LastingContact] = []
         for obstacle, touching in kept:
-            mx, my = (vx, vy) if vx or vy else applied[:2]  # where it is about to go
-            place = obstacle.ahead(touching, x, y, mx, my)
-            contact = _way_of_moving(self.ball, state, obstacle, place, applied)
+            mx, my = (vx, vy) if vx or vy else applied[:2]  # direction in which it will move
+            place = obstacle.next_feature(touching, x, y, mx, my)
+            contact = _contact_on(self.ball, state, obstacle, place, applied)
             if contact is None:
                 continue
             held.append(contact)
@@ -80,14 +80,14 @@ class InPlane(Mover):
             if all(
                 ax * other.nx + ay * other.ny >= -1e-9 or _sine(other, contact.touching) <= _FLUSH for _, other in kept
             ):
-                return _on(self.ball, state, contact), contact
+                return _placed_on(self.ball, state, contact), contact
         if not held:
             return state, None
         return _wedged(self.ball, state, kept, held, applied)
 
-    def conclude(self, state: State, contact: Contact | None, reason: str) -> State:
-        """The state at the end of an arc: put back on a round surface, whose path the arc only follows closely; just
-        rolling, or just still, where that is why it ended."""
+    def conclude(self, state: State, contact: LastingContact | None, reason: str) -> State:
+        """The state at the end of an arc: moved back exactly onto a round surface, which the arc follows only closely;
+        exactly rolling, or exactly at rest, if that is why the arc ended."""
         if contact is None:
             return state
         x, y, vx, vy, spin = state
@@ -105,13 +105,13 @@ class InPlane(Mover):
         return x, y, vx, vy, spin
 
     def rests(self, arc: Arc) -> bool:
-        """Whether the ball lies still on this arc."""
-        return isinstance(arc.contact, Contact) and arc.contact.mode == RESTING
+        """Whether the ball is at rest on this arc."""
+        return isinstance(arc.contact, LastingContact) and arc.contact.mode == RESTING
 
 
-def _kept(near: Sequence[Near], state: State, applied: Acceleration, height: float) -> tuple[list[Near], float]:
-    """The surfaces off which a ball would bounce no higher than ``height`` or than their own lowest bounce, and how
-    hard (m/s^2) it is pressed on one of them at most."""
+def _stays_on(near: Sequence[Near], state: State, applied: Acceleration, height: float) -> tuple[list[Near], float]:
+    """The surfaces off which a ball would bounce no higher than ``height`` or than their own lowest bounce, and
+    the largest pressing acceleration (m/s^2) on one of them."""
     kept, hardest = [], 0.0
     for obstacle, touching in near:
         pressed = press(state, applied, touching.nx, touching.ny, touching.curvature)
@@ -122,9 +122,9 @@ def _kept(near: Sequence[Near], state: State, applied: Acceleration, height: flo
     return kept, hardest
 
 
-def _way_of_moving(
+def _contact_on(
     ball: Ball, state: State, obstacle: Obstacle, touching: Touching, applied: Acceleration
-) -> Contact | None:
+) -> LastingContact | None:
     """Sliding, rolling or resting on one surface; None if nothing presses the ball on."""
     _, _, vx, vy, spin = state
     ax, ay, turning = applied
@@ -135,7 +135,7 @@ def _way_of_moving(
     speed = vx * ny - vy * nx
     slip = speed + ball.radius * spin
     if abs(slip) > _STILL * (1.0 + abs(speed)):
-        return Contact(SLIDING, obstacle, touching, 1.0 if slip > 0.0 else -1.0)
+        return LastingContact(SLIDING, obstacle, touching, 1.0 if slip > 0.0 else -1.0)
     along = ax * ny - ay * nx
     moves = abs(speed) > _STILL
     drive = speed if moves else along - ball.inertia_factor * ball.radius * turning
@@ -143,14 +143,14 @@ def _way_of_moving(
     a, spare = rolling(ball, obstacle.surface, along, turning, pressed, direction)
     needed = friction_of_rolling(ball, along, turning)
     if spare < 0.0 or (spare == 0.0 and needed != 0.0):
-        return Contact(SLIDING, obstacle, touching, 1.0 if needed < 0.0 else -1.0)
+        return LastingContact(SLIDING, obstacle, touching, 1.0 if needed < 0.0 else -1.0)
     if not moves and direction * a <= _STILL:
-        return Contact(RESTING, obstacle, touching)
-    return Contact(ROLLING, obstacle, touching, direction)
+        return LastingContact(RESTING, obstacle, touching)
+    return LastingContact(ROLLING, obstacle, touching, direction)
 
 
-def _on(ball: Ball, state: State, contact: Contact) -> State:
-    """The state put exactly on the surface, and exactly rolling or at rest where it is."""
+def _placed_on(ball: Ball, state: State, contact: LastingContact) -> State:
+    """The state moved exactly onto the surface, and made exactly rolling or at rest if it is."""
     x, y, vx, vy, spin = state
     nx, ny = contact.touching.nx, contact.touching.ny
     gap = contact.obstacle.gap(contact.touching, x, y)
@@ -164,11 +164,11 @@ def _on(ball: Ball, state: State, contact: Contact) -> State:
 
 
 def _wedged(
-    ball: Ball, state: State, kept: Sequence[Near], held: Sequence[Contact], applied: Acceleration
-) -> tuple[State, Contact]:
-    """Held by two surfaces at once: the place is fixed, and friction on both takes the spin.
+    ball: Ball, state: State, kept: Sequence[Near], held: Sequence[LastingContact], applied: Acceleration
+) -> tuple[State, LastingContact]:
+    """Held by two surfaces at once: the position is fixed, and friction on both slows the spin.
 
-    The two normal forces are those that balance the applied force alone; what friction adds to them is left out.
+    The two normal forces balance only the applied force; the effect of friction on them is ignored.
     """
     first = held[0]
     others = [near for near in kept if _sine(near[1], first.touching) > _FLUSH]
@@ -186,9 +186,9 @@ def _wedged(
         y -= gap * touching.ny
     still = (x, y, 0.0, 0.0, spin)
     if abs(spin) <= _STILL:
-        return (x, y, 0.0, 0.0, 0.0), Contact(RESTING, first.obstacle, a)
+        return (x, y, 0.0, 0.0, 0.0), LastingContact(RESTING, first.obstacle, a)
     rate = friction / (ball.inertia_factor * ball.radius)
-    return still, Contact(PINNED, first.obstacle, a, 1.0 if spin > 0.0 else -1.0, rate)
+    return still, LastingContact(PINNED, first.obstacle, a, 1.0 if spin > 0.0 else -1.0, rate)
 
 
 def _sine(a: Touching, b: Touching) -> float:

@@ -1,6 +1,6 @@
-"""Where the energy went: the work of each force, the loss at each surface, and what the solver got wrong.
+"""Energy balance of a run: the work of each force, the loss at each surface, and the numerical error.
 
-Computed from the finished path when asked for, so a run pays nothing for it.
+Computed from the finished path on request, so that it costs a run nothing.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from itertools import pairwise
 
 from sandbox.engine.acting import acceleration, by_cause
 from sandbox.engine.arc import Arc
-from sandbox.engine.motion import PINNED, RESTING, Contact, on_surface
+from sandbox.engine.motion import PINNED, RESTING, LastingContact, on_surface
 from sandbox.engine.run import Run
 from sandbox.engine.setup import Ball, kinetic
 from sandbox.engine.track import PRESSED
@@ -22,7 +22,7 @@ _NODES = (0.04691007703066802, 0.23076534494715845, 0.5, 0.7692346550528415, 0.9
 _WEIGHTS = (0.11846344252809454, 0.23931433524968324, 0.28444444444444444, 0.23931433524968324, 0.11846344252809454)
 
 
-#: Share of the energy that an integrator without error control may gain or lose by itself unsaid.
+#: Fraction of the energy that an integrator without error control may gain or lose without a warning.
 _LOST = 0.03
 
 
@@ -30,11 +30,11 @@ _LOST = 0.03
 class Ledger:
     """Energies in J: ``start`` and the sums of ``work``, ``impacts``, ``contacts`` and ``residue`` make up ``end``."""
 
-    start: float  # kinetic, of all balls, their turning included
+    start: float  # kinetic, of all balls, including rotation
     end: float
-    work: dict[str, float]  # by force, torques too
-    impacts: dict[str, float]  # by what was hit; two balls under both names
-    contacts: dict[str, float]  # by what was slid or rolled on, bounces too low to follow included
+    work: dict[str, float]  # by force or torque
+    impacts: dict[str, float]  # by the partner; an impact of two balls under both names
+    contacts: dict[str, float]  # by the surface slid or rolled on, including bounces too low to simulate
     residue: float  # kinetic energy gained along the path that no cause accounts for: the numerical error
 
 
@@ -64,7 +64,7 @@ def ledger(run: Run) -> Ledger:
             lasting = after.contact or before.contact
             if hit is not None:
                 impacts[hit] += jump
-            elif isinstance(lasting, Contact):
+            elif isinstance(lasting, LastingContact):
                 contacts[lasting.obstacle.surface.name] += jump
             else:
                 residue += jump
@@ -72,7 +72,7 @@ def ledger(run: Run) -> Ledger:
 
 
 def warnings(run: Run) -> list[str]:
-    """What makes a run doubtful, in a sentence each; nothing, as a rule."""
+    """Reasons to doubt a run, one sentence each; normally none."""
     accuracy = run.accuracy
     if accuracy.method == "plain" or INTEGRATORS[accuracy.integrator].controls_error:
         return []
@@ -83,12 +83,12 @@ def warnings(run: Run) -> list[str]:
     how = "appeared" if found.residue > 0.0 else "was lost"
     return [
         f"{abs(found.residue):.3g} J {how} by the error of {accuracy.integrator} with steps of {accuracy.step:.3g} s "
-        f"(most energy at a time: {most:.3g} J); lower accuracy.step, or use an integrator with error control"
+        f"(largest energy during the run: {most:.3g} J); lower accuracy.step, or use an integrator with error control"
     ]
 
 
 def _hits(run: Run) -> dict[tuple[str, float], str]:
-    """What each ball hit, by ball and time."""
+    """The partner of each impact, by ball and time."""
     balls = {ball.name for ball in run.setup.balls}
     hits: dict[tuple[str, float], str] = {}
     for event in run.events:
@@ -96,7 +96,7 @@ def _hits(run: Run) -> dict[tuple[str, float], str]:
             continue
         mutual = event.partner in balls
         what = " and ".join(sorted((event.ball, event.partner))) if mutual else event.partner
-        for ball in balls:  # others that touch these take part, without an approach of their own
+        for ball in balls:  # balls that touch these are involved too, without an approach of their own
             hits.setdefault((ball, event.t), what)
         hits[event.ball, event.t] = what
         if mutual:
@@ -105,7 +105,7 @@ def _hits(run: Run) -> dict[tuple[str, float], str]:
 
 
 def _meanwhile(run: Run, ball: str, arc: Arc) -> str:
-    """What a ball hit first on an arc of contact."""
+    """The first partner that a ball hit during an arc of contact."""
     balls = {each.name for each in run.setup.balls}
     during = [event for event in run.events if event.kind == "impact" and arc.t0 <= event.t <= arc.t1]
     own = next((event for event in during if ball in (event.ball, event.partner)), during[0])
@@ -113,7 +113,7 @@ def _meanwhile(run: Run, ball: str, arc: Arc) -> str:
 
 
 def _book(ball: Ball, arc: Arc, work: dict[str, float], contacts: dict[str, float]) -> float:
-    """Enter the work done along an arc, and give its sum in J."""
+    """Add the work done along an arc to ``work`` and ``contacts``; returns its sum in J."""
     h, contact = arc.t1 - arc.t0, arc.contact
     booked = 0.0
     for node, weight in zip(_NODES, _WEIGHTS, strict=True):
@@ -126,7 +126,7 @@ def _book(ball: Ball, arc: Arc, work: dict[str, float], contacts: dict[str, floa
         for name, power in powers:
             work[name] += weight * h * power
             applied += power
-        if isinstance(contact, Contact) and contact.mode != RESTING:
+        if isinstance(contact, LastingContact) and contact.mode != RESTING:
             if contact.mode == PINNED:
                 total = -ball.inertia * contact.spin_rate * abs(spin)
             else:

@@ -1,8 +1,8 @@
 """Motion between impacts: a ball in flight, or sliding, rolling and resting on a surface.
 
 In flight a ball moves under its forces. In lasting contact the surface adds its normal force N, which keeps the
-distance, and its friction: while sliding ``mu N`` against the slip ``v + r w``, while rolling what the constraint ``v
-= -r w`` asks for, as long as that is no more than ``mu N``. Rolling resistance slows a rolling ball by ``c N / m``.
+distance, and its friction: ``mu N`` against the slip ``v + r w`` while sliding, and what the constraint ``v = -r w``
+requires while rolling, up to ``mu N``. Rolling resistance slows a rolling ball by ``c N / m``.
 Both are the same integration with one more force, so a roll is as accurate as a flight.
 """
 
@@ -24,10 +24,10 @@ from sandbox.engine.touch import SIDE, Obstacle, Touching
 from sandbox.errors import RunError
 from sandbox.physics.integrators import INTEGRATORS, Acceleration, Law, State
 
-#: Longest turn in rad that one arc makes around a round feature.
+#: Largest angle in rad that one arc covers around a round feature.
 _LONGEST_TURN = 0.3
 
-#: A ball that needs all the grip there is still rolls.
+#: A ball that needs all the available grip still rolls.
 _WITHIN_ROUNDING = 1.0 + 1e-9
 
 _UNITS = ("m", "m", "m/s", "m/s", "rad/s")
@@ -36,21 +36,23 @@ SLIDING, ROLLING, PINNED, RESTING = "sliding", "rolling", "pinned", "resting"
 
 
 class Diverged(RunError):
-    """A ball's state stopped making sense."""
+    """A ball's state became invalid: not finite, or outside the world."""
 
 
-class Contact(NamedTuple):
+class LastingContact(NamedTuple):
     """What a ball is in lasting contact with, and how it moves there."""
 
     mode: str
     obstacle: Obstacle
-    touching: Touching  # where the contact began: normal, curvature, feature
-    direction: float = 0.0  # sign of: the slip if sliding, the motion along the surface if rolling, the spin if pinned
-    spin_rate: float = 0.0  # rad/s^2, how fast the spin of a pinned ball dies
+    touching: Touching  # at the start of the contact: normal, curvature, feature
+    direction: float = (
+        0.0  # sign of the slip if sliding, of the motion along the surface if rolling, of the spin if pinned
+    )
+    spin_rate: float = 0.0  # rad/s^2, at which the spin of a pinned ball decays
 
 
 class Mover:
-    """One ball and everything that moves it."""
+    """One ball, and the integration of its motion."""
 
     def __init__(
         self, ball: Ball, accuracy: Accuracy, bounds: Bounds, patches: Sequence[Patch], numerics: Numerics
@@ -66,22 +68,23 @@ class Mover:
         self._known: tuple[State, Acceleration] = ((), (0.0, 0.0, 0.0))  # the end of the last step: the next start
 
     def suggest(self, step: float) -> None:
-        """Try this step in s next."""
+        """Use this step in s for the next attempt."""
         self._suggested = step
 
     # ------------------------------------------------------------------ forces
 
     def acceleration(self, t: float, state: State) -> Acceleration:
-        """What the applied forces do to the ball, without the contact's own; m/s^2, rad/s^2. Counted."""
+        """Acceleration of the ball from the applied forces, without the contact's; m/s^2, rad/s^2. Counts
+        evaluations."""
         self._numerics.force_evaluations += 1
         return checked(self.ball, t, state)
 
     # ------------------------------------------------------------------ one piece of path
 
-    def advance(self, t: float, until: float, state: State, contact: Contact | None) -> tuple[Arc, str]:
-        """The next arc from t, at most to ``until``, and why it ends: "" for no reason but its length.
+    def advance(self, t: float, until: float, state: State, contact: LastingContact | None) -> tuple[Arc, str]:
+        """The next arc from t, at most to ``until``, and why it ends: "" if only because of its length.
 
-        Raises Diverged if the state is not finite or out of bounds, with the time, the ball and the quantity.
+        Raises Diverged with the time, the ball and the quantity if the state is not finite or out of bounds.
         """
         if contact is None:
             return self._integrate(t, until, state, self._law, None), ""
@@ -95,7 +98,7 @@ class Mover:
         )
         return self._cut_where_contact_changes(arc, contact)
 
-    def _integrate(self, t: float, until: float, state: State, law: Law, contact: Contact | None) -> Arc:
+    def _integrate(self, t: float, until: float, state: State, law: Law, contact: LastingContact | None) -> Arc:
         known, acceleration = self._known
         if known is not state:
             acceleration = law(t, state)
@@ -103,7 +106,7 @@ class Mover:
         wanted = self._suggested
         h = within(self._patches, min(wanted, LONGEST, until - t), state, acceleration)
         if contact is not None and contact.touching.feature != SIDE:
-            # around a round feature a quintic follows the circle to 1e-9 of its radius for an eighth of a turn or less
+            # a quintic follows a circle to 1e-9 of its radius for an eighth of a turn or less
             h = min(h, _LONGEST_TURN / (contact.touching.curvature * (abs(state[2]) + abs(state[3])) + 1e-30))
         shortest = max(1e-15, 1e-15 * t)
         while True:
@@ -112,7 +115,9 @@ class Mover:
             self._numerics.steps += 1
             self._numerics.force_evaluations += self._method.evaluations
             if not isinstance(acceleration[0] + end_acceleration[0] + end_acceleration[1] + end_acceleration[2], float):
-                self._method.step(partial(checked, self.ball), t, state, checked(self.ball, t, state), h)  # says why
+                self._method.step(
+                    partial(checked, self.ball), t, state, checked(self.ball, t, state), h
+                )  # raises the error, with its cause
             off = None if error is None else size(error, self.ball.radius)
             fits, following = self._control.judge(h, wanted, state, after, (acceleration, end_acceleration), off)
             if fits:
@@ -157,7 +162,7 @@ class Mover:
 
     # ------------------------------------------------------------------ lasting contact
 
-    def _cut_where_contact_changes(self, arc: Arc, contact: Contact) -> tuple[Arc, str]:
+    def _cut_where_contact_changes(self, arc: Arc, contact: LastingContact) -> tuple[Arc, str]:
         ends: list[tuple[float, str]] = []
         last = arc.state(arc.t1)
         if self._progress(arc.t1, last, contact) < 0.0:
@@ -180,8 +185,8 @@ class Mover:
         t, reason = min(ends)
         return arc.until(t), reason
 
-    def _progress(self, t: float, state: State, contact: Contact) -> float:
-        """Sliding: the slip; rolling: the speed; in m/s and positive while it goes on."""
+    def _progress(self, t: float, state: State, contact: LastingContact) -> float:
+        """The slip while sliding, or the speed while rolling, in m/s; positive while the motion lasts."""
         nx, ny, _ = contact.touching.normal_at(state[0], state[1])
         speed = state[2] * ny - state[3] * nx
         if contact.mode == SLIDING:
@@ -189,10 +194,13 @@ class Mover:
         return contact.direction * speed
 
 
-def on_surface(ball: Ball, applied: Acceleration, state: State, contact: Contact) -> tuple[Acceleration, float, float]:
-    """Acceleration in lasting contact; the normal force, and the grip still to spare, over the mass in m/s^2.
+def on_surface(
+    ball: Ball, applied: Acceleration, state: State, contact: LastingContact
+) -> tuple[Acceleration, float, float]:
+    """Acceleration in lasting contact; the normal force and the remaining grip, both divided by the mass, in
+    m/s^2.
 
-    ``applied`` is what the forces would do to the ball in flight.
+    ``applied`` is the acceleration that the ball would have in flight.
     """
     surface = contact.obstacle.surface
     nx, ny, curvature = contact.touching.normal_at(state[0], state[1])
@@ -216,11 +224,11 @@ def on_surface(ball: Ball, applied: Acceleration, state: State, contact: Contact
 def rolling(
     ball: Ball, surface: Surface, along: float, turning: float, pressed: float, direction: float
 ) -> tuple[float, float]:
-    """Acceleration in m/s^2 along the surface of a ball that rolls in ``direction``, and the grip to spare.
+    """Acceleration in m/s^2 along the surface of a ball that rolls in ``direction``, and the remaining grip.
 
-    ``along`` and ``pressed`` (m/s^2) are what the applied force does along the surface and onto it, ``turning``
-    (rad/s^2) is what the torque does. Friction turns the ball as fast as it moves and passes on the rolling resistance,
-    as far as ``mu N`` reaches; less than nothing to spare means that it cannot even do the first, and the ball slides.
+    ``along`` and ``pressed`` (m/s^2) are the accelerations from the applied force along the surface and onto it,
+    ``turning`` (rad/s^2) that from the torque. Friction, up to ``mu N``, keeps the ball rolling and transmits the
+    rolling resistance. If the remaining grip is negative, friction cannot keep the ball rolling, and it slides.
     """
     grip = surface.friction * pressed
     needed = friction_of_rolling(ball, along, turning)
@@ -230,12 +238,12 @@ def rolling(
 
 
 def friction_of_rolling(ball: Ball, along: float, turning: float) -> float:
-    """What friction must add, in m/s^2, for a ball to turn as fast as it moves."""
+    """Acceleration in m/s^2 that friction must add to keep a ball rolling."""
     factor = ball.inertia_factor
     return -(factor * along + factor * ball.radius * turning) / (1.0 + factor)
 
 
-def _spin_down(t: float, until: float, state: State, contact: Contact) -> tuple[Arc, str]:
+def _spin_down(t: float, until: float, state: State, contact: LastingContact) -> tuple[Arc, str]:
     spin = state[4]
     lasts = abs(spin) / contact.spin_rate if contact.spin_rate > 0.0 else until - t
     end = min(until, t + lasts)
@@ -244,12 +252,12 @@ def _spin_down(t: float, until: float, state: State, contact: Contact) -> tuple[
 
 
 def _crossing(arc: Arc, value: Callable[[float, State], float]) -> float:
-    """The time at which ``value``, negative at the end of the arc, comes to zero from above; the start if it is
-    nowhere positive.
+    """The time at which ``value``, negative at the end of the arc, falls to zero; the start if it is never
+    positive.
     """
     low, high = arc.t0, arc.t1
     at_low, at_high = value(low, arc.start), value(high, arc.state(high))
-    if at_low <= 0.0:  # perhaps it only begins at zero, as slip does where a rolling ball loses its grip
+    if at_low <= 0.0:  # it may start at zero, as slip does when a rolling ball loses its grip
         for halvings in range(1, 40):
             low = arc.t0 + (high - arc.t0) * 0.5**halvings
             at_low = value(low, arc.state(low))

@@ -1,4 +1,4 @@
-"""Motion on cloth, seen from above: exact arcs, one for each phase of sliding, rolling, spinning or rest."""
+"""Motion on cloth, seen from above: exact arcs, one per phase of sliding, rolling, spinning or rest."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from math import copysign, hypot, isfinite
 
 from sandbox.engine.arc import Arc, still
-from sandbox.engine.motion import Contact
+from sandbox.engine.motion import LastingContact
 from sandbox.engine.run import Numerics
 from sandbox.engine.setup import Ball, Bounce
 from sandbox.engine.track import Track
@@ -17,11 +17,11 @@ from sandbox.physics.integrators import State
 
 
 def slowest_hop(cloth: Cloth, hop: float) -> float:
-    """Speed in m/s with which what the cloth presses together parts at least, for an accuracy's ``hop`` (m).
+    """Minimum speed in m/s at which bodies that the cloth presses together separate, for an accuracy's ``hop`` (m).
 
-    A steady push is then a run of even hops, and not an endless series of ever smaller ones. The energy of the first
-    hop of such a run, half the reduced mass times this squared (2e-7 J for pool balls at "balanced"), is taken
-    from all motion of the balls.
+    A steady push then becomes a series of equal hops instead of an endless series of smaller and smaller ones. The
+    energy of the first hop of such a series, half the reduced mass times this speed squared (2e-7 J for pool balls at
+    "balanced"), is removed from the motion of all balls.
     """
     return float((2.0 * cloth.sliding * cloth.gravity * hop) ** 0.5)
 
@@ -34,8 +34,8 @@ class OnCloth:
         self._cloth = cloth
         self._numerics = numerics
 
-    def advance(self, t: float, until: float, state: State, contact: Contact | None) -> tuple[Arc, str]:
-        """The next arc from t, at most to ``until``: a whole phase, however long."""
+    def advance(self, t: float, until: float, state: State, contact: LastingContact | None) -> tuple[Arc, str]:
+        """The next arc from t, at most to ``until``: a whole phase, of any length."""
         phase = self._cloth.phase(state, self.ball.radius)
         self._numerics.steps += 1
         if phase.mode == "resting":
@@ -44,7 +44,7 @@ class OnCloth:
         end = self._cloth.after(state, phase, h)
         if not all(map(isfinite, end)):
             raise RunError(
-                f"t = {t:.6g} s, ball {self.ball.name!r}: its motion on the cloth is beyond what can be computed with; "
+                f"t = {t:.6g} s, ball {self.ball.name!r}: its motion on the cloth cannot be computed; "
                 "check its radius and speed, and the cloth's friction"
             )
         x, y, vx, vy, spin, wx, wy = state
@@ -65,16 +65,16 @@ class OnCloth:
         )
         return arc, ""
 
-    def settle(self, t: float, state: State, track: Track, height: float) -> tuple[State, Contact | None]:
-        """As it is: cloth knows no lasting contact with a cushion."""
+    def settle(self, t: float, state: State, track: Track, height: float) -> tuple[State, LastingContact | None]:
+        """Unchanged: on cloth there is no lasting contact with a cushion."""
         return state, None
 
-    def conclude(self, state: State, contact: Contact | None, reason: str) -> State:
-        """As it is: phases end exactly."""
+    def conclude(self, state: State, contact: LastingContact | None, reason: str) -> State:
+        """Unchanged: phases end exactly."""
         return state
 
     def rests(self, arc: Arc) -> bool:
-        """Whether the ball lies still on this arc."""
+        """Whether the ball is at rest on this arc."""
         return arc.t1 > arc.t0 and len(arc.x) == 1 and len(arc.spin) == 1
 
 
@@ -84,10 +84,10 @@ def slip_over(ball: Ball, state: State, nx: float, ny: float) -> float:
 
 
 def in_plane(friction: float, flat: float, upward: float) -> float:
-    """The plane's share of a friction, where surfaces slip by so much (m/s) in the plane and upward.
+    """The part of a friction coefficient that acts in the plane, for these slips (m/s) in the plane and upward.
 
-    Friction acts against the whole slip and all directions of a sphere's surface give way alike, so its part in the
-    plane is to the whole as that part of the slip is, sticking or sliding.
+    Friction acts against the total slip, and a sphere responds equally in all directions along its surface, so the
+    fraction in the plane is that of the slip, sticking or sliding.
     """
     return friction * abs(flat) / hypot(flat, upward) if upward != 0.0 else friction
 
@@ -95,10 +95,10 @@ def in_plane(friction: float, flat: float, upward: float) -> float:
 def rubbed(
     balls: Sequence[Ball], states: Sequence[State], normal: tuple[float, float], slip: tuple[float, float], most: float
 ) -> list[State]:
-    """The states of the one or two balls of a contact after the upward share of its friction.
+    """The states of the one or two balls of a contact after the upward part of its friction.
 
-    ``normal`` points to the first of them, ``slip`` is that in the plane and upward before, and ``most`` the impulse in
-    N s of friction that slides. What it does to the height is left out.
+    ``normal`` points to the first of them, ``slip`` is the slip before, in the plane and upward, and ``most`` the
+    impulse in N s of sliding friction. Its effect on the height is ignored.
     """
     nx, ny = normal
     flat, upward = slip

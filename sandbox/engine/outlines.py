@@ -1,6 +1,6 @@
 """Where many shots touch fixed shapes: touch.py's distances, in arrays.
 
-What is plain (nothing near, or one crossing) is settled here for all shots at once; anything else is left to
+Clear cases (nothing near, or one crossing) are computed here for all shots at once; unclear ones are left to
 ``Obstacle.first_touch``, pair by pair.
 """
 
@@ -15,14 +15,14 @@ from sandbox.engine.arc import Arc
 from sandbox.engine.bernstein_many import evaluate, first_downward_crossing, squared_length, without_root_at_start
 from sandbox.engine.setup import Setup
 from sandbox.engine.stacking import stacked
-from sandbox.engine.touch import CONTACT, NOISE, Obstacle, Outline, Touching
+from sandbox.engine.touch import NOISE, TOUCHING_GAP, Obstacle, Outline, Touching
 
-#: First crossing of each path, and where it is not plain; both of shape (paths,).
+#: First crossing of each path, and a mask of the unclear ones; both of shape (paths,).
 Crossings = tuple[np.ndarray, np.ndarray]
 
 
 class Outlines:
-    """The surfaces of many shots, each prepared for its ball; as many for every shot, and of the same kinds.
+    """The surfaces of many shots, each prepared for its ball; every shot has the same number and kinds.
 
     Inside, arrays have shape (surfaces, shots).
     """
@@ -39,13 +39,14 @@ class Outlines:
         self._obstacles: dict[tuple[int, int], Obstacle] = {}
 
     def near(self, shots: np.ndarray, x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray, Touching]:
-        """How many surfaces touch the balls of these shots, centred at x and y (m), which is the nearest, and how."""
+        """How many surfaces touch the balls of these shots, centred at x and y (m), the index of the nearest, and its
+        Touching."""
         touching = Outline(*(part[:, shots] for part in self._table)).near(x, y)
         nearest = touching.gap.argmin(axis=0)
         pick = (nearest, np.arange(len(shots)))
         center = touching.center[0][pick], touching.center[1][pick]
         parts = (touching.gap, touching.nx, touching.ny, touching.curvature)
-        count = (touching.gap <= CONTACT).sum(axis=0)
+        count = (touching.gap <= TOUCHING_GAP).sum(axis=0)
         gap, nx, ny, curvature = (part[pick] for part in parts)
         return count, nearest, Touching(gap, nx, ny, curvature, center, touching.feature[pick])
 
@@ -53,7 +54,7 @@ class Outlines:
         self, shots: np.ndarray, x: np.ndarray, y: np.ndarray, arc: Callable[[int], Arc]
     ) -> tuple[np.ndarray, np.ndarray]:
         """The first u in [0, 1] at which each shot's path touches anything, inf where it does not, and how many
-        surfaces were looked at; both of shape (paths,).
+        surfaces were checked; both of shape (paths,).
 
         ``x`` and ``y`` are coefficients in m, shape (6, paths), and ``arc(i)`` is the i-th of these paths.
         """
@@ -64,11 +65,11 @@ class Outlines:
         if len(path):
             xs, ys = x[:, path], y[:, path]
             outline = Outline(*(part[what, shots[path]] for part in self._table))
-            u, unclear = _round(xs - outline.ax, ys - outline.ay, outline.reach - self._skin)
+            u, unclear = _first_within(xs - outline.ax, ys - outline.ay, outline.reach - self._skin)
             straight = np.flatnonzero(outline.length > 0.0)
             if len(straight):
                 xs, ys, outline = xs[:, straight], ys[:, straight], Outline(*(part[straight] for part in outline))
-                corner = _round(xs - outline.bx, ys - outline.by, outline.reach - self._skin)
+                corner = _first_within(xs - outline.bx, ys - outline.by, outline.reach - self._skin)
                 for other, doubtful in (corner, _side(outline, xs, ys, self._skin)):
                     u[straight] = np.minimum(u[straight], other)
                     unclear[straight] |= doubtful
@@ -91,7 +92,7 @@ def _side(outline: Outline, x: np.ndarray, y: np.ndarray, skin: float) -> Crossi
     across, along = outline.across(x, y), outline.along(x, y)
     reach, length = outline.reach, outline.length
     first, unclear = np.full(len(reach), np.inf), np.zeros(len(reach), dtype=bool)
-    within = (along[0] >= -CONTACT) & (along[0] <= length + CONTACT)
+    within = (along[0] >= -TOUCHING_GAP) & (along[0] <= length + TOUCHING_GAP)
     reached = (across.min(axis=0) <= reach) & (across.max(axis=0) >= -reach)
     for side in (1.0, -1.0):
         gap = side * across - reach + skin
@@ -105,18 +106,20 @@ def _side(outline: Outline, x: np.ndarray, y: np.ndarray, skin: float) -> Crossi
         missed = np.isfinite(u) & ((there < 0.0) | (there > length[some]))
         u[missed] = np.inf
         positive = gap > 0.0
-        again = (positive[1:] != positive[:-1]).sum(axis=0) > 1  # perhaps: having passed beyond the side's end
+        again = (positive[1:] != positive[:-1]).sum(
+            axis=0
+        ) > 1  # it may touch later, after passing beyond the side's end
         first[some] = np.minimum(first[some], u)
         unclear[some] |= doubtful | (missed & (again | (gap[0] <= NOISE)))
     return first, unclear
 
 
-def _round(dx: np.ndarray, dy: np.ndarray, radius: np.ndarray) -> Crossings:
+def _first_within(dx: np.ndarray, dy: np.ndarray, radius: np.ndarray) -> Crossings:
     """Where paths, given from the middle of a round feature, come within ``radius`` of it."""
     first, unclear = np.full(len(radius), np.inf), np.zeros(len(radius), dtype=bool)
     apart = (dx.min(axis=0) > radius) | (dx.max(axis=0) < -radius)
     apart |= (dy.min(axis=0) > radius) | (dy.max(axis=0) < -radius)
-    # the control points all lie beyond a tangent of the circle: no touch
+    # all control points are beyond a tangent of the circle: no touch
     mx, my = dx[len(dx) // 2], dy[len(dy) // 2]
     length = np.hypot(mx, my)
     apart |= (length > radius) & ((dx * mx + dy * my).min(axis=0) > radius * length)
@@ -128,9 +131,9 @@ def _round(dx: np.ndarray, dy: np.ndarray, radius: np.ndarray) -> Crossings:
     return first, unclear
 
 
-def _closing(gap: np.ndarray, starts_beside: np.ndarray) -> Crossings:
+def _closing(gap: np.ndarray, starts_touching: np.ndarray) -> Crossings:
     """When gaps close. One that is closed at the start, within rounding, counts only if it closes further."""
-    starts_closed = starts_beside & (gap[0] <= NOISE)
+    starts_closed = starts_touching & (gap[0] <= NOISE)
     u, unclear = first_downward_crossing(gap)
     if starts_closed.any():
         opening = without_root_at_start(gap[:, starts_closed] - gap[0, starts_closed])

@@ -1,11 +1,11 @@
-"""The plain method: stock pymunk at a fixed step, forces in ``velocity_func``. The baseline, and the choice for heaps
+"""The plain method: stock pymunk at a fixed step, forces in ``velocity_func``. The baseline, and the method for piles
 of balls.
 
-Chipmunk moves first, then finds contacts, then changes velocities, then exchanges impulses: so a contact is found up
-to one step late, at whatever depth that step brought, and forces are integrated to first order. Nothing here improves
-on that, except that nothing is lost: cffi prints and swallows what a callback raises, so it is kept and raised after
-the step; and a ball that a step carries through a surface is an error. On cloth its friction acts in ``velocity_func``
-too, and the upward share of the friction between balls, and of cushions, after Chipmunk's own.
+Chipmunk moves bodies first, then finds contacts, updates velocities and applies impulses: so a contact is found up to
+one step late, at whatever depth that step gives, and forces are integrated to first order. Nothing here improves on
+that, but errors are reported: cffi prints and swallows what a callback raises, so it is stored and raised after the
+step, and a ball that passes through a surface within a step is an error. The cloth's friction acts in
+``velocity_func`` too; the upward part of the friction between balls and at cushions is applied after Chipmunk's.
 """
 
 from __future__ import annotations
@@ -24,59 +24,60 @@ from sandbox.engine.motion import Diverged
 from sandbox.engine.on_cloth import in_plane, off_nose, rubbed, slip_over
 from sandbox.engine.run import Numerics, Run
 from sandbox.engine.setup import Ball, Circle, Setup, Surface
-from sandbox.engine.surfaces import answer, answer_of_balls
+from sandbox.engine.surfaces import bounce_of_balls, bounce_off
 from sandbox.errors import RunError
 from sandbox.physics.integrators import State
 
-#: Depth in m that Chipmunk leaves to overlapping shapes; its own default of 0.1 is for pixels.
+#: Overlap in m that Chipmunk allows; its default of 0.1 is meant for pixels.
 _SLOP = 1e-5
 
-#: The path is recorded, and balls are checked for rest and for having left the world, this often, in s.
-_LOOK = 1 / 240
+#: Interval in s at which the path is recorded and balls are checked for rest and for having left the world.
+_RECORD_EVERY = 1 / 240
 
-#: Steps in one run beyond which it is given up: some two minutes of computing.
+#: Most steps in one run: about two minutes of computing.
 MOST_STEPS = 10_000_000
 
 #: A ball rests once it is slower than this (m/s, and r w as well) for this long (s) while touching something.
 _REST_SPEED, _REST_TIME = 0.01, 0.25
 
-#: A step longer than the forces' own time by more than this reverses what drag should slow.
+#: A change of velocity in a step larger than the velocity gained so far by more than this factor is a reversal by
+#: drag, which should only slow.
 _REVERSAL = 1.0
-#: Changes below this share of the speed are no reversal: a force may jump.
+#: Changes below this fraction of the speed are not a reversal: a force may jump.
 _JUMP = 0.01
 
-#: A ball rolls where its slip is below this share of its speed.
+#: A ball rolls if its slip is below this fraction of its speed.
 _GRIP = 0.01
 
-#: A ball that moves further than this share of its radius in a step may pass through a surface unseen.
+#: A ball that moves more than this fraction of its radius in a step may pass through a surface unnoticed.
 _LEAP = 0.5
 
 _BALL, _SURFACE = 1, 2
 
 
 class _Pending(NamedTuple):
-    """A contact between the moments before and after Chipmunk solves it."""
+    """A contact between Chipmunk's ``pre_solve`` and ``post_solve`` callbacks."""
 
     friction: float  # of the pair, in all directions
     slip: tuple[float, float]  # m/s, in the plane and upward
     resistance: float = 0.0  # rolling resistance, of lasting contact
-    lowest: float = 0.0  # m/s, a bounce no faster than this is swallowed
-    turned: float = 0.0  # rad, by which the velocity is turned while a tilted surface is met
+    lowest: float = 0.0  # m/s, a bounce no faster than this is absorbed
+    turned: float = 0.0  # rad, rotation of the velocity during contact with a tilted surface
 
 
 class _Tracked:
-    """A ball's body, what was recorded of it, and what it touched."""
+    """A ball's body, its recorded path, and what it touched."""
 
     def __init__(self, ball: Ball, body: pymunk.Body, on_cloth: bool) -> None:
         self.ball = ball
         self.rolling_spin: tuple[float, ...] = ball.rolling_spin if on_cloth else ()  # rad/s
         self.body = body
         self.path: list[Arc] = []
-        self.since = 0.0  # s, start of the arc under way
+        self.since = 0.0  # s, start of the current arc
         self.start: State = (*ball.position, *ball.velocity, ball.spin, *self.rolling_spin)
         self.acceleration = (0.0, 0.0)
-        self.before = (0.0, 0.0)  # velocity ahead of the last step's forces
-        self.leap: tuple[Any, Any] | None = None  # from where to where the last step went, if that is far
+        self.before = (0.0, 0.0)  # velocity before the last step's forces
+        self.leap: tuple[Any, Any] | None = None  # start and end of the last step, if it was long
         self.touched = -2  # number of the last step in which it touched something
         self.pending: dict[Any, _Pending] = {}  # by the other's shape
         self.caught = False
@@ -87,7 +88,7 @@ class _Tracked:
         return (*body.position, *body.velocity, body.angular_velocity, *self.rolling_spin)
 
     def take(self, state: State) -> None:
-        """Go on with the velocities and spins of this state."""
+        """Set the velocities and spins to those of this state."""
         self.body.velocity, self.body.angular_velocity, self.rolling_spin = state[2:4], state[4], state[5:]
 
     def record(self, t: float) -> None:
@@ -100,12 +101,13 @@ class _Tracked:
 
 
 class PlainSimulation:
-    """One run in a Space of real shapes at ``accuracy.step``. Raises RunError and what the scene's own forces raise."""
+    """One run in a Space of real shapes at ``accuracy.step``. Raises RunError, and what the scene's own forces
+    raise."""
 
     def __init__(
         self, setup: Setup, accuracy: Accuracy, progress: Callable[[float, float], None] | None = None
     ) -> None:
-        """``progress`` is called now and then with the time simulated and the whole duration, in s."""
+        """``progress`` is called regularly with the time simulated and the full duration, in s."""
         self._setup = setup
         self._accuracy = accuracy
         self._progress = progress
@@ -115,7 +117,7 @@ class PlainSimulation:
         self._over = False
         self._t = 0.0
         self._steps = 0
-        self._hit: list[_Tracked] = []  # in the step under way
+        self._hit: list[_Tracked] = []  # in the current step
         self._space = pymunk.Space()
         self._space.iterations = 30
         self._space.collision_slop = _SLOP
@@ -133,7 +135,7 @@ class PlainSimulation:
             disc.filter = pymunk.ShapeFilter(categories=_BALL)
             disc.elasticity = disc.friction = 1.0
             tracked = _Tracked(ball, body, setup.cloth is not None)
-            body.velocity_func = self._kept(self._move)
+            body.velocity_func = self._guarded(self._move)
             self._tracked[body] = tracked
             self._space.add(body, disc)
         for other, meet, part in (
@@ -141,7 +143,11 @@ class PlainSimulation:
             (_BALL, self._meet_ball, self._part_from_ball),
         ):
             self._space.on_collision(
-                _BALL, other, begin=self._kept(self._begin), pre_solve=self._kept(meet), post_solve=self._kept(part)
+                _BALL,
+                other,
+                begin=self._guarded(self._begin),
+                pre_solve=self._guarded(meet),
+                post_solve=self._guarded(part),
             )
 
     def run(self) -> Run:
@@ -157,7 +163,7 @@ class PlainSimulation:
     def _loop(self) -> str:
         step, duration = self._accuracy.step, self._setup.duration
         space, numerics = self._space, self._numerics
-        next_look = 0.0
+        next_record = 0.0
         while self._t < duration:
             self._steps += 1
             if self._steps > MOST_STEPS:
@@ -165,7 +171,7 @@ class PlainSimulation:
                     f"t = {self._t:.3g} s of {duration:g} s: {MOST_STEPS:,} steps of {step:.3g} s; lengthen "
                     'accuracy.step, shorten the duration, or use accuracy.method = "exact"'
                 )
-            # it moves first: contacts and forces belong to the end of the step
+            # bodies move first: contacts and forces belong to the end of the step
             before, self._t = self._t, min(self._steps * step, duration)
             space.step(self._t - before)
             if self._raised is not None:
@@ -174,19 +180,19 @@ class PlainSimulation:
                 if tracked.leap is not None:
                     self._refuse_leap(tracked)
             for tracked in self._hit:
-                tracked.start = tracked.state()  # from here on it is as it is after the impact
+                tracked.start = tracked.state()  # the next arc starts from the state after the impact
             self._hit.clear()
             if self._over:
                 break
-            if self._t >= next_look:
-                next_look = self._t + _LOOK
-                if self._look():
+            if self._t >= next_record:
+                next_record = self._t + _RECORD_EVERY
+                if self._record_all():
                     break
         numerics.pymunk_steps = numerics.steps = self._steps
         return "until" if self._over else "duration" if self._t >= duration else "rest"
 
-    def _look(self) -> bool:
-        """Record where everything is, and check it; whether all balls rest."""
+    def _record_all(self) -> bool:
+        """Record and check the state of all balls. Returns whether all are at rest."""
         if self._progress is not None:
             self._progress(self._t, self._setup.duration)
         rest = True
@@ -199,7 +205,7 @@ class PlainSimulation:
         return rest
 
     def _catch(self, tracked: _Tracked) -> None:
-        """Take a ball from the table that is in a pocket; seen at the next look, late like everything here."""
+        """Remove a ball that is in a pocket; noticed at the next recording, so up to one interval late."""
         x, y = tracked.body.position
         for catch in self._setup.catches:
             if (x - catch.center[0]) ** 2 + (y - catch.center[1]) ** 2 <= catch.radius**2:
@@ -216,8 +222,8 @@ class PlainSimulation:
 
     # ------------------------------------------------------------------ callbacks
 
-    def _kept(self, callback: Any) -> Any:
-        """The callback, with what it raises kept for after the step."""
+    def _guarded(self, callback: Any) -> Any:
+        """The callback, storing what it raises until after the step."""
 
         def call(*arguments: Any) -> None:
             if self._raised is None:
@@ -229,7 +235,7 @@ class PlainSimulation:
         return call
 
     def _move(self, body: pymunk.Body, gravity: Any, damping: float, h: float) -> None:
-        """What forces, torques and the cloth do to a ball within a step."""
+        """Apply forces, torques and the cloth to a ball for a step."""
         self._numerics.force_evaluations += 1
         tracked, cloth = self._tracked[body], self._setup.cloth
         ball = tracked.ball
@@ -265,7 +271,7 @@ class PlainSimulation:
             and gain > _JUMP * speed
         ):
             raise Diverged(
-                f"t = {self._t:.6g} s, ball {tracked.ball.name!r}: its drag would reverse its velocity "
+                f"t = {self._t:.6g} s, ball {tracked.ball.name!r}: drag would reverse its velocity "
                 f'within a step of {h:.3g} s; lower accuracy.step, or use accuracy.method = "exact"'
             )
 
@@ -286,22 +292,22 @@ class PlainSimulation:
         tracked, surface = self._tracked[_body(first)], self._surfaces[second]
         tracked.touched = self._steps
         (nx, ny), approach, along = _closing(arbiter)
-        if surface.nose_height is not None:  # what Chipmunk, which sees the plane alone, cannot answer
+        if surface.nose_height is not None:  # Chipmunk sees only the plane, so it cannot solve this
             arbiter.process_collision = False
             if approach > 0.0:
-                bounce = answer(surface, approach, along)
+                bounce = bounce_off(surface, approach, along)
                 tracked.take(off_nose(tracked.ball, tracked.state(), (-nx, -ny), surface.nose_height, bounce))
             return
         press = max(0.0, tracked.acceleration[0] * nx + tracked.acceleration[1] * ny)  # m/s^2
-        lasts = abs(approach) <= 2.0 * press * self._accuracy.step  # what weight alone gathers in a step or two
+        lasts = abs(approach) <= 2.0 * press * self._accuracy.step  # the speed that weight alone adds in a step or two
         if approach <= 0.0 and not lasts:
             return
         state = tracked.state()
         slip = along + tracked.ball.radius * state[4], slip_over(tracked.ball, state, -nx, -ny)
-        restitution, friction, tilt = answer(surface, approach, along)
+        restitution, friction, tilt = bounce_off(surface, approach, along)
         arbiter.restitution, arbiter.friction = 0.0 if lasts else restitution, in_plane(friction, *slip)
-        # a tilted surface meets the ball as a straight one meets the velocity turned the other way; it is turned back
-        # after that
+        # a tilted surface is equivalent to a level one that meets a velocity rotated the other way; it is rotated back
+        # afterwards
         turned = 0.0 if lasts or any(pending.turned for pending in tracked.pending.values()) else tilt
         turned = turned if along >= 0.0 else -turned
         tracked.body.velocity = tracked.body.velocity.rotated(-turned)
@@ -318,7 +324,7 @@ class PlainSimulation:
         body.velocity = body.velocity.rotated(pending.turned)
         (nx, ny), approach, along = _closing(arbiter)
         push = abs(arbiter.total_impulse.dot(arbiter.normal))
-        if 0.0 < -approach <= pending.lowest:  # a bounce that the surface swallows
+        if 0.0 < -approach <= pending.lowest:  # a bounce that the surface absorbs
             body.velocity += (-approach * nx, -approach * ny)
         speed = body.velocity.length
         if pending.resistance > 0.0 and abs(along + tracked.ball.radius * body.angular_velocity) <= _GRIP * speed:
@@ -334,7 +340,7 @@ class PlainSimulation:
         here, there = a.state(), b.state()
         flat = along + a.ball.radius * here[4] + b.ball.radius * there[4]
         slip = flat, slip_over(a.ball, here, -nx, -ny) - slip_over(b.ball, there, nx, ny)
-        bounce = answer_of_balls(
+        bounce = bounce_of_balls(
             self._setup, approach, (flat * flat + slip[1] * slip[1]) ** 0.5, a.ball.name, b.ball.name
         )
         arbiter.restitution, arbiter.friction = bounce.restitution, in_plane(bounce.friction, *slip)
@@ -347,7 +353,7 @@ class PlainSimulation:
         self._rub([a, b], (-nx, -ny), a.pending.pop(second), abs(arbiter.total_impulse.dot(arbiter.normal)))
 
     def _rub(self, balls: Sequence[_Tracked], normal: tuple[float, float], pending: _Pending, push: float) -> None:
-        """The upward share of the friction, on cloth; ``normal`` points to the first of the balls."""
+        """Apply the upward part of the friction, on cloth; ``normal`` points to the first of the balls."""
         if pending.slip[1] != 0.0 and push > 0.0:
             states = [tracked.state() for tracked in balls]
             moving = [tracked.ball for tracked in balls]
@@ -364,7 +370,7 @@ class PlainSimulation:
             raise self._diverged(tracked, state)
 
     def _refuse_leap(self, tracked: _Tracked) -> None:
-        """Raise RunError where the ball's centre went through a surface in the last step."""
+        """Raise RunError if the ball's centre passed through a surface in the last step."""
         assert tracked.leap is not None
         met = self._space.segment_query_first(*tracked.leap, 0.0, pymunk.ShapeFilter(mask=_SURFACE))
         if met is not None and not tracked.caught:
@@ -377,7 +383,7 @@ class PlainSimulation:
         x, y, vx, vy, spin = state[:5]
         return Diverged(
             f"t = {self._t:.6g} s, ball {tracked.ball.name!r}: position ({x:.6g}, {y:.6g}) m, velocity "
-            f"({vx:.6g}, {vy:.6g}) m/s, spin {spin:.6g} rad/s is not finite or out of the world; "
+            f"({vx:.6g}, {vy:.6g}) m/s, spin {spin:.6g} rad/s is not finite, or outside the world; "
             'lower accuracy.step, or use accuracy.method = "exact"'
         )
 

@@ -1,4 +1,4 @@
-"""Which balls meet while others are pressed together: gathered from their tracks, taken through the contact."""
+"""Impacts of balls that reach others while in contact: finds the cluster and simulates its contact."""
 
 from __future__ import annotations
 
@@ -12,58 +12,58 @@ from typing import Any, NamedTuple
 from sandbox.engine.bernstein import evaluate
 from sandbox.engine.clusters import Body, Cluster, Link, StaysPressed
 from sandbox.engine.setup import Bounce, Setup
-from sandbox.engine.surfaces import answer, answer_of_balls
-from sandbox.engine.touch import CONTACT, Obstacle
+from sandbox.engine.surfaces import bounce_of_balls, bounce_off
+from sandbox.engine.touch import TOUCHING_GAP, Obstacle
 from sandbox.engine.track import Track
 from sandbox.physics.hertz import contact_time
 from sandbox.physics.integrators import State
 
-#: Restitution of balls below which they stay together, pressed by the cloth: those get impulses, as their contact has
-#: no end.
+#: Restitution below which balls stay together, pressed by the cloth: these get impulses, as their contact does not
+#: end.
 STICKY = 0.25
 
-#: Approach speed in m/s below which balls push each other and do not strike: those stay with impulses.
+#: Approach speed in m/s below which balls push rather than strike each other: these get impulses.
 FAINTEST = 1e-3
 
 
-class Blow(NamedTuple):
-    """One contact that closed on the way."""
+class TimedHit(NamedTuple):
+    """One contact that closed during the impact."""
 
     t: float  # s
-    ball: int  # its place among the balls of the setup
+    ball: int  # index into the balls of the setup
     partner: str
     speed: float  # m/s, normal speed of approach
 
 
 @dataclass(frozen=True)
 class Parted:
-    """How the balls came out."""
+    """The balls after they have separated."""
 
-    t: float  # s, when the last two parted
+    t: float  # s, when the last two separated
     states: dict[int, State]  # of all that were touched
-    blows: list[Blow]  # in order of time
+    hits: list[TimedHit]  # in order of time
 
 
 class Pressed:
-    """Finds clusters among the balls of a run, as its contact model asks."""
+    """Finds clusters among the balls of a run, according to its contact model."""
 
     def __init__(self, setup: Setup, tracks: Sequence[Track], step: float) -> None:
-        """``step`` through the contact, as a share of the shortest there can be."""
+        """``step`` is a fraction of the shortest possible contact."""
         self._setup = setup
         self._tracks = tracks
         self._step = step
 
     def through(self, t: float, touching: dict[int, State]) -> Parted | None:
-        """The cluster around the balls that touch at t (with their states), taken through its contact.
+        """Simulate the contact of the cluster around the balls that touch at t (with their states).
 
-        None where impulses are right: no two balls strike each other, what presses them together does more in the
-        time of a contact than their approach, or nobody else is reached meanwhile.
+        None if impulses are right: no two balls strike each other, other forces change their speed more during the
+        contact than they approach with, or no other body is reached during the contact.
         """
         model = self._setup.contact
         struck = [
             (self._approach(a, b), i, j)
             for (i, a), (j, b) in combinations(touching.items(), 2)
-            if self._gap(i, a, j, b) <= CONTACT
+            if self._gap(i, a, j, b) <= TOUCHING_GAP
         ]
         speed, i, j = max(struck, default=(0.0, 0, 0))
         if model.name == "rigid" or speed <= FAINTEST:
@@ -85,7 +85,7 @@ class Pressed:
                 (i, j)
                 for i, j in combinations(members, 2)
                 if frozenset((i, j)) in met
-                or self._gap(i, members[i], j, members[j]) <= 2.0 * fastest * lasts + CONTACT
+                or self._gap(i, members[i], j, members[j]) <= 2.0 * fastest * lasts + TOUCHING_GAP
             ]
             try:
                 parted = self._passed(t, members, walls, pairs, speed)
@@ -98,7 +98,7 @@ class Pressed:
             for index in frozenset().union(*late) - members.keys():
                 members[index] = self._tracks[index].arc.state(t)
 
-    # ------------------------------------------------------------------ who takes part
+    # ------------------------------------------------------------------ members of the cluster
 
     def _gap(self, i: int, a: State, j: int, b: State) -> float:
         return hypot(a[0] - b[0], a[1] - b[1]) - self._tracks[i].ball.radius - self._tracks[j].ball.radius
@@ -115,7 +115,7 @@ class Pressed:
         return -((ax - bx) * dx + (ay - by) * dy) / hypot(dx, dy)
 
     def _add_reached(self, t: float, members: dict[int, State], fastest: float, lasts: float) -> None:
-        """Add the balls that can be reached while the contact lasts, and those that these can reach."""
+        """Add the balls that can be reached during the contact, and those that these can reach."""
         waiting = list(members)
         while waiting:
             index = waiting.pop()
@@ -134,7 +134,7 @@ class Pressed:
                     waiting.append(other)
 
     def _walls(self, members: dict[int, State], reach: float) -> list[tuple[int, Obstacle]]:
-        """The walls, where they are as hard as the balls, that members can reach."""
+        """The walls that members can reach, if walls are as hard as balls."""
         if self._setup.contact.wall_stiffness == 0.0:
             return []
         return [
@@ -145,18 +145,18 @@ class Pressed:
         ]
 
     def _overlapping(self, parted: Parted) -> set[frozenset[int]]:
-        """The pairs that lie in each other once the balls have parted, of which one was touched at least."""
+        """The pairs that overlap after the balls have separated, with at least one ball that was touched."""
         pairs = set()
         for index, state in parted.states.items():
             radius = self._tracks[index].ball.radius
             for other, track in enumerate(self._tracks):
                 if other != index and not track.caught:
                     x, y = parted.states[other][:2] if other in parted.states else track.arc.position(parted.t)
-                    if hypot(x - state[0], y - state[1]) < radius + track.ball.radius - CONTACT:
+                    if hypot(x - state[0], y - state[1]) < radius + track.ball.radius - TOUCHING_GAP:
                         pairs.add(frozenset((index, other)))
         return pairs
 
-    # ------------------------------------------------------------------ there and back
+    # ------------------------------------------------------------------ from tracks to bodies and back
 
     def _passed(
         self,
@@ -180,8 +180,8 @@ class Pressed:
         moved = {i for (i, j), hit in zip(pairs, touched, strict=False) if hit}
         moved |= {j for (i, j), hit in zip(pairs, touched, strict=False) if hit}
         moved |= {index for (index, _), hit in zip(walls, touched[len(pairs) :], strict=True) if hit}
-        blows = [
-            Blow(t + at, ball, name, approach)
+        hits = [
+            TimedHit(t + at, ball, name, approach)
             for ball, name, approach, at, hit in zip(
                 firsts, names, outcome.approach.tolist(), outcome.closed.tolist(), touched.tolist(), strict=True
             )
@@ -193,7 +193,7 @@ class Pressed:
             wx, wy, wz = outcome.spin[place[index]].tolist()
             rolling = (wx, wy) if self._setup.cloth is not None else ()
             states[index] = (x, y, vx, vy, wz, *rolling)
-        return Parted(t + outcome.duration, states, sorted(blows))
+        return Parted(t + outcome.duration, states, sorted(hits))
 
     def _body(self, t: float, index: int, state: State) -> Body:
         track = self._tracks[index]
@@ -208,7 +208,7 @@ class Pressed:
     def _link(self, place: dict[int, int], members: dict[int, State], i: int, j: int, speed: float) -> Link:
         first, second = self._tracks[i].ball, self._tracks[j].ball
         approach = max(speed, self._approach(members[i], members[j]))
-        bounce = answer_of_balls(self._setup, approach, 0.0, first.name, second.name)
+        bounce = bounce_of_balls(self._setup, approach, 0.0, first.name, second.name)
         rubs = partial(_friction, self._setup.between(first.name, second.name), approach)
         stiffness = self._setup.contact.between(first.radius, second.radius)
         return Link(place[i], place[j], stiffness, bounce.restitution, rubs)
@@ -216,7 +216,7 @@ class Pressed:
     def _wall_link(self, place: int, state: State, obstacle: Obstacle) -> Link:
         touching = obstacle.near(state[0], state[1])
         approach = max(0.0, -(state[2] * touching.nx + state[3] * touching.ny))
-        bounce = answer(obstacle.surface, approach, state[2] * touching.ny - state[3] * touching.nx)
+        bounce = bounce_off(obstacle.surface, approach, state[2] * touching.ny - state[3] * touching.nx)
 
         def wall(x: float, y: float) -> tuple[float, float, float]:
             near = obstacle.near(x, y)
@@ -232,7 +232,7 @@ def _friction(between_balls: Any, approach: float, slip: float) -> float:
 
 
 def _slope(curve: Sequence[float], u: float) -> float:
-    """The derivative of a polynomial in Bernstein form by u."""
+    """The derivative of a polynomial in Bernstein form with respect to u."""
     if len(curve) == 1:
         return 0.0
     return evaluate([(len(curve) - 1) * (b - a) for a, b in pairwise(curve)], u)

@@ -1,4 +1,4 @@
-"""What happened: the path of each ball, the events on the way, and what the run cost."""
+"""The result of a run: the path of each ball, the events, and the cost."""
 
 from __future__ import annotations
 
@@ -24,16 +24,16 @@ if TYPE_CHECKING:
 
 @dataclass(slots=True)
 class Numerics:
-    """What the run cost."""
+    """The cost of a run."""
 
     force_evaluations: int = 0
     steps: int = 0  # pieces of path
-    refined_steps: int = 0  # steps repeated with a shorter length
+    refined_steps: int = 0  # steps repeated with a shorter step
     impacts: int = 0
     pymunk_steps: int = 0
-    queries: int = 0  # pairs of ball path and shape examined for touching
+    queries: int = 0  # pairs of ball path and shape checked for contact
     wall_s: float = 0.0
-    clusters: int = 0  # of balls that met while others were pressed together
+    clusters: int = 0  # impacts of several balls at once, simulated through the contact
 
 
 @dataclass
@@ -48,21 +48,21 @@ class Run:
     duration: float  # s
     ended: str  # "rest", "until" or "duration"
     result: dict[str, Any] = field(default_factory=dict)
-    scene: Any = field(default=None, repr=False, compare=False)  # what it is a run of, where that is a scene
+    scene: Any = field(default=None, repr=False, compare=False)  # the scene that was run, if any
 
     def __repr__(self) -> str:
         what = "" if self.scene is None else f" of {self.scene.title}"
         return f"<Run{what}: {self.duration:.2f} s, {len(self.events)} events, ended by {self.ended}>"
 
     def state(self, ball: str, t: float) -> State:
-        """(x, y, vx, vy, spin) of a ball at time t, held at its last state beyond the end; m, m/s, rad/s.
+        """(x, y, vx, vy, spin) of a ball at time t, constant after the end; m, m/s, rad/s.
 
         At an impact it is the state just after.
         """
         return self._full_state(ball, t)[:5]
 
     def _path(self, ball: str) -> list[Arc] | ArcRows:
-        """The arcs of a ball. Raises RequestError for one that is not there."""
+        """The arcs of a ball. Raises RequestError if there is no such ball."""
         try:
             return self.arcs[ball]
         except (KeyError, TypeError):
@@ -83,13 +83,13 @@ class Run:
         return next((event.t for event in self.events if event.kind == "caught" and event.ball == ball), None)
 
     def before(self, ball: str, t: float) -> State:
-        """The state of a ball just before time t, which differs from ``state`` where there is an impact at t."""
+        """The state of a ball just before time t; differs from ``state`` if there is an impact at t."""
         arcs = self._path(ball)
         index = bisect_left(arcs, t, key=lambda arc: arc.t1)
         return (arcs[index].state(t) if index < len(arcs) and arcs[index].t1 == t else self._full_state(ball, t))[:5]
 
     def angle(self, ball: str, t: float) -> float:
-        """How far a ball has turned since the start, in rad, counter-clockwise."""
+        """Angle in rad that a ball has turned since the start, counter-clockwise."""
         turned = 0.0
         for arc in self._path(ball):
             if arc.t0 >= t:
@@ -101,8 +101,8 @@ class Run:
     def trajectory(self, ball: str = "ball", every: float = 1 / 120, ends: bool = False) -> np.ndarray:
         """Samples of a ball's path, shape (samples, 6): t, x, y, vx, vy, spin in s, m, m/s, rad/s.
 
-        One every ``every`` seconds from the start on, none after the end. With ``ends`` also at the ends of all arcs,
-        among them every impact, and at the run's end; rows are uneven then.
+        One every ``every`` seconds from the start to the end. ``ends`` adds the ends of all arcs, which include every
+        impact, and the run's end; the rows are then unevenly spaced.
         """
         import numpy as np
 
@@ -118,14 +118,14 @@ class Run:
     def crossings(self, ball: str, point: Vector, normal: Vector) -> Iterator[tuple[float, State]]:
         """Each time and state at which a ball's centre passes the line through ``point`` (m) against ``normal``.
 
-        Exact in the sense of the path itself: roots of its polynomials, however long the steps.
+        As exact as the path itself, for any step: roots of its polynomials.
         """
         px, py = point
         nx, ny = normal
         path = self._path(ball)
         for arc in path if isinstance(path, list) else path.passing(px, py, nx, ny):
-            ahead = [(x - px) * nx + (y - py) * ny for x, y in zip(arc.x, arc.y, strict=True)]
-            for u in downward_crossings(ahead):
+            gap = [(x - px) * nx + (y - py) * ny for x, y in zip(arc.x, arc.y, strict=True)]
+            for u in downward_crossings(gap):
                 t = arc.t0 + u * (arc.t1 - arc.t0)
                 yield t, arc.state(t)[:5]
 

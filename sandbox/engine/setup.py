@@ -1,4 +1,4 @@
-"""What a scene hands to the engine: balls, surfaces, and when the run is over."""
+"""What a scene passes to the engine: balls, surfaces, and when the run ends."""
 
 from __future__ import annotations
 
@@ -25,8 +25,8 @@ DISC = 1 / 2
 
 class Force(Protocol):
     """Force on a ball in N, as (fx, fy). Time (s), components of position (m) and velocity (m/s), and the spin (rad/s,
-    counter-clockwise) are floats, or arrays of shape (n,) when many shots fly at once. It depends on these alone:
-    steps are tried, and tried again."""
+    counter-clockwise) are floats, or arrays of shape (n,) when many shots fly at once. It must depend on nothing
+    else, since steps may be repeated."""
 
     def __call__(self, t: Any, position: Any, velocity: Any, spin: Any) -> tuple[Any, Any]: ...
 
@@ -67,14 +67,14 @@ class Ball:
             if isinstance(force, type) or not callable(force):
                 name = getattr(force, "__name__", force)
                 raise ValueError(
-                    f"ball {self.name!r}: {name!r} is no force: list something that can be called with "
-                    "(t, position, velocity, spin), such as an object of the class and not the class"
+                    f"ball {self.name!r}: {name!r} is not a force: list something that can be called with "
+                    "(t, position, velocity, spin), such as an instance, not the class itself"
                 )
         object.__setattr__(self, "inertia", self.inertia_factor * self.mass * self.radius * self.radius)
 
 
 def kinetic(ball: Ball, state: State) -> float:
-    """Kinetic energy of a ball in J, that of its turning included."""
+    """Kinetic energy of a ball in J, including rotation."""
     _, _, vx, vy, *spins = state
     return 0.5 * ball.mass * (vx * vx + vy * vy) + 0.5 * ball.inertia * sum(spin * spin for spin in spins)
 
@@ -86,18 +86,18 @@ def _check_pair(what: str, pair: Vector) -> None:
 
 
 def _check_shape(shape: Segment | Circle, kind: str, *points: str) -> None:
-    """Raise ValueError where a shape cannot be; its points become tuples, however they were given."""
+    """Raise ValueError for an invalid shape; convert its points to tuples."""
     for name in points:
         _check_pair(f"{kind}: {name}", getattr(shape, name))
         object.__setattr__(shape, name, tuple(getattr(shape, name)))
     numbers = [number for name in points for number in getattr(shape, name)]
     if not all(map(isfinite, (*numbers, shape.radius))) or shape.radius < 0.0:
-        raise ValueError(f"{shape}: points must be finite, and the radius no less than 0")
+        raise ValueError(f"{shape}: points must be finite, and the radius must not be negative")
 
 
 @dataclass(frozen=True)
 class Segment:
-    """A straight piece from a to b, rounded by ``radius`` (half its thickness); touched from either side."""
+    """A straight line from a to b with half thickness ``radius`` and rounded ends; can be touched from either side."""
 
     a: Vector  # m
     b: Vector  # m
@@ -123,22 +123,21 @@ class Circle:
 
 
 class Bounce(NamedTuple):
-    """How a surface answers one impact."""
+    """How a surface responds to one impact."""
 
     restitution: float
     friction: float
-    tilt: float = 0.0  # rad; the surface gives way and its normal leans against the ball's motion along it
+    tilt: float = 0.0  # rad; the surface deforms and its normal tilts against the ball's motion along it
 
 
 @dataclass(frozen=True)
 class Surface:
-    """A fixed shape and how it answers: restitution and friction are those of the pair ball and surface.
+    """A fixed shape and its response: restitution and friction are those of the pair of ball and surface.
 
-    ``rolling_resistance`` c is the deceleration of a rolling ball over the normal force per mass: a = c N / m.
-    ``lowest_bounce`` is the height in m below which a bounce is lost in the surface and the ball goes on rolling:
-    grass.
+    ``rolling_resistance`` c is the deceleration of a rolling ball divided by the normal force per mass: a = c N / m.
+    ``lowest_bounce`` is the height in m below which the surface absorbs a bounce and the ball rolls, as on grass.
     ``law`` replaces restitution and friction at an impact by a function of the normal and the tangential speed (m/s).
-    ``nose_height`` is for balls on cloth: the height in m over the cloth at which a cushion meets them.
+    ``nose_height`` is for balls on cloth: the height in m above the cloth at which a cushion touches them.
     """
 
     name: str
@@ -155,12 +154,12 @@ class Surface:
             raise ValueError(f"surface {self.name!r}: restitution = {self.restitution} must be from 0 to 1")
         for what in ("friction", "rolling_resistance", "lowest_bounce"):
             if not 0.0 <= getattr(self, what) < inf:
-                raise ValueError(f"surface {self.name!r}: {what} = {getattr(self, what)} must be no less than 0")
+                raise ValueError(f"surface {self.name!r}: {what} = {getattr(self, what)} must not be negative")
 
 
 @dataclass(frozen=True)
 class Catch:
-    """A place that takes a ball from the table once its centre is nearer than ``radius``: a pocket."""
+    """A place that removes a ball once its centre is closer than ``radius``: a pocket."""
 
     name: str
     center: Vector  # m
@@ -171,8 +170,8 @@ class Catch:
 
 
 class Patch(NamedTuple):
-    """A place where a force sets in and ends within a short way, as at a net: no step through it is longer than
-    ``step``, so that none leaps over it."""
+    """A region where a force acts over a short distance, such as a net: no step through it is longer than ``step``,
+    so that none skips it."""
 
     left: float  # m
     bottom: float  # m
@@ -181,7 +180,7 @@ class Patch(NamedTuple):
     step: float  # s
 
     def crossed(self, x: tuple[Any, ...], y: tuple[Any, ...]) -> Any:
-        """Whether a path inside the hull of these points could pass through; coordinates in m."""
+        """Whether a path inside the hull of these points could cross the region; coordinates in m."""
         beside = (least(*x) > self.right) | (most(*x) < self.left)
         return (beside | (least(*y) > self.top) | (most(*y) < self.bottom)) ^ True
 
@@ -196,12 +195,12 @@ class Always:
         return self.bounce
 
 
-#: Elastic and frictionless: what two balls do where a scene says nothing.
+#: Elastic and frictionless: the default between two balls.
 ELASTIC = Always(Bounce(1.0, 0.0))
 
 
 class Bounds(NamedTuple):
-    """The world's edges in m: a ball beyond them has left the scene, which is an error."""
+    """The world's edges in m: a ball outside them is an error."""
 
     left: float = -1e5
     bottom: float = -1e5
@@ -211,12 +210,13 @@ class Bounds(NamedTuple):
 
 @dataclass(frozen=True)
 class ContactModel:
-    """How balls meet that others can reach while they are pressed together.
+    """How impacts of several balls at once are computed.
 
-    ``name`` is "rigid" (one impact after another; balls that touch are one lump), "hertz" (every impact of balls by
-    contact mechanics) or "auto" (only where others can be reached meanwhile). ``stiffness`` is that of a pair in
-    N/m^1.5; None: of phenolic resin. ``wall_stiffness`` is that of a ball and a wall; 0 for walls that give way so much
-    more than balls that they push back when the balls have parted, as cushions do.
+    ``name`` is "rigid" (one impact after another; balls that touch act as one), "hertz" (every impact of balls by
+    contact mechanics) or "auto" (contact mechanics only if a third body can be reached during the contact).
+    ``stiffness`` is that of a pair in N/m^1.5; None means phenolic resin. ``wall_stiffness`` is that of a ball and a
+    wall; 0 for walls, such as cushions, that are so much softer than balls that they push back after the balls have
+    separated.
     """
 
     name: Literal["auto", "rigid", "hertz"] = "auto"
@@ -229,7 +229,7 @@ class ContactModel:
 
 
 class Until:
-    """When a run is over, where that takes more than its latest event."""
+    """A condition for the end of a run that needs more than the latest event."""
 
     def over(self, events: Sequence[Event]) -> bool:
         """Whether the run ends with the last of these events."""
@@ -238,7 +238,8 @@ class Until:
 
 @dataclass(frozen=True)
 class Touches(Until):
-    """Ends a run when something is touched for the ``times``-th time: ``until=Touches("floor", 2)``, the second bounce.
+    """Ends a run when something is touched for the ``times``-th time: ``until=Touches("floor", 2)`` is the second
+    bounce.
 
     ``what`` is the name of a surface, a ball or a catch.
     """
@@ -255,13 +256,13 @@ class Touches(Until):
 
 @dataclass(frozen=True)
 class Setup:
-    """One run's beginning. It is over when all balls rest, when ``until`` says so, or after ``duration`` s.
+    """The initial state of a run. It ends when all balls rest, when ``until`` is met, or after ``duration`` s.
 
-    It is data: made of dataclasses, tuples and functions of a module, it can be pickled, compared and stacked.
+    It is data: made of dataclasses, tuples and module functions, so it can be pickled, compared and stacked.
     ``until`` is a function of the latest event, or an ``Until`` such as ``Touches``.
-    ``between_balls(normal_speed, slip_speed)`` says how two balls answer each other; ``pairs`` say it of two by name:
+    ``between_balls(normal_speed, slip_speed)`` returns the Bounce of two balls; ``pairs`` gives a law for two by name:
     ``("ball", "keeper", law)``. With ``cloth`` the balls are seen from above, sliding and rolling on it in closed form;
-    their own forces play no part then.
+    their own forces are then ignored.
     """
 
     balls: Sequence[Ball]
@@ -282,12 +283,12 @@ class Setup:
             raise ValueError("a setup needs at least one ball")
         for name in names:
             if names.count(name) > 1:
-                raise ValueError(f"two balls are named {name!r}: each needs a name of its own")
+                raise ValueError(f"two balls are named {name!r}: names must be unique")
         if not 0.0 < self.duration < inf:
-            raise ValueError(f"duration = {self.duration} s must be positive, and end")
+            raise ValueError(f"duration = {self.duration} s must be positive and finite")
 
     def between(self, one: str, other: str) -> Callable[[float, float], Bounce]:
-        """How two balls answer each other."""
+        """The law for impacts of two balls."""
         return next((law for *pair, law in self.pairs if {*pair} == {one, other}), self.between_balls)
 
     def ends_with(self, events: Sequence[Event]) -> bool:

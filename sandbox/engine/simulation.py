@@ -1,7 +1,7 @@
-"""The loop: fly exactly, touch exactly, let pymunk push.
+"""The main loop: exact flight, exact times of contact, impulses by pymunk.
 
-Each ball moves along its own arc. The next thing to happen is the earliest of: an arc's end, a touch with a surface,
-a touch of two balls. Only the balls it changes get a new arc and new predictions.
+Each ball moves along its own arc. The next event is the earliest of: an arc's end, contact with a surface, contact of
+two balls. Only the balls it changes get a new arc and new predictions.
 """
 
 from __future__ import annotations
@@ -13,49 +13,49 @@ from time import perf_counter
 
 from sandbox.engine.accuracy import Accuracy
 from sandbox.engine.arc import Arc, still
-from sandbox.engine.contacts import Contacts
+from sandbox.engine.contacts import ImpulseSpace
 from sandbox.engine.event import Event
 from sandbox.engine.impacts import Impacts
 from sandbox.engine.lasting import InPlane
-from sandbox.engine.motion import RESTING, Contact, Diverged, Mover
+from sandbox.engine.motion import RESTING, Diverged, LastingContact, Mover
 from sandbox.engine.on_cloth import OnCloth, slowest_hop
 from sandbox.engine.pressed import Parted, Pressed
 from sandbox.engine.run import Numerics, Run
 from sandbox.engine.setup import Ball, Circle, Setup, Surface
-from sandbox.engine.touch import CONTACT, Obstacle, balls_touch
+from sandbox.engine.touch import TOUCHING_GAP, Obstacle, balls_touch
 from sandbox.engine.track import Motion, Track
 from sandbox.errors import RequestError, RunError
 from sandbox.physics.integrators import State
 
-#: Events that may pass while time advances by less than _STANDSTILL s, before the run is declared stalled.
+#: Most events while time advances by less than _STANDSTILL s, beyond which the run has stalled.
 _MOST_AT_ONCE = 2_000
 _STANDSTILL = 1e-6
 
-#: Impacts in one run beyond which it is declared stalled; Galperin's billiard with mass ratio 1e8 needs 31,415.
+#: Most impacts in one run, beyond which it has stalled; Galperin's billiard with mass ratio 1e8 needs 31,415.
 _MOST_IMPACTS = 200_000
 
-#: Impacts of balls with each other, none faster than _FAINT m/s in between, beyond which a run is declared stalled:
-#: balls that lie on one another. One that bounces on a surface comes to lie there by itself, however lively it is.
+#: Most consecutive impacts between balls that are all slower than _FAINT m/s, beyond which a run has stalled: balls
+#: that lie on one another. A ball that bounces on a surface settles by itself, at any restitution.
 _MOST_FAINT = 1_000
 _FAINT = 1e-4
 
-#: Deepest overlap at the start that is pushed apart, as a share of the radius; deeper is an error in the scene. And how
-#: often it is tried, as one push may lead to another.
+#: Deepest overlap at the start that is corrected, as a fraction of the radius; deeper is an error in the scene. And the
+#: most attempts, as one correction may cause another overlap.
 _SLIGHT, _MOST_PUSHES = 0.02, 200
 
-#: Steps in one run beyond which its forces are declared too stiff: some 5 s of computing.
+#: Most steps in one run, beyond which its forces are too stiff: about 5 s of computing.
 _MOST_STEPS = 100_000
 
 
 class Stalled(RunError):
-    """Events without end at one place."""
+    """Endless events at one place."""
 
 
 class Simulation:
-    """One run of a setup. Raises RunError when it cannot be completed, with the time, the ball and the quantity."""
+    """One run of a setup. Raises RunError with the time, the ball and the quantity if it cannot be completed."""
 
     def __init__(self, setup: Setup, accuracy: Accuracy, spent: Numerics | None = None) -> None:
-        """``spent`` is what the run has cost so far, where it is taken over."""
+        """``spent`` is the cost so far of a run that is continued here."""
         self._setup = setup
         self._accuracy = accuracy
         self._numerics = Numerics() if spent is None else spent
@@ -63,15 +63,15 @@ class Simulation:
         self._queue: list[tuple[float, int, str, int, int, int, int]] = []
         self._order = count()
         self._over = False
-        self._faint = 0  # impacts of balls with each other that were faint, since the last that was not
+        self._faint = 0  # consecutive faint impacts between balls
         self._names = {ball.name for ball in setup.balls}
-        self._tracks = self._laid_out()
+        self._tracks = self._make_tracks()
         self._separate_balls()
         slowest = 0.0 if setup.cloth is None else slowest_hop(setup.cloth, accuracy.hop)
-        self._impacts = Impacts(setup, self._tracks, Contacts(setup.balls, self._numerics), slowest)
+        self._impacts = Impacts(setup, self._tracks, ImpulseSpace(setup.balls, self._numerics), slowest)
         self._pressed = Pressed(setup, self._tracks, accuracy.contact_step)
 
-    def _laid_out(self) -> list[Track]:
+    def _make_tracks(self) -> list[Track]:
         setup = self._setup
         obstacles: dict[float, list[Obstacle]] = {}
         skin = self._accuracy.skin
@@ -92,38 +92,38 @@ class Simulation:
         return tracks
 
     def run(self) -> Run:
-        """From the start to the end."""
+        """Run from start to end."""
         started = perf_counter()
         for index, track in enumerate(self._tracks):
             if track.version == 0:
-                self._collide(0.0, [index])  # whatever it touches at the start comes first
+                self._collide(0.0, [index])  # contacts at the start come first
         return self._finished(0.0, started)
 
     def _finished(self, t: float, started: float) -> Run:
-        """The run, from t to its end; ``started`` is when, by the clock."""
+        """Continue the run from t to its end; ``started`` is the clock time of its start."""
         t, ended = self._loop(t)
         for track in self._tracks:
             if not track.caught:
                 track.finish(t)
         self._numerics.wall_s += perf_counter() - started
-        self._events.sort(key=lambda event: event.t)  # a contact that lasts is noted when it begins
+        self._events.sort(key=lambda event: event.t)  # a contact with a duration is noted at its start
         arcs = {track.ball.name: track.path for track in self._tracks}
         return Run(self._setup, self._accuracy, arcs, self._events, self._numerics, t, ended)
 
     def take_over(self, t: float, state: State, arcs: list[Arc], events: list[Event], step: float, how: str) -> Run:
-        """Finish a run of one ball that came as far as ``t`` (s) elsewhere, by way of ``arcs`` and ``events``.
+        """Finish a run of one ball that batch.py has computed up to ``t`` (s), with its ``arcs`` and ``events`` so far.
 
-        ``state`` is then in flight (``how`` "flight"), or touches something, just before the impact ("before") or
-        after it ("after"). ``step`` is the step in s that the integrator would try next.
+        The ball is in flight (``how`` is "flight"), or touches something, just before the impact ("before") or after
+        it ("after"). ``step`` is the step in s that the integrator would try next.
         """
         started = perf_counter()
         track = self._tracks[0]
         track.arc, track.state, track.path = still(t, t, state), state, arcs
-        assert isinstance(track.mover, Mover)  # nobody else has steps
+        assert isinstance(track.mover, Mover)  # only this class has steps
         track.mover.suggest(step)
         self._events = events
         if how == "after" and events:
-            self._over = self._setup.ends_with(events)  # of those before it has been asked
+            self._over = self._setup.ends_with(events)  # the earlier events were checked before
         if how == "flight":
             self._plan(0, t)
         elif how == "before":
@@ -149,7 +149,7 @@ class Simulation:
                 raise self._stalled(t, i)
             if self._numerics.steps > _MOST_STEPS:
                 raise Diverged(
-                    f"t = {t:.6g} s, ball {track.ball.name!r}: {_MOST_STEPS:,} steps and no end in sight; its forces "
+                    f"t = {t:.6g} s, ball {track.ball.name!r}: {_MOST_STEPS:,} steps without an end; its forces "
                     "are very stiff: raise accuracy.tolerance, or shorten the duration"
                 )
             if kind == "touch":
@@ -159,7 +159,7 @@ class Simulation:
             elif kind == "" and track.arc.t1 >= duration:
                 return duration, "duration"
             else:
-                self._go_on(t, i, kind)
+                self._end_arc(t, i, kind)
         return t, "until" if self._over else "rest"
 
     def _all_rest(self) -> bool:
@@ -168,8 +168,8 @@ class Simulation:
                 return False
         return True
 
-    def _go_on(self, t: float, index: int, reason: str) -> None:
-        """An arc has come to its end."""
+    def _end_arc(self, t: float, index: int, reason: str) -> None:
+        """Handle the end of an arc."""
         track = self._tracks[index]
         track.keep(t)
         track.state = track.arc.state(track.arc.t1)
@@ -181,7 +181,7 @@ class Simulation:
             self._collide(t, [index])
 
     def _collide(self, t: float, seeds: Sequence[int]) -> None:
-        """Everything that touches at this instant exchanges impulses at once, or goes through the contact together."""
+        """Everything that touches at this instant exchanges impulses at once, or is simulated through the contact."""
         touching = self._impacts.touching(t, seeds)
         parted = self._pressed.through(t, touching) if len(touching) > 1 else None
         if parted is not None:
@@ -203,15 +203,15 @@ class Simulation:
             self._resume(index, t)
 
     def _part(self, t: float, touching: dict[int, State], parted: Parted) -> None:
-        """Balls have gone through their contact, from t until they part."""
+        """Apply the outcome of a contact that lasts from t until the balls separate."""
         self._numerics.clusters += 1
         for index in touching.keys() | parted.states.keys():
             self._tracks[index].keep(t)
-        for blow in parted.blows:
+        for hit in parted.hits:
             self._numerics.impacts += 1
             self._faint = 0
-            ball = self._tracks[blow.ball]
-            self._note(Event(blow.t, "impact", ball.ball.name, blow.partner, blow.speed, *ball.arc.position(t)))
+            ball = self._tracks[hit.ball]
+            self._note(Event(hit.t, "impact", ball.ball.name, hit.partner, hit.speed, *ball.arc.position(t)))
         for index in touching.keys() - parted.states.keys():
             self._tracks[index].state = touching[index]
             self._resume(index, t)
@@ -219,10 +219,10 @@ class Simulation:
             self._tracks[index].meet(t, parted.t, state)
         for index in parted.states:
             if self._tracks[index].arc.t1 == parted.t:
-                self._collide(parted.t, [index])  # with the walls that have given way meanwhile
+                self._collide(parted.t, [index])  # with the walls they have entered during the contact
 
     def _catch(self, t: float, index: int) -> None:
-        """A ball drops out of the plane."""
+        """Remove a ball that is caught."""
         track = self._tracks[index]
         track.keep(t)
         track.version += 1
@@ -239,18 +239,18 @@ class Simulation:
     # ------------------------------------------------------------------ planning
 
     def _resume(self, index: int, t: float) -> None:
-        """Go on from the ball's state: sort out what it is in contact with, and plan its way."""
+        """Continue from the ball's state: find its contacts and plan its next arc."""
         track = self._tracks[index]
         before = track.contact
         track.state, track.contact = track.mover.settle(t, track.state, track, self._accuracy.settle)
         self._note_contact(track, t, before)
         if self._over:
-            track.arc = still(t, t, track.state, track.contact)  # nothing more to plan
+            track.arc = still(t, t, track.state, track.contact)  # nothing left to plan
             self._note_rest(track, t)
         else:
             self._plan(index, t)
 
-    def _note_contact(self, track: Track, t: float, before: Contact | None) -> None:
+    def _note_contact(self, track: Track, t: float, before: LastingContact | None) -> None:
         after = track.contact
         was = "" if before is None else before.obstacle.surface.name
         now = "" if after is None else after.obstacle.surface.name
@@ -267,7 +267,7 @@ class Simulation:
             self._note(Event(t, "rest", track.ball.name, on, 0.0, *track.state[:2]))
 
     def _plan(self, index: int, t: float) -> None:
-        """A new arc from the ball's state at t, and what will happen on it first."""
+        """Create a new arc from the ball's state at t, and predict the first event on it."""
         track = self._tracks[index]
         track.version += 1
         if t < self._setup.duration:
@@ -306,7 +306,7 @@ class Simulation:
     # ------------------------------------------------------------------ the start, and errors
 
     def _separate_balls(self) -> None:
-        """Push slight overlaps of balls apart, and what that pushes into a surface out again, as far as there is room.
+        """Push slightly overlapping balls apart, and out of surfaces that this pushes them into, if there is room.
         Raises RequestError for a deep overlap."""
         for _ in range(_MOST_PUSHES):
             pushed = False
@@ -328,12 +328,12 @@ class Simulation:
             return Diverged(f"{where}: the velocity changes too fast for any step; look for a force that is not smooth")
         other = last.partner if last.ball == name else last.ball
         return Stalled(
-            f'{where}: events without end, last with {other!r}; a heap of balls needs accuracy.method = "plain"'
+            f'{where}: endless events, the last with {other!r}; a pile of balls needs accuracy.method = "plain"'
         )
 
 
 def _push_apart(first: Track, second: Track) -> bool:
-    """Part two balls that overlap slightly at the start; whether they did."""
+    """Separate two balls that overlap slightly at the start. Returns whether they overlapped."""
     dx, dy = first.state[0] - second.state[0], first.state[1] - second.state[1]
     reach = first.ball.radius + second.ball.radius
     distance = (dx * dx + dy * dy) ** 0.5
@@ -342,7 +342,7 @@ def _push_apart(first: Track, second: Track) -> bool:
             f"balls {first.ball.name!r} and {second.ball.name!r} overlap at the start by {reach - distance:.3g} m: "
             "move one of them"
         )
-    if distance >= reach - CONTACT:
+    if distance >= reach - TOUCHING_GAP:
         return False
     share = 0.5 * (reach - distance) / distance
     first.begin(first.state[0] + share * dx, first.state[1] + share * dy)
@@ -351,7 +351,7 @@ def _push_apart(first: Track, second: Track) -> bool:
 
 
 def _clear_of(ball: Ball, place: Sequence[float], obstacles: Sequence[Obstacle]) -> tuple[float, float]:
-    """Where a ball at ``place`` (m) starts: pushed out of a slight overlap. Raises RequestError for a deep one, naming
+    """The start of a ball at ``place`` (m), moved out of a slight overlap. Raises RequestError for a deep one, naming
     both."""
     x, y = map(float, place)
     for _ in range(_MOST_PUSHES):

@@ -1,7 +1,7 @@
-"""Many setups as one: wherever they differ in a number, the one has an array with an entry for each of them.
+"""Many setups as one: wherever they differ in a number, the combined setup has an array with an entry for each.
 
-A setup is data, so this goes field by field: through dataclasses, tuples and lists, down to numbers, which may differ,
-and to everything else (names, functions, objects of other classes), which must be equal.
+A setup is data, so they are combined field by field: dataclasses, tuples and lists are traversed, numbers may differ,
+and everything else (names, functions, objects of other classes) must be equal.
 """
 
 from __future__ import annotations
@@ -25,10 +25,12 @@ class Alike:
     """Tells which things can be stacked: those with the same key."""
 
     def __init__(self) -> None:
-        self._known: dict[int, tuple[Any, Hashable]] = {}  # by id; the thing too, so that its id stays its own
+        self._known: dict[
+            int, tuple[Any, Hashable]
+        ] = {}  # by id; the thing is stored too, so that its id is not reused
 
     def key(self, thing: Any) -> Hashable:
-        """What two things have in common that differ in numbers alone."""
+        """A key that is equal for two things that differ only in numbers."""
         kind: Any = type(thing)
         if kind in _NUMBERS:
             return float
@@ -50,7 +52,7 @@ class Alike:
 
 
 def stacked(things: Sequence[Any]) -> Any:
-    """One thing that stands for all of these, which are alike."""
+    """One thing that combines all of these, which must have the same key."""
     first = things[0]
     if all(thing is first for thing in things):
         return first
@@ -66,7 +68,7 @@ def stacked(things: Sequence[Any]) -> Any:
 
 
 def chosen(stack: Any, places: np.ndarray) -> Any:
-    """The stack of some of its things, by their places."""
+    """The stack restricted to these indices."""
     kind: Any = type(stack)
     if kind is np.ndarray:
         return stack[places]
@@ -85,7 +87,7 @@ def _tuple(kind: Any, items: list[Any]) -> Any:
 
 
 def _filled(like: Any, parts: dict[str, Any]) -> Any:
-    """A copy with these fields; what its class checks, it has checked of each number before."""
+    """A copy with these fields, without its class's checks, which each original has passed."""
     made = object.__new__(type(like))
     for name, part in parts.items():
         object.__setattr__(made, name, part)

@@ -1,4 +1,5 @@
-"""How long a step may be, and whether it was good: for one ball, with floats, or for many shots, with arrays."""
+"""Step size control: how long a step may be and whether it is accepted, for one ball (floats) or many shots
+(arrays)."""
 
 from __future__ import annotations
 
@@ -11,21 +12,20 @@ from sandbox.engine.setup import Patch
 from sandbox.physics.elementwise import anywhere, choose, clip, most
 from sandbox.physics.integrators import INTEGRATORS, Acceleration, State
 
-#: Local error of a step over the error aimed at in the end. Each impact on a round shape multiplies an error by ten
-#: or more, so the flight has to be much better than the promise; this keeps it on shots with several rim contacts.
+#: Local error of a step relative to the tolerance at the end. Each impact on a round shape multiplies an error by ten
+#: or more, so the flight must be much more accurate; this value is enough for shots with several rim contacts.
 LOCAL_SHARE = 3e-4
 
-#: What error in spin counts as error in m: a spin's error moves the ball only through lift and the next bounce.
+#: Weight of an error in spin as an error in m: it moves the ball only through lift and the next bounce.
 SPIN_WEIGHT = 0.1  # s
 
 #: First step tried under error control; it shrinks by 5 until the error fits.
 FIRST_STEP = 0.05  # s
 
-#: Longest step, so that forces which change along the way are met several times a second.
+#: Longest step, so that forces that vary along the path are evaluated several times a second.
 LONGEST = 0.5  # s
 
-#: The next step over the last: what the error asks for and a little less, within these bounds; after an error that is
-#: not finite this share.
+#: Ratio of the next step to the last: a safety factor, the bounds, and the ratio after an error that is not finite.
 SAFETY, SHORTER, LONGER, LOST = 0.9, 0.2, 5.0, 0.1
 
 #: Largest product of a fixed step and the forces' rate of change with velocity (1/s). Explicit steps are smooth below
@@ -33,15 +33,15 @@ SAFETY, SHORTER, LONGER, LOST = 0.9, 0.2, 5.0, 0.1
 #: limit.
 STIFFEST = 0.5
 
-#: Changes of velocity below this share of the speed are no sign of stiffness: a force may jump.
+#: Changes of velocity below this fraction of the speed do not show stiffness: a force may jump.
 JUMP = 0.01
 
-#: Keeps quotients by an error finite where there is none (m).
+#: Avoids division by an error of zero (m).
 _NO_ERROR = 1e-300
 
 
 class StepControl:
-    """The steps of one method at one accuracy, by its order and, where it has one, its estimate of the error."""
+    """Step control of one method at one accuracy, from its order and its error estimate, if any."""
 
     def __init__(self, accuracy: Accuracy) -> None:
         self._method = INTEGRATORS[accuracy.integrator]
@@ -53,10 +53,10 @@ class StepControl:
     def judge(
         self, h: Any, wanted: Any, start: State, end: State, accelerations: tuple[Acceleration, Acceleration], off: Any
     ) -> tuple[Any, Any]:
-        """Whether a step of ``h`` s is good, and the one to try next: after it, or in its place.
+        """Whether a step of ``h`` s is accepted, and the next step to try, after it or in its place.
 
-        ``wanted`` is what was meant to be tried, of which ``h`` may be a part. ``accelerations`` are those at both
-        ends, ``off`` is the estimated error in m, or None.
+        ``wanted`` is the intended step, of which ``h`` may be a part. ``accelerations`` are those at both ends,
+        ``off`` is the estimated error in m, or None.
         """
         if off is None:
             stiff = _stiff(start, end, *accelerations, h)
@@ -69,19 +69,19 @@ class StepControl:
 
 
 def size(error: State, radius: Any) -> Any:
-    """Local error in m: that of the position, and what that of the velocity makes of it in a second."""
+    """Local error in m: that of the position, plus that of the velocity over a second."""
     ex, ey, evx, evy, spin = error
     return abs(ex) + abs(ey) + abs(evx) + abs(evy) + SPIN_WEIGHT * radius * abs(spin)
 
 
 def within(patches: Iterable[Patch], h: Any, state: State, acceleration: Acceleration) -> Any:
-    """A step that stops short of each patch, or is no longer than it asks for."""
+    """A step that ends before each patch, or is no longer than the patch allows."""
     x, y, vx, vy, _ = state
     ax, ay, _ = acceleration
     for patch in patches:
         while anywhere(h > patch.step):
             half = 0.5 * h
-            xs = (x, x + half * vx, x + h * (vx + half * ax))  # control points of the parabola ahead
+            xs = (x, x + half * vx, x + h * (vx + half * ax))  # control points of the predicted parabola
             ys = (y, y + half * vy, y + h * (vy + half * ay))
             crossed = patch.crossed(xs, ys) & (h > patch.step)
             if not anywhere(crossed):
@@ -91,7 +91,7 @@ def within(patches: Iterable[Patch], h: Any, state: State, acceleration: Acceler
 
 
 def _stiff(before: State, after: State, acceleration: Acceleration, following: Acceleration, h: Any) -> Any:
-    """Whether a fixed step is too long for forces that depend on velocity, judged by how they changed over the step."""
+    """Whether a fixed step is too long for forces that depend on velocity, judged by their change over the step."""
     change = h * (abs(following[0] - acceleration[0]) + abs(following[1] - acceleration[1]))
     gain = abs(after[2] - before[2]) + abs(after[3] - before[3])
     speed = most(abs(before[2]) + abs(before[3]), abs(after[2]) + abs(after[3]))

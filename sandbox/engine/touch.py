@@ -1,9 +1,9 @@
 """When and where a ball on an arc first touches a fixed shape or another ball.
 
-Every shape is made of features: straight sides and round corners (or a whole circle). A ball of radius r touches a
-feature when its centre reaches the feature's outline grown by r, which is a line or a circle. Along an arc the
-distance to either is a polynomial in time, and its first downward crossing is the time of impact: nothing can tunnel,
-at any speed.
+Every shape consists of features: straight sides and round corners (or a whole circle). A ball of radius r touches a
+feature when its centre reaches the feature's outline expanded by r, which is a line or a circle. Along an arc the
+distance to it is a polynomial in time, and its first downward crossing is the time of impact: no ball can tunnel, at
+any speed.
 """
 
 from __future__ import annotations
@@ -19,16 +19,16 @@ from sandbox.engine.bernstein import downward_crossings, elevate, evaluate, piec
 from sandbox.engine.setup import Circle, Segment, Surface
 from sandbox.physics.elementwise import choose, hypot, least, most
 
-#: Largest gap in m at which shapes are taken to be in contact when an impact or a new contact is sorted out.
-CONTACT = 1e-10
+#: Largest gap in m at which shapes count as in contact when an impact or a new contact is resolved.
+TOUCHING_GAP = 1e-10
 
-#: Distance in m along a side within which a ball is at the side's end.
+#: Distance in m along a side within which a ball counts as at the side's end.
 _SEAM = 1e-11
 
-#: Rounding in m that is not motion: a path nearer than this to parallel neither closes nor opens a gap.
+#: Change of a gap in m that is rounding: a path closer than this to parallel neither closes nor opens a gap.
 NOISE = 1e-13
 
-#: Keeps a normal finite where a ball is centred on a corner (m).
+#: Keeps the normal finite if a ball is centred on a corner (m).
 _NO_DISTANCE = 1e-300
 
 
@@ -58,8 +58,8 @@ class Touching(NamedTuple):
 
 
 class Outline(NamedTuple):
-    """Where a ball's centre is when it touches a shape: all places at ``reach`` from the line between a and b, or from
-    the one point where a is b. Floats, or arrays for many shapes at once."""
+    """The positions of a ball's centre when it touches a shape: all points at distance ``reach`` from the line from a
+    to b, or from one point if a equals b. Floats, or arrays for many shapes at once."""
 
     ax: Any  # m
     ay: Any
@@ -72,17 +72,17 @@ class Outline(NamedTuple):
 
     @classmethod
     def of(cls, shape: Segment | Circle, radius: Any) -> Outline:
-        """That of a shape for balls of this radius (m)."""
+        """The outline of a shape for balls of this radius (m)."""
         ends = (*shape.center, *shape.center) if isinstance(shape, Circle) else (*shape.a, *shape.b)
         zero = 0.0 * radius
         ax, ay, bx, by = (end + zero for end in ends)
         length = hypot(bx - ax, by - ay)
-        point = length == 0.0  # then it has any direction
+        point = length == 0.0  # then the direction is arbitrary
         over = length + point
         return cls(ax, ay, bx, by, shape.radius + radius, length, (bx - ax) / over + point, (by - ay) / over)
 
     def along(self, x: Any, y: Any) -> Any:
-        """Way in m from a towards b."""
+        """Distance in m from a towards b."""
         return (x - self.ax) * self.tx + (y - self.ay) * self.ty
 
     def across(self, x: Any, y: Any) -> Any:
@@ -90,28 +90,28 @@ class Outline(NamedTuple):
         return (y - self.ay) * self.tx - (x - self.ax) * self.ty
 
     def near(self, x: Any, y: Any) -> Touching:
-        """How near a ball centred at (x, y) is to the feature nearest to it."""
+        """The nearest feature to a ball centred at (x, y), with gap and normal."""
         along = self.along(x, y)
         beyond = along > self.length
-        beside = (along >= 0.0) & (beyond ^ True) & (self.length > 0.0)
+        on_side = (along >= 0.0) & (beyond ^ True) & (self.length > 0.0)
         side, corner = self.side(x, y), self.corner(choose(beyond, CORNER_B, CORNER_A), x, y)
         return Touching(
-            choose(beside, side.gap, corner.gap),
-            choose(beside, side.nx, corner.nx),
-            choose(beside, side.ny, corner.ny),
-            choose(beside, 0.0, corner.curvature),
+            choose(on_side, side.gap, corner.gap),
+            choose(on_side, side.nx, corner.nx),
+            choose(on_side, side.ny, corner.ny),
+            choose(on_side, 0.0, corner.curvature),
             corner.center,
-            choose(beside, SIDE, corner.feature),
+            choose(on_side, SIDE, corner.feature),
         )
 
     def side(self, x: Any, y: Any) -> Touching:
-        """How near a ball is to the side, or to what would continue it."""
+        """Gap and normal of a ball to the side, or to its extension."""
         across = self.across(x, y)
         side = choose(across >= 0.0, 1.0, -1.0)
         return Touching(side * across - self.reach, -side * self.ty, side * self.tx, 0.0, (self.ax, self.ay), SIDE)
 
     def corner(self, feature: Any, x: Any, y: Any) -> Touching:
-        """How near a ball is to a corner."""
+        """Gap and normal of a ball to a corner."""
         at_b = feature == CORNER_B
         cx, cy = choose(at_b, self.bx, self.ax), choose(at_b, self.by, self.ay)
         dx = x - cx
@@ -121,8 +121,8 @@ class Outline(NamedTuple):
         return Touching(distance - self.reach, dx / over, dy / over, 1.0 / self.reach, (cx, cy), feature)
 
     def box(self) -> tuple[Any, Any, Any, Any]:
-        """Left, bottom, right, top (m) of where a ball's centre is when it touches."""
-        margin = self.reach + CONTACT
+        """Left, bottom, right, top (m) of the positions of a ball's centre when it touches."""
+        margin = self.reach + TOUCHING_GAP
         return (
             least(self.ax, self.bx) - margin,
             least(self.ay, self.by) - margin,
@@ -133,13 +133,13 @@ class Outline(NamedTuple):
 
 @lru_cache(maxsize=4096)
 def _prepared(shape: Segment | Circle, radius: float) -> tuple[Outline, tuple[float, float, float, float]]:
-    """An outline and its box; a scene's shapes are the same in run after run."""
+    """An outline and its box; cached, since a scene's shapes are the same in every run."""
     outline = Outline.of(shape, radius)
     return outline, outline.box()
 
 
 class Obstacle:
-    """A surface, prepared for one ball radius; touched where a ball overlaps it by ``skin`` (m)."""
+    """A surface, prepared for one ball radius; touched when a ball overlaps it by ``skin`` (m)."""
 
     def __init__(self, surface: Surface, radius: float, skin: float = SKIN) -> None:
         self.surface = surface
@@ -152,12 +152,12 @@ class Obstacle:
         return path[0] <= right and path[2] >= left and path[1] <= top and path[3] >= bottom
 
     def near(self, x: float, y: float) -> Touching:
-        """How near a ball centred at (x, y) is to the feature nearest to it."""
+        """The nearest feature to a ball centred at (x, y), with gap and normal."""
         return self.outline.near(x, y)
 
-    def ahead(self, touching: Touching, x: float, y: float, mx: float, my: float) -> Touching:
-        """The feature that a ball touching here, and about to move along (mx, my), will be on: at the seam of side
-        and corner both are touched."""
+    def next_feature(self, touching: Touching, x: float, y: float, mx: float, my: float) -> Touching:
+        """The feature that a ball touching here will be on when it moves along (mx, my): at the seam of side and corner
+        it touches both."""
         outline = self.outline
         if outline.length == 0.0:
             return touching
@@ -191,7 +191,7 @@ class Obstacle:
         return self.outline.side(x, y) if feature == SIDE else self.outline.corner(feature, x, y)
 
     def first_touch(self, arc: Arc) -> float | None:
-        """The first u in [0, 1] of the arc at which the ball comes to touch, or None."""
+        """The first u in [0, 1] of the arc at which the ball starts to touch, or None."""
         ax, ay, bx, by, reach, length, _, _ = self.outline
         radius = reach - self._skin
         if length == 0.0:
@@ -209,8 +209,8 @@ class Obstacle:
         for side in (1.0, -1.0):
             gap = [side * d - reach + self._skin for d in across]
             if max(gap) <= -NOISE and side * across[0] <= 0.0:
-                continue  # wholly beyond the line
-            for u in _closings(gap, side * across[0] > 0.0 and self._within(arc.x[0], arc.y[0], CONTACT)):
+                continue  # entirely beyond the line
+            for u in _closings(gap, side * across[0] > 0.0 and self._within(arc.x[0], arc.y[0], TOUCHING_GAP)):
                 if first is not None and u >= first:
                     break
                 if self._within(evaluate(arc.x, u), evaluate(arc.y, u)):
@@ -226,17 +226,17 @@ def _corner(arc: Arc, x: float, y: float, radius: float) -> float | None:
     left, bottom, right, top = arc.box()
     if x - radius > right or x + radius < left or y - radius > top or y + radius < bottom:
         return None
-    return _round(arc.x, arc.y, (x, y), radius)
+    return _first_within(arc.x, arc.y, (x, y), radius)
 
 
-def _round(xs: Sequence[float], ys: Sequence[float], center: Point, radius: float) -> float | None:
+def _first_within(xs: Sequence[float], ys: Sequence[float], center: Point, radius: float) -> float | None:
     """First u at which a path comes within ``radius`` of a point."""
     cx, cy = center
     dx = [x - cx for x in xs]
     dy = [y - cy for y in ys]
     if min(dx) > radius or max(dx) < -radius or min(dy) > radius or max(dy) < -radius:
         return None
-    # the control points all lie beyond a tangent of the circle: no touch
+    # all control points are beyond a tangent of the circle: no touch
     middle = len(dx) // 2
     mx, my = dx[middle], dy[middle]
     length = sqrt(mx * mx + my * my)
@@ -246,16 +246,16 @@ def _round(xs: Sequence[float], ys: Sequence[float], center: Point, radius: floa
     return next(iter(_closings(gap, True)), None)
 
 
-def _closings(gap: list[float], starts_beside: bool) -> Iterable[float]:
+def _closings(gap: list[float], starts_touching: bool) -> Iterable[float]:
     """Times u at which a gap closes. One that is closed at the start, within rounding, counts only if it closes
     further.
     """
     if len(gap) == 1:
         return ()  # nothing moves
-    if starts_beside and gap[0] <= NOISE:
+    if starts_touching and gap[0] <= NOISE:
         opening = without_root_at_start([g - gap[0] for g in gap])
         if opening[0] < -NOISE:
-            # closing, but perhaps by no more than rounding, as where a ball that glides along a side passes its end
+            # closing, but perhaps only by rounding, as when a ball that slides along a side passes its end
             return downward_crossings([g - gap[0] + NOISE for g in gap])
         return downward_crossings([g + NOISE for g in opening])
     return downward_crossings(gap)
@@ -274,7 +274,7 @@ def balls_touch(first: Arc, second: Arc, reach: float, t: float, skin: float = S
     degree = max(len(xs), len(us)) - 1
     dx = [a - b for a, b in zip(elevate(xs, degree), elevate(us, degree), strict=True)]
     dy = [a - b for a, b in zip(elevate(ys, degree), elevate(vs, degree), strict=True)]
-    u = _round(dx, dy, (0.0, 0.0), reach - skin)
+    u = _first_within(dx, dy, (0.0, 0.0), reach - skin)
     return None if u is None else t + u * (until - t)
 
 

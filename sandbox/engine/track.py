@@ -1,4 +1,4 @@
-"""One ball on its way through a run."""
+"""One ball during a run: its state, current arc and path."""
 
 from __future__ import annotations
 
@@ -6,15 +6,15 @@ from collections.abc import Sequence
 from typing import Protocol
 
 from sandbox.engine.arc import Arc, still, through
-from sandbox.engine.motion import Contact
+from sandbox.engine.motion import LastingContact
 from sandbox.engine.setup import Ball
-from sandbox.engine.touch import CONTACT, Obstacle, Touching
+from sandbox.engine.touch import TOUCHING_GAP, Obstacle, Touching
 from sandbox.physics.integrators import State
 
-#: What an arc says of a ball that is pressed against others, on its way through a contact that lasts.
+#: Value of ``Arc.contact`` for a ball in a simulated contact with others.
 PRESSED = "pressed"
 
-#: Difference in m/s and rad/s that is rounding.
+#: Difference in m/s and rad/s below which it is rounding.
 _SAME = 1e-9
 
 Near = tuple[Obstacle, Touching]
@@ -25,18 +25,18 @@ class Motion(Protocol):
 
     ball: Ball
 
-    def advance(self, t: float, until: float, state: State, contact: Contact | None) -> tuple[Arc, str]:
-        """The next arc from t, at most to ``until``, and why it ends: "" for no reason but its length."""
+    def advance(self, t: float, until: float, state: State, contact: LastingContact | None) -> tuple[Arc, str]:
+        """The next arc from t, at most to ``until``, and why it ends: "" if only because of its length."""
 
-    def settle(self, t: float, state: State, track: Track, height: float) -> tuple[State, Contact | None]:
-        """The state from which the ball goes on after it touched something, and its lasting contact if it stays there:
-        if it would not bounce higher than ``height`` (m)."""
+    def settle(self, t: float, state: State, track: Track, height: float) -> tuple[State, LastingContact | None]:
+        """The state from which the ball continues after a touch, and its lasting contact if it stays there because it
+        would not bounce higher than ``height`` (m)."""
 
-    def conclude(self, state: State, contact: Contact | None, reason: str) -> State:
-        """The state at the end of an arc that ended for this reason."""
+    def conclude(self, state: State, contact: LastingContact | None, reason: str) -> State:
+        """The state at the end of an arc that ended for ``reason``."""
 
     def rests(self, arc: Arc) -> bool:
-        """Whether the ball lies still on this arc."""
+        """Whether the ball is at rest on this arc."""
 
 
 class Track:
@@ -48,10 +48,10 @@ class Track:
         self.obstacles = obstacles
         self.catches = catches
         self.state = state
-        self.contact: Contact | None = None
-        self.arc = still(0.0, 0.0, state)  # what it does at the moment
+        self.contact: LastingContact | None = None
+        self.arc = still(0.0, 0.0, state)  # the current arc
         self.path: list[Arc] = []
-        self.version = 0  # of the arc: what was foreseen for an earlier one no longer holds
+        self.version = 0  # of the arc: predictions for an earlier one are invalid
         self.rests = False
         self.caught = False
 
@@ -61,15 +61,15 @@ class Track:
         self.arc = still(0.0, 0.0, self.state)
 
     def keep(self, t: float) -> None:
-        """Add what was travelled of the arc until t to the path."""
+        """Add the arc up to t to the path."""
         if t < self.arc.t0:
-            return  # within a contact that is kept already
+            return  # within a contact that is already in the path
         arc = self.arc.until(t)
         if arc.t1 > arc.t0 or not self.path:
             self.path.append(arc)
 
     def meet(self, t: float, until: float, state: State) -> None:
-        """Go through a contact that lasts from t ``until`` then, and ends in ``state``; the path is kept up to t."""
+        """Add a contact that lasts from t to ``until`` and ends in ``state``; the path is complete up to t."""
         before = self.arc.state(t)
         arc = through(t, until - t, before[:5], (0.0, 0.0, 0.0), state[:5], (0.0, 0.0, 0.0), PRESSED)
         arc.start, arc.end = before, state
@@ -78,7 +78,8 @@ class Track:
         self.arc, self.state = still(until, until, state), state
 
     def finish(self, t: float) -> None:
-        """Add the rest of the path: the run is over at t. What an impact at t did is kept, though nothing follows."""
+        """Add the rest of the path, as the run ends at t. The outcome of an impact at t is included, though no arc
+        follows."""
         self.keep(t)
         last, before = self.arc.until(t), self.path[-1]
         if last.t1 == last.t0 and any(
@@ -90,4 +91,4 @@ class Track:
         """The surfaces that the ball touches at (x, y), each at its nearest feature."""
         point = (x, y, x, y)
         found = [(obstacle, obstacle.near(x, y)) for obstacle in self.obstacles if obstacle.may_meet(point)]
-        return [(obstacle, touching) for obstacle, touching in found if touching.gap <= CONTACT]
+        return [(obstacle, touching) for obstacle, touching in found if touching.gap <= TOUCHING_GAP]

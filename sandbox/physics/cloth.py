@@ -64,7 +64,7 @@ class Cloth:
     def __post_init__(self) -> None:
         for what in ("sliding", "rolling", "spinning", "gravity"):
             if not 0.0 <= getattr(self, what) < inf:
-                raise ValueError(f"cloth: {what} = {getattr(self, what)} must be no less than 0")
+                raise ValueError(f"cloth: {what} = {getattr(self, what)} must not be negative")
 
     def phase(self, state: ClothState, radius: float) -> Phase:
         """What a ball of ``radius`` m does from ``state`` on, until it changes its manner of motion or loses its spin.

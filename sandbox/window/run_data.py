@@ -8,7 +8,7 @@ from typing import Any
 
 from sandbox.engine.accuracy import Accuracy
 from sandbox.engine.arc import Arc
-from sandbox.engine.motion import Contact
+from sandbox.engine.motion import LastingContact
 from sandbox.engine.run import Event, Numerics, Run
 from sandbox.engine.setup import Ball, Setup
 from sandbox.engine.touch import Obstacle, Touching
@@ -51,7 +51,7 @@ def run_of(scene: Scene, record: dict[str, Any]) -> Run:
 
 def _arc_data(arc: Arc, places: dict[int, int]) -> tuple[Any, ...]:
     contact = None
-    if isinstance(arc.contact, Contact):
+    if isinstance(arc.contact, LastingContact):
         mode, obstacle, touching, direction, spin_rate = arc.contact
         contact = mode, places[id(obstacle.surface)], tuple(touching), direction, spin_rate
     curves = arc.x, arc.y, arc.vx, arc.vy, arc.spin
@@ -66,7 +66,7 @@ def _arc(item: Any, setup: Setup, ball: Ball) -> Arc:
     if contact is not None:
         mode, place, (gap, nx, ny, curvature, center, feature), direction, spin_rate = contact
         touching = Touching(gap, nx, ny, curvature, tuple(center), feature)
-        contact = Contact(mode, Obstacle(setup.surfaces[place], ball.radius), touching, direction, spin_rate)
+        contact = LastingContact(mode, Obstacle(setup.surfaces[place], ball.radius), touching, direction, spin_rate)
     last = None if end is None else tuple(end)
     turning = tuple(map(tuple, rolling))
     return Arc(t0, t1, tuple(start), tuple(x), tuple(y), tuple(vx), tuple(vy), tuple(spin), contact, turning, last)

@@ -19,7 +19,7 @@ from sandbox.engine import batch, simulate, simulate_many
 from sandbox.engine.accuracy import resolve
 from sandbox.engine.arc import Arc, through
 from sandbox.engine.arc_rows import ArcRows
-from sandbox.engine.contacts import Contact, Contacts, Moving
+from sandbox.engine.contacts import BallAtImpact, Contact, ImpulseSpace
 from sandbox.engine.event import Event
 from sandbox.engine.lanes import Lanes
 from sandbox.engine.outlines import Outlines
@@ -382,10 +382,10 @@ def test_lanes_exchange_what_contacts_do(motions: list[tuple[float, float, float
     found = lanes.exchange(along / radius, away / radius, spin, answers)
     for i, (restitution, friction, factor) in enumerate(answers.tolist()):
         ball = Ball("ball", 0.43, radius, (0.0, 0.0), inertia_factor=factor)
-        moving = Moving(0, 5.0, 3.0, along[i], away[i], spin[i])
+        moving = BallAtImpact(0, 5.0, 3.0, along[i], away[i], spin[i])
         bounce = Bounce(restitution, friction)
         contact = Contact(0, None, 0.0, 1.0, bounce, -away[i])
-        Contacts([ball], Numerics()).exchange([moving], [contact])
+        ImpulseSpace([ball], Numerics()).exchange([moving], [contact])
         size = abs(along[i]) + abs(away[i]) + radius * abs(spin[i])
         assert radius * found[0][i] == pytest.approx(moving.vx, abs=1e-9 * size)
         assert radius * found[1][i] == pytest.approx(moving.vy, abs=1e-9 * size)

@@ -149,7 +149,7 @@ def test_a_ball_on_a_ball_on_the_floor():
 def test_what_stays_pressed_is_an_error():
     pressed = [body._replace(push=(0.0, -9.81)) for body in (ball(0.0, RADIUS, 0.0, -1e-3),)]
     floor = Link(0, None, STIFFNESS, 0.1, lambda slip: 0.0, wall=lambda x, y: (y - RADIUS, 0.0, 1.0))
-    with pytest.raises(StaysPressed, match="do not part"):
+    with pytest.raises(StaysPressed, match="do not separate"):
         Cluster(pressed, [floor]).pass_through(STEP)
 
 

@@ -261,7 +261,7 @@ def test_a_ball_resting_on_another_is_a_named_error():
     floor = Surface("floor", Segment((-5.0, 0.0), (5.0, 0.0)), 0.5, 0.5)
     pair = [ball((0.0, 0.05), name="lower"), ball((0.0, 0.25), name="upper")]
     setup = Setup(pair, [floor], duration=5.0, between_balls=lambda n, s: Bounce(0.5, 0.0))
-    with pytest.raises(Stalled, match=r"t = .* s, ball '(upper|lower)' at .* m: events without end, last with"):
+    with pytest.raises(Stalled, match=r"t = .* s, ball '(upper|lower)' at .* m: endless events, the last with"):
         simulate(setup, resolve())
     heap = simulate(setup, resolve(method="plain", step=1e-3))
     assert heap.state("upper", 5.0)[1] == pytest.approx(0.15, abs=1e-3)

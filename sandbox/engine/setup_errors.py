@@ -1,4 +1,4 @@
-"""A run that failed by what a scene handed to the engine: said in a line that names it."""
+"""Errors caused by what a scene passed to the engine, as one line that names the cause."""
 
 from __future__ import annotations
 
@@ -10,23 +10,23 @@ from typing import TYPE_CHECKING, Any
 
 from sandbox.errors import RunError, no_exit
 
-_ROOMS = Path(__file__).resolve().parent.parent
+_PACKAGE = Path(__file__).resolve().parent.parent
 
 if TYPE_CHECKING:
     from sandbox.engine.setup import Setup
 
 
 @contextmanager
-def blamed(setup: Setup) -> Iterator[None]:
-    """Around a run of the setup: a TypeError because one of its functions cannot be called as the engine calls it is a
-    RunError that names the function, and ``sys.exit`` in one of them a failure. So are numbers that a float, or
-    pymunk, cannot hold: they come from masses, lengths or speeds of absurd sizes."""
+def setup_errors_named(setup: Setup) -> Iterator[None]:
+    """Context of a run of the setup. A TypeError from a function of the setup with the wrong arguments becomes a
+    RunError that names the function, and ``sys.exit`` in one becomes a failure. Overflow in Python or pymunk, caused
+    by absurd masses, lengths or speeds, becomes a RunError too."""
     try:
         with no_exit():
             yield
     except TypeError as error:
         for what, function, arguments in _functions(setup):
-            mistake = _cannot_be_called(function, arguments)
+            mistake = _mismatch(function, arguments)
             if mistake is not None:
                 raise RunError(f"{what} is called as {what}({', '.join(arguments)}): {mistake}") from error
         raise
@@ -40,16 +40,18 @@ def blamed(setup: Setup) -> Iterator[None]:
 
 
 def _is_ours(error: BaseException) -> bool:
-    """Whether it was raised by the engine, the laws of physics or pymunk, not by a scene's own code."""
+    """Whether it was raised by the engine, sandbox.physics or pymunk, and not by a scene's own code."""
     trace = error.__traceback__
     while trace is not None and trace.tb_next is not None:
         trace = trace.tb_next
     file = Path(trace.tb_frame.f_code.co_filename) if trace is not None else Path()
-    return file.is_relative_to(_ROOMS / "engine") or file.is_relative_to(_ROOMS / "physics") or "pymunk" in file.parts
+    return (
+        file.is_relative_to(_PACKAGE / "engine") or file.is_relative_to(_PACKAGE / "physics") or "pymunk" in file.parts
+    )
 
 
 def _functions(setup: Setup) -> Iterator[tuple[str, Callable[..., Any], tuple[str, ...]]]:
-    """The functions of a setup by their names, with what they are called with."""
+    """The functions of a setup: name, function and the names of its arguments."""
     if callable(setup.until):
         yield "until", setup.until, ("event",)
     for one, other, law in setup.pairs:
@@ -60,8 +62,8 @@ def _functions(setup: Setup) -> Iterator[tuple[str, Callable[..., Any], tuple[st
             yield "law", surface.law, ("normal_speed", "tangential_speed")
 
 
-def _cannot_be_called(function: Callable[..., Any], arguments: tuple[str, ...]) -> str | None:
-    """Why a function does not take so many arguments; None where it does, or Python does not know."""
+def _mismatch(function: Callable[..., Any], arguments: tuple[str, ...]) -> str | None:
+    """Why a function cannot take these arguments; None if it can, or if Python cannot tell."""
     try:
         inspect.signature(function).bind(*arguments)
     except TypeError as error:
