@@ -34,11 +34,11 @@ class UniformWind:
 
 @dataclass(frozen=True)
 class LogWind:
-    """Wind that grows with height over rough ground: ``w(y) = w_ref ln(1 + y/y0) / ln(1 + y_ref/y0)``.
+    """Wind that increases with height over rough ground: ``w(y) = w_ref ln(1 + y/y0) / ln(1 + y_ref/y0)``.
 
     ``reference`` is the velocity (m/s) at the height ``reference_height``; ``roughness`` y0 is about 0.03 m over mown
-    grass. Valid in the lowest 100 m in neutral air; above ``ceiling`` it stays constant, at the ground (height y = 0)
-    and below it is zero. Source: Wieringa 1992, J. Wind Eng. Ind. Aerodyn. 41:357; the 1 added inside the logarithm
+    grass. Valid in the lowest 100 m in neutral air; it is constant above ``ceiling``, and zero at and below
+    the ground (y = 0). Source: Wieringa 1992, J. Wind Eng. Ind. Aerodyn. 41:357; the 1 added inside the logarithm
     keeps it finite at the ground.
     """
 

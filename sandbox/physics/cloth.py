@@ -1,20 +1,20 @@
-"""A ball on cloth: it slides, rolls, spins in place, rests; each in closed form.
+"""A ball on cloth: sliding, rolling, spinning in place and rest, each in closed form.
 
-Seen from above, with the angular velocity (wx, wy, wz), wz about the vertical. The ball's lowest point moves over the
-cloth with
+Seen from above, with angular velocity (wx, wy, wz), wz about the vertical. The ball's lowest point slides over the
+cloth with velocity
 
     u = (vx - r wy, vy + r wx),
 
-and the cloth answers with friction. While the ball **slides**, ``m a = -mu_s m g u/|u|`` acts there, so that
+and friction of the cloth opposes it. While the ball **slides**, ``m a = -mu_s m g u/|u|``, so that
 
     dv/dt = -mu_s g u/|u|,  d(wx, wy)/dt = (5 mu_s g / 2 r) (-u_y, u_x)/|u|,  du/dt = -(7/2) mu_s g u/|u|.
 
 The direction of u is constant, hence so are all accelerations: the path is a parabola, and after ``2 |u| / (7 mu_s g)``
-the ball **rolls**: u = 0 stays, and it slows by ``mu_r g`` along its straight way. Spin about the vertical dies away by
-itself, ``dwz/dt = -+ 5 mu_sp g / 2 r``, in every phase and, last of all, **in place**.
+the ball **rolls**: u stays 0, and the ball decelerates by ``mu_r g`` on a straight path. Spin about the vertical decays
+independently, ``dwz/dt = -+ 5 mu_sp g / 2 r``, in every phase, at last with the ball spinning **in place**.
 
 Valid for a solid sphere that never leaves level, dry cloth, with friction that does not depend on speed. Left out: the
-nap, the ball's sinking into the cloth, and what spin about the vertical does to the path of a rolling ball.
+nap, the ball's sinking into the cloth, and the effect of spin about the vertical on the path of a rolling ball.
 Sources: Marlow 1995, The Physics of Pocket Billiards; Leckie & Greenspan 2006, An Event-Based Pool Physics Simulator,
 Lecture Notes in Computer Science 4250, 247; Alciatore, technical proof TP A.4 to The Illustrated Principles of Pool and
 Billiards.
@@ -29,12 +29,12 @@ from typing import NamedTuple
 #: A ball on cloth: (x, y, vx, vy, wz, wx, wy) in m, m/s, rad/s; wz about the vertical, counter-clockwise from above.
 ClothState = tuple[float, float, float, float, float, float, float]
 
-#: Speed in m/s below which a ball does not slide, roll or spin: rounding. A ball this slow would move 1e-24 m.
+#: Speed in m/s below which sliding, rolling or spinning is rounding. A ball this slow would move 1e-24 m.
 _STILL = 1e-12
 
 
 class Phase(NamedTuple):
-    """How a ball moves for a while: with constant accelerations, for ``duration`` s (infinite if nothing ends it)."""
+    """A phase of motion with constant accelerations, lasting ``duration`` s (infinite if nothing ends it)."""
 
     mode: str  # "sliding", "rolling", "spinning" or "resting"
     duration: float  # s
@@ -44,16 +44,17 @@ class Phase(NamedTuple):
     alpha_x: float
     alpha_y: float
     radius: float  # m
-    ends_motion: bool  # at its end sliding turns to rolling, or rolling to rest
-    ends_spin: bool  # at its end the spin about the vertical is used up
+    ends_motion: bool  # at its end, sliding becomes rolling, or rolling becomes rest
+    ends_spin: bool  # at its end, the spin about the vertical is zero
 
 
 @dataclass(frozen=True)
 class Cloth:
     """The cloth's friction, and gravity in m/s^2.
 
-    ``sliding`` mu_s and ``rolling`` mu_r are deceleration over gravity. ``spinning`` mu_sp is the torque about the
-    vertical over m g r; 0.0127 slows a pool ball by 10.9 rad/s^2, and 5 to 15 is what is seen on tables (Alciatore).
+    ``sliding`` mu_s and ``rolling`` mu_r are deceleration divided by gravity. ``spinning`` mu_sp is the torque about
+    the vertical divided by m g r; 0.0127 slows a pool ball by 10.9 rad/s^2, and 5 to 15 is typical of tables
+    (Alciatore).
     """
 
     sliding: float = 0.2
@@ -67,7 +68,7 @@ class Cloth:
                 raise ValueError(f"cloth: {what} = {getattr(self, what)} must not be negative")
 
     def phase(self, state: ClothState, radius: float) -> Phase:
-        """What a ball of ``radius`` m does from ``state`` on, until it changes its manner of motion or loses its spin.
+        """The phase that starts at ``state`` for a ball of ``radius`` m, until its mode changes or its spin ends.
 
         Slides for ``2 |u| / (7 mu_s g)``, rolls for ``|v| / (mu_r g)``, spins for ``2 r |wz| / (5 mu_sp g)``.
         """
@@ -97,10 +98,10 @@ class Cloth:
         return Phase(mode, duration, ax, ay, alpha_z, alpha_x, alpha_y, radius, *ends)
 
     def after(self, state: ClothState, phase: Phase, t: float) -> ClothState:
-        """The state ``t`` s into ``phase``, which began with ``state``; at its end at the latest.
+        """The state ``t`` s into ``phase``, which started at ``state``; t is limited to its duration.
 
         At the end itself (t = duration) the constraints hold to the last bit: no slip where the ball begins to roll, no
-        speed where it stops, no wz where that is used up.
+        speed where it stops, no wz where the spin ends.
         """
         x, y, vx, vy, wz, wx, wy = state
         mode, duration, ax, ay, alpha_z, alpha_x, alpha_y, radius, ends_motion, ends_spin = phase

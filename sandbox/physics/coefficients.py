@@ -3,9 +3,9 @@
 Each is a function of the Reynolds number ``Re = rho |u| 2 r / mu`` and the spin ratio ``S = r |w| / |u|``, where u is
 the velocity relative to the air. Floats, or arrays of shape (n,).
 
-Each docstring gives the formula, where it was measured, what happens outside, and its source. Where a formula would
-turn negative, or grow without bound, it is held at the nearest value that it covers. "Second-hand" means that the
-formula was read in a quotation, not in the paper.
+Each docstring gives the formula, its measured range, its behaviour outside, and its source. Where a formula would
+become negative or grow without bound, its argument is clamped. "Second-hand" means that the formula was taken from a
+quotation, not from the paper.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ class Scaled:
 
 
 def spin_ratio_lift(reynolds: Any, spin_ratio: Any) -> Any:
-    """``Cl = S``: the textbook's simplest lift, linear in spin. A fair guess for S below 0.3, far too much above 1."""
+    """``Cl = S``: the textbook's simplest lift, linear in spin. A fair guess for S below 0.3, far too large above 1."""
     return spin_ratio
 
 
@@ -54,13 +54,13 @@ _CRITICAL = 1.0 / 0.68e5
 def tour_fit_drag(reynolds: Any, spin_ratio: Any) -> Any:
     """Golf ball: ``Cd = 0.20 + 0.30 / (1 + (Re / 0.68e5)^8) + 1.10 Cl^2``, with the Cl of tour_fit_lift.
 
-    A drag polar: 0.20 for the dimpled ball past its drag crisis, 0.50 for a sphere before it (both as wind tunnels
-    have them), a smooth crisis between, and drag induced by lift. Cd lies between 0.20 and 0.62, falls with Re, rises
+    A drag polar: 0.20 for the dimpled ball past its drag crisis, 0.50 for a sphere before it (both as measured in wind
+    tunnels), a smooth crisis between, and drag induced by lift. Cd lies between 0.20 and 0.62, falls with Re, rises
     with S.
 
     Fitted here, with tour_fit_lift, to the 12 PGA Tour averages of lab/published/golf_tour.csv (height, landing
     angle and carry together, each in the unit of 2.9 yd, 3.0 deg, 3.5 yd): the crisis, the induced drag and the two
-    numbers of the lift are free, the rest is held. Its rms errors are
+    numbers of the lift are free, the rest is fixed. Its rms errors are
 
         ========================================  ======  =======  =====
                                                   height  landing  carry
@@ -70,11 +70,11 @@ def tour_fit_drag(reynolds: Any, spin_ratio: Any) -> Any:
         the 11 averages of the LPGA, not fitted   2.3     1.8      3.9
         ========================================  ======  =======  =====
 
-    Left out, the driver is the worst (carry 8.8 yd short): only it has so little spin at such a speed. The
+    When left out, the driver is the worst (carry 8.8 yd short): no other club has so little spin at such a speed. The
     uncertainty of the four numbers, by the same fit: critical Re 0.69e5 +- 0.05e5, induced drag 1.08 +- 0.09, Cl
     0.323 +- 0.012 at most, its S 0.126 +- 0.008.
 
-    tests/reference/fit_golf_ball.py fits again and prints these numbers.
+    tests/reference/fit_golf_ball.py repeats the fit and prints these numbers.
 
     Covered by these flights: S from 0.07 to 1.07, Re from 0.5e5 to 2.2e5. Beyond, down to a chip at Re = 0.2e5 and up
     to Re = 5e5, the form is a fair guess, not a measurement.
@@ -87,7 +87,7 @@ def tour_fit_drag(reynolds: Any, spin_ratio: Any) -> Any:
 
 
 def tour_fit_lift(reynolds: Any, spin_ratio: Any) -> Any:
-    """Golf ball: ``Cl = 0.324 (1 - exp(-S / 0.126))``: in proportion to little spin, at most 0.324.
+    """Golf ball: ``Cl = 0.324 (1 - exp(-S / 0.126))``: proportional to S at low spin, at most 0.324.
 
     Fitted here, with tour_fit_drag; range and errors there. Real lift also fades, and may turn over, below the drag
     crisis (Re under 0.7e5, reverse Magnus effect); that is left out.
@@ -111,7 +111,7 @@ def smits_smith_lift(reynolds: Any, spin_ratio: Any) -> Any:
 
 
 def lyu_drag(reynolds: Any, spin_ratio: Any) -> Any:
-    """Golf ball: ``Cd = 1.91e-11 Re^2 - 5.40e-6 Re + 0.56``, whatever the spin; Re held at most 2.1e5.
+    """Golf ball: ``Cd = 1.91e-11 Re^2 - 5.40e-6 Re + 0.56``, independent of spin; Re clamped to at most 2.1e5.
 
     Measured in flight for S up to 0.32. Source: Lyu et al. 2018, MDPI Proceedings 2(6):238; second-hand.
     """
@@ -128,9 +128,9 @@ def lyu_lift(reynolds: Any, spin_ratio: Any) -> Any:
 def quadratic_drag(reynolds: Any, spin_ratio: Any) -> Any:
     """Golf ball: ``Cd = 0.19710 + 0.54852 S - 0.52694 S^2 - 0.09160 (Re/1e5 - 1.5)``.
 
-    A fit, made elsewhere, to the 23 tour averages of lab/published/golf_tour.csv, with a spin decay of 6e-5; S 0.05
+    A fit, not made here, to the 23 tour averages of lab/published/golf_tour.csv, with a spin decay of 6e-5; S 0.05
     to 0.45, Re 0.5e5 to 2.3e5. S is held at most 0.52, the parabola's maximum, and Re inside 0.3e5 to 2.2e5.
-    Source: the numbers from a public repository, the form that of McNally, Lambeth & Brekke 2023; second-hand.
+    Source: numbers from a public repository, form from McNally, Lambeth & Brekke 2023; second-hand.
     """
     s = clip(spin_ratio, 0.0, 0.52)
     return 0.19710 + (0.54852 - 0.52694 * s) * s - 0.09160 * (clip(reynolds, 0.3e5, 2.2e5) * 1e-5 - 1.5)
@@ -139,14 +139,14 @@ def quadratic_drag(reynolds: Any, spin_ratio: Any) -> Any:
 def quadratic_lift(reynolds: Any, spin_ratio: Any) -> Any:
     """Golf ball: ``Cl = 0.06628 + 1.37548 S - 1.41620 S^2``, S held at most 0.4856, the parabola's maximum.
 
-    Below S = 0.02 it falls evenly to zero, as a ball without spin has no side to lift to. Source: as there.
+    Below S = 0.02 it falls linearly to zero, as a ball without spin has no lift. Source: as for quadratic_drag.
     """
     s = clip(spin_ratio, 0.0, 0.4856)
     return (0.06628 + (1.37548 - 1.41620 * s) * s) * clip(50.0 * s, 0.0, 1.0)
 
 
 def power_law_golf_drag(reynolds: Any, spin_ratio: Any) -> Any:
-    """Golf ball: ``Cd = 0.2333 + 0.3260 S``, whatever the speed; S held at most 1.
+    """Golf ball: ``Cd = 0.2333 + 0.3260 S``, independent of speed; S clamped to at most 1.
 
     Fitted for this project to the PGA Tour averages of lab/published/golf_tour.csv, S 0.07 to 0.9.
     """
@@ -171,7 +171,7 @@ def usga_drag(reynolds: Any, spin_ratio: Any) -> Any:
 def usga_lift(reynolds: Any, spin_ratio: Any) -> Any:
     """Golf ball: ``Cl = 0.0860 + 0.6463 S - 0.0122 / Re^2 + 1.4789 S^2`` with Re in 1e5, held as for usga_drag.
 
-    Below S = 0.02 it falls evenly to zero, as a ball without spin has no side to lift to. Source: as for usga_drag.
+    Below S = 0.02 it falls linearly to zero, as a ball without spin has no lift. Source: as for usga_drag.
     """
     s = clip(spin_ratio, 0.0, 0.35)
     re = 1e-5 * clip(reynolds, 0.5e5, 2.5e5)
@@ -181,7 +181,7 @@ def usga_lift(reynolds: Any, spin_ratio: Any) -> Any:
 #: Models of a golf ball, by name. Drag and lift of one name belong together: their rms errors on the PGA Tour averages
 #: of lab/published/golf_tour.csv are (height in yd, landing angle in deg, carry in yd) 1.8/1.7/3.1 for tour-fit,
 #: 3.2/2.8/3.7 for quadratic, 2.3/4.2/5.9 for power-law, 3.8/6.6/11.9 for smits-smith, 2.5/2.4/16.4 for usga, and
-#: 12.9/4.8/59.2 for lyu, which has no drag from spin.
+#: 12.9/4.8/59.2 for lyu, which has no spin-induced drag.
 GOLF_DRAG: dict[str, Coefficient] = {
     "tour-fit": tour_fit_drag,
     "smits-smith": smits_smith_drag,
@@ -213,9 +213,9 @@ def goff_carre_drag(reynolds: Any, spin_ratio: Any) -> Any:
     """Soccer ball: ``Cd = a + (0.501 - a) / (1 + exp((v - 12.19) / 1.309))`` with ``a = 0.155`` without spin.
 
     The drag crisis is at v = 12.19 m/s; v stands for ``Re / 1.457e4``, the source's ball and air. Beyond the crisis
-    spin raises drag to ``a = 0.4127 S^0.3056``, here as soon as that is more than 0.155 (S = 0.041). The source turns
-    to it all at once, at S = 0.05 and 12.19 m/s; we pass over smoothly. S is held at most 1; at low speed Cd stays at
-    0.501, whatever the spin. Source: Goff & Carre 2010, Eur. J. Phys. 31:775, second-hand; the part with spin is to be
+    spin raises drag to ``a = 0.4127 S^0.3056``, here once that exceeds 0.155 (S = 0.041). The source switches
+    abruptly at S = 0.05 and 12.19 m/s; here the transition is smooth. S is held at most 1; at low speed Cd stays at
+    0.501, at any spin. Source: Goff & Carre 2010, Eur. J. Phys. 31:775, second-hand; the part with spin is not
     verified.
     """
     beyond = 0.4127 * clip(spin_ratio, _EVEN_SPIN, 1.0) ** 0.3056
@@ -224,9 +224,10 @@ def goff_carre_drag(reynolds: Any, spin_ratio: Any) -> Any:
 
 
 def textbook_soccer_drag(reynolds: Any, spin_ratio: Any) -> Any:
-    """Soccer ball: ``Cd`` 0.47 below Re = 1e5, 0.22 above 1.35e5, a straight line between; spin plays no part.
+    """Soccer ball: ``Cd`` 0.47 below Re = 1e5, 0.22 above 1.35e5, a straight line between; independent of spin.
 
-    A smooth sphere on one side, a ball past its drag crisis on the other. Source: textbooks' shortcut, second-hand.
+    A smooth sphere on one side, a ball past its drag crisis on the other. Source: a textbook simplification,
+    second-hand.
     """
     return 0.47 - 0.25 * clip((reynolds - 1e5) / 0.35e5, 0.0, 1.0)
 
@@ -234,7 +235,7 @@ def textbook_soccer_drag(reynolds: Any, spin_ratio: Any) -> Any:
 def asai_lift(reynolds: Any, spin_ratio: Any) -> Any:
     """Soccer ball: ``Cl = 0.498 S / (0.242 + S)``: 0.21 at S 0.18, 0.24 at 0.22 and 0.29 at 0.34, each within 0.003.
 
-    Between and beyond these points the curve is ours: it starts in proportion to S, as lift must, and levels off at
+    Between and beyond these points the curve is ours: it starts proportional to S, as lift must, and levels off at
     0.498. Other measurements find half to twice as much. Source of the points: Asai et al. 2007, Sports Eng. 10:101,
     second-hand.
     """
@@ -242,7 +243,7 @@ def asai_lift(reynolds: Any, spin_ratio: Any) -> Any:
 
 
 def power_law_soccer_lift(reynolds: Any, spin_ratio: Any) -> Any:
-    """Soccer ball: ``Cl = 0.385 S^0.25``, S held at most 1; generous at little spin. Source: textbooks, second-hand."""
+    """Soccer ball: ``Cl = 0.385 S^0.25``, S held at most 1; too large at low spin. Source: textbooks, second-hand."""
     return 0.385 * clip(spin_ratio, 0.0, 1.0) ** 0.25
 
 

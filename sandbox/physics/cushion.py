@@ -1,18 +1,18 @@
-"""A cushion whose nose meets the ball above its centre, so that the rebound takes spin about all axes.
+"""A cushion whose nose touches the ball above its centre, so that the rebound affects spin about all axes.
 
-The nose at height h over the cloth touches the ball where the line from the ball's centre rises by theta,
+The nose at height h above the cloth touches the ball at an angle theta above the ball's centre,
 
     sin(theta) = (h - R) / R,    d = (cos(theta) into the cushion, sin(theta) upward).
 
 Per unit of mass the normal impulse is ``Pn = (1 + e) v_n cos(theta)`` against d, with v_n the ball's speed into the
-cushion. Friction acts against the slip s of the ball's surface there, as far as ``mu Pn`` reaches and no further than
-to bring it to rest: ``Pt = min(mu Pn, 2/7 |s|)``. Then ``v += P`` and ``R w += 5/2 d x P``; what would lift the ball or
-press it on the cloth is left out.
+cushion. Friction acts against the slip s of the ball's surface there, limited by ``mu Pn`` and by what brings the slip
+to zero: ``Pt = min(mu Pn, 2/7 |s|)``. Then ``v += P`` and ``R w += 5/2 d x P``; the vertical component of P is
+ignored.
 
-Valid for a solid sphere that stays on the cloth, up to about 2.5 m/s. Left out: how long the rubber holds the ball, and
-the jump of a fast one. Source: the geometry of Han 2005, Dynamics in carom and three cushion billiards, J. Mech. Sci.
-Technol. 19:976. With e = 0.88, mu = 0.265 and h = 37 mm for balls of 30.75 mm it meets 329 rebounds tracked on carom
-tables to 1.4 deg rms (*ours*: fitted to published tracks).
+Valid for a solid sphere that stays on the cloth, up to about 2.5 m/s. Left out: the duration of the contact, and
+the jump of a fast ball. Source: the geometry of Han 2005, Dynamics in carom and three cushion billiards, J. Mech. Sci.
+Technol. 19:976. With e = 0.88, mu = 0.265 and h = 37 mm for balls of 30.75 mm it matches 329 rebounds tracked on
+carom tables to 1.4 deg rms (*ours*: fitted to published tracks).
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ Motion = tuple[Any, Any, Any, Any, Any]
 def rebound(
     motion: Motion, normal: tuple[float, float], radius: float, height: float, restitution: float, friction: float
 ) -> Motion:
-    """The motion after a ball of ``radius`` m has met a nose at ``height`` m whose ``normal`` points to the ball."""
+    """The motion of a ball of ``radius`` m after it hits a nose at ``height`` m; ``normal`` points to the ball."""
     vx, vy, wz, wx, wy = motion
     nx, ny = normal
     sine = (height - radius) / radius
@@ -35,10 +35,10 @@ def rebound(
     # Right-handed: into the cushion -n, along it (ny, -nx), up.
     into = -(vx * nx + vy * ny)
     along = vx * ny - vy * nx
-    # R w, about each of them
+    # R w, about each of these axes
     about_along, about_into = radius * (wx * ny - wy * nx), -radius * (wx * nx + wy * ny)
     about_up = radius * wz
-    # Of the surface at d, along the cushion and upward across d.
+    # Velocity of the surface at d: along the cushion, and upward at right angles to d.
     slip_along = along + about_up * cosine - about_into * sine
     raised = -into * sine - about_along
     pressed = (1.0 + restitution) * into * cosine

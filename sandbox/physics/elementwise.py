@@ -1,4 +1,4 @@
-"""Functions of a float, or of an array of them: one ball stays on fast Python floats, many shots go through numpy."""
+"""Functions of floats or arrays: one ball uses fast Python floats, many shots use numpy."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def log(x: Any) -> Any:
 
 
 def clip(x: Any, low: float, high: float) -> Any:
-    """x, no less than ``low`` and no more than ``high``."""
+    """x clamped to the range from ``low`` to ``high``."""
     if isinstance(x, float):
         return low if x < low else high if x > high else x
     import numpy as np
@@ -52,7 +52,7 @@ def hypot(x: Any, y: Any) -> Any:
 
 
 def least(*values: Any) -> Any:
-    """The smallest of these, entry by entry."""
+    """Elementwise minimum."""
     if isinstance(values[0], float):
         return min(values)
     import numpy as np
@@ -61,7 +61,7 @@ def least(*values: Any) -> Any:
 
 
 def most(*values: Any) -> Any:
-    """The largest of these, entry by entry."""
+    """Elementwise maximum."""
     if isinstance(values[0], float):
         return max(values)
     import numpy as np
@@ -70,7 +70,7 @@ def most(*values: Any) -> Any:
 
 
 def anywhere(condition: Any) -> bool:
-    """Whether it holds at all."""
+    """Whether the condition holds anywhere."""
     return condition if isinstance(condition, bool) else bool(condition.any())
 
 

@@ -2,8 +2,8 @@
 spin.
 
 Each is data: a frozen dataclass whose fields are its numbers. Position (m), velocity (m/s), spin (rad/s,
-counter-clockwise) and the fields are floats, or arrays of shape (n,) for many shots at once. A user's own force is any
-callable of this form.
+counter-clockwise) and the fields are floats, or arrays of shape (n,) for many shots at once. A user's own force can be
+any callable of this form.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from sandbox.physics.coefficients import Coefficient
 
 Wind = Callable[[float, Any], tuple[Any, Any]]
 
-#: Keeps quotients by a speed finite where the speed is zero, and is nothing beside any other speed (m/s).
+#: Avoids division by a speed of zero; negligible compared with any other speed (m/s).
 _ALMOST_ZERO = 1e-30
 
 
@@ -45,7 +45,7 @@ class _InAir:
     density: float  # kg/m^3, of the air
     coefficient: Coefficient
     wind: Wind | None = None
-    area: float | None = None  # m^2, that of the sphere's cross-section where it is not given
+    area: float | None = None  # m^2; default: the sphere's cross-section
     viscosity: float = VISCOSITY  # Pa s
     _half_density_area: float = field(init=False, repr=False)
     _reynolds_per_speed: float = field(init=False, repr=False)
@@ -78,11 +78,12 @@ class Drag(_InAir):
 
 @dataclass(frozen=True)
 class Magnus(_InAir):
-    """Magnus lift, ``F = 1/2 rho Cl A |u|^2``, at right angles to u, towards the side to which the spin carries its
-    front.
+    """Magnus lift, ``F = 1/2 rho Cl A |u|^2``, at right angles to u, towards the side to which the spin moves the
+    ball's front.
 
-    With ``along_ground`` the speed, the spin ratio and the direction are those of the velocity over the ground, the
-    textbook's shortcut. Source: Briggs 1959, Am. J. Phys. 27:589, for the direction; the size is the coefficient's.
+    With ``along_ground`` the speed, the spin ratio and the direction use the velocity over the ground, a textbook
+    simplification. Source: Briggs 1959, Am. J. Phys. 27:589, for the direction; the magnitude is set by the
+    coefficient.
     """
 
     along_ground: bool = False

@@ -1,4 +1,4 @@
-"""Two balls pressed together: Hertz's law, with a damping that gives the pair's restitution.
+"""Contact force of two balls: Hertz's law, with damping that gives the pair's restitution.
 
 Balls that overlap by d push each other apart with
 
@@ -9,9 +9,9 @@ where m is the reduced mass and k = 4/3 E sqrt(R), with 1/E = (1 - nu1^2)/E1 + (
 restitution does not depend on speed, and a follows from it in closed form: a = -sqrt(5) ln e / sqrt(ln^2 e + pi^2)
 (Antypov & Elliott 2011, EPL 94:50004).
 
-Valid for elastic balls whose contact is small compared with their radius and lasts longer than sound takes to cross
-them. Left out: plastic flow, waves inside the balls, and adhesion (near the end of a damped contact the law pulls a
-little, as that of the paper does).
+Valid for elastic balls with a contact that is small compared with their radius and lasts longer than sound takes to
+cross them. Left out: plastic flow, waves inside the balls, and adhesion (near the end of a damped contact the law is
+slightly attractive, as in the paper).
 """
 
 from __future__ import annotations
@@ -19,12 +19,12 @@ from __future__ import annotations
 from math import gamma, inf, log, pi, sqrt
 from typing import NamedTuple
 
-#: Restitution below which a contact would last without end: two balls without any stay together for seconds.
+#: Lowest restitution: with none a contact would never end, and with less two balls stay together for seconds.
 LEAST_RESTITUTION = 1e-3
 
 
 class Material(NamedTuple):
-    """What a ball is made of."""
+    """Elastic properties of a ball."""
 
     modulus: float  # Pa, Young's
     poisson: float
@@ -35,10 +35,10 @@ class Material(NamedTuple):
         return 4.0 / 3.0 * self.modulus / (2.0 * (1.0 - self.poisson**2)) * sqrt(curved)
 
 
-#: Of billiard balls; a maker's figures (dbkcues.ru). They touch for 390 us at 1 m/s; 250 to 300 us are measured (Kim
-#: 2024; Marlow 1995), for which the resin would be twice as stiff.
+#: Billiard balls; a maker's figures (dbkcues.ru). They touch for 390 us at 1 m/s; 250 to 300 us are measured (Kim
+#: 2024; Marlow 1995), which would need a resin twice as stiff.
 PHENOLIC = Material(5.84e9, 0.34)
-#: Bearing steel: the textbooks' round figures.
+#: Bearing steel: rounded textbook values.
 STEEL = Material(2.1e11, 0.3)
 
 

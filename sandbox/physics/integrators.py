@@ -2,7 +2,7 @@
 
 The state of a ball is ``(x, y, vx, vy, spin)`` in m, m/s, rad/s; an acceleration is ``(ax, ay, alpha)`` in m/s^2 and
 rad/s^2. Components are floats, or arrays of shape (n,) when many shots fly at once; ``dt`` may be an array then too.
-The acceleration at the start of a step is passed in, since the path between two steps needs it anyway.
+The acceleration at the start of a step is passed in, since interpolation between steps needs it anyway.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ Law = Callable[[Any, State], Acceleration]
 
 
 class Step(NamedTuple):
-    """The state after one step, and what the method gives away for free."""
+    """The state after one step, and by-products of the method."""
 
     state: State
     acceleration: Acceleration | None = None  # at the new state, where the method evaluates it
@@ -28,9 +28,9 @@ class Integrator(NamedTuple):
 
     step: Callable[[Law, Any, State, Acceleration, Any], Step]
     order: int  # global error is O(dt**order) for smooth forces
-    evaluations: int  # of the acceleration per step, the one passed in included: the unit of work
+    evaluations: int  # of the acceleration per step, including the one passed in: the unit of work
     source: str
-    controls_error: bool = False  # chooses its own step by its error estimate
+    controls_error: bool = False  # chooses its step from its error estimate
 
 
 def _explicit_euler(law: Law, t: Any, state: State, acceleration: Acceleration, dt: Any) -> Step:
@@ -66,7 +66,7 @@ def _heun(law: Law, t: Any, state: State, acceleration: Acceleration, dt: Any) -
 
 
 def _velocity_verlet(law: Law, t: Any, state: State, acceleration: Acceleration, dt: Any) -> Step:
-    """Positions by the parabola; velocities by the mean of both ends, the far one at a predicted velocity."""
+    """Positions by a parabola; velocities by the mean acceleration of both ends, the end at a predicted velocity."""
     x, y, vx, vy, spin = state
     ax, ay, alpha = acceleration
     half = 0.5 * dt
@@ -121,7 +121,7 @@ _E1, _, _E3, _E4, _E5, _E6, _E7 = DORMAND_PRINCE_ERROR
 
 
 def _dormand_prince(law: Law, t: Any, state: State, acceleration: Acceleration, dt: Any) -> Step:
-    """Seven stages, the last of which is the first of the next step; error by the embedded fourth order."""
+    """Seven stages, the last of which is the first of the next step; error from the embedded fourth-order method."""
     x, y, vx, vy, w = state
     ax1, ay1, al1 = acceleration
 

@@ -1,10 +1,10 @@
-"""Turf: how a golf ball bounces and rolls on grass."""
+"""Turf: bounce and roll of a golf ball on grass."""
 
 from __future__ import annotations
 
 from math import atan2, cos, degrees, radians, sin
 
-#: Speed in m/s at which a stimpmeter lets the ball go. USGA, Stimpmeter Instruction Booklet (6 ft/s); second-hand.
+#: Speed in m/s at which a stimpmeter releases the ball. USGA, Stimpmeter Instruction Booklet (6 ft/s); second-hand.
 STIMPMETER_SPEED = 1.83
 
 #: Gravity in m/s^2 where stimpmeters are read.
@@ -23,13 +23,13 @@ def penner_restitution(normal_speed: float) -> float:
 
 
 def penner_tilt(normal_speed: float, tangential_speed: float, give: float = 1.0) -> float:
-    """Angle in rad by which the turf gives way, so that the ball bounces off a slope of its own making.
+    """Angle in rad by which the turf deforms, so that the ball bounces off a slope it has made.
 
     ``give * 15.4 deg (v / 18.6 m/s) (phi / 44.4 deg)`` with the speed v of the impact and its angle phi from the
-    vertical. Source: Penner 2002, as above, who draws a line through one measurement of Haake's on a green (18.6 m/s,
-    44.4 deg); second-hand. Ours is the limit, as a line through one point says nothing of balls that skim the ground:
-    no more than two thirds of the angle at which the ball comes down, and than 45 deg. Balls that come down at less
-    than about 35 deg feel it; without it a topped ball would bounce straight up.
+    vertical. Source: Penner 2002, as above, who draws a line through one of Haake's measurements on a green (18.6 m/s,
+    44.4 deg); second-hand. The limit is ours, since a line through one point says nothing about balls that skim the
+    ground: at most two thirds of the descent angle, and at most 45 deg. It affects balls that descend at less than
+    about 35 deg; without it a topped ball would bounce straight up.
     """
     speed = (normal_speed * normal_speed + tangential_speed * tangential_speed) ** 0.5
     incidence = degrees(atan2(tangential_speed, normal_speed))
@@ -47,9 +47,9 @@ def penner_bounce(normal_speed: float, tangential_speed: float, give: float = 1.
 
 
 def stimp_resistance(stimp: float) -> float:
-    """Deceleration over gravity of a ball rolling on a green with a stimpmeter reading of ``stimp`` m.
+    """Deceleration divided by gravity of a ball rolling on a green with a stimpmeter reading of ``stimp`` m.
 
-    A stimpmeter lets the ball go at 1.83 m/s and reads how far it rolls: ``c = (1.83 m/s)^2 / (2 g stimp)``, which is
-    0.56 over the reading in feet. Source: Holmes 1991, Am. J. Phys. 59:129; second-hand.
+    A stimpmeter releases the ball at 1.83 m/s and measures how far it rolls: ``c = (1.83 m/s)^2 / (2 g stimp)``, which
+    is 0.56 divided by the reading in feet. Source: Holmes 1991, Am. J. Phys. 59:129; second-hand.
     """
     return STIMPMETER_SPEED**2 / (2.0 * _GRAVITY * stimp)
