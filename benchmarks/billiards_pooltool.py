@@ -1,29 +1,29 @@
-"""The same billiard shots beside pooltool 0.6.0: where the balls end, and how long a break and a cut shot take.
+"""The same billiard shots here and in pooltool 0.6.0: final positions, and the time of a break and a cut shot.
 
 Run ``python benchmarks/billiards_pooltool.py --pooltool .venv/pooltool/bin/python [--json F] [--repeats N] [--cold]
 [--quick]``.
 
-pooltool asks for pins that cannot be met beside each other, so it lives in a virtual environment of its own, with the
-same Python as ours: ``make .venv/pooltool/ready`` makes it.
+pooltool's pinned dependencies conflict with each other, so it has its own virtual environment, with the same Python as
+ours: ``make .venv/pooltool/ready`` creates it.
 
-This program asks it, in a process that stays, for one shot at a time and takes turns with it, so that a slow moment of
-the machine hits both. Both get the same balls, cloth, positions, and velocity and spin just after the stroke, and
-friction between balls by speed (Alciatore). Where they differ:
+This program runs it in a persistent process, one shot at a time and alternating with ours, so that other load affects
+both. Both get the same balls, cloth and positions, the same velocity and spin just after the stroke, and
+speed-dependent friction between balls (Alciatore). They differ in:
 
-- Friction of two balls: its impulse is mu times the normal impulse, (1 + e) v / 2 for each kg. pooltool takes mu times
-  the speed at which they part, e v: 2.5 % less at e = 0.95. The column "at e = 1" shows what is left without that.
-- Cuts: pooltool moves two balls to 0.001 mm apart before they push, which turns the line of their centres a little.
-- Cushions: pooltool's default is a nose above the ball's centre, which gives, after Stronge: it holds the ball down,
-  takes up more of its roll and springs back along itself. Ours meets the ball at its centre, with restitution and
+- Friction of two balls: its impulse is mu times the normal impulse, (1 + e) v / 2 per kg. pooltool uses mu times the
+  speed of separation, e v: 2.5 % less at e = 0.95. The column "at e = 1" shows the difference without this effect.
+- Cuts: pooltool moves two balls to 0.001 mm apart before the impulse, which turns the line of centres slightly.
+- Cushions: pooltool's default is a compliant nose above the ball's centre, after Stronge: it holds the ball down,
+  absorbs more of its roll and is elastic along its surface. Ours touches the ball at its centre, with restitution and
   friction.
-- Balls that meet at one instant: pooltool takes them one by one, we all at once.
+- Simultaneous impacts: pooltool resolves them one by one, ours all at once.
 
-Times are those of the processor, the medians of repeats in turn. The limit is what an impact costs where pymunk is to
-resolve it: one bare step of a Space with two balls that touch, for each impact of ours; all that comes between, which
-has closed forms, for nothing.
+Times are processor times, medians of interleaved repeats. The limit is the cost of resolving the impacts with pymunk:
+one bare step of a Space with two touching balls for each of our impacts. The motion between them, which has closed
+forms, is counted as free.
 
-Cold is a process that begins with the break: the import and the first shot. pooltool compiles its functions once for an
-installation and keeps them; ``--cold`` measures that, with an empty cache, which takes most of a minute.
+Cold is a new process whose first shot is the break: import and first shot. pooltool compiles its functions once per
+installation and caches them; ``--cold`` also measures that with an empty cache, which takes most of a minute.
 """
 
 from __future__ import annotations
@@ -49,7 +49,7 @@ CLEAR, TABLE = (20.0, 10.0), (2.54, 1.27)  # m; the first is so large that no ba
 
 @dataclass(frozen=True)
 class Shot:
-    """Balls in m, from the table's centre; the cue ball's stroke; and what may make the two differ."""
+    """Balls in m, from the table's centre; the cue ball's stroke; and the cause of differences."""
 
     name: str
     balls: dict[str, tuple[float, float]]
@@ -64,7 +64,7 @@ class Shot:
 
 
 def shots() -> list[Shot]:
-    """Stop, draw, follow, cuts and rails; the break comes last."""
+    """Stop, draw, follow, cuts and rails; the break is last."""
     straight = {"cue": (-8.6, 0.0), "1": (-8.0, 0.0)}
     found = [
         Shot("stop", straight, 2.5, follow=-0.196),
@@ -85,7 +85,7 @@ def shots() -> list[Shot]:
 
 
 def _cut(degrees: float) -> dict[str, tuple[float, float]]:
-    """The cue ball comes along x and meets the other, at the cut angle, in the origin."""
+    """The cue ball moves along x and hits the other ball, at the cut angle, at the origin."""
     return {"cue": (-0.6, 0.0), "1": (2.0 * R * cos(radians(degrees)), 2.0 * R * sin(radians(degrees)))}
 
 
@@ -123,7 +123,7 @@ def our_setup(shot: Shot) -> Any:
 
 
 def our_answer(setup: Any) -> dict[str, Any]:
-    """What pooltool's process answers, of ours."""
+    """Our result, in the format of pooltool's process."""
     from sandbox.engine import simulate
     from sandbox.engine.accuracy import resolve
 
@@ -148,8 +148,8 @@ class Peer:
     """pooltool in a process of its own, one shot at a time."""
 
     def __init__(self, python: Path, compiled: bool = True) -> None:
-        """``compiled``: with what it keeps of earlier compilations."""
-        self._home = tempfile.TemporaryDirectory()  # it writes its configuration into the user's home
+        """``compiled``: use its compilation cache."""
+        self._home = tempfile.TemporaryDirectory()  # it writes its configuration to the user's home
         places = {"HOME": self._home.name, "XDG_CONFIG_HOME": self._home.name}
         self._process = subprocess.Popen(
             [python, __file__, "--peer"],
@@ -176,24 +176,24 @@ class Peer:
         places = {ball.name: ball.position for ball in setup.balls}
         self._process.stdin.write(json.dumps(asdict(shot) | motion | {"balls": places}) + "\n")
         self._process.stdin.flush()
-        return self._said()
+        return self._next_reply()
 
     def import_seconds(self) -> float:
-        """What it says first."""
-        return self._said()["seconds"]
+        """Seconds of its import, the first thing it reports."""
+        return self._next_reply()["seconds"]
 
-    def _said(self) -> dict[str, Any]:
+    def _next_reply(self) -> dict[str, Any]:
         assert self._process.stdout is not None
         line = self._process.stdout.readline()
         if not line:
-            raise SystemExit("pooltool's process ended; its error stands above")
+            raise SystemExit("pooltool's process ended; see its error above")
         return json.loads(line)
 
 
 def be_peer() -> None:
-    """Answer shots, a line of JSON each; with pooltool's interpreter."""
+    """Serve shots, a line of JSON each; runs in pooltool's interpreter."""
     answers = os.fdopen(os.dup(1), "w")
-    os.dup2(2, 1)  # whatever pooltool prints goes to stderr
+    os.dup2(2, 1)  # everything pooltool prints goes to stderr
     started = thread_time()
     import pooltool
 
@@ -205,7 +205,7 @@ def be_peer() -> None:
 
 
 def _pooltool_answer(pooltool: Any, shot: dict[str, Any]) -> dict[str, Any]:
-    """Its table stands upright: our x is its y, our y is its x backwards."""
+    """A shot by pooltool. Its table is rotated: our x is its y, our y is its -x."""
     import numpy as np
 
     length, width = shot["table"]
@@ -246,7 +246,7 @@ def _pooltool_answer(pooltool: Any, shot: dict[str, Any]) -> dict[str, Any]:
 
 
 def compare(peer: Peer, chosen: list[Shot]) -> list[dict[str, Any]]:
-    """Each shot by both: where the balls end, and how far apart that is."""
+    """Each shot by both: final positions, and their distance."""
     rows = []
     for shot in chosen:
         mine, theirs, apart = _both(peer, shot)
@@ -259,7 +259,7 @@ def compare(peer: Peer, chosen: list[Shot]) -> list[dict[str, Any]]:
 
 
 def _both(peer: Peer, shot: Shot) -> tuple[dict[str, Any], dict[str, Any], dict[str, float]]:
-    """Our answer, pooltool's, and how far apart in m each ball ends."""
+    """Our result, pooltool's, and the distance in m of each ball's final positions."""
     setup = our_setup(shot)
     mine, theirs = our_answer(setup), peer.answer(shot, setup)
     ends = theirs["ends"]
@@ -267,7 +267,7 @@ def _both(peer: Peer, shot: Shot) -> tuple[dict[str, Any], dict[str, Any], dict[
 
 
 def race(peer: Peer, repeats: int) -> list[dict[str, Any]]:
-    """The break and a cut shot, in turns: median seconds."""
+    """The break and a cut shot, interleaved: median seconds."""
     rows = []
     cost = seconds_of_an_impact()
     for shot in (rack(), next(shot for shot in shots() if shot.name == "cut 30 deg, rolling")):
@@ -304,12 +304,12 @@ def cold(python: Path, compiled: bool) -> dict[str, float]:
 
 
 def ours_cold() -> dict[str, float]:
-    """The same of ours, in a new process."""
+    """The same for ours, in a new process."""
     return json.loads(subprocess.run([sys.executable, __file__, "--begin"], stdout=subprocess.PIPE, check=True).stdout)
 
 
 def begin() -> None:
-    """Be that process."""
+    """Entry point of that process."""
     started = thread_time()
     import sandbox.engine.simulation  # noqa: F401
 
@@ -319,7 +319,7 @@ def begin() -> None:
 
 
 def report(rows: list[dict[str, Any]], races: list[dict[str, Any]], colds: dict[str, dict[str, float]]) -> str:
-    """All of it, for people."""
+    """The report as text."""
     lines = [f"{'shot':<24} {'':<4}{'ours end':^16} {'pooltool':^16} {'apart':>10} {'at e = 1':>12}  differs by"]
     for row in rows:
         title = row["shot"]
@@ -349,7 +349,7 @@ def report(rows: list[dict[str, Any]], races: list[dict[str, Any]], colds: dict[
         lines.append(f"{'':<24} {'limit':<16}{1e3 * race['limit_s']:>6.3f} ms{1:>12}")
     lines += ["", f"{'cold, the break':<41}{'import':>9}{'first shot':>12}"]
     lines += [f"{who:<41}{found['import_s']:>7.2f} s{found['first_s']:>10.2f} s" for who, found in colds.items()]
-    lines.append("Where the balls of the break end is not compared: each impact multiplies a difference by ten or so.")
+    lines.append("Where the balls of the break end is not compared: each impact multiplies a difference by about ten.")
     return "\n".join(lines)
 
 
@@ -357,9 +357,9 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--pooltool", type=Path, help="the Python that has pooltool")
     parser.add_argument("--repeats", type=int, default=25)
-    parser.add_argument("--json", type=Path, help="write all of it here")
-    parser.add_argument("--cold", action="store_true", help="also how long pooltool compiles")
-    parser.add_argument("--quick", action="store_true", help="one shot, once: to see that it works")
+    parser.add_argument("--json", type=Path, help="write the results here")
+    parser.add_argument("--cold", action="store_true", help="also measure pooltool's compilation")
+    parser.add_argument("--quick", action="store_true", help="one shot, once, as a test")
     parser.add_argument("--peer", action="store_true", help=argparse.SUPPRESS)
     parser.add_argument("--begin", action="store_true", help=argparse.SUPPRESS)
     arguments = parser.parse_args()
@@ -370,7 +370,7 @@ def main() -> None:
         begin()
         return
     if arguments.pooltool is None:
-        parser.error("--pooltool: which Python has pooltool? The head of this file says how to make one")
+        parser.error("--pooltool: no such Python with pooltool; the docstring of this file tells how to create one")
     quick = arguments.quick
     with Peer(arguments.pooltool) as peer:
         peer.import_seconds()
@@ -378,7 +378,7 @@ def main() -> None:
         races = race(peer, 1 if quick else arguments.repeats)
     colds = {"ours": ours_cold(), "pooltool 0.6.0": cold(arguments.pooltool, compiled=True)}
     if arguments.cold:
-        colds["pooltool 0.6.0, which has to compile"] = cold(arguments.pooltool, compiled=False)
+        colds["pooltool 0.6.0, with compilation"] = cold(arguments.pooltool, compiled=False)
     sys.stdout.write(report(rows, races, colds) + "\n")
     if arguments.json:
         arguments.json.write_text(json.dumps({"shots": rows, "races": races, "cold": colds}, indent=1))

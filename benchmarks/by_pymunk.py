@@ -1,7 +1,7 @@
-"""A shot by pymunk alone, as a user writes it: a Space, drag in ``velocity_func``, ``space.step`` in a loop.
+"""A shot with pymunk alone, as a user would write it: a Space, drag in ``velocity_func``, ``space.step`` in a loop.
 
-Nothing is recorded. The one thing that not every user does: ``collision_slop`` is lowered from its default, which is
-meant for pixels and would let the ball sink 10 cm into the floor.
+Nothing is recorded. Unlike in many programs, ``collision_slop`` is lowered from its default, which is meant for pixels
+and would let the ball sink 10 cm into the floor.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ SLOP = 1e-5  # m
 
 
 class Stepped(NamedTuple):
-    """Where a shot ended in m, and how many steps it took."""
+    """Final position of a shot in m, and its number of steps."""
 
     x: float
     y: float
@@ -25,7 +25,7 @@ class Stepped(NamedTuple):
 
 
 def shoot(shot: Shot, rate: float) -> Stepped:
-    """At ``rate`` steps per second; to the setup's duration, or to the first impact where that is its end."""
+    """At ``rate`` steps per second; to the setup's duration, or to the first impact if that ends it."""
     setup, ball, law = shot.setup, shot.setup.balls[0], shot.law
     space = pymunk.Space()
     space.collision_slop = SLOP
@@ -57,7 +57,7 @@ def shoot(shot: Shot, rate: float) -> Stepped:
         nonlocal over
         nx, ny = arbiter.normal
         vx, vy = body.velocity
-        over = over or vx * nx + vy * ny > 0.0  # the ball starts on the tee, and leaves it
+        over = over or vx * nx + vy * ny > 0.0  # the ball starts on the tee and moves away from it
 
     if setup.until is not None:
         space.on_collision(1, 2, begin=begin)

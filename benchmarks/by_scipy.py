@@ -1,9 +1,8 @@
-"""A shot by scipy's ``solve_ivp``, as a careful user writes it.
+"""A shot with scipy's ``solve_ivp``, as a careful user would write it.
 
-The flight ends where a gap closes (a terminal event for each surface), the ball is reflected by the textbook's
-oblique bounce with Coulomb friction, and the flight begins again. ``solve_ivp`` looks at the gaps at the ends of its
-steps only, so that a touch shorter than a step is missed: ``longest`` keeps the steps short where there are rims, and
-the gap to the ground has a sign.
+A flight ends when a gap closes (a terminal event per surface), the ball bounces by the textbook's oblique impact with
+Coulomb friction, and a new flight starts. ``solve_ivp`` checks the gaps only at the ends of its steps, so that a touch
+shorter than a step is missed: ``longest`` keeps steps short for rims, and the gap to the ground is signed.
 """
 
 from __future__ import annotations
@@ -20,7 +19,7 @@ from shots import Law, Shot
 from sandbox.engine.run import Run
 from sandbox.engine.setup import Circle, Segment, Surface
 
-#: Bounces after which a shot is given up.
+#: Most bounces of a shot.
 MOST_BOUNCES = 100
 
 #: A level surface longer than this in m is ground, and its gap a height: the ball does not fly beyond its ends.
@@ -28,7 +27,7 @@ GROUND = 10.0
 
 
 class Flown(NamedTuple):
-    """Where a shot ended in m, and how often its law was evaluated."""
+    """Final position of a shot in m, and its number of evaluations."""
 
     x: float
     y: float
@@ -36,7 +35,7 @@ class Flown(NamedTuple):
 
 
 def shoot(shot: Shot, method: str, tolerance: float, longest: float = np.inf) -> Flown:
-    """Fly, bounce, fly on; to the setup's duration, or to the first impact where that is its end.
+    """Flights and bounces up to the setup's duration, or to the first impact if that ends it.
 
     ``tolerance`` is rtol and atol (m, m/s, rad/s), ``longest`` the longest step in s.
     """
@@ -57,9 +56,9 @@ def shoot(shot: Shot, method: str, tolerance: float, longest: float = np.inf) ->
 
 
 def flight_alone(shot: Shot, run: Run, method: str, tolerance: float) -> tuple[float, int]:
-    """Error in m and evaluations of the flights of a run, with the time and the state after each impact given.
+    """Error in m and evaluations of a run's flights, given the time and state after each impact.
 
-    No method that has to find the impacts needs fewer. The error is that of all flights together.
+    A method that must find the impacts needs at least as many. The error is that of all flights together.
     """
     ball = shot.setup.balls[0].name
     impacts = [0.0, *(event.t for event in run.events), run.duration]
@@ -77,7 +76,7 @@ def flight_alone(shot: Shot, run: Run, method: str, tolerance: float) -> tuple[f
 
 def _derivative(law: Law) -> Callable[[float, np.ndarray], tuple[float, ...]]:
     def derivative(t: float, state: np.ndarray) -> tuple[float, ...]:
-        _, _, vx, vy, spin = state.tolist()  # floats: five times quicker than numpy's scalars
+        _, _, vx, vy, spin = state.tolist()  # floats: five times as fast as numpy's scalars
         return vx, vy, *law(vx, vy, spin)
 
     return derivative
@@ -99,7 +98,7 @@ def _gap(surface: Surface, radius: float) -> Callable[[float, Sequence[float]], 
 
 
 def _nearest(shape: Circle | Segment) -> Callable[[float, float], tuple[float, float]]:
-    """The point of a shape's middle line that is nearest to (x, y)."""
+    """The point of a shape's centre line that is nearest to (x, y)."""
     if isinstance(shape, Circle):
         center = shape.center
         return lambda x, y: center
@@ -124,7 +123,7 @@ def _bounced(state: np.ndarray, surface: Surface, radius: float, factor: float) 
     slip = vx * ny - vy * nx + radius * spin
     hold = surface.friction * push
     along = max(-hold, min(hold, -slip / (1.0 + 1.0 / factor)))
-    inside = max(0.0, radius + surface.shape.radius - distance)  # outside, so that the next gap opens
+    inside = max(0.0, radius + surface.shape.radius - distance)  # moved outside, so that the next gap starts open
     return np.array(
         [
             x + 2.0 * inside * nx,

@@ -1,17 +1,18 @@
-"""Error against time: a free throw that clips the rim, and a golf flight; ours, pymunk alone and scipy in one process.
+"""Error against time: a free throw that clips the rim, and a golf flight; this engine, pymunk alone and scipy, in one
+process.
 
 Run ``python benchmarks/engine.py [--json F] [--repeats N] [--quick]``. The error is that of the ball's position at the
-end, against "precise" at a thousandth of its tolerance. The time is that of the processor, the median of repeats taken
-in turn over all methods; what takes long is run once.
+end, against "precise" at a thousandth of its tolerance. The time is processor time, the median of repeats interleaved
+over all methods; slow methods run once.
 
 - exact: this engine, at each level.
 - scipy: ``solve_ivp`` with a terminal event for each surface (by_scipy.py), at a tolerance and a longest step.
-- bare pymunk: a Space, drag in ``velocity_func`` and a loop (by_pymunk.py), without any record of the path.
-- plain: the same as a method of this program, which records the path, checks and reports.
+- bare pymunk: a Space, drag in ``velocity_func`` and a loop (by_pymunk.py), without recording the path.
+- plain: the same as a method of this program, with recording, checks and reports.
 
-The limit is what no method can do without: the fewest evaluations of the law with which scipy flies as exactly when it
-is given the time and state of every impact, by RK45 or DOP853 at any tolerance, times what one evaluation costs in
-Python. "evaluations" and "time" are over that limit, at the error of their row.
+The limit is a lower bound for any method: the fewest evaluations with which scipy reaches the same error when given the
+time and state of every impact, by RK45 or DOP853 at any tolerance, times the cost of one evaluation in Python.
+"evaluations" and "time" are relative to that limit, at the error of their row.
 """
 
 from __future__ import annotations
@@ -37,9 +38,9 @@ from sandbox.engine.accuracy import LEVELS, Accuracy, resolve
 from sandbox.engine.run import Run
 
 TARGET = 0.01  # m
-#: A method whose runs take longer than this in s is run once; the others run for so long in each turn.
+#: A method whose runs take longer than the first time, in s, runs once; the others repeat for the second in each turn.
 LONG, TURN = 0.2, 0.02
-#: Tolerances of the flights that make the limit: three in each power of ten.
+#: Tolerances of the flights for the limit: three per power of ten.
 LADDER = [10.0 ** (-k / 3) for k in range(37)]
 
 #: Method, tolerance, longest step in s.
@@ -126,7 +127,7 @@ def seconds_per_evaluation(shot: Shot) -> float:
 
 
 def timed(fly: Callable[[], tuple[float, float, int]]) -> tuple[float, tuple[float, float, int]]:
-    """The processor's time in s, and where the shot ended."""
+    """Processor time in s, and the result of the shot."""
     started = thread_time()
     end = fly()
     return thread_time() - started, end
@@ -167,7 +168,7 @@ def compare(case: Case, repeats: int) -> list[dict[str, Any]]:
 
 
 def ratios_at(rows: list[dict[str, Any]], target: float) -> dict[str, float]:
-    """How many times longer the others take than ours, each at its cheapest below the target error in m."""
+    """Times of the other methods relative to ours, each at its fastest below the target error in m."""
     cheapest: dict[str, float] = {}
     for row in rows:
         kind = row["method"].partition(",")[0].partition(" ")[0]
@@ -186,14 +187,14 @@ def show(name: str, rows: list[dict[str, Any]]) -> None:
             f"{_short(row['evaluations_over_limit']):>10}{_short(row['time_over_limit']):>10}\n"
         )
     words = {"scipy": "scipy", "bare": "bare pymunk", "plain": "plain"}
-    told = [f"{words[kind]} {_short(ratio)} times" for kind, ratio in ratios_at(rows, TARGET).items()]
+    ratios = [f"{words[kind]} {_short(ratio)} times" for kind, ratio in ratios_at(rows, TARGET).items()]
     out.write(
-        f"  at an error of {100 * TARGET:g} cm, relative to our fastest: {', '.join(told) or 'none gets there'}\n"
+        f"  at an error of {100 * TARGET:g} cm, relative to our fastest: {', '.join(ratios) or 'no other reaches it'}\n"
     )
 
 
 def _short(ratio: float) -> str:
-    """Two digits, or whole."""
+    """A number with two digits, or an integer."""
     return f"{ratio:,.0f}" if ratio >= 9.95 else f"{ratio:.1f}"
 
 
@@ -201,7 +202,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--json", type=Path, help="write the rows here")
     parser.add_argument("--repeats", type=int, default=15)
-    parser.add_argument("--quick", action="store_true", help="few methods, once: to see that it works")
+    parser.add_argument("--quick", action="store_true", help="few methods, once, as a test")
     arguments = parser.parse_args()
     told = {}
     for case in cases(arguments.quick):

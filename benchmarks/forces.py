@@ -1,19 +1,19 @@
-"""What a force in Python costs: microseconds for each ball and step, of 1 to 1,000 balls that fly apart for a second.
+"""The cost of a force in Python: microseconds per ball and step, for 1 to 1,000 separate balls in flight for a second.
 
 Run ``python benchmarks/forces.py [--json F] [--repeats N] [--quick]``. Gravity and quadratic drag, at 240 steps per
-second where the step is fixed; the balls are far from each other, and nothing is touched.
+second for fixed steps; the balls are far apart and touch nothing.
 
-- bare pymunk: gravity alone, no callback. It is the limit: no force in Python can cost less than none.
-- velocity_func: gravity and drag in a function that pymunk calls for each ball, as its users write it.
-- batch and numpy: all velocities out by ``pymunk.batch``, drag in numpy, all forces in; gravity by pymunk.
-- plain: our plain method, which is velocity_func with everything that a run of this program records and checks.
-- exact: this engine at "balanced", all balls in one setup; its steps are as long as their error allows, and each asks
-  six times for the forces.
-- exact, many: the same, each ball in a setup of its own, by ``simulate_many``, as sweeps fly their shots; the times
-  are those of arrays where there are enough shots, and of one at a time else.
+- bare pymunk: gravity alone, no callback. It is the limit: the cost without any force in Python.
+- velocity_func: gravity and drag in a function that pymunk calls for each ball, as its users would write it.
+- batch and numpy: all velocities read by ``pymunk.batch``, drag in numpy, all forces written; gravity by pymunk.
+- plain: our plain method, which is velocity_func plus the recording and checks of this program.
+- exact: this engine at "balanced", all balls in one setup; its steps are as long as the error allows, with six
+  evaluations of the forces each.
+- exact, many: the same with a setup for each ball, by ``simulate_many``, as in sweeps; with arrays if there are
+  enough shots, otherwise one at a time.
 
-Times are those of the processor, medians of repeats in turn; what takes long is flown once. "error" is the largest
-of all balls' positions after the second.
+Times are processor times, medians of interleaved repeats; slow methods run once. "error" is the largest position
+error of any ball after the second.
 """
 
 from __future__ import annotations
@@ -45,23 +45,23 @@ COUNTS = (1, 16, 100, 1_000)
 RATE, DURATION = 240, 1.0  # steps/s, s
 MASS, RADIUS, GRAVITY, DENSITY, DRAG = 0.624, 0.1194, 9.81, 1.204, 0.5  # those of the basketball
 APART = 50.0  # m
-#: A method whose flights take longer than this in s flies once.
+#: A method whose flights take longer than this, in s, runs once.
 LONG = 0.2
-#: Balls in one setup beyond which the exact engine is left out: it foresees each pair of them.
+#: Balls in one setup beyond which the exact engine is left out: it predicts contacts for every pair.
 MOST_TOGETHER = 100
 
 Ends = list[tuple[float, float]]
 
 
 class Flown(NamedTuple):
-    """Where the balls ended in m, and how many steps each took."""
+    """Final positions of the balls in m, and the steps of each."""
 
     ends: Ends
     steps: float
 
 
 def balls(count: int) -> list[Ball]:
-    """Thrown upwards, each a little otherwise, in a row."""
+    """Balls in a row, each thrown upwards at a slightly different angle."""
     forces: list[Force] = [Gravity(MASS, GRAVITY), Drag(RADIUS, DENSITY, Constant(DRAG))]
     angles = (radians(50.0 + 30.0 * i / count) for i in range(count))
     return [
@@ -167,7 +167,7 @@ def compare(count: int, repeats: int) -> list[dict[str, Any]]:
     """A row for each method."""
     setup, setups = together(count), alone(count)
     balanced, plain = resolve(), resolve(method="plain", step=1 / RATE)
-    # a Space is used up by its flight, so each flight gets ready anew, outside of the time
+    # a Space can be used for one flight only, so each is prepared again, outside the measured time
     ready: dict[str, Callable[[], Callable[[], Flown]]] = {
         "bare pymunk": lambda: bare(setup),
         "velocity_func": lambda: by_velocity_func(setup),
@@ -233,7 +233,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--json", type=Path, help="write the rows here")
     parser.add_argument("--repeats", type=int, default=7)
-    parser.add_argument("--quick", action="store_true", help="few balls, once: to see that it works")
+    parser.add_argument("--quick", action="store_true", help="few balls, once, as a test")
     arguments = parser.parse_args()
     counts, repeats = ((1, 2), 1) if arguments.quick else (COUNTS, arguments.repeats)
     rows = [row for count in counts for row in compare(count, repeats)]

@@ -1,18 +1,19 @@
-"""Frames to PNG: what drawing adds to encoding, and how near the program comes to what the cores could encode.
+"""Frames to PNG: the cost of drawing compared with encoding, and the program's rate compared with what the cores could
+encode.
 
 Run ``python benchmarks/frames.py [--json F] [--levels] [--scenes golf,soccer]``. Every scene at 1280x720 with
 everything on: trace, vectors, card. For each, in one process:
 
 - drawing: a frame, on one core;
-- Pillow: encoding the same pixels with Pillow alone at its quickest, on one core, in turn with the drawing;
-- packing: the same as the program does it, without filters, on one core;
-- limit: what the program's packing alone, of pictures that lie ready, does on all cores;
-- whole: the program's own way, ``sandbox run --frames``, from the run to the files in the folder, on all cores.
+- Pillow: encoding the same pixels with Pillow alone at its fastest, on one core, interleaved with drawing;
+- packing: encoding as in the program, without filters, on one core;
+- limit: the program's packing alone, of prepared pictures, on all cores;
+- whole: the whole command, ``sandbox run --frames``, from the run to the files in the folder, on all cores.
 
-What runs on one core is measured in time of that core, and "cpu" is what a frame takes of all cores: they do not depend
-on what else the machine does. Limit and whole, in frames per second of the clock, do, and are measured in turn.
+Times on one core are processor times, and "cpu" is a frame's processor time on all cores: they do not depend on other
+load. Limit and whole, in frames per second of wall time, do, and are interleaved.
 
-``--levels`` prints what each compress_level costs in time and bytes: FRAME_LEVEL was chosen by it.
+``--levels`` prints time and size of each compress_level; FRAME_LEVEL was chosen from it.
 """
 
 from __future__ import annotations
@@ -39,11 +40,11 @@ from sandbox.picture import frames
 from sandbox.scene import listings
 
 SIZE = (1280, 720)
-#: Frames of a scene: 60 for each second of the run, and of a long run so many, spread over it.
+#: Frames of a scene: 60 per second of the run, and for a long run this many, evenly spread.
 MOST_FRAMES = 240
-#: So many pictures lie ready for what is measured without drawing.
+#: Pictures prepared for measurements without drawing.
 READY = 24
-#: Limit and whole are measured so often, in turn.
+#: Repeats of limit and whole, interleaved.
 ROUNDS = 3
 
 PILLOW: dict[str, dict[str, int]] = {
@@ -51,25 +52,25 @@ PILLOW: dict[str, dict[str, int]] = {
     "level 1": {"compress_level": 1},
     "level 2": {"compress_level": 2},
     "level 3": {"compress_level": 3},
-    "level 6, its own": {},
+    "level 6, the default": {},
     "level 9": {"compress_level": 9},
 }
 
 
 def by_pillow(image: Image.Image, level: str = "level 1, RLE") -> int:
-    """Bytes of the image as Pillow packs it."""
+    """Size in bytes of the image encoded by Pillow."""
     data = io.BytesIO()
     image.save(data, "PNG", **PILLOW[level])
     return data.tell()
 
 
 def by_us(image: Image.Image) -> int:
-    """Bytes of the image as a frame."""
+    """Size in bytes of the image encoded as a frame."""
     return len(frames.quick_png(image))
 
 
 def timed(work: Callable[..., Any], *given: Any, clock: Callable[[], float] = thread_time) -> tuple[float, Any]:
-    """Seconds, and what came of it."""
+    """Seconds, and the result."""
     started = clock()
     done = work(*given)
     return clock() - started, done
@@ -85,7 +86,7 @@ class Film:
         self.fps = min(60.0, MOST_FRAMES / self.run.duration)
         self.times = frames.frame_times(self.run.duration, self.fps)
         self.every = max(1, len(self.times) // READY)
-        self.picture.frame(0.0)  # the standing backdrop, once
+        self.picture.frame(0.0)  # draws the static backdrop once
 
     def ready(self) -> list[Image.Image]:
         """A few frames, drawn."""
@@ -169,8 +170,8 @@ def show(rows: list[dict[str, Any]]) -> None:
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--json", type=Path, help="write the rows here")
-    parser.add_argument("--levels", action="store_true", help="what each compress_level costs")
-    parser.add_argument("--scenes", help="names with commas between; all where left out")
+    parser.add_argument("--levels", action="store_true", help="time and size of each compress_level")
+    parser.add_argument("--scenes", help="comma-separated names; default: all")
     arguments = parser.parse_args()
     names = [listing.name for listing in listings() if "/" not in listing.name]
     films = [Film(name) for name in (arguments.scenes.split(",") if arguments.scenes else names)]

@@ -71,7 +71,7 @@ def output_of(name: str) -> list[str]:
 
 
 def machine(load: float) -> list[str]:
-    """Processor, system and versions; ``load`` is the average of the minute before the start."""
+    """Processor, system and versions; ``load`` is the load average of the minute before the start."""
     packages = ", ".join(f"{package} {version(package)}" for package in PACKAGES)
     return [
         f"{processor()}, {os.cpu_count()} cores, {platform.system()} {platform.machine()}, "
@@ -89,7 +89,7 @@ def processor() -> str:
 
 
 def write(block: str, lines: Iterable[str]) -> None:
-    """New lines between the marks of a block of the page."""
+    """Write new lines between the markers of a block of the page."""
     PAGE.write_text(filled(PAGE.read_text("utf-8"), block, lines), "utf-8")
 
 
@@ -98,7 +98,7 @@ def filled(page: str, block: str, lines: Iterable[str]) -> str:
     text = "\n".join([f"<!-- {block} -->", *lines, "<!-- end -->"])
     page, count = re.subn(rf"<!-- {block} -->\n.*?<!-- end -->", lambda match: text, page, flags=re.DOTALL)
     if count != 1:
-        raise SystemExit(f"{PAGE.name} has {count} blocks {block!r}: there must be one")
+        raise SystemExit(f"{PAGE.name} has {count} blocks {block!r}: expected one")
     return page
 
 

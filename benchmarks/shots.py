@@ -1,4 +1,4 @@
-"""The shots that are compared, and the laws of their flight written out as a user of pymunk or scipy would."""
+"""The compared shots, and the laws of their flight as a user of pymunk or scipy would write them."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import NamedTuple
 import sandbox
 from sandbox.engine.setup import Setup
 
-#: (vx, vy, spin) in m/s and rad/s to (ax, ay, alpha) in m/s^2 and rad/s^2: none of these flights asks for more.
+#: (vx, vy, spin) in m/s and rad/s to (ax, ay, alpha) in m/s^2 and rad/s^2: these flights need no other arguments.
 Law = Callable[[float, float, float], tuple[float, float, float]]
 
 #: Off the front of the rim, then high; without lift and without the net, so that the law is short.
@@ -18,20 +18,20 @@ RIM = {"launch.speed": 7.3, "launch.angle": 52.0, "launch.spin": 180.0, "ball.li
 
 
 class Shot(NamedTuple):
-    """The setup of a shot with one ball, and its law once more."""
+    """The setup of a shot with one ball, and its law written out."""
 
     setup: Setup
     law: Law
 
 
 def rim_shot() -> Shot:
-    """A free throw that clips the rim; position 2.5 s after the release, whatever the ball does."""
+    """A free throw that clips the rim; position 2.5 s after the release."""
     parameters = sandbox.load("basketball", RIM)
     return Shot(replace(parameters.build(), duration=2.5, until=None), basketball_law)
 
 
 def golf_flight() -> Shot:
-    """The default drive, to its landing."""
+    """The default drive, up to landing."""
     return Shot(replace(sandbox.load("golf").build(), until=lambda event: True), golf_law)
 
 
@@ -42,7 +42,7 @@ def basketball_law(vx: float, vy: float, spin: float) -> tuple[float, float, flo
 
 
 def golf_law(vx: float, vy: float, spin: float) -> tuple[float, float, float]:
-    """Gravity, the golf ball's drag and lift by speed and spin, and the air's hold on its spin."""
+    """Gravity, the golf ball's drag and lift by speed and spin, and spin decay."""
     radius, density = 0.021335, 1.204
     speed = (vx * vx + vy * vy) ** 0.5
     reynolds, surface_speed = density * 2.0 * radius * speed / 1.789e-5, radius * abs(spin)

@@ -1,17 +1,17 @@
-"""Hard use for some minutes: whatever happens, what comes out is right, or an error that is named.
+"""Soak test: some minutes of hard use, in which every outcome must be correct or a named error.
 
-Run ``python benchmarks/soak.py [--seed N] [--minutes M] [--scenes N] [--kills N] [--page F.md]``. The same seed tries
+Run ``python benchmarks/soak.py [--seed N] [--minutes M] [--scenes N] [--kills N] [--page F.md]``. The same seed gives
 the same cases, each of which can be repeated alone: ``--only scenes:123``. Parts:
 
-- scenes: the scenes that come with the sandbox, with any parameters, and scene files with bytes changed
+- scenes: the built-in scenes with random parameters, and scene files with changed bytes
 - setups: balls, surfaces and forces with numbers from 1e-320 to 1e300
-- faulty: scenes of a user's own with mistakes in them, run, swept and aimed at
-- replays: recorded shots with bytes changed, and forged ones whose checksum is right
-- kills: sweeps ended by SIGKILL, SIGTERM or Ctrl-C at any moment, their files damaged, two at once into one file;
-  then finished by the same command, and compared byte by byte with one that nothing happened to
+- faulty: user scenes with mistakes, in run, sweep and aim
+- replays: recorded shots with changed bytes, and forged ones with a correct checksum
+- kills: sweeps ended by SIGKILL, SIGTERM or Ctrl-C at any moment, with damaged files, or two at once into one file;
+  then finished by the same command, and compared byte by byte with an undisturbed sweep
 
 A case ends in a class; those that are neither a good run nor a named error are listed with their details, and the
-script ends with 1. ``--page`` writes the table into a page, between its marks.
+script exits with 1. ``--page`` writes the table into a page, between its markers.
 """
 
 from __future__ import annotations
@@ -40,16 +40,16 @@ from typing import Any
 
 from sandbox.workers import Processes, WorkerLost, cores
 
-#: Processor time in s that a case may take before it counts as one that never ends; by the clock, so many times that.
+#: Processor time in s after which a case counts as endless; by the clock, this many times as long.
 LONGEST, BY_THE_CLOCK = 30.0, 6
 
-#: Cases in one call to a process.
+#: Cases per call to a process.
 AT_ONCE = {"scenes": 20, "setups": 40, "faulty": 4, "replays": 40}
 
-#: Of so many fuzzed scenes, how many cases the other parts get.
+#: Number of cases of the other parts, as fractions of the fuzzed scenes.
 SHARES = {"setups": 0.15, "faulty": 0.03, "replays": 0.06}
 
-#: Classes that are as promised; all others fail.
+#: Classes that pass; all others fail.
 GOOD = (
     "ran",
     "request refused",
@@ -59,7 +59,7 @@ GOOD = (
     "one wrote, the other was refused",
 )
 
-#: A line of a traceback of this program, once it has begun: before that it is Python that starts.
+#: A traceback line from this program after start-up; earlier ones are from Python's own start.
 OURS = re.compile(r'File "[^"]*/sandbox/(?!__init__|__main__|cli/__init__)')
 
 PROGRAM = [sys.executable, "-m", "sandbox"]
@@ -116,7 +116,7 @@ def scenes_and_presets() -> list[str]:
 
 
 def any_value(draw: random.Random, parameter: Any) -> Any:
-    """A value that the declaration of a parameter allows, or its own."""
+    """A value that the declaration of a parameter allows, or its current one."""
     if parameter.choices:
         return draw.choice(parameter.choices)
     if isinstance(parameter.value, bool):
@@ -137,7 +137,7 @@ def any_value(draw: random.Random, parameter: Any) -> Any:
 
 
 def scrambled_file(draw: random.Random, name: str) -> Outcome:
-    """A scene file with some bytes changed, left out or put in."""
+    """A scene file with some bytes changed, removed or added."""
     import sandbox
     from sandbox import resources
 
@@ -190,10 +190,10 @@ def numbers(value: Any) -> Iterator[float]:
 
 
 def named(outcome: str, error: Exception) -> Outcome:
-    """A named error is one or a few lines that say something."""
+    """Check that a named error is one or a few lines of text."""
     text = str(error)
     if not text.strip() or len(text.splitlines()) > 4 or "Traceback" in text:
-        return "an error that says nothing", repr(text[:500])
+        return "an error without a message", repr(text[:500])
     return outcome, ""
 
 
@@ -241,7 +241,7 @@ def extreme_setup(draw: random.Random) -> Outcome:
 # Scenes with mistakes
 # ---------------------------------------------------------------------------------------------------------------------
 
-#: What a force, a law, ``until``, a fact, the verdict or ``build`` does instead of what it should.
+#: What a force, a law, ``until``, a fact, the verdict or ``build`` does wrongly.
 FORCES = (
     "return None", "return 1.0", "return (1.0,)", "return (1j, 0.0)", "return (10**400, 0.0)", "return 'a', 'b'",
     "return (float('nan'), 0.0)", "return (float('inf'), 0.0)", "raise ValueError('\\x1b[31mred')",
@@ -274,7 +274,7 @@ BUILDS = (
     "return Setup((Ball('a', 1, 1, (0, 9)),), (Surface('f', Segment((-9, 0), (9, 0)), 2.5, 0.5),))",
     "return Setup((Ball('a', 1, 1, (0, 9)),), (Surface('f', Segment((9, 0), (9, 0)), 0.5, 0.5),))",
 )  # fmt: skip
-#: Changes of the file itself: what stands there, and what comes in its place.
+#: Changes of the file itself: text to find, and its replacement.
 TEXTS = (
     ("def build", "def bild"), ("class Parameters(Group)", "class Parameters"), ("FACTS", "FACT"),
     ("import", "import\0"),
@@ -326,14 +326,14 @@ def faulty_scene(draw: random.Random) -> Outcome:
 
 
 def after(text: str, pattern: str, added: str) -> str:
-    """``added`` below the docstring of the first function whose line is like ``pattern``."""
+    """Insert ``added`` below the docstring of the first function that matches ``pattern``."""
     found = re.search(pattern, text)
     assert found, pattern
     return text[: found.end()] + added + text[found.end() :]
 
 
 def called(command: list[str], about: str) -> Outcome:
-    """The program in this process, and what it prints."""
+    """Run the program in this process and check its output."""
     from sandbox.cli import main
 
     out, err = io.StringIO(), io.StringIO()
@@ -461,7 +461,7 @@ def build(parameters):
 
 
 class Kills:
-    """Sweeps that are ended again and again until each is done."""
+    """Sweeps that are interrupted again and again until each is complete."""
 
     def __init__(self, seed: int, kills: int, deadline: float, note: Callable[[str, Outcome], None]) -> None:
         self.seed, self.kills, self.deadline, self.note = seed, kills, deadline, note
@@ -508,26 +508,26 @@ class Kills:
             story.append(by.name)
             if not out.exists():
                 continue
-            if not (place / "rows.csv.resume").exists():  # it was done before
+            if not (place / "rows.csv.resume").exists():  # it was already done
                 break
             if draw.random() < 0.1:
                 damage(draw, out)
                 story.append("damaged")
         last = subprocess.run(command, capture_output=True, text=True, timeout=120)
-        if last.returncode == 2 and "damaged" in story and "its first line is not the one" in last.stderr:
+        if last.returncode == 2 and "damaged" in story and "its first line is not what" in last.stderr:
             return "request refused", ""
         if last.returncode or "Traceback" in last.stderr:
             return f"exit {last.returncode}", f"{story}: {last.stderr[-500:]}"
         if out.read_bytes() != expected.read_bytes():
             return "finished, other bytes", repr(story)
         left = {path.name for path in place.iterdir()} - {"expected.csv", "rows.csv", "rows.csv~"}
-        if {name for name in left if not name.endswith(".part")}:  # of a rewrite that was killed
+        if {name for name in left if not name.endswith(".part")}:  # from a rewrite that was killed
             return "files were left", repr(sorted(left))
         shutil.rmtree(place)
         return "finished, the same bytes", ""
 
     def kill(self, command: list[str], by: signal.Signals, after: float) -> Outcome | None:
-        """Begin the sweep and end it; None where that went as it should."""
+        """Start the sweep and end it; None if that worked as expected."""
         process = subprocess.Popen(
             command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True
         )
@@ -555,10 +555,10 @@ class Kills:
         both = [subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) for _ in range(2)]
         said = [process.communicate(timeout=120)[1] for process in both]
         codes = sorted(process.returncode for process in both)
-        refused = [text for text in said if "another sweep is writing this file" in text]
+        refused = [text for text in said if "another sweep is writing to this file" in text]
         if codes == [0, 2] and len(refused) == 1:
             self.note("kills", ("one wrote, the other was refused", ""))
-        elif codes == [0, 0]:  # the first was done before the second began
+        elif codes == [0, 0]:  # the first was done before the second started
             self.note("kills", ("finished, the same bytes", ""))
         else:
             return f"two at once: exits {codes}", repr(said)[-600:]
@@ -566,7 +566,7 @@ class Kills:
 
 
 def damage(draw: random.Random, file: Path) -> None:
-    """Change some of what was written."""
+    """Damage some of the written file."""
     content = bytearray(file.read_bytes())
     if not content:
         return
@@ -590,7 +590,7 @@ def damage(draw: random.Random, file: Path) -> None:
 
 
 # ---------------------------------------------------------------------------------------------------------------------
-# All together
+# Main program
 # ---------------------------------------------------------------------------------------------------------------------
 
 CASES: dict[str, Callable[[random.Random], Outcome]] = {
@@ -602,7 +602,7 @@ CASES: dict[str, Callable[[random.Random], Outcome]] = {
 
 
 def cases(part: str, seed: int, first: int, last: int) -> list[Outcome]:
-    """Some cases of a part, in whatever process this is; each is told by the seed and its number alone."""
+    """Some cases of a part, in any process; each depends only on the seed and its number."""
     found = []
     for number in range(first, last):
         outcome, details = alone(part, random.Random(f"{seed}:{part}:{number}"))
@@ -627,7 +627,7 @@ def alone(part: str, draw: random.Random) -> Outcome:
 
 
 def soak(seed: int, minutes: float, scenes: int, kills: int) -> tuple[dict[str, Counter[str]], list[str], float]:
-    """Counts by part and class, what went wrong, and the time that it took in s."""
+    """Counts by part and class, the failures, and the total time in s."""
     begun, counts, wrong = time.monotonic(), defaultdict[str, Counter[str]](Counter), list[str]()
     deadline = begun + 60.0 * minutes
 
@@ -647,7 +647,7 @@ def soak(seed: int, minutes: float, scenes: int, kills: int) -> tuple[dict[str, 
         for part, size in sizes.items()
         for first in range(0, size, AT_ONCE[part])
     ]
-    random.Random(seed).shuffle(queue)  # so that a run that is cut short has some of each
+    random.Random(seed).shuffle(queue)  # so that an interrupted run has some of each part
     waiting: list[tuple[str, int, int, Any]] = []
     while queue or waiting:
         while queue and len(waiting) < 2 * pool.width and time.monotonic() < deadline:

@@ -1,15 +1,15 @@
-"""How soon something happens: ``sandbox --help``, a run's numbers, the window's first frame; and which imports take it.
+"""Start-up time of ``sandbox --help``, a run and the window's first frame, and the imports that cause it.
 
 Run ``python benchmarks/start.py [--json F] [--repeats N] [--quick]``. Each is a new process, from its start to its end,
-the median of repeats, all in turn; the window ends with its first frame, drawn in memory (SDL's dummy driver). Files
-are in the system's cache and compiled, as from the second start on.
+the median of interleaved repeats; the window ends with its first frame, drawn in memory (SDL's dummy driver). Files
+are cached and compiled, as from the second start on.
 
-Each has its limit, a process that does only what nothing of the kind can do without: Python alone for the help; Python
-and ``import pymunk`` for a run; these, pygame and an empty window of the same size for the first frame.
+Each has a limit, a process that does only what is unavoidable: Python alone for the help; Python and ``import pymunk``
+for a run; these, pygame and an empty window of the same size for the first frame.
 
-"clock" is what one waits, "processor" what all threads take of the cores; "over limit" compares the latter, which
-repeats on a busy machine too. Imports are by ``python -X importtime``: each package's own time, without what it imports
-from others.
+"clock" is wall time, "processor" the processor time of all threads; "over limit" is the ratio of processor times, which
+are repeatable on a busy machine too. Imports are from ``python -X importtime``: each package's own time, without the
+other packages it imports.
 """
 
 from __future__ import annotations
@@ -45,20 +45,20 @@ pygame.display.set_mode((1280, 720), pygame.RESIZABLE)
 pygame.display.flip()
 """
 
-#: What is measured, and its limit: name and program of each.
+#: The measured programs and their limits: name and code of each.
 STARTS = {
     "sandbox --help": (HELP, "python", "pass"),
     "sandbox run golf --json": (RUN, "python, pymunk", "import pymunk"),
     "window's first frame": (WINDOW, "python, pymunk, empty window", EMPTY),
 }
-#: Packages that are listed; the others are one line.
+#: Number of packages listed; the others share one line.
 LISTED = 10
 
 UNSEEN = os.environ | {"SDL_VIDEODRIVER": "dummy", "SDL_AUDIODRIVER": "dummy", "PYGAME_HIDE_SUPPORT_PROMPT": "1"}
 
 
 def started(program: str, *options: str) -> tuple[float, float, str]:
-    """Seconds by the clock and of the processor that a process takes, and what it said on stderr."""
+    """Wall time and processor time of a process in s, and its stderr."""
     before, began = getrusage(RUSAGE_CHILDREN), perf_counter()
     command = [sys.executable, *options, "-c", program]
     done = subprocess.run(command, env=UNSEEN, capture_output=True, text=True)
@@ -74,7 +74,7 @@ def starts(repeats: int) -> list[dict[str, Any]]:
     programs |= {limit: program for _, limit, program in STARTS.values()}
     if repeats > 1:
         for program in programs.values():
-            started(program)  # compiled and in the cache from here on
+            started(program)  # compiled and cached from here on
     times: dict[str, list[tuple[float, float]]] = {name: [] for name in programs}
     for _ in range(repeats):
         for name, program in programs.items():
@@ -117,16 +117,16 @@ def _package(module: str) -> str:
     return "standard library" if top in sys.stdlib_module_names else top.removeprefix("_").removesuffix("_cffi")
 
 
-def show(told: dict[str, Any]) -> None:
+def show(found: dict[str, Any]) -> None:
     out = sys.stdout
     out.write(f"{'':<26}{'clock':>9}{'processor':>12}{'over limit':>12}   limit, its clock and processor\n")
-    for row in told["starts"]:
+    for row in found["starts"]:
         out.write(
             f"{row['start']:<26}{1e3 * row['clock_s']:>6.0f} ms{1e3 * row['processor_s']:>9.0f} ms"
             f"{row['over_limit']:>12.1f}   {row['limit']}: {1e3 * row['limit_clock_s']:.0f} ms, "
             f"{1e3 * row['limit_processor_s']:.0f} ms\n"
         )
-    columns = told["imports"]
+    columns = found["imports"]
     heads = [name.removeprefix("sandbox ") for name in columns]
     out.write(f"\n{'own time of imports, ms':<28}" + "".join(f"{head:>22}" for head in heads) + "\n")
     packages = sorted({name for found in columns.values() for name in found}, key=lambda name: -_most(columns, name))
@@ -146,16 +146,16 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--json", type=Path, help="write the rows here")
     parser.add_argument("--repeats", type=int, default=9)
-    parser.add_argument("--quick", action="store_true", help="once: to see that it works")
+    parser.add_argument("--quick", action="store_true", help="once, as a test")
     arguments = parser.parse_args()
     repeats = 1 if arguments.quick else arguments.repeats
-    told = {
+    found = {
         "starts": starts(repeats),
         "imports": {name: imports(program, min(repeats, 3)) for name, (program, *_) in STARTS.items()},
     }
-    show(told)
+    show(found)
     if arguments.json:
-        arguments.json.write_text(json.dumps(told, indent=1))
+        arguments.json.write_text(json.dumps(found, indent=1))
 
 
 if __name__ == "__main__":

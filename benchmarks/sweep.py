@@ -1,20 +1,20 @@
-"""Shots per second: the map of free throws, 61 speeds by 41 angles, in each way; and how the time grows.
+"""Shots per second: the map of free throws, 61 speeds by 41 angles, computed in several ways; and how the time grows.
 
 Run ``python benchmarks/sweep.py [--json F] [--repeats N] [--quick]``.
 
-- sandbox sweep: the whole command, from its start to the written file, on one process and on two; by the clock, since
-  it is the clock that processes save.
-- simulate_many: the engine alone, all shots together in arrays, as the sweep does it.
+- sandbox sweep: the whole command, from start to the written file, with one process and with two; wall time, since that
+  is what processes save.
+- simulate_many: the engine alone, all shots together in arrays, as in the sweep.
 - simulate: the engine alone, one shot at a time.
-- bare pymunk (by_pymunk.py): a few shots drawn from the map, each to the same moment, at the fewest of the step rates
-  that bring it within 1 cm of where it should be. A shot that none of them brings there counts with the highest: the
-  true time is longer. The map is extrapolated from them.
+- bare pymunk (by_pymunk.py): a few random shots of the map, each to the same time, at the lowest of the step rates that
+give an error below 1 cm. A shot for which none is enough counts with the highest: the true time is longer. The map is
+extrapolated from these shots.
 
-The limit is the forces alone: numpy evaluates gravity and drag for all shots at once, as often as the flights ask for
-them at "balanced", with nothing in between; on two processes half of that. "over limit" is the time of a shot over it.
+The limit is the forces alone: numpy evaluates gravity and drag for all shots at once, as often as the flights need at
+"balanced", and nothing else; with two processes half of that. "over limit" is the time of a shot relative to it.
 
-How it grows: with the number of shots, from Python (``sandbox.lab.sweep``: build, fly, judge), and with the number of
-balls that fly in one setup without meeting, by ``simulate``. But for the command, times are those of the processor.
+Growth: with the number of shots, from Python (``sandbox.lab.sweep``: build, simulate, evaluate), and with the number of
+balls that fly in one setup without touching, by ``simulate``. Except for the command, times are processor times.
 """
 
 from __future__ import annotations
@@ -52,9 +52,9 @@ SPEEDS, ANGLES = (6.0, 9.0), (35.0, 75.0)  # m/s, deg
 MAP = (61, 41)
 TARGET = 0.01  # m
 RATES = (1_000, 4_000, 16_000, 64_000)  # steps/s
-#: Shots of the map that bare pymunk flies, the same each time.
+#: Random shots of the map for bare pymunk, the same each time.
 DRAWN = 6
-#: Grids of so many shots, and setups of so many balls.
+#: Numbers of shots of the grids, and of balls of the setups.
 GRIDS = ((10, 10), (25, 20), MAP, (100, 100))
 BALLS = (1, 4, 16, 64)
 
@@ -76,7 +76,7 @@ def setups(shape: tuple[int, int]) -> list[Setup]:
 
 
 def timed(work: Callable[[], Any], repeats: int) -> tuple[float, Any]:
-    """Median of the processor's time in s, and what came of it."""
+    """Median of the processor time in s, and the result."""
     times = []
     for _ in range(repeats):
         started = thread_time()
@@ -89,7 +89,7 @@ def timed(work: Callable[[], Any], repeats: int) -> tuple[float, Any]:
 
 
 def by_command(shape: tuple[int, int], processes: int) -> float:
-    """Seconds by the clock of ``sandbox sweep``."""
+    """Wall time of ``sandbox sweep`` in s."""
     program = [sys.executable, "-c", "from sandbox.cli import main; main()"]
     axes = [("launch.speed", SPEEDS, shape[0]), ("launch.angle", ANGLES, shape[1])]
     over = [word for key, (low, high), n in axes for word in ("--over", f"{key}={low:g}:{high:g}:{n}")]
@@ -102,7 +102,7 @@ def by_command(shape: tuple[int, int], processes: int) -> float:
 
 
 def by_bare_pymunk(setup: Setup, run: Run) -> tuple[float, float, int]:
-    """Seconds and error in m at the fewest steps per second that reach the target, and how many these are."""
+    """Seconds, error in m, and steps per second, at the lowest rate that reaches the target."""
     shot = Shot(replace(setup, duration=run.duration, until=None), basketball_law)
     x, y = run.before("ball", run.duration)[:2]
     for rate in RATES:
@@ -114,14 +114,14 @@ def by_bare_pymunk(setup: Setup, run: Run) -> tuple[float, float, int]:
 
 
 def forces_alone(shots: int, evaluations: int) -> float:
-    """Seconds that numpy takes for the forces of so many shots, each evaluated so often."""
+    """Seconds that numpy takes to evaluate the forces of this many shots this many times."""
     vx, vy = np.full(shots, 4.0), np.linspace(-6.0, 6.0, shots)
     once = min(timeit(lambda: basketball_law(vx, vy, 0.0), number=50) / 50 for _ in range(5))  # type: ignore[arg-type]
     return evaluations * once
 
 
 def the_map(shape: tuple[int, int], drawn: int, repeats: int) -> dict[str, Any]:
-    """A row for each way to compute it."""
+    """A row for each way of computing it."""
     flown, balanced = setups(shape), resolve()
     shots = len(flown)
     together_s, runs = timed(lambda: list(simulate_many(flown, balanced)), repeats)
@@ -171,8 +171,8 @@ def by_balls(balls: int, repeats: int) -> dict[str, float]:
 # --------------------------------------------------------------------------------------------------------------- report
 
 
-def show(told: dict[str, Any]) -> None:
-    out, found = sys.stdout, told["map"]
+def show(results: dict[str, Any]) -> None:
+    out, found = sys.stdout, results["map"]
     out.write(f"{found['shots']:,} free throws, {found['cores']} cores\n")
     out.write(f"  {'':<30}{'shots/s':>10}{'the map':>12}{'over limit':>12}\n")
     for row in found["rows"]:
@@ -189,10 +189,10 @@ def show(told: dict[str, Any]) -> None:
     rates = ", ".join(f"{one['steps_per_s']:,}" for one in drawn)
     out.write(f"  bare pymunk: {len(drawn)} shots drawn, {reached} within {100 * TARGET:g} cm, at {rates} steps/s\n")
     out.write(f"\n  {'shots':>8}{'time':>12}{'a shot':>12}\n")
-    for row in told["shots"]:
+    for row in results["shots"]:
         out.write(f"  {row['shots']:>8,}{row['time_s']:>10.2f} s{row['ms_per_shot']:>9.2f} ms\n")
     out.write(f"\n  {'balls':>8}{'time':>12}{'a ball':>12}\n")
-    for row in told["balls"]:
+    for row in results["balls"]:
         out.write(f"  {row['balls']:>8,}{1e3 * row['time_s']:>9.2f} ms{row['ms_per_ball']:>9.2f} ms\n")
 
 
@@ -200,18 +200,18 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--json", type=Path, help="write the rows here")
     parser.add_argument("--repeats", type=int, default=3)
-    parser.add_argument("--quick", action="store_true", help="a small map, once: to see that it works")
+    parser.add_argument("--quick", action="store_true", help="a small map, once, as a test")
     arguments = parser.parse_args()
     quick = arguments.quick
     repeats = 1 if quick else arguments.repeats
-    told = {
+    results = {
         "map": the_map((6, 5) if quick else MAP, 1 if quick else DRAWN, repeats),
         "shots": [by_shots(shape) for shape in (((3, 2),) if quick else GRIDS)],
         "balls": [by_balls(balls, 3 * repeats) for balls in (BALLS[:2] if quick else BALLS)],
     }
-    show(told)
+    show(results)
     if arguments.json:
-        arguments.json.write_text(json.dumps(told, indent=1))
+        arguments.json.write_text(json.dumps(results, indent=1))
 
 
 if __name__ == "__main__":

@@ -1,11 +1,11 @@
-"""What a frame of the window costs, in every scene: aiming by mouse, with a fan, watching, near the ball, paused.
+"""Cost of a frame of the window in every scene: aiming by mouse, with a fan, watching, near the ball, paused.
 
 Run ``python benchmarks/window.py [SCENE ...] [--json F]``. The window is 1280x720 and drawn in memory (SDL's dummy
-driver), as without a GPU; frames are paced at 60 per second, and the time of each is that from its events to its
-picture. "processor" is what the window's process takes of one core for a frame, and "share" is that of 16.7 ms: on a
-busy machine it repeats, and the time does not; scenes run in a process beside it, on the other core. While aiming, the
-mouse moves in every frame; "path" is the share of frames whose path is that of the mouse in this very frame, and not
-yet that of one before.
+driver), as without a GPU; frames are paced at 60 per second, and a frame's time is from its events to its picture.
+"processor" is the window process' processor time for a frame, and "share" its fraction of 16.7 ms, which is repeatable
+on a busy machine, unlike the time; scenes run in another process, on the other core. While aiming, the mouse moves in
+every frame; "path" is the share of frames whose path belongs to the mouse position of the same frame, and not to an
+earlier one.
 """
 
 from __future__ import annotations
@@ -33,14 +33,14 @@ from sandbox.window.session import Session
 from sandbox.workers import Processes
 
 SIZE, FRAME = (1280, 720), 1 / 60  # px, s
-#: The mouse is this far from the ball in px, and swings so far, in px along and in rad, so many times.
+#: The mouse: distance from the ball in px, amplitude in px along the pull and in rad, and number of swings.
 PULL, SWING, TURN, SWINGS = 170.0, 45.0, 0.25, 2.0
 
 
 def timed(
     app: App, frames: int, before: Callable[[int], object] = lambda frame: None
 ) -> Iterator[tuple[float, float, bool]]:
-    """Of each frame the time and the processor's time, in s, and whether its path was that of its parameters."""
+    """For each frame: time and processor time in s, and whether its path belongs to its parameters."""
     for frame in range(frames):
         before(frame)
         started, used = perf_counter(), process_time()
@@ -56,7 +56,7 @@ def post(kind: int, at: tuple[int, int]) -> None:
 
 
 def measure(source: str, frames: int, worker: Processes) -> dict[str, dict[str, float]]:
-    """For each thing that a player does: median and 95th percentile in ms, and shares of frames."""
+    """For each activity: median and 95th percentile in ms, and shares of frames."""
     game = Game(Session(source), worker)
     app = App(game, pygame.display.set_mode(SIZE))
     while not app.view.complete:
@@ -74,22 +74,22 @@ def measure(source: str, frames: int, worker: Processes) -> dict[str, dict[str, 
         length, towards = PULL + SWING * turn, angle + TURN * turn
         post(pygame.MOUSEMOTION, (round(x - length * cos(towards)), round(y + length * sin(towards))))
 
-    found = {"aiming": told(timed(app, frames, pull))}
+    found = {"aiming": summarised(timed(app, frames, pull))}
     game.fan_wanted = True
-    found["with a fan"] = told(timed(app, frames))
+    found["with a fan"] = summarised(timed(app, frames))
     game.fan_wanted = False
     post(pygame.MOUSEBUTTONUP, (x, y))
-    found["watching"] = told(timed(app, frames))
+    found["watching"] = summarised(timed(app, frames))
     app.view.on.add("view")
-    found["near the ball"] = told(timed(app, frames))
+    found["near the ball"] = summarised(timed(app, frames))
     if game.playback is not None:
         game.playback.playing = False
-    found["paused"] = told(timed(app, frames // 2))
+    found["paused"] = summarised(timed(app, frames // 2))
     app.close()
     return found
 
 
-def told(rows: Iterator[tuple[float, float, bool]]) -> dict[str, float]:
+def summarised(rows: Iterator[tuple[float, float, bool]]) -> dict[str, float]:
     times, used, current = zip(*rows, strict=True)
     ordered = sorted(times)
     return {
@@ -103,7 +103,7 @@ def told(rows: Iterator[tuple[float, float, bool]]) -> dict[str, float]:
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("scenes", nargs="*", help="scenes and presets; left out: every scene, and its hardest presets")
+    parser.add_argument("scenes", nargs="*", help="scenes and presets; default: all, with the most demanding presets")
     parser.add_argument("--frames", type=int, default=180)
     parser.add_argument("--json", type=Path, help="write the rows here")
     arguments = parser.parse_args()

@@ -1,1 +1,1 @@
-"""The lab: what accuracy costs, what the extremes do, how the numbers compare with published ones."""
+"""The lab: sweeps and searches, the cost of accuracy, stress tests, and comparison with published numbers."""

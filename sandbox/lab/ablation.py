@@ -1,4 +1,4 @@
-"""What each part of a scene's model is worth: left out it shifts the ball by so much, and so does what is put in."""
+"""Ablation: how far the ball shifts when a part of a scene's model is left out, simplified or added."""
 
 from __future__ import annotations
 
@@ -21,20 +21,19 @@ from sandbox.lab.verdicts import verdict
 from sandbox.physics.forces import Drag, Magnus, SpinDecay
 from sandbox.scene import Scene
 
-#: Shifts below this, in m, are nothing to a player.
+#: Shifts below this, in m, do not matter to a player.
 NOTHING = 1e-4
 
-#: Spin decay of a golf ball by radar, put in where a scene has none.
+#: Spin decay of a golf ball from radar, added if a scene has none.
 _DECAY = 6e-5
 
-#: Speeds in m/s at which a surface is asked whether it gives way.
+#: Normal and tangential speed in m/s at which a surface is tested for deformation.
 _BOUNCE = (10.0, 10.0)
 
-#: Repeats for the time that a part costs. The shortest of them counts: whatever else the machine does takes time, and
-#: gives none.
+#: Repeats to measure the time that a part costs. The shortest counts, since other load only adds time.
 _REPEATS = 15
 
-#: Numbers of a result shown beside a part, and the relative change below which one is the same.
+#: Result numbers shown for each part, and the relative change below which a number counts as the same.
 _SHOWN, _SAME = 2, 1e-6
 
 
@@ -45,28 +44,28 @@ class Variant(NamedTuple):
     change: str
     scene: Callable[[], Scene]
     setup: Callable[[Scene], Setup] = lambda scene: scene.build()
-    touching: bool = False  # whether it matters only where something is touched
+    touching: bool = False  # whether it matters only at a contact
 
 
 @dataclass(frozen=True)
 class Ablated:
-    """What one change does. The shifts are None where the run could not be completed; ``problem`` says why."""
+    """The effect of one change. The shifts are None if the run could not be completed; ``problem`` says why."""
 
     part: str
     change: str
     shift_m: float | None  # by the scene's measure
-    flight_m: float | None  # at the moment when the ball first touches anything, with the part or without
+    flight_m: float | None  # at the first contact of the ball, with the part or without
     verdict: tuple[str, str]  # with the part, and without
-    saves: float | None  # share of the time that the scene takes at the level "balanced"
+    saves: float | None  # fraction of the scene's time at the level "balanced"
     results: dict[str, tuple[float, float]]  # numbers of the result, with the part and without
     problem: str = ""
-    idle: bool = False  # whether it is about touching, and nothing was touched
-    noise: float = 0.0  # share of the time by which the shortest repeats differ
-    resolution_m: float = 0.0  # error of the runs that are compared
+    idle: bool = False  # whether it concerns contact, and nothing was touched
+    noise: float = 0.0  # relative difference of the shortest repeats
+    resolution_m: float = 0.0  # error of the compared runs
 
     @property
     def is_nothing(self) -> bool:
-        """Whether leaving it out could be seen by nobody: neither on the way nor at the end."""
+        """Whether the change has no visible effect, in flight or at the end."""
         shifts = self.shift_m, self.flight_m
         return all(m is not None and m < NOTHING for m in shifts) and self.verdict[0] == self.verdict[1]
 
@@ -86,18 +85,18 @@ class Ablated:
         }
 
     def cells(self) -> tuple[str, ...]:
-        """A row for people."""
+        """A row of the table."""
         saves = self._saves()
         if self.problem:
-            return self.part, self.change, "", "", saves, f"cannot be run: {self.problem}"
+            return self.part, self.change, "", "", saves, f"run failed: {self.problem}"
         shifts = [length_above(shift, self.resolution_m) for shift in (self.flight_m, self.shift_m)]
         if self.is_nothing:
-            return self.part, self.change, *shifts, saves, "nothing: it touches nothing" if self.idle else "nothing"
+            return self.part, self.change, *shifts, saves, "nothing: no contact" if self.idle else "nothing"
         shown = [
             f"{name} {significant(a, 4)} -> {significant(b, 4)}" for name, (a, b) in list(self.results.items())[:_SHOWN]
         ]
         if self.verdict[0] != self.verdict[1]:
-            shown.append(_turned(*self.verdict))
+            shown.append(_changed_words(*self.verdict))
         return self.part, self.change, *shifts, saves, ", ".join(shown)
 
     def _saves(self) -> str:
@@ -107,8 +106,8 @@ class Ablated:
         return f"{100.0 * self.saves:.0f} %" if 100.0 * abs(self.saves) >= least else f"< {least:.0f} %"
 
 
-def _turned(before: str, after: str) -> str:
-    """Two verdicts, without the words that stand in both."""
+def _changed_words(before: str, after: str) -> str:
+    """Two verdicts, without the words they share."""
     a, b = before.split(", "), after.split(", ")
     return " -> ".join(
         ", ".join(word for word in own if word not in other) or "none" for own, other in ((a, b), (b, a))
@@ -116,21 +115,21 @@ def _turned(before: str, after: str) -> str:
 
 
 def as_text(rows: list[Ablated], time: float) -> list[str]:
-    """A table for people; ``time`` (s) is that of the measure."""
+    """A table; ``time`` (s) is when the shift is measured."""
     cells = [row.cells() for row in rows]
     headings = ("part", "", "shift at first touch", f"after {time:.4g} s", "saves")
     found = [(f"{part} {change}", results) for part, change, *_, results in cells if results]
     return [
-        "what each part of the model is worth",
+        "effect of each part of the model",
         *table(headings, [row[:-1] for row in cells], "llrrr"),
         "",
-        "what it changes in the result",
+        "changes in the result",
         *table(("", ""), found, "ll"),
     ]
 
 
 def ablation(reference: Reference) -> list[Ablated]:
-    """Every part of the scene's model changed in turn."""
+    """Change every part of the scene's model in turn."""
     scene = reference.scene
     names = [ball.name for ball in scene.build().balls]
     whole = _run(scene, scene.build())
@@ -184,7 +183,7 @@ def ablation(reference: Reference) -> list[Ablated]:
 
 
 def variants(scene: Scene) -> Iterator[Variant]:
-    """Each part of the model left out, simplified, or put in where the scene leaves it out."""
+    """Each part of the model left out, simplified, or added if the scene lacks it."""
     setup = scene.build()
 
     def changed(part: str, change: str, apply: Callable[[Setup], Setup], touching: bool = True) -> Variant:
@@ -194,9 +193,9 @@ def variants(scene: Scene) -> Iterator[Variant]:
         yield changed(name, "left out", lambda setup, name=name: _without(setup, name), touching=False)  # type: ignore[misc]
     yield from _by_parameters(scene, setup)
     if any(surface.law is not None for surface in setup.surfaces):
-        yield changed("law of the bounce", "as for a slow one", lambda s: _on_surfaces(s, _without_law))
+        yield changed("bounce law", "as for a slow bounce", lambda s: _on_surfaces(s, _without_law))
     if any(surface.law is not None and surface.law(*_BOUNCE).tilt != 0.0 for surface in setup.surfaces):
-        yield changed("give of the ground", "left out", lambda s: _on_surfaces(s, _without_tilt))
+        yield changed("deformation of the ground", "left out", lambda s: _on_surfaces(s, _without_tilt))
     for field, part in (
         ("friction", "friction of surfaces"),
         ("rolling_resistance", "rolling resistance"),
@@ -204,7 +203,7 @@ def variants(scene: Scene) -> Iterator[Variant]:
         if any(getattr(surface, field) > 0.0 for surface in setup.surfaces):
             yield changed(part, "left out", lambda s, field=field: _on_surfaces(s, _without_field(field)))  # type: ignore[misc]
     if any(surface.lowest_bounce > 0.0 for surface in setup.surfaces):
-        yield changed("loss of low bounces", "only a tenth as high", lambda s: _on_surfaces(s, _with_lower_bounces))
+        yield changed("loss of low bounces", "a tenth of the height", lambda s: _on_surfaces(s, _with_lower_bounces))
     if len(setup.balls) > 1 and setup.between_balls(1.0, 1.0).friction > 0.0:
         yield changed("friction of balls (throw)", "left out", _without_throw)
         if setup.between_balls(1.0, 0.1) != setup.between_balls(1.0, 1.0):
@@ -216,7 +215,7 @@ def variants(scene: Scene) -> Iterator[Variant]:
                 yield changed(part, "left out", lambda s, f=field: _on_cloth(s, f), touching=False)  # type: ignore[misc]
     spins = any(ball.spin != 0.0 and any(isinstance(force, Magnus) for force in ball.forces) for ball in setup.balls)
     if spins and not any(ball.torques for ball in setup.balls):
-        yield changed("spin decay", "put in, as a golf ball's", _with_decay, touching=False)
+        yield changed("spin decay", "added, as of a golf ball", _with_decay, touching=False)
 
 
 def with_changes(scene: Scene, changes: dict[str, Any]) -> Scene:
@@ -244,15 +243,15 @@ def _by_parameters(scene: Scene, setup: Setup) -> Iterator[Variant]:
             yield changed(part, f"{pull / unit:.3f} as at the start", changes)
     if values.get("air.density", 0.0) > 0.0:
         if values["air.wind"] == (0.0, 0.0):
-            yield changed("wind", "put in, 1 m/s against", {"air.wind": (-1.0, 0.0)})
+            yield changed("wind", "added, 1 m/s headwind", {"air.wind": (-1.0, 0.0)})
         else:
             yield changed("wind", "left out", {"air.wind": (0.0, 0.0)})
         if values.get("ball.lift.model") == "none":
-            yield changed("lift", "put in, as large as the spin ratio", {"ball.lift.model": "spin-ratio"})
+            yield changed("lift", "added, equal to the spin ratio", {"ball.lift.model": "spin-ratio"})
 
 
 def _at_launch(setup: Setup, kind: type) -> float:
-    """Size in N of the first force of a kind at the start, 0 where there is none."""
+    """Magnitude in N of the first force of a kind at the start, 0 if there is none."""
     for ball in setup.balls:
         for force in ball.forces:
             if isinstance(force, kind):
@@ -286,7 +285,7 @@ def _on_surfaces(setup: Setup, change: Callable[[Surface], Surface]) -> Setup:
 
 @dataclass(frozen=True)
 class _LawWithout:
-    """A law of impacts that leaves one thing out."""
+    """A law of impacts with one part left out."""
 
     law: Callable[[float, float], Bounce]
     field: str
@@ -344,8 +343,8 @@ def _run(scene: Scene, setup: Setup) -> Run:
 
 
 def _costs(changes: list[Variant], time: float) -> list[tuple[float | None, float]]:
-    """Seconds for each until ``time`` at "balanced", the shortest of repeats that take turns, and their noise as a
-    share of it; None where it cannot be completed."""
+    """Seconds for each until ``time`` at "balanced", the shortest of interleaved repeats, and their relative noise;
+    None if it cannot be completed."""
     walls: list[list[float]] = [[] for _ in changes]
     failed = [False] * len(changes)
     for _ in range(_REPEATS):
@@ -363,13 +362,13 @@ def _costs(changes: list[Variant], time: float) -> list[tuple[float | None, floa
 
 
 def _shortest(walls: list[float]) -> tuple[float, float]:
-    """The shortest of some times, and by what share of it the third shortest is longer."""
+    """The shortest time, and by what fraction the third shortest is longer."""
     first, _, third, *_ = sorted(walls)
     return first, third / first - 1.0
 
 
 def _differences(a: Run, b: Run) -> dict[str, tuple[float, float]]:
-    """The numbers of the result that are not the same, in the scene's own order."""
+    """The numbers of the result that differ, in the scene's order."""
     numbers = {name: float(value) for name, value in b.result.items() if _is_number(value)}
     return {
         name: (float(value), numbers[name])

@@ -1,4 +1,4 @@
-"""What a sweep or a search varies: parameters by their keys, and a scene with other values in their place."""
+"""Axes of a sweep or search: the parameters to vary, and the scene with other values."""
 
 from __future__ import annotations
 
@@ -14,18 +14,18 @@ from sandbox.errors import RequestError
 from sandbox.parameters import Group, Quantity, path_of
 from sandbox.scene import Scene
 
-#: Most values along one axis, and most points of a sweep: a mistake in the request beyond that, not a plan.
+#: Most values along one axis, and most points of a sweep: more is taken as a mistake in the request.
 MOST_VALUES, MOST_POINTS = 1_000_000, 100_000_000
 
-#: Combinations of words and switches whose parameters are kept, as each takes milliseconds to check.
-_KEPT = 64
+#: Cached combinations of words and switches, since each takes milliseconds to check.
+_CACHED = 64
 
 Path = tuple[str | int, ...]
 
 
 @dataclass(frozen=True)
 class Values:
-    """One parameter and the values that it takes, in its declared unit: numbers, words or switches."""
+    """One parameter and its values, in its declared unit: numbers, words or switches."""
 
     key: str
     values: tuple[Any, ...]
@@ -33,7 +33,7 @@ class Values:
 
 @dataclass(frozen=True)
 class Span:
-    """One number and the range that it is looked for, or drawn, in; in its declared unit."""
+    """One numeric parameter and the range to search or sample, in its declared unit."""
 
     key: str
     low: float
@@ -49,7 +49,7 @@ Axis = Values | Span
 
 
 def parse_axis(scene: Scene, option: str, text: str) -> Axis:
-    """``KEY=LO:HI:N``, ``KEY=LO:HI`` or ``KEY=A,B,C``; the ends may carry units. Raises RequestError."""
+    """``KEY=LO:HI:N``, ``KEY=LO:HI`` or ``KEY=A,B,C``; the ends may have units. Raises RequestError."""
     key, equals, body = (part.strip() for part in text.partition("="))
     if not key or not equals or not body:
         raise RequestError(f"{option} {text}: write it as KEY=LO:HI:N, for example {option} launch.angle=10:60:51")
@@ -58,7 +58,7 @@ def parse_axis(scene: Scene, option: str, text: str) -> Axis:
         values = [checked(scene, option, key, value) for value in _listed(body)]
         return Values(key, tuple(values))
     if len(parts) > 3:
-        raise RequestError(f"{option} {text}: {len(parts)} parts, and a range has two or three: LO:HI:N")
+        raise RequestError(f"{option} {text}: {len(parts)} parts, but a range has two or three: LO:HI:N")
     low, high = (_number(scene, option, key, part) for part in parts[:2])
     if len(parts) == 2:
         return span(option, key, low, high)
@@ -76,7 +76,7 @@ def parse_span(scene: Scene, option: str, text: str) -> Span:
 
 
 def as_axis(scene: Scene, key: str, given: Any, option: str = "over") -> Axis:
-    """An axis from Python: a pair as a tuple is a span, any other sequence or array its values."""
+    """An axis from Python: a pair as a tuple is a span, any other sequence or array is a list of values."""
     given = given.tolist() if isinstance(given, np.ndarray) else given
     if isinstance(given, str | Mapping) or not isinstance(given, Iterable):
         raise RequestError(f"{option} {key}: {given!r} is neither a list of values nor a range (low, high)")
@@ -90,22 +90,22 @@ def as_axis(scene: Scene, key: str, given: Any, option: str = "over") -> Axis:
         raise RequestError(f"{option} {key}: no values")
     if len(values) > 2 and all(isinstance(value, int | float) and not isinstance(value, bool) for value in values):
         low, high = (checked(scene, option, key, end) for end in (min(values), max(values)))
-        if isinstance(low, float):  # within bounds at both ends, so all the way
+        if isinstance(low, float):  # both ends are within bounds, so all of it is
             return Values(key, tuple(float(value) for value in values))
     return Values(key, tuple(checked(scene, option, key, value) for value in values))
 
 
 def span(option: str, key: str, low: float, high: float) -> Span:
-    """Raises RequestError where the range has no length."""
+    """A range. Raises RequestError if it is empty."""
     if low >= high:
-        raise RequestError(f"{option} {key}: a range from {low:g} to {high:g} has no length; write the lower end first")
+        raise RequestError(f"{option} {key}: the range from {low:g} to {high:g} is empty; write the lower end first")
     return Span(key, low, high)
 
 
 def _number(scene: Scene, option: str, key: str, text: str) -> float:
     value = checked(scene, option, key, _toml(text))
     if not isinstance(value, float):
-        raise RequestError(f"{option} {key}: only numbers have a range; list the values instead, separated by commas")
+        raise RequestError(f"{option} {key}: only numbers can have a range; list values, separated by commas")
     return value
 
 
@@ -120,7 +120,7 @@ def _count(option: str, text: str, number: str) -> int:
 
 
 def _toml(text: str) -> Any:
-    """A TOML value, and a plain string where it is none."""
+    """A TOML value, or else the text as a string."""
     try:
         parsed = tomllib.loads(f"value = {text}")
     except (ValueError, RecursionError):
@@ -139,19 +139,19 @@ def checked(scene: Scene, option: str, key: str, value: Any) -> Any:
     parameters = declared.validate(type(scene.parameters), scene.parameters.model_dump(), "", {key: value}, option)
     found = at(parameters, path)
     if isinstance(found, Group):
-        raise RequestError(f"{option} {key}: is a group of parameters, not one")
+        raise RequestError(f"{option} {key}: is a group of parameters, not a parameter")
     return found
 
 
 def at(node: Any, path: Path) -> Any:
-    """What stands at ``path``."""
+    """The value at ``path``."""
     for step in path:
         node = node[step] if isinstance(step, int) else getattr(node, step)
     return node
 
 
 def unit_of(scene: Scene, key: str) -> str:
-    """The declared unit of a parameter; empty where it has none."""
+    """The declared unit of a parameter; empty if none."""
     plain = key.partition("[")[0]
     return next((found.unit or "" for found in declared.walk(scene.parameters) if found.key == plain), "")
 
@@ -179,16 +179,15 @@ def result_label(scene: Scene, name: str) -> str:
 class Varied:
     """The parameters of a scene with other values at some keys.
 
-    Numbers are put in place without further checks: their bounds were checked where the axes were read, and a range
-    within bounds at both ends is within them all the way. Words and switches may change which other keys there are,
-    so each combination of those is checked as a whole, and kept.
+    Numbers are set without further checks, since the bounds of both ends were checked when the axes were read. Words
+    and switches may change which other keys exist, so each of their combinations is checked as a whole, and cached.
     """
 
     def __init__(self, scene: Scene, keys: Sequence[str]) -> None:
         self._scene = scene
         self._paths = [path_of("over", key) for key in keys]
         self._keys = list(keys)
-        self._quick = [_is_plain_number(scene.parameters, path) for path in self._paths]
+        self._quick = [_can_set_unchecked(scene.parameters, path) for path in self._paths]
         self._bases: dict[str, Group] = {}
 
     def parameters(self, values: Sequence[Any]) -> Any:
@@ -207,7 +206,7 @@ class Varied:
     def _base(self, changes: Mapping[str, Any]) -> Any:
         name = repr(changes)
         if name not in self._bases:
-            if len(self._bases) >= _KEPT:
+            if len(self._bases) >= _CACHED:
                 self._bases.clear()
             parameters = self._scene.parameters
             for key, value in changes.items():
@@ -216,8 +215,8 @@ class Varied:
         return self._bases[name]
 
 
-def _is_plain_number(parameters: Any, path: Path) -> bool:
-    """Whether a number may be put at ``path`` unchecked: groups without checks of their own, down to a quantity."""
+def _can_set_unchecked(parameters: Any, path: Path) -> bool:
+    """Whether a number may be set at ``path`` unchecked: no group on the path has checks of its own."""
     node, quantity = parameters, None
     for step in path:
         if isinstance(step, int):

@@ -1,4 +1,4 @@
-"""Charts of what the lab measured, by matplotlib, which comes with the extra ``lab``."""
+"""Charts of the lab's measurements, with matplotlib (extra ``lab``)."""
 
 from __future__ import annotations
 
@@ -17,18 +17,18 @@ from sandbox.lab.tables import length, significant
 if TYPE_CHECKING:
     from sandbox.lab.trade import Point, Trade
 
-#: Size in inches, and dots per inch; and what is drawn on: left, bottom, width and height as shares of it.
+#: Size in inches, dots per inch, and the drawing area: left, bottom, width and height as fractions.
 _SIZE, _DOTS, _FRAME = (9.6, 6.0), 130, (0.02, 0.02, 0.96, 0.96)
 
 #: Errors in m that are marked.
 _TARGETS = (0.1, 0.01, 0.001, 0.0001)
 
-#: Errors below this, in m, are drawn at it: beyond any use.
+#: Smaller errors, in m, are drawn at this value: they do not matter.
 _LEAST = 1e-9
 
 
 def check_installed(option: str) -> None:
-    """Raise RequestError, which says how to install it, where matplotlib is missing."""
+    """Raise RequestError with installation instructions if matplotlib is missing."""
     try:
         import matplotlib  # noqa: F401
     except ImportError:
@@ -36,7 +36,7 @@ def check_installed(option: str) -> None:
 
 
 def draw_trade(found: Trade, path: Path) -> None:
-    """Error against speed: one curve for each method, the best corner at the top right, levels marked."""
+    """Error against speed: one curve per method, best at the top right, levels marked."""
     reference = found.reference
     name = f"{reference.scene.name}/{reference.scene.preset}" if reference.scene.preset else reference.scene.name
     with chart(path, f"{name}: error against speed", _measure(found)) as (axes, colours):
@@ -57,7 +57,7 @@ def draw_trade(found: Trade, path: Path) -> None:
         axes.set_xlabel("speed, times real time")
         axes.set_ylabel("error, smaller upwards")
         axes.xaxis.set_major_formatter(lambda value, position: significant(value))
-        axes.tick_params(axis="x", which="minor", pad=7)  # in line with the others, which have ticks
+        axes.tick_params(axis="x", which="minor", pad=7)  # aligned with the other labels, which have ticks
         axes.xaxis.set_minor_formatter(lambda value, position: significant(value) if f"{value:e}"[0] in "25" else "")
         axes.yaxis.set_major_formatter(lambda value, position: length(value))
         ink = colours["card"]["ink"]
@@ -76,14 +76,14 @@ def _colours(methods: Sequence[str], colours: dict[str, Any]) -> Iterator[str]:
 
 
 def _stable_end(points: Sequence[Point]) -> list[Point]:
-    """The settings from the finest on, until the first that is unstable."""
+    """The settings from the finest to the last stable one."""
     return list(takewhile(lambda point: point.stable, reversed(points)))
 
 
 def _measure(found: Trade) -> str:
     reference = found.reference
     what = "the worst ball" if len(reference.points) > 1 else "the ball"
-    text = f"error of the place of {what} after {reference.time:.3g} s, on this machine"
+    text = f"position error of {what} after {reference.time:.3g} s, on this machine"
     if reference.diverges_at is not None:
         text += f"; chaotic from {reference.diverges_at:.3g} s on"
     return text
@@ -121,7 +121,7 @@ def _level(axes: Any, name: str, point: Point, floor: float, colours: dict[str, 
 
 @contextmanager
 def chart(path: Path, title: str, about: str) -> Iterator[tuple[Any, dict[str, Any]]]:
-    """Axes to draw into, and the palette; what was drawn is written at the end."""
+    """Axes to draw into, and the palette; the file is written at the end."""
     import matplotlib
     from matplotlib import font_manager
     from matplotlib.figure import Figure

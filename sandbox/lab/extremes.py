@@ -1,4 +1,4 @@
-"""The extremes: what is asked of every scene by its parameters, and of bare setups where a scene has no such key."""
+"""The extremes of the stress test: those of each scene's parameters, and setups without a scene for other cases."""
 
 from __future__ import annotations
 
@@ -16,21 +16,21 @@ from sandbox.physics.coefficients import Constant
 from sandbox.physics.forces import Drag, Gravity, Magnus
 from sandbox.scene import Scene
 
-#: Steps in s that the methods with a step of their own are tried at.
+#: Steps in s at which fixed-step methods are tested.
 STEPS = (1e-5, 1e-4, 1e-3, 1 / 60, 0.1, 0.5)
 
-#: A run at a short step is ended after so many of them.
+#: Most steps of a run at a short step.
 _MOST_STEPS = 1_500
 
-#: Simulated time in s after which a run of the extremes is ended; the hour is one of them.
+#: Simulated time in s after which a run is ended; one hour is an extreme of its own.
 _LONGEST, HOUR = 10.0, 3600.0
 
-#: Which methods an extreme is meant for.
+#: The methods that an extreme applies to.
 ALL, EXACT, ERROR_CONTROL, PLAIN, FIXED_STEP = "all", "exact", "error control", "plain", "fixed step"
 
 
 class Extreme(NamedTuple):
-    """One row. ``build`` raises RequestError where the scene refuses; ``step`` (s) replaces that of the method."""
+    """One row. ``build`` raises RequestError if the scene refuses; ``step`` (s) replaces that of the method."""
 
     name: str
     build: Callable[[], Setup]
@@ -39,7 +39,7 @@ class Extreme(NamedTuple):
 
 
 def of_scene(scene: Scene) -> Iterator[Extreme]:
-    """Every extreme that the scene's parameters can be set to, and its own setup at extreme steps."""
+    """Every extreme of the scene's parameters, and its own setup at extreme steps."""
     for name, changes in _changes(scene):
 
         def build(changes: Mapping[str, Any] = changes) -> Setup:
@@ -93,7 +93,7 @@ def _changes(scene: Scene) -> Iterator[tuple[str, dict[str, Any]]]:
     walls = [k for k in keys if k.endswith(("thickness", "tube_radius", "post_radius", "jaw_radius"))]
     if walls:
         yield "walls of 0.1 mm", dict.fromkeys(walls, 1e-4)
-        yield "walls as thin as may be", {key: _within(keys[key], -inf) for key in walls}
+        yield "walls as thin as allowed", {key: _within(keys[key], -inf) for key in walls}
         if aim is not None:
             fastest = _within(keys[aim[0]], inf)
             yield "thin walls, full speed", {**{k: _within(keys[k], -inf) for k in walls}, aim[0]: fastest}
@@ -106,7 +106,7 @@ def _changes(scene: Scene) -> Iterator[tuple[str, dict[str, Any]]]:
 
 
 def _alike(scene: Scene, part: str, value: float) -> dict[str, Any]:
-    """Every number whose key ends in ``part`` set to ``value``, as far as its bounds allow."""
+    """Every number whose key ends in ``part`` set to ``value``, within its bounds."""
     return {p.key: _within(p, value) for p in declared.walk(scene.parameters) if p.key.endswith(part) and _is_number(p)}
 
 
@@ -130,7 +130,7 @@ _BOX = ((-5.0, 0.0), (5.0, 0.0), (5.0, 10.0), (-5.0, 10.0), (-5.0, 0.0))
 
 
 def bare() -> Iterator[Extreme]:
-    """Extremes that no scene's parameters reach."""
+    """Extremes that no scene's parameters can express."""
     yield Extreme("wall of 0.1 mm at 340 m/s", lambda: _against_wall(0.00005, 0.02, 340.0))
     yield Extreme("wall of no thickness, ball of 1 mm", lambda: _against_wall(0.0, 0.001, 340.0))
     yield Extreme("into a corner of 90 deg", lambda: _into_corner(10.0, 1.0))
@@ -149,8 +149,8 @@ def bare() -> Iterator[Extreme]:
     yield Extreme(
         "a force with a pole", lambda: _forced(lambda t, position, velocity, spin: (0.0, -1.0 / position[1] ** 3))
     )
-    yield Extreme("drag that reverses what it slows", lambda: _forced(_wrong_drag))
-    yield Extreme("1,000 balls in a heap", _heap, PLAIN)
+    yield Extreme("drag that reverses the motion", lambda: _forced(_wrong_drag))
+    yield Extreme("1,000 balls in a pile", _heap, PLAIN)
 
 
 def _lone(ball: Ball, surfaces: list[Surface], duration: float = 2.0) -> Setup:
@@ -166,13 +166,13 @@ def _into_corner(speed: float, slope: float) -> Setup:
     """Straight into the corner of the floor and a wall that rises by ``slope``, from the right."""
     sides = [Segment((0.0, 0.0), (10.0, 0.0)), Segment((0.0, 0.0), (10.0, 10.0 * slope))]
     surfaces = [Surface(f"side {k}", side, 0.9, 0.3) for k, side in enumerate(sides)]
-    rise = ((1.0 + slope * slope) ** 0.5 - 1.0) / slope  # of the line that halves the angle
+    rise = ((1.0 + slope * slope) ** 0.5 - 1.0) / slope  # of the bisector of the corner
     ball = Ball("ball", 0.1, 0.05, (9.0, 9.0 * rise), (-speed, -speed * rise), forces=[Gravity(0.1, 9.81)])
     return _lone(ball, surfaces)
 
 
 def _galperin(ratio: float) -> Setup:
-    """Two balls and a wall, nothing lost: pi's digits in the number of impacts (Galperin 2003)."""
+    """Two balls and a wall without loss: the number of impacts has the digits of pi (Galperin 2003)."""
     balls = [Ball("light", 1.0, 0.1, (1.0, 0.0)), Ball("heavy", ratio, 0.1, (2.0, 0.0), (-1.0, 0.0))]
     return Setup(balls, [Surface("wall", Segment((0.0, -1.0), (0.0, 1.0)), 1.0, 0.0)], duration=10.0)
 
@@ -189,7 +189,7 @@ def _rack(gap: float) -> Setup:
 
 
 def _overlapping(height: float) -> Setup:
-    """A ball whose centre is ``height`` radii over the floor."""
+    """A ball whose centre is ``height`` radii above the floor."""
     floor = Surface("floor", Segment((-5.0, 0.0), (5.0, 0.0)), 0.8, 0.5)
     return _lone(Ball("ball", 1.0, 0.1, (0.0, 0.1 * height), forces=[Gravity(1.0, 9.81)]), [floor])
 
@@ -213,7 +213,7 @@ def _spinning(rpm: float, friction: float) -> Setup:
 
 
 def _bullet() -> Setup:
-    """9 mm and 8 g at 340 m/s: water takes half its speed within 35 cm."""
+    """9 mm and 8 g at 340 m/s: water halves its speed within 35 cm."""
     radius, density = 0.0045, 1000.0
     drag, lift = Drag(radius, density, Constant(0.5)), Magnus(radius, density, Constant(0.1))
     forces: list[Force] = [Gravity(0.008, 9.81), drag, lift]

@@ -1,4 +1,4 @@
-"""Pictures of sweeps: a map over two parameters, a curve or a strip over one, by matplotlib, as in chart.py."""
+"""Charts of sweeps: a map over two parameters, a curve or a strip over one, in the frame of chart.py."""
 
 from __future__ import annotations
 
@@ -14,44 +14,44 @@ from sandbox import parameters as declared
 from sandbox.errors import RequestError
 from sandbox.lab.axes import Axis, Values, at, label, result_label
 from sandbox.lab.chart import chart, check_installed
-from sandbox.lab.plan import FLAGS, HANGS, Plan, records
+from sandbox.lab.plan import CHANGED, FLAGS, Plan, records
 from sandbox.lab.row_file import cell, rows
 from sandbox.lab.tables import significant
 from sandbox.parameters import path_of
 
-#: Words that a legend has room for; rarer ones go together.
+#: Most words in a legend; rarer ones are grouped.
 _MOST_WORDS, _OTHERS = 8, "others"
 
 #: Points that failed.
 FAILED = "failed"
 
-#: Colours of numbers: even steps to the eye, colour-blind or not.
+#: Colour map of numbers: perceptually uniform, and safe for the colour-blind.
 _HEIGHTS = "viridis"
 
-#: Cells along an axis from which on lines of equal height help.
+#: Fewest cells along an axis for contour lines.
 _FEWEST_FOR_LINES = 8
 
-#: Most cells that are outlined, and most points of a curve that are marked with dots.
+#: Most cells with outlines, and most points of a curve marked with dots.
 _MOST_OUTLINED, _MOST_DOTS = 40_000, 60
 
-#: Most curves of a chart, and the largest difference of whole numbers that have a colour each.
+#: Most curves of a chart, and the largest range of integers with a colour each.
 _MOST_CURVES, _MOST_COUNTS = 6, 12
 
 
 @dataclass(frozen=True)
 class Found:
-    """The columns that a picture needs: numbers with NaN where there is none, or words."""
+    """The columns that a chart needs: numbers, NaN where missing, or words."""
 
-    axes: list[np.ndarray]  # where each point stands along each axis; words stand at 0, 1, 2...
+    axes: list[np.ndarray]  # position of each point along each axis; words are at 0, 1, 2...
     name: str  # of what is shown
     label: str  # the same with its unit
     numbers: np.ndarray | None
-    words: list[str]  # of the same length as the axes; empty if what is shown is a number
+    words: list[str]  # of the same length as the axes; empty if the column shown is a number
     good: frozenset[str]  # words that stand for success
 
 
 def check_plot(plan: Plan, of: str | None) -> None:
-    """Raise RequestError for a picture that could not be drawn, before any work is done."""
+    """Raise RequestError, before any work is done, if the chart cannot be drawn."""
     check_installed("--plot")
     if len(plan.axes) > 2:
         raise RequestError(f"--plot shows one or two parameters, not {len(plan.axes)}: {', '.join(plan.keys)}")
@@ -67,7 +67,7 @@ def _no_such(name: str, columns: Iterable[str]) -> str:
 
 
 def draw_sweep(plan: Plan, file: Path, path: Path, of: str | None = None) -> None:
-    """A picture of the rows in ``file``; ``of`` names the column, or else it is the verdict or the first result."""
+    """A chart of the rows in ``file``; ``of`` names the column, by default the verdict or the first result."""
     found = read(plan, file, of)
     name = f"{plan.scene.name}/{plan.scene.preset}" if plan.scene.preset else plan.scene.name
     title = f"{name}: {found.name.replace('_', ' ')}"
@@ -97,10 +97,10 @@ def draw_sweep(plan: Plan, file: Path, path: Path, of: str | None = None) -> Non
 
 
 def read(plan: Plan, file: Path, of: str | None) -> Found:
-    """The swept columns and the one to show. Raises RequestError where there is no such column."""
+    """The swept columns and the one to show. Raises RequestError if there is no such column."""
     table = rows(file)
     first = next(table, {})
-    names = [name for name in first if name not in (*plan.keys, *FLAGS, HANGS, "ended", "error")]
+    names = [name for name in first if name not in (*plan.keys, *FLAGS, CHANGED, "ended", "error")]
     shown = of or ("verdict" if "verdict" in names else next(iter(names), None))
     if shown is None:
         raise RequestError("--plot: every point failed, there is nothing to show")
@@ -141,7 +141,7 @@ def _column(axis: Axis, texts: Sequence[str]) -> np.ndarray:
 
 
 def _numbers(texts: Sequence[str]) -> np.ndarray | None:
-    """The texts as numbers, NaN for an empty one; None if one is no number, or all are empty."""
+    """The texts as numbers, NaN for an empty one; None if one is not a number, or all are empty."""
     if not any(texts):
         return None
     try:
@@ -152,11 +152,11 @@ def _numbers(texts: Sequence[str]) -> np.ndarray | None:
 
 def _about(plan: Plan) -> str:
     spread = f"{plan.samples:,} shots at random" if plan.samples else f"{plan.size:,} shots"
-    return f"{spread}; all else as in the scene file"
+    return f"{spread}; all other parameters as in the scene file"
 
 
 def _own(plan: Plan) -> list[float] | None:
-    """Where the scene's own values stand along the axes, if they are numbers inside them or words of theirs."""
+    """Positions of the scene's own values along the axes, if they lie on them."""
     own: list[float] = []
     for axis in plan.axes:
         value = at(plan.scene.parameters, path_of("over", axis.key))
@@ -178,7 +178,7 @@ def _own(plan: Plan) -> list[float] | None:
 
 
 def _map(axes: Any, plan: Plan, found: Found, colours: Mapping[str, Any]) -> None:
-    """Cells over two axes, coloured by a word, or by a number with lines of equal height."""
+    """Cells over two axes, coloured by a word, or by a number with contour lines."""
     from matplotlib.colors import ListedColormap
 
     places = [_positions(axis) for axis in plan.axes]
@@ -204,7 +204,7 @@ def _map(axes: Any, plan: Plan, found: Found, colours: Mapping[str, Any]) -> Non
 
 
 def _are_counts(numbers: np.ndarray) -> bool:
-    """Whether they are whole numbers, between which there is nothing to draw lines through."""
+    """Whether they are all integers, for which contour lines make no sense."""
     known = numbers[np.isfinite(numbers)]
     return bool(known.size and (known == np.round(known)).all() and np.ptp(known) <= _MOST_COUNTS)
 
@@ -223,7 +223,7 @@ def _steps(heights: np.ma.MaskedArray[Any, Any]) -> dict[str, Any]:
 
 
 def _outline(axes: Any, across: np.ndarray, up: np.ndarray, cells: np.ndarray, colours: Mapping[str, Any]) -> None:
-    """A fine dark line where one word borders on another."""
+    """A fine dark line between areas of different words."""
     x, y = _edges(across), _edges(up)
     lines = [((x[i + 1], y[j]), (x[i + 1], y[j + 1])) for j, i in np.argwhere(cells[:, 1:] != cells[:, :-1])]
     lines += [((x[i], y[j + 1]), (x[i + 1], y[j + 1])) for j, i in np.argwhere(cells[1:] != cells[:-1])]
@@ -268,7 +268,7 @@ def _line(axes: Any, plan: Plan, found: Found, colours: Mapping[str, Any]) -> No
 
 
 def _along(plan: Plan, found: Found) -> int | None:
-    """Which axis has the numbers, where a number is shown over numbers and words: there it is a curve for each word."""
+    """The axis of numbers, if a number is shown over numbers and words: then there is a curve for each word."""
     numeric = [place for place, axis in enumerate(plan.axes) if _has_numbers(axis)]
     words = [axis for axis in plan.axes if isinstance(axis, Values) and not _has_numbers(axis)]
     if plan.samples or found.numbers is None or len(numeric) != 1 or len(words) != 1:
@@ -293,7 +293,7 @@ def _curves(axes: Any, plan: Plan, found: Found, along: int, colours: Mapping[st
 
 
 def _mark_own(axes: Any, plan: Plan, found: Found, along: int | None, colours: Mapping[str, Any]) -> None:
-    """A ring where the scene file's own shot is, or a line."""
+    """Mark the scene file's own shot with a ring or a line."""
     own = _own(plan)
     if own is None:
         return
@@ -305,18 +305,18 @@ def _mark_own(axes: Any, plan: Plan, found: Found, along: int | None, colours: M
         axes.axvline(own[0], color=ink, linewidth=1.0, linestyle=(0, (4, 3)))
         top = not _is_high(found, own[0])  # away from the curve
         place, offset = (own[0], float(top)), (5, -6 if top else 6)
-        beside: dict[str, Any] = {"xycoords": ("data", "axes fraction"), "va": "top" if top else "bottom"}
+        offset_text: dict[str, Any] = {"xycoords": ("data", "axes fraction"), "va": "top" if top else "bottom"}
     else:
         axes.plot(*own, marker="o", markersize=11, markerfacecolor="none", markeredgecolor="white", markeredgewidth=3.5)
         axes.plot(*own, marker="o", markersize=11, markerfacecolor="none", markeredgecolor=ink, markeredgewidth=1.6)
-        place, offset, beside = (own[0], own[1]), (10, 0), {"va": "center"}
-    beside |= {"xytext": offset, "textcoords": "offset points", "fontsize": 9.5, "color": ink}
-    text = axes.annotate("scene file", place, **beside)
+        place, offset, offset_text = (own[0], own[1]), (10, 0), {"va": "center"}
+    offset_text |= {"xytext": offset, "textcoords": "offset points", "fontsize": 9.5, "color": ink}
+    text = axes.annotate("scene file", place, **offset_text)
     text.set_bbox({"facecolor": "white", "edgecolor": "none", "alpha": 0.75, "pad": 1.5})
 
 
 def _is_high(found: Found, own: float) -> bool:
-    """Whether the curve is in the upper half of its range where the scene file's own shot is."""
+    """Whether the curve is in the upper half of its range at the scene file's own shot."""
     if found.numbers is None or not np.isfinite(found.numbers).any():
         return False
     height = found.numbers[np.nanargmin(np.abs(found.axes[0] - own))]
@@ -324,7 +324,7 @@ def _is_high(found: Found, own: float) -> bool:
 
 
 def _coded(found: Found, colours: Mapping[str, Any]) -> tuple[dict[str, str], np.ndarray]:
-    """A colour for each word, success vivid and the commonest first, and the number of each point's colour."""
+    """A colour for each word, success vivid and the most common first, and the index of each point's colour."""
     counts = Counter(found.words)
     failures = counts.pop(FAILED, 0)
     ordered = sorted(counts, key=lambda word: (word not in found.good, -counts[word], word))
@@ -342,7 +342,7 @@ def _coded(found: Found, colours: Mapping[str, Any]) -> tuple[dict[str, str], np
 
 
 def _legend(axes: Any, found: Found, chosen: Mapping[str, str], colours: Mapping[str, Any]) -> None:
-    """What the colours mean, and the share of each."""
+    """Legend of the colours, with the share of each."""
     from matplotlib.patches import Patch
 
     counts = Counter(word if word in chosen else _OTHERS for word in found.words)
@@ -367,7 +367,7 @@ def _share(word: str, count: int, found: Found) -> str:
 
 
 def _key(axes: Any, drawn: Any, found: Found, colours: Mapping[str, Any]) -> None:
-    """The scale of heights."""
+    """The colour scale."""
     bar = axes.figure.colorbar(drawn, ax=axes, aspect=30, pad=0.02)
     bar.outline.set_visible(False)
     if found.numbers is not None and _are_counts(found.numbers):
@@ -377,7 +377,7 @@ def _key(axes: Any, drawn: Any, found: Found, colours: Mapping[str, Any]) -> Non
 
 
 def _positions(axis: Axis) -> np.ndarray:
-    """Where an axis' values stand: numbers at themselves, words one beside another."""
+    """Positions of an axis' values: numbers at their value, words at 0, 1, 2..."""
     assert isinstance(axis, Values)  # a grid has no spans
     return np.array(axis.values) if _has_numbers(axis) else np.arange(float(len(axis.values)))
 

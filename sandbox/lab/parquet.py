@@ -1,4 +1,4 @@
-"""The rows of a sweep as a Parquet file, where pyarrow is installed."""
+"""The rows of a sweep as a Parquet file, if pyarrow is installed."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from sandbox.lab.plan import Plan
 
 
 def check_installed(option: str) -> None:
-    """Raise RequestError, which says how to install it, where pyarrow is missing."""
+    """Raise RequestError with installation instructions if pyarrow is missing."""
     try:
         import pyarrow  # noqa: F401
     except ImportError:
@@ -19,7 +19,7 @@ def check_installed(option: str) -> None:
 
 
 def write_parquet(plan: Plan, file: Path, path: Path) -> None:
-    """The rows of the CSV ``file``: numbers, switches and texts by their columns, null where a cell is empty."""
+    """The rows of the CSV ``file``: columns of numbers, booleans or text; empty cells are null."""
     import pyarrow as pa
     from pyarrow import csv, parquet
 

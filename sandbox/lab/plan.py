@@ -1,4 +1,4 @@
-"""A sweep laid out: which points there are, and what a run at each of them says."""
+"""The plan of a sweep: its points, and the row of a run at each of them."""
 
 from __future__ import annotations
 
@@ -22,26 +22,26 @@ from sandbox.tracebacks import one_line_error
 if TYPE_CHECKING:
     from sandbox.engine.run import Run
 
-#: What a run cost, in the rows of a sweep: whether it went smoothly, not how long it took.
+#: Columns of a run's cost in a sweep: counts only, since times differ from run to run.
 FLAGS = ("impacts", "steps", "refined_steps")
 
-#: The column of a checked sweep that names the results which a finer run changes.
-HANGS = "hangs_on_accuracy"
+#: The column of a checked sweep that lists the results that a finer run changes.
+CHANGED = "depends_on_accuracy"
 
-#: Random points are drawn in blocks of so many, each from a seed of its own, so that any of them is found at once.
+#: Random points are drawn in blocks of this size, each with its own seed, so that any point is available directly.
 _BLOCK = 1024
 
-#: Points that fly together: more are quicker, fewer are shared out evenly and seen sooner. The number must not depend
-#: on who computes, as the last digits of a shot depend on how many fly with it.
+#: Points computed together: more are faster, fewer give even shares and earlier results. The number must not depend on
+#: the workers, as the last digits of a shot depend on how many are computed with it.
 _SMALLEST_BLOCK, _LARGEST_BLOCK, _BLOCKS = 32, 640, 4
 
-#: One run as a row: swept parameters, results, flags, and ``error``, which is empty where the run came to its end.
+#: One run as a row: swept parameters, results, flags, and ``error``, which is empty if the run was completed.
 Record = dict[str, Any]
 
 
 @dataclass(frozen=True)
 class Plan:
-    """All points of a sweep: the grid of the axes' values, the last axis fastest, or ``samples`` points at random."""
+    """All points of a sweep: the grid of the axes' values, last axis fastest, or ``samples`` points at random."""
 
     scene: Scene
     axes: tuple[Axis, ...]
@@ -59,11 +59,11 @@ class Plan:
         for axis in self.axes:
             if isinstance(axis, Span) and not self.samples:
                 raise RequestError(
-                    f"--over {axis.key}={axis.low:g}:{axis.high:g}: a grid needs a number of points, "
-                    f"{axis.low:g}:{axis.high:g}:N; or --samples, how many at random"
+                    f"--over {axis.key}={axis.low:g}:{axis.high:g}: a grid needs the number of points, "
+                    f"{axis.low:g}:{axis.high:g}:N; or use --samples for random points"
                 )
         if self.size > MOST_POINTS:
-            raise RequestError(f"{self.size:,} points are too many; the most is {MOST_POINTS:,}")
+            raise RequestError(f"{self.size:,} points are too many; the limit is {MOST_POINTS:,}")
 
     @property
     def keys(self) -> list[str]:
@@ -72,19 +72,19 @@ class Plan:
 
     @property
     def shape(self) -> tuple[int, ...]:
-        """How many values each axis has; one length for random samples."""
+        """Number of values along each axis; one length for random samples."""
         if self.samples:
             return (self.samples,)
         return tuple(len(axis.values) for axis in self.axes if isinstance(axis, Values))
 
     @property
     def size(self) -> int:
-        """How many points there are."""
+        """Number of points."""
         return math.prod(self.shape)
 
     @cached_property
     def block(self) -> int:
-        """How many points are computed together: 1 where shots fly one at a time."""
+        """Number of points computed together: 1 if shots are computed one at a time."""
         together = fly_together(self.scene, self.keys, next(self.points(0, 1)))
         return min(_LARGEST_BLOCK, max(_SMALLEST_BLOCK, -(-self.size // _BLOCKS))) if together else 1
 
@@ -111,12 +111,12 @@ class Plan:
 
     @cached_property
     def provenance(self) -> Provenance:
-        """What the rows depend on besides this plan."""
+        """What the rows depend on apart from this plan."""
         return provenance(self.scene)
 
     @cached_property
     def fingerprint(self) -> str:
-        """Two sweeps with one fingerprint have the same rows: the same scene at the same points, by the same code."""
+        """Two sweeps with the same fingerprint have the same rows: same scene, same points, same code."""
         told = {
             "scene": self.scene.name,
             "provenance": self.provenance.parts,
@@ -143,8 +143,8 @@ def _drawn(axis: Axis, share: float) -> Any:
 def records(plan: Plan, start: int, stop: int, alone: bool = False) -> list[Record]:
     """The rows of the points from ``start`` up to ``stop``. A point that fails is a row with its error.
 
-    Points are computed by blocks, whichever part of them is asked for, so that a row has the same digits whoever
-    computes it on a processor of the same kind; ``alone`` computes the points asked for and no others.
+    Points are always computed in whole blocks, so that a row has the same digits on every worker with the same kind of
+    processor; ``alone`` computes only the requested points.
     """
     if alone:
         return _rows(plan, start, stop)
@@ -167,7 +167,7 @@ def _rows(plan: Plan, start: int, stop: int) -> list[Record]:
     for values, run, other in zip(points, outcomes, finer, strict=True):
         row = _record(plan.keys, values, run)
         error = row.pop("error")
-        rows.append(row | _trust(run, other) | {"error": error})
+        rows.append(row | _accuracy_columns(run, other) | {"error": error})
     return rows
 
 
@@ -188,12 +188,12 @@ def _record(keys: Sequence[str], values: Sequence[Any], run: Run | Exception) ->
     return row
 
 
-def _trust(run: Run | Exception, finer: Run | Exception) -> Record:
-    """The estimated error of each number, and which other results hang on the accuracy."""
+def _accuracy_columns(run: Run | Exception, finer: Run | Exception) -> Record:
+    """The estimated error of each number, and which other results depend on the accuracy."""
     if isinstance(run, Exception):
         return {}
     if isinstance(finer, Exception):
-        return {HANGS: f"a finer run fails: {one_line_error(finer)}"}
+        return {CHANGED: f"a finer run fails: {one_line_error(finer)}"}
     outcome = compare(run, finer)
     numbers = [name for name, value in run.result.items() if name in outcome.errors or value is None]
-    return {f"{name}_error": outcome.errors.get(name) for name in numbers} | {HANGS: " ".join(outcome.changed)}
+    return {f"{name}_error": outcome.errors.get(name) for name in numbers} | {CHANGED: " ".join(outcome.changed)}

@@ -1,6 +1,7 @@
-"""What the rows of a sweep depend on besides its plan: the program's code, the scene's files, versions, the platform.
+"""What the rows of a sweep depend on apart from its plan: the program's code, the scene's files, versions, the
+platform.
 
-Rows are only put together, from one day to the next or from several machines, where all of these are the same.
+Rows from different days or machines are combined only if all of these are the same.
 """
 
 from __future__ import annotations
@@ -19,26 +20,26 @@ from sandbox import resources
 from sandbox.lab.row_file import is_of_a_sweep
 from sandbox.scene import Scene
 
-#: Pictures and tables that the program writes; a scene that reads one of the kind does so unseen.
+#: Pictures and tables that the program writes; a file of these kinds that a scene reads is not noticed.
 _OUTPUTS = {".png", ".gif", ".webp", ".parquet", ".resume", ".part"}
 
-#: Folders whose content no run depends on.
-_ASIDE = {"__pycache__", "golden", "out"}
+#: Folders that no run depends on.
+_IGNORED = {"__pycache__", "golden", "out"}
 
 _LIBRARIES = ("numpy", "pymunk")
 
 
 @dataclass(frozen=True)
 class Provenance:
-    """The parts by their names, as digests and versions, and where the files are that they were taken from."""
+    """Digests and versions by name, and the location of the files."""
 
     folder: Path  # of the scene
-    beside: tuple[Path, ...]  # modules of the user's that the scene imports from elsewhere
+    user_modules: tuple[Path, ...]  # user modules that the scene imports from elsewhere
     parts: dict[str, str]
 
     def differences(self) -> list[str]:
-        """Which parts are different where this is called, in another process or on another machine."""
-        here = _parts(self.folder, self.beside)
+        """The parts that differ in this process, which may be another process or machine."""
+        here = _parts(self.folder, self.user_modules)
         return [
             f"{name} {here[name]} instead of {part}" if name in (*_LIBRARIES, "Python", "platform") else name
             for name, part in self.parts.items()
@@ -47,16 +48,16 @@ class Provenance:
 
 
 def provenance(scene: Scene) -> Provenance:
-    """That of a scene which is loaded here."""
+    """The provenance of a scene loaded in this process."""
     folder = scene.folder.resolve()
-    beside = tuple(sorted(_beside(folder)))
-    return Provenance(folder, beside, _parts(folder, beside))
+    user_modules = tuple(sorted(_user_modules(folder)))
+    return Provenance(folder, user_modules, _parts(folder, user_modules))
 
 
-def _parts(folder: Path, beside: Iterable[Path]) -> dict[str, str]:
+def _parts(folder: Path, user_modules: Iterable[Path]) -> dict[str, str]:
     return {
         "the sandbox": _digest(resources.PACKAGE, resources.PACKAGE.rglob("*.py")),
-        "the scene": _digest(folder, [*_files(folder), *beside]),
+        "the scene": _digest(folder, [*_files(folder), *user_modules]),
         **{name: _version(name) for name in _LIBRARIES},
         "Python": platform.python_version(),
         "platform": f"{platform.system()} {platform.machine()}",
@@ -71,7 +72,7 @@ def _version(library: str) -> str:
 
 
 def _digest(root: Path, files: Iterable[Path]) -> str:
-    """One of the names and the contents of files; those that are not there count as that."""
+    """A digest of the names and contents of files; a missing file counts as missing."""
     total = hashlib.sha256()
     for file in sorted(files):
         name = file.relative_to(root) if file.is_relative_to(root) else file
@@ -82,18 +83,18 @@ def _digest(root: Path, files: Iterable[Path]) -> str:
 
 
 def _files(folder: Path) -> Iterator[Path]:
-    """All files of a scene but what was made from it, tests' golden files, caches and hidden files."""
+    """All files of a scene except its outputs, golden files, caches and hidden files."""
     for file in folder.rglob("*"):
         parts = file.relative_to(folder).parts
-        if any(part.startswith(".") or part in _ASIDE for part in parts) or not file.is_file():
+        if any(part.startswith(".") or part in _IGNORED for part in parts) or not file.is_file():
             continue
         if file.suffix not in _OUTPUTS and not file.name.endswith("~") and not is_of_a_sweep(file):
             yield file
 
 
-def _beside(folder: Path) -> set[Path]:
-    """The user's modules that the sources of a folder import, and those that these import, as far as they are loaded
-    or stand beside the folder."""
+def _user_modules(folder: Path) -> set[Path]:
+    """The user's modules that the sources of a folder import, and theirs in turn, if they are
+    loaded or next to the folder."""
     found: set[Path] = set()
     waiting = list(folder.rglob("*.py"))
     while waiting:
@@ -128,7 +129,7 @@ def _module_file(folder: Path, name: str) -> Path | None:
 
 
 def _is_users(file: Path) -> bool:
-    """Whether a module is neither of the sandbox nor of Python or an installed package."""
+    """Whether a module belongs neither to the sandbox nor to Python or an installed package."""
     installed = {Path(sysconfig.get_path(name)) for name in ("stdlib", "purelib", "platlib")}
     return (
         file.suffix == ".py"

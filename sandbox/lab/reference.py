@@ -1,7 +1,7 @@
-"""Where a run is looked at, and the answer that it is compared with.
+"""The measure of a run, and the converged reference it is compared with.
 
-The measure is the place of every ball at one time: the end of the run, or, where the scene is chaotic, the last moment
-before that shows. A scene may offer its own, ``measure(run, parameters) -> (x, y)`` in m, or a list of such points.
+The measure is the position of every ball at one time: the end of the run or, if the scene is chaotic, the last moment
+before that shows. A scene may define its own, ``measure(run, parameters) -> (x, y)`` in m, or a list of such points.
 """
 
 from __future__ import annotations
@@ -21,23 +21,23 @@ from sandbox.scene import Scene
 #: A thousand times finer than the finest level.
 REFERENCE = replace(LEVELS["precise"], level="reference", tolerance=1e-3 * LEVELS["precise"].tolerance, settle=1e-14)
 
-#: Steps in s, and most of them, of the second reference, which another integrator computes.
+#: Step in s, and most steps, of the second reference, computed by another integrator.
 _CHECK_STEP, _CHECK_STEPS = 1 / 2000, 60_000
 
-#: Lowest bounce in m of the second reference. What low bounces leave out goes with the root of their height, so this
-#: one is twice as wrong.
+#: Lowest bounce in m of the second reference. The error of ignored bounces grows with the root of their height, so this
+#: reference has twice the error.
 _CHECK_SETTLE = 4.0 * REFERENCE.settle
 
 #: The nudge: a change of speed and of direction (rad) at the start.
 NUDGE = 1e-9
 
-#: A nudge that has grown to this, in m, says that the scene has become chaotic: a growth of 1e6.
+#: If a nudge grows to this, in m, the scene is chaotic from then on: a growth of 1e6.
 DIVERGED = 1e-3
 
-#: A run that an event ends is looked at a little earlier, where that event does not matter.
+#: Fraction of the duration at which a run that an event ends is measured, before that event matters.
 _BEFORE_THE_END = 0.98
 
-#: Times at which two runs are compared, beside those of the events.
+#: Times at which two runs are compared, in addition to those of the events.
 _LOOKS = 240
 
 Point = tuple[float, float]
@@ -45,37 +45,37 @@ Point = tuple[float, float]
 
 @dataclass(frozen=True)
 class Reference:
-    """The converged answer of a scene."""
+    """The converged result of a scene."""
 
     scene: Scene
-    time: float  # s, at which the balls are looked at
+    time: float  # s, time of the measure
     points: list[Point]  # m
     error: float  # m, estimated
-    first_touch: float  # s, when a ball first touches something; ``time`` if none does
-    size: float  # m, how far the farthest ball gets from its start
-    growth: float  # of a nudge until then, in m per unit
-    diverges_at: float | None  # s, when a nudge of 1e-9, or the method's own error, has grown to 1 mm; None if neither
-    closed_form: bool  # whether the motion is known in closed form, so that only touching is found by computing
-    exact_error: float | None  # m, against the parabola, where only gravity acts before the first touch
+    first_touch: float  # s, the first contact of a ball; ``time`` if there is none
+    size: float  # m, largest distance of a ball from its start
+    growth: float  # of a nudge until ``time``, in m per unit
+    diverges_at: float | None  # s, when a nudge of 1e-9, or the method's own error, has grown to 1 mm; None if never
+    closed_form: bool  # whether the motion has a closed form, so that only contacts are computed
+    exact_error: float | None  # m, compared with the parabola, if only gravity acts before the first contact
 
     def setup(self) -> Setup:
-        """The scene built afresh, to be run until ``time``."""
+        """A new setup of the scene, ending at ``time``."""
         return until(self.scene.build(), self.time)
 
     def error_of(self, run: Run) -> float:
-        """How far the worst ball of a run is from where it belongs, in m."""
+        """Largest position error of a ball of a run, in m."""
         return apart(self.points, looked_at(self.scene, run, self.time))
 
 
 def converge(scene: Scene) -> Reference:
-    """Compute the reference, and a second one to check it by.
+    """Compute the reference, and a second one to check it.
 
-    Raises RunError where the scene cannot be run, RequestError where it is over at once.
+    Raises RunError if the scene cannot be run, RequestError if the run ends immediately.
     """
     setup = scene.build()
     first = simulate(setup, REFERENCE)
     if first.duration == 0.0:
-        raise RequestError(f"{scene.name}: the run is over as it begins; there is nothing to measure")
+        raise RequestError(f"{scene.name}: the run ends immediately; there is nothing to measure")
     whole = _BEFORE_THE_END * first.duration if first.ended == "until" else first.duration
     first = simulate(until(scene.build(), whole), REFERENCE)
     nudged = simulate(until(_nudged(scene.build()), whole), REFERENCE)
@@ -94,7 +94,7 @@ def converge(scene: Scene) -> Reference:
         scene,
         time,
         points,
-        # touching is found to within SKIN, and that error grows as a nudge does
+        # contacts are found to within SKIN, and that error grows like a nudge
         max(apart(points, looked_at(scene, check, time)), SKIN * max(growth, 1.0)),
         min([time, *(event.t for event in first.events)]),
         _size(first, time),
@@ -115,12 +115,12 @@ def looked_at(scene: Scene, run: Run, time: float) -> list[Point]:
 
 
 def apart(a: Sequence[Point], b: Sequence[Point]) -> float:
-    """The largest distance between points of the same place in both lists, in m."""
+    """The largest distance between corresponding points of both lists, in m."""
     return max((hypot(p[0] - q[0], p[1] - q[1]) for p, q in zip(a, b, strict=True)), default=0.0)
 
 
 def places(run: Run, names: Sequence[str], t: float) -> list[Point]:
-    """Where the balls are at time t, in m."""
+    """Positions of the balls at time t, in m."""
     return [(state[0], state[1]) for state in (run.state(name, t) for name in names)]
 
 
@@ -130,7 +130,7 @@ def _looks(run: Run, whole: float) -> Iterator[float]:
 
 
 def until(setup: Setup, time: float) -> Setup:
-    """The same setup, which ends at ``time`` (s) and by nothing else."""
+    """The same setup, ending only at ``time`` (s)."""
     return replace(setup, duration=time, until=None)
 
 
@@ -139,7 +139,7 @@ def _nudged(setup: Setup) -> Setup:
 
 
 def _nudged_ball(ball: Ball) -> Ball:
-    """A little faster, and turned a little to the left; one that waits for a force gets a push."""
+    """Slightly faster and turned slightly to the left; a ball at rest with forces gets a small velocity."""
     vx, vy = ball.velocity
     if vx == vy == 0.0 and ball.forces:
         return replace(ball, velocity=(NUDGE, NUDGE))
@@ -162,7 +162,7 @@ def _size(run: Run, time: float) -> float:
 
 
 def _exact_error(setup: Setup, run: Run, time: float) -> float | None:
-    """How far a lone ball under gravity alone is from its parabola when it first touches something."""
+    """Distance in m of a single ball under gravity alone from its parabola at the first contact."""
     ball = setup.balls[0]
     if len(setup.balls) > 1 or setup.cloth is not None or not all(isinstance(f, Gravity) for f in ball.forces):
         return None

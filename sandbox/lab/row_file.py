@@ -1,4 +1,4 @@
-"""Rows into a CSV file as they come: what is there is whole, and an interrupted file can be resumed."""
+"""Rows written to a CSV file as they are computed: the file holds whole rows, and an interrupted one can be resumed."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ _LAST, _TRAJECTORY = "error", b"t,ball,x,y,vx,vy,spin"
 
 
 class Points(Protocol):
-    """What a sweep runs, in order: a Plan."""
+    """The points of a sweep, in order: a Plan."""
 
     @property
     def fingerprint(self) -> str: ...
@@ -36,16 +36,16 @@ class Points(Protocol):
 
 
 class RowFile:
-    """A CSV file that grows by whole lines; use it in a ``with`` block, and call ``finish`` after the last row.
+    """A CSV file written in whole lines; use it in a ``with`` block, and call ``finish`` after the last row.
 
-    Until then a small file with ``.resume`` at the end of its name tells what the rows belong to; it is locked as long
-    as this process lives, so that no other writes into the same file. Opened again for the same points, rows are added
-    to those that are there (``done``, a number); the unfinished rows of another sweep raise RequestError. Rows are
-    kept as far as they are, to the byte, what was written for these points: a line that was cut off is dropped, and
-    from the first damaged one on (``damaged``, its number) they are to be computed again.
+    Until then a small marker file, with ``.resume`` added to the name, identifies the sweep. It is locked while this
+    process lives, so that no other process writes to the same file. If the file is opened again for the same points,
+    rows are added to the existing ones (``done``, their number); unfinished rows of another sweep raise RequestError.
+    Existing rows are kept only if they are byte for byte what was written for these points: an incomplete last line is
+    dropped, and rows from the first damaged one (``damaged``, its number) are computed again.
 
-    What a finished or a damaged file held is kept (``before``), with ``~`` at the end of its name, until the same rows
-    stand in the new one. Devices such as /dev/stdout are simply written to.
+    The old content of a finished or damaged file is kept under its name with ``~`` added (``before``) until the same
+    rows are in the new file. Devices such as /dev/stdout are simply written to.
     """
 
     def __init__(self, path: Path, plan: Points) -> None:
@@ -57,7 +57,7 @@ class RowFile:
         self._mark = path.with_name(path.name + ".resume")
         self._lock: TextIO | None = None
         self._columns: list[str] = []
-        self._target = path.resolve() if path.is_symlink() else path  # the file behind a link, not the link
+        self._target = path.resolve() if path.is_symlink() else path  # the target of a link, not the link
         self.before = self._target.with_name(f"{self._target.name}~")
 
     def __enter__(self) -> RowFile:
@@ -74,22 +74,22 @@ class RowFile:
         return self
 
     def __exit__(self, *failure: object) -> None:
-        with suppress(OSError):  # of a full disk, told by append already
+        with suppress(OSError):  # a full disk, which append has already reported
             self._file.close()
         if self._lock is not None:
             self._lock.close()
 
     def finish(self) -> None:
-        """All rows are there."""
+        """Mark the file as complete."""
         if not self._is_device:
             self._mark.unlink(missing_ok=True)
             if self.before.is_file() and filecmp.cmp(self.path, self.before, shallow=False):
                 self.before.unlink()
 
     def append(self, records: Sequence[Mapping[str, Any]]) -> None:
-        """Add rows; they are in the system's hands when this returns. New columns are blank in earlier rows.
+        """Add rows; they have been passed to the operating system on return. New columns are empty in earlier rows.
 
-        Raises RunError where the disk is full or the like; the rows before these are kept.
+        Raises RunError if writing fails, for example on a full disk; earlier rows are kept.
         """
         named = [{csv_text(name): value for name, value in record.items()} for record in records]
         columns = merged_columns(self._columns, named)
@@ -124,33 +124,31 @@ class RowFile:
     # Before the first row
 
     def _locked(self) -> TextIO:
-        """The mark, held by this process alone. Raises RequestError where another one holds it."""
+        """The marker file, locked by this process. Raises RequestError if another process holds it."""
         while True:
             mark = self._mark.open("a+", encoding="utf-8", errors="replace")
             try:
                 if not _lock(mark):
-                    raise RequestError(f"--out {self.path}: another sweep is writing this file; name another")
+                    raise RequestError(f"--out {self.path}: another sweep is writing to this file; choose another name")
                 if self._mark.exists() and os.path.samestat(os.fstat(mark.fileno()), self._mark.stat()):
                     return mark
             except BaseException:
                 mark.close()
                 raise
-            mark.close()  # the other one has just finished, and taken its mark away
+            mark.close()  # the other process has just finished and removed its marker
 
     def _begin(self, mark: TextIO) -> None:
-        """Open the file after the rows that can be kept."""
+        """Open the file after the rows that are kept."""
         mark.seek(0)
         known = mark.read(100).strip()
         if known and not re.fullmatch("[0-9a-f]{64}", known):
-            raise RequestError(
-                f"--out {self.path}: it needs {self._mark.name}, and that is a file of yours; name another"
-            )
+            raise RequestError(f"--out {self.path}: {self._mark.name} is a file of yours; choose another name")
         there = self._target.is_file() and self._target.stat().st_size > 0
         if known and there:
             if known != self._plan.fingerprint:
                 raise RequestError(
-                    f"--out {self.path}: holds the rows of another sweep that was interrupted, or of this one with "
-                    f"another scene or program; name another file, or remove this one and {self._mark.name}"
+                    f"--out {self.path}: contains rows of another interrupted sweep, or of this one with "
+                    f"another scene or program version; choose another name, or remove this file and {self._mark.name}"
                 )
             if self._keep_rows():
                 self._file = self.path.open("a", encoding="utf-8", newline="")
@@ -168,7 +166,7 @@ class RowFile:
         self._file = self.path.open("w", encoding="utf-8", newline="")
 
     def _keep_rows(self) -> bool:
-        """Count the rows that are as they were written, and cut off what follows them; whether there are any."""
+        """Count the intact rows and cut off the rest. Returns whether there are any."""
         with self.path.open("rb+") as file:
             header = file.readline()
             if not header.endswith(b"\n"):
@@ -177,8 +175,8 @@ class RowFile:
             keys = [csv_text(key) for key in self._plan.keys]
             if not columns or columns[: len(keys)] != keys or columns[-1] != _LAST or len({*columns}) < len(columns):
                 raise RequestError(
-                    f"--out {self.path}: its first line is not the one that this sweep wrote; mend it, or remove the "
-                    f"file and {self._mark.name} to begin anew"
+                    f"--out {self.path}: its first line is not what this sweep wrote; repair it, or remove the "
+                    f"file and {self._mark.name} to start again"
                 )
             end, done = file.tell(), 0
             for point in self._plan.points(0, self._plan.size):
@@ -189,7 +187,7 @@ class RowFile:
                 end, done = file.tell(), done + 1
             file.seek(end)
             rest = file.readline()
-            if rest.endswith(b"\n") or b"\0" in rest:  # not merely the line that was being written
+            if rest.endswith(b"\n") or b"\0" in rest:  # not just the line that was being written
                 self._check_before()
                 shutil.copyfile(self.path, self.before)
                 self.damaged = done + 1
@@ -198,19 +196,19 @@ class RowFile:
         return True
 
     def _check_before(self) -> None:
-        """Raise RequestError where a file of the user's own is in the place of what is kept."""
+        """Raise RequestError if a file of the user's is in the way of the backup."""
         if self.before.exists() and not is_of_a_sweep(self.before):
             raise RequestError(
-                f"--out {self.path}: what it holds would be kept as {self.before}, and that is a file of yours; "
-                "name another"
+                f"--out {self.path}: its content would be kept as {self.before}, but that is a file of yours; "
+                "choose another name"
             )
 
 
 def _lock(file: TextIO) -> bool:
-    """Lock a file for this process, until it is closed or the process ends however it does."""
+    """Lock a file for this process, until it is closed or the process ends for any reason."""
     try:
         import fcntl
-    except ImportError:  # not a POSIX system: two sweeps into one file are not noticed
+    except ImportError:  # not a POSIX system: two sweeps writing to one file are not detected
         return True
     try:
         fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
@@ -226,7 +224,7 @@ def _line(cells: Iterable[str]) -> str:
 
 
 def _cells(line: bytes) -> list[str] | None:
-    """The cells of a line; None where it is not, to the byte, one that is written here."""
+    """The cells of a line; None if it differs by a byte from what this module writes."""
     try:
         text = line.decode()
         cells = next(csv.reader([text], strict=True), [])
@@ -236,7 +234,7 @@ def _cells(line: bytes) -> list[str] | None:
 
 
 def is_of_a_sweep(path: Path) -> bool:
-    """Whether a file holds a table that this program wrote: the rows of a sweep, or a path."""
+    """Whether a file is a table written by this program: rows of a sweep, or a trajectory."""
     try:
         with path.open("rb") as file:
             first = file.readline(1 << 16).rstrip(b"\r\n")
@@ -254,7 +252,7 @@ def _writing(path: Path) -> Iterator[None]:
 
 
 def merged_columns(columns: list[str], records: Iterable[Mapping[str, Any]]) -> list[str]:
-    """The columns with those that the records add, in the records' order; the last stays last."""
+    """The columns plus those that the records add, in the records' order; the last stays last."""
     known = dict.fromkeys(columns)
     new = {name: None for record in records for name in record if name not in known}
     if not new:
@@ -264,7 +262,7 @@ def merged_columns(columns: list[str], records: Iterable[Mapping[str, Any]]) -> 
 
 
 def cell(value: Any) -> str:
-    """A value in CSV: empty for None and NaN, true and false, numbers to the last digit, lists as JSON; one line."""
+    """A value in CSV: empty for None and NaN, true and false, numbers in full precision, lists as JSON; one line."""
     if value is None:
         return ""
     if hasattr(value, "tolist"):

@@ -1,4 +1,4 @@
-"""Many runs of one scene, each with other values at some keys."""
+"""Many runs of one scene with different parameter values."""
 
 from __future__ import annotations
 
@@ -20,10 +20,10 @@ if TYPE_CHECKING:
 def runs(
     scene: Scene, keys: Sequence[str], points: Sequence[Sequence[Any]], finer: bool = False, asked: Sequence[str] = ()
 ) -> Iterator[Run | Exception]:
-    """The run at each of the points, in order, with its result; or the exception that it ended in.
+    """The run at each of the points, in order, with its result; or the exception it ended with.
 
-    Shots that are alike fly together. ``finer`` runs with half the steps, to estimate errors by. Where only some facts
-    are ``asked`` for, each run ends when these are settled, and its result has no others.
+    Similar shots are computed together. ``finer`` halves the steps, to estimate errors. If only some facts are
+    ``asked`` for, each run ends when these are settled, and its result contains only these.
     """
     varied = Varied(scene, keys)
     built: list[tuple[Scene, Accuracy, Setup] | Exception] = []
@@ -44,7 +44,7 @@ def runs(
 
 
 def _ended(scene: Scene, asked: Sequence[str]) -> Setup:
-    """The setup of a scene, which ends as soon as what is asked for is settled."""
+    """The setup of a scene, which ends as soon as the requested facts are settled."""
     setup = scene.build()
     settled = scene.settles(asked) if asked else None
     if settled is None:
@@ -54,7 +54,7 @@ def _ended(scene: Scene, asked: Sequence[str]) -> Setup:
 
 @dataclass(frozen=True)
 class _Settled(Until):
-    """What is asked for is settled, or the setup's own run is over."""
+    """Ends a run when the requested facts are settled, or when the setup's own condition is met."""
 
     settled: Callable[[Event], bool]
     setup: Setup
@@ -74,9 +74,9 @@ def _finished(run: Run | Exception, scene: Scene, asked: Sequence[str]) -> Run |
 
 
 def fly_together(scene: Scene, keys: Sequence[str], values: Sequence[Any]) -> bool:
-    """Whether the engine takes many runs of this kind at once, judged by the one with these values."""
+    """Whether the engine computes many runs of this kind at once, judged by the one with these values."""
     try:
         point = Varied(scene, keys).scene(values)
         return flies_in_batches(point.build(), resolve(**point.parameters.accuracy.model_dump()))
     except Exception:
-        return False  # its row will say why
+        return False  # its row reports the error

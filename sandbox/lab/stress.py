@@ -1,8 +1,8 @@
 """The extremes, and what happened at each: held, refused with a clear error, or failed.
 
-What is promised of the exact method: no number that is none (NaN), nothing passes through anything, no energy from
-nowhere beyond the bound below, no endless loop; where that cannot be had, an error that names time, ball and quantity.
-The plain method promises an end and no NaN; its other columns show what it does.
+The exact method must give no NaN or infinite number, no tunnelling, no energy gain beyond the bound below, and no
+endless loop, or else an error that names time, ball and quantity. The plain method must only end without NaN; its other
+columns are for information.
 """
 
 from __future__ import annotations
@@ -29,45 +29,45 @@ from sandbox.scene import Scene
 if TYPE_CHECKING:
     import numpy as np
 
-#: Energy from nowhere that the exact method may show, as a share of the largest energy of the run: with an integrator
-#: that controls its error, and with one that keeps its step.
+#: Allowed energy gain of the exact method, relative to the largest energy of the run: with an integrator that
+#: controls its error, and with one of fixed step.
 ENERGY, ENERGY_FIXED_STEP = 1e-3, 3e-2
 
-#: Overlap in m that the exact method may show.
+#: Allowed overlap in m of the exact method.
 OVERLAP = 1e-7
 
-#: A run of an extreme that takes longer than this, in s, counts as one without end.
+#: A run that takes longer than this, in s, counts as endless.
 ENDLESS = 20.0
 
-#: Step in s of the integrators without error control, and of the plain method, where the row does not say.
+#: Step in s of the integrators without error control, and of the plain method, unless the extreme sets it.
 _STEP, _PLAIN_STEP = 1 / 60, 1 / 240
 
-#: Samples on each piece of a path, at most, and of a whole path, about; times at which pairs of balls are looked at.
+#: Most samples on each arc, approximate samples of a whole path, and times at which pairs of balls are checked.
 _SAMPLES, _ALL_SAMPLES, _LOOKS = 6, 6_000, 300
 
-#: Balls up to which pairs are looked at along the whole path.
-_FEW = 40
+#: Most balls for which pairs are checked along the whole path.
+_MOST_PAIRED = 40
 
 HELD, REFUSED, FAILED = "held", "refused", "failed"
 
 
 @dataclass(frozen=True)
 class Outcome:
-    """What one method did at one extreme."""
+    """The outcome of one method at one extreme."""
 
     scene: str  # "" for a bare setup
     extreme: str
     method: str
     outcome: str  # "held", "refused" or "failed"
     message: str = ""
-    energy_gained: float | None = None  # from nowhere, as a share of the largest energy of the run
+    energy_gained: float | None = None  # not from any force, relative to the largest energy of the run
     penetration_m: float | None = None
     left: bool = False  # whether anything passed through a surface, or left the world
     wall_s: float = 0.0
 
 
 def every_method(level: str = "balanced") -> dict[str, Accuracy]:
-    """Every method by name, as the extremes run it."""
+    """Every method by name, with its accuracy in the stress test."""
     base = LEVELS[level]
     exact = {
         name: replace(base, integrator=name)
@@ -84,7 +84,7 @@ def stress(
     with_bare: bool = True,
     progress: Callable[[int, int], None] = lambda done, total: None,
 ) -> list[Outcome]:
-    """Run every extreme of the scenes, and the bare ones, by every method."""
+    """Run every extreme of the scenes, and those without a scene, with every method."""
     rows = [("", extreme) for extreme in bare()] if with_bare else []
     for scene in scenes:
         name = f"{scene.name}/{scene.preset}" if scene.preset else scene.name
@@ -99,16 +99,16 @@ def stress(
 def tried(
     scene: str, extreme: Extreme, level: str = "balanced", methods: Sequence[str] | None = None
 ) -> Iterator[Outcome]:
-    """One extreme by every method that it is meant for, or by those named."""
+    """One extreme with every method that it applies to, or with the methods named."""
     for method, accuracy in every_method(level).items():
-        if not _meant_for(extreme.methods, accuracy) or (methods is not None and method not in methods):
+        if not _applies_to(extreme.methods, accuracy) or (methods is not None and method not in methods):
             continue
         if extreme.step is not None:
             accuracy = replace(accuracy, step=extreme.step)
         yield _tried(scene, extreme, method, accuracy)
 
 
-def _meant_for(which: str, accuracy: Accuracy) -> bool:
+def _applies_to(which: str, accuracy: Accuracy) -> bool:
     exact = accuracy.method == "exact"
     controls_error = exact and INTEGRATORS[accuracy.integrator].controls_error
     meant = {ALL: True, EXACT: exact, ERROR_CONTROL: controls_error, PLAIN: not exact, FIXED_STEP: not controls_error}
@@ -124,17 +124,17 @@ def _tried(scene: str, extreme: Extreme, method: str, accuracy: Accuracy) -> Out
         what = REFUSED if wall < ENDLESS else FAILED
         kind = "" if isinstance(error, RequestError) else f"{type(error).__name__}: "
         return Outcome(scene, extreme.name, method, what, f"{kind}{error}", wall_s=wall)
-    except Exception as error:  # whatever else comes out is what is looked for
+    except Exception as error:  # any other exception is a failure, which this test looks for
         wall = perf_counter() - started
         return Outcome(scene, extreme.name, method, FAILED, f"{type(error).__name__}: {error}", wall_s=wall)
     wall = perf_counter() - started
     problems = []
     gained, overlap, through = _energy_gained(run), *_overlap(run)
     if not _is_finite(run):
-        problems.append("a number that is none")
+        problems.append("NaN or infinite")
     bound = ENERGY if INTEGRATORS[accuracy.integrator].controls_error else ENERGY_FIXED_STEP
     if accuracy.method == "exact" and gained > bound:
-        problems.append(f"energy from nowhere, {significant(100.0 * gained)} %")
+        problems.append(f"energy gained, {significant(100.0 * gained)} %")
     if accuracy.method == "exact" and overlap > OVERLAP:
         problems.append(f"overlap of {length(overlap)}")
     if through:
@@ -145,7 +145,7 @@ def _tried(scene: str, extreme: Extreme, method: str, accuracy: Accuracy) -> Out
     return Outcome(scene, extreme.name, method, what, "; ".join(problems), gained, overlap, bool(through), wall)
 
 
-# ------------------------------------------------------------------------------------------------------------ looking
+# ------------------------------------------------------------------------------------------------------------ checks
 
 
 def _is_finite(run: Run) -> bool:
@@ -153,13 +153,13 @@ def _is_finite(run: Run) -> bool:
 
 
 def _energy_gained(run: Run) -> float:
-    """Energy that no force accounts for, over the largest that there was.
+    """Energy that no force accounts for, relative to the largest energy of the run.
 
-    Of the exact method what its pieces of path gain beyond the forces' work, and what any instant of impact adds; of
-    the plain one, whose impacts are spread over steps, what there is at the end beyond the start and the work.
+    For the exact method, the gain of its arcs beyond the forces' work, plus any gain in an impact; for the plain
+    method, whose impacts are spread over steps, the gain from start to end beyond the work.
     """
-    if len(run.setup.balls) > _FEW:
-        return 0.0  # the ledger of a heap takes longer than the heap
+    if len(run.setup.balls) > _MOST_PAIRED:
+        return 0.0  # the ledger of a pile takes longer than its run
     book = ledger(run)
     work = sum(book.work.values())
     jumps: dict[float, float] = defaultdict(float)
@@ -175,7 +175,7 @@ def _energy_gained(run: Run) -> float:
 
 
 def _overlap(run: Run) -> tuple[float, str]:
-    """The deepest overlap in m of any ball with anything, and what a ball passed through, if so."""
+    """The deepest overlap in m of any ball with anything, and what a ball passed through, if anything."""
     deepest, through = 0.0, ""
     for ball in run.setup.balls:
         path = _path(run, ball.name)
@@ -187,7 +187,7 @@ def _overlap(run: Run) -> tuple[float, str]:
 
 
 def _path(run: Run, ball: str) -> np.ndarray:
-    """Places of a ball along its path, shape (n, 2), in m."""
+    """Positions of a ball along its path, shape (n, 2), in m."""
     import numpy as np
 
     places = []
@@ -201,7 +201,7 @@ def _path(run: Run, ball: str) -> np.ndarray:
 
 
 def _clearance(path: np.ndarray, surface: Surface) -> np.ndarray:
-    """Distance in m from each place to the surface itself."""
+    """Distance in m from each position to the surface."""
     import numpy as np
 
     shape = surface.shape
@@ -214,12 +214,12 @@ def _clearance(path: np.ndarray, surface: Surface) -> np.ndarray:
 
 
 def _crosses(path: np.ndarray, surface: Surface) -> bool:
-    """Whether a path goes from one side of a surface's middle to the other, through it."""
+    """Whether a path crosses the surface's centre line."""
     import numpy as np
 
     shape = surface.shape
     if isinstance(shape, Circle):
-        return False  # the overlap tells
+        return False  # shows as overlap
     (ax, ay), (bx, by) = shape.a, shape.b
     start, end = path[:-1], path[1:]
     before = (start[:, 0] - ax) * (by - ay) - (start[:, 1] - ay) * (bx - ax)
@@ -231,14 +231,14 @@ def _crosses(path: np.ndarray, surface: Surface) -> bool:
 
 
 def _overlap_of_balls(run: Run) -> float:
-    """Deepest overlap in m of two balls, at the ends of their arcs; of a heap, at the end of the run."""
+    """Deepest overlap in m of two balls, at the ends of their arcs; for a pile, at the end of the run."""
     import numpy as np
 
     balls = run.setup.balls
     if len(balls) < 2:
         return 0.0
     times = [run.duration]
-    if len(balls) <= _FEW:
+    if len(balls) <= _MOST_PAIRED:
         times = sorted({arc.t1 for arcs in run.arcs.values() for arc in arcs})
         times = times[:: max(1, len(times) // _LOOKS)]
     caught = {ball.name: run.caught_at(ball.name) for ball in balls}
@@ -263,17 +263,17 @@ def as_dicts(outcomes: Sequence[Outcome]) -> list[dict[str, Any]]:
 
 
 def as_text(outcomes: Sequence[Outcome]) -> list[str]:
-    """A table for each scene, with what was refused and what failed below it; then the sum."""
+    """A table for each scene, with refusals and failures below it; then the totals."""
     lines: list[str] = []
     for scene in dict.fromkeys(outcome.scene for outcome in outcomes):
         own = [outcome for outcome in outcomes if outcome.scene == scene]
-        lines += [scene or "bare setups, no scene", *_table(own), *_remarks(own), ""]
+        lines += [scene or "setups without a scene", *_table(own), *_remarks(own), ""]
     headings, rows = summary(outcomes)
-    return [*lines, "all together", *table(headings, rows, "l" + "r" * (len(headings) - 1))]
+    return [*lines, "total", *table(headings, rows, "l" + "r" * (len(headings) - 1))]
 
 
 def _table(outcomes: Sequence[Outcome]) -> list[str]:
-    """By how many methods each extreme was held, refused and failed; which they were stands below the table."""
+    """The number of methods that held, refused and failed at each extreme; their names follow below the table."""
     rows = []
     for extreme in dict.fromkeys(outcome.extreme for outcome in outcomes):
         own = [outcome for outcome in outcomes if outcome.extreme == extreme]
@@ -299,7 +299,7 @@ def _remarks(outcomes: Sequence[Outcome]) -> Iterator[str]:
 
 
 def summary(outcomes: Sequence[Outcome]) -> tuple[list[str], list[list[str]]]:
-    """Headings and rows: how often each method held, and how far its overlap and its energy from nowhere went."""
+    """Headings and rows: how often each method held, its largest overlap and its largest energy gain."""
     rows = []
     for method in dict.fromkeys(outcome.method for outcome in outcomes):
         own = [outcome for outcome in outcomes if outcome.method == method]
@@ -308,7 +308,7 @@ def summary(outcomes: Sequence[Outcome]) -> tuple[list[str], list[list[str]]]:
         deepest = max((o.penetration_m for o in own if o.penetration_m is not None), default=0.0)
         steps = [o for o in own if o.extreme.startswith("step ")]
         rows.append([method, *counts, percent(energy), length(deepest), _longest_step(steps)])
-    return ["method", "held", "refused", "failed", "most energy", "deepest overlap", "holds up to"], rows
+    return ["method", "held", "refused", "failed", "energy gained", "deepest overlap", "holds up to"], rows
 
 
 def _longest_step(outcomes: Sequence[Outcome]) -> str:

@@ -23,22 +23,22 @@ from sandbox.lab.row_file import RowFile
 from sandbox.scene import Scene, as_scene
 from sandbox.workers import Call, Cluster, InTurn, Processes, WorkerLost, Workers, cores
 
-#: Time in s that one call to a worker should take: progress is seen, and Ctrl-C obeyed, a few times a second.
+#: Target time in s of one call to a worker, so that progress is shown and Ctrl-C handled a few times a second.
 _CALL = 0.3
 
 #: Most points in one call.
 _MOST = 1_000
 
-#: Calls that wait for each one that is computed, so that no worker idles; more would only cost memory.
-_AHEAD = 3
+#: Calls queued for each one being computed, so that no worker is idle; more would only cost memory.
+_QUEUED = 3
 
-#: Times that points are given to another worker when theirs goes away, before they are taken to be the reason.
+#: Times that points are retried when their worker dies, before the points are taken to be the cause.
 _TRIES = 3
 
-#: Shots that fly together and are no more than this are done before another process has started.
-_FEW = 200
+#: Up to this many shots that are computed together finish before another process has started.
+_ONE_PROCESS = 200
 
-#: Tells this process from all others.
+#: Identifies this process.
 _HERE = uuid4().hex
 
 Progress = Callable[[int, int], None]
@@ -55,7 +55,7 @@ def _silent(done: int, total: int) -> None:
 
 @dataclass(frozen=True)
 class Sweep:
-    """What a sweep found.
+    """The rows of a sweep.
 
     ``sweep["carry"]`` is an array in the shape of the grid, ``sweep.columns`` a dictionary of flat arrays (for
     ``pandas.DataFrame``), ``sweep.records`` a list of dictionaries. Missing numbers are NaN in arrays.
@@ -108,17 +108,17 @@ def sweep(
 ) -> Sweep:
     """One run for each point: ``sweep("golf", {"launch.angle": np.linspace(5, 60, 56), "launch.spin": [0, 3000]})``.
 
-    ``over`` has the values of each parameter, in its declared unit or as strings with one; a pair such as
-    ``(60.0, 80.0)`` is a range from which ``samples`` random points are drawn, all the same for the same ``seed``.
-    ``check`` repeats each run finer and adds estimated errors. ``jobs`` above 1 uses so many processes (the calling
-    script then needs ``if __name__ == "__main__":``), ``scheduler`` the workers of a Dask scheduler.
+    ``over`` gives the values of each parameter, in its declared unit or as strings with a unit; a pair such as
+    ``(60.0, 80.0)`` is a range from which ``samples`` random points are drawn, the same for the same ``seed``.
+    ``check`` repeats each run at finer accuracy and adds estimated errors. ``jobs`` above 1 uses that many processes
+    (the calling script then needs ``if __name__ == "__main__":``), ``scheduler`` the workers of a Dask scheduler.
     """
     chosen = as_scene(scene)
     axes = tuple(as_axis(chosen, key, given) for key, given in over.items())
     plan = Plan(chosen, axes, samples, seed, check)
     found: list[Record] = []
     with workers(jobs, scheduler) as pool:
-        for rows in Handout(plan, pool, progress=progress):
+        for rows in RowsInOrder(plan, pool, progress=progress):
             found += rows
     return Sweep(plan, found)
 
@@ -130,40 +130,40 @@ def sweep(
 
 @dataclass(frozen=True)
 class Written:
-    """What a sweep into a file came to."""
+    """The outcome of a sweep written to a file."""
 
     points: int
-    resumed: int  # points that were there already
+    resumed: int  # points already in the file
     failures: int  # among the new points
     first_error: str
     seconds: float  # for the new points
-    damaged: int | None = None  # the first row that was damaged, and computed again with all after it
-    before: Path | None = None  # where the rows are that were in the file, of another sweep
+    damaged: int | None = None  # the first damaged row, from which rows were computed again
+    before: Path | None = None  # backup of the file's previous content, if from another sweep
 
     def as_text(self) -> str:
-        """How many points, how fast, what went wrong, and what was there before."""
+        """A summary: number of points, speed, failures, and the file's previous content."""
         new = self.points - self.resumed
-        before = f", {self.resumed:,} of them before" if self.resumed else ""
+        before = f", {self.resumed:,} of them from before" if self.resumed else ""
         points = "1 point" if self.points == 1 else f"{self.points:,} points"
         lines = [f"{points}{before}; {new:,} in {self.seconds:.1f} s, {new / self.seconds:,.0f}/s"]
         if self.failures:
             lines.append(f"{self.failures:,} failed, first with: {self.first_error}")
         if self.damaged is not None:
-            lines.append(f"row {self.damaged:,} was not as it had been written: computed again, with all after it")
+            lines.append(f"row {self.damaged:,} was damaged: computed again, with all rows after it")
         if self.before is not None:
-            lines.append(f"the rows that were there before are in {self.before}")
+            lines.append(f"the previous rows are in {self.before}")
         return "\n".join(lines)
 
 
 def sweep_to_file(plan: Plan, path: Path, pool: Workers, progress: Progress = _silent) -> Written:
-    """All rows of the plan as CSV, from where an interrupted sweep into the same file stopped.
+    """Write all rows of the plan as CSV, resuming an interrupted sweep in the same file.
 
-    Raises Stopped on Ctrl-C, and RunError where the file cannot be written to its end; both keep what is done.
+    Raises Stopped on Ctrl-C, and RunError if the file cannot be written completely; both keep the rows done so far.
     """
     failures, first_error, began = 0, "", perf_counter()
     with RowFile(path, plan) as file:
         resumed = file.done
-        handout = Handout(plan, pool, resumed, progress)
+        handout = RowsInOrder(plan, pool, resumed, progress)
         try:
             for rows in handout:
                 file.append(rows)
@@ -174,25 +174,25 @@ def sweep_to_file(plan: Plan, path: Path, pool: Workers, progress: Progress = _s
             for rows in handout.finished(file.done):
                 file.append(rows)
             kept = f"{file.done:,} of {plan.size:,} points are kept in {path}"
-            raise Stopped(f"stopped: {kept}; the same command resumes from there") from None
+            raise Stopped(f"stopped: {kept}; run the same command to resume") from None
         file.finish()
     before = file.before if file.before.is_file() else None
     return Written(plan.size, resumed, failures, first_error, perf_counter() - began, file.damaged, before)
 
 
 # ---------------------------------------------------------------------------------------------------------------------
-# Handing out the work
+# Distributing the work
 # ---------------------------------------------------------------------------------------------------------------------
 
 
 def jobs_that_pay(plan: Plan) -> int:
-    """One process for each core; but one alone where shots fly together and are done before another has started."""
-    return 1 if plan.block > 1 and plan.size <= _FEW else min(cores(), plan.size)
+    """One process per core, or a single one if shots computed together finish before another has started."""
+    return 1 if plan.block > 1 and plan.size <= _ONE_PROCESS else min(cores(), plan.size)
 
 
 @contextmanager
 def workers(jobs: int, scheduler: str | None = None) -> Iterator[Workers]:
-    """Whoever is asked for; dismissed at the end, in the middle of their work if need be."""
+    """The requested workers; closed at the end, even in the middle of a call."""
     if jobs < 1:
         raise RequestError(f"--jobs {jobs}: at least one is needed")
     pool: Workers = Cluster(scheduler) if scheduler is not None else InTurn() if jobs == 1 else Processes(jobs)
@@ -204,10 +204,10 @@ def workers(jobs: int, scheduler: str | None = None) -> Iterator[Workers]:
     pool.close(abandon=False)
 
 
-class Handout:
-    """The rows of all points from ``first`` on, in order, a few at a time, as an iterator.
+class RowsInOrder:
+    """Iterator over the rows of all points from ``first``, in order, a few at a time.
 
-    A call gives back what it computed in a short time, however many points that was; what it left is handed out again.
+    A call returns the points it computed in a short time; the rest is queued again.
     """
 
     def __init__(self, plan: Plan, pool: Workers, first: int = 0, progress: Progress = _silent) -> None:
@@ -223,20 +223,20 @@ class Handout:
 
     def __iter__(self) -> Iterator[list[Record]]:
         while self._reached < self._plan.size:
-            self._hand_out()
+            self._queue_calls()
             yield self._next()
 
     def finished(self, first: int) -> Iterator[list[Record]]:
-        """What has been computed already, as far as it follows in order from ``first`` on; nothing is waited for."""
+        """The rows already computed, in order from ``first``, without waiting."""
         while self._waiting and self._waiting[0][0] == first and self._waiting[0][2].done():
             start, _, call = self._waiting.popleft()
             rows, _ = call.result()
             first = start + len(rows)
             yield rows
 
-    def _hand_out(self) -> None:
+    def _queue_calls(self) -> None:
         plan = self._plan
-        while self._following < plan.size and len(self._waiting) < _AHEAD * self._pool.width:
+        while self._following < plan.size and len(self._waiting) < _QUEUED * self._pool.width:
             start = self._following
             stop = min(plan.size, start - start % plan.block + self._pace.points)
             self._waiting.append((start, stop, self._submit(start, stop)))
@@ -257,8 +257,8 @@ class Handout:
         return self._pool.submit(_computed, self._payload, start, stop, alone)
 
     def _result(self, start: int, stop: int, call: Call, alone: bool = False) -> tuple[list[Record], float]:
-        """What a call gives. One whose worker went away is repeated; in the end point by point, each alone, so that
-        none suffers for others."""
+        """The result of a call. If its worker dies it is repeated, at last point by point, so that one point cannot
+        spoil others."""
         for _ in range(_TRIES):
             try:
                 found: tuple[list[Record], float] = call.result()
@@ -276,22 +276,22 @@ class Handout:
 
 
 class _Pace:
-    """How many points to hand out at once: whole blocks, in calls that take about ``_CALL`` s."""
+    """Number of points per call: whole blocks that take about ``_CALL`` s."""
 
     def __init__(self, plan: Plan, width: int) -> None:
         self._block = plan.block
-        self._most = max(self._block, min(_MOST, -(-plan.size // (_AHEAD * width))))
+        self._most = max(self._block, min(_MOST, -(-plan.size // (_QUEUED * width))))
         self.points = self._block
 
     def note(self, points: int, seconds: float) -> None:
-        """A call that computed so many points took so long."""
+        """Record the number of points of a call and its time."""
         fitting = int(min(points * _CALL / max(seconds, 1e-6), 4 * self.points, self._most))
         self.points = max(self._block, fitting - fitting % self._block)
 
 
 def _computed(payload: bytes, start: int, stop: int, alone: bool = False) -> tuple[list[Record], float]:
-    """The rows of the points from ``start`` on, as far as a call's time goes but of one block at least, and how long
-    they took in s; in whatever process this is."""
+    """The rows of the points from ``start`` that fit in a call's time, at least one block, and their time in s; runs in
+    the worker."""
     began = perf_counter()
     plan = _plan(payload)
     if alone:
@@ -305,12 +305,12 @@ def _computed(payload: bytes, start: int, stop: int, alone: bool = False) -> tup
 
 @lru_cache(maxsize=2)
 def _plan(payload: bytes) -> Plan:
-    """The plan, where it means the same as where it was made. Raises RunError elsewhere."""
+    """The plan from its pickle. Raises RunError if code, scene or versions differ from those of the sender."""
     process, origin, plan = pickle.loads(payload)
     differences = origin.differences() if process != _HERE else []
     if differences:
         raise RunError(
-            f"the worker on {platform.node() or 'another machine'} would find other numbers; it differs in: "
+            f"the worker on {platform.node() or 'another machine'} would compute different numbers; it differs in: "
             f"{', '.join(differences)}"
         )
     found = pickle.loads(plan)

@@ -1,4 +1,4 @@
-"""Tables and numbers for people."""
+"""Tables and numbers as readable text."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ from typing import Literal
 
 from sandbox.text import one_line
 
-#: Words up to this long are never folded.
+#: Words up to this length are never wrapped.
 _SHORT = 8
 
-#: Lengths from the smallest unit up, with the length in m at which it begins.
+#: Units of length, with the length in m from which each is used.
 _LENGTHS = (
     (1e3, "km", 1e-3),
     (1.0, "m", 1.0),
@@ -26,14 +26,13 @@ _TIMES = ((60.0, "min", 1 / 60), (1.0, "s", 1.0), (1e-3, "ms", 1e3), (0.0, "µs"
 
 
 def width() -> int:
-    """Columns that a line may have: those of the terminal, 80 where there is none."""
+    """Maximum characters in a line: those of the terminal, or 80 if there is none."""
     return shutil.get_terminal_size((80, 24)).columns
 
 
 def table(headings: Sequence[str], rows: Iterable[Sequence[str]], align: str, indent: str = "  ") -> list[str]:
-    """Lines with columns aligned as ``align`` says, a letter for each: l or r. Headings and cells on the left are
-    folded between words so that lines fit ``width``, numbers on the right never; without headings there is no line for
-    them."""
+    """Lines with columns aligned by ``align``, a letter for each: l or r. Headings and left-aligned cells are wrapped
+    between words so that lines fit ``width``, right-aligned numbers never; empty headings give no heading line."""
     from rich.console import Console
     from rich.padding import Padding
     from rich.table import Table
@@ -55,8 +54,8 @@ def table(headings: Sequence[str], rows: Iterable[Sequence[str]], align: str, in
 
 
 def _widths(headings: Sequence[str], rows: Sequence[Sequence[str]], align: str, room: int) -> list[int]:
-    """The width of each column in characters: what it takes, or less where all together would not fit into ``room``;
-    words, and numbers first of all, stay whole as far as that is possible."""
+    """The width of each column in characters: its content's, or less if all columns do not fit into ``room``; words,
+    and above all numbers, are kept whole if possible."""
     widths, words, shortest = [], [], []
     for column, (heading, side) in enumerate(zip(headings, align, strict=True)):
         texts = [row[column] for row in rows]
@@ -75,7 +74,7 @@ def _widths(headings: Sequence[str], rows: Sequence[Sequence[str]], align: str, 
 
 
 def paragraph(text: str, indent: str = "  ") -> list[str]:
-    """Lines of a text that fit ``width``; those after the first are indented by two more."""
+    """A text wrapped to ``width``; lines after the first are indented by two more."""
     return textwrap.wrap(
         one_line(text), width(), initial_indent=indent, subsequent_indent=indent + "  ", break_on_hyphens=False
     )
@@ -86,12 +85,12 @@ _ROUNDING = 1e-12
 
 
 def length(metres: float | None) -> str:
-    """``0.0032`` as ``3.2 mm``; what is less than rounding is 0."""
+    """``0.0032`` as ``3.2 mm``; less than rounding is 0."""
     return _scaled(0.0 if metres is not None and abs(metres) < _ROUNDING else metres, _LENGTHS)
 
 
 def length_above(metres: float | None, least: float) -> str:
-    """The same, but what is less than ``least`` (m), and so cannot be told from nothing, as ``< 3.2 mm``."""
+    """The same, but less than ``least`` (m), the resolution, as ``< 3.2 mm``."""
     if metres is None or metres >= least or least <= _ROUNDING:
         return length(metres)
     return f"< {length(least)}"
@@ -103,7 +102,7 @@ def time(seconds: float | None) -> str:
 
 
 def percent(share: float) -> str:
-    """``0.0032`` as ``0.3 %``; what is less than rounding is none."""
+    """``0.0032`` as ``0.3 %``; less than rounding is "none"."""
     return "none" if share < 1e-12 else f"{significant(100.0 * share, 1)} %"
 
 
@@ -115,11 +114,11 @@ def _scaled(value: float | None, units: Sequence[tuple[float, str, float]]) -> s
     for begins, unit, factor in units:
         if abs(value) >= begins:
             return f"{significant(value * factor)} {unit}"
-    raise AssertionError("the smallest unit begins at 0")
+    raise AssertionError("the smallest unit starts at 0")
 
 
 def significant(value: float, digits: int = 2) -> str:
-    """A number with so many significant digits, whole from 100 on; a power of ten where it is very small or large."""
+    """A number with this many significant digits, an integer from 100, with an exponent if very small or large."""
     if value == 0.0:
         return "0"
     if not 1e-3 <= abs(value) < 1e6:

@@ -20,22 +20,22 @@ from sandbox.lab.verdicts import ShotMap, shot_map
 from sandbox.physics.integrators import INTEGRATORS
 from sandbox.scene import Scene
 
-#: Steps of the methods that keep one, in 1/s, from the longest to the shortest.
+#: Steps of the fixed-step methods, in 1/s, from the longest to the shortest.
 RATES = (2, 5, 10, 20, 60, 240, 1000, 4000, 16_000, 64_000)
 
-#: Tolerances of a method that follows one, in m.
+#: Tolerances of the method with error control, in m.
 TOLERANCES = (1.0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7)
 
-#: Errors in m for which the cheapest choice is named.
+#: Errors in m for which the cheapest setting is reported.
 TARGETS = (0.1, 0.01, 0.001, 0.0001)
 
-#: A finer setting is left out where it would take longer than this, in s.
+#: A finer setting is left out if it would take longer than this, in s.
 _LONGEST = 1.0
 
-#: Growth of a nudge until the ball is looked at, beyond which a method that goes astray need not be unstable.
+#: Growth of a nudge until the measure, above which a large error does not imply an unstable method.
 _CHAOTIC = 1e3
 
-#: Share by which the same run may take longer another time.
+#: Relative variation of the time of the same run.
 _NOISE = 0.1
 
 #: Time in s to spend on the repeats of one setting, and the most repeats.
@@ -46,7 +46,7 @@ Progress = Callable[[int, int], None]
 
 @dataclass(frozen=True)
 class Point:
-    """One method at one setting. ``error_m`` is None where the run failed; ``problem`` says why."""
+    """One method at one setting. ``error_m`` is None if the run failed; ``problem`` says why."""
 
     method: str
     setting: str
@@ -62,7 +62,7 @@ class Point:
 
 @dataclass(frozen=True)
 class Trade:
-    """Everything that ``sandbox trade`` measures of a scene."""
+    """The measurements of ``sandbox trade`` for a scene."""
 
     reference: Reference
     points: list[Point]
@@ -73,7 +73,7 @@ class Trade:
     def best(self, target: float) -> Point | None:
         """The cheapest setting with an error of at most ``target`` m.
 
-        Times that differ by less than a machine's noise are alike; of those the fewest force evaluations win.
+        Times that differ by less than the noise count as equal; then the fewest force evaluations win.
         """
         good = [point for point in self.points if point.error_m is not None and point.error_m <= target]
         least = min((point.wall_s for point in good), default=0.0)
@@ -81,7 +81,7 @@ class Trade:
         return min(alike, key=lambda point: point.force_evaluations, default=None)
 
     def behind_front(self, level: str) -> float | None:
-        """How many times longer a level takes than the cheapest setting that is as accurate; 1 on the front."""
+        """Time of a level relative to the cheapest setting that is as accurate; 1 on the Pareto front."""
         own = self.levels[level]
         if own.error_m is None:
             return None
@@ -90,7 +90,7 @@ class Trade:
 
 
 def trade(scene: Scene, progress: Progress = lambda done, total: None) -> Trade:
-    """Measure a scene. Raises RunError where it cannot be run at all."""
+    """Measure a scene. Raises RunError if it cannot be run."""
     reference = converge(scene)
     measured = list(_measured(reference, progress))
     points = [point for point in measured if point.method != "level"]
@@ -99,12 +99,12 @@ def trade(scene: Scene, progress: Progress = lambda done, total: None) -> Trade:
 
 
 def settings(reference: Reference) -> Iterator[tuple[str, str, Accuracy]]:
-    """Method, setting and what to compute by, from coarse to fine for each method; the levels last."""
+    """Method, setting and accuracy, from coarse to fine for each method; the levels last."""
     plain = replace(LEVELS["balanced"], method="plain")
     for rate in RATES:
         yield "plain", f"1/{rate} s", replace(plain, step=1 / rate)
     exact = LEVELS["precise"]
-    if reference.closed_form:  # no integrator takes part
+    if reference.closed_form:  # no integrator is involved
         yield "closed form", "", exact
     else:
         for name, integrator in INTEGRATORS.items():
@@ -120,7 +120,7 @@ def settings(reference: Reference) -> Iterator[tuple[str, str, Accuracy]]:
 
 
 class _Trial:
-    """One setting, and what its runs have shown so far."""
+    """One setting and the results of its runs so far."""
 
     def __init__(self, reference: Reference, method: str, setting: str, accuracy: Accuracy) -> None:
         self.method = method
@@ -146,8 +146,8 @@ class _Trial:
             self.error = self._reference.error_of(run)
             self.evaluations = run.numerics.force_evaluations
 
-    def _astray(self) -> str:
-        far, growth = "off by more than the length of the shot", self._reference.growth
+    def _why_far_off(self) -> str:
+        far, growth = "error larger than the length of the shot", self._reference.growth
         if growth < _CHAOTIC:
             return f"unstable: {far}"
         return f"{far}, where small errors grow {significant(growth)} times"
@@ -159,7 +159,7 @@ class _Trial:
     def point(self) -> Point:
         wall, error = min(self.walls), self.error
         stable = error is not None and isfinite(error) and error < max(self._reference.size, 1e-9)
-        problem = self.problem or ("" if stable else self._astray())
+        problem = self.problem or ("" if stable else self._why_far_off())
         return Point(
             self.method,
             self.setting,
@@ -185,7 +185,7 @@ def _measured(reference: Reference, progress: Progress) -> Iterator[Point]:
         trial = _Trial(reference, method, setting, accuracy)
         trial.run()
         trials.append(trial)
-    for turn in range(1, _REPEATS):  # interleaved, so that a slow moment of the machine meets all alike
+    for turn in range(1, _REPEATS):  # interleaved, so that other load affects all settings equally
         progress(len(wanted) * (_REPEATS + turn) // _REPEATS, 2 * len(wanted))
         gc.collect()
         gc.disable()
@@ -199,7 +199,7 @@ def _measured(reference: Reference, progress: Progress) -> Iterator[Point]:
 
 
 def _expected(before: _Trial, accuracy: Accuracy) -> float:
-    """Seconds that a setting will take, by the one before: as many times more as the step is shorter."""
+    """Expected seconds of a setting, from the previous one and the ratio of the steps."""
     return before.walls[0] * max(1.0, before.accuracy.step / accuracy.step)
 
 
@@ -255,7 +255,7 @@ def as_text(found: Trade) -> list[str]:
     least = found.reference.error
     lines += table(headings, [_row(point, least) for point in found.points], "llrrrr")
     lines += _problems(found.points)
-    lines += ["", "the levels"]
+    lines += ["", "levels"]
     rows = []
     for name, point in found.levels.items():
         behind = found.behind_front(name)
@@ -263,8 +263,8 @@ def as_text(found: Trade) -> list[str]:
         place = "" if behind is None else significant(behind)
         error = length_above(point.error_m, least)
         rows.append((name, aim, error, time(point.wall_s), significant(point.times_real_time), place))
-    lines += table(("level", "aims at", "error", "time", "x real time", "x cheapest as accurate"), rows, "lrrrrr")
-    lines += ["", "the cheapest choice"]
+    lines += table(("level", "target", "error", "time", "x real time", "x cheapest as accurate"), rows, "lrrrrr")
+    lines += ["", "cheapest choice"]
     choices = [(target, best) for target in TARGETS if (best := found.best(target)) is not None]
     cells = [
         (length(target), f"{best.method} {best.setting}", length_above(best.error_m, least), time(best.wall_s))
@@ -281,21 +281,21 @@ def as_text(found: Trade) -> list[str]:
 def _about(reference: Reference) -> list[str]:
     scene = reference.scene
     how = (
-        "touching is computed, the rest is known"
+        "contacts are computed, the rest is in closed form"
         if reference.closed_form
-        else "by a second one with another integrator"
+        else "checked with another integrator"
     )
-    many = "every ball is" if len(reference.points) > 1 else "the ball is"
+    many = "every ball" if len(reference.points) > 1 else "the ball"
     lines = [
         f"{scene.name}/{scene.preset}" if scene.preset else scene.name,
-        f"  measure    where {many} after {reference.time:.4g} s",
-        f"  reference  good to {length(reference.error)}, {how}",
+        f"  measure    position of {many} after {reference.time:.4g} s",
+        f"  reference  error {length(reference.error)}, {how}",
     ]
     if scene.measure is not None:
         lines[1] = "  measure    the scene's own"
     if reference.exact_error is not None:
         lines.append(
-            f"  exact      the reference is {length(reference.exact_error)} off the parabola at the first touch"
+            f"  exact      the reference is off the parabola by {length(reference.exact_error)} at first contact"
         )
     growth = f"a nudge at the start grows {significant(reference.growth)} times until then"
     if reference.diverges_at is not None:
@@ -315,7 +315,7 @@ def _row(point: Point, least: float) -> tuple[str, ...]:
 
 
 def _problems(points: Sequence[Point]) -> Iterator[str]:
-    """What went wrong, each once, with the methods and settings."""
+    """Each problem once, with its methods and settings."""
     for problem in dict.fromkeys(point.problem for point in points if point.problem):
         settings: dict[str, list[str]] = {}
         for point in points:

@@ -1,8 +1,8 @@
-"""Published numbers beside ours: the tables in published/, each row with its source.
+"""Comparison with published numbers: the tables in published/, each row with its source.
 
 A table is ``NAME.csv`` with the columns scene, case, set, result, value, tolerance, unit, source, reason: ``set`` holds
-``key=value`` parted by ``;``, ``result`` is a key of the scene's result, with dots into lists and tables. A table in a
-form of its own has a ``NAME.toml`` beside it that says how its columns become such rows.
+``key=value`` separated by ``;``, ``result`` is a key of the scene's result, with dots into lists and tables. A table
+in another format has a ``NAME.toml`` next to it that maps its columns to such rows.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from sandbox.scene import load, parameters_of, simulate
 
 PUBLISHED = Path(__file__).resolve().parent / "published"
 
-#: Results are in SI, but for these kinds of number.
+#: Results are in SI, except for these kinds.
 _OWN_UNITS = {"angle": "deg", "spin": "rpm"}
 
 
@@ -32,19 +32,19 @@ class Case:
     """One published number, or one published word."""
 
     scene: str  # with its preset
-    set: str  # what is changed, as it stands in the table
-    name: str  # for people
+    set: str  # changed parameters, as written in the table
+    name: str  # as shown
     result: str
     value: str
     tolerance: float | None  # in ``unit``; None for words
     unit: str
     source: str
-    reason: str  # why it does not hold, if it does not
+    reason: str  # why it does not match, if known
 
 
 @dataclass(frozen=True)
 class Compared:
-    """A case and what is computed here, in the case's own unit."""
+    """A case and the number computed here, in the case's unit."""
 
     case: Case
     computed: Any
@@ -72,9 +72,9 @@ def _case(row: Mapping[str, str]) -> Case:
 
 
 def _by_form(rows: Sequence[Mapping[str, str]], form: Mapping[str, Any]) -> Iterator[Case]:
-    """The cases of a table in a form of its own, where ``{column}`` stands for what a row has there.
+    """The cases of a table in another format. In ``form``, ``{column}`` stands for the row's value in that column.
 
-    ``scene``, ``name``, ``source``, ``set``; ``value``, ``unit`` and ``tolerance`` of each of ``results``; and
+    It has ``scene``, ``name``, ``source``, ``set``; ``value``, ``unit`` and ``tolerance`` of each of ``results``; and
     ``reasons`` by name and result.
     """
     for row in rows:
@@ -91,7 +91,7 @@ def validate(
     changes: Mapping[str, Any] | None = None,
     progress: Callable[[int, int], None] = lambda done, total: None,
 ) -> list[Compared]:
-    """Compute the cases of one scene or preset, or all. ``changes`` lie over what the cases set."""
+    """Compute the cases of one scene or preset, or all. ``changes`` override what the cases set."""
     wanted = list(cases()) if source is None else _of(source)
     found: dict[tuple[str, str], Mapping[str, Any]] = {}
     compared = []
@@ -109,7 +109,7 @@ def _of(source: str) -> list[Case]:
     name = source if source in {case.scene for case in cases()} else parameters_of(source)[0]
     found = [case for case in cases() if name in (case.scene, case.scene.partition("/")[0])]
     if not found:
-        raise RequestError(f"{source}: no published numbers are known; sandbox validate shows all there are")
+        raise RequestError(f"{source}: no published numbers; sandbox validate lists all there are")
     return found
 
 
@@ -155,7 +155,7 @@ def as_text(rows: Sequence[Compared]) -> list[str]:
 
 
 def cells(row: Compared) -> tuple[str, ...]:
-    """A row for people."""
+    """A row of the table."""
     case = row.case
     verdict = "holds" if row.holds else "does not"
     result = case.result.replace("_", " ")
@@ -175,12 +175,12 @@ def cells(row: Compared) -> tuple[str, ...]:
 
 
 def _name(case: Case) -> str:
-    """What is compared, for people."""
+    """Name of a case as shown."""
     return f"{case.scene.partition('/')[2]} {case.name}".strip()
 
 
 def _reasons(rows: Sequence[Compared]) -> Iterator[str]:
-    """Why numbers do not hold, below their table."""
+    """Reasons for numbers that do not match, below their table."""
     for row in rows:
         if not row.holds:
             result = row.case.result.replace("_", " ")
@@ -188,7 +188,7 @@ def _reasons(rows: Sequence[Compared]) -> Iterator[str]:
 
 
 def _digits(case: Case) -> int:
-    """Digits after the point: one more than the published number has, as far as the tolerance lets them be seen."""
+    """Digits after the point: one more than the published number has, as far as the tolerance justifies."""
     given = len(case.value.partition(".")[2]) if "e" not in case.value else 0
     seen = 1 - math.floor(math.log10(case.tolerance or 1.0))
     return max(0, min(10, seen if given > seen else max(given + 1, seen)))

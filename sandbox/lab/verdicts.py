@@ -1,4 +1,4 @@
-"""How often the verdict hangs on the accuracy: a map of shots around the scene's own, run by every level."""
+"""How often the verdict depends on the accuracy: shots around the scene's own, run at every level."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from sandbox.errors import SandboxError
 from sandbox.lab.tables import paragraph, table
 from sandbox.scene import Scene
 
-#: The map: so much faster and slower (share), so much to either side (deg).
+#: Range of the map: fraction of the speed, and degrees to either side.
 _SPEED, _ANGLE = 0.1, 5.0
 
 #: Time in s to spend on the finest runs, and the shots along one side of the map.
@@ -24,15 +24,15 @@ _PATIENCE, _FEWEST, _MOST = 2.0, 5, 15
 #: A method that would take longer than this, in s, is left out.
 _TOO_LONG = 10.0
 
-#: Results whose word says by itself what it is.
-_PLAIN_WORDS = ("verdict", "ended")
+#: Results whose value is clear without its name.
+_WITHOUT_NAME = ("verdict", "ended")
 
 _PLAIN = {f"plain 1/{rate} s": replace(LEVELS["balanced"], method="plain", step=1 / rate) for rate in (60, 240)}
 
 
 @dataclass(frozen=True)
 class ShotMap:
-    """Shares of the shots whose verdict is another than the finest run's, by level."""
+    """Fraction of the shots whose verdict differs from the finest run's, by level."""
 
     keys: tuple[str, str]
     shots: int
@@ -51,7 +51,7 @@ class ShotMap:
 
 
 def verdict(result: Mapping[str, Any]) -> str:
-    """What a result says in words: its verdict, or whatever else of it is no number."""
+    """The verdict of a result, or else its values that are not numbers."""
     if isinstance(result.get("verdict"), str):
         return str(result["verdict"])
     words = []
@@ -59,31 +59,31 @@ def verdict(result: Mapping[str, Any]) -> str:
         if value is True:
             words.append(name)
         elif isinstance(value, str):
-            words.append(value if name in _PLAIN_WORDS else f"{name} {value}")
+            words.append(value if name in _WITHOUT_NAME else f"{name} {value}")
         elif isinstance(value, list) and name != "touches" and all(isinstance(item, str) for item in value):
             words.append(" ".join([name, *value]) if value else "")
     return ", ".join(word for word in words if word)
 
 
 def shot_map(scene: Scene) -> ShotMap | None:
-    """Run the map; None for a scene without speed and angle to vary, and for one that says nothing in words."""
+    """Run the map; None for a scene without speed and angle to vary, or without a verdict."""
     keys = aimed_by(scene)
     if keys is None:
         return None
     finest = LEVELS["precise"].finer()
     started = perf_counter()
-    if not _said(scene, finest):
+    if not _verdict_of(scene, finest):
         return None
     side = int((_PATIENCE / (perf_counter() - started)) ** 0.5)
     shots = list(_shots(scene, keys, max(_FEWEST, min(_MOST, side))))
-    truth = [_said(shot, finest) for shot in shots]
+    truth = [_verdict_of(shot, finest) for shot in shots]
     changed = {}
     for name, accuracy in {**LEVELS, **_PLAIN}.items():
         started = perf_counter()
-        others = [_said(shots[0], accuracy)]
+        others = [_verdict_of(shots[0], accuracy)]
         if len(shots) * (perf_counter() - started) > _TOO_LONG:
             continue
-        others += [_said(shot, accuracy) for shot in shots[1:]]
+        others += [_verdict_of(shot, accuracy) for shot in shots[1:]]
         changed[name] = sum(a != b for a, b in zip(truth, others, strict=True)) / len(shots)
     return ShotMap(keys, len(shots), changed)
 
@@ -117,7 +117,7 @@ def _within(bound: declared.Parameter, value: float) -> float:
     return min(max(value, bound.low), bound.high)
 
 
-def _said(scene: Scene, accuracy: Accuracy) -> str:
+def _verdict_of(scene: Scene, accuracy: Accuracy) -> str:
     try:
         run = simulate(scene.build(), accuracy)
     except SandboxError as error:

@@ -1,4 +1,4 @@
-"""Who computes: this process, other processes of this machine, or a cluster; each through one ``submit``."""
+"""Workers: this process, other processes on this machine, or a cluster, all with the same ``submit``."""
 
 from __future__ import annotations
 

@@ -13,17 +13,17 @@ from typing import Any
 from sandbox.errors import RequestError, RunError, SandboxError
 from sandbox.workers.pool import WorkerLost
 
-#: Time in s that a scheduler has to answer, and that there may be no worker.
+#: Longest wait in s for the scheduler to answer, and for a worker to connect.
 ANSWER, ARRIVAL = 10.0, 30.0
 
-#: How often the cluster is looked at while a result is waited for, in s.
-_LOOK = 0.5
+#: Interval in s at which the cluster is checked while waiting for a result.
+_CHECK_EVERY = 0.5
 
 
 class Cluster:
-    """The workers of the scheduler at ``address``, which somebody else runs. They need this package, and a scene of
-    one's own at the same place. Nothing listens here. Raises RunError, in a line, where nobody answers, where no
-    worker comes, and later where all of them go away."""
+    """The workers of a running Dask scheduler at ``address``. They need this package, and a user's scene under the same
+    path. This process opens no port. Raises a one-line RunError if there is no answer, if no worker connects, and later
+    if all workers are lost."""
 
     def __init__(self, address: str) -> None:
         try:
@@ -37,11 +37,11 @@ class Cluster:
         except ValueError:
             raise RequestError(f"--scheduler {address}: write it as tcp://HOST:PORT") from None
         try:
-            socket.create_connection(place, timeout=ANSWER).close()  # Dask tries again where nobody listens
+            socket.create_connection(place, timeout=ANSWER).close()  # Dask would retry if nothing listens
             kind = asyncio.run(_greeted(address))
             if kind == "Scheduler":
                 self._client = distributed.Client(address, timeout=ANSWER, set_as_default=False)
-        except Exception as error:  # also of the kinds that other services there make Dask raise
+        except Exception as error:  # includes what Dask raises when another service listens there
             why = " ".join(str(error).split()).partition(";")[0] or f"no answer in {ANSWER:g} s"
             raise self.failed(f"no Dask scheduler there: {why}") from None
         if kind != "Scheduler":
@@ -50,7 +50,7 @@ class Cluster:
             self._client.wait_for_workers(1, timeout=ARRIVAL)
         except TimeoutError:
             self.close(abandon=True)
-            raise self.failed(f"it has no workers, and none came in {ARRIVAL:g} s") from None
+            raise self.failed(f"it has no workers, and none connected within {ARRIVAL:g} s") from None
         self._without_workers_since: float | None = None
         self._check_package()
         self.width = max(1, sum(self._cores().values()))
@@ -59,25 +59,25 @@ class Cluster:
         try:
             return _Remote(self, self._client.submit(work, *args, pure=False))
         except Exception:
-            raise self.failed("the scheduler went away") from None
+            raise self.failed("the connection to the scheduler was lost") from None
 
     def close(self, abandon: bool) -> None:
-        with suppress(Exception):  # of a scheduler that is gone
+        with suppress(Exception):  # the scheduler may be gone
             self._client.close(timeout=2.0)
 
     def failed(self, why: str) -> RunError:
-        """What went wrong, in a line."""
+        """A one-line error about this scheduler."""
         return RunError(f"--scheduler {self._address}: {why}")
 
     def look(self) -> None:
-        """Raise RunError where the scheduler is gone, or there has been no worker for a while."""
+        """Raise RunError if the scheduler is gone, or there has been no worker for a while."""
         if self._cores():
             self._without_workers_since = None
             return
         now = monotonic()
         self._without_workers_since = self._without_workers_since or now
         if now - self._without_workers_since > ARRIVAL:
-            raise self.failed(f"its workers went away, and none came back in {ARRIVAL:g} s")
+            raise self.failed(f"its workers were lost, and none came back within {ARRIVAL:g} s")
 
     def _cores(self) -> dict[str, int]:
         """The cores of each worker, by its address."""
@@ -86,12 +86,12 @@ class Cluster:
             cores: dict[str, int] = self._client.sync(scheduler.ncores, callback_timeout=ANSWER)
             return cores
         except Exception:
-            raise self.failed("the scheduler went away") from None
+            raise self.failed("the connection to the scheduler was lost") from None
 
     def _check_package(self) -> None:
-        """Raise RunError for a worker that could not even read what it is sent."""
+        """Raise RunError if a worker does not have this package."""
 
-        def missing() -> str:  # sent as code, as it goes where this module may not be
+        def missing() -> str:  # sent as code, since the worker may not have this module
             try:
                 import sandbox.workers  # noqa: F401
             except Exception as error:
@@ -104,7 +104,7 @@ class Cluster:
 
 
 async def _greeted(address: str) -> str:
-    """What is there, as it calls itself: a Client would wait for ever for a service of another kind."""
+    """The kind of the service at the address, as it reports: a Client would wait forever for another kind."""
     from distributed.core import rpc
 
     async with rpc(address, timeout=ANSWER) as other:
@@ -113,14 +113,14 @@ async def _greeted(address: str) -> str:
 
 
 def _hush() -> None:
-    """What goes wrong is said by us, in a line: Dask's own log stays out of the terminal."""
+    """Keep Dask's log out of the terminal: errors are reported here in one line."""
     for name in list(logging.root.manager.loggerDict):
         if name.partition(".")[0] in ("distributed", "tornado"):
             logging.getLogger(name).setLevel(logging.CRITICAL + 1)
 
 
 class _Remote:
-    """A call that the cluster computes."""
+    """A call computed by the cluster."""
 
     def __init__(self, cluster: Cluster, future: Any) -> None:
         self._cluster = cluster
@@ -135,17 +135,17 @@ class _Remote:
 
         while True:
             try:
-                return self._future.result(timeout=_LOOK)
+                return self._future.result(timeout=_CHECK_EVERY)
             except TimeoutError:
-                if self._future.status == "error":  # the call's own
-                    raise self._cluster.failed("a worker ran into a timeout") from None
+                if self._future.status == "error":  # raised by the call
+                    raise self._cluster.failed("a timeout in a worker") from None
                 self._cluster.look()
-            except KilledWorker as error:  # Dask gives a task to others by itself; this one took several with it
+            except KilledWorker as error:  # Dask retries a task elsewhere by itself; this one killed several workers
                 raise WorkerLost(str(error)) from None
             except CancelledError:
-                raise self._cluster.failed("the scheduler went away") from None
+                raise self._cluster.failed("the connection to the scheduler was lost") from None
             except SandboxError:
                 raise
-            except Exception as error:  # no run's: those are rows
+            except Exception as error:  # not from a run: those become rows
                 why = " ".join(f"{type(error).__name__}: {error}".split())
                 raise self._cluster.failed(f"a worker cannot compute: {why}") from None

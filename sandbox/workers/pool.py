@@ -1,4 +1,4 @@
-"""What all workers offer, as in concurrent.futures; and this process as the simplest of them."""
+"""The interface of workers, as in concurrent.futures, and this process as the simplest one."""
 
 from __future__ import annotations
 
@@ -8,42 +8,42 @@ from typing import Any, Protocol
 
 
 class WorkerLost(Exception):
-    """The worker of a call went away, which says nothing about the call: it may be repeated."""
+    """The worker of a call died; the call itself may be repeated."""
 
 
 class Call(Protocol):
-    """Something that is computed, or will be."""
+    """A submitted computation."""
 
     def result(self) -> Any:
-        """What it gives, or the exception that it ended in; waits for either."""
+        """The result, or raises the exception of the call; waits until it is finished."""
         ...
 
     def done(self) -> bool:
-        """Whether ``result`` would not wait."""
+        """Whether ``result`` returns without waiting."""
         ...
 
 
 class Workers(Protocol):
-    """Somewhere to compute. A call whose worker goes away ends in WorkerLost."""
+    """A place to compute. A call whose worker dies raises WorkerLost."""
 
-    width: int  # how many calls run at once
+    width: int  # number of calls that run at once
 
     def submit(self, work: Callable[..., Any], *args: Any) -> Call:
-        """Have ``work(*args)`` computed."""
+        """Submit ``work(*args)``."""
         ...
 
     def close(self, abandon: bool) -> None:
-        """No more calls; ``abandon`` drops those that are under way."""
+        """Accept no more calls; ``abandon`` drops running ones."""
         ...
 
 
 def cores() -> int:
-    """The processor cores that this process may use."""
+    """The number of processor cores available to this process."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 class InTurn:
-    """This process: a call is computed when its result is asked for."""
+    """This process: a call is computed when its result is requested."""
 
     width = 1
 

@@ -1,7 +1,7 @@
-"""Processes of this machine.
+"""Worker processes on this machine.
 
-A pool of our own in place of ProcessPoolExecutor: a process that dies takes its own call with it and no other, one that
-hangs can be killed and another takes its place, and there are no semaphores to leak where the program itself is killed.
+A process pool that, unlike ProcessPoolExecutor, loses only one call when a process dies, can kill and replace a process
+that hangs, and has no semaphores to leak if the program itself is killed.
 """
 
 from __future__ import annotations
@@ -21,13 +21,13 @@ from typing import Any
 
 from sandbox.workers.pool import WorkerLost
 
-_CONTEXT = multiprocessing.get_context("spawn")  # nothing of this process' state leaks into the others
+_CONTEXT = multiprocessing.get_context("spawn")  # no state of this process leaks into the others
 
 _Asked = tuple["Future[Any]", Callable[..., Any], tuple[Any, ...]]
 
 
 class Processes:
-    """``jobs`` processes, each begun with its first call."""
+    """``jobs`` processes, each started at its first call."""
 
     def __init__(self, jobs: int) -> None:
         self.width = jobs
@@ -40,7 +40,7 @@ class Processes:
         return future
 
     def kill(self) -> None:
-        """End the processes, whatever they do: calls under way end in WorkerLost, later ones get new processes."""
+        """Kill the processes: running calls raise WorkerLost, later ones get new processes."""
         for process in self._processes:
             process.kill()
 
@@ -60,7 +60,7 @@ class Processes:
 
 
 class _Process:
-    """One process, and the thread that hands it one call after the other."""
+    """One process, and the thread that sends it one call after the other."""
 
     def __init__(self, asked: SimpleQueue[_Asked | None]) -> None:
         self._asked = asked
@@ -68,52 +68,52 @@ class _Process:
         self._line: Connection | None = None
         self._is_over = False
         self._changing = Lock()
-        self.thread = Thread(target=self._hand_over, daemon=True)
+        self.thread = Thread(target=self._send_calls, daemon=True)
         self.thread.start()
 
     def kill(self, for_good: bool = False) -> None:
-        """End it in the middle of its call; the next call begins another, unless that was for good."""
+        """Kill the process during its call; the next call starts another, unless ``for_good``."""
         with self._changing:
             self._is_over = for_good
             if self._process is not None:
                 self._process.kill()
 
-    def _hand_over(self) -> None:
+    def _send_calls(self) -> None:
         while (asked := self._asked.get()) is not None:
             future, work, args = asked
             if not future.set_running_or_notify_cancel():
                 continue
             try:
-                succeeded, answer = self._answer((work, args))
+                succeeded, reply = self._reply((work, args))
             except Exception as error:
-                succeeded, answer = False, error
+                succeeded, reply = False, error
             if succeeded:
-                future.set_result(answer)
+                future.set_result(reply)
             else:
-                future.set_exception(answer)
+                future.set_exception(reply)
         self._end()
 
-    def _answer(self, call: tuple[Callable[..., Any], tuple[Any, ...]]) -> tuple[bool, Any]:
-        """What the process says: whether it succeeded, and the result or the exception."""
+    def _reply(self, call: tuple[Callable[..., Any], tuple[Any, ...]]) -> tuple[bool, Any]:
+        """The process' reply: whether the call succeeded, and its result or exception."""
         try:
-            self._begun().send(call)
-        except OSError:  # it was killed while it waited: this call is the first to notice
+            self._connection().send(call)
+        except OSError:  # it was killed while idle: this call is the first to notice
             self._end()
-            self._begun().send(call)
+            self._connection().send(call)
         try:
-            answer: tuple[bool, Any] = self._begun().recv()
-            return answer
+            reply: tuple[bool, Any] = self._connection().recv()
+            return reply
         except (EOFError, OSError):
             code = self._end()
             raise WorkerLost(f"its process ended with {code}") from None
 
-    def _begun(self) -> Connection:
+    def _connection(self) -> Connection:
         with self._changing:
             if self._is_over:
                 raise WorkerLost("no more calls")
             if self._line is None:
-                # Ctrl-C goes to all processes of a terminal, and is for the one that asked to handle: a signal that is
-                # blocked here stays blocked in what is started here. (Starting the tracker would unblock it again.)
+                # Ctrl-C reaches all processes of a terminal, but only the main one should handle it: a signal blocked
+                # here stays blocked in a process started here. (Starting the tracker would unblock it again.)
                 resource_tracker.ensure_running()
                 if hasattr(signal, "pthread_sigmask"):
                     signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
@@ -127,7 +127,7 @@ class _Process:
         with self._changing:
             if self._line is None:
                 return None
-            self._line.close()  # which a process that waits for calls takes as the end
+            self._line.close()  # which tells an idle process to exit
             self._process.join()
             code: int | None = self._process.exitcode
             self._process = self._line = None
@@ -140,39 +140,39 @@ class _Process:
 
 
 def _serve(line: Connection) -> None:
-    """Compute what is sent, until nothing comes any more."""
+    """Compute the calls received, until the connection is closed."""
     _end_with_parent()
     while True:
         try:
             work, args = line.recv()
         except EOFError:
             return
-        except Exception as error:  # it cannot be read here
+        except Exception as error:  # it cannot be unpickled here
             _send(line, (False, error))
             continue
         try:
-            answer = (True, work(*args))
+            reply = (True, work(*args))
         except Exception as error:
-            answer = (False, error)
+            reply = (False, error)
         except BaseException as error:  # a scene's sys.exit() ends the call, not the process
-            answer = (False, RuntimeError(f"{type(error).__name__}: {error}"))
-        _send(line, answer)
+            reply = (False, RuntimeError(f"{type(error).__name__}: {error}"))
+        _send(line, reply)
 
 
-def _send(line: Connection, answer: tuple[bool, Any]) -> None:
-    """Send what can be sent and read at the other end; of an exception of a kind that cannot, what it says."""
+def _send(line: Connection, reply: tuple[bool, Any]) -> None:
+    """Send a reply; an exception that cannot be pickled or unpickled is sent as its message."""
     try:
-        packed = pickle.dumps(answer)
-        if not answer[0]:
+        packed = pickle.dumps(reply)
+        if not reply[0]:
             pickle.loads(packed)
     except Exception as error:
-        told = answer[1] if not answer[0] else error
-        packed = pickle.dumps((False, RuntimeError(f"{type(told).__name__}: {told}")))
+        unsendable = reply[1] if not reply[0] else error
+        packed = pickle.dumps((False, RuntimeError(f"{type(unsendable).__name__}: {unsendable}")))
     line.send_bytes(packed)
 
 
 def _end_with_parent() -> None:
-    """End even in the middle of a call when the process that asked is gone."""
+    """Exit, even during a call, when the parent process is gone."""
     parent = multiprocessing.parent_process()
 
     def follow() -> None:

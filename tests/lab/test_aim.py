@@ -152,7 +152,7 @@ def test_targets_have_units():
         ({"launch.height": (1, 2)}, {"bouncd": True}, "did you mean bounced?"),
         ({"launch.height": (1, 2)}, {"bounced": True, "bounces": 2.0}, "1 parameter and 2 targets: one goes"),
         ({"launch.height": (1, 2)}, {"final_height": float("nan")}, "cannot be aimed at"),
-        ({"launch.height": (1, 2)}, {}, "one goes with one, or two with two"),
+        ({"launch.height": (1, 2)}, {}, "give one of each, or two of each"),
     ],
 )
 def test_requests_that_make_no_sense_are_told(vary, target, told):
@@ -165,15 +165,15 @@ def test_what_is_named_twice_is_told():
     scene = load(DROP)
     height, bounces = parse_span(scene, "--vary", "launch.height=1:2"), parse_target("bounces=2")
     for spans, targets, told in (
-        ([height, height], [bounces, bounces], "--vary launch.height: is named twice"),
-        ([height], [bounces, bounces], "--target bounces: is named twice"),
+        ([height, height], [bounces, bounces], "--vary launch.height: given twice"),
+        ([height], [bounces, bounces], "--target bounces: given twice"),
     ):
         with pytest.raises(RequestError, match=told):
             search(scene, spans, targets)
 
 
 def test_a_range_in_which_nothing_runs_is_an_error():
-    with pytest.raises(RunError, match=r"not one run in the range came to its end, first: .*release\.height"):
+    with pytest.raises(RunError, match=r"no run in the range could be completed; the first error: .*release\.height"):
         aim("basketball", {"release.height": (0.0, 0.1)}, {"apex": 3.0})
 
 

@@ -25,10 +25,10 @@ from sandbox import resources
 from sandbox.cli import main
 from sandbox.errors import RequestError, RunError
 from sandbox.lab.axes import Span, Values, as_axis, parse_axis
-from sandbox.lab.plan import HANGS, Plan, records
+from sandbox.lab.plan import CHANGED, Plan, records
 from sandbox.lab.provenance import provenance
 from sandbox.lab.row_file import RowFile, cell
-from sandbox.lab.sweep import Handout, jobs_that_pay, sweep_to_file, workers
+from sandbox.lab.sweep import RowsInOrder, jobs_that_pay, sweep_to_file, workers
 from sandbox.scene import Scene, compare, load, simulate
 from sandbox.scene.running import simulate_at
 from sandbox.workers import cluster as cluster_of
@@ -90,7 +90,7 @@ def test_axes_are_read(drop):
         ("launch.height=1:2:none", "not a number of points"),
         ("launch.height=1:2:0", "not a number of points"),
         ("launch.height=2:1", "write the lower end first"),
-        ("floor.present=false:true:2", "only numbers have a range"),
+        ("floor.present=false:true:2", "only numbers can have a range"),
         ("launch=1:2:3", "group of keys"),
         ("air.wind[7]=1:2:3", "there is no [7]; the list has 2"),
         ("launch.height[0]=1:2:3", "is not a list"),
@@ -213,7 +213,7 @@ def test_a_checked_sweep_tells_errors_and_what_hangs_on_the_accuracy():
         run = simulate(load("basketball", {"launch.speed": row["launch.speed"]}))
         check = compare(run, simulate_at(run.scene, run.accuracy.finer()))
         assert row["apex_error"] == pytest.approx(check.errors["apex"], rel=1e-3, abs=1e-12)
-        assert row[HANGS] == " ".join(check.changed)
+        assert row[CHANGED] == " ".join(check.changed)
 
 
 def test_cells():
@@ -307,7 +307,7 @@ def test_damaged_rows_are_computed_again(drop, tmp_path, kind):
     assert path.read_bytes() == expected
     assert (tmp_path / "rows.csv~").read_bytes() == found
     assert done.damaged == done.resumed + 1
-    assert f"row {done.damaged} was not as it had been written: computed again" in done.as_text()
+    assert f"row {done.damaged} was damaged: computed again" in done.as_text()
 
 
 def test_rows_beyond_the_last_point_are_dropped(drop, tmp_path):
@@ -334,7 +334,10 @@ def test_one_sweep_at_a_time_writes_a_file(drop, tmp_path, capsys):
     with RowFile(path, grid(drop, "launch.height=0.5:2:3")):
         command = ["sweep", str(DROP), "--over", "launch.height=0.5:2:3", "--jobs", "1", "--out", str(path)]
         assert main(command) == 2
-        assert capsys.readouterr().err == f"error: --out {path}: another sweep is writing this file; name another\n"
+        assert (
+            capsys.readouterr().err
+            == f"error: --out {path}: another sweep is writing to this file; choose another name\n"
+        )
     assert main(command) == 0
 
 
@@ -377,7 +380,7 @@ def test_what_another_sweep_found_is_kept_and_the_same_rows_are_not(drop, tmp_pa
     with workers(1) as pool:
         done = sweep_to_file(other, path, pool)
     assert (before.read_bytes(), done.before) == (found, before)
-    assert f"the rows that were there before are in {before}" in done.as_text()
+    assert f"the previous rows are in {before}" in done.as_text()
     assert path.read_bytes() == whole(other, tmp_path / "fresh.csv") != found
 
 
@@ -479,11 +482,11 @@ def test_ctrl_c_keeps_what_is_done_and_the_same_command_resumes(tmp_path, jobs):
     assert (process.returncode, out) == (130, "")
     kept = len(table(path))
     assert 10 <= kept < 200
-    assert err == f"stopped: {kept} of 200 points are kept in {path}; the same command resumes from there\n"
+    assert err == f"stopped: {kept} of 200 points are kept in {path}; run the same command to resume\n"
     assert everybody_gone(process.pid)
 
     finished = subprocess.run([*COMMAND, *map(str, command)], capture_output=True, text=True, check=True)
-    assert f"200 points, {kept} of them before" in finished.stdout
+    assert f"200 points, {kept} of them from before" in finished.stdout
     assert path.read_bytes() == whole(grid(load(scene), "launch.height=0.5:2:200"), tmp_path / "again.csv")
 
 
@@ -499,7 +502,7 @@ def test_what_is_done_is_handed_in_by_time(tmp_path, monkeypatch, one_at_a_time)
     slow = "    if parameters.launch.height > 1.0:\n        import time\n        time.sleep(0.03)\n"
     plan = grid(load(own_scene(tmp_path, slow)), "launch.height=0.5:1.2:60")
     with workers(1) as pool:
-        handed_in = list(Handout(plan, pool))
+        handed_in = list(RowsInOrder(plan, pool))
     assert [row["launch.height"] for rows in handed_in for row in rows] == [height for (height,) in plan.points(0, 60)]
     assert max(len(rows) for rows in handed_in if rows[-1]["launch.height"] > 1.1) <= 2
 
@@ -511,7 +514,7 @@ def test_an_interrupt_takes_in_what_others_have_finished(drop, one_at_a_time):
         def submit(self, work, *args):
             return SimpleNamespace(done=lambda: args[1] < 5, result=lambda: work(*args))
 
-    handout = Handout(grid(drop, "launch.height=0.5:2:40"), Others())
+    handout = RowsInOrder(grid(drop, "launch.height=0.5:2:40"), Others())
     first = next(iter(handout))
     assert len(first) == 1
     assert [row["launch.height"] for rows in handout.finished(1) for row in rows] == pytest.approx(
@@ -533,7 +536,7 @@ def test_a_killed_process_loses_nothing(tmp_path):
     )
     plan = grid(load(own_scene(tmp_path, once)), "launch.height=0.5:2:60")
     with workers(2) as pool:
-        rows = [row for some in Handout(plan, pool) for row in some]
+        rows = [row for some in RowsInOrder(plan, pool) for row in some]
     assert (tmp_path / "mark").exists()
     assert [row["launch.height"] for row in rows] == [height for (height,) in plan.points(0, 60)]
     assert not any(row["error"] for row in rows)
@@ -555,7 +558,7 @@ def test_a_point_that_kills_its_process_is_a_row(tmp_path):
     )
     plan = grid(load(own_scene(tmp_path, deadly)), "launch.height=0.5,0.75,1.0,1.25,1.5")
     with workers(2) as pool:
-        rows = [row for some in Handout(plan, pool) for row in some]
+        rows = [row for some in RowsInOrder(plan, pool) for row in some]
     assert ["killed" in row["error"] for row in rows] == [False, False, True, False, False]
     assert all("final_height" in row for row in rows if not row["error"])
 
@@ -564,7 +567,7 @@ def test_a_cluster_that_loses_a_worker_loses_nothing():
     distributed = pytest.importorskip("distributed")
     plan = grid(load("basketball"), "launch.speed=6:9:13", "launch.angle=40:60:5")
     with workers(1) as pool:
-        expected = [row for some in Handout(plan, pool) for row in some]
+        expected = [row for some in RowsInOrder(plan, pool) for row in some]
     killed: list[int] = []
     # everything on loopback: nothing here may be reached from outside
     with distributed.LocalCluster(
@@ -577,7 +580,7 @@ def test_a_cluster_that_loses_a_worker_loses_nothing():
                 os.kill(killed[0], signal.SIGKILL)
 
         with workers(1, cluster.scheduler_address) as pool:
-            rows = [row for some in Handout(plan, pool, progress=kill_one) for row in some]
+            rows = [row for some in RowsInOrder(plan, pool, progress=kill_one) for row in some]
     assert killed
     assert rows == expected
 
@@ -597,7 +600,9 @@ def test_a_cluster_that_goes_away_is_told_in_a_line(tmp_path, monkeypatch, one_a
                 cluster.close() if loss == "scheduler" else cluster.scale(0)
 
         gone = (
-            "the scheduler went away" if loss == "scheduler" else "its workers went away, and none came back in 0.5 s"
+            "the connection to the scheduler was lost"
+            if loss == "scheduler"
+            else "its workers were lost, and none came back within 0.5 s"
         )
         with pytest.raises(RunError, match=gone), workers(1, cluster.scheduler_address) as pool:
             sweep_to_file(plan, path, pool, lose)
@@ -631,7 +636,7 @@ def test_a_worker_with_other_code_is_refused_by_name(drop):
     other = here.parts | {"the sandbox": "with another gravity", "numpy": "1.0"}
     plan.__dict__["provenance"] = replace(here, parts=other)
     with pytest.raises(RunError) as refused, workers(2) as pool:
-        list(Handout(plan, pool))
+        list(RowsInOrder(plan, pool))
     told = f"it differs in: the sandbox, numpy {here.parts['numpy']} instead of 1.0"
     assert str(refused.value).endswith(told)
 

@@ -157,7 +157,7 @@ def parts(rows: list[Ablated]) -> dict[str, Ablated]:
 
 def test_the_parts_of_a_golf_shot():
     rows = parts(ablation(converge(load("golf"))))
-    assert {"gravity", "drag", "lift", "spin decay", "drag coefficient", "give of the ground"} <= set(rows)
+    assert {"gravity", "drag", "lift", "spin decay", "drag coefficient", "deformation of the ground"} <= set(rows)
     assert rows["drag"].flight_m > 50.0
     assert rows["drag"].results["carry"][1] > 1.5 * rows["drag"].results["carry"][0]
     assert rows["rolling resistance"].flight_m == 0.0  # it has not touched the ground yet
@@ -189,14 +189,14 @@ def test_what_is_seen_on_the_way_is_not_nothing():
 
 def test_parts_of_a_surface_that_nothing_touches_are_said_to_be_idle():
     rows = parts(ablation(converge(load("soccer-curl"))))
-    assert rows["friction of surfaces"].cells()[-1] == "nothing: it touches nothing"
+    assert rows["friction of surfaces"].cells()[-1] == "nothing: no contact"
 
 
 def test_what_a_scene_leaves_out_is_put_in():
     rows = parts(ablation(converge(load("basketball", {"ball.lift.model": "none", "launch.speed": 7.465}))))
-    assert rows["lift"].change.startswith("put in")
+    assert rows["lift"].change.startswith("added")
     assert 0.0 < abs(rows["lift"].results["entry_offset"][1] - rows["lift"].results["entry_offset"][0]) < 0.3
-    assert rows["wind"].change == "put in, 1 m/s against"
+    assert rows["wind"].change == "added, 1 m/s headwind"
 
 
 def test_a_coefficient_as_at_the_start_is_that_of_the_start():
@@ -278,7 +278,7 @@ def test_the_command_prints_json_and_draws(capsys: pytest.CaptureFixture[str], t
 def test_the_command_prints_tables(capsys: pytest.CaptureFixture[str]):
     assert main(["trade", str(DROP), "--set", "launch.speed=3"]) == 0
     out = capsys.readouterr().out
-    for heading in ("the levels", "the cheapest choice", "what each part of the model is worth", "dormand-prince"):
+    for heading in ("levels", "cheapest choice", "effect of each part of the model", "dormand-prince"):
         assert heading in out
 
 

@@ -1,9 +1,9 @@
-"""The inverse problem: which launch, or any other number of a scene, gives the result that is wanted.
+"""The inverse problem: which launch, or any other number of a scene, gives a wanted result.
 
-The range is scanned finely enough to see every branch, more finely where results jump; then scipy's solvers take
-over: ``brentq`` in each bracket for one number, ``root`` (Powell's hybrid method) from several starts for two. What
-only holds or does not (``made = true``) has intervals, whose ends are closed in on. How far the finite accuracy of the
-runs moves a solution is told by finer runs.
+The range is scanned finely enough to see every branch, more finely where results jump; then scipy's solvers continue:
+``brentq`` in each bracket for one number, ``root`` (Powell's hybrid method) from several starts for two. A yes-or-no
+target (``made = true``) has intervals, whose ends are bisected. Finer runs estimate how far numerical errors move a
+solution.
 """
 
 from __future__ import annotations
@@ -34,21 +34,21 @@ def aim(
     """All values within a range that meet a target: ``aim("golf", {"launch.angle": (5, 75)}, {"carry": 200.0})``.
 
     Two parameters with two targets likewise. A target that is true, false or a word gives the intervals in which it is
-    met, the widest first, each with its middle, which forgives most. Raises RequestError for a request that makes no
-    sense, and RunError where not one run in the range came to its end.
+    met, the widest first, each with its middle, which tolerates the largest error. Raises RequestError for an
+    invalid request, and RunError if no run in the range could be completed.
     """
     chosen = as_scene(scene)
     spans = []
     for key, given in vary.items():
         axis = as_axis(chosen, key, tuple(given) if isinstance(given, list) else given, "vary")
         if not isinstance(axis, Span):
-            raise RequestError(f"vary {key}: only numbers have a range, (low, high), and this is {given!r}")
+            raise RequestError(f"vary {key}: only numbers have a range, (low, high), but this is {given!r}")
         spans.append(axis)
     return search(chosen, spans, [as_target(name, value, scene=chosen) for name, value in target.items()], progress)
 
 
 def search(scene: Scene, spans: Sequence[Span], targets: Sequence[Target], progress: Progress = silent) -> Aim:
-    """As aim, for what was read already."""
+    """Like ``aim``, for spans and targets already parsed."""
     try:
         import scipy  # noqa: F401
     except ImportError:
@@ -56,12 +56,12 @@ def search(scene: Scene, spans: Sequence[Span], targets: Sequence[Target], progr
     for option, names in (("--vary", [span.key for span in spans]), ("--target", [each.name for each in targets])):
         twice = next((name for name in names if names.count(name) > 1), None)
         if twice is not None:
-            raise RequestError(f"{option} {twice}: is named twice")
+            raise RequestError(f"{option} {twice}: given twice")
     numbers = [target.is_number for target in targets]
     if not (len(spans) == len(targets) == 1 or (len(spans) == len(targets) == 2 and all(numbers))):
         raise RequestError(
-            f"{_count(spans, 'parameter')} and {_count(targets, 'target')}: one goes with one, or two with two "
-            "that are numbers; sandbox sweep shows what others do"
+            f"{_count(spans, 'parameter')} and {_count(targets, 'target')}: give one of each, or two of each "
+            "with number targets; for more use sandbox sweep"
         )
     shots = Shots(scene, spans, targets, progress)
     jumps: list[tuple[Try, Try]] = []

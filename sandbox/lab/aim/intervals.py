@@ -1,4 +1,4 @@
-"""What only holds or does not, true, false or a word, by one parameter: the stretches in which it holds."""
+"""Targets that are true, false or a word, by one parameter: the intervals in which they are met."""
 
 from __future__ import annotations
 
@@ -12,20 +12,20 @@ import numpy as np
 from sandbox.lab.aim.question import Interval, Solution, Target
 from sandbox.lab.aim.shots import Shots, scan
 
-#: Ends of intervals are closed in on in rounds, in each by so many runs between what is known. The finer runs look
-#: for the same end only so near to it, as a share of the range, if they can; ends are found to the last of these.
-_BETWEEN, _ROUNDS, _NEAR, _END = 9, 6, 1e-5, 1e-8
+#: Ends of intervals: runs per refinement between the known points, and number of refinements; then, as fractions of
+#: the range, the distance within which finer runs look for the same end first, and the final accuracy.
+_BETWEEN, _REFINEMENTS, _NEAR, _END = 9, 6, 1e-5, 1e-8
 
-#: Two neighbouring values, and whether the target is met at the first, but not at the second, or the other way round.
+#: Two neighbouring values, and whether the target is met at the first, but not at the second, or vice versa.
 _Change = tuple[float, float, bool]
 
 
 def intervals(shots: Shots) -> list[Solution]:
-    """The middles of all stretches in which the target is met, the widest first."""
+    """The middles of all intervals in which the target is met, the widest first."""
     span, target = shots.spans[0], shots.targets[0]
     seen = [(place, _meets(result, target)) for place, result in scan(shots)]
     changes = [(low, high, met) for (low, met), (high, after) in pairwise(seen) if met != after]
-    ends = _closed_in(shots, changes, finer=False)
+    ends = _refined(shots, changes, finer=False)
     finer = _seen_finer(shots, changes, ends)
     borders: list[tuple[float, float | None, bool]] = [
         (end, None if other is None else abs(end - other), False) for end, other in zip(ends, finer, strict=True)
@@ -46,7 +46,7 @@ def _meets(result: Mapping[str, Any] | None, target: Target) -> bool:
 
 
 def _seen_finer(shots: Shots, changes: Sequence[_Change], ends: Sequence[float]) -> list[float | None]:
-    """The same ends by finer runs; None for one that they do not see, not even between the points of the scan."""
+    """The same ends from finer runs; None for an end that they do not find, even between the points of the scan."""
     near = _NEAR * (shots.spans[0].high - shots.spans[0].low)
     found: list[float | None] = [None] * len(ends)
     for width in (near, inf):
@@ -62,16 +62,16 @@ def _seen_finer(shots: Shots, changes: Sequence[_Change], ends: Sequence[float])
             for number, change in enumerate(tight)
             if met[2 * number : 2 * number + 2] == [change[2], not change[2]]
         ]
-        for number, end in zip(seen, _closed_in(shots, [tight[number] for number in seen], finer=True), strict=True):
+        for number, end in zip(seen, _refined(shots, [tight[number] for number in seen], finer=True), strict=True):
             found[missing[number]] = end
     return found
 
 
-def _closed_in(shots: Shots, changes: Sequence[_Change], finer: bool) -> list[float]:
-    """Where the target begins or ceases to be met, for each change."""
+def _refined(shots: Shots, changes: Sequence[_Change], finer: bool) -> list[float]:
+    """The position at which the target starts or stops being met, for each change."""
     brackets = list(changes)
     least = _END * (shots.spans[0].high - shots.spans[0].low)
-    for _ in range(_ROUNDS):
+    for _ in range(_REFINEMENTS):
         if all(high - low <= least for low, high, _ in brackets):
             break
         inner = [np.linspace(low, high, _BETWEEN + 2).tolist()[1:-1] for low, high, _ in brackets]
@@ -80,7 +80,7 @@ def _closed_in(shots: Shots, changes: Sequence[_Change], finer: bool) -> list[fl
             known = [low, *places, high]
             met = [before, *(_meets(next(results), shots.targets[0]) for _ in places), not before]
             ends_here = [index for index in range(len(places) + 1) if met[index] != met[index + 1]]
-            # of several ends the one beside the stretch in which the target is met
+            # of several ends, the one next to the interval in which the target is met
             change = ends_here[0] if before else ends_here[-1]
             brackets[number] = (known[change], known[change + 1], before)
     return [0.5 * (low + high) for low, high, _ in brackets]

@@ -1,4 +1,4 @@
-"""Two numbers that shall have values, by two parameters: as many pairs as several starts find."""
+"""Two number targets, by two parameters: as many solutions as several starts find."""
 
 from __future__ import annotations
 
@@ -13,22 +13,22 @@ from sandbox.lab.aim.root import SAME, STEP, is_met, solution
 from sandbox.lab.aim.shots import Shots
 from sandbox.lab.axes import Span
 
-#: Points of the first look along each number.
-_LOOK_EACH = 21
+#: Points of the scan along each parameter.
+_SCAN_EACH = 21
 
 #: Starts, and the most iterations of each.
 _STARTS, _ITERATIONS = 12, 60
 
 
 def pairs(shots: Shots) -> list[Solution]:
-    """Every pair of values, as far as several starts find them, at which two numbers meet their targets."""
+    """The pairs of values, found from several starts, at which two numbers meet their targets."""
     from scipy.optimize import minimize, root
 
     first, second = shots.spans
-    shots.planned = _LOOK_EACH**2
-    places = [np.linspace(span.low, span.high, _LOOK_EACH).tolist() for span in shots.spans]
+    shots.planned = _SCAN_EACH**2
+    places = [np.linspace(span.low, span.high, _SCAN_EACH).tolist() for span in shots.spans]
     results = shots.results([(x, y) for x in places[0] for y in places[1]])
-    misses = np.array([shots.missed(result) for result in results]).reshape(_LOOK_EACH, _LOOK_EACH, 2)
+    misses = np.array([shots.missed(result) for result in results]).reshape(_SCAN_EACH, _SCAN_EACH, 2)
     scales = np.array([shots.spread(index) for index in range(2)])
 
     def placed(u: np.ndarray) -> tuple[float, float]:
@@ -58,7 +58,7 @@ def pairs(shots: Shots) -> list[Solution]:
 
 
 def _starts(off: np.ndarray) -> list[np.ndarray]:
-    """Where to begin: cells in which both targets are passed, then the places that miss least around them."""
+    """Starting points: cells in which both targets are crossed, then the points that miss by least around them."""
     size = np.hypot(off[..., 0], off[..., 1])
     size = np.where(np.isfinite(size), size, inf)
     n = len(size) - 1
@@ -74,7 +74,7 @@ def _starts(off: np.ndarray) -> list[np.ndarray]:
 
 
 def _distance(found: Solution, point: tuple[float, ...], spans: Sequence[Span]) -> float:
-    """Distance of two places in shares of the ranges."""
+    """Distance of two points in fractions of the ranges."""
     shares = [
         (found.values[span.key] - value) / (span.high - span.low) for span, value in zip(spans, point, strict=True)
     ]

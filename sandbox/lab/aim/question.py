@@ -1,4 +1,4 @@
-"""What a search is asked, and what comes out of it."""
+"""Targets and results of a search."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from sandbox.scene import Scene
 
 @dataclass(frozen=True)
 class Target:
-    """A result and the value that it shall have: a number in the result's own unit, or true, false or a word."""
+    """A result and its wanted value: a number in the result's unit, or true, false or a word."""
 
     name: str
     value: Any
@@ -26,13 +26,13 @@ class Target:
         return isinstance(self.value, float)
 
     def met(self, value: Any) -> bool:
-        """Whether a run's value is the one that is wanted; for what is no number."""
+        """Whether a run's value is the wanted one; for targets that are not numbers."""
         return bool(value == self.value and isinstance(value, bool) == isinstance(self.value, bool))
 
 
 @dataclass(frozen=True)
 class Try:
-    """One run on the way: where, and the results that were aimed at; None where there was none."""
+    """One run of a search: its parameter values, and the targeted results, None if missing."""
 
     values: tuple[float, ...]
     found: tuple[Any, ...]
@@ -41,11 +41,11 @@ class Try:
 
 @dataclass(frozen=True)
 class Interval:
-    """Where the target is met, all the way between two ends; at an end of the range it may go on beyond."""
+    """An interval in which the target is met throughout; it may continue beyond an end of the range."""
 
     low: float
     high: float
-    low_error: float | None  # None where the finer runs see no such end, or the interval ends with the range
+    low_error: float | None  # None if the finer runs find no such end, or the interval is cut off by the range
     high_error: float | None
     open_low: bool  # cut off by the range
     open_high: bool
@@ -57,27 +57,27 @@ class Interval:
 
 @dataclass(frozen=True)
 class Solution:
-    """Values that meet the targets, their numerical errors (None: unknown), and the run's result with its own."""
+    """Values that meet the targets, their numerical errors (None: unknown), and the run's result with its errors."""
 
     values: dict[str, float]
     errors: dict[str, float | None]
     result: dict[str, Any]
     result_errors: dict[str, float]
-    interval: Interval | None = None  # for a target that is no number; the value is its middle
+    interval: Interval | None = None  # for a target that is not a number; the value is its middle
 
 
 @dataclass(frozen=True)
 class Aim:
-    """What a search came to. ``solutions`` come in order of the value, or the widest interval first."""
+    """The result of a search. ``solutions`` are in order of the value, or the widest interval first."""
 
     scene: Scene
     spans: tuple[Span, ...]
     targets: tuple[Target, ...]
     solutions: list[Solution]
-    nearest: Try | None  # the best of all tries, where there is no solution
-    jumps: list[tuple[Try, Try]]  # where the result leaps over the target between two all but equal values
+    nearest: Try | None  # the best of all tries, if there is no solution
+    jumps: list[tuple[Try, Try]]  # where the result jumps over the target between two nearly equal values
     tries: list[Try] = field(repr=False)
-    failures: int = 0  # tries that could not be run
+    failures: int = 0  # tries that failed
 
     def __repr__(self) -> str:
         wanted = ", ".join(f"{target.name} = {target.value}" for target in self.targets)
@@ -86,7 +86,7 @@ class Aim:
 
     @property
     def misses(self) -> dict[str, float]:
-        """By how much the nearest try misses each target; empty where there is a solution, or no nearest."""
+        """By how much the nearest try misses each target; empty if there is a solution, or no nearest try."""
         if self.nearest is None:
             return {}
         return {
@@ -105,8 +105,8 @@ def parse_target(text: str, scene: Scene | None = None) -> Target:
 
 
 def as_target(name: str, value: Any, option: str = "target", scene: Scene | None = None) -> Target:
-    """A target from Python. A number may have a unit: that of the scene's result, or of its kind; where the scene does
-    not say, results are in SI, but angles in deg and spins in rpm."""
+    """A target from Python. A number may have a unit: that of the scene's result, or of its kind; if the scene states
+    none, results are in SI, except angles in deg and spins in rpm."""
     if isinstance(value, bool | np.bool_):
         return Target(name, bool(value))
     if isinstance(value, int | float | np.number):
@@ -137,7 +137,7 @@ def as_target(name: str, value: Any, option: str = "target", scene: Scene | None
     return Target(name, text)
 
 
-#: Units of results: SI, but angles in deg and spins in rpm.
+#: Units of results: SI, except angles in deg and spins in rpm.
 _RESULT_UNITS = [
     {"rad": "deg", "rad/s": "rpm"}.get(unit, unit) for unit in (next(iter(kind)) for kind in units.KINDS.values())
 ]

@@ -1,4 +1,4 @@
-"""What a search says: to people as a card, to programs as JSON, to the eye as a picture of its tries."""
+"""Reports of a search: text for the terminal, JSON, and a chart of its tries."""
 
 from __future__ import annotations
 
@@ -16,17 +16,17 @@ from sandbox.lab.axes import label, result_label, unit_of
 from sandbox.lab.chart import chart
 from sandbox.lab.tables import significant, table
 
-#: Solutions on a card; a map of narrow bands has dozens.
+#: Most solutions in the text; a target met in narrow bands can have dozens.
 _SHOWN = 12
 
 
 # ---------------------------------------------------------------------------------------------------------------------
-# For programs
+# JSON
 # ---------------------------------------------------------------------------------------------------------------------
 
 
 def as_json(aim: Aim) -> str:
-    """One JSON object; what is not known (a numerical error) is null."""
+    """One JSON object; an unknown numerical error is null."""
     nearest = aim.nearest
     told: dict[str, Any] = {
         "scene": aim.scene.name,
@@ -68,12 +68,12 @@ def _found(aim: Aim, found: tuple[Any, ...]) -> dict[str, Any]:
 
 
 # ---------------------------------------------------------------------------------------------------------------------
-# For people
+# Text
 # ---------------------------------------------------------------------------------------------------------------------
 
 
 def as_text(aim: Aim) -> list[str]:
-    """Lines for the terminal: what was asked, and every solution with its numerical error, or how near it got."""
+    """Lines for the terminal: the question, and every solution with its numerical error, or the nearest miss."""
     lines = [_question(aim), ""]
     if not aim.solutions:
         lines += _no_solution(aim)
@@ -132,11 +132,11 @@ def _interval_lines(aim: Aim) -> list[str]:
     rows = []
     for solution in aim.solutions[:_SHOWN]:
         interval = solution.interval
-        assert interval is not None  # this target has intervals
+        assert interval is not None  # the target has intervals
         low, high = f"{interval.low:.7g}", f"{interval.high:.7g}"
         error = max((e for e in (interval.low_error, interval.high_error) if e is not None), default=None)
-        unsure = "" if None not in (interval.low_error, interval.high_error) else "an end hangs on the accuracy"
-        cut = "goes on beyond the range" if _is_cut(interval) else ""
+        unsure = "" if None not in (interval.low_error, interval.high_error) else "an end depends on the accuracy"
+        cut = "continues beyond the range" if _is_cut(interval) else ""
         middle = f"{solution.values[key]:.7g}"
         rows.append(
             [middle, significant(interval.width, 3), low, high, _error(error), "; ".join(filter(None, (cut, unsure)))]
@@ -146,7 +146,7 @@ def _interval_lines(aim: Aim) -> list[str]:
     assert best is not None
     room = _with_unit(aim, 0, significant(0.5 * best.width))
     side = "both sides" if best.open_low and best.open_high else "the lower side" if best.open_low else "the upper side"
-    cut = f"; it goes on beyond the range on {side}: widen that to see its middle" if _is_cut(best) else ""
+    cut = f"; it continues beyond the range on {side}: widen the range to see its middle" if _is_cut(best) else ""
     forgiving = f"  {_forgiving(aim)}, with {room} of room to either side{cut}"
     return [*table(headings, rows, "rrrrrl"), *_more(aim), "", forgiving]
 
@@ -156,7 +156,7 @@ def _is_cut(interval: Interval) -> bool:
 
 
 def _forgiving(aim: Aim) -> str:
-    """The middle of the widest interval, as far as the range shows it."""
+    """The middle of the widest interval within the range."""
     best, key = aim.solutions[0], aim.spans[0].key
     assert best.interval is not None
     within = " within this range" if _is_cut(best.interval) else ""
@@ -191,12 +191,12 @@ def _no_solution(aim: Aim) -> list[str]:
 
 
 # ---------------------------------------------------------------------------------------------------------------------
-# For the eye
+# Chart
 # ---------------------------------------------------------------------------------------------------------------------
 
 
 def draw(aim: Aim, path: Path) -> None:
-    """A picture of the tries: those of the scan quiet, those of the solvers loud, and the solutions."""
+    """A chart of the tries, those of the scan muted and those of the solvers vivid, with the solutions."""
     title = _question(aim).partition(" by ")[0]
     what = "interval" if aim.solutions and aim.solutions[0].interval is not None else "solution"
     found = f"{len(aim.solutions)} {what}{'' if len(aim.solutions) == 1 else 's'}" if aim.solutions else "no solution"
@@ -257,7 +257,7 @@ def _draw_two(axes: Any, aim: Aim, colours: Mapping[str, Any]) -> None:
 def _draw_intervals(axes: Any, aim: Aim, colours: Mapping[str, Any]) -> None:
     card, key = colours["card"], aim.spans[0].key
     for solution in aim.solutions:
-        assert solution.interval is not None  # this target has intervals
+        assert solution.interval is not None  # the target has intervals
         axes.axvspan(solution.interval.low, solution.interval.high, color=card["good"], alpha=0.35, linewidth=0)
     for met, colour, name in ((False, card["quiet"], "not met"), (True, card["good"], "met")):
         places = [each.values[0] for each in aim.tries if aim.targets[0].met(each.found[0]) == met]

@@ -1,4 +1,4 @@
-"""What stands at a root: whether it is one, and how far the finite accuracy of the runs moves it."""
+"""Checks of a root: whether it is one, and its numerical error."""
 
 from __future__ import annotations
 
@@ -9,16 +9,16 @@ import numpy as np
 from sandbox.lab.aim.question import Solution
 from sandbox.lab.aim.shots import Shots
 
-#: Step for slopes, and distance below which two solutions are one, as shares of the range.
+#: Step for slopes, and distance below which two solutions are the same, as fractions of the range.
 STEP, SAME = 1e-5, 1e-6
 
-#: A target is met where it is missed by less than this share of what the result varies by; or by less than its
-#: numerical error, as long as that is a small share too: at a jump a finer run is off by the jump itself.
+#: A target is met if the miss is below this fraction of the result's variation, or below its numerical error if that
+#: is below the second fraction: at a jump a finer run differs by the jump itself.
 _MET, _NOISE = 1e-6, 1e-3
 
 
 def is_met(shots: Shots, point: tuple[float, ...]) -> bool:
-    """Whether all targets are met, within a millionth of what the results vary by, or within their numerical error."""
+    """Whether all targets are met, within a millionth of the results' variation, or within their numerical error."""
     misses = np.abs(shots.numbers(point, "solve"))
     spreads = np.array([shots.spread(index) for index in range(len(shots.targets))])
     if (misses <= _MET * spreads).all():
@@ -29,7 +29,7 @@ def is_met(shots: Shots, point: tuple[float, ...]) -> bool:
 
 
 def solution(shots: Shots, point: tuple[float, ...]) -> Solution:
-    """What stands at a root, with the numerical errors: the shift of the targets over their slopes."""
+    """The solution at a root, with its numerical errors: the shift of the targets divided by their slopes."""
     result, errors, shift = shots.checked(point)
     moved = _moved(shots, point, shift) if np.isfinite(shift).all() else [None] * len(point)
     keys = [span.key for span in shots.spans]
@@ -37,7 +37,7 @@ def solution(shots: Shots, point: tuple[float, ...]) -> Solution:
 
 
 def _moved(shots: Shots, point: tuple[float, ...], shift: np.ndarray) -> list[float | None]:
-    """By how much values must move to make up for a shift of the targets."""
+    """By how much the values must change to compensate a shift of the targets."""
     here = shots.numbers(point, "solve")
     slopes = np.empty((len(here), len(point)))
     bends = np.empty((len(here), len(point)))
@@ -51,7 +51,7 @@ def _moved(shots: Shots, point: tuple[float, ...], shift: np.ndarray) -> list[fl
         bends[:, column] = (after - 2.0 * here + before) / (h * h)
     if len(point) == 1:
         needed = [abs(shift[0] / slopes[0, 0]) if slopes[0, 0] else inf]
-        if bends[0, 0]:  # near a turning point the slope says nothing
+        if bends[0, 0]:  # near a turning point the slope is meaningless
             needed.append(sqrt(2.0 * abs(shift[0] / bends[0, 0])))
         least = min(needed)
         return [float(least) if isfinite(least) else None]

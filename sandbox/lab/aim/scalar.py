@@ -1,4 +1,4 @@
-"""A number that shall have a value, by one parameter: every root in the range, and where the result jumps over it."""
+"""A number target, by one parameter: every root in the range, and every jump over the target."""
 
 from __future__ import annotations
 
@@ -12,19 +12,19 @@ from sandbox.lab.aim.question import Solution, Try
 from sandbox.lab.aim.root import SAME, is_met, solution
 from sandbox.lab.aim.shots import Shots, scan
 
-#: Roots are found to this share of the range.
+#: Roots are found to this fraction of the range.
 _FINE = 1e-12
 
-#: Where a bracket has stretches without a result, it is divided into so many parts, so many times.
+#: A bracket with gaps in the result is divided into this many parts, up to this many times.
 _PARTS, _DEEPEST = 8, 3
 
 
 class _Gap(Exception):
-    """A result that is not there, inside a bracket."""
+    """A missing result inside a bracket."""
 
 
 def roots_of(shots: Shots) -> tuple[list[Solution], list[tuple[Try, Try]]]:
-    """Every value in the range at which a number meets its target, and where it jumps over it."""
+    """Every value in the range at which a number meets its target, and the jumps over it."""
     seen = [(place, float(shots.missed(result)[0])) for place, result in scan(shots)]
     span = shots.spans[0]
     found = [place for place, miss in seen if miss == 0.0]
@@ -49,7 +49,7 @@ def _brackets(seen: Iterable[tuple[float, float]]) -> Iterator[tuple[float, floa
 
 
 def _hidden(shots: Shots, seen: Sequence[tuple[float, float]]) -> Iterator[tuple[float, float]]:
-    """Brackets of pairs of roots with no point of the scan between them: a result that only just gets to the target."""
+    """Brackets of pairs of roots with no point of the scan between them: a result that barely reaches the target."""
     for left, here, right in zip(seen, seen[1:], seen[2:], strict=False):
         misses = left[1], here[1], right[1]
         if not all(map(isfinite, misses)) or min(misses) <= 0.0 <= max(misses) or not _is_lowest(*misses):
@@ -61,7 +61,7 @@ def _hidden(shots: Shots, seen: Sequence[tuple[float, float]]) -> Iterator[tuple
 
 
 def _is_lowest(left: float, here: float, right: float) -> bool:
-    """Whether the middle one is nearest to zero, and a parabola through all three comes near to zero or beyond."""
+    """Whether the middle value is closest to zero, and a parabola through all three reaches or nearly reaches zero."""
     if abs(here) > min(abs(left), abs(right)):
         return False
     bend, lean = left - 2.0 * here + right, 0.5 * (right - left)
@@ -70,7 +70,7 @@ def _is_lowest(left: float, here: float, right: float) -> bool:
 
 
 def _turning_point(shots: Shots, low: float, high: float, sign: float) -> tuple[float, float]:
-    """Where the result comes nearest to the target, or goes furthest beyond it, and by how much it misses it there."""
+    """Where the result comes closest to the target, or exceeds it most, and its miss there."""
     from scipy.optimize import minimize_scalar
 
     def height(place: float) -> float:
@@ -82,7 +82,7 @@ def _turning_point(shots: Shots, low: float, high: float, sign: float) -> tuple[
 
 
 def _come_nearer(shots: Shots, seen: Sequence[tuple[float, float]]) -> None:
-    """Try what lies around the best of the scan."""
+    """Try values around the best of the scan."""
     finite = [index for index, (_, miss) in enumerate(seen) if isfinite(miss)]
     if finite:
         best = min(finite, key=lambda index: abs(seen[index][1]))
@@ -91,7 +91,7 @@ def _come_nearer(shots: Shots, seen: Sequence[tuple[float, float]]) -> None:
 
 
 def _roots(shots: Shots, low: float, high: float, phase: str, depth: int) -> Iterator[float]:
-    """The root in a bracket; where there are stretches without a result, those in the brackets between them."""
+    """The root in a bracket; with gaps in the result, the roots in the brackets between them."""
     from scipy.optimize import brentq
 
     def missed(place: float) -> float:

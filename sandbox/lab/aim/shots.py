@@ -1,4 +1,4 @@
-"""Runs of a search, kept so that none is done twice, and a first look over the range."""
+"""Runs of a search, cached so that none is repeated, and the scan of the range."""
 
 from __future__ import annotations
 
@@ -16,13 +16,13 @@ from sandbox.lab.axes import Span
 from sandbox.lab.runs import runs
 from sandbox.scene import Scene, compare
 
-#: Points of the first look at the range of one number.
-_LOOK = 129
+#: Points of the scan of one parameter.
+_SCAN = 129
 
-#: Times that a stretch with a jump in it is looked at more closely, into how many parts, and the most runs for it all.
-_CLOSER, _PARTS, _MOST_RUNS = 3, 4, 2000
+#: Refinements of an interval with a jump, the parts of each, and the most runs for all of them.
+_REFINEMENTS, _PARTS, _MOST_RUNS = 3, 4, 2000
 
-#: A run whose result is off the line between its neighbours by more than this share of their spread: not smooth.
+#: A result is not smooth if it differs from the line between its neighbours by more than this fraction of their spread.
 _BEND = 0.25
 
 Progress = Callable[[int, int], None]
@@ -33,7 +33,7 @@ def silent(done: int, total: int) -> None:
 
 
 class Shots:
-    """Runs the scene at given values, and keeps what came out."""
+    """Runs the scene at given values, and caches the results."""
 
     def __init__(self, scene: Scene, spans: Sequence[Span], targets: Sequence[Target], progress: Progress) -> None:
         self.scene = scene
@@ -49,7 +49,7 @@ class Shots:
     def results(
         self, points: Sequence[tuple[float, ...]], phase: str = "scan", finer: bool = False
     ) -> list[dict[str, Any] | None]:
-        """The results at some points; None where the run failed."""
+        """The results at some points; None if the run failed."""
         if finer:
             return [self._result(run) for run in runs(self.scene, self._keys, points, True, self._asked)]
         new = [point for point in dict.fromkeys(points) if point not in self._known]
@@ -61,11 +61,11 @@ class Shots:
             self._progress(len(self.tries), max(self.planned, len(self.tries)))
         return [self._known[point] for point in points]
 
-    #: Runs that are foreseen, for the progress bar.
-    planned = _LOOK
+    #: Expected number of runs, for the progress bar.
+    planned = _SCAN
 
     def numbers(self, point: tuple[float, ...], phase: str, finer: bool = False) -> np.ndarray:
-        """How far the targets are missed at one point; NaN where there is no such result."""
+        """The miss of each target at one point; NaN if there is no such result."""
         return self.missed(self.results([point], phase, finer)[0])
 
     def missed(self, result: Mapping[str, Any] | None) -> np.ndarray:
@@ -87,9 +87,9 @@ class Shots:
         return run.result, compare(run, finer).errors, np.zeros(0) if shift is None else shift
 
     def nearest(self) -> Try | None:
-        """The try that misses least. Raises RunError where none came to its end."""
+        """The try with the smallest miss. Raises RunError if none was completed."""
         if self._first_error is not None and self.failures == len(self.tries):
-            raise RunError(f"not one run in the range came to its end, first: {self._first_error}")
+            raise RunError(f"no run in the range could be completed; the first error: {self._first_error}")
         if not all(target.is_number for target in self.targets):
             return None
         complete = [each for each in self.tries if all(value is not None for value in each.found)]
@@ -132,12 +132,12 @@ class Shots:
             if isinstance(value, int | float) and not isinstance(value, bool) and not target.is_number:
                 raise RequestError(f"--target {target.name}: is a number, such as {target.name}={value:.4g}")
             if isinstance(value, list | tuple | dict):
-                raise RequestError(f"--target {target.name}: is a list and cannot be aimed at")
+                raise RequestError(f"--target {target.name}: is a list and cannot be a target")
 
 
 def _asked(scene: Scene, names: Sequence[str]) -> list[str]:
-    """What runs are asked for, which end as soon as it is settled: the targets, and what is settled with them, as where
-    that changes a target may jump. All, by an empty list, where a target may change until the end."""
+    """The facts that runs must settle, after which they end: the targets, and facts settled with them, since a target
+    may jump where these change. An empty list means all facts, if a target may change until the end."""
     if scene.settles(names) is None:
         return []
     by = [scene.facts[name].settled for name in names]
@@ -145,7 +145,7 @@ def _asked(scene: Scene, names: Sequence[str]) -> list[str]:
 
 
 def _signature(result: Mapping[str, Any] | None) -> Any:
-    """What of a result is no number: it changes where the result jumps."""
+    """The values of a result that are not numbers: they change where the result jumps."""
     if result is None:
         return None
     return [
@@ -156,10 +156,10 @@ def _signature(result: Mapping[str, Any] | None) -> Any:
 
 
 def scan(shots: Shots) -> list[tuple[float, dict[str, Any] | None]]:
-    """Results over the range, at points that lie closer where something changes abruptly."""
+    """Results over the range, with more points where something changes abruptly."""
     span, target = shots.spans[0], shots.targets[0]
-    places = np.linspace(span.low, span.high, _LOOK).tolist()
-    for _ in range(_CLOSER + 1):
+    places = np.linspace(span.low, span.high, _SCAN).tolist()
+    for _ in range(_REFINEMENTS + 1):
         results = shots.results([(place,) for place in places])
         seen = list(zip(places, results, strict=True))
         rough = {index for index, (one, other) in enumerate(pairwise(results)) if _signature(one) != _signature(other)}
@@ -175,7 +175,7 @@ def scan(shots: Shots) -> list[tuple[float, dict[str, Any] | None]]:
 
 
 def _bends(values: Sequence[float]) -> set[int]:
-    """Stretches beside a value that does not lie between its neighbours smoothly."""
+    """Intervals next to a value that is not smooth between its neighbours."""
     found: set[int] = set()
     y = np.array(values)
     middle = 0.5 * (y[:-2] + y[2:])
