@@ -150,7 +150,7 @@ def test_targets_have_units():
         ({"launch.height": (1, 2)}, {"bounces": True}, "is a number, such as bounces="),
         ({"launch.height": (1, 2)}, {"bounced": 1.0}, "is true or false; write bounced=true"),
         ({"launch.height": (1, 2)}, {"bouncd": True}, "did you mean bounced?"),
-        ({"launch.height": (1, 2)}, {"bounced": True, "bounces": 2.0}, "1 parameter and 2 targets: one goes"),
+        ({"launch.height": (1, 2)}, {"bounced": True, "bounces": 2.0}, "1 parameter and 2 targets: give one of each"),
         ({"launch.height": (1, 2)}, {"final_height": float("nan")}, "cannot be aimed at"),
         ({"launch.height": (1, 2)}, {}, "give one of each, or two of each"),
     ],
@@ -212,8 +212,8 @@ def test_intervals_and_pairs_are_told_and_drawn(tmp_path, capsys):
     assert main([*made, "--show", str(tmp_path / "a.png")]) == 0
     out = capsys.readouterr().out
     assert (
-        "most forgiving within this range: launch.height = 2.5275 m, with 2.4 m of room to either side; it goes on "
-        "beyond the range on the lower side: widen that to see its middle"
+        "most forgiving within this range: launch.height = 2.5275 m, with 2.4 m of room to either side; it continues "
+        "beyond the range on the lower side: widen the range to see its middle"
     ) in out
     pair = [
         "--vary",

@@ -135,7 +135,7 @@ def test_random_points_are_the_same_however_they_are_taken(drop):
     ("texts", "more", "told"),
     [
         ((), {}, "nothing to sweep over"),
-        (("launch.height=1:2",), {}, "--over launch.height=1:2: a grid needs a number of points, 1:2:N"),
+        (("launch.height=1:2",), {}, "--over launch.height=1:2: a grid needs the number of points, 1:2:N"),
         (("launch.height=1:2:2", "launch.height=3,4"), {}, "swept over twice"),
         (("launch.height=1:2:1000000", "launch.speed=1:2:1000000"), {}, "too many"),
     ],
@@ -324,7 +324,7 @@ def test_a_damaged_header_is_refused(drop, tmp_path, header):
     found = header + whole(plan, path)
     path.write_bytes(found)
     path.with_name("rows.csv.resume").write_text(plan.fingerprint + "\n")
-    with workers(1) as pool, pytest.raises(RequestError, match="its first line is not the one that this sweep wrote"):
+    with workers(1) as pool, pytest.raises(RequestError, match="its first line is not what this sweep wrote"):
         sweep_to_file(plan, path, pool)
     assert path.read_bytes() == found
 
@@ -345,13 +345,13 @@ def test_files_of_the_users_are_kept(drop, tmp_path):
     plan = grid(drop, "launch.height=0.5:2:3")
     path, mark, before = (tmp_path / f"rows.csv{end}" for end in ("", ".resume", "~"))
     mark.write_text("my notes")
-    with pytest.raises(RequestError, match=r"it needs rows\.csv\.resume, and that is a file of yours"):
+    with pytest.raises(RequestError, match=r"rows\.csv\.resume is a file of yours"):
         RowFile(path, plan).__enter__()
     assert mark.read_text() == "my notes"
     mark.unlink()
     path.write_text("x,error\n1,\n")
     before.write_text("my notes")
-    with pytest.raises(RequestError, match="and that is a file of yours"):
+    with pytest.raises(RequestError, match="but that is a file of yours"):
         RowFile(path, plan).__enter__()
     assert (before.read_text(), path.read_text(), mark.exists()) == ("my notes", "x,error\n1,\n", False)
 
@@ -362,7 +362,7 @@ def test_another_sweep_begins_anew_but_never_over_one_that_was_interrupted(drop,
         file.append([{"launch.height": 9.0, "error": ""}])
     kept = path.read_bytes()
     other = grid(drop, "launch.height=0.5:2:3")
-    with workers(1) as pool, pytest.raises(RequestError, match=r"rows\.csv: holds the rows of another sweep"):
+    with workers(1) as pool, pytest.raises(RequestError, match=r"rows\.csv: contains rows of another interrupted sweep"):
         sweep_to_file(other, path, pool)
     assert path.read_bytes() == kept
     path.with_name("rows.csv.resume").unlink()
@@ -626,7 +626,7 @@ def test_a_cluster_that_cannot_compute_is_told_in_a_line(monkeypatch):
     nobody = distributed.LocalCluster(
         n_workers=0, processes=False, protocol="tcp://", host="127.0.0.1", dashboard_address=None, silence_logs=50
     )
-    with nobody, pytest.raises(RunError, match="it has no workers, and none came in"):
+    with nobody, pytest.raises(RunError, match="it has no workers, and none connected within"):
         workers(1, nobody.scheduler_address).__enter__()
 
 
