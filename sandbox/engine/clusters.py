@@ -2,8 +2,8 @@
 
 An impulse is right for an isolated pair. If two bodies reach a third while they are in contact, the outcome depends on
 how the contacts overlap in the fraction of a millisecond they last. So the contact is simulated: positions and
-velocities under the forces of Hertz's law (``physics/hertz.py``) by Dormand and Prince's pair, and in each step friction
-impulses that reduce every slip towards zero, limited by the normal impulses (Coulomb).
+velocities under the forces of Hertz's law (``physics/hertz.py``) by Dormand and Prince's pair, and in each step
+friction impulses that reduce every slip towards zero, limited by the normal impulses (Coulomb).
 
 All contacts are treated at once, as rows of arrays, so that the outcome does not depend on the order of the bodies.
 """

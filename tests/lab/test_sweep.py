@@ -362,7 +362,10 @@ def test_another_sweep_begins_anew_but_never_over_one_that_was_interrupted(drop,
         file.append([{"launch.height": 9.0, "error": ""}])
     kept = path.read_bytes()
     other = grid(drop, "launch.height=0.5:2:3")
-    with workers(1) as pool, pytest.raises(RequestError, match=r"rows\.csv: contains rows of another interrupted sweep"):
+    with (
+        workers(1) as pool,
+        pytest.raises(RequestError, match=r"rows\.csv: contains rows of another interrupted sweep"),
+    ):
         sweep_to_file(other, path, pool)
     assert path.read_bytes() == kept
     path.with_name("rows.csv.resume").unlink()
