@@ -149,11 +149,9 @@ class TestReading:
     def test_of_many_balls_the_nearest_is_read(self, player):
         player = player("billiards")
         game, view = player.game, player.view
-        run, ball = game.shot.run, game.shot.movers[0]
-        others = [run.trajectory(name)[:, 1:3] for name in run.arcs if name != ball]
-        path = run.trajectory(ball)[:, 1:3]
-        clear = [min(float(np.hypot(*(other - place).T).min()) for other in others) for place in path]
-        at = view.stage.camera.pixel(*path[int(np.argmax(clear))])  # where no other path is near
+        run, ball = game.shot.run, "5"  # which leaves the axis that the cue ball stays on
+        x, y, *_ = run.state(ball, run.duration)
+        at = view.stage.camera.pixel(x, y)
         assert reading(game.shot, view.stage.camera, (round(at[0]), round(at[1])), 12.0, None).ball == ball
 
 
