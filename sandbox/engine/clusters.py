@@ -143,6 +143,10 @@ class Cluster:
         impulse, approach, closed, rubbed = (np.zeros(links) for _ in range(4))
         rates, forces = np.empty((7, 4, count + 1)), np.empty((7, links))
         flat = rates.reshape(7, -1)
+        # Links that are closed at the start store no energy: their distance then is where their force begins.
+        self._overlap = np.zeros(links)
+        self._motion(state[:4])
+        self._overlap = np.minimum(self._gap, 0.0)
         rates[0], depth, closing, normal, force = self._motion(state[:4])
         gain, gap = rates[0, 2:].flatten(), self._gap  # m/s^2, m
         approach[:] = np.where(self._gap < _TOUCH, np.maximum(closing, 0.0), 0.0)
@@ -190,6 +194,7 @@ class Cluster:
         for place, wall, body in self._walls:
             x, y = moving[:2, body] + self._origin
             gap[place], *normal[:, place] = wall(float(x), float(y))
+        gap -= self._overlap
         closing = -(apart[2] * normal[0] + apart[3] * normal[1])
         depth = np.maximum(-gap, 0.0)
         root = np.sqrt(depth)

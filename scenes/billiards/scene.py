@@ -406,7 +406,7 @@ FACTS = (
     Fact("scratch", "", "", lambda run, parameters: parameters.cue.ball in _caught(run, parameters)),
     Fact("point", "", "", _point),
     Fact("scored", "", "", _scored),
-    Fact("positions", "", "", _positions),
+    Fact("positions", "", "m", _positions),
     Fact("touches", "", "", _touches),
     ENDED,
 )

@@ -194,8 +194,8 @@ class TestRuns:
         [
             ("it.json", "<<<<<<< HEAD\n", "not JSON: Expecting value: line 1 column 1*"),
             ("it.json", "[]", "not a record of a run"),
-            ("it.png", "", "not a picture, or only a part of one"),
-            ("it.png", None, "not a picture, or only a part of one"),
+            ("it.png", "", "not a picture, or an incomplete one"),
+            ("it.png", None, "not a picture, or an incomplete one"),
         ],
     )
     def test_a_damaged_file_is_named_and_made_anew(self, scene_project, name: str, content: str | None, told: str):
@@ -387,7 +387,7 @@ class TestThePlugin:
         (project.path / "test_other.py").write_text(second.replace("test_it", "test_more"))
         result = run(project, f"--numprocesses={processes}", *options)
         assert result.parseoutcomes()["failed"] >= 1
-        result.stdout.re_match_lines([r"(E +)?it is the golden name of test_\w+.py::test_\w+ too: each test needs .*"])
+        result.stdout.re_match_lines([r"(E +)?it is also the golden name of test_\w+.py::test_\w+: each test needs .*"])
         assert len(list((project.path / "golden").glob("*"))) == (1 if options else 0)
 
     def test_a_second_check_in_one_test_is_compared_with_the_first(self, project):
@@ -402,7 +402,7 @@ class TestThePlugin:
         test.write_text(test.read_text().replace('"white")))', f'"white")), until={until})'))
         result = run(project, "--golden-update")
         result.assert_outcomes(failed=1)
-        result.stdout.fnmatch_lines(["*it: until = *: must be a time of more than 0 s"])
+        result.stdout.fnmatch_lines(["*it: until = *: must be a time greater than 0 s"])
 
     def test_a_missing_picture_fails_and_says_how_to_make_it(self, project):
         result = run(project)
