@@ -220,3 +220,10 @@ def test_what_errors_would_add_is_taken_back_without_moving_the_whole():
     had = 0.5 * MASS * 8.0**2
     assert energy(outcome.velocity, outcome.spin, bodies) == pytest.approx(had, rel=1e-3)
     assert energy(outcome.velocity, outcome.spin, bodies) <= had * (1 + 1e-14)
+
+
+def test_an_overlap_at_the_start_stores_no_energy():
+    """Two that enter 0.1 mm deep, as after another contact: they separate with the energy they came with."""
+    bodies = [ball(0.0, 0.0, 0.1), ball(2 * RADIUS - 1e-4, 0.0)]
+    outcome = passage(bodies)
+    assert energy(outcome.velocity, outcome.spin, bodies) == pytest.approx(0.5 * MASS * 0.1**2, rel=1e-6)
