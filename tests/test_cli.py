@@ -853,6 +853,12 @@ def test_help_imports_nothing_heavy():
     assert not {"pydantic", "numpy", "pymunk", "pygame", "PIL", "rich"} & set(process.stdout.splitlines()[-1].split())
 
 
+def test_a_run_of_one_ball_imports_no_numpy():
+    code = "import sys, sandbox; sandbox.simulate('golf'); print(*sys.modules)"
+    process = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert "numpy" not in process.stdout.split()
+
+
 def test_a_strip_of_the_smallest_size_has_frames_that_can_be_drawn(tmp_path):
     assert main(["run", "golf", "--strip", str(tmp_path / "s.png"), "--size", "320x180"]) == 0
     with Image.open(tmp_path / "s.png") as strip:

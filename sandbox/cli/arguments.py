@@ -28,6 +28,7 @@ Settings = Annotated[
         "--set", metavar="KEY=VALUE", help='Change a parameter; repeatable. A value may have a unit: "171 mph".'
     ),
 ]
+JsonList = Annotated[bool, typer.Option("--json", help="Print one JSON list in place of the tables.")]
 LEVELS = ("fast", "balanced", "precise")
 Level = Annotated[
     str | None,

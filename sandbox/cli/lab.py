@@ -7,7 +7,17 @@ from typing import Annotated
 
 import typer
 
-from sandbox.cli.arguments import Level, OptionalScene, SceneArgument, Settings, changes, load, loaded, whole_number
+from sandbox.cli.arguments import (
+    JsonList,
+    Level,
+    OptionalScene,
+    SceneArgument,
+    Settings,
+    changes,
+    load,
+    loaded,
+    whole_number,
+)
 from sandbox.cli.outputs import writing
 from sandbox.cli.say import json_text, say
 from sandbox.errors import RequestError, RunError
@@ -199,7 +209,7 @@ def stress(
     scene: OptionalScene = None,
     set_: Settings = None,
     accuracy: Level = None,
-    as_json: Annotated[bool, typer.Option("--json", help="Print one JSON list in place of the tables.")] = False,
+    as_json: JsonList = False,
 ) -> None:
     """Run a scene, or all of them, at extreme values with every method, and report what happened at each.
 
@@ -222,7 +232,7 @@ def validate(
     scene: OptionalScene = None,
     set_: Settings = None,
     accuracy: Level = None,
-    as_json: Annotated[bool, typer.Option("--json", help="Print one JSON list in place of the tables.")] = False,
+    as_json: JsonList = False,
 ) -> None:
     """Compare results with published numbers and their sources, for a scene or for all of them.
 

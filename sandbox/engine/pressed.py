@@ -9,6 +9,8 @@ from itertools import combinations, pairwise
 from math import hypot
 from typing import Any, NamedTuple
 
+import numpy as np
+
 from sandbox.engine.bernstein import evaluate
 from sandbox.engine.clusters import Body, Cluster, Link, StaysPressed
 from sandbox.engine.setup import Bounce, Setup
@@ -173,22 +175,16 @@ class Pressed:
         if any(link.restitution < STICKY for link in links):
             raise StaysPressed("balls that do not bounce off each other stay together")
         links += [self._wall_link(place[index], members[index], obstacle) for index, obstacle in walls]
+        linked: list[tuple[int, ...]] = [*pairs, *((index,) for index, _ in walls)]  # the balls of each link
         names = [self._tracks[j].ball.name for _, j in pairs] + [obstacle.surface.name for _, obstacle in walls]
-        firsts = [i for i, _ in pairs] + [index for index, _ in walls]
         outcome = Cluster(bodies, links, self._setup.cloth is not None).pass_through(self._step)
-        touched = outcome.impulse > 0.0
-        moved = {i for (i, j), hit in zip(pairs, touched, strict=False) if hit}
-        moved |= {j for (i, j), hit in zip(pairs, touched, strict=False) if hit}
-        moved |= {index for (index, _), hit in zip(walls, touched[len(pairs) :], strict=True) if hit}
+        touched = np.flatnonzero(outcome.impulse > 0.0).tolist()
         hits = [
-            TimedHit(t + at, ball, name, approach)
-            for ball, name, approach, at, hit in zip(
-                firsts, names, outcome.approach.tolist(), outcome.closed.tolist(), touched.tolist(), strict=True
-            )
-            if hit
+            TimedHit(t + float(outcome.closed[link]), linked[link][0], names[link], float(outcome.approach[link]))
+            for link in touched
         ]
         states = {}
-        for index in moved:
+        for index in {ball for link in touched for ball in linked[link]}:
             (x, y), (vx, vy) = outcome.position[place[index]].tolist(), outcome.velocity[place[index]].tolist()
             wx, wy, wz = outcome.spin[place[index]].tolist()
             rolling = (wx, wy) if self._setup.cloth is not None else ()

@@ -10,6 +10,7 @@ import heapq
 from collections.abc import Sequence
 from itertools import count
 from time import perf_counter
+from typing import TYPE_CHECKING
 
 from sandbox.engine.accuracy import Accuracy
 from sandbox.engine.arc import Arc, still
@@ -19,13 +20,15 @@ from sandbox.engine.impacts import Impacts
 from sandbox.engine.lasting import InPlane
 from sandbox.engine.motion import RESTING, Diverged, LastingContact, Mover
 from sandbox.engine.on_cloth import OnCloth, slowest_hop
-from sandbox.engine.pressed import Parted, Pressed
 from sandbox.engine.run import Numerics, Run
 from sandbox.engine.setup import Ball, Circle, Setup, Surface
 from sandbox.engine.touch import TOUCHING_GAP, Obstacle, balls_touch
 from sandbox.engine.track import Motion, Track
 from sandbox.errors import RequestError, RunError
 from sandbox.physics.integrators import State
+
+if TYPE_CHECKING:
+    from sandbox.engine.pressed import Parted, Pressed
 
 #: Most events while time advances by less than _STANDSTILL s, beyond which the run has stalled.
 _MOST_AT_ONCE = 2_000
@@ -69,7 +72,12 @@ class Simulation:
         self._separate_balls()
         slowest = 0.0 if setup.cloth is None else slowest_hop(setup.cloth, accuracy.hop)
         self._impacts = Impacts(setup, self._tracks, ImpulseSpace(setup.balls, self._numerics), slowest)
-        self._pressed = Pressed(setup, self._tracks, accuracy.contact_step)
+        self._pressed: Pressed | None = None
+        if len(setup.balls) > 1:
+            # here, not above: it brings numpy, which a run of one ball does not need
+            from sandbox.engine.pressed import Pressed
+
+            self._pressed = Pressed(setup, self._tracks, accuracy.contact_step)
 
     def _make_tracks(self) -> list[Track]:
         setup = self._setup
@@ -183,7 +191,7 @@ class Simulation:
     def _collide(self, t: float, seeds: Sequence[int]) -> None:
         """Everything that touches at this instant exchanges impulses at once, or is simulated through the contact."""
         touching = self._impacts.touching(t, seeds)
-        parted = self._pressed.through(t, touching) if len(touching) > 1 else None
+        parted = self._pressed.through(t, touching) if self._pressed is not None and len(touching) > 1 else None
         if parted is not None:
             self._part(t, touching, parted)
             return
