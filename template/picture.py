@@ -27,7 +27,7 @@ MAT, AIR = (38, 139, 120), (160, 214, 232)
 class Picture(SideView[Parameters]):
     """One toss."""
 
-    LOOK = Look((255, 200, 50), (90, 60, 10), seams((38, 84, 160)))
+    LOOK = Look((255, 200, 50), seams((38, 84, 160)))
 
     @property
     def company(self) -> Box:

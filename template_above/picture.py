@@ -16,7 +16,7 @@ FELT, CHALK, CUP = ((56, 132, 92), (60, 138, 97)), (206, 226, 206), (12, 20, 16)
 
 
 class Picture(AboveView[Parameters]):
-    LOOK, TRACE = Look((250, 250, 246), (30, 50, 60), seams((200, 90, 60))), (240, 176, 64)
+    LOOK, TRACE = Look((250, 250, 246), seams((200, 90, 60))), (240, 176, 64)
 
     @cached_property
     def plan(self) -> Plan:

@@ -1,16 +1,21 @@
-"""Balls: a face whose marks turn, light from above the left shoulder, and a ring around one that is drawn too large."""
+"""Balls: a colour and marks that turn with it in three dimensions, lit from above the left shoulder.
+
+Directions are x to the right, y up, z out of the picture.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from functools import lru_cache
-from math import ceil, cos, pi, sin, tau
+from bisect import bisect_right
+from collections.abc import Callable, Sequence
+from functools import cache, lru_cache
+from math import ceil, cos, floor, hypot, sin, tau
+from typing import NamedTuple
 
 import numpy as np
 import pygame
 
 from sandbox.picture.camera import Camera
-from sandbox.picture.painter import OVERSAMPLING, Painter, Point, blank, from_coverage
+from sandbox.picture.painter import Painter, Point, blank
 from sandbox.picture.palette import Colour, palette
 
 CARD, TRACE = palette("card"), palette("trace")
@@ -20,11 +25,16 @@ SMALLEST = 7.0
 #: The balls along a path are so much smaller than the one at its end, where they are all drawn too large.
 MARK = 0.62
 
-#: Marks on a ball that is smaller than this, px in radius, are fewer, or nothing would be left of its colour.
-FEWER = 8 * OVERSAMPLING
-
-#: Draws marks on a surface whose middle is the ball's; the number is the ball's radius on it in px.
-Marks = Callable[[pygame.Surface, float], None]
+#: The surface is looked up at so many places along each side of a pixel, in a skin of so many places along each side.
+FINER, FACE = 3, 128
+#: Balls are placed to this share of a px.
+PHASE = 1 / 4
+#: Where the light comes from: over the left shoulder.
+LIGHT = np.array([-0.42, 0.50, 0.76])
+#: How much of its colour a ball shows where no light falls, and where its surface turns away.
+DARK, EDGE = 0.55, 0.7
+#: s over which a spin whose axis turns is taken as even.
+STEP = 1 / 60
 
 
 def least_radius(rows: int) -> float:
@@ -42,88 +52,163 @@ def mark_radius(rows: int) -> float:
     return max(SMALLEST / 2, MARK * least_radius(rows))
 
 
-class Look:
-    """How a ball looks: its colour, its marks, and the colour of its shaded side."""
+class Mark(NamedTuple):
+    """A mark on a ball: its colour, and the share of it (0 to 1) in each direction of an array of shape (..., 3)."""
 
-    def __init__(self, colour: Colour, shade: Colour, marks: Marks):
-        self.colour, self.shade, self.marks = colour, shade, marks
+    colour: Colour
+    cover: Callable[[np.ndarray], np.ndarray]
+    least: float = 0.0  # px; a smaller ball shows its colour instead
+
+
+class Look:
+    """How a ball looks: its colour, the marks on it, later ones on top, and how bright the light's image on it is."""
+
+    def __init__(self, colour: Colour, *marks: Mark, gloss: float = 0.2):
+        self.colour, self.marks, self.gloss = colour, marks, gloss
+        self.skin = cache(self._skin)
 
     def draw(
-        self, painter: Painter, centre: Point, radius: float, angle: float, unit: float, enlarged: bool = False
+        self, painter: Painter, centre: Point, radius: float, turn: np.ndarray, unit: float, enlarged: bool = False
     ) -> None:
-        """Draw it turned by ``angle`` rad counter-clockwise; the ring says that it is enlarged."""
+        """Draw it, turned by a matrix; the ring says that it is enlarged."""
         painter.disc(centre, radius + max(0.7, 0.8 * unit), TRACE["rim"], 0.65)
-        radius = round(radius * 8) / 8  # so that few faces are made and kept
-        painter.turned(_face(self, radius), centre, angle)
-        painter.centred(_light(radius, self.shade), centre)
+        x, y = (round(value / PHASE) * PHASE for value in centre)
+        column, row = floor(x), floor(y)
+        phase = x - column - 0.5, y - row - 0.5
+        sprite = _sprite(self, round(radius * 8) / 8, phase, np.round(turn, 3).astype(np.float32).tobytes())
+        painter.surface.blit(sprite, (column - sprite.get_width() // 2, row - sprite.get_height() // 2))
         if enlarged:
             painter.ring(centre, radius + 4.5 * unit, max(1.2, 1.7 * unit), CARD["accent"])
 
-
-@lru_cache(maxsize=32)
-def _face(look: Look, radius: float) -> pygame.Surface:
-    """The ball straight on, larger by OVERSAMPLING."""
-    large = radius * OVERSAMPLING
-    reach = ceil(large)
-    face = blank((2 * reach + 1, 2 * reach + 1), transparent=True)
-    face.fill(look.colour)
-    look.marks(face, large)
-    grid = np.arange(-reach, reach + 1)
-    alpha = pygame.surfarray.pixels_alpha(face)
-    alpha[...] = np.clip(large - np.hypot(grid[:, None], grid[None, :]) + 0.5, 0, 1) * 255
-    del alpha  # unlocks the surface
-    face.set_at((0, 0), (*look.colour, 0))
-    return face
+    def _skin(self, shown: int) -> np.ndarray:
+        """Colours (0 to 255) of the halves around its +z and its -z, with so many marks, shape (2, FACE, FACE, 3)."""
+        places = (np.arange(FACE) + 0.5) / FACE * 2 - 1
+        x, y = np.meshgrid(places, places, indexing="ij")
+        beyond = np.maximum(np.hypot(x, y), 1.0)  # the corners show what is on the edge
+        x, y = x / beyond, y / beyond
+        z = np.sqrt(np.maximum(0.0, 1 - x**2 - y**2))
+        at = np.stack([np.stack([x, y, side * z], axis=-1) for side in (1.0, -1.0)])
+        colours = np.broadcast_to(np.array(self.colour, float), at.shape)
+        for mark in self.marks[:shown]:
+            colours = colours + (np.array(mark.colour, float) - colours) * mark.cover(at)[..., None]
+        return colours.astype(np.uint8)
 
 
-@lru_cache(maxsize=32)
-def _light(radius: float, shade: Colour) -> pygame.Surface:
-    """A soft shade over the ball's lower right."""
-    reach = ceil(radius) + 1
-    grid = np.arange(-reach, reach + 1)
-    inside = np.clip(radius - np.hypot(grid[:, None], grid[None, :]) + 0.5, 0, 1)
-    away = np.hypot(grid[:, None] / radius + 0.38, grid[None, :] / radius + 0.45) / 1.5
-    return from_coverage(inside * np.clip(away - 0.42, 0, 1) ** 1.3 * 0.85, shade)
+def near(points: np.ndarray, angle: float) -> Callable[[np.ndarray], np.ndarray]:
+    """Discs around points (unit vectors, shape (n, 3)), within ``angle`` (rad) as seen from the ball's middle."""
+    return lambda at: ((at @ points.T).max(axis=-1) > cos(angle)).astype(float)
 
 
-def seams(colour: Colour) -> Marks:
-    """The seams of a basketball: a cross, and an arc on either side."""
+def seams(colour: Colour) -> Mark:
+    """The seams of a basketball: two great circles, and an arc on either side."""
 
-    def draw(face: pygame.Surface, radius: float) -> None:
-        middle = face.get_width() / 2
-        width = max(3, round(0.11 * radius))
-        few = radius < FEWER
-        pygame.draw.line(face, colour, (middle, middle - radius), (middle, middle + radius), width)
-        pygame.draw.line(face, colour, (middle - radius, middle), (middle + radius, middle), width)
-        for side in () if few else (-1, 1):
-            pygame.draw.circle(face, colour, (middle + side * 1.28 * radius, middle), 0.82 * radius, width)
+    def cover(at: np.ndarray) -> np.ndarray:
+        x, y, _ = np.moveaxis(at, -1, 0)
+        line = np.minimum(np.minimum(abs(x), abs(y)), abs(np.hypot(1.28 - abs(x), y) - 0.77))
+        return (line < 0.055).astype(float)
 
-    return draw
+    return Mark(colour, cover)
 
 
-def patches(colour: Colour, seam: Colour) -> Marks:
-    """The patches of a soccer ball: a five-sided one in the middle, five more at the edge, seams between them."""
+def patches(colour: Colour) -> Mark:
+    """The twelve patches of a soccer ball, one of them in front."""
+    ring = [(sin(i * tau / 5), cos(i * tau / 5)) for i in range(5)]
+    front = [(0.0, 0.0, 1.0), *((x * 2 / 5**0.5, y * 2 / 5**0.5, 1 / 5**0.5) for x, y in ring)]
+    middles = np.array(front)
+    return Mark(colour, near(np.concatenate([middles, -middles]), 0.27))
 
-    def draw(face: pygame.Surface, radius: float) -> None:
-        middle = face.get_width() / 2
 
-        def at(away: float, turn: float) -> Point:
-            return middle + away * radius * sin(turn), middle - away * radius * cos(turn)
+def turned(axis_angle: Sequence[float]) -> np.ndarray:
+    """The matrix that turns by the length of the vector, in rad, about its direction."""
+    angle = hypot(*axis_angle)
+    x, y, z = (part / angle for part in axis_angle) if angle else (0.0, 0.0, 1.0)
+    across = np.array([(0.0, -z, y), (z, 0.0, -x), (-y, x, 0.0)])
+    return np.eye(3) + sin(angle) * across + (1 - cos(angle)) * across @ across
 
-        if radius < 1.5 * FEWER:
-            for turn in (0, tau / 3, 2 * tau / 3):
-                pygame.draw.circle(face, colour, at(0.56, turn), 0.26 * radius)
-            return
-        width = max(2, round(0.06 * radius))
-        for i in range(5):
-            turn = i * tau / 5
-            pygame.draw.line(face, seam, at(0.3, turn), at(0.8, turn), width)
-            between = turn + pi / 5
-            pygame.draw.line(face, seam, at(0.66, turn), at(0.72, between), width)
-            pygame.draw.line(face, seam, at(0.72, between), at(0.66, turn + tau / 5), width)
-            pygame.draw.line(face, seam, at(0.72, between), at(1.0, between), width)
-            corners = [at(0.68, turn), at(0.86, turn - 0.36), at(1.1, turn - 0.3), at(1.1, turn + 0.3)]
-            pygame.draw.polygon(face, colour, [*corners, at(0.86, turn + 0.36)])
-        pygame.draw.polygon(face, colour, [at(0.36, i * tau / 5) for i in range(5)])
 
-    return draw
+class Turning:
+    """How a ball is turned at any time, from its spin (rad/s, about x, y and z) as a function of time.
+
+    ``times`` (s) are where the spin or its rate may jump; between two of them it changes evenly, and is followed in
+    steps of STEP s where that turns its axis. The columns of the matrices are the ball's own axes.
+    """
+
+    def __init__(self, spin: Callable[[float], tuple[float, float, float]], times: Sequence[float], start: np.ndarray):
+        self.spin = spin
+        self.times: list[float] = []
+        self.matrices: list[np.ndarray] = []
+        matrix = start
+        for a, b in zip(times, [*times[1:], times[-1]], strict=True):
+            straight = _parallel(spin(a + (b - a) / 3), spin(b - (b - a) / 3))
+            pieces = 1 if straight else ceil((b - a) / STEP)
+            for i in range(pieces):
+                t, until = a + (b - a) * i / pieces, a + (b - a) * (i + 1) / pieces
+                self.times.append(t)
+                self.matrices.append(matrix)
+                matrix = self._after(matrix, t, until)
+
+    def _after(self, matrix: np.ndarray, t: float, until: float) -> np.ndarray:
+        """Exact where the axis does not turn and the rate changes evenly."""
+        if until <= t:
+            return matrix
+        spin = self.spin((t + until) / 2)
+        return turned([(until - t) * rate for rate in spin]) @ matrix if any(spin) else matrix
+
+    def at(self, t: float) -> np.ndarray:
+        """The ball's axes at time t in s."""
+        i = max(0, bisect_right(self.times, t) - 1)
+        return self._after(self.matrices[i], self.times[i], t)
+
+
+def _parallel(a: Sequence[float], b: Sequence[float]) -> bool:
+    """Whether two vectors lie along one line, to rounding."""
+    return float(np.linalg.norm(np.cross(a, b))) <= 1e-9 * hypot(*a) * hypot(*b)
+
+
+@lru_cache(maxsize=256)
+def _sprite(look: Look, radius: float, phase: Point, turn: bytes) -> pygame.Surface:
+    """A ball of ``radius`` px whose middle lies ``phase`` px past the middle pixel's centre."""
+    seen, normals, counts, shade, image, coverage = _grid(radius, phase)
+    side = len(coverage)
+    own = normals @ np.frombuffer(turn, np.float32).reshape(3, 3)  # directions in the ball's own axes
+    column, row = (np.minimum((own[:, i] + 1) * (0.5 * FACE), FACE - 1).astype(np.intp) for i in (0, 1))
+    found = np.zeros((side * FINER, side * FINER, 3), np.float32)
+    skin = look.skin(sum(radius >= mark.least for mark in look.marks))
+    found[seen] = skin[(own[:, 2] < 0).astype(np.intp), column, row]
+    sprite = blank((side, side), transparent=True)
+    pixels, alpha = pygame.surfarray.pixels3d(sprite), pygame.surfarray.pixels_alpha(sprite)
+    pixels[...] = np.clip(_sums(found) / counts * shade + look.gloss * image, 0, 255)
+    alpha[...] = coverage
+    return sprite
+
+
+def _sums(values: np.ndarray) -> np.ndarray:
+    """Over the places in each pixel."""
+    side = len(values) // FINER
+    return values.reshape(side, FINER, side, FINER, -1).sum(axis=(1, 3))
+
+
+@lru_cache(maxsize=64)
+def _grid(radius: float, phase: Point) -> tuple[np.ndarray, ...]:
+    """What all balls of one size have in common: which places are on the ball, and their directions; how many of them
+    each px has, how bright it is, how much of the light's image (0 to 255) it shows, and how much of it is
+    covered (0 to 255)."""
+    reach = ceil(radius + 1)
+    side = 2 * reach + 1
+    places = ((np.arange(side * FINER) + 0.5) / FINER - reach - 0.5)[None] - np.array(phase)[:, None]
+    x, y = np.meshgrid(places[0] / radius, -places[1] / radius, indexing="ij")
+    away = np.hypot(x, y)
+    seen = away < 1 + 1 / radius  # a px that is covered by a sliver shows what is on the edge
+    x, y = x / np.maximum(away, 1.0), y / np.maximum(away, 1.0)
+    z = np.sqrt(np.maximum(0.0, 1 - x**2 - y**2))
+    normals = np.stack([x, y, z], axis=-1)
+    light = LIGHT / np.linalg.norm(LIGHT)
+    halfway = light + np.array([0.0, 0.0, 1.0])
+    lit, shine = (np.clip(normals @ way / np.linalg.norm(way), 0, 1) for way in (light, halfway))
+    bright = (DARK + (1.16 - DARK) * lit) * (EDGE + (1 - EDGE) * np.sqrt(z))  # darker where the surface turns away
+    counts = np.maximum(_sums(seen.astype(float)), 1)
+    centres = np.arange(-reach, reach + 1)
+    distance = np.hypot(centres[:, None] - phase[0], centres[None, :] - phase[1])
+    coverage = (np.clip(radius - distance + 0.5, 0, 1) * 255 + 0.5).astype(np.uint8)
+    shade, image = _sums(bright * seen) / counts, _sums(255 * shine**60 * seen) / counts
+    return seen, normals[seen].astype(np.float32), counts, shade, image, coverage

@@ -10,7 +10,7 @@ import threading
 from collections.abc import Callable, Sequence
 from functools import lru_cache
 from itertools import accumulate, pairwise
-from math import ceil, degrees, floor, hypot
+from math import ceil, floor, hypot
 
 import numpy as np
 import pygame
@@ -227,22 +227,6 @@ class Painter:
     def panel(self, rect: pygame.Rect, colour: Colour, opacity: float, corner: float) -> None:
         """A rectangle with round corners."""
         self._blit(_panel(rect.size, colour, corner), rect.topleft, opacity)
-
-    def turned(self, texture: pygame.Surface, centre: Point, angle: float) -> None:
-        """A square texture, larger by ``OVERSAMPLING`` than it is shown, turned by ``angle`` rad counter-clockwise."""
-        spun = pygame.transform.rotate(texture, degrees(angle) % 360)
-        side = texture.get_width() // OVERSAMPLING + 3
-        left, top = floor(centre[0] - side / 2), floor(centre[1] - side / 2)
-        red, green, blue, _ = texture.get_at((0, 0))
-        mask = scratch((side * OVERSAMPLING, side * OVERSAMPLING), (red, green, blue))
-        middle = (centre[0] - left) * OVERSAMPLING, (centre[1] - top) * OVERSAMPLING
-        mask.blit(spun, (round(middle[0] - spun.get_width() / 2), round(middle[1] - spun.get_height() / 2)))
-        self._blit(pygame.transform.smoothscale(mask, (side, side)), (left, top), 1.0)
-
-    def centred(self, sprite: pygame.Surface, centre: Point) -> None:
-        """A surface with its middle at a point, to the nearest px."""
-        width, height = sprite.get_size()
-        self._blit(sprite, (round(centre[0] - width / 2), round(centre[1] - height / 2)), 1.0)
 
     def _shape(
         self,

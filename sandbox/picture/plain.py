@@ -17,7 +17,7 @@ from sandbox.picture.view import NEAR, View
 
 COLOURS, TRACES = palette("plain"), palette("trace")["colours"]
 #: Of a ball alone, and of several, each in the colour of its path.
-ALONE, *SEVERAL = (Look(colour, COLOURS["shade"], seams(COLOURS["marks"])) for colour in (COLOURS["ball"], *TRACES))
+ALONE, *SEVERAL = (Look(colour, seams(COLOURS["marks"])) for colour in (COLOURS["ball"], *TRACES))
 
 #: The place shown goes so far beyond what is in it, as a share.
 BEYOND = 0.06

@@ -19,7 +19,7 @@ from sandbox.engine.run import Run
 from sandbox.engine.setup import Segment
 from sandbox.errors import RequestError
 from sandbox.parameters import Group
-from sandbox.picture.ball import SMALLEST, Look, least_radius, mark_radius
+from sandbox.picture.ball import SMALLEST, Look, Turning, least_radius, mark_radius, turned
 from sandbox.picture.camera import Camera
 from sandbox.picture.ghosts import Ghost, draw_ghost, draw_in_frame, label_ghost
 from sandbox.picture.painter import Painter, blank
@@ -379,9 +379,30 @@ class View(Generic[P]):
     def draw_ball(
         self, painter: Painter, camera: Camera, name: str, t: float, at: tuple[float, float], radius: float
     ) -> None:
-        """A ball at time t in s, with a ring around it that says so where it is drawn larger than it is."""
-        larger = radius > UNSAID * self.radii[name] * camera.scale
-        self.look_of(name).draw(painter, at, radius, self.run.angle(name, t), self.unit, larger)
+        """A ball at time t in s; a lone one that is drawn larger than it is has a ring around it that says so."""
+        larger = len(self.balls) == 1 and radius > UNSAID * self.radii[name] * camera.scale
+        self.look_of(name).draw(painter, at, radius, self.turn(name, t), self.unit, larger)
+
+    def lying(self, name: str) -> np.ndarray:
+        """The matrix by which a ball is turned at the start."""
+        return np.eye(3)
+
+    def turn(self, name: str, t: float) -> np.ndarray:
+        """The matrix by which a ball is turned at time t in s: on cloth it rolls about level axes, too."""
+        if self.run.setup.cloth is None:
+            return turned((0.0, 0.0, self.run.angle(name, t))) @ self.lying(name)
+        return self._turnings[name].at(t)
+
+    @cached_property
+    def _turnings(self) -> dict[str, Turning]:
+        """Of the balls that roll on cloth."""
+        run = self.run
+
+        def turning(name: str) -> Turning:
+            times = [*(arc.t0 for arc in run.arcs[name]), run.arcs[name][-1].t1]
+            return Turning(lambda t: (*run.rolling_spin(name, t), run.state(name, t)[4]), times, self.lying(name))
+
+        return {name: turning(name) for name in self.balls}
 
     def impacts(self, camera: Camera) -> list[Mark]:
         """The impacts that are marked."""
@@ -410,7 +431,7 @@ class View(Generic[P]):
                 painter.disc(at, bead, look.colour)
                 crowded = True
             else:
-                look.draw(painter, at, radius, self.run.angle(self.ball, t), self.unit)
+                look.draw(painter, at, radius, self.turn(self.ball, t), self.unit)
                 last = at
         return [f"a ball every {every:g} s", *(["a bead where balls would overlap"] if crowded else [])]
 

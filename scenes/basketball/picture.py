@@ -47,7 +47,7 @@ LEAST_HEIGHT = 80
 class Picture(SideView[Parameters]):
     """One shot."""
 
-    LOOK = Look(BALL["colour"], BALL["shade"], seams(BALL["seam"]))
+    LOOK = Look(BALL["colour"], seams(BALL["seam"]))
     TRACE, EARLIER = COLOURS["trace"], COLOURS["earlier"]
     FAINT = mix(TRACE, COLOURS["hall"]["wall"][1], 0.45)
     LENGTHS = 1
@@ -255,7 +255,7 @@ class Picture(SideView[Parameters]):
         if np.ptp(points, axis=0).max() > 2:
             painter.fading(points, 8 * self.unit, self.TRACE, 0.9)
         radius = self.radius * camera.scale
-        self.LOOK.draw(painter, camera.pixel(x, y), radius, self.run.angle(self.ball, t), self.unit)
+        self.LOOK.draw(painter, camera.pixel(x, y), radius, self.turn(self.ball, t), self.unit)
 
     def _under_lens(self, camera: Camera) -> bool:
         """Whether the lens would hide the ring and board that it shows: the camera has gone along with the ball."""
@@ -286,7 +286,7 @@ class Picture(SideView[Parameters]):
                 arc = np.column_stack([px + side * far * np.cos(turn), py - far * np.sin(turn)])
                 sheet.painter.line(arc, 1.8 * unit, CARD["accent"])
                 sheet.labels.take_path(arc, 2 * unit)
-        self.LOOK.draw(sheet.painter, (px, py), radius, self.run.angle("ball", t), unit)
+        self.LOOK.draw(sheet.painter, (px, py), radius, self.turn("ball", t), unit)
         sheet.labels.take(pygame.Rect(round(px - radius), round(py - radius), round(2 * radius), round(2 * radius)))
 
 

@@ -8,8 +8,8 @@ from math import floor, hypot
 import numpy as np
 import pygame
 
-from sandbox.picture import sphere
 from sandbox.picture.above import AboveView, Margins
+from sandbox.picture.ball import Look
 from sandbox.picture.camera import Camera
 from sandbox.picture.painter import Painter
 from sandbox.picture.palette import Colour, mix, palette, scene_colours
@@ -51,15 +51,11 @@ class Picture(AboveView[Parameters]):
 
     # Balls
 
-    @cached_property
-    def _turnings(self) -> dict[str, sphere.Turning]:
-        return {name: balls.turning(self.run, name) for name in self.balls}
+    def look_of(self, name: str) -> Look:
+        return balls.look(name)
 
-    def draw_ball(
-        self, painter: Painter, camera: Camera, name: str, t: float, at: tuple[float, float], radius: float
-    ) -> None:
-        painter.disc(at, radius + 0.4, COLOURS["rim"], 0.5)
-        sphere.draw(painter, at, radius, balls.skin(name), self._turnings[name].at(t))
+    def lying(self, name: str) -> np.ndarray:
+        return balls.lying(name)
 
     def colour_of(self, name: str) -> Colour:
         """The ball's own colour, lighter if it would be hard to see on the cloth."""
@@ -136,8 +132,7 @@ class Picture(AboveView[Parameters]):
         sheet.write("potted", "small", (rect.centerx, frame.top + small), CARD["quiet"], "midbottom")
         for i, name in enumerate(potted):
             at = rect.centerx + (i - (len(potted) - 1) / 2) * 2.25 * size, rect.centery
-            painter.disc(at, size + 0.4, COLOURS["rim"], 0.5)
-            sphere.draw(painter, at, size, balls.skin(name), balls.NUMBER_UP)
+            balls.look(name).draw(painter, at, size, np.eye(3), self.unit)
         return rect
 
     def _tip(self, painter: Painter, centre: tuple[float, float], radius: float) -> None:

@@ -8,10 +8,10 @@ import numpy as np
 import pygame
 
 from sandbox.engine.setup import Segment, Setup
-from sandbox.picture.ball import Look
+from sandbox.picture.ball import Look, Mark, near
 from sandbox.picture.camera import Box, Camera
 from sandbox.picture.depth import Eye
-from sandbox.picture.painter import OVERSAMPLING, Painter, Point
+from sandbox.picture.painter import Painter, Point
 from sandbox.picture.palette import Colour, mix, palette, scene_colours
 from sandbox.picture.places import Ground, Landscape, Line, Stripes
 from sandbox.picture.sheet import rows_of
@@ -183,19 +183,20 @@ def _pieces(turf: list[tuple[str, Point, Point]]) -> list[tuple[str, float, floa
     return merged
 
 
-def _dimples(face: pygame.Surface, radius: float) -> None:
-    """Dimples and a stripe, if the ball is large enough."""
-    if radius < 6 * OVERSAMPLING:
-        return
-    middle, apart = face.get_width() // 2, radius / 3.4
-    for row in range(-4, 5):
-        for place in range(-4, 5):
-            x, y = (place + row % 2 / 2) * apart, row * apart * 0.87
-            if np.hypot(x, y) < radius * 0.93:
-                pygame.draw.circle(face, COLOURS["ball"]["dimple"], (middle + x, middle + y), apart * 0.30)
-    band = pygame.Rect(0, 0, round(1.36 * radius), round(0.26 * radius))
-    band.center = (middle, middle)
-    pygame.draw.rect(face, COLOURS["ball"]["mark"], band, border_radius=band.height // 2)
+def _dimples(at: np.ndarray) -> np.ndarray:
+    """A spiral of them, evenly spread (Fibonacci)."""
+    z, turn = np.linspace(-1, 1, 240), np.arange(240) * pi * (3 - 5**0.5)
+    wide = np.sqrt(1 - z**2)
+    return near(np.column_stack([wide * np.cos(turn), wide * np.sin(turn), z]), 0.07)(at)
 
 
-BALL = Look(COLOURS["ball"]["colour"], COLOURS["ball"]["shade"], _dimples)
+def _stripe(at: np.ndarray) -> np.ndarray:
+    """The line that players draw around half of it."""
+    return ((abs(at[..., 1]) < 0.13) & (at[..., 2] > 0.0) & (abs(at[..., 0]) < 0.7)).astype(float)
+
+
+BALL = Look(
+    COLOURS["ball"]["colour"],
+    Mark(COLOURS["ball"]["mark"], _stripe, least=6),
+    Mark(COLOURS["ball"]["dimple"], _dimples, least=12),
+)

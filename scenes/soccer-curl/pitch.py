@@ -13,7 +13,7 @@ from .scene import BOARDS_ASIDE, BOARDS_BEHIND, BOARDS_BEYOND, Goal, Parameters,
 
 COLOURS = scene_colours(__file__)
 
-BALL = Look(COLOURS["ball"], COLOURS["ball_shade"], patches(COLOURS["patch"], COLOURS["ball_seam"]))
+BALL = Look(COLOURS["ball"], patches(COLOURS["patch"]))
 WALL, KICKER, KEEPER = (
     Kit(COLOURS["skin"], COLOURS["skin_far"], COLOURS["hair"], shirt, COLOURS["gloves"]) for shirt in COLOURS["shirts"]
 )

@@ -44,7 +44,7 @@ GOAL_HEIGHT, LEAST_HEIGHT = 2.44, 22
 class Picture(SideView[Parameters]):
     """One kick."""
 
-    LOOK = Look(BALL["colour"], BALL["shade"], patches(BALL["patch"], BALL["seam"]))
+    LOOK = Look(BALL["colour"], patches(BALL["patch"]))
     TRACE, EARLIER = COLOURS["trace"], COLOURS["earlier"]
     FAINT = mix(TRACE, PITCH["grass"][0], 0.4)
     TRAIL = 0.6

@@ -20,7 +20,7 @@ PLAYERS = ((4.2, 2.0), (6.0, 4.5), (4.2, 7.0))  # m, beyond the net and behind t
 
 
 class Picture(SideView[Parameters]):
-    LOOK = Look(COLOURS["ball"]["colour"], COLOURS["ball"]["shade"], seams(COLOURS["ball"]["seam"]))
+    LOOK = Look(COLOURS["ball"]["colour"], seams(COLOURS["ball"]["seam"]))
     TRACE, FAINT, EARLIER = COLOURS["trace"], COLOURS["trace"], COLOURS["earlier"]
     LENGTHS, SECOND_UNIT = 0, "ft"
 

@@ -3,10 +3,12 @@
 from functools import cache
 
 import numpy as np
+import pygame
 import pytest
 
 import sandbox
-from sandbox.picture.ball import SMALLEST, Look
+from sandbox.picture.ball import SMALLEST, Look, Mark, near, turned
+from sandbox.picture.painter import Painter, blank
 from sandbox.picture.palette import scene_colours
 from tests.picture.legible import assert_legible
 
@@ -124,6 +126,16 @@ def test_the_ball_turns(name):
         assert picture.frame(end).get_buffer().raw != before
     finally:
         del picture.run.angle
+
+
+def test_a_ball_turns_counter_clockwise():
+    right = Look((255, 255, 255), Mark((255, 0, 0), near(np.array([[1.0, 0.0, 0.0]]), 0.3)))
+    for angle, side in ((0.0, (1, 0)), (np.pi / 2, (0, -1)), (np.pi, (-1, 0))):
+        painter = Painter(blank((80, 60)))
+        right.draw(painter, (40, 30), 20.0, turned((0.0, 0.0, angle)), 1.0)
+        red, green, _ = np.moveaxis(pygame.surfarray.array3d(painter.surface).astype(int), -1, 0)
+        x, y = np.argwhere(red > green + 60).mean(axis=0) + 0.5
+        assert (x - 40, y - 30) == pytest.approx((18.5 * side[0], 18.5 * side[1]), abs=1.0)
 
 
 def test_a_note_names_what_is_seen_to_be_larger():

@@ -70,15 +70,6 @@ def test_a_shadow_fades_outwards():
     assert light[40] > 0.9
 
 
-def test_a_turned_texture_turns_counter_clockwise():
-    texture = blank((81, 81), transparent=True)
-    texture.fill((*WHITE, 0))
-    pygame.draw.circle(texture, WHITE, (68, 40), 10)  # a dot on the right
-    for angle, side in ((0.0, (1, 0)), (np.pi / 2, (0, -1)), (np.pi, (-1, 0))):
-        x, y = middle(drawn(lambda p, angle=angle: p.turned(texture, (40, 30), angle)))
-        assert (x - 40, y - 30) == pytest.approx((7 * side[0], 7 * side[1]), abs=0.4)
-
-
 @pytest.mark.parametrize("far", [(-500.0, 30.0), (40.0, 9000.0)])
 def test_nothing_happens_off_the_surface(far):
     def draw(painter: Painter) -> None:
