@@ -26,13 +26,13 @@ from sandbox.engine.run import Numerics, Run
 from sandbox.engine.setup import Ball, Bounds, Patch, Setup
 from sandbox.engine.setup_errors import setup_errors_named
 from sandbox.engine.simulation import Simulation
-from sandbox.engine.stacking import Alike, chosen, stacked
+from sandbox.engine.stacking import FEWEST, Alike, Stack, chosen
 from sandbox.engine.step_control import LONGEST, StepControl, size, within
 from sandbox.engine.surfaces import STILL, bounce_off, leaves_at, press
 from sandbox.physics.integrators import INTEGRATORS, Acceleration, State
 
-#: Fewer shots than this are quicker one at a time: one step with arrays costs as much as about thirty single steps.
-_FEWEST = 24
+#: What setups need for flights together; how they end is asked of each.
+FLIGHT = ("balls", "surfaces", "patches", "bounds", "duration")
 
 #: Rows of the counters.
 STEPS, REFINED, IMPACTS, QUERIES = range(4)
@@ -52,20 +52,14 @@ def simulate_many(setups: Sequence[Setup], accuracy: Accuracy) -> Iterator[Run |
     The results agree with ``simulate`` to rounding; similar setups run much faster. Forces are called with arrays of
     shape (n,) for time, position, velocity and spin; the shots of a force that cannot take arrays run one at a time.
     """
-    groups: dict[Hashable, list[int]] = {}
-    alike = Alike()
-    for number, setup in enumerate(setups):
-        if flies_in_batches(setup, accuracy):
-            groups.setdefault(_kind(setup, alike), []).append(number)
     batch_of: dict[int, Iterator[Run | Exception]] = {}
-    for members in groups.values():
-        if len(members) >= _FEWEST:
-            batch = Batch([setups[member] for member in members], accuracy)
-            try:
-                batch.fly()
-            except _OnlyFloats:
-                continue  # one at a time they run, or raise an error of their own
-            batch_of |= dict.fromkeys(members, batch.runs())
+    for members, stack in _groups(setups, accuracy):
+        batch = Batch(stack, accuracy)
+        try:
+            batch.fly()
+        except _OnlyFloats:
+            continue  # one at a time they run, or raise an error of their own
+        batch_of |= dict.fromkeys(members, batch.runs())
     for number, setup in enumerate(setups):
         yield next(batch_of[number]) if number in batch_of else _run_or_error(setup, accuracy)
 
@@ -77,13 +71,21 @@ def _run_or_error(setup: Setup, accuracy: Accuracy) -> Run | Exception:
         return error
 
 
-def _kind(setup: Setup, alike: Alike) -> Hashable:
-    """What the setups of one batch have in common: they differ only in numbers and in how they end."""
-    return tuple(map(alike.key, (setup.balls[0], setup.surfaces, setup.patches)))
-
-
-def _flight_terms(setup: Setup) -> FlightTerms:
-    return FlightTerms(setup.balls[0], setup.patches, setup.bounds, setup.duration)
+def _groups(setups: Sequence[Setup], accuracy: Accuracy) -> Iterator[tuple[Sequence[int], Stack]]:
+    """The places of setups that can fly together, and the setups stacked."""
+    if isinstance(setups, Stack):
+        if flies_in_batches(setups.whole, accuracy):
+            yield range(len(setups)), setups
+        return
+    groups: dict[Hashable, list[int]] = {}
+    alike = Alike()
+    for number, setup in enumerate(setups):
+        if flies_in_batches(setup, accuracy):
+            kind = tuple(map(alike.key, (setup.balls[0], setup.surfaces, setup.patches)))
+            groups.setdefault(kind, []).append(number)
+    for members in groups.values():
+        if len(members) >= FEWEST:
+            yield members, Stack.of([setups[member] for member in members], FLIGHT)
 
 
 def _ending(setup: Setup, events: Sequence[Event]) -> str:
@@ -107,7 +109,7 @@ class _OnlyFloats(Exception):
 
 
 class FlightTerms(NamedTuple):
-    """The parts of a setup that a flight needs; stacked if many fly together."""
+    """The parts of the stacked setup that a step needs, of the shots still in flight."""
 
     ball: Ball
     patches: Sequence[Patch]
@@ -127,12 +129,13 @@ class _Left(NamedTuple):
 class Batch:
     """Shots that fly together. Arrays have one entry for each shot still in flight, or rows of them."""
 
-    def __init__(self, setups: Sequence[Setup], accuracy: Accuracy) -> None:
+    def __init__(self, setups: Stack, accuracy: Accuracy) -> None:
         self.setups = setups
         self._accuracy = accuracy
         self._control = StepControl(accuracy)
         self._method = INTEGRATORS[accuracy.integrator]
-        self._all = stacked([_flight_terms(setup) for setup in setups])
+        whole = setups.whole
+        self._all = FlightTerms(whole.balls[0], whole.patches, whole.bounds, whole.duration)
         self._outlines = Outlines(setups, accuracy.skin)
         self._lanes = Lanes()
         self._events: list[list[Event]] = [[] for _ in setups]
@@ -144,7 +147,9 @@ class Batch:
         # of those in flight
         self._shot = np.arange(len(setups))
         self._t = np.zeros(len(setups))
-        self._state = np.array([(*b.position, *b.velocity, b.spin) for b in (s.balls[0] for s in setups)], float).T
+        ball = whole.balls[0]
+        start = (*ball.position, *ball.velocity, ball.spin)
+        self._state = np.array([np.broadcast_to(part, len(setups)) for part in start], float)
         self._wanted = np.full(len(setups), self._control.first)  # s, the next step
         self._again = np.zeros(len(setups), dtype=bool)  # the last step was too long and is repeated
         self._now: FlightTerms = self._all
@@ -157,7 +162,7 @@ class Batch:
             self._check_forces(some, np.array(self._acceleration(self._t, tuple(self._state))))
             self._begin()
             rounds = pieces = 0
-            while len(self._shot) >= _FEWEST and pieces < MOST_PIECES:
+            while len(self._shot) >= FEWEST and pieces < MOST_PIECES:
                 self._advance_all(rounds % len(self._shot))
                 rounds += 1
                 pieces += len(self._paths[-1][0])

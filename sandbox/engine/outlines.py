@@ -6,15 +6,14 @@ Clear cases (nothing near, or one crossing) are computed here for all shots at o
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 
 import numpy as np
 
 from sandbox.engine.accuracy import SKIN
 from sandbox.engine.arc import Arc
 from sandbox.engine.bernstein_many import evaluate, first_downward_crossing, squared_length, without_root_at_start
-from sandbox.engine.setup import Setup
-from sandbox.engine.stacking import stacked
+from sandbox.engine.stacking import Stack
 from sandbox.engine.touch import NOISE, TOUCHING_GAP, Obstacle, Outline, Touching
 
 #: First crossing of each path, and a mask of the unclear ones; both of shape (paths,).
@@ -27,13 +26,12 @@ class Outlines:
     Inside, arrays have shape (surfaces, shots).
     """
 
-    def __init__(self, setups: Sequence[Setup], skin: float = SKIN) -> None:
+    def __init__(self, setups: Stack, skin: float = SKIN) -> None:
         self._setups = setups
         self._skin = skin
-        radii, rows = np.array([setup.balls[0].radius for setup in setups]), []
-        for shapes in zip(*([surface.shape for surface in setup.surfaces] for setup in setups), strict=True):
-            outline = Outline.of(stacked(shapes), radii)
-            rows.append([np.broadcast_to(part, radii.shape) for part in outline])
+        radii = np.broadcast_to(setups.whole.balls[0].radius, len(setups))
+        outlines = [Outline.of(surface.shape, radii) for surface in setups.whole.surfaces]
+        rows = [[np.broadcast_to(part, radii.shape) for part in outline] for outline in outlines]
         self._table = Outline(*np.array(rows).transpose(1, 0, 2))
         self._boxes = self._table.box()
         self._obstacles: dict[tuple[int, int], Obstacle] = {}

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
-from math import hypot, inf, isfinite
+from math import hypot, inf
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Protocol
 
-from sandbox.physics.elementwise import least, most
+from sandbox.physics.elementwise import anywhere, everywhere, finite, least, most
 from sandbox.physics.hertz import PHENOLIC
 
 if TYPE_CHECKING:
@@ -55,13 +55,13 @@ class Ball:
 
     def __post_init__(self) -> None:
         for what, value in (("mass", self.mass), ("radius", self.radius), ("inertia_factor", self.inertia_factor)):
-            if not (isfinite(value) and value > 0.0):
+            if not (finite(value) and everywhere(value > 0.0)):
                 raise ValueError(f"ball {self.name!r}: {what} = {value} must be positive")
         for what in ("position", "velocity", "rolling_spin"):
             _check_pair(f"ball {self.name!r}: {what}", getattr(self, what))
         state = {"position": self.position, "velocity": self.velocity, "spin": (self.spin,)}
         for what, values in {**state, "rolling_spin": self.rolling_spin}.items():
-            if not all(map(isfinite, values)):
+            if not all(map(finite, values)):
                 raise ValueError(f"ball {self.name!r}: {what} = {values} must be finite")
         for force in (*self.forces, *self.torques):
             if isinstance(force, type) or not callable(force):
@@ -91,7 +91,7 @@ def _check_shape(shape: Segment | Circle, kind: str, *points: str) -> None:
         _check_pair(f"{kind}: {name}", getattr(shape, name))
         object.__setattr__(shape, name, tuple(getattr(shape, name)))
     numbers = [number for name in points for number in getattr(shape, name)]
-    if not all(map(isfinite, (*numbers, shape.radius))) or shape.radius < 0.0:
+    if not all(map(finite, (*numbers, shape.radius))) or anywhere(shape.radius < 0.0):
         raise ValueError(f"{shape}: points must be finite, and the radius must not be negative")
 
 
@@ -236,6 +236,13 @@ class Until:
         raise NotImplementedError
 
 
+def is_over(until: Callable[[Event], bool] | Until | None, events: Sequence[Event]) -> bool:
+    """Whether a run with this condition ends with the last of these events."""
+    if isinstance(until, Until):
+        return until.over(events)
+    return until is not None and until(events[-1])
+
+
 @dataclass(frozen=True)
 class Touches(Until):
     """Ends a run when something is touched for the ``times``-th time: ``until=Touches("floor", 2)`` is the second
@@ -293,7 +300,4 @@ class Setup:
 
     def ends_with(self, events: Sequence[Event]) -> bool:
         """Whether the run is over with the last of these events."""
-        until = self.until
-        if isinstance(until, Until):
-            return until.over(events)
-        return until is not None and until(events[-1])
+        return is_over(self.until, events)

@@ -6,14 +6,21 @@ and everything else (names, functions, objects of other classes) must be equal.
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Sequence
+from collections.abc import Callable, Hashable, Sequence
 from dataclasses import fields, is_dataclass
 from functools import cache
+from math import isclose
 from typing import Any
 
 import numpy as np
 
 _NUMBERS = (float, int, np.float64)
+
+#: Fewer shots than this are quicker one at a time: one step with arrays costs as much as about thirty single steps.
+FEWEST = 24
+
+#: Relative and absolute difference of numbers that differ only by rounding.
+_RELATIVE, _ABSOLUTE = 1e-12, 1e-15
 
 
 @cache
@@ -63,7 +70,7 @@ def stacked(things: Sequence[Any]) -> Any:
     if isinstance(first, tuple | list):
         return _tuple(kind, [stacked(column) for column in zip(*things, strict=True)])
     if names := _fields(kind):
-        return _filled(first, {name: stacked([getattr(thing, name) for thing in things]) for name in names})
+        return _changed(first, {name: stacked([getattr(thing, name) for thing in things]) for name in names})
     return first
 
 
@@ -78,17 +85,76 @@ def chosen(stack: Any, places: np.ndarray) -> Any:
     if names := _fields(kind):
         held = {name: getattr(stack, name) for name in names}
         parts = {name: chosen(part, places) for name, part in held.items()}
-        return stack if all(parts[name] is held[name] for name in names) else _filled(stack, parts)
+        return stack if all(parts[name] is held[name] for name in names) else _changed(stack, parts)
     return stack
+
+
+class Stack(Sequence[Any]):
+    """Things that differ only in numbers: ``whole`` combines them."""
+
+    def __init__(self, whole: Any, each: Sequence[Any]) -> None:
+        self.whole = whole
+        self._each = each
+
+    @classmethod
+    def of(cls, things: Sequence[Any], names: Sequence[str]) -> Stack:
+        """A stack of dataclass instances, which combines the fields with these names."""
+        combined = {name: stacked([getattr(thing, name) for thing in things]) for name in names}
+        return cls(_changed(things[0], combined), things)
+
+    @classmethod
+    def split(cls, whole: Any, count: int) -> Stack:
+        """A stack of which only the combination was made."""
+        one = _one(whole)
+        return cls(whole, [whole] * count if one is None else list(map(one, range(count))))
+
+    def __len__(self) -> int:
+        return len(self._each)
+
+    def __getitem__(self, place: Any) -> Any:
+        """The thing at this place, by itself."""
+        return self._each[place]
+
+
+def _one(stack: Any) -> Callable[[int], Any] | None:
+    """A function of the place that gives one thing of the stack; None if they are all the same."""
+    kind: Any = type(stack)
+    if kind is np.ndarray:
+        numbers: list[Any] = stack.tolist()
+        return numbers.__getitem__
+    if isinstance(stack, tuple | list):
+        ones = [(_one(item), item) for item in stack]
+        if all(one is None for one, _ in ones):
+            return None
+        return lambda place: _tuple(kind, [item if one is None else one(place) for one, item in ones])
+    parts = {name: _one(getattr(stack, name)) for name in _fields(kind)}
+    differing = [(name, one) for name, one in parts.items() if one is not None]
+    if not differing:
+        return None
+    return lambda place: _changed(stack, {name: one(place) for name, one in differing})
+
+
+def agree(one: Any, other: Any) -> bool:
+    """Whether two things are equal, apart from rounding of their numbers."""
+    kind: Any = type(one)
+    names = _fields(kind)
+    if kind in _NUMBERS and type(other) in _NUMBERS:
+        return isclose(one, other, rel_tol=_RELATIVE, abs_tol=_ABSOLUTE)
+    if kind is not type(other):
+        return False
+    if isinstance(one, tuple | list):
+        return len(one) == len(other) and all(map(agree, one, other))
+    return all(agree(getattr(one, name), getattr(other, name)) for name in names) if names else bool(one == other)
 
 
 def _tuple(kind: Any, items: list[Any]) -> Any:
     return kind(*items) if hasattr(kind, "_fields") else kind(items)
 
 
-def _filled(like: Any, parts: dict[str, Any]) -> Any:
-    """A copy with these fields, without its class's checks, which each original has passed."""
-    made = object.__new__(type(like))
-    for name, part in parts.items():
-        object.__setattr__(made, name, part)
+def _changed(like: Any, parts: dict[str, Any]) -> Any:
+    """A copy with other values in these fields, without its class's checks, which each original has passed."""
+    kind: Any = type(like)
+    made = object.__new__(kind)
+    for name in _fields(kind):
+        object.__setattr__(made, name, parts[name] if name in parts else getattr(like, name))
     return made

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -199,9 +199,23 @@ class Varied:
                 parameters = _put(parameters, path, value)
         return parameters
 
-    def scene(self, values: Sequence[Any]) -> Scene:
-        """The scene with ``values`` at the keys."""
-        return replace(self._scene, parameters=self.parameters(values))
+    def together(self, points: Sequence[Sequence[Any]]) -> Iterator[tuple[list[int], Any]]:
+        """The places of points that differ only in numbers, and their parameters in one, with arrays for the numbers
+        that differ; or the exception that explains why there are none."""
+        groups: dict[str, list[int]] = {}
+        for place, values in enumerate(points):
+            words = repr([value for value, quick in zip(values, self._quick, strict=True) if not quick])
+            groups.setdefault(words, []).append(place)
+        for places in groups.values():
+            columns = zip(*(points[place] for place in places), strict=True)
+            merged = [
+                np.array(column) if quick and any(value != column[0] for value in column) else column[0]
+                for column, quick in zip(columns, self._quick, strict=True)
+            ]
+            try:
+                yield places, self.parameters(merged)
+            except RequestError as error:
+                yield places, error
 
     def _base(self, changes: Mapping[str, Any]) -> Any:
         name = repr(changes)

@@ -17,6 +17,7 @@ from sandbox.lab.axes import MOST_POINTS, Axis, Span, Values
 from sandbox.lab.provenance import Provenance, provenance
 from sandbox.lab.runs import fly_together, runs
 from sandbox.scene import Scene, compare
+from sandbox.sport.facts import ENDED
 from sandbox.tracebacks import one_line_error
 
 if TYPE_CHECKING:
@@ -81,6 +82,11 @@ class Plan:
     def size(self) -> int:
         """Number of points."""
         return math.prod(self.shape)
+
+    @cached_property
+    def asked(self) -> list[str]:
+        """The facts of each row. A run ends when they are settled, so how a full run would end is not among them."""
+        return [key for key, fact in self.scene.facts.items() if fact is not ENDED]
 
     @cached_property
     def block(self) -> int:
@@ -159,10 +165,10 @@ def records(plan: Plan, start: int, stop: int, alone: bool = False) -> list[Reco
 
 def _rows(plan: Plan, start: int, stop: int) -> list[Record]:
     points = list(plan.points(start, stop))
-    outcomes = runs(plan.scene, plan.keys, points)
+    outcomes = runs(plan.scene, plan.keys, points, asked=plan.asked)
     if not plan.check:
         return [_record(plan.keys, values, run) for values, run in zip(points, outcomes, strict=True)]
-    finer = runs(plan.scene, plan.keys, points, finer=True)
+    finer = runs(plan.scene, plan.keys, points, finer=True, asked=plan.asked)
     rows = []
     for values, run, other in zip(points, outcomes, finer, strict=True):
         row = _record(plan.keys, values, run)

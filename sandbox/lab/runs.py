@@ -1,16 +1,22 @@
-"""Many runs of one scene with different parameter values."""
+"""Many runs of one scene with different parameter values: what sweeps, searches and fans compute."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
+from sandbox import parameters as declared
 from sandbox.engine import flies_in_batches, simulate_many
 from sandbox.engine.accuracy import Accuracy, resolve
-from sandbox.engine.setup import Setup, Until
+from sandbox.engine.setup import Setup, Until, is_over
+from sandbox.engine.stacking import FEWEST, Stack, agree
 from sandbox.lab.axes import Varied
 from sandbox.scene import Scene
+from sandbox.sport.facts import Settled, is_settled
 
 if TYPE_CHECKING:
     from sandbox.engine.event import Event
@@ -25,58 +31,94 @@ def runs(
     Similar shots are computed together. ``finer`` halves the steps, to estimate errors. If only some facts are
     ``asked`` for, each run ends when these are settled, and its result contains only these.
     """
-    varied = Varied(scene, keys)
-    built: list[tuple[Scene, Accuracy, Setup] | Exception] = []
-    for values in points:
-        try:
-            point = varied.scene(values)
-            accuracy = resolve(**point.parameters.accuracy.model_dump())
-            built.append((point, accuracy.finer() if finer else accuracy, _ended(point, asked)))
-        except Exception as error:
-            built.append(error)
-    setups: dict[Accuracy, list[Setup]] = {}
-    for made in built:
-        if not isinstance(made, Exception):
-            setups.setdefault(made[1], []).append(made[2])
-    found = {accuracy: simulate_many(alike, accuracy) for accuracy, alike in setups.items()}
-    for made in built:
-        yield made if isinstance(made, Exception) else _finished(next(found[made[1]]), made[0], asked)
+    build, read, varied = _builder(scene, asked), scene.reader(asked), Varied(scene, keys)
+    parameters = [_or_error(varied.parameters, values) for values in points]
+    alone: dict[Accuracy, dict[int, Setup]] = {}
+    found: dict[int, Iterator[Run | Exception]] = {}
+    errors: dict[int, Exception] = {}
+    for places, many in varied.together(points):
+        stack = _stack(build, many, [parameters[place] for place in places])
+        if stack is not None:
+            accuracy = _accuracy(many, finer)
+            found |= dict.fromkeys(places, simulate_many(stack, accuracy))
+            continue
+        for place in places:
+            made = parameters[place]
+            try:
+                if isinstance(made, Exception):
+                    raise made
+                alone.setdefault(_accuracy(made, finer), {})[place] = build(made)
+            except Exception as error:
+                errors[place] = error
+    for accuracy, setups in alone.items():
+        found |= dict.fromkeys(setups, simulate_many([setups[place] for place in sorted(setups)], accuracy))
+    for place, made in enumerate(parameters):
+        run = errors[place] if place in errors else next(found[place])
+        if not isinstance(run, Exception):
+            try:
+                run.result = read(run, made)
+            except Exception as error:
+                run = error
+        yield run
 
 
-def _ended(scene: Scene, asked: Sequence[str]) -> Setup:
-    """The setup of a scene, which ends as soon as the requested facts are settled."""
-    setup = scene.build()
+def _or_error(work: Callable[[Any], Any], values: Any) -> Any:
+    try:
+        return work(values)
+    except Exception as error:
+        return error
+
+
+def _builder(scene: Scene, asked: Sequence[str]) -> Callable[[Any], Setup]:
+    """The scene's ``build``, whose runs end as soon as the requested facts are settled."""
     settled = scene.settles(asked) if asked else None
-    if settled is None:
-        return setup
-    return replace(setup, until=_Settled(settled, setup))
+
+    def build(parameters: Any) -> Setup:
+        setup = replace(scene, parameters=parameters).build()
+        return setup if settled is None else replace(setup, until=_AreSettled(settled, setup.until))
+
+    return build
+
+
+def _stack(build: Callable[[Any], Setup], many: Any, each: Sequence[Any]) -> Stack | None:
+    """The setups of many points, built once with arrays for the numbers that differ; None if the scene can be built
+    only with single numbers. Some are compared with what is built for them alone."""
+    if len(each) < FEWEST:
+        return None
+    try:
+        with np.errstate(all="ignore"):
+            stack = Stack.split(build(many), len(each))
+        some = (0, len(each) // 2, len(each) - 1)
+        return stack if all(agree(stack[place], build(each[place])) for place in some) else None
+    except Exception:
+        return None
 
 
 @dataclass(frozen=True)
-class _Settled(Until):
-    """Ends a run when the requested facts are settled, or when the setup's own condition is met."""
+class _AreSettled(Until):
+    """Ends a run when the requested facts are settled, or when its own condition is met."""
 
-    settled: Callable[[Event], bool]
-    setup: Setup
+    settled: frozenset[Settled]
+    until: Callable[[Event], bool] | Until | None
 
     def over(self, events: Sequence[Event]) -> bool:
-        return self.settled(events[-1]) or self.setup.ends_with(events)
+        return all(is_settled(settled, events) for settled in self.settled) or is_over(self.until, events)
 
 
-def _finished(run: Run | Exception, scene: Scene, asked: Sequence[str]) -> Run | Exception:
-    if isinstance(run, Exception):
-        return run
-    try:
-        run.result = scene.result(run, asked)
-    except Exception as error:
-        return error
-    return run
+@lru_cache
+def _resolved(accuracy: declared.Accuracy, finer: bool) -> Accuracy:
+    found = resolve(**accuracy.model_dump())
+    return found.finer() if finer else found
+
+
+def _accuracy(parameters: Any, finer: bool = False) -> Accuracy:
+    return _resolved(parameters.accuracy, finer)
 
 
 def fly_together(scene: Scene, keys: Sequence[str], values: Sequence[Any]) -> bool:
     """Whether the engine computes many runs of this kind at once, judged by the one with these values."""
     try:
-        point = Varied(scene, keys).scene(values)
-        return flies_in_batches(point.build(), resolve(**point.parameters.accuracy.model_dump()))
+        parameters = Varied(scene, keys).parameters(values)
+        return flies_in_batches(replace(scene, parameters=parameters).build(), _accuracy(parameters))
     except Exception:
         return False  # its row reports the error

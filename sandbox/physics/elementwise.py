@@ -24,6 +24,15 @@ def sin(x: Any) -> Any:
     return np.sin(x)
 
 
+def cos(x: Any) -> Any:
+    """Cosine of x in rad."""
+    if isinstance(x, float):
+        return math.cos(x)
+    import numpy as np
+
+    return np.cos(x)
+
+
 def log(x: Any) -> Any:
     """Natural logarithm."""
     if isinstance(x, float):
@@ -69,9 +78,23 @@ def most(*values: Any) -> Any:
     return np.maximum.reduce(values)
 
 
+def finite(x: Any) -> bool:
+    """Whether x is finite, everywhere."""
+    if isinstance(x, float | int):
+        return math.isfinite(x)
+    import numpy as np
+
+    return bool(np.isfinite(x).all())
+
+
 def anywhere(condition: Any) -> bool:
     """Whether the condition holds anywhere."""
     return condition if isinstance(condition, bool) else bool(condition.any())
+
+
+def everywhere(condition: Any) -> bool:
+    """Whether the condition holds everywhere."""
+    return condition if isinstance(condition, bool) else bool(condition.all())
 
 
 def choose(condition: Any, yes: Any, no: Any) -> Any:

@@ -22,16 +22,17 @@ from sandbox import parameters as declared
 from sandbox.errors import RequestError, RunError, no_exit
 from sandbox.scene.modules import module_in
 from sandbox.sport.controls import Controls
-from sandbox.sport.facts import FALLBACK_FACTS, Fact, fallback_verdict, mistake_in
+from sandbox.sport.facts import FALLBACK_FACTS, Fact, Settled, fallback_verdict, mistake_in
 
 if TYPE_CHECKING:
-    from sandbox.engine.event import Event
     from sandbox.engine.run import Run
     from sandbox.engine.setup import Setup
 
 #: Draws any scene that has no picture.py.
 FALLBACK_PICTURE = "sandbox.picture.plain"
 OFFERS = ("Parameters", "build")
+#: Types of facts that cards, JSON and tables can always show.
+_PLAIN = {bool, float, str, type(None)}
 #: How the functions of a scene, and its picture, are called.
 CALLS = {
     "build": (("parameters",),),
@@ -114,15 +115,25 @@ class Scene:
 
     def result(self, run: Run, asked: Collection[str] = ()) -> dict[str, Any]:
         """The facts of a run, or those in ``asked``, in their units; None for what did not happen."""
-        with no_exit():
-            facts = {key: fact for key, fact in self.facts.items() if not asked or key in asked}
-            result = {key: fact.how(run, self.parameters) for key, fact in facts.items()}
-        for key, value in result.items():
-            if _is_circular(value):
-                raise self._wrong(f"the fact {key}", "a value that does not contain itself", value)
-            if not _is_reportable(value):
-                raise self._wrong(f"the fact {key}", "a number, a text, true or false, or a list of those", value)
-        return result
+        return self.reader(asked)(run, self.parameters)
+
+    def reader(self, asked: Collection[str] = ()) -> Callable[[Run, Any], dict[str, Any]]:
+        """The function that reads these facts from a run of this scene with any parameters; all facts by default."""
+        hows = [(key, fact.how) for key, fact in self.facts.items() if not asked or key in asked]
+
+        def read(run: Run, parameters: Any) -> dict[str, Any]:
+            with no_exit():
+                result = {key: how(run, parameters) for key, how in hows}
+            for key, value in result.items():
+                if type(value) in _PLAIN:
+                    continue
+                if _is_circular(value):
+                    raise self._wrong(f"the fact {key}", "a value that does not contain itself", value)
+                if not _is_reportable(value):
+                    raise self._wrong(f"the fact {key}", "a number, a text, true or false, or a list of those", value)
+            return result
+
+        return read
 
     @property
     def measure(self) -> Callable[[Run, Any], Any] | None:
@@ -130,21 +141,10 @@ class Scene:
         own: Callable[[Run, Any], Any] | None = getattr(self.module, "measure", None)
         return own
 
-    def settles(self, asked: Collection[str]) -> Callable[[Event], bool] | None:
-        """A function that takes each event and says whether all these facts are final; None if one is not until the
-        end."""
-        facts = [self.facts[key] for key in asked if key in self.facts]
-        if len(facts) < len(asked) or any(fact.settled == "end" for fact in facts):
-            return None
-        events: list[Event] = []
-
-        def settled(event: Event) -> bool:
-            if events and event.t < events[-1].t:  # the run begins again, by another method of the engine
-                events.clear()
-            events.append(event)
-            return all(fact.is_settled(events, self.parameters) for fact in facts)
-
-        return settled
+    def settles(self, asked: Collection[str]) -> frozenset[Settled] | None:
+        """What must have happened for all these facts to be final; None if one is not until the end."""
+        settled = frozenset(self.facts[key].settled for key in asked if key in self.facts)
+        return None if "end" in settled or not set(asked) <= self.facts.keys() else settled
 
     def rows(self, run: Run, errors: Mapping[str, float] | None = None, also: bool = False) -> list[tuple[str, str]]:
         """Label and text of each fact that happened, for a card.

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from sandbox.engine.run import Event, Run
 
 #: ``"start"``, ``"end"``, the name of what must have been touched, or a function of the events so far.
-Settled = str | Callable[[Sequence["Event"], Any], bool]
+Settled = str | Callable[[Sequence["Event"]], bool]
 Value = TypeVar("Value")
 
 
@@ -40,7 +40,7 @@ class Fact:
 
     ``how(run, parameters)`` gives the value in ``unit``, None if it did not happen. ``settled`` says when it
     can no longer change: ``"start"``, ``"end"``, the first touch of a surface or ball of that name (``"floor"``), or
-    a function of the events so far and the parameters.
+    a function of the events so far.
     """
 
     key: str  # its name in the result, in JSON and CSV
@@ -78,14 +78,6 @@ class Fact:
             words.append(f"({converted(size, self.unit, self.also)})")
         return " ".join(filter(None, words))
 
-    def is_settled(self, events: Sequence[Event], parameters: Any) -> bool:
-        """Whether the events so far settle it."""
-        if callable(self.settled):
-            return self.settled(events, parameters)
-        return self.settled == "start" or any(
-            self.settled in (event.partner, event.ball) and event.kind != "leave" for event in events
-        )
-
 
 def once(how: Callable[[Run, Any], Value]) -> Callable[[Run, Any], Value]:
     """Cache a value that several facts are computed from, such as the landing: computed once for each run."""
@@ -101,6 +93,13 @@ def once(how: Callable[[Run, Any], Value]) -> Callable[[Run, Any], Value]:
         return value
 
     return remembered
+
+
+def is_settled(settled: Settled, events: Sequence[Event]) -> bool:
+    """Whether the events so far settle the facts that declare this."""
+    if callable(settled):
+        return settled(events)
+    return settled == "start" or any(settled in (e.partner, e.ball) and e.kind != "leave" for e in events)
 
 
 def mistake_in(facts: Any) -> str | None:

@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import cos, pi, radians, sin
+from math import pi
 from typing import Protocol
 
 from sandbox.engine.setup import HOLLOW_SPHERE, Ball, Force, Vector
 from sandbox.parameters import Group, quantity
 from sandbox.physics.coefficients import Scaled
+from sandbox.physics.elementwise import cos, sin
 from sandbox.physics.forces import Drag, Gravity, Magnus
 from sandbox.sport.air import Air, Lift, Model, wind_in
 
 RPM = pi / 30.0  # rad/s
+DEGREE = pi / 180.0  # rad
 
 
 class Launch(Group):
@@ -80,7 +82,7 @@ def launched_ball(
     launch: Launched, ball: Flying, place: Vector, forces: Sequence[Force], inertia_factor: float = HOLLOW_SPHERE
 ) -> Ball:
     """The ball ``"ball"`` as it leaves ``place`` (m)."""
-    angle = radians(launch.angle)
+    angle = launch.angle * DEGREE
     return Ball(
         "ball",
         ball.mass,

@@ -332,14 +332,14 @@ def _turf(parameters: Parameters, kind: str, a: tuple[float, float], b: tuple[fl
 @once
 def landing(run: Run, parameters: Parameters) -> Moment | None:
     """The ball as it returns to launch height, or lands on higher ground before that."""
-    touched = next((event.t for event in run.events if is_down([event], parameters)), inf)
+    touched = next((event.t for event in run.events if is_down([event])), inf)
     back = next(iter(run.crossings("ball", run.setup.balls[0].position, (0.0, 1.0))), None)
     if touched < (inf if back is None else back[0]):
         return before(run, touched)
     return None if back is None else Moment(back[0], *back[1])
 
 
-def is_down(events: Sequence[Event], parameters: Parameters) -> bool:
+def is_down(events: Sequence[Event]) -> bool:
     """Whether the ball has landed: the facts of its flight are then final."""
     return any(event.kind in ("impact", "contact", "rest") for event in events)
 

@@ -25,7 +25,7 @@ from sandbox.engine.lanes import Lanes
 from sandbox.engine.outlines import Outlines
 from sandbox.engine.run import Numerics, Run
 from sandbox.engine.setup import Ball, Bounce, Bounds, Circle, Patch, Segment, Setup, Surface
-from sandbox.engine.stacking import Alike, chosen, stacked
+from sandbox.engine.stacking import Alike, Stack, chosen, stacked
 from sandbox.engine.touch import Obstacle
 from sandbox.errors import RunError
 from sandbox.physics.coefficients import Constant
@@ -411,7 +411,7 @@ def test_first_touches_are_those_of_single_obstacles():
         end = (x + u * h, y + v * h - 4.9 * h * h, u, v - 9.8 * h, 0.0)
         arcs.append(through(0.0, h, tuple(start), (0.0, -9.8, 0.0), end, (0.0, -9.8, 0.0)))
     coefficients = [np.array([getattr(arc, c) for arc in arcs]).T for c in "xy"]
-    outlines = Outlines([setup] * count)
+    outlines = Outlines(Stack(setup, [setup] * count))
     found, _ = outlines.first_touch(np.arange(count), *coefficients, lambda i: arcs[i])
     obstacles = [Obstacle(surface, 0.12) for surface in surfaces]
     touches = 0
@@ -436,7 +436,7 @@ def test_a_side_that_is_first_passed_beyond_its_end_is_touched_after_all():
     arcs = []
     for xs, ys in zip(x.T.tolist(), y.T.tolist(), strict=True):
         arcs.append(Arc(0.0, 1.0, (xs[0], ys[0], 0.0, 0.0, 0.0), xs, ys, [0.0] * 5, [0.0] * 5, [0.0] * 4))
-    found, _ = Outlines([setup] * count).first_touch(np.arange(count), x, y, lambda i: arcs[i])
+    found, _ = Outlines(Stack(setup, [setup] * count)).first_touch(np.arange(count), x, y, lambda i: arcs[i])
     obstacle = Obstacle(slope, 0.12)
     for arc, u in zip(arcs, found.tolist(), strict=True):
         expected = obstacle.first_touch(arc)

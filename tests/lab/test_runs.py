@@ -1,0 +1,69 @@
+"""Many runs of a scene: built at once, and ended when the facts that are asked for are settled."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import sandbox
+from sandbox import parameters as declared
+from sandbox.engine import flies_in_batches
+from sandbox.engine.accuracy import resolve
+from sandbox.engine.stacking import FEWEST, agree
+from sandbox.lab.axes import Varied
+from sandbox.lab.runs import _builder, _stack, runs
+from sandbox.scene import listings, load
+
+SCENES = [listing.name for listing in listings() if "/" not in listing.name]
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_what_is_built_at_once_is_what_is_built_for_each(name: str):
+    scene = load(name)
+    build = _builder(scene, ())
+    at_once = set()
+    for parameter in declared.walk(scene.parameters):
+        if not isinstance(parameter.value, float) or parameter.low is None or parameter.high is None:
+            continue
+        values = np.clip(parameter.value * np.linspace(0.9, 1.15, FEWEST) + 1e-3, parameter.low, parameter.high)
+        varied, points = Varied(scene, [parameter.key]), [(value,) for value in values.tolist()]
+        each = [varied.parameters(point) for point in points]
+        ((_, many),) = varied.together(points)
+        stack = _stack(build, many, each)
+        if stack is not None:
+            at_once.add(parameter.key)
+            assert all(agree(one, build(alone)) for one, alone in zip(stack, each, strict=True)), parameter.key
+    if flies_in_batches(scene.build(), resolve()):
+        assert at_once >= {"launch.speed", "launch.angle", "launch.spin"}
+
+
+def test_a_build_that_is_another_between_the_points_compared_is_not_trusted():
+    scene = load("basketball")
+    points = [(angle,) for angle in np.linspace(40.0, 60.0, FEWEST).tolist()]
+    varied = Varied(scene, ["launch.angle"])
+    each = [varied.parameters(point) for point in points]
+    ((_, many),) = varied.together(points)
+    build = _builder(scene, ())
+    assert _stack(build, many, each) is not None
+    assert _stack(build, many, each[::-1]) is None  # what is built alone differs
+    only_floats = lambda given: build(given if isinstance(given.launch.angle, float) else each[0])  # noqa: E731
+    assert _stack(only_floats, many, each) is None
+
+
+def test_numbers_and_words_may_be_mixed():
+    keys = ["launch.speed", "ball.drag.model", "accuracy.level"]
+    points = [
+        (speed, drag, level)
+        for speed in np.linspace(6.0, 9.0, 30).tolist()
+        for drag in ("constant", "none", "unknown")
+        for level in ("fast", "balanced")
+    ]
+    for point, run in zip(points, runs(load("basketball"), keys, points), strict=True):
+        if point[1] == "unknown":
+            assert isinstance(run, sandbox.RequestError)
+            continue
+        assert not isinstance(run, Exception)
+        alone = sandbox.simulate(load("basketball", dict(zip(keys, point, strict=True))))
+        assert run.result["verdict"] == alone.result["verdict"]
+        assert run.result["apex"] == pytest.approx(alone.result["apex"], abs=1e-9)
+        assert run.accuracy == alone.accuracy
