@@ -20,7 +20,7 @@ from sandbox.engine.arc import through
 from sandbox.engine.arc_rows import COLUMNS, CURVES, END, ArcRows, X, Y, arc_of
 from sandbox.engine.bernstein_many import until
 from sandbox.engine.event import Event
-from sandbox.engine.lanes import Lanes
+from sandbox.engine.lanes import ManyLanes
 from sandbox.engine.outlines import Outlines
 from sandbox.engine.run import Numerics, Run
 from sandbox.engine.setup import Ball, Bounds, Patch, Setup
@@ -28,7 +28,8 @@ from sandbox.engine.setup_errors import setup_errors_named
 from sandbox.engine.simulation import Simulation
 from sandbox.engine.stacking import FEWEST, Alike, Stack, chosen
 from sandbox.engine.step_control import LONGEST, StepControl, size, within
-from sandbox.engine.surfaces import STILL, bounce_off, leaves_at, press
+from sandbox.engine.surfaces import STILL, bounce_off, leaves_at, press, tilted
+from sandbox.physics.impulse import after_impulse, surface_speeds
 from sandbox.physics.integrators import INTEGRATORS, Acceleration, State
 
 #: What setups need for flights together; how they end is asked of each.
@@ -137,7 +138,7 @@ class Batch:
         whole = setups.whole
         self._all = FlightTerms(whole.balls[0], whole.patches, whole.bounds, whole.duration)
         self._outlines = Outlines(setups, accuracy.skin)
-        self._lanes = Lanes()
+        self._lanes = ManyLanes()
         self._events: list[list[Event]] = [[] for _ in setups]
         self._left: dict[int, _Left] = {}
         nothing = (np.zeros(0, dtype=int), np.zeros((COLUMNS, 0)))
@@ -290,7 +291,7 @@ class Batch:
     def _impact(self, lanes: np.ndarray) -> np.ndarray:
         """Let pymunk change the velocities of shots that touch a surface. Returns a mask of the lanes that stay."""
         shots = self._shot[lanes]
-        x, y, vx, vy, spin = self._state[:, lanes]
+        x, y, vx, vy, _ = self._state[:, lanes]
         count, obstacle, near = self._outlines.near(shots, x, y)
         approach = -(vx * near.nx + vy * near.ny)
         along = vx * near.ny - vy * near.nx
@@ -314,30 +315,19 @@ class Batch:
             here = lanes[at]
             self._counts[IMPACTS, shots[at]] += 1
             nx, ny = near.nx[at], near.ny[at]
-            self._state[2:, here] = self._exchanged(self._balls(here), nx, ny, vx[at], vy[at], spin[at], bounces[at])
+            self._exchange(here, *tilted(nx, ny, bounces[at, 2], along[at]), bounces[at, :2])
             self._touched[here] = obstacle[at]
             self._normal = np.zeros((3, len(self._shot)))
             self._normal[:, here] = nx, ny, near.curvature[at]
         return plain
 
-    def _exchanged(
-        self,
-        balls: tuple[np.ndarray, np.ndarray],
-        nx: np.ndarray,
-        ny: np.ndarray,
-        vx: np.ndarray,
-        vy: np.ndarray,
-        spin: np.ndarray,
-        bounces: np.ndarray,
-    ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Velocities (m/s) and spins (rad/s) after impacts on surfaces with these normals."""
-        restitution, friction, tilt = bounces.T
-        tilt = np.where(vx * ny - vy * nx >= 0.0, tilt, -tilt)
-        c, s, (r, factor) = np.cos(tilt), np.sin(tilt), balls
-        nx, ny = c * nx - s * ny, c * ny + s * nx
-        pairs = np.array((restitution, friction, factor)).T
-        level, up, spin = self._lanes.exchange((vx * ny - vy * nx) / r, (vx * nx + vy * ny) / r, spin, pairs)
-        return r * (level * ny + up * nx), r * (up * ny - level * nx), spin
+    def _exchange(self, lanes: np.ndarray, nx: np.ndarray, ny: np.ndarray, bounces: np.ndarray) -> None:
+        """Change velocities and spins by impacts on surfaces with these normals, restitutions and frictions."""
+        motion, ball = tuple(self._state[2:, lanes]), self._now.ball
+        r, factor = (np.broadcast_to(part, self._t.shape)[lanes] for part in (ball.radius, ball.inertia_factor))
+        approach, slip, _ = surface_speeds(motion, nx, ny, r)
+        push, rub = self._lanes.exchange_all(approach, slip, np.column_stack((bounces, factor)))
+        self._state[2:, lanes] = after_impulse(motion, nx, ny, r, factor, (push, rub, 0.0))
 
     def _leaving(self, acceleration: np.ndarray) -> np.ndarray:
         """Which of the shots that touch a surface, and do not approach it, continue to fly. The others leave the
@@ -371,11 +361,6 @@ class Batch:
         self._normal = self._normal[:, staying]
         self._now = chosen(self._all, self._shot)
 
-    def _balls(self, lanes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Radii in m and inertia factors."""
-        ball, shape = self._now.ball, self._t.shape
-        return np.broadcast_to(ball.radius, shape)[lanes], np.broadcast_to(ball.inertia_factor, shape)[lanes]
-
     def _leave(self, lane: int, how: str) -> None:
         state = tuple(self._state[:, lane].tolist())
         self._left[int(self._shot[lane])] = _Left(float(self._t[lane]), how, state, float(self._wanted[lane]))
@@ -386,9 +371,7 @@ class Batch:
             return _run_or_error(setup, self._accuracy)
         steps, refined, impacts, queries = self._counts[:, number].tolist()
         seconds = self._seconds / len(self.setups)
-        numerics = Numerics(
-            (self._method.evaluations + 1) * steps, steps, refined, impacts, 2 * impacts, queries, seconds
-        )
+        numerics = Numerics((self._method.evaluations + 1) * steps, steps, refined, impacts, impacts, queries, seconds)
         left, events = self._left[number], self._events[number]
         if left.how in ("until", "duration"):
             arcs = {setup.balls[0].name: ArcRows(rows)}

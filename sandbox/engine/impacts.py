@@ -3,24 +3,36 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 from itertools import combinations
 from math import hypot
 from typing import NamedTuple
 
-from sandbox.engine.contacts import BallAtImpact, Contact, ImpulseSpace
-from sandbox.engine.on_cloth import in_plane, off_nose, rubbed, slip_over
-from sandbox.engine.setup import Bounce, Setup, kinetic
-from sandbox.engine.surfaces import STILL, bounce_of_balls, bounce_off
-from sandbox.engine.touch import TOUCHING_GAP, Touching
+from sandbox.engine.impulses import Contact, Lanes, exchange_at_once
+from sandbox.engine.run import Numerics
+from sandbox.engine.setup import Ball, Bounce, Setup, Vector, kinetic
+from sandbox.engine.surfaces import (
+    STILL,
+    after_impulses,
+    bounce_of_balls,
+    bounce_off,
+    friction_in_plane,
+    rubbed_upward,
+    speeds_where_touching,
+    tilted,
+)
+from sandbox.engine.touch import TOUCHING_GAP
 from sandbox.engine.track import Track
+from sandbox.physics.cushion import raised
 from sandbox.physics.integrators import State
 
 #: Largest relative energy gain of a cluster in an impact: rounding in Chipmunk's iterations.
 _GAIN = 1e-7
 
-#: Alternations between balls and walls at one instant, after which all exchange impulses at once.
+#: Alternations between balls and soft walls at one instant, after which all exchange impulses at once.
 _TURNS = 9
+
+#: Two normals with a larger cosine belong to flush surfaces, which count as one.
+_FLUSH = 1.0 - 1e-12
 
 
 class Hit(NamedTuple):
@@ -34,134 +46,49 @@ class Hit(NamedTuple):
 class Impacts:
     """Resolves impacts among the balls of a run."""
 
-    def __init__(self, setup: Setup, tracks: Sequence[Track], contacts: ImpulseSpace, slowest_hop: float) -> None:
+    def __init__(self, setup: Setup, tracks: Sequence[Track], numerics: Numerics, slowest_hop: float) -> None:
         self._setup = setup
         self._tracks = tracks
-        self._contacts = contacts
+        self._numerics = numerics
+        self._lanes = Lanes()
         self._slowest_hop = slowest_hop  # m/s, minimum speed at which balls on cloth separate
         # Walls softer than balls push back after the balls have separated.
-        self._soft_walls = (
-            len(setup.balls) > 1 and setup.contact.name != "rigid" and setup.contact.wall_stiffness == 0.0
-        )
-        self._noses = any(surface.nose_height is not None for surface in setup.surfaces)
+        model = setup.contact
+        self._all_soft = len(setup.balls) > 1 and model.name != "rigid" and model.wall_stiffness == 0.0
+        self._some_soft = self._all_soft or any(surface.nose_height is not None for surface in setup.surfaces)
         self._heaviest = max(ball.mass for ball in setup.balls)  # kg
 
     def exchange(self, states: dict[int, State]) -> tuple[dict[int, State], list[Hit]]:
         """The states after the impact of balls that touch, directly or through others, and the hits.
 
-        If walls are softer than balls, balls exchange impulses first and the walls push back afterwards.
+        Balls and hard walls exchange impulses at once; soft walls push back afterwards, one after another, and so on
+        until nothing closes. If that takes too many turns, all exchange impulses at once instead.
         """
-        if self._soft_walls or self._noses:
-            hits: list[Hit] = []
-            before = states
-            for turn in range(_TURNS):
-                if turn % 2 == 0:
-                    after = self._exchange_at_once(before, True if self._soft_walls else None, hits)
-                else:
-                    after = self._exchange_at_once(before, False, hits) if self._soft_walls else None
-                    after = self._off_noses(after or before, hits) or after
-                if after is None and turn > 0:
-                    return before, hits
-                before = after or before
-            if self._noses:
-                return before, hits
-        hits = []
-        return self._exchange_at_once(states, None, hits) or states, hits
-
-    def _off_noses(self, states: dict[int, State], hits: list[Hit]) -> dict[int, State] | None:
-        """The states after each ball has met the cushion noses it touches, one after another; None if there are
-        none."""
-        after = dict(states)
-        for index, state in states.items():
-            ball = self._tracks[index].ball
-            for obstacle, touching in self._tracks[index].near(*state[:2]):
-                surface, (nx, ny) = obstacle.surface, (touching.nx, touching.ny)
-                vx, vy = after[index][2:4]
-                approach, along = -(vx * nx + vy * ny), vx * ny - vy * nx
-                if surface.nose_height is None or approach <= STILL:
-                    continue
-                bounce = bounce_off(surface, approach, along)
-                x, y, vx, vy, *spins = off_nose(ball, after[index], (nx, ny), surface.nose_height, bounce)
-                slow = max(0.0, self._slowest_hop - (vx * nx + vy * ny))
-                after[index] = (x, y, vx + slow * nx, vy + slow * ny, *spins)
-                hits.append(Hit(index, surface.name, approach))
-        if after == states:
-            return None
-        self._pay_for_hops(states, after)
-        return after
-
-    def _exchange_at_once(
-        self, states: dict[int, State], balls_only: bool | None, hits: list[Hit]
-    ) -> dict[int, State] | None:
-        """The states after all contacts, or only those between balls, or only those with walls, closed at once; None if
-        none closed."""
-        found = [] if balls_only is True else [*self._with_surfaces(states)]
-        found += [] if balls_only is False else [*self._with_balls(states)]
-        if not any(contact.approach > STILL for contact in found):
-            return None
-        after = self._after(states, found)
-        if self._slowest_hop > 0.0:
-            self._pay_for_hops(states, after)
-        members = list(states)
-        closed = [contact for contact in found if contact.approach > STILL]
-        hits += [Hit(members[contact.first], contact.partner, contact.approach) for contact in closed]
-        return after
-
-    def _after(self, states: dict[int, State], found: Sequence[Contact]) -> dict[int, State]:
-        """The states after the exchange of impulses; balls on cloth separate no slower than the slowest hop."""
-        cluster = [BallAtImpact(index, *state[:5]) for index, state in states.items()]
-        self._exchange_without_gain(cluster, [_hopping(contact, self._slowest_hop) for contact in found])
-        after = {
-            moving.index: (*states[moving.index][:2], moving.vx, moving.vy, moving.spin, *states[moving.index][5:])
-            for moving in cluster
-        }
-        for contact, push in zip(found, self._contacts.normal_impulses, strict=True):
-            if contact.slip[1] != 0.0 and push > 0.0:
-                pair = [cluster[place].index for place in (contact.first, contact.second) if place is not None]
-                balls, before = [self._tracks[index].ball for index in pair], [after[index] for index in pair]
-                normal = contact.nx, contact.ny
-                after.update(
-                    zip(pair, rubbed(balls, before, normal, contact.slip, contact.friction * push), strict=True)
-                )
-        return after
-
-    def _pay_for_hops(self, before: dict[int, State], after: dict[int, State]) -> None:
-        """Remove the energy that minimum hops added from the motion of all balls: energy never increases."""
-        had, has = self._energy(before), self._energy(after)
-        if has > had:
-            share = (had / has) ** 0.5
-            for index, (x, y, *motion) in after.items():
-                after[index] = (x, y, *(share * speed for speed in motion))
-
-    def _exchange_without_gain(self, cluster: Sequence[BallAtImpact], found: Sequence[Contact]) -> None:
-        """Exchange impulses without gaining energy.
-
-        If several contacts close at once, restitution may demand more energy than there is. With friction this is
-        known as Kane's paradox (the slip reverses while the normal speeds are imposed): friction is reduced, down to
-        zero. If energy still increases, as when a light ball is squeezed between a wall and a heavy ball, restitution
-        is reduced: with both at zero no energy is gained."""
-        if len(found) == 1:
-            self._contacts.exchange(cluster, found)
-            return
-        start = [replace(moving) for moving in cluster]
-        self._contacts.exchange(cluster, found)
-        most = (1.0 + _GAIN) * self._in_the_plane(start) + len(found) * self._heaviest * self._slowest_hop**2
-        friction = restitution = 1.0
-        while self._in_the_plane(cluster) > most and restitution > 0.0:
-            if friction > 0.0:
-                friction = 0.5 * friction if friction > 1e-3 else 0.0
+        start, hits = states, list[Hit]()
+        last = _TURNS if self._some_soft else 0
+        for turn in range(last + 1):
+            if turn in (0, last):
+                states, hits = dict(start), []
+            before, closed = dict(states), []
+            if turn % 2 == 1 and turn < last:
+                for contact in self._with_surfaces(states, (True,)):
+                    if contact.speed > STILL:
+                        self._exchange_alone(states, contact)
+                        closed.append(contact)
             else:
-                restitution = 0.9 * restitution if restitution > 1e-2 else 0.0
-            for moving, before in zip(cluster, start, strict=True):
-                moving.vx, moving.vy, moving.spin = before.vx, before.vy, before.spin
-            self._contacts.exchange(cluster, [_weaker(contact, friction, restitution) for contact in found])
-
-    def _in_the_plane(self, cluster: Sequence[BallAtImpact]) -> float:
-        return self._energy({moving.index: (0.0, 0.0, moving.vx, moving.vy, moving.spin) for moving in cluster})
-
-    def _energy(self, states: dict[int, State]) -> float:
-        """Kinetic energy in J, including rotation."""
-        return sum(kinetic(self._tracks[index].ball, state) for index, state in states.items())
+                softness = (False,) if turn < last else (False, True)
+                found = [*self._with_surfaces(states, softness), *self._with_balls(states)]
+                closed = [contact for contact in found if contact.speed > STILL]
+                if len(found) == 1 and closed:
+                    self._exchange_alone(states, found[0])
+                elif closed:
+                    self._exchange_at_once(states, found)
+            if turn > 0 and not closed:
+                break
+            if self._slowest_hop > 0.0:
+                self._pay_for_hops(before, states)
+            hits += [Hit(contact.balls[0], contact.partner, contact.speed) for contact in closed]
+        return states, hits
 
     def touching(self, t: float, seeds: Sequence[int]) -> dict[int, State]:
         """The states at t of all balls that touch those in ``seeds``, directly or through others."""
@@ -182,62 +109,113 @@ class Impacts:
                     waiting.append(other)
         return states
 
-    def _with_surfaces(self, states: dict[int, State]) -> Iterator[Contact]:
-        for place, (index, state) in enumerate(states.items()):
-            ball, (x, y, vx, vy, spin, *_) = self._tracks[index].ball, state
-            met: list[Touching] = []
-            for obstacle, touching in self._tracks[index].near(x, y):
-                nx, ny = touching.nx, touching.ny
-                if obstacle.surface.nose_height is not None or any(
-                    nx * other.nx + ny * other.ny > 1.0 - 1e-12 for other in met
-                ):
-                    continue  # flush with a surface already counted
-                met.append(touching)
-                approach, along = -(vx * nx + vy * ny), vx * ny - vy * nx
-                slip = along + ball.radius * spin, slip_over(ball, state, nx, ny)
-                bounce, forward = bounce_off(obstacle.surface, approach, along), 1.0 if along >= 0.0 else -1.0
-                yield _contact(place, None, (nx, ny), bounce, approach, forward, obstacle.surface.name, slip)
+    # ------------------------------------------------------------------ contacts
+
+    def _with_surfaces(self, states: dict[int, State], softness: Sequence[bool]) -> Iterator[Contact]:
+        """The contacts with hard or soft walls, or both, each from the states when it is asked for."""
+        for index in states:
+            ball, met = self._tracks[index].ball, list[Vector]()
+            for obstacle, touching in self._tracks[index].near(*states[index][:2]):
+                surface, nx, ny = obstacle.surface, touching.nx, touching.ny
+                if (self._all_soft or surface.nose_height is not None) not in softness:
+                    continue
+                if any(nx * other[0] + ny * other[1] > _FLUSH for other in met):
+                    continue
+                met.append((nx, ny))
+                _, _, vx, vy, *_ = states[index]
+                speed, along = -(vx * nx + vy * ny), vx * ny - vy * nx
+                bounce = bounce_off(surface, speed, along)
+                nx, ny = tilted(nx, ny, bounce.tilt, along)
+                height = surface.nose_height
+                sine = 0.0 if height is None else raised(ball.radius, height)
+                speeds = speeds_where_touching([ball], [states[index]], nx, ny, sine)
+                yield Contact((index,), surface.name, nx, ny, sine, bounce, speed, speeds)
 
     def _with_balls(self, states: dict[int, State]) -> Iterator[Contact]:
-        for (place, (i, here)), (later, (j, there)) in combinations(enumerate(states.items()), 2):
+        for i, j in combinations(states, 2):
             a, b = self._tracks[i].ball, self._tracks[j].ball
-            (x, y, vx, vy, spin), (u, v, wx, wy, other_spin) = here[:5], there[:5]
-            distance = ((x - u) ** 2 + (y - v) ** 2) ** 0.5
-            if distance > a.radius + b.radius + TOUCHING_GAP:
-                continue
-            nx, ny = (x - u) / distance, (y - v) / distance
-            approach = (wx - vx) * nx + (wy - vy) * ny
-            flat = (vx - wx) * ny - (vy - wy) * nx + a.radius * spin + b.radius * other_spin
-            slip = flat, slip_over(a, here, nx, ny) - slip_over(b, there, -nx, -ny)
-            bounce = bounce_of_balls(self._setup, approach, hypot(*slip), a.name, b.name)
-            yield _contact(place, later, (nx, ny), bounce, approach, 1.0, b.name, slip)
+            dx, dy = states[i][0] - states[j][0], states[i][1] - states[j][1]
+            distance = (dx**2 + dy**2) ** 0.5
+            if distance <= a.radius + b.radius + TOUCHING_GAP:
+                nx, ny = dx / distance, dy / distance
+                speeds = speeds_where_touching([a, b], [states[i], states[j]], nx, ny)
+                bounce = bounce_of_balls(self._setup, speeds[0], hypot(*speeds[1:]), a.name, b.name)
+                yield Contact((i, j), b.name, nx, ny, 0.0, bounce, speeds[0], speeds)
 
+    # ------------------------------------------------------------------ impulses
 
-def _contact(
-    first: int,
-    second: int | None,
-    normal: tuple[float, float],
-    bounce: Bounce,
-    approach: float,
-    forward: float,
-    partner: str,
-    slip: tuple[float, float],
-) -> Contact:
-    """The contact as passed to pymunk, which sees only the plane."""
-    flat = bounce._replace(friction=in_plane(bounce.friction, *slip))
-    return Contact(first, second, *normal, flat, approach, forward, partner, bounce.friction, slip)
+    def _exchange_alone(self, states: dict[int, State], contact: Contact) -> None:
+        """A single contact, in units of the reduced mass; friction acts against the whole slip."""
+        balls = self._balls(contact)
+        mobility = sum(1.0 / ball.mass for ball in balls)  # 1/kg
+        turning = sum(1.0 / (ball.mass * ball.inertia_factor) for ball in balls)
+        approach, along, upward = contact.speeds
+        slip = hypot(along, upward)
+        restitution, friction, _ = contact.bounce
+        push, rub = self._lanes.exchange(approach, slip, mobility / turning, restitution, friction)
+        self._numerics.pymunk_steps += 1
+        share = rub / (slip * mobility) if slip > 0.0 else 0.0
+        impulse = push / mobility, share * along, share * upward
+        before, normal = [states[index] for index in contact.balls], (contact.nx, contact.ny)
+        after = after_impulses(balls, before, *normal, impulse, contact.sine)
+        apart = [state[2] * contact.nx + state[3] * contact.ny for state in after]
+        lacking = self._slowest_hop - (apart[0] - sum(apart[1:]))
+        if lacking > 0.0:
+            after = after_impulses(balls, after, *normal, (lacking / mobility, 0.0, 0.0))
+        states.update(zip(contact.balls, after, strict=True))
 
+    def _exchange_at_once(self, states: dict[int, State], found: Sequence[Contact]) -> None:
+        """Several contacts, without gain of energy.
 
-def _hopping(contact: Contact, slowest: float) -> Contact:
-    """The contact with enough restitution to separate at ``slowest`` (m/s) or faster."""
-    bounce, approach = contact.bounce, contact.approach
-    if approach <= STILL or bounce.restitution * approach >= slowest:
-        return contact
-    return replace(contact, bounce=bounce._replace(restitution=slowest / approach))
+        If several contacts close at once, restitution may demand more energy than there is. With friction this is
+        known as Kane's paradox (the slip reverses while the normal speeds are imposed): friction is reduced, down to
+        zero. If energy still increases, as when a light ball is squeezed between a wall and a heavy ball, restitution
+        is reduced: with both at zero no energy is gained. Chipmunk sees only the plane, so the upward part of the
+        friction comes afterwards.
+        """
+        balls = [track.ball for track in self._tracks]
+        most = (1.0 + _GAIN) * self._energy(states) + len(found) * self._heaviest * self._slowest_hop**2
+        wanted = [
+            (self._hopping(contact).restitution, friction_in_plane(contact.bounce.friction, *contact.speeds[1:]))
+            for contact in found
+        ]
+        friction = restitution = 1.0
+        while True:
+            bounces = [Bounce(restitution * e, friction * mu) for e, mu in wanted]
+            after, pushes = exchange_at_once(balls, states, found, bounces)
+            self._numerics.pymunk_steps += 1
+            if self._energy(after) <= most or restitution == 0.0:
+                break
+            if friction > 0.0:
+                friction = 0.5 * friction if friction > 1e-3 else 0.0
+            else:
+                restitution = 0.9 * restitution if restitution > 1e-2 else 0.0
+        states.update(after)
+        for contact, push in zip(found, pushes, strict=True):
+            if contact.speeds[2] != 0.0 and push > 0.0:
+                before, most = [states[index] for index in contact.balls], contact.bounce.friction * push
+                slip = contact.speeds[1:]
+                rubbed = rubbed_upward(self._balls(contact), before, contact.nx, contact.ny, slip, most)
+                states.update(zip(contact.balls, rubbed, strict=True))
 
+    def _balls(self, contact: Contact) -> list[Ball]:
+        return [self._tracks[index].ball for index in contact.balls]
 
-def _weaker(contact: Contact, friction: float, restitution: float) -> Contact:
-    """The contact with its friction and restitution multiplied by these factors."""
-    bounce = contact.bounce
-    less = bounce._replace(restitution=restitution * bounce.restitution, friction=friction * bounce.friction)
-    return replace(contact, bounce=less)
+    def _hopping(self, contact: Contact) -> Bounce:
+        """The bounce with enough restitution to separate no slower than the slowest hop."""
+        bounce, slowest = contact.bounce, self._slowest_hop
+        if contact.speed <= STILL or bounce.restitution * contact.speed >= slowest:
+            return bounce
+        return bounce._replace(restitution=slowest / contact.speed)
+
+    def _pay_for_hops(self, before: dict[int, State], after: dict[int, State]) -> None:
+        """Remove the energy that minimum hops added from the motion of all balls: energy never increases."""
+        had, has = self._energy(before), self._energy(after)
+        if has > had:
+            share = (had / has) ** 0.5
+            for index, (x, y, *motion) in after.items():
+                after[index] = (x, y, *(share * speed for speed in motion))
+
+    def _energy(self, states: dict[int, State]) -> float:
+        """Kinetic energy in J, including rotation."""
+        return sum(kinetic(self._tracks[index].ball, state) for index, state in states.items())

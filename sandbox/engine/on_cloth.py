@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from math import copysign, hypot, isfinite
+from math import isfinite
 
 from sandbox.engine.arc import Arc, still
 from sandbox.engine.motion import LastingContact
 from sandbox.engine.run import Numerics
-from sandbox.engine.setup import Ball, Bounce
+from sandbox.engine.setup import Ball
 from sandbox.engine.track import Track
 from sandbox.errors import RunError
 from sandbox.physics.cloth import Cloth
-from sandbox.physics.cushion import rebound
 from sandbox.physics.integrators import State
 
 
@@ -76,43 +74,3 @@ class OnCloth:
     def rests(self, arc: Arc) -> bool:
         """Whether the ball is at rest on this arc."""
         return arc.t1 > arc.t0 and len(arc.x) == 1 and len(arc.spin) == 1
-
-
-def slip_over(ball: Ball, state: State, nx: float, ny: float) -> float:
-    """Upward velocity in m/s of a ball's surface where it touches something against the normal (nx, ny)."""
-    return ball.radius * (state[6] * nx - state[5] * ny) if len(state) > 5 else 0.0
-
-
-def in_plane(friction: float, flat: float, upward: float) -> float:
-    """The part of a friction coefficient that acts in the plane, for these slips (m/s) in the plane and upward.
-
-    Friction acts against the total slip, and a sphere responds equally in all directions along its surface, so the
-    fraction in the plane is that of the slip, sticking or sliding.
-    """
-    return friction * abs(flat) / hypot(flat, upward) if upward != 0.0 else friction
-
-
-def rubbed(
-    balls: Sequence[Ball], states: Sequence[State], normal: tuple[float, float], slip: tuple[float, float], most: float
-) -> list[State]:
-    """The states of the one or two balls of a contact after the upward part of its friction.
-
-    ``normal`` points to the first of them, ``slip`` is the slip before, in the plane and upward, and ``most`` the
-    impulse in N s of sliding friction. Its effect on the height is ignored.
-    """
-    nx, ny = normal
-    flat, upward = slip
-    stopping = abs(upward) / sum((1.0 + 1.0 / ball.inertia_factor) / ball.mass for ball in balls)
-    impulse = -copysign(min(most * abs(upward) / hypot(flat, upward), stopping), upward)
-    after = []
-    for ball, (x, y, vx, vy, spin, wx, wy) in zip(balls, states, strict=True):
-        turn = ball.radius * impulse / ball.inertia
-        after.append((x, y, vx, vy, spin, wx - turn * ny, wy + turn * nx))
-    return after
-
-
-def off_nose(ball: Ball, state: State, normal: tuple[float, float], height: float, bounce: Bounce) -> State:
-    """The state after a ball has met a cushion's nose at ``height`` (m)."""
-    x, y, vx, vy, spin, wx, wy = state
-    motion = rebound((vx, vy, spin, wx, wy), normal, ball.radius, height, bounce.restitution, bounce.friction)
-    return (x, y, *motion)

@@ -11,6 +11,7 @@ step, and a ball that passes through a surface within a step is an error. The cl
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from math import hypot
 from time import perf_counter
 from typing import Any, NamedTuple
 
@@ -21,11 +22,17 @@ from sandbox.engine.acting import checked
 from sandbox.engine.arc import Arc
 from sandbox.engine.event import Event
 from sandbox.engine.motion import Diverged
-from sandbox.engine.on_cloth import in_plane, off_nose, rubbed, slip_over
 from sandbox.engine.run import Numerics, Run
 from sandbox.engine.setup import Ball, Circle, Setup, Surface
-from sandbox.engine.surfaces import bounce_of_balls, bounce_off
+from sandbox.engine.surfaces import (
+    bounce_of_balls,
+    bounce_off,
+    friction_in_plane,
+    rubbed_upward,
+    speeds_where_touching,
+)
 from sandbox.errors import RunError
+from sandbox.physics.cushion import rebound
 from sandbox.physics.integrators import State
 
 #: Overlap in m that Chipmunk allows; its default of 0.1 is meant for pixels.
@@ -296,16 +303,17 @@ class PlainSimulation:
             arbiter.process_collision = False
             if approach > 0.0:
                 bounce = bounce_off(surface, approach, along)
-                tracked.take(off_nose(tracked.ball, tracked.state(), (-nx, -ny), surface.nose_height, bounce))
+                radius, height = tracked.ball.radius, surface.nose_height
+                x, y, *motion = tracked.state()
+                tracked.take((x, y, *rebound(tuple(motion), (-nx, -ny), radius, height, *bounce[:2])))
             return
         press = max(0.0, tracked.acceleration[0] * nx + tracked.acceleration[1] * ny)  # m/s^2
         lasts = abs(approach) <= 2.0 * press * self._accuracy.step  # the speed that weight alone adds in a step or two
         if approach <= 0.0 and not lasts:
             return
-        state = tracked.state()
-        slip = along + tracked.ball.radius * state[4], slip_over(tracked.ball, state, -nx, -ny)
+        slip = speeds_where_touching([tracked.ball], [tracked.state()], -nx, -ny)[1:]
         restitution, friction, tilt = bounce_off(surface, approach, along)
-        arbiter.restitution, arbiter.friction = 0.0 if lasts else restitution, in_plane(friction, *slip)
+        arbiter.restitution, arbiter.friction = 0.0 if lasts else restitution, friction_in_plane(friction, *slip)
         # a tilted surface is equivalent to a level one that meets a velocity rotated the other way; it is rotated back
         # afterwards
         turned = 0.0 if lasts or any(pending.turned for pending in tracked.pending.values()) else tilt
@@ -336,15 +344,11 @@ class PlainSimulation:
         first, second = arbiter.shapes
         a, b = self._tracked[_body(first)], self._tracked[_body(second)]
         a.touched = b.touched = self._steps
-        (nx, ny), approach, along = _closing(arbiter)
-        here, there = a.state(), b.state()
-        flat = along + a.ball.radius * here[4] + b.ball.radius * there[4]
-        slip = flat, slip_over(a.ball, here, -nx, -ny) - slip_over(b.ball, there, nx, ny)
-        bounce = bounce_of_balls(
-            self._setup, approach, (flat * flat + slip[1] * slip[1]) ** 0.5, a.ball.name, b.ball.name
-        )
-        arbiter.restitution, arbiter.friction = bounce.restitution, in_plane(bounce.friction, *slip)
-        a.pending[second] = _Pending(bounce.friction, slip)
+        nx, ny = arbiter.normal
+        approach, *slip = speeds_where_touching([a.ball, b.ball], [a.state(), b.state()], -nx, -ny)
+        bounce = bounce_of_balls(self._setup, approach, hypot(*slip), a.ball.name, b.ball.name)
+        arbiter.restitution, arbiter.friction = bounce.restitution, friction_in_plane(bounce.friction, *slip)
+        a.pending[second] = _Pending(bounce.friction, (slip[0], slip[1]))
 
     def _part_from_ball(self, arbiter: pymunk.Arbiter, space: pymunk.Space, data: Any) -> None:
         first, second = arbiter.shapes
@@ -357,7 +361,7 @@ class PlainSimulation:
         if pending.slip[1] != 0.0 and push > 0.0:
             states = [tracked.state() for tracked in balls]
             moving = [tracked.ball for tracked in balls]
-            after = rubbed(moving, states, normal, pending.slip, pending.friction * push)
+            after = rubbed_upward(moving, states, *normal, pending.slip, pending.friction * push)
             for tracked, state in zip(balls, after, strict=True):
                 tracked.take(state)
 

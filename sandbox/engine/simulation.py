@@ -14,7 +14,6 @@ from typing import TYPE_CHECKING
 
 from sandbox.engine.accuracy import Accuracy
 from sandbox.engine.arc import Arc, still
-from sandbox.engine.contacts import ImpulseSpace
 from sandbox.engine.event import Event
 from sandbox.engine.impacts import Impacts
 from sandbox.engine.lasting import InPlane
@@ -71,7 +70,7 @@ class Simulation:
         self._tracks = self._make_tracks()
         self._separate_balls()
         slowest = 0.0 if setup.cloth is None else slowest_hop(setup.cloth, accuracy.hop)
-        self._impacts = Impacts(setup, self._tracks, ImpulseSpace(setup.balls, self._numerics), slowest)
+        self._impacts = Impacts(setup, self._tracks, self._numerics, slowest)
         self._pressed: Pressed | None = None
         if len(setup.balls) > 1:
             # here, not above: it brings numpy, which a run of one ball does not need

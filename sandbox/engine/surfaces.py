@@ -5,13 +5,15 @@ Speeds and accelerations are floats, or arrays for many shots at once, except fo
 
 from __future__ import annotations
 
-from math import inf, isfinite
+from collections.abc import Sequence
+from math import copysign, hypot, inf, isfinite
 from numbers import Real
 from typing import Any
 
-from sandbox.engine.setup import Bounce, Setup, Surface
+from sandbox.engine.setup import Ball, Bounce, Setup, Surface
 from sandbox.errors import RunError
-from sandbox.physics.elementwise import choose
+from sandbox.physics.elementwise import choose, cos, sin
+from sandbox.physics.impulse import after_impulse, surface_speeds
 from sandbox.physics.integrators import Acceleration, State
 
 #: Approach speed in m/s below which it is rounding and not an impact.
@@ -43,6 +45,67 @@ def _valid(bounce: Bounce, partner: str) -> Bounce:
     if 0.0 <= bounce.restitution < inf and 0.0 <= bounce.friction < inf and isfinite(bounce.tilt):
         return bounce
     raise RunError(f"{bounce} off {partner!r} is invalid: check the scene's law for it")
+
+
+def tilted(nx: Any, ny: Any, tilt: Any, along: Any) -> tuple[Any, Any]:
+    """The normal of a surface that deforms: turned by ``tilt`` (rad) against a motion ``along`` it."""
+    tilt = choose(along >= 0.0, tilt, -tilt)
+    c, s = cos(tilt), sin(tilt)
+    return c * nx - s * ny, c * ny + s * nx
+
+
+def friction_in_plane(friction: float, along: float, upward: float) -> float:
+    """The part of a friction coefficient that acts in the plane, for a slip (m/s) along and upward.
+
+    Friction acts against the total slip, and a sphere responds equally in all directions along its surface, so the
+    fraction in the plane is that of the slip, sticking or sliding.
+    """
+    return friction * abs(along) / hypot(along, upward) if upward != 0.0 else friction
+
+
+def speeds_where_touching(
+    balls: Sequence[Ball], states: Sequence[State], nx: float, ny: float, sine: float = 0.0
+) -> tuple[float, float, float]:
+    """Speed of approach, and slip along and upward, in m/s, of a ball and a surface or of two balls.
+
+    The unit normal points to the first ball; ``sine`` is that of the angle above its centre at which it is touched.
+    """
+    approach, along, upward = surface_speeds(states[0][2:], nx, ny, balls[0].radius, sine)
+    if len(balls) == 1:
+        return approach, along, upward
+    other = surface_speeds(states[1][2:], -nx, -ny, balls[1].radius)
+    return approach + other[0], along + other[1], upward - other[2]
+
+
+def after_impulses(
+    balls: Sequence[Ball],
+    states: Sequence[State],
+    nx: float,
+    ny: float,
+    impulse: tuple[float, float, float],
+    sine: float = 0.0,
+) -> list[State]:
+    """The states of one or two balls after impulses (N s) along the normal, along the surface and upward."""
+    after = []
+    for ball, state, side in zip(balls, states, (1.0, -1.0), strict=False):
+        push, along, upward = (part / ball.mass for part in impulse)
+        impulses = push, along, side * upward
+        motion = after_impulse(state[2:], side * nx, side * ny, ball.radius, ball.inertia_factor, impulses, sine)
+        after.append((*state[:2], *motion))
+    return after
+
+
+def rubbed_upward(
+    balls: Sequence[Ball], states: Sequence[State], nx: float, ny: float, slip: tuple[float, float], most: float
+) -> list[State]:
+    """The states after the upward part of the friction, for a slip (m/s) before it along and upward.
+
+    ``most`` is the impulse in N s of sliding friction, in all directions.
+    """
+    along, upward = slip
+    stopping = abs(upward) / sum((1.0 + 1.0 / ball.inertia_factor) / ball.mass for ball in balls)
+    impulse = -copysign(min(most * abs(upward) / hypot(along, upward), stopping), upward)
+    return after_impulses(balls, states, nx, ny, (0.0, 0.0, impulse))
 
 
 def press(state: State, acceleration: Acceleration, nx: Any, ny: Any, curvature: Any) -> Any:

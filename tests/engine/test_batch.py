@@ -19,17 +19,18 @@ from sandbox.engine import batch, simulate, simulate_many
 from sandbox.engine.accuracy import resolve
 from sandbox.engine.arc import Arc, through
 from sandbox.engine.arc_rows import ArcRows
-from sandbox.engine.contacts import BallAtImpact, Contact, ImpulseSpace
 from sandbox.engine.event import Event
-from sandbox.engine.lanes import Lanes
+from sandbox.engine.impulses import Contact, Lanes, exchange_at_once
+from sandbox.engine.lanes import ManyLanes
 from sandbox.engine.outlines import Outlines
-from sandbox.engine.run import Numerics, Run
+from sandbox.engine.run import Run
 from sandbox.engine.setup import Ball, Bounce, Bounds, Circle, Patch, Segment, Setup, Surface
 from sandbox.engine.stacking import Alike, Stack, chosen, stacked
 from sandbox.engine.touch import Obstacle
 from sandbox.errors import RunError
 from sandbox.physics.coefficients import Constant
 from sandbox.physics.forces import Drag, Gravity
+from sandbox.physics.impulse import after_impulse
 from sandbox.scene import listings, load
 
 #: Positions and times before the first impact, in m and s.
@@ -373,23 +374,27 @@ speeds = st.floats(-30.0, 30.0)
 
 
 @given(st.lists(st.tuples(speeds, st.floats(-30.0, -0.01), st.floats(-200.0, 200.0)), min_size=1, max_size=70))
-def test_lanes_exchange_what_contacts_do(motions: list[tuple[float, float, float]]):
-    lanes = Lanes()
-    along, away, spin = np.array(motions).T
+def test_an_impact_is_the_same_in_a_lane_in_many_lanes_and_as_it_is_placed(motions: list[tuple[float, float, float]]):
+    radius, (along, away, spin) = 0.11, np.array(motions).T
     rng = np.random.default_rng(len(motions))
     answers = rng.uniform((0.0, 0.0, 0.3), (1.0, 1.5, 1.0), (len(motions), 3))
-    radius = 0.11
-    found = lanes.exchange(along / radius, away / radius, spin, answers)
+    slips, lanes = along + radius * spin, Lanes()
+    together = ManyLanes().exchange_all(-away, slips, answers)
     for i, (restitution, friction, factor) in enumerate(answers.tolist()):
-        ball = Ball("ball", 0.43, radius, (0.0, 0.0), inertia_factor=factor)
-        moving = BallAtImpact(0, 5.0, 3.0, along[i], away[i], spin[i])
-        bounce = Bounce(restitution, friction)
-        contact = Contact(0, None, 0.0, 1.0, bounce, -away[i])
-        ImpulseSpace([ball], Numerics()).exchange([moving], [contact])
         size = abs(along[i]) + abs(away[i]) + radius * abs(spin[i])
-        assert radius * found[0][i] == pytest.approx(moving.vx, abs=1e-9 * size)
-        assert radius * found[1][i] == pytest.approx(moving.vy, abs=1e-9 * size)
-        assert radius * found[2][i] == pytest.approx(radius * moving.spin, abs=1e-9 * size)
+        push, rub = lanes.exchange(-away[i], slips[i], factor, restitution, friction)
+        assert together[:, i] == pytest.approx((push, rub), abs=1e-12 * size)
+        ball = Ball("ball", 0.43, radius, (0.0, 0.0), inertia_factor=factor)
+        nx, ny = math.cos(i), math.sin(i)
+        before = (5.0, 3.0, away[i] * nx + along[i] * ny, away[i] * ny - along[i] * nx, spin[i])
+        bounce = Bounce(restitution, friction)
+        contact = Contact((0,), "floor", nx, ny, 0.0, bounce, -away[i], (-away[i], slips[i], 0.0))
+        placed, (impulse,) = exchange_at_once([ball], {0: before}, [contact], [bounce])
+        alone = after_impulse(before[2:], nx, ny, radius, factor, (push, rub, 0.0))
+        assert (*alone[:2], radius * alone[2]) == pytest.approx(
+            (*placed[0][2:4], radius * placed[0][4]), abs=1e-9 * size
+        )
+        assert impulse == pytest.approx(0.43 * push, abs=1e-9 * size)
 
 
 def test_first_touches_are_those_of_single_obstacles():

@@ -1,0 +1,141 @@
+"""Impulses of contacts, computed by pymunk: one step of a Space, in which nothing moves, applies restitution and
+Coulomb friction.
+
+A single contact does not depend on place, direction or size: in units of the reduced mass it is the impact of a disc
+of radius 1 and mass 1 on level ground. For contacts that close together the balls are placed as they are.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+import pymunk
+
+from sandbox.engine.setup import Ball, Bounce, Vector
+from sandbox.physics.integrators import State
+
+#: Length in s of the step in which impulses are exchanged: at 340 m/s a ball moves 3e-13 m in it. No contact in it is
+#: deep enough for Chipmunk to correct positions.
+INSTANT = 1e-15
+
+#: Balls overlap by this fraction of their distances during the exchange, so that Chipmunk sees the contact. The
+#: impulse of round shapes depends only on the directions of their contacts, which scaling does not change.
+OVERLAP = 1e-6
+
+#: Solver iterations for contacts that close together: a cluster of 16 balls needs 50 for 1e-7 m/s. One is exact for a
+#: single contact.
+_ITERATIONS = 200
+
+#: Distance between lanes, how many lie side by side, and the height of a disc that is not in use.
+_SPACING, _SIDE, _PARKED = 4.0, 8, 1.5
+
+
+def still_space(iterations: int) -> pymunk.Space:
+    """A Space that never corrects positions and forgets a contact in the step after it."""
+    space = pymunk.Space()
+    space.collision_slop = space.collision_bias = 1.0
+    space.collision_persistence = 1
+    space.iterations = iterations
+    return space
+
+
+class Lanes:
+    """Discs of radius 1 and mass 1, each above level ground of its own."""
+
+    def __init__(self, count: int = 2) -> None:
+        self._space = still_space(1)
+        self._discs: list[pymunk.Circle] = []
+        self._bodies: list[pymunk.Body] = []
+        self._places: list[Vector] = []
+        self._next = 0
+        for lane in range(count):
+            x, y = _SPACING * (lane % _SIDE), _SPACING * (lane // _SIDE)
+            ground = pymunk.Segment(self._space.static_body, (x - 0.1, y), (x + 0.1, y), 0.0)
+            ground.elasticity = ground.friction = 1.0  # pymunk multiplies both shapes' values: the disc has the pair's
+            body = pymunk.Body(1.0, 1.0)
+            body.position = x, y + 1.0 + _PARKED
+            disc = pymunk.Circle(body, 1.0)
+            self._space.add(ground, body, disc)
+            self._discs.append(disc)
+            self._bodies.append(body)
+            self._places.append((x, y + 1.0 - OVERLAP))
+
+    def exchange(
+        self, approach: float, slip: float, factor: float, restitution: float, friction: float
+    ) -> tuple[float, float]:
+        """The impulses away from the ground and along it, of a disc that approaches at this speed and whose surface
+        slips at that speed; all in m/s. ``factor`` is its moment of inertia.
+
+        Lanes take turns, so that pymunk forgets the contact of one during the step of the next.
+        """
+        lane, self._next = self._next, (self._next + 1) % len(self._discs)
+        disc, body, (x, y) = self._discs[lane], self._bodies[lane], self._places[lane]
+        disc.elasticity, disc.friction, body.moment = restitution, friction, factor
+        body.position, body.velocity, body.angular_velocity = (x, y), (slip, -approach), 0.0
+        self._space.step(INSTANT)
+        along, away = body.velocity
+        body.position = x, y + _PARKED
+        return away + approach, along - slip
+
+
+class Contact(NamedTuple):
+    """A contact in an impact. The unit normal points to the first ball, from the surface or from the second ball."""
+
+    balls: tuple[int, ...]  # one or two, as indices into the balls of the setup
+    partner: str  # name of the surface or of the second ball
+    nx: float
+    ny: float
+    sine: float  # of the angle above the ball's centre at which a cushion's nose touches it
+    bounce: Bounce
+    speed: float  # m/s, at which the centres approach, positive when closing
+    speeds: tuple[float, float, float]  # m/s, where they touch: of approach, and of the slip along and upward
+
+
+def exchange_at_once(
+    balls: Sequence[Ball], states: dict[int, State], contacts: Sequence[Contact], bounces: Sequence[Bounce]
+) -> tuple[dict[int, State], list[float]]:
+    """The states of balls, by their index, after contacts that close together with these bounces, and the normal
+    impulse in N s of each.
+
+    A fixed shape is a short piece of its tangent plane, which is equivalent for contact with a ball.
+    """
+    space = still_space(_ITERATIONS)
+    bodies: dict[int, pymunk.Body] = {}
+    discs: dict[int, pymunk.Circle] = {}
+    left, bottom, *_ = next(iter(states.values()))
+    for index, (x, y, vx, vy, spin, *_) in states.items():
+        body = bodies[index] = pymunk.Body(balls[index].mass, balls[index].inertia)
+        body.position = (1.0 - OVERLAP) * (x - left), (1.0 - OVERLAP) * (y - bottom)
+        body.velocity, body.angular_velocity = (vx, vy), spin
+        discs[index] = pymunk.Circle(body, balls[index].radius)
+        space.add(body, discs[index])
+    pairs: dict[frozenset[pymunk.Shape], int] = {}
+    for number, contact in enumerate(contacts):
+        touching: list[pymunk.Shape] = [discs[index] for index in contact.balls]
+        if len(touching) == 1:
+            index, normal = contact.balls[0], pymunk.Vec2d(contact.nx, contact.ny)
+            foot = bodies[index].position - balls[index].radius * (1.0 - OVERLAP) * normal
+            half = 0.1 * balls[index].radius * normal.perpendicular()
+            plane = pymunk.Segment(space.static_body, foot - half, foot + half, 0.0)
+            space.add(plane)
+            touching.append(plane)
+        pairs[frozenset(touching)] = number
+    impulses = [0.0] * len(contacts)
+
+    def bounce(arbiter: pymunk.Arbiter, space: pymunk.Space, data: Any) -> None:
+        number = pairs.get(frozenset(arbiter.shapes))
+        if number is None:  # close enough to overlap here, but not in contact
+            arbiter.process_collision = False
+        else:
+            arbiter.restitution, arbiter.friction, _ = bounces[number]
+
+    def read(arbiter: pymunk.Arbiter, space: pymunk.Space, data: Any) -> None:
+        impulses[pairs[frozenset(arbiter.shapes)]] = abs(arbiter.total_impulse.dot(arbiter.normal))
+
+    space.on_collision(pre_solve=bounce, post_solve=read)
+    space.step(INSTANT)
+    after = {}
+    for index, (x, y, _, _, _, *rolling) in states.items():
+        after[index] = (x, y, *bodies[index].velocity, bodies[index].angular_velocity, *rolling)
+    return after, impulses
