@@ -12,9 +12,12 @@ import stat
 import subprocess
 import sys
 import time
+import weakref
+from collections.abc import Callable
 from pathlib import Path
 from typing import NamedTuple
 
+import pymunk
 import pytest
 from PIL import Image
 
@@ -824,16 +827,43 @@ def test_an_interrupt_before_the_first_import_is_a_line(tmp_path: Path):
     assert (outcome.returncode, outcome.stdout, outcome.stderr) == (130, "", "stopped\n")
 
 
-def test_ctrl_c_is_not_lost_in_a_callback():
-    """cffi prints what a callback raises, and goes on."""
-    raised_in_callback = compile("signal.raise_signal(signal.SIGINT)", "site/pymunk/_callbacks.py", "exec")
-    before = signal.signal(signal.SIGINT, Interrupts())
+class _Deleted:
+    def __del__(self) -> None:
+        signal.raise_signal(signal.SIGINT)
+
+
+class _Referred:
+    pass
+
+
+def _in_a_callback_of_c() -> None:
+    space, body = pymunk.Space(), pymunk.Body(1.0, 1.0)
+    body.velocity_func = lambda *_: signal.raise_signal(signal.SIGINT)
+    space.add(body, pymunk.Circle(body, 1.0))
+    space.step(0.01)
+
+
+def _for_a_weak_reference() -> None:
+    referred = _Referred()
+    _reference = weakref.ref(referred, lambda _: signal.raise_signal(signal.SIGINT))
+    del referred
+
+
+@pytest.mark.parametrize("dropped", [_in_a_callback_of_c, _for_a_weak_reference, lambda: _Deleted() and None])
+def test_ctrl_c_is_not_lost_where_python_drops_exceptions(monkeypatch, dropped: Callable[[], None]):
+    """The import system does it, too: it keeps its locks by weak references."""
+    monkeypatch.setattr(sys, "unraisablehook", sys.unraisablehook)  # to be restored
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    interrupts = Interrupts()
     try:
-        exec(raised_in_callback)
+        interrupts.begin()
+        dropped()
         with pytest.raises(KeyboardInterrupt):
             time.sleep(10.0)
     finally:
         signal.signal(signal.SIGINT, before)
+        signal.signal(signal.SIGTERM, signal.SIG_DFL)
+    assert interrupts.code == 130
 
 
 def test_frames_that_were_not_finished_leave_no_folder(call, drop: Path, tmp_path: Path):

@@ -8,12 +8,15 @@ from __future__ import annotations
 
 import ast
 import hashlib
+import os
 import platform
 import sys
 import sysconfig
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
-from importlib.metadata import PackageNotFoundError, version
+from functools import cache
+from importlib.metadata import version
+from itertools import accumulate
 from pathlib import Path
 
 from sandbox import resources
@@ -21,7 +24,7 @@ from sandbox.lab.row_file import is_of_a_sweep
 from sandbox.scene import Scene
 
 #: Pictures and tables that the program writes; a file of these kinds that a scene reads is not noticed.
-_OUTPUTS = {".png", ".gif", ".webp", ".parquet", ".resume", ".part"}
+_OUTPUTS = (".png", ".gif", ".webp", ".parquet", ".resume", ".part", "~")
 
 #: Folders that no run depends on.
 _IGNORED = {"__pycache__", "golden", "out"}
@@ -38,8 +41,9 @@ class Provenance:
     parts: dict[str, str]
 
     def differences(self) -> list[str]:
-        """The parts that differ in this process, which may be another process or machine."""
-        here = _parts(self.folder, self.user_modules)
+        """The parts that differ in this process, which may be on another machine. A file counts as it was when this
+        process first compared it, since a module is loaded only once."""
+        here = _parts(self.folder, self.user_modules, _first_content)
         return [
             f"{name} {here[name]} instead of {part}" if name in (*_LIBRARIES, "Python", "platform") else name
             for name, part in self.parts.items()
@@ -51,45 +55,50 @@ def provenance(scene: Scene) -> Provenance:
     """The provenance of a scene loaded in this process."""
     folder = scene.folder.resolve()
     user_modules = tuple(sorted(_user_modules(folder)))
-    return Provenance(folder, user_modules, _parts(folder, user_modules))
+    return Provenance(folder, user_modules, _parts(folder, user_modules, _content))
 
 
-def _parts(folder: Path, user_modules: Iterable[Path]) -> dict[str, str]:
+def _parts(folder: Path, user_modules: Iterable[Path], content: Callable[[Path], str]) -> dict[str, str]:
     return {
-        "the sandbox": _digest(resources.PACKAGE, resources.PACKAGE.rglob("*.py")),
-        "the scene": _digest(folder, [*_files(folder), *user_modules]),
-        **{name: _version(name) for name in _LIBRARIES},
+        "the sandbox": _digest(resources.PACKAGE, resources.PACKAGE.rglob("*.py"), content),
+        "the scene": _digest(folder, [*_files(folder), *user_modules], content),
+        **{name: version(name) for name in _LIBRARIES},
         "Python": platform.python_version(),
         "platform": f"{platform.system()} {platform.machine()}",
     }
 
 
-def _version(library: str) -> str:
+def _digest(root: Path, files: Iterable[Path], content: Callable[[Path], str]) -> str:
+    """A digest of the names and contents of files."""
+    names = ((file.relative_to(root) if file.is_relative_to(root) else file, file) for file in sorted(files))
+    lines = (f"{name.as_posix()}\0{content(file)}\0" for name, file in names)
+    return hashlib.sha256("".join(lines).encode(errors="surrogateescape")).hexdigest()
+
+
+def _content(file: Path) -> str:
+    """The digest of a file; of one that is missing or unreadable, why."""
     try:
-        return version(library)
-    except PackageNotFoundError:
-        return "unknown"
+        return hashlib.sha256(file.read_bytes()).hexdigest()
+    except OSError as error:
+        return type(error).__name__
 
 
-def _digest(root: Path, files: Iterable[Path]) -> str:
-    """A digest of the names and contents of files; a missing file counts as missing."""
-    total = hashlib.sha256()
-    for file in sorted(files):
-        name = file.relative_to(root) if file.is_relative_to(root) else file
-        content = file.read_bytes() if file.is_file() else b"nothing"
-        total.update(f"{name.as_posix()}\0{len(content)}\0".encode(errors="surrogateescape"))
-        total.update(content)
-    return total.hexdigest()
+_first_content = cache(_content)
 
 
 def _files(folder: Path) -> Iterator[Path]:
     """All files of a scene except its outputs, golden files, caches and hidden files."""
-    for file in folder.rglob("*"):
-        parts = file.relative_to(folder).parts
-        if any(part.startswith(".") or part in _IGNORED for part in parts) or not file.is_file():
-            continue
-        if file.suffix not in _OUTPUTS and not file.name.endswith("~") and not is_of_a_sweep(file):
-            yield file
+    seen = set()  # links may lead back
+    for place, folders, names in os.walk(folder, followlinks=True):
+        seen.add(os.path.realpath(place))
+        folders[:] = [
+            name
+            for name in folders
+            if not name.startswith(".") and name not in _IGNORED and os.path.realpath(f"{place}/{name}") not in seen
+        ]
+        for file in (Path(place, name) for name in names if not name.startswith(".") and not name.endswith(_OUTPUTS)):
+            if file.is_file() and not is_of_a_sweep(file):
+                yield file
 
 
 def _user_modules(folder: Path) -> set[Path]:
@@ -98,34 +107,42 @@ def _user_modules(folder: Path) -> set[Path]:
     found: set[Path] = set()
     waiting = list(folder.rglob("*.py"))
     while waiting:
-        for name in _imported(waiting.pop()):
-            file = _module_file(folder, name)
+        source = waiting.pop()
+        for name, above in _imported(source):
+            file = _module_file(folder, name) if above is None else _source(above, name)
             if file is not None and file not in found and not file.is_relative_to(folder) and _is_users(file):
                 found.add(file)
                 waiting.append(file)
     return found
 
 
-def _imported(source: Path) -> Iterator[str]:
-    """Dotted names that a module may import."""
+def _imported(source: Path) -> Iterator[tuple[str, Path | None]]:
+    """Dotted names that a module may import; of a relative import also the folder that it begins from."""
     try:
         tree = ast.parse(source.read_bytes())
     except (SyntaxError, ValueError, OSError):
         return
     for node in ast.walk(tree):
+        above = None
         if isinstance(node, ast.Import):
-            yield from (alias.name for alias in node.names)
-        elif isinstance(node, ast.ImportFrom) and node.module and not node.level:
-            yield node.module
-            yield from (f"{node.module}.{alias.name}" for alias in node.names)
+            names = [alias.name for alias in node.names]
+        elif isinstance(node, ast.ImportFrom):
+            names = [f"{node.module or ''}.{alias.name}".strip(".") for alias in node.names]
+            above = source.parents[node.level - 1] if node.level else None
+        else:
+            continue
+        for name in names:
+            yield from ((package, above) for package in accumulate(name.split("."), "{}.{}".format))
 
 
 def _module_file(folder: Path, name: str) -> Path | None:
     file = getattr(sys.modules.get(name), "__file__", None)
-    if file is not None:
-        return Path(file).resolve()
-    place = folder.parent.joinpath(*name.split("."))
-    return next((path for path in (place.with_suffix(".py"), place / "__init__.py") if path.is_file()), None)
+    return Path(file).resolve() if file is not None else _source(folder.parent, name)
+
+
+def _source(place: Path, name: str) -> Path | None:
+    path = place.joinpath(*name.split("."))
+    return next((file for file in (path.with_suffix(".py"), path / "__init__.py") if file.is_file()), None)
 
 
 def _is_users(file: Path) -> bool:

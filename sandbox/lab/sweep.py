@@ -311,7 +311,7 @@ def _plan(payload: bytes) -> Plan:
     if differences:
         raise RunError(
             f"the worker on {platform.node() or 'another machine'} would compute different numbers; it differs in: "
-            f"{', '.join(differences)}"
+            f"{', '.join(differences)}; restart it if that was changed since it started"
         )
     found = pickle.loads(plan)
     assert isinstance(found, Plan)

@@ -30,7 +30,9 @@ from sandbox.lab.provenance import provenance
 from sandbox.lab.row_file import RowFile, cell
 from sandbox.lab.sweep import RowsInOrder, jobs_that_pay, sweep_to_file, workers
 from sandbox.scene import Scene, compare, load, simulate
+from sandbox.scene.modules import read_again
 from sandbox.scene.running import simulate_at
+from sandbox.workers import Processes
 from sandbox.workers import cluster as cluster_of
 
 DROP = Path(__file__).parents[1] / "scenes" / "drop"
@@ -390,11 +392,14 @@ def test_what_another_sweep_found_is_kept_and_the_same_rows_are_not(drop, tmp_pa
 def test_all_that_rows_depend_on_makes_another_sweep(tmp_path, monkeypatch):
     """Two models must never meet in one file: files that a scene reads, modules beside it, versions, the program."""
     (tmp_path / "physics_of_mine").mkdir()
-    (tmp_path / "physics_of_mine" / "__init__.py").write_text("")
+    (package_of_mine := tmp_path / "physics_of_mine" / "__init__.py").write_text("")
     helper = tmp_path / "physics_of_mine" / "helper.py"
     helper.write_text("K = 1\n")
     monkeypatch.syspath_prepend(tmp_path)
-    folder = own_scene(tmp_path, "    from physics_of_mine import helper\n    import json\n")
+    folder = own_scene(tmp_path, "    import physics_of_mine.helper\n    import json\n    from ..other import ball\n")
+    (tmp_path / "data").mkdir()
+    (folder / "linked").symlink_to(tmp_path / "data")
+    (folder / "itself").symlink_to(folder)
     package = tmp_path / "package"
     shutil.copytree(resources.PACKAGE / "physics", package / "physics")
     monkeypatch.setattr(resources, "PACKAGE", package)
@@ -407,7 +412,10 @@ def test_all_that_rows_depend_on_makes_another_sweep(tmp_path, monkeypatch):
         (folder / "scene.py", "# another\n"),
         (folder / "k.txt", "2"),
         (folder / "tables" / "k.csv", "1,2\n"),
+        (folder / "linked" / "k.csv", "1,2\n"),
         (helper, "K = 2\n"),
+        (package_of_mine, "K = 2\n"),
+        (tmp_path / "other" / "ball.py", "K = 2\n"),
         (package / "physics" / "forces.py", "# another\n"),
         (package / "sport" / "new.py", ""),
     ):
@@ -640,8 +648,32 @@ def test_a_worker_with_other_code_is_refused_by_name(drop):
     plan.__dict__["provenance"] = replace(here, parts=other)
     with pytest.raises(RunError) as refused, workers(2) as pool:
         list(RowsInOrder(plan, pool))
-    told = f"it differs in: the sandbox, numpy {here.parts['numpy']} instead of 1.0"
-    assert str(refused.value).endswith(told)
+    assert f"it differs in: the sandbox, numpy {here.parts['numpy']} instead of 1.0" in str(refused.value)
+
+
+def test_a_worker_that_loaded_the_scene_before_a_change_is_refused(tmp_path):
+    """Its modules are loaded once: it would compute the old numbers, while the files on its disk are the new ones."""
+    folder, pool = own_scene(tmp_path, "    factor = 1.0\n"), Processes(1)
+
+    def heights() -> list[float]:
+        with read_again(folder):
+            plan = grid(load(folder), "launch.height=0.5:2:3")
+        return [row["final_height"] for rows in RowsInOrder(plan, pool) for row in rows]
+
+    def change(old: str, new: str) -> None:
+        source = (folder / "scene.py").read_text("utf-8")
+        assert old in source
+        (folder / "scene.py").write_text(source.replace(old, new), "utf-8")
+
+    try:
+        before = heights()
+        change("-self.mass * self.gravity", "-self.mass * self.gravity * 1.5")
+        with pytest.raises(RunError, match="it differs in: the scene; restart it"):
+            heights()
+        change(" * 1.5", "")
+        assert heights() == before
+    finally:
+        pool.close(abandon=True)
 
 
 # The command ---------------------------------------------------------------------------------------------------------
