@@ -18,21 +18,23 @@ INTERVAL = 0.1
 
 
 @contextmanager
-def bar(what: str) -> Iterator[Callable[[int, int], None]]:
+def bar(what: str) -> Iterator[Callable[[float, float], None]]:
     """Yield a function to call with the amount done and the total; the bar shows on a terminal only.
 
-    Rate and time left are measured from its first call, which may already count work done earlier.
+    Rate and time left are measured from its first call, which may already count work done earlier, and again from one
+    that has less done than the call before: the next piece of work.
     """
     begun = time.monotonic()
-    refreshed = 0.0
-    first: tuple[float, int] | None = None
+    refreshed = latest = 0.0
+    first: tuple[float, float] | None = None
     progress: Progress | None = None
     task: Any = None
 
-    def show(done: int, total: int) -> None:
-        nonlocal refreshed, first, progress, task
+    def show(done: float, total: float) -> None:
+        nonlocal refreshed, first, latest, progress, task
         now = time.monotonic()
-        first = first or (now, done)
+        first = first if first is not None and done >= latest else (now, done)
+        latest = done
         if now - begun < PATIENCE or now - refreshed < INTERVAL:
             return
         refreshed = now
@@ -60,7 +62,7 @@ def _bar() -> Progress:
     return Progress(*columns, console=console, transient=True, auto_refresh=False)
 
 
-def _pace(done: int, seconds: float, left: int) -> str:
+def _pace(done: float, seconds: float, left: float) -> str:
     """Rate and time left, as ``"1,240/s  12 s left"``."""
     if done <= 0 or seconds <= 0.0:
         return ""

@@ -5,9 +5,11 @@ from __future__ import annotations
 import io
 import re
 import time
+from pathlib import Path
 
 import pytest
 
+from sandbox.cli import main
 from sandbox.progress import bar
 
 
@@ -82,3 +84,26 @@ def test_it_tells_the_rate_and_the_time_left(clock, monkeypatch):
         clock(4.0)
         progress(3000, 5000)
     assert re.search(r"3000/5000\S* 500/s  4 s left", terminal.getvalue())
+
+
+def test_each_piece_of_work_has_its_own_rate(clock, monkeypatch):
+    monkeypatch.setattr("sys.stderr", terminal := Terminal())
+    with bar("seconds simulated") as progress:
+        progress(1.0, 10.0)
+        clock(4.0)
+        progress(9.0, 10.0)
+        clock(4.0)
+        progress(0.5, 10.0)
+        clock(4.0)
+        progress(2.5, 10.0)
+    assert re.search(r"2/10\S* 0\.5/s  15 s left", terminal.getvalue())
+
+
+@pytest.mark.parametrize("more", [[], ["--check"]])
+def test_a_run_of_many_steps_tells_how_far_it_is(monkeypatch, more):
+    monkeypatch.setattr("sys.stderr", terminal := Terminal())
+    monkeypatch.setattr("sandbox.progress.PATIENCE", 0.0)
+    steps = ["--set", "accuracy.method=plain", "--set", "accuracy.step=0.01"]
+    assert main(["run", str(Path(__file__).parent / "scenes" / "drop"), *steps, *more]) == 0
+    assert re.search(r"seconds simulated.*━.*0/1", terminal.getvalue())
+    assert_cleared(terminal)

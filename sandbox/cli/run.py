@@ -76,6 +76,7 @@ def run(
       sandbox run my-shot.toml --accuracy precise --check --json
     """
     from sandbox import report
+    from sandbox.progress import bar
     from sandbox.scene import check as check_scene
     from sandbox.scene import simulate
 
@@ -91,12 +92,13 @@ def run(
     }
     pixels = None if size is None else outputs.read_size(size)
     files = outputs.requested(paths, size, fps)
-    try:
-        done = simulate(chosen)
-    except RequestError as error:  # what only the scene can check: two balls in one place
-        raise RequestError(f"{scene}: {error}") from None
-    checked = check_scene(chosen, done) if check else None
-    other = None if compare is None else (compare, simulate(_comparable(chosen, compare, accuracy)))
+    with bar("seconds simulated") as progress:
+        try:
+            done = simulate(chosen, progress)
+        except RequestError as error:  # what only the scene can check: two balls in one place
+            raise RequestError(f"{scene}: {error}") from None
+        checked = check_scene(chosen, done, progress) if check else None
+        other = None if compare is None else (compare, simulate(_comparable(chosen, compare, accuracy), progress))
     if as_json:
         said = report.as_json(chosen, done, checked, None if other is None else other[1])
     else:

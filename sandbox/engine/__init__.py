@@ -17,8 +17,8 @@ if TYPE_CHECKING:
 def simulate(setup: Setup, accuracy: Accuracy, progress: Callable[[float, float], None] | None = None) -> Run:
     """Run a setup to its end. Raises RunError with the time, the ball and the quantity if it cannot be completed.
 
-    The plain method, which may take many steps, reports to ``progress`` the time simulated and the full duration, in
-    s.
+    The plain method, which may take many steps, reports to ``progress`` the time simulated and the most that it can
+    become, in s.
     """
     # here, not above: they bring pymunk, which reading a scene does not need
     with setup_errors_named(setup):

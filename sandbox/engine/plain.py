@@ -114,7 +114,7 @@ class PlainSimulation:
     def __init__(
         self, setup: Setup, accuracy: Accuracy, progress: Callable[[float, float], None] | None = None
     ) -> None:
-        """``progress`` is called regularly with the time simulated and the full duration, in s."""
+        """``progress`` is called regularly with the time simulated and the most that it can become, in s."""
         self._setup = setup
         self._accuracy = accuracy
         self._progress = progress
@@ -201,7 +201,7 @@ class PlainSimulation:
     def _record_all(self) -> bool:
         """Record and check the state of all balls. Returns whether all are at rest."""
         if self._progress is not None:
-            self._progress(self._t, self._setup.duration)
+            self._progress(self._t, min(self._setup.duration, MOST_STEPS * self._accuracy.step))
         rest = True
         for tracked in self._tracked.values():
             if not tracked.caught:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from sandbox.errors import RunError
 from sandbox.scene.finding import as_scene
-from sandbox.scene.running import simulate, simulate_at
+from sandbox.scene.running import Progress, simulate, simulate_at
 from sandbox.scene.scene import Scene
 
 if TYPE_CHECKING:
@@ -53,18 +53,19 @@ class Check:
         return {name: spread for name, spread in self.spread.items() if spread >= _CHAOTIC * NUDGE}
 
 
-def check(scene: Scene | str | Path, run: Run | None = None) -> Check:
+def check(scene: Scene | str | Path, run: Run | None = None, progress: Progress | None = None) -> Check:
     """Estimate the errors of the scene's result: run it again, finer and from nudged starts, and compare.
 
-    The error of a number is the largest difference to any of those runs.
+    The error of a number is the largest difference to any of those runs. ``progress`` is called as by ``simulate``, in
+    each of them.
     """
     chosen = as_scene(scene)
     run = run or simulate(chosen)
     setup = nudged(chosen.build(), _ROUNDING, 0)
-    outcome = compare(run, simulate_at(chosen, run.accuracy.finer(), setup))
+    outcome = compare(run, simulate_at(chosen, run.accuracy.finer(), setup, progress))
     spread: dict[str, float] = {}
     unsettled: dict[str, list[Any]] = {}
-    for result in _nudged_results(chosen, run):
+    for result in _nudged_results(chosen, run, progress):
         apart, changed = _differences(run.result, result)
         for name, difference in apart.items():
             spread[name] = max(difference, spread.get(name, 0.0))
@@ -90,11 +91,11 @@ def nudged(setup: Setup, distance: float, turn: int) -> Setup:
     return replace(setup, balls=balls)
 
 
-def _nudged_results(scene: Scene, run: Run) -> Iterator[Mapping[str, Any]]:
+def _nudged_results(scene: Scene, run: Run, progress: Progress | None) -> Iterator[Mapping[str, Any]]:
     """The results from nudged starts; for a run that fails, its error in place of each result."""
     for turn in range(NUDGES):
         try:
-            yield simulate_at(scene, run.accuracy, nudged(scene.build(), NUDGE, turn)).result
+            yield simulate_at(scene, run.accuracy, nudged(scene.build(), NUDGE, turn), progress).result
         except RunError as error:
             yield dict.fromkeys(run.result, f"no result: {error}")
 

@@ -82,13 +82,17 @@ def test_a_run_of_too_many_steps_is_given_up_with_a_hint(monkeypatch: pytest.Mon
         simulate(Setup([ball]), resolve(**by_steps_of(1e-6)))
 
 
-def test_how_far_it_is_can_be_followed():
+def test_how_far_it_is_can_be_followed(monkeypatch: pytest.MonkeyPatch):
     told: list[tuple[float, float]] = []
     ball = Ball("ball", 1.0, 0.1, (0.0, 0.0), (1.0, 0.0))
-    simulate(Setup([ball], duration=0.5), resolve(**by_steps_of(1e-3)), lambda t, duration: told.append((t, duration)))
+    simulate(Setup([ball], duration=0.5), resolve(**by_steps_of(1e-3)), lambda t, most: told.append((t, most)))
     assert len(told) > 50
     assert told == sorted(told)
-    assert {duration for _, duration in told} == {0.5}
+    assert {most for _, most in told} == {0.5}
+    monkeypatch.setattr(plain, "MOST_STEPS", 1000)
+    with pytest.raises(RunError):
+        simulate(Setup([ball]), resolve(**by_steps_of(1e-3)), lambda t, most: told.append((t, most)))
+    assert told[-1] == (pytest.approx(1.0, abs=0.01), 1.0)
 
 
 def test_a_run_says_how_it_was_stepped():
