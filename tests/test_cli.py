@@ -758,6 +758,30 @@ def test_python_runs_the_module():
     assert (outcome.returncode, outcome.stdout) == (0, f"sandbox {sandbox.__version__}\n")
 
 
+@pytest.mark.parametrize("program", ["../sandbox", "-m sandbox"])
+def test_modules_in_the_current_folder_do_not_replace_those_of_python(tmp_path: Path, program: str):
+    """Neither in the program nor in the processes of a sweep."""
+    (tmp_path / "sandbox").write_text(f"if __name__ == '__main__':\n    {COMMAND[-1]}")
+    (here := tmp_path / "here").mkdir()
+    for name in ("random", "struct", "pickle", "multiprocessing", "typer", "numpy", "scene"):
+        (here / f"{name}.py").write_text("open('ran', 'w')\nraise ImportError")
+    command = [
+        sys.executable,
+        *program.split(),
+        "sweep",
+        "golf",
+        "--over",
+        "launch.angle=5:9:3",
+        "--jobs",
+        "2",
+        "--out",
+        "rows.csv",
+    ]
+    outcome = subprocess.run(command, capture_output=True, text=True, cwd=here)
+    assert (outcome.returncode, outcome.stderr) == (0, "")
+    assert not (here / "ran").exists()
+
+
 def stopped(by: int, sign: Path, *args: object) -> Outcome:
     """Run the program in a process, and send it a signal once ``sign`` is there."""
     process = subprocess.Popen(

@@ -54,10 +54,10 @@ class RowFile:
         self.damaged: int | None = None
         self._plan = plan
         self._is_device = path.exists() and not path.is_file()
-        self._mark = path.with_name(path.name + ".resume")
         self._lock: TextIO | None = None
         self._columns: list[str] = []
         self._target = path.resolve() if path.is_symlink() else path  # the target of a link, not the link
+        self._mark = self._target.with_name(f"{self._target.name}.resume")
         self.before = self._target.with_name(f"{self._target.name}~")
 
     def __enter__(self) -> RowFile:

@@ -10,9 +10,9 @@ import multiprocessing
 import os
 import pickle
 import signal
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from concurrent.futures import Future
-from contextlib import suppress
+from contextlib import contextmanager, suppress
 from multiprocessing import resource_tracker
 from multiprocessing.connection import Connection
 from queue import Empty, SimpleQueue
@@ -22,6 +22,9 @@ from typing import Any
 from sandbox.workers.pool import WorkerLost
 
 _CONTEXT = multiprocessing.get_context("spawn")  # no state of this process leaks into the others
+
+#: The variable that keeps modules in the current folder from replacing those of Python, and a lock while it is set.
+_SAFE_PATH, _STARTING = "PYTHONSAFEPATH", Lock()
 
 _Asked = tuple["Future[Any]", Callable[..., Any], tuple[Any, ...]]
 
@@ -112,14 +115,10 @@ class _Process:
             if self._is_over:
                 raise WorkerLost("no more calls")
             if self._line is None:
-                # Ctrl-C reaches all processes of a terminal, but only the main one should handle it: a signal blocked
-                # here stays blocked in a process started here. (Starting the tracker would unblock it again.)
-                resource_tracker.ensure_running()
-                if hasattr(signal, "pthread_sigmask"):
-                    signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
                 self._line, other = _CONTEXT.Pipe()
                 self._process = _CONTEXT.Process(target=_serve, args=(other,), daemon=True)
-                self._process.start()
+                with _starting():
+                    self._process.start()
                 other.close()
             return self._line
 
@@ -132,6 +131,25 @@ class _Process:
             code: int | None = self._process.exitcode
             self._process = self._line = None
             return code
+
+
+@contextmanager
+def _starting() -> Iterator[None]:
+    """What processes that are started here inherit."""
+    with _STARTING:
+        before = os.environ.get(_SAFE_PATH)
+        os.environ[_SAFE_PATH] = "1"
+        try:
+            # Ctrl-C reaches all processes of a terminal, but only the main one should handle it: a signal blocked here
+            # stays blocked in a process started here. (Starting the tracker would unblock it again.)
+            resource_tracker.ensure_running()
+            if hasattr(signal, "pthread_sigmask"):
+                signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+            yield
+        finally:
+            del os.environ[_SAFE_PATH]
+            if before is not None:
+                os.environ[_SAFE_PATH] = before
 
 
 # ---------------------------------------------------------------------------------------------------------------------

@@ -332,15 +332,16 @@ def test_a_damaged_header_is_refused(drop, tmp_path, header):
 
 
 def test_one_sweep_at_a_time_writes_a_file(drop, tmp_path, capsys):
-    path = tmp_path / "rows.csv"
+    path, link = tmp_path / "rows.csv", tmp_path / "link.csv"
+    link.symlink_to(path)
+    command = ["sweep", str(DROP), "--over", "launch.height=0.5:2:3", "--jobs", "1", "--out"]
     with RowFile(path, grid(drop, "launch.height=0.5:2:3")):
-        command = ["sweep", str(DROP), "--over", "launch.height=0.5:2:3", "--jobs", "1", "--out", str(path)]
-        assert main(command) == 2
-        assert (
-            capsys.readouterr().err
-            == f"error: --out {path}: another sweep is writing to this file; choose another name\n"
-        )
-    assert main(command) == 0
+        for name in (path, link):
+            assert main([*command, str(name)]) == 2
+            told = f"error: --out {name}: another sweep is writing to this file; choose another name\n"
+            assert capsys.readouterr().err == told
+    assert main([*command, str(link)]) == 0
+    assert {file.name for file in tmp_path.iterdir()} == {"rows.csv", "link.csv"}
 
 
 def test_files_of_the_users_are_kept(drop, tmp_path):
