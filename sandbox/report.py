@@ -13,6 +13,7 @@ from sandbox.errors import RunError
 from sandbox.files import json_ready, written_whole
 from sandbox.lab.tables import paragraph, table
 from sandbox.scene.checking import NUDGE
+from sandbox.sport.amounts import margin
 from sandbox.text import csv_text
 
 if TYPE_CHECKING:
@@ -125,17 +126,17 @@ def _compared(rows: list[tuple[str, str]], verdict: str, other: Run) -> list[tup
 
 def _events(run: Run) -> list[str]:
     shown = list(run.events if len(run.events) <= EVENTS_SHOWN else run.events[: EVENTS_SHOWN - 1])
-    rows = [_event_row(event) for event in shown]
+    rows = [_event_row(run, event) for event in shown]
     if len(shown) < len(run.events):
         rows.append(("", "", f"... {len(run.events) - len(shown) - 1} more", "", ""))
-        rows.append(_event_row(run.events[-1]))
+        rows.append(_event_row(run, run.events[-1]))
     if len(run.setup.balls) > 1:
         return table(("",) * 5, rows, "rllll")
     return table(("",) * 4, [(t, *rest) for t, _, *rest in rows], "rlll")
 
 
-def _event_row(event: Event) -> tuple[str, ...]:
-    speed = f"at {event.speed:.1f} m/s" if event.kind == "impact" else ""
+def _event_row(run: Run, event: Event) -> tuple[str, ...]:
+    speed = f"at {run.closing_speed(event):.1f} m/s" if event.kind == "impact" else ""
     return f"{event.t:8.2f} s", event.ball, event.kind, event.partner, speed
 
 
@@ -153,15 +154,13 @@ def _count(number: int, noun: str) -> str:
 
 def _check_lines(check: Check, scene: Scene) -> list[str]:
     """What depends on the accuracy, what is chaotic, and the errors of results without a row."""
-    units = scene.units
     away = f"{check.nudges} runs from starts {NUDGE:g} m away"
     said = [
         f"depends on the accuracy: {name} is {_word(here)} here and {_word(finer)} in a finer run"
         for name, (here, finer) in check.changed.items()
     ]
     said += [
-        f"chaotic: {name.replace('_', ' ')} differs by up to {spread:.2g} {units.get(name, '')}".rstrip()
-        + f" in {away}"
+        f"chaotic: {_error(check, scene, name)}; {away} alone give {margin(spread, scene.units[name])}"
         for name, spread in check.chaotic.items()
     ]
     said += [
@@ -169,13 +168,17 @@ def _check_lines(check: Check, scene: Scene) -> list[str]:
         for name, others in check.unsettled.items()
     ]
     unseen = [
-        f"{name.replace('_', ' ')} ± {error:.2g} {units.get(name, '')}".rstrip()
+        _error(check, scene, name)
         for name, error in check.errors.items()
-        if error >= LEAST_REPORTED and not scene.facts[name].label
+        if error >= LEAST_REPORTED and not scene.facts[name].label and name not in check.chaotic
     ]
     said += [f"not on the card: {', '.join(unseen)}"] if unseen else []
     said = said or [f"checked against a finer run and {away}: only the numbers change, by no more than their ±"]
     return [line for text in said for line in paragraph(text)]
+
+
+def _error(check: Check, scene: Scene, name: str) -> str:
+    return f"{name.replace('_', ' ')} {margin(check.errors[name], scene.units[name])}"
 
 
 def _word(value: Any) -> str:

@@ -85,8 +85,10 @@ def test_nudges_move_every_ball_its_own_way_by_a_nanometre():
 def test_card_and_json_say_what_is_chaotic(capsys):
     assert main(["run", "billiards", "--check"]) == 0
     out = " ".join(capsys.readouterr().out.split())
-    assert f"in {NUDGES} runs from starts 1e-09 m away" in out
-    assert re.search(r"not on the card: positions ± 0\.\d+", out)
+    said = rf"chaotic: positions ± (\d+) mm; {NUDGES} runs from starts 1e-09 m away alone give ± (\d+) mm"
+    ((whole, nudged),) = re.findall(said, out)
+    assert int(nudged) <= int(whole)
+    assert out.count("positions") == 1  # not a second number for the same thing
     assert main(["run", "billiards", "--check", "--json"]) == 0
     report = json.loads(capsys.readouterr().out)
     assert report["nudges"]["size_m"] == NUDGE

@@ -213,6 +213,17 @@ def test_the_card_shows_what_a_player_wants_to_know(call):
     assert "\x1b" not in out
 
 
+def test_an_impact_has_the_speed_of_the_whole_motion(call):
+    """And not its part across the ground, which grows while a topped ball slows down and bounces higher."""
+    out = call("run", "golf/topped").out
+    landing = re.search(r"landing speed +([\d.]+) m/s", out)
+    assert landing is not None
+    speeds = [float(speed) for speed in re.findall(r"impact +fairway +at ([\d.]+) m/s", out)]
+    assert speeds[0] == float(landing[1])
+    assert speeds == sorted(speeds, reverse=True)
+    assert len(speeds) > 3
+
+
 def test_the_card_names_the_preset(call):
     assert call("run", DROP / "moon").out.startswith("drop/moon: The same drop on the moon.")
 

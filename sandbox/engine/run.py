@@ -5,7 +5,7 @@ from __future__ import annotations
 from bisect import bisect_left, bisect_right
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
-from math import inf
+from math import dist, inf
 from typing import TYPE_CHECKING, Any
 
 from sandbox.engine.arc import Arc
@@ -87,6 +87,17 @@ class Run:
         arcs = self._path(ball)
         index = bisect_left(arcs, t, key=lambda arc: arc.t1)
         return (arcs[index].state(t) if index < len(arcs) and arcs[index].t1 == t else self._full_state(ball, t))[:5]
+
+    def closing_speed(self, event: Event) -> float:
+        """Speed in m/s at which the two of an impact came together, along the surface included.
+
+        ``event.speed`` is only its part towards each other.
+        """
+        velocity, other = (
+            (self.before(name, event.t)[2:4] if name in self.arcs else (0.0, 0.0))
+            for name in (event.ball, event.partner)
+        )
+        return dist(velocity, other)
 
     def angle(self, ball: str, t: float) -> float:
         """Angle in rad that a ball has turned since the start, counter-clockwise."""

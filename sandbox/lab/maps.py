@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -21,6 +22,9 @@ from sandbox.parameters import path_of
 
 #: Most words in a legend; rarer ones are grouped.
 _MOST_WORDS, _OTHERS = 8, "others"
+
+#: Cells of what did not happen.
+NOTHING = (None, "", "false", "[]", "{}")
 
 #: Points that failed.
 FAILED = "failed"
@@ -70,7 +74,7 @@ def draw_sweep(plan: Plan, file: Path, path: Path, of: str | None = None) -> Non
     """A chart of the rows in ``file``; ``of`` names the column, by default the verdict or the first result."""
     found = read(plan, file, of)
     name = f"{plan.scene.name}/{plan.scene.preset}" if plan.scene.preset else plan.scene.name
-    title = f"{name}: {found.name.replace('_', ' ')}"
+    title = f"{name}: {found.label.partition(' (')[0]}"
     with chart(path, title, _about(plan)) as (axes, colours):
         labels = [label(plan.scene, axis.key) for axis in plan.axes]
         along = _along(plan, found)
@@ -106,24 +110,38 @@ def read(plan: Plan, file: Path, of: str | None) -> Found:
         raise RequestError("--plot: every point failed, there is nothing to show")
     if shown not in first:
         raise RequestError(_no_such(shown, list(first)))
-    switch = next((name for name in names if first[name] in ("true", "false")), None)
+    scores = plan.scene.controls.scores
     places: list[list[str]] = [[] for _ in plan.keys]
     texts: list[str] = []
-    wins: dict[str, list[int]] = {}
+    won: list[bool] = []
     for row in _chained(first, table):
         for place, key in zip(places, plan.keys, strict=True):
             place.append(row[key])
-        text = row[shown] if not row["error"] else FAILED
-        texts.append(text)
-        if switch is not None and switch in row:
-            count = wins.setdefault(text, [0, 0])
-            count[row[switch] == "true"] += 1
+        texts.append(row[shown] if not row["error"] else FAILED)
+        won.append(row.get(scores) not in NOTHING)
     swept = [_column(axis, place) for axis, place in zip(plan.axes, places, strict=True)]
     numbers = _numbers(["" if text == FAILED else text for text in texts])
     if numbers is not None:
         return Found(swept, shown, result_label(plan.scene, shown), numbers, [], frozenset())
-    good = frozenset(word for word, (lost, won) in wins.items() if won > lost)
-    return Found(swept, shown, result_label(plan.scene, shown), None, [text or "none" for text in texts], good)
+    in_order = shown not in plan.scene.facts or plan.scene.facts[shown].in_order
+    words = [text if text == FAILED else _word(text, in_order) for text in texts]
+    scored, all_of = Counter(word for word, wins in zip(words, won, strict=True) if wins), Counter(words)
+    good = frozenset(word for word in all_of if 2 * scored[word] > all_of[word])
+    return Found(swept, shown, result_label(plan.scene, shown), None, words, good)
+
+
+def _word(text: str, in_order: bool) -> str:
+    """A cell as a legend has it: of a table its names, and of a list whose order is of no interest the sorted words."""
+    try:
+        held = json.loads(text)
+    except ValueError:
+        held = None
+    if not isinstance(held, list | dict):  # it is a word, or a number among words
+        return text or "none"
+    names = [name if isinstance(name, str) else json.dumps(name) for name in held]
+    if isinstance(held, dict) or not in_order:
+        names.sort(key=lambda name: (len(name), name))  # 9 before 10
+    return ", ".join(names) or "none"
 
 
 def _chained(first: Mapping[str, str], rest: Iterable[Mapping[str, str]]) -> Iterable[Mapping[str, str]]:

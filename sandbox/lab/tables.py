@@ -8,6 +8,7 @@ import textwrap
 from collections.abc import Iterable, Sequence
 from typing import Literal
 
+from sandbox.sport.amounts import significant
 from sandbox.text import one_line
 
 #: Words up to this length are never wrapped.
@@ -115,13 +116,3 @@ def _scaled(value: float | None, units: Sequence[tuple[float, str, float]]) -> s
         if abs(value) >= begins:
             return f"{significant(value * factor)} {unit}"
     raise AssertionError("the smallest unit starts at 0")
-
-
-def significant(value: float, digits: int = 2) -> str:
-    """A number with this many significant digits, an integer from 100, with an exponent if very small or large."""
-    if value == 0.0:
-        return "0"
-    if not 1e-3 <= abs(value) < 1e6:
-        return f"{value:.{digits - 1}e}"
-    text = f"{float(f'{value:.{digits}g}'):f}" if abs(value) < 10**digits else f"{value:.0f}"
-    return text.rstrip("0").rstrip(".") if "." in text else text

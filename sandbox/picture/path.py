@@ -87,11 +87,7 @@ class Path:
         away = hypot(near[0] - x, near[1] - y) or 1.0
         towards = (near[0] - x) / away, (near[1] - y) / away
         at = x + towards[0] * self.radius, y + towards[1] * self.radius
-        vx, vy = self.run.before(self.name, event.t)[2:4]
-        if any(ball.name == other for ball in self.run.setup.balls):
-            other_vx, other_vy = self.run.before(other, event.t)[2:4]
-            vx, vy = vx - other_vx, vy - other_vy
-        return Mark(event.t, other, at, towards, hypot(vx, vy), event.speed)
+        return Mark(event.t, other, at, towards, self.run.closing_speed(event), event.speed)
 
     def _nearest_points(self, x: float, y: float, other: str, t: float) -> Iterator[tuple[float, float]]:
         """Of each thing with that name, the point nearest to (x, y), in m; a ball's or circle's is its middle."""

@@ -34,8 +34,18 @@ def margin(error: float, unit: str, count: bool = False) -> str:
         return f"± {error:.0f}" if error else ""
     if unit == "m" and error < 0.1:
         error, unit = error * 1e3, "mm"
-    written = f"± {error:.1g}" if error >= 1e-3 else "± less than 0.001"
+    written = f"± {significant(error, 1)}" if error >= 1e-3 else "± less than 0.001"
     return f"{written}°" if unit == "deg" else f"{written} {unit}".rstrip()
+
+
+def significant(value: float, digits: int = 2) -> str:
+    """A number with this many significant digits, an integer from 100, with an exponent if very small or large."""
+    if value == 0.0:
+        return "0"
+    if not 1e-3 <= abs(value) < 1e6:
+        return f"{value:.{digits - 1}e}"
+    text = f"{float(f'{value:.{digits}g}'):f}" if abs(value) < 10**digits else f"{value:.0f}"
+    return text.rstrip("0").rstrip(".") if "." in text else text
 
 
 def signed(number: str) -> str:

@@ -402,7 +402,7 @@ FACTS = (
     Fact("path", "path", "m", lambda run, parameters: travelled(run, parameters.cue.ball)),
     Fact("rest_time", "at rest after", "s", lambda run, parameters: run.duration if run.ended == "rest" else None),
     Fact("rails", "cushions, all balls", "", _rails),
-    Fact("potted", "", "", lambda run, parameters: list(_caught(run, parameters))),
+    Fact("potted", "", "", lambda run, parameters: list(_caught(run, parameters)), in_order=False),
     Fact("scratch", "", "", lambda run, parameters: parameters.cue.ball in _caught(run, parameters)),
     Fact("point", "", "", _point),
     Fact("scored", "", "", _scored),

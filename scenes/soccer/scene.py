@@ -253,7 +253,7 @@ FACTS = (
     Fact("height_at_goal", "height at goal", "m", at(at_goal, lambda ball: ball.y)),
     Fact("speed_at_goal", "speed at goal", "m/s", at(at_goal, lambda ball: ball.speed), also="km/h"),
     Fact("under_bar", "under the bar", "m", _under_bar),
-    Fact("height_at_wall", "height at wall", "m", at(at_wall, lambda ball: ball.y)),
+    Fact("height_at_wall", "height at wall", "m", at(at_wall, lambda ball: ball.y), where=lambda _, p: p.wall.present),
     Fact("over_wall", "over the wall", "m", _clearance),
     Fact("carry", "carry", "m", _carry),
     Fact("apex", "apex", "m", _apex),

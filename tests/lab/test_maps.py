@@ -68,6 +68,29 @@ def test_a_number_over_numbers_and_words_is_a_curve_for_each_word(tmp_path):
     assert words == ["none", "constant"]
 
 
+def written(name: str, *cells: str) -> str:
+    rows = [f'{angle},"{cell}",{cell.count("6") > 0!s},\n'.lower() for angle, cell in enumerate(cells)]
+    return f"cue.angle,{name},scored,error\n" + "".join(rows)
+
+
+@pytest.mark.parametrize(
+    ("name", "cells", "words"),
+    [
+        ("potted", ('[""7"", ""6""]', '[""6"", ""7""]', '[""10"", ""9""]', "[]"), ["6, 7", "6, 7", "9, 10", "none"]),
+        ("potted", ('[""6""]', '[""6""]', "[]", "[]"), ["6", "6", "none", "none"]),
+        ("pockets", ('{""7"": ""a"", ""6"": ""b""}', '{""6"": ""a"", ""7"": ""c""}', "{}"), ["6, 7", "6, 7", "none"]),
+        ("touches", ('[""7"", ""6""]', '[""6"", ""7""]'), ["7, 6", "6, 7"]),  # here the order says something
+    ],
+)
+def test_sets_of_balls_are_counted_whatever_their_order(tmp_path: Path, name: str, cells: tuple[str, ...], words):
+    file = tmp_path / "x.csv"
+    file.write_text(written(name, *cells))
+    found = maps.read(plan_of("billiards", "cue.angle=0:2:3"), file, name)
+    assert found.numbers is None
+    assert found.words == words
+    assert found.good == {word for word in words if "6" in word}
+
+
 @pytest.mark.parametrize(("of", "lines"), [("bounces", False), ("final_height", True)])
 def test_lines_of_equal_height_go_through_numbers_that_are_not_counts(tmp_path, of, lines):
     kinds, _ = drawn(tmp_path, of, "launch.height=1:2:9", "launch.speed=0:2:9")
