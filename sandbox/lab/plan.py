@@ -36,6 +36,9 @@ _BLOCK = 1024
 #: the workers, as the last digits of a shot depend on how many are computed with it.
 _SMALLEST_BLOCK, _LARGEST_BLOCK, _BLOCKS = 32, 640, 4
 
+#: Most evaluations of the forces in a block, about a second: a sweep that is interrupted loses what is not yet a row.
+_WORK = 200_000
+
 #: One run as a row: swept parameters, results, flags, and ``error``, which is empty if the run was completed.
 Record = dict[str, Any]
 
@@ -90,9 +93,14 @@ class Plan:
 
     @cached_property
     def block(self) -> int:
-        """Number of points computed together: 1 if shots are computed one at a time."""
-        together = fly_together(self.scene, self.keys, next(self.points(0, 1)))
-        return min(_LARGEST_BLOCK, max(_SMALLEST_BLOCK, -(-self.size // _BLOCKS))) if together else 1
+        """Number of points computed together: 1 if shots are computed one at a time, or take long, as the first does."""
+        first = next(self.points(0, 1))
+        if not fly_together(self.scene, self.keys, first):
+            return 1
+        run = next(runs(self.scene, self.keys, [first]))
+        cost = 1 if isinstance(run, Exception) else run.numerics.force_evaluations
+        block = min(_LARGEST_BLOCK, max(_SMALLEST_BLOCK, -(-self.size // _BLOCKS)), _WORK // max(cost, 1))
+        return block if block >= _SMALLEST_BLOCK else 1
 
     def points(self, start: int, stop: int) -> Iterator[tuple[Any, ...]]:
         """The swept values of the points from ``start`` up to ``stop``."""

@@ -770,3 +770,12 @@ def test_parquet_has_the_same_rows(tmp_path):
     assert rows[0]["bounced"] is True
     assert rows[4]["first_touch"] is None
     assert [row["final_height"] for row in rows] == [float(row["final_height"]) for row in table(out)]
+
+
+@pytest.mark.parametrize("accuracy", [{}, {"accuracy.tolerance": 1e-12}, {"accuracy.integrator": "rk4"}])
+def test_a_block_is_about_a_second_of_work(accuracy):
+    """Rows are kept by blocks: an interrupted sweep must not lose many seconds."""
+    scene = sandbox.load("basketball/rattle", accuracy)
+    speeds = parse_axis(scene, "--over", "launch.speed=7:8:900")
+    cost = sandbox.simulate(scene).numerics.force_evaluations
+    assert Plan(scene, (speeds,)).block * cost < 300_000
