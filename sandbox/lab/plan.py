@@ -93,7 +93,7 @@ class Plan:
 
     @cached_property
     def block(self) -> int:
-        """Number of points computed together: 1 if shots are computed one at a time, or take long, as the first does."""
+        """Number of points computed together: 1 if shots are computed one at a time, or the first one takes long."""
         first = next(self.points(0, 1))
         if not fly_together(self.scene, self.keys, first):
             return 1
