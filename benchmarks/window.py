@@ -75,9 +75,9 @@ def measure(source: str, frames: int, worker: Processes) -> dict[str, dict[str, 
         post(pygame.MOUSEMOTION, (round(x - length * cos(towards)), round(y + length * sin(towards))))
 
     found = {"aiming": summarised(timed(app, frames, pull))}
-    game.fan_wanted = True
+    app.view.on |= {"fan"}
     found["with a fan"] = summarised(timed(app, frames))
-    game.fan_wanted = False
+    app.view.on -= {"fan"}
     post(pygame.MOUSEBUTTONUP, (x, y))
     found["watching"] = summarised(timed(app, frames))
     app.view.on.add("view")

@@ -16,8 +16,8 @@ LEAST = 8.0
 #: A full pull gives this many times the speed of the current shot or of the scene file, whichever is larger; and at
 #: least this share of the strongest shot.
 TIMES, WEAKEST = 2.0, 0.005
-#: What one press of a key changes: the angle in deg, the speed as a share of a full pull; finer with Shift.
-TURN, PUSH, FINER = 1.0, 0.01, 0.1
+#: What one press of a key changes: the angle in deg, the speed as a share of a full pull; a tenth with Shift.
+TURN, PUSH = 1.0, 0.01
 
 
 def strongest(session: Session) -> float:
@@ -87,20 +87,20 @@ class Pull:
         return (-along * scale, up * scale)
 
 
-def nudged(session: Session, turn: int = 0, push: int = 0, fine: bool = False) -> dict[str, Any]:
-    """The changes of a key: ``turn`` counter-clockwise, ``push`` stronger."""
-    controls, finer = session.controls, FINER if fine else 1.0
+def nudged(session: Session, turn: float = 0.0, push: float = 0.0) -> dict[str, Any]:
+    """The changes of a key pressed so many times: ``turn`` counter-clockwise, ``push`` stronger."""
+    controls = session.controls
     changes: dict[str, Any] = {}
     angle, speed = session.parameter(controls.angle), session.parameter(controls.speed)
     if turn and angle is not None:
-        changes[controls.angle] = _turned(angle, round(angle.value + turn * TURN * finer, 3))
+        changes[controls.angle] = _turned(angle, round(angle.value + turn * TURN, 3))
     if push and speed is not None:
-        step = float(f"{PUSH * strongest(session) * finer:.1g}")
+        step = float(f"{PUSH * strongest(session):.1g}")
         changes[controls.speed] = _within(speed, round(speed.value + push * step, 6))
     return {**controls.also, **changes} if changes else {}
 
 
-def spun(session: Session, which: int, notches: int, fine: bool = False) -> dict[str, Any]:
+def spun(session: Session, which: int, notches: float) -> dict[str, Any]:
     """The changes of the wheel; ``which`` of the spins."""
     spins = session.controls.spins
     if which >= len(spins):
@@ -108,8 +108,14 @@ def spun(session: Session, which: int, notches: int, fine: bool = False) -> dict
     spin, parameter = spins[which], session.parameter(spins[which].key)
     if parameter is None:
         return {}
-    value = round(parameter.value + notches * spin.step * (FINER if fine else 1.0), 6)
+    value = round(parameter.value + notches * spin.step, 6)
     return {**session.controls.also, spin.key: _within(parameter, value)}
+
+
+def aimed(session: Session, speed: float, angle: float) -> dict[str, Any]:
+    """The changes that aim with this speed and angle, in their units."""
+    controls = session.controls
+    return {**controls.also, controls.speed: float(f"{speed:.4g}"), controls.angle: round(angle, 2)}
 
 
 def _within(parameter: Parameter, value: float) -> float:

@@ -10,10 +10,11 @@ from typing import TYPE_CHECKING, Any
 import pygame
 
 from sandbox.errors import RequestError
-from sandbox.window import commands, overlay, replay
+from sandbox.window import commands, replay
 from sandbox.window.background import steady
 from sandbox.window.game import Game
-from sandbox.window.keys import REPEATED, command_for
+from sandbox.window.keys import pressed
+from sandbox.window.overlay import Board
 from sandbox.window.pointer import Pointer
 from sandbox.window.session import Session
 from sandbox.window.sound import Sound
@@ -25,6 +26,9 @@ if TYPE_CHECKING:
 
 #: The step of each in columns and rows.
 ARROWS = {pygame.K_LEFT: (-1, 0), pygame.K_RIGHT: (1, 0), pygame.K_UP: (0, -1), pygame.K_DOWN: (0, 1)}
+
+CHOOSING = (*ARROWS, pygame.K_RETURN)
+MODIFIED = pygame.KMOD_CTRL | pygame.KMOD_ALT
 
 FRAMES = 60  # per second
 #: How often files are checked while nothing happens, in s; an event ends the wait.
@@ -112,7 +116,7 @@ class App:
                 return
         elif event.type == pygame.KEYUP:
             self.held.discard(event.key)
-        if view.panel is not None and not view.covered and self._for_panel(view.panel, event):
+        if view.panel is not None and view.over is None and self._for_panel(view.panel, event):
             return
         match event.type:
             case pygame.QUIT:
@@ -128,11 +132,11 @@ class App:
             case pygame.DROPFILE:
                 self.game.open(event.file)
             case pygame.KEYDOWN:
-                command = command_for(event.key, event.mod)
-                if view.menu is not None and event.key in (*ARROWS, pygame.K_RETURN):
-                    self._choose(view.menu, event.key)
-                elif command is not None:
-                    commands.do(view, command, bool(event.mod & pygame.KMOD_SHIFT))
+                found = pressed(event.key, event.mod)
+                if isinstance(view.over, Board) and event.key in CHOOSING and not event.mod & MODIFIED:
+                    self._choose(view.over, event.key)
+                elif found is not None:
+                    commands.do(view, found[0].name, found[1])
             case _:
                 self.pointer.handle(event)
 
@@ -146,19 +150,20 @@ class App:
         panel = self.view.panel
         if panel is not None and panel.typing:
             return True
-        if command_for(event.key, event.mod) not in REPEATED or event.key in self._repeated:
+        found = pressed(event.key, event.mod)
+        if found is None or not found[0].repeats or event.key in self._repeated:
             return False
         self._repeated.add(event.key)
         return True
 
-    def _choose(self, menu: overlay.Menu, key: int) -> None:
-        """A key while the scenes are listed."""
+    def _choose(self, board: Board, key: int) -> None:
+        """A key while there are rows to choose from."""
         self.view.changed = True
         if key in ARROWS:
-            menu.move(*ARROWS[key], self.game.session.source)
-        elif menu.chosen:
-            self.view.close_overlays()
-            self.game.open(menu.chosen)
+            board.move(*ARROWS[key])
+        elif board.chosen:
+            self.view.over = board if board.stays else None
+            board.choose(board.chosen)
 
     def _for_panel(self, panel: Panel, event: pygame.event.Event) -> bool:
         """Pass an event to the panel; returns whether it is for the panel alone."""
@@ -183,12 +188,13 @@ def play(source: str, changes: Mapping[str, Any] | None = None, scene: str | Non
     if scene is not None and not recorded:
         raise RequestError(f"--scene {scene}: says which scene a replay is of, and {source} is not a replay")
     session = replay.read(Path(source), scene)[0] if recorded else Session(source, changes)
-    worker = Processes(1)
+    worker, helper = Processes(1), Processes(1)
     try:
-        game = Game(session, worker)
+        game = Game(session, worker, helper=helper)
         with opened(SIZE, f"{session.title} – Sports sandbox") as screen:
             if recorded:
                 game.open_replay(Path(source), scene)
             App(game, screen, Sound()).run()
     finally:
         worker.close(abandon=True)
+        helper.close(abandon=True)

@@ -1,4 +1,4 @@
-"""Work in another thread, and how long a frame waits for such work."""
+"""Work in another thread or process: how long a frame waits for it, and its latest result."""
 
 from __future__ import annotations
 
@@ -10,7 +10,10 @@ from concurrent.futures import wait as wait_for
 from functools import partial
 from queue import SimpleQueue
 from threading import Thread
-from typing import Any
+from time import perf_counter
+from typing import Any, Generic, TypeVar
+
+T = TypeVar("T")
 
 #: How long a frame waits for a run, in s: the rest of a frame is for drawing.
 PATIENCE = 0.005
@@ -55,3 +58,40 @@ class Background:
 def ready(future: Future[Any], patience: float | None) -> bool:
     """Whether it is done, after waiting for at most ``patience`` s (None: until it is)."""
     return bool(wait_for([future], patience).done)
+
+
+class Latest(Generic[T]):
+    """The result of work that is done again whenever what it is done for changes, one after the other."""
+
+    def __init__(self) -> None:
+        self.key: Any = None  # what the value is of
+        self.value: T | None = None  # None if there is none yet, or if the work failed
+        self.error: BaseException | None = None
+        self.work: Future[T] | None = None
+        self.work_for: Any = None
+        self.began = 0.0  # perf_counter, in s
+
+    @property
+    def takes(self) -> float:
+        """For how long the work has been going on, in s."""
+        return perf_counter() - self.began if self.work is not None else 0.0
+
+    def take(self, patience: float = 0.0) -> bool:
+        """Take the result if it is there within ``patience`` s; returns whether there is a new one."""
+        if self.work is None or not ready(self.work, patience):
+            return False
+        work, self.work, self.key = self.work, None, self.work_for
+        try:
+            self.value, self.error = work.result(), None
+        except BaseException as error:  # such as a process that was killed
+            self.value, self.error = None, error
+        return True
+
+    def follow(self, key: Any, submit: Callable[[], Future[T]]) -> None:
+        """Begin the work for ``key``, unless it was done for that, or other work has not ended yet."""
+        if self.work is None and key != self.key:
+            self.work, self.work_for, self.began = submit(), key, perf_counter()
+
+    def forget(self) -> None:
+        """Drop the value."""
+        self.key = self.value = self.error = None

@@ -10,6 +10,7 @@ import pygame
 from sandbox.picture.lettering import Lettering
 from sandbox.picture.painter import OVERSAMPLING, Painter, scratch
 from sandbox.picture.palette import Colour, mix, palette
+from sandbox.window.keys import named
 
 CARD, TRACE = palette("card"), palette("trace")
 HEIGHT = 48  # px on 720 rows
@@ -21,10 +22,10 @@ WIDEST_RATE = "×1/16"
 SPARED = (
     frozenset({"scene"}),
     frozenset({"duration"}),
-    frozenset({"previous_shot", "next_shot"}),
+    frozenset({"-next_shot", "next_shot"}),
     frozenset({"panel", "help"}),
-    frozenset({"slower", "rate", "faster"}),
-    frozenset({"step_back", "step"}),
+    frozenset({"-faster", "rate", "faster"}),
+    frozenset({"-step", "step"}),
 )
 RAISED = mix(CARD["background"], CARD["quiet"], 0.22)
 GROOVE = mix(CARD["background"], CARD["quiet"], 0.35)
@@ -46,30 +47,28 @@ ICONS = {
     "play": [_RIGHT],
     "pause": [_block(0.2, 0.42), _block(0.58, 0.8)],
     "step": [_block(0.08, 0.24), _slim(_RIGHT, 0.26, 0.74)],
-    "step_back": [_block(0.76, 0.92), _slim(_LEFT, 0.0, 0.74)],
+    "-step": [_block(0.76, 0.92), _slim(_LEFT, 0.0, 0.74)],
     "restart": [_block(0.08, 0.22), _slim(_LEFT, 0.2, 0.8)],
-    "previous_shot": [_slim(_LEFT, 0.0, 0.5), _slim(_LEFT, 0.45, 0.5)],
+    "-next_shot": [_slim(_LEFT, 0.0, 0.5), _slim(_LEFT, 0.45, 0.5)],
     "next_shot": [_slim(_RIGHT, 0.05, 0.5), _slim(_RIGHT, 0.5, 0.5)],
-    "slower": [[(0.15, 0.42), (0.85, 0.42), (0.85, 0.58), (0.15, 0.58)]],
+    "-faster": [[(0.15, 0.42), (0.85, 0.42), (0.85, 0.58), (0.15, 0.58)]],
     "faster": [[(0.15, 0.42), (0.85, 0.42), (0.85, 0.58), (0.15, 0.58)], _block(0.42, 0.58)],
 }
 
+#: What the buttons that open lists say; the others say what the help does.
 HINTS = {
-    "menu": "scenes and presets (M)",
-    "go": "shoot, pause (Space)",
-    "step": "one step on (.)",
-    "step_back": "one step back (,)",
-    "restart": "from the start (R)",
-    "previous_shot": "previous shot (P)",
-    "next_shot": "next shot (N)",
-    "slower": "slower (-)",
-    "faster": "faster (+)",
-    "see": "what is shown: fan, arrows, charts, tape, accuracy",
+    "see": "what is shown: fan, map, arrows, charts, tape, accuracy",
     "keep": "pictures, replays, scene files",
     "more": "scenes, sound, full screen",
-    "panel": "parameters (Tab)",
-    "help": "all keys (H)",
 }
+
+
+def hint_of(button: str) -> str:
+    """What a button does, and by which key; a button with a minus does the opposite of its command."""
+    if button in HINTS:
+        return HINTS[button]
+    command = named(button.removeprefix("-"))
+    return f"{command.meaning} ({command.shown})"
 
 
 @lru_cache(maxsize=64)
@@ -156,7 +155,7 @@ class Bar:
             return places[name]
 
         left = put("menu", self.rect.left + 2 * gap, self._word_width(self.title, bold=True)).right + gap
-        for name in ("previous_shot", "restart", "step_back", "go", "step", "next_shot"):
+        for name in ("-next_shot", "restart", "-step", "go", "step", "next_shot"):
             if name not in without:
                 left = put(name, left, side).right + gap // 4
         right = self.rect.right - 2 * gap
@@ -166,7 +165,7 @@ class Bar:
                 right = put(name, right - width, width).left - gap // 2
         right -= gap
         rate = max(round(44 * self.unit), self.lettering.width(WIDEST_RATE, "small"))
-        for name, width in (("faster", side), ("rate", rate), ("slower", side)):
+        for name, width in (("faster", side), ("rate", rate), ("-faster", side)):
             if name not in without:
                 right = put(name, right - width, width).left
         width = self.lettering.width(time, "small")
@@ -194,8 +193,8 @@ class Bar:
             self.lettering.write(surface, rate, "small", self.places["rate"].center, CARD["text"], "center")
         self._time(surface, shown)
         hovered = self.command_at(mouse)
-        if hovered in HINTS and hovered not in shown.on:
-            self._hint(surface, HINTS[hovered], self.places[hovered])
+        if hovered is not None and hovered not in shown.on:
+            self._hint(surface, hint_of(hovered), self.places[hovered])
 
     def _hint(self, surface: pygame.Surface, text: str, button: pygame.Rect) -> None:
         rect = self.lettering.rect(text, "small", (button.centerx, self.rect.top - 8 * self.unit), "midbottom")

@@ -12,37 +12,40 @@ import pygame
 
 from sandbox.engine.accuracy import LEVELS
 from sandbox.scene import listings
-from sandbox.window import aim, export, overlay, replay
-from sandbox.window.game import Game
-from sandbox.window.keys import LISTED
+from sandbox.window import aim, export, replay
+from sandbox.window.game import WIDEST
+from sandbox.window.keys import GROUPS, LISTED, of_groups
+from sandbox.window.overlay import Board, Chart, Row
 from sandbox.window.shot import Shot
 from sandbox.window.view import View
 from sandbox.window.worker import cost_and_errors
 
 #: What can be shown or hidden: the command of the same name switches it.
-SWITCHES = ("view", "ghosts", "arrows", "charts", "cost", "help", "tape")
+SWITCHES = ("view", "ghosts", "arrows", "charts", "cost", "tape", "fan", "map")
 #: One step enlarges the picture by this factor, or moves it by this many px.
 ZOOM, PAN = 1.25, 60.0
 
 NO_SHOTS = "no shots yet: pull back and let go"
 
 
-def do(view: View, command: str, fine: bool = False) -> None:
-    """Carry out the command of a key or a button; ``fine`` with Shift."""
+def do(view: View, command: str, by: float = 1) -> None:
+    """Carry out a command; "-" before its name, or a negative ``by``, means its opposite."""
     view.changed = True
-    if command in NUDGES:
-        view.game.nudge(NUDGES[command](view.game, fine))
-    elif command in PANEL:
-        if view.panel is None:
-            view.open_panel(True)
-        elif not view.game.trying(lambda: PANEL[command](view.panel, fine)):
-            view.panel.refresh(everything=True)
-    elif command in SWITCHES:
-        if command == "help" and "help" not in view.on:
-            view.close_overlays()
-        view.on ^= {command}
+    name = command.removeprefix("-")
+    by = by if name == command else -by
+    panel = view.panel
+    if name in PANEL and panel is None:
+        view.open_panel(True)
+    elif name in PANEL and panel is not None:
+        if not view.game.trying(lambda: PANEL[name](panel, by)):
+            panel.refresh(everything=True)
+    elif name in SWITCHES:
+        view.on ^= {name}
     else:
-        COMMANDS[command](view)
+        COMMANDS[name](view, by)
+
+
+# Play and watch
 
 
 def _watching(view: View, action: str, *arguments: Any) -> None:
@@ -51,85 +54,11 @@ def _watching(view: View, action: str, *arguments: Any) -> None:
         getattr(view.game.playback, action)(*arguments)
 
 
-def _go(view: View) -> None:
+def _go(view: View, by: float) -> None:
     if view.game.playback is None:
         view.game.shoot()
     else:
         view.game.playback.toggle()
-
-
-def _other_preset(view: View, by: int) -> None:
-    names = [listing.name for listing in listings()]
-    source = view.game.session.source
-    now = names.index(source) if source in names else 0
-    view.game.open(names[(now + by) % len(names)])
-
-
-def _open_list(view: View, group: str) -> None:
-    again = view.choices is not None and view.choices.group == group.lower()
-    view.close_overlays()
-    view.choices = None if again else overlay.Choices(group)
-
-
-def _menu(view: View) -> None:
-    again = view.menu is not None
-    view.close_overlays()
-    view.menu = None if again else overlay.Menu(list(listings()), view.game.opened)
-
-
-def _fan(view: View) -> None:
-    view.game.fan_wanted = not view.game.fan_wanted
-
-
-def _accuracy(view: View) -> None:
-    """Go to the next level, and report its cost and errors."""
-    game, levels = view.game, list(LEVELS)
-    level = levels[(levels.index(game.session.value("accuracy.level")) + 1) % len(levels)]
-    if game.change({"accuracy.level": level}):
-        game.tell(f"accuracy {level} ...")
-        result = game.worker.submit(cost_and_errors, game.session.scene)
-        game.ask(result, lambda said: game.tell(f"accuracy {level}: {said}"))
-
-
-def _energy(view: View) -> None:
-    """Show the energy chart of the current shot over the picture, or hide it."""
-    shot, again = view.game.shot, view.energy is not None
-    view.close_overlays()
-    if shot is not None and not again:
-        view.energy = shot, view.background.submit(_energy_chart, shot, view.area.size)
-
-
-def _energy_chart(shot: Shot, size: tuple[int, int]) -> pygame.Surface:
-    from sandbox.picture.energy import energy_chart
-
-    return energy_chart(shot.run, size)
-
-
-def _back(view: View) -> None:
-    """Close what is open, or stop what is going on."""
-    game = view.game
-    if view.close_overlays() or (view.panel is not None and view.panel.close_lists()):
-        return
-    if game.pull is not None:
-        game.give_up_pull()
-    elif view.tape is not None or "tape" in view.on:
-        view.on.discard("tape")
-        view.tape = None
-    elif not game.stop():
-        game.aim_again()
-
-
-def _sound(view: View) -> None:
-    if view.sound is None or not view.sound.there:
-        view.game.tell("no sound: there is no sound device")
-    else:
-        view.sound.on = not view.sound.on
-        view.game.tell("sound on" if view.sound.on else "sound off")
-
-
-def _export(view: View, write: Callable[[], Path]) -> None:
-    """Write a file, and say where it is."""
-    view.game.trying(lambda: view.game.tell(f"wrote {write()}"))
 
 
 def _with_shot(view: View, action: Callable[[Shot], object]) -> None:
@@ -142,13 +71,126 @@ def _with_shot(view: View, action: Callable[[Shot], object]) -> None:
         game.trying(lambda: action(shot))
 
 
+# See
+
+
+def _open(view: View, name: str, make: Callable[[], Board | Chart]) -> None:
+    """Open an overlay, or close it if it is open."""
+    again = view.over is not None and view.over.name == name
+    view.over = None if again else make()
+    if view.over is not None:
+        view.over.name = name
+
+
+def _rows(view: View, groups: tuple[str, ...], headings: bool) -> list[list[Row]]:
+    """The commands of groups, each with its key."""
+    meanings = {"accuracy": f"accuracy: {view.game.session.value('accuracy.level')}, and the next"}
+    return [
+        [Row("", group, heading=True)] * headings
+        + [Row(command.name, meanings.get(command.name, command.meaning), command.shown) for command in commands]
+        for group, commands in of_groups(groups)
+    ]
+
+
+def _help(view: View, by: float) -> None:
+    _open(view, "help", lambda: Board("Keys", _rows(view, GROUPS, headings=True), partial(do, view)))
+
+
+def _list(view: View, by: float, group: str) -> None:
+    """The commands of a group, above its button; several can be switched in turn."""
+    name = group.lower()
+    rows, button = _rows(view, (group,), headings=False), view.bar.places[name]
+    _open(view, name, lambda: Board("", rows, partial(do, view), button, stays=group == "See"))
+
+
+def _menu(view: View, by: float) -> None:
+    """All scenes, each with its presets; the user's own files come first."""
+    scenes: dict[str, list[Row]] = {}
+    for item in listings():
+        scene, _, preset = item.name.partition("/")
+        scenes.setdefault(scene, []).append(Row(item.name, preset or scene, "", item.about, heading=not preset))
+    known = {row.action for rows in scenes.values() for row in rows}
+    own = [Row(source, Path(source).name, "", source) for source in view.game.opened if source not in known]
+    groups = [[Row("", "your files", heading=True), *own]] * bool(own) + list(scenes.values())
+    chosen = view.game.session.source
+    _open(view, "menu", lambda: Board("What shall we play?", groups, view.game.open, chosen=chosen))
+
+
+def _energy(view: View, by: float) -> None:
+    """The energy chart of the current shot."""
+    shot, size = view.game.shot, view.area.size
+    if shot is not None:
+        _open(view, "energy", lambda: Chart(view.background.submit(_energy_chart, shot, size)))
+
+
+def _energy_chart(shot: Shot, size: tuple[int, int]) -> pygame.Surface:
+    from sandbox.picture.energy import energy_chart
+
+    return energy_chart(shot.run, size)
+
+
+def _wider(view: View, by: float) -> None:
+    game = view.game
+    game.fan_width = min(max(game.fan_width * 2.0**by, 1 / WIDEST), WIDEST)
+    view.on.add("fan")
+
+
+def _zoom(view: View, by: float) -> None:
+    view.zoom(ZOOM**by, view.at if view.area.collidepoint(view.at) else view.area.center)
+
+
+def _accuracy(view: View, by: float) -> None:
+    """Go to the next level, and report its cost and errors."""
+    game, levels = view.game, list(LEVELS)
+    level = levels[(levels.index(game.session.value("accuracy.level")) + 1) % len(levels)]
+    if game.change({"accuracy.level": level}):
+        game.tell(f"accuracy {level} ...")
+        result = game.helper.submit(cost_and_errors, game.session.scene)
+        game.ask(result, lambda said: game.tell(f"accuracy {level}: {said}"))
+
+
+def _back(view: View, by: float) -> None:
+    """Close what is open, or stop what is going on."""
+    game = view.game
+    if view.close_overlay() or (view.panel is not None and view.panel.close_lists()):
+        return
+    if game.pull is not None:
+        game.give_up_pull()
+    elif view.tape is not None or "tape" in view.on:
+        view.on.discard("tape")
+        view.tape = None
+    elif not game.stop():
+        game.aim_again()
+
+
+def _sound(view: View, by: float) -> None:
+    if view.sound is None or not view.sound.there:
+        view.game.tell("no sound: there is no sound device")
+    else:
+        view.sound.on = not view.sound.on
+        view.game.tell("sound on" if view.sound.on else "sound off")
+
+
+# Keep
+
+
+def _export(view: View, write: Callable[[], Path]) -> None:
+    """Write a file, and say where it is."""
+    view.game.trying(lambda: view.game.tell(f"wrote {write()}"))
+
+
+def _screenshot(view: View, by: float) -> None:
+    view.draw()  # without the list that this may have been chosen from
+    _export(view, lambda: export.screenshot(view.canvas, view.game.session.title))
+
+
 def _save_replay(view: View, shot: Shot) -> Path:
     path = export.free(view.game.session.title, replay.SUFFIX)
     replay.save(shot, path)
     return path
 
 
-def _open_replay(view: View) -> None:
+def _open_replay(view: View, by: float) -> None:
     """The newest file of those that the window wrote."""
     found = sorted(export.FOLDER.glob(f"*{replay.SUFFIX}"), key=lambda path: path.stat().st_mtime)
     if found:
@@ -167,7 +209,7 @@ def _animate(view: View, shot: Shot) -> None:
     view.exporter.start()
 
 
-def _copy(view: View) -> None:
+def _copy(view: View, by: float) -> None:
     command = view.game.session.command()
     try:
         pygame.scrap.put_text(command)
@@ -177,76 +219,63 @@ def _copy(view: View) -> None:
         view.game.tell(f"copied: {command}")
 
 
-def _zoom(view: View, factor: float) -> None:
-    view.zoom(factor, view.at if view.area.collidepoint(view.at) else view.area.center)
+# More
 
 
-def _quit(view: View) -> None:
+def _other_preset(view: View, by: float) -> None:
+    names = [listing.name for listing in listings()]
+    source = view.game.session.source
+    now = names.index(source) if source in names else 0
+    view.game.open(names[(now + int(by)) % len(names)])
+
+
+def _quit(view: View, by: float) -> None:
     view.game.running = False
 
 
 #: Commands for the panel, which they open if it is closed.
-PANEL: dict[str, Callable[[Any, bool], object]] = {
-    "row_down": lambda panel, fine: panel.choose(1),
-    "row_up": lambda panel, fine: panel.choose(-1),
-    "row_more": lambda panel, fine: panel.nudge(1, fine),
-    "row_less": lambda panel, fine: panel.nudge(-1, fine),
-    "row_reset": lambda panel, fine: panel.reset_row(),
-    "group_down": lambda panel, fine: panel.turn(1),
-    "group_up": lambda panel, fine: panel.turn(-1),
+PANEL: dict[str, Callable[[Any, float], object]] = {
+    "row": lambda panel, by: panel.choose(int(by)),
+    "value": lambda panel, by: panel.nudge(by),
+    "row_reset": lambda panel, by: panel.reset_row(),
+    "group": lambda panel, by: panel.turn(int(by)),
 }
 
-#: Commands that change the aim, finely with Shift: functions from the game to the changes.
-NUDGES: dict[str, Callable[[Game, bool], dict[str, Any]]] = {
-    "turn_left": lambda game, fine: aim.nudged(game.session, turn=1, fine=fine),
-    "turn_right": lambda game, fine: aim.nudged(game.session, turn=-1, fine=fine),
-    "stronger": lambda game, fine: aim.nudged(game.session, push=1, fine=fine),
-    "weaker": lambda game, fine: aim.nudged(game.session, push=-1, fine=fine),
-    "spin_up": lambda game, fine: aim.spun(game.session, 0, 1, fine),
-    "spin_down": lambda game, fine: aim.spun(game.session, 0, -1, fine),
-    "other_up": lambda game, fine: aim.spun(game.session, 1, 1, fine),
-    "other_down": lambda game, fine: aim.spun(game.session, 1, -1, fine),
-}
-
-COMMANDS: dict[str, Callable[[View], object]] = {
+COMMANDS: dict[str, Callable[[View, float], object]] = {
     "go": _go,
-    "again": lambda view: view.game.aim_again(from_rest=True),
-    "restart": lambda view: _watching(view, "restart"),
-    "step": lambda view: _watching(view, "step", 1),
-    "step_back": lambda view: _watching(view, "step", -1),
-    "slower": lambda view: _watching(view, "change_rate", -1),
-    "faster": lambda view: _watching(view, "change_rate", 1),
-    "previous_shot": lambda view: view.game.watch_other(-1),
-    "next_shot": lambda view: view.game.watch_other(1),
-    "fan": _fan,
-    "wider": lambda view: view.game.widen_fan(2.0),
-    "narrower": lambda view: view.game.widen_fan(0.5),
+    "again": lambda view, by: view.game.aim_again(from_rest=True),
+    "turn": lambda view, by: view.game.nudge(aim.nudged(view.game.session, turn=by)),
+    "push": lambda view, by: view.game.nudge(aim.nudged(view.game.session, push=by)),
+    "spin": lambda view, by: view.game.nudge(aim.spun(view.game.session, 0, by)),
+    "other_spin": lambda view, by: view.game.nudge(aim.spun(view.game.session, 1, by)),
+    "restart": lambda view, by: _watching(view, "restart"),
+    "step": lambda view, by: _watching(view, "step", int(by)),
+    "faster": lambda view, by: _watching(view, "change_rate", int(by)),
+    "next_shot": lambda view, by: view.game.watch_other(int(by)),
+    "wider": _wider,
     "energy": _energy,
-    "accuracy": lambda view: view.game.trying(lambda: _accuracy(view)),
-    "zoom_in": lambda view: _zoom(view, ZOOM),
-    "zoom_out": lambda view: _zoom(view, 1 / ZOOM),
-    "pan_left": lambda view: view.pan(PAN, 0),
-    "pan_right": lambda view: view.pan(-PAN, 0),
-    "pan_up": lambda view: view.pan(0, PAN),
-    "pan_down": lambda view: view.pan(0, -PAN),
-    "fit": lambda view: view.look(None),
-    "save_scene": lambda view: _export(view, lambda: export.scene_file(view.game.session)),
+    "accuracy": lambda view, by: view.game.trying(lambda: _accuracy(view, by)),
+    "zoom": _zoom,
+    "pan_across": lambda view, by: view.pan(PAN * by, 0),
+    "pan_down": lambda view, by: view.pan(0, PAN * by),
+    "fit": lambda view, by: view.look(None),
+    "save_scene": lambda view, by: _export(view, lambda: export.scene_file(view.game.session)),
     "copy": _copy,
-    "screenshot": lambda view: _export(view, lambda: export.screenshot(view.canvas, view.game.session.title)),
-    "animation": lambda view: _with_shot(view, lambda shot: _animate(view, shot)),
-    "save_replay": lambda view: _with_shot(view, lambda shot: _export(view, lambda: _save_replay(view, shot))),
-    "compare": lambda view: _with_shot(view, view.game.compare),
+    "screenshot": _screenshot,
+    "animation": lambda view, by: _with_shot(view, lambda shot: _animate(view, shot)),
+    "save_replay": lambda view, by: _with_shot(view, lambda shot: _export(view, lambda: _save_replay(view, shot))),
+    "compare": lambda view, by: _with_shot(view, view.game.compare),
     "open_replay": _open_replay,
     "menu": _menu,
-    "next_preset": lambda view: _other_preset(view, 1),
-    "previous_preset": lambda view: _other_preset(view, -1),
-    "panel": lambda view: view.open_panel(not view.panel_wanted),
-    "reset": lambda view: view.game.reset(),
-    "undo": lambda view: view.game.undo(),
-    "rack": lambda view: view.game.begin_again(),
+    "next_preset": _other_preset,
+    "panel": lambda view, by: view.open_panel(not view.panel_wanted),
+    "reset": lambda view, by: view.game.reset(),
+    "undo": lambda view, by: view.game.undo(),
+    "rack": lambda view, by: view.game.begin_again(),
     "sound": _sound,
-    "fullscreen": lambda view: view.toggle_full_screen(),
+    "fullscreen": lambda view, by: view.toggle_full_screen(),
+    "help": _help,
     "back": _back,
     "quit": _quit,
-    **{group.lower(): partial(_open_list, group=group) for group in LISTED},
+    **{group.lower(): partial(_list, group=group) for group in LISTED},
 }

@@ -1,111 +1,157 @@
-"""A fan: the same shot varied at random with a given spread, and the share of such shots that score."""
+"""A fan: the same shot varied at random as a player would, how many such shots score, and a cloud of their paths."""
 
 from __future__ import annotations
 
-from concurrent.futures import Future
+from collections.abc import Sequence
 from math import sqrt
+from time import perf_counter
+from typing import NamedTuple
 
 import numpy as np
 
 from sandbox import parameters as declared
+from sandbox.lab.runs import runs
+from sandbox.picture.camera import Camera
+from sandbox.picture.palette import Colour
+from sandbox.scene import Scene
 from sandbox.sport.controls import Spread
 from sandbox.window.shot import Shot
-from sandbox.window.worker import FanShot, varied
-from sandbox.workers import Processes
 
-SHOTS = 200
+SHOTS = 100
+#: So many are computed at least.
+FEWEST = 8
 #: Spread if the scene gives none: of the speed, as a share of it, and of the angle, in deg.
 SPEED, ANGLE = 0.01, 0.5
-#: The spread can be made this many times wider or narrower.
-WIDEST = 16.0
-#: Size of the first batch of shots, and the duration of the later ones in s: a new aim must not wait for longer.
-FIRST, AT_ONCE = 8, 0.05
+#: Opacity of one path; and how far from the picture, in px, a path is still followed.
+FAINT, FAR = 0.3, 2000
+#: Size in px of the mark at the end of a path.
+END = 3
 
 
-class Fan:
-    """Random variations of a shot; ``advance`` after each frame computes more of them."""
+class Cloud(NamedTuple):
+    """A fan of shots: a picture of the paths, and what is said of them."""
 
-    def __init__(self, shot: Shot, width: float = 1.0) -> None:
-        self.shot, self.width = shot, width
-        self.known = {p.key: p for p in declared.walk(shot.scene.parameters)}
-        self.spread = {key: width * sigma for key, sigma in self._sigmas().items()}
-        self.draws = np.random.default_rng(1).standard_normal((SHOTS, len(self.spread)))
-        self.shots: list[FanShot] = []
-        self.failed = 0
-        self.work: Future[tuple[list[FanShot | None], float]] | None = None
-        self.next = FIRST
-
-    def _sigmas(self) -> dict[str, float]:
-        """Standard deviation of each parameter that a player does not hit exactly, in its unit."""
-        controls = self.shot.scene.controls
-        values = {key: parameter.value for key, parameter in self.known.items()}
-        if any(values.get(key) != value for key, value in controls.also.items()):
-            return {}  # the shot does not start as a player's does, so these parameters have no effect
-        spread = controls.spread or (Spread(controls.speed, SPEED), Spread(controls.angle, least=ANGLE))
-        sigmas = {item.key: item.sigma(values[item.key]) for item in spread if isinstance(values.get(item.key), float)}
-        return {key: sigma for key, sigma in sigmas.items() if sigma > 0}
-
-    @property
-    def complete(self) -> bool:
-        return len(self.shots) + self.failed >= SHOTS or not self.spread
-
-    def advance(self, worker: Processes) -> None:
-        """Take the shots that were computed, and start computing more."""
-        if self.work is not None and self.work.done():
-            self._take(self.work)
-            self.work = None
-        done = len(self.shots) + self.failed
-        if self.work is None and not self.complete:
-            controls = self.shot.scene.controls
-            points = [self._point(draws) for draws in self.draws[done : done + self.next]]
-            self.work = worker.submit(varied, self.shot.scene, list(self.spread), points, controls.fan_fact)
-
-    def _take(self, work: Future[tuple[list[FanShot | None], float]]) -> None:
-        try:
-            found, seconds = work.result()
-        except BaseException:  # the process was killed, and another will take its place
-            self.failed += 1
-            return
-        good = [shot for shot in found if shot is not None]
-        self.shots += good
-        self.failed += len(found) - len(good)
-        self.next = max(1, round(AT_ONCE * len(found) / seconds))
-
-    def _point(self, draws: np.ndarray) -> list[float]:
-        """The values of one random shot, within their bounds."""
-        values = []
-        for (key, sigma), draw in zip(self.spread.items(), draws, strict=True):
-            low, high = self.known[key].low, self.known[key].high
-            value = self.known[key].value + sigma * float(draw)
-            values.append(value if low is None or high is None else min(max(value, low), high))
-        return values
-
-    def summary(self) -> tuple[str, str]:
-        """How many score, and the spread of the shots."""
-        count = len(self.shots)
-        name = self.shot.scene.controls.scores
-        if not self.spread:
-            share = "no fan: this shot does not begin as a player's does"
-        elif not count:
-            share = "the fan ..."
-        elif name:
-            scored = sum(shot.scored for shot in self.shots)
-            p = scored / count
-            off = sqrt(p * (1 - p) / count)
-            share = f"{scored} of {count} score: {100 * p:.0f} ± {max(1.0, 100 * off):.0f} %"
-        else:
-            share = f"{count} shots"
-        fact = self.shot.scene.facts.get(self.shot.scene.controls.fan_fact)
-        numbers = [shot.value for shot in self.shots if shot.value is not None]
-        if fact is not None and len(numbers) > 1:
-            share += f"; {fact.label} {np.mean(numbers):.1f} ± {np.std(numbers):.1f} {fact.unit}"
-        parts = [
-            f"{key.rpartition('.')[2]} ± {_short(sigma)} {self.known[key].unit or ''}".rstrip()
-            for key, sigma in self.spread.items()
-        ]
-        return share, ", ".join(parts) or "nothing to vary"
+    at: tuple[int, int]  # px
+    size: tuple[int, int]  # px; (0, 0) for none
+    pixels: bytes  # RGBA
+    said: tuple[str, str]  # how many score, and by how much the shots differ
+    shots: int
+    scored: int
+    complete: bool = True
 
 
-def _short(sigma: float) -> str:
+def spread_of(scene: Scene, width: float) -> dict[str, tuple[declared.Parameter, float]]:
+    """Each parameter that a player does not hit exactly, and its standard deviation, ``width`` times the usual one."""
+    controls, known = scene.controls, {p.key: p for p in declared.walk(scene.parameters)}
+    if any(known[key].value != value for key, value in controls.also.items()):
+        return {}  # the shot does not start as a player's does, so these parameters have no effect
+    spread = controls.spread or (Spread(controls.speed, SPEED), Spread(controls.angle, least=ANGLE))
+    varied = [(known[item.key], item) for item in spread if item.key in known]
+    sigmas = [(p, width * item.sigma(p.value)) for p, item in varied if isinstance(p.value, float)]
+    return {p.key: (p, sigma) for p, sigma in sigmas if sigma > 0}
+
+
+def within(parameter: declared.Parameter, values: np.ndarray) -> np.ndarray:
+    """Values of a parameter, moved inside its bounds."""
+    return np.clip(values, parameter.low, parameter.high)
+
+
+def cloud(
+    scene: Scene,
+    width: float,
+    camera: Camera,
+    limit: float,
+    size: tuple[int, int],
+    colours: tuple[Colour, Colour],
+) -> Cloud:
+    """The fan of a scene as a camera sees it, in the colours of shots that score and that do not; only the first shots
+    where they are computed one by one and take longer than ``limit`` s."""
+    started = perf_counter()
+    spread = spread_of(scene, width)
+    if not spread:
+        return Cloud((0, 0), (0, 0), b"", ("no fan: this shot does not begin as a player's does", ""), 0, 0)
+    draws = np.random.default_rng(1).standard_normal((SHOTS, len(spread)))
+    columns = [within(p, p.value + sigma * draw) for (p, sigma), draw in zip(spread.values(), draws.T, strict=True)]
+    controls = scene.controls
+    asked = [fact for fact in (controls.scores, controls.fan_fact) if fact]
+    found = runs(scene, list(spread), np.column_stack(columns).tolist(), asked=asked)
+    shots, count = [], 0
+    for count, run in enumerate(found, 1):
+        if not isinstance(run, Exception):
+            shots.append(Shot(scene, run))
+        if perf_counter() - started > limit and count >= FEWEST:
+            break
+    lines = [np.clip(camera.pixels(shot.track(shot.ball)[:, 1:]), -FAR, max(size) + FAR) for shot in shots]
+    scored = [shot.scored for shot in shots]
+    values = [shot.run.result.get(controls.fan_fact) for shot in shots]
+    said = (
+        _share(scene, scored, [v for v in values if isinstance(v, float)]),
+        ", ".join(
+            f"{key.rpartition('.')[2]} ± {short(sigma)} {p.unit or ''}".rstrip() for key, (p, sigma) in spread.items()
+        ),
+    )
+    good = [line for line, good in zip(lines, scored, strict=True) if good]
+    others = [line for line, good in zip(lines, scored, strict=True) if not good]
+    return Cloud(
+        *_drawn(density(good, size), density(others, size), colours), said, len(shots), sum(scored), count == SHOTS
+    )
+
+
+def _share(scene: Scene, scored: Sequence[bool], values: Sequence[float]) -> str:
+    """How many score, and the mean and spread of the fact that the scene names."""
+    count = len(scored)
+    text = f"{count} shots" if count else "no such shot could be computed"
+    if scene.controls.scores and count:
+        p = sum(scored) / count
+        text = f"{sum(scored)} of {count} score: {100 * p:.0f} ± {max(1.0, 100 * sqrt(p * (1 - p) / count)):.0f} %"
+    fact = scene.facts.get(scene.controls.fan_fact)
+    if fact is not None and len(values) > 1:
+        text += f"; {fact.label} {np.mean(values):.1f} ± {np.std(values):.1f} {fact.unit}"
+    return text
+
+
+def short(sigma: float) -> str:
     """To two digits, but whole from 100 on: ``0.087``, ``370``."""
     return f"{float(f'{sigma:.2g}'):.0f}" if sigma >= 99.5 else f"{sigma:.2g}"
+
+
+def density(lines: Sequence[np.ndarray], size: tuple[int, int]) -> np.ndarray:
+    """How many lines (px, shape (n, 2)) go through each pixel of a picture, shape (height, width): smooth lines, since
+    each of their points, 1 px apart, is shared out among the four nearest pixels."""
+    width, height = size
+    places = []
+    for line in lines:
+        along = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(line, axis=0).T))])
+        every = np.arange(0.0, along[-1], 1.0)
+        places.append(np.column_stack([np.interp(every, along, line[:, axis]) for axis in (0, 1)]))
+        square = np.arange(END) - END // 2
+        places.append(line[-1] + np.stack(np.meshgrid(square, square), axis=-1).reshape(-1, 2))
+    if not places:
+        return np.zeros((height, width))
+    x, y = np.concatenate(places).T - 0.5
+    inside = (x >= 0) & (x < width - 1) & (y >= 0) & (y < height - 1)
+    x, y = x[inside], y[inside]
+    column, row = x.astype(int), y.astype(int)
+    right, down = x - column, y - row
+    at = row * width + column
+    pixels = np.concatenate([at, at + 1, at + width, at + width + 1])
+    shares = np.concatenate([(1 - right) * (1 - down), right * (1 - down), (1 - right) * down, right * down])
+    return np.bincount(pixels, shares, width * height).reshape(height, width)
+
+
+def _drawn(
+    good: np.ndarray, others: np.ndarray, colours: tuple[Colour, Colour]
+) -> tuple[tuple[int, int], tuple[int, int], bytes]:
+    """Where the densities are not zero: that part's place and size in px, and its pixels."""
+    total = good + others
+    rows, columns = np.flatnonzero(total.any(axis=1)), np.flatnonzero(total.any(axis=0))
+    if not len(rows):
+        return (0, 0), (0, 0), b""
+    box = slice(rows[0], rows[-1] + 1), slice(columns[0], columns[-1] + 1)
+    good, total = good[box], total[box]
+    on = total > 0
+    share = (good[on] / total[on])[:, None]
+    pixels = np.zeros((*total.shape, 4), np.uint8)
+    pixels[on, :3] = np.round(share * colours[0] + (1 - share) * colours[1])
+    pixels[on, 3] = np.round(255 * (1 - (1 - FAINT) ** total[on]))
+    return (int(columns[0]), int(rows[0])), (total.shape[1], total.shape[0]), pixels.tobytes()

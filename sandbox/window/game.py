@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from concurrent.futures import CancelledError, Future
-from dataclasses import replace
 from enum import Enum
 from pathlib import Path
 from time import perf_counter, sleep
@@ -19,7 +18,6 @@ from sandbox.scene import Scene
 from sandbox.window import replay
 from sandbox.window.aim import Pull, strongest
 from sandbox.window.background import PATIENCE, ready
-from sandbox.window.fan import WIDEST, Fan
 from sandbox.window.playback import Playback
 from sandbox.window.run_data import run_of
 from sandbox.window.session import Changes, Session
@@ -30,10 +28,12 @@ from sandbox.workers import Processes, WorkerLost
 
 #: How long a message stays, in s.
 MESSAGE = 6.0
-#: A fan starts when the shot has not changed for this time, in s.
-STILL = 0.1
 #: A run that takes longer than this, in s, can be stopped; it is stopped if its parameters have changed since.
 LONG = 2.0
+#: From this time on, in s, the path from before is no longer shown as if it were the one that is computed.
+LATE = 0.5
+#: The fan can be made this many times wider or narrower.
+WIDEST = 16.0
 #: Number of shots that can be watched again.
 MOST_SHOTS = 50
 
@@ -67,9 +67,12 @@ class Pending(NamedTuple):
 class Game:
     """A session that is played. Every change that can be seen also changes ``revision``."""
 
-    def __init__(self, session: Session, worker: Processes, patience: float = PATIENCE) -> None:
-        """A frame waits for the path after a change if that takes no longer than ``patience`` s."""
-        self.session, self.worker, self.patience = session, worker, patience
+    def __init__(
+        self, session: Session, worker: Processes, patience: float = PATIENCE, helper: Processes | None = None
+    ) -> None:
+        """A frame waits for the path after a change if that takes no longer than ``patience`` s. ``helper`` computes
+        what takes longer than a path, by default the worker itself."""
+        self.session, self.worker, self.patience, self.helper = session, worker, patience, helper or worker
         self.running = True
         self.revision = 0
         self.code = 0  # how often the scene's code was read again
@@ -84,8 +87,7 @@ class Game:
         self.start = 0  # which positions the next shot begins from
         self.before_save: Shot | None = None  # the shot as it was before the scene file was saved
         self.pull: Pull | None = None
-        self.fan: Fan | None = None
-        self.fan_wanted, self.fan_width = False, 1.0
+        self.fan_width = 1.0
         self.still = 0.0  # s since the shot changed
         self.cost = 0.0  # s, of the last run
         self.message: Message | None = None
@@ -95,7 +97,7 @@ class Game:
         self._waited = 0  # s that were reported last
         self.jobs: list[tuple[Future[Any], Callable[[Any], object]]] = []
         self.watch_files = Watch(session.files)
-        self.worker.submit(warm_up, session.source)
+        self._everywhere(warm_up, session.source)
 
     # ---------------------------------------------------------------------------------------------------------- state
 
@@ -116,13 +118,17 @@ class Game:
     def busy(self) -> bool:
         """Whether something is being computed, or a shot is playing."""
         playing = self.playback is not None and self.playback.playing
-        fan = self.fan_wanted and self.failure is None and (self.fan is None or not self.fan.complete)
-        return playing or not self.settled or bool(self.jobs) or fan
+        return playing or not self.settled or bool(self.jobs)
 
     @property
     def waited(self) -> float:
         """How long the current run has taken so far, in s."""
         return perf_counter() - self.pending.since if self.pending is not None else 0.0
+
+    @property
+    def late(self) -> bool:
+        """Whether the path that is aimed is long in coming."""
+        return self.playback is None and self.waited >= LATE
 
     @property
     def same_place(self) -> bool:
@@ -184,8 +190,7 @@ class Game:
         self._end_dropped()
         self._compute()
         self._finish_jobs()
-        self._advance_fan()
-        waited = int(self.waited) if self.waited >= LONG else 0  # s, as the player is told
+        waited = self.late + (int(self.waited) if self.waited >= LONG else 0)  # s, as the player is told
         if waited != self._waited:
             self._waited = waited
             self.revision += 1
@@ -204,6 +209,11 @@ class Game:
         while not self.settled:
             self._begin_run()
             self._take_run(None)
+
+    def _everywhere(self, work: Callable[..., Any], *args: Any) -> None:
+        """Have it done in every process."""
+        for processes in {self.worker, self.helper}:
+            processes.submit(work, *args)
 
     def ask(self, result: Future[Any], then: Callable[[Any], object]) -> None:
         """Do something with a result once it is there."""
@@ -258,9 +268,6 @@ class Game:
         asked: list[Future[Any]] = [self.pending.result] if self.pending is not None else []
         asked += [result for result, _ in self.jobs]
         self.pending, self.jobs = None, []
-        if self.fan is not None and self.fan.work is not None:
-            asked.append(self.fan.work)
-            self.fan.work = None
         self.dropped = [result for result in asked if not result.cancel()]
         self._end_dropped()
         self.revision += 1
@@ -316,7 +323,8 @@ class Game:
             self.tell("the balls are already where they began")
             return
         self.aim_again()
-        self._changing(self.session.begin_again)
+        if self._changing(self.session.begin_again):
+            self.tell("the balls are back where they began; Ctrl Z to undo")
 
     # Aiming by hand
 
@@ -363,9 +371,10 @@ class Game:
     def _keep(self, shot: Shot) -> None:
         """Count a shot, and watch it."""
         self.count += 1
-        self.shots.append(replace(shot, start=self.start, number=self.count))
+        shot.start, shot.number = self.start, self.count
+        self.shots.append(shot)
         del self.shots[:-MOST_SHOTS]
-        self.watch(self.shots[-1])
+        self.watch(shot)
 
     def watch(self, shot: Shot) -> None:
         """Play one of the shots so far from its start."""
@@ -396,28 +405,6 @@ class Game:
             if self._changing(lambda: self.session.start_from(shot)):
                 self.tell("from where the balls rest; B puts them back where they began")
 
-    # The fan
-
-    def _advance_fan(self) -> None:
-        """Compute the fan of the current shot, once it no longer changes."""
-        if not self.fan_wanted or self.shot is None or self.failure is not None:
-            self.fan = None
-            return
-        if self.fan is not None and (self.fan.shot is not self.shot or self.fan.width != self.fan_width):
-            self.fan = None
-        if self.fan is None and self.still >= STILL and self.settled:
-            self.fan = Fan(self.shot, self.fan_width)
-            self.revision += 1
-        if self.fan is not None and self.settled:
-            count = len(self.fan.shots)
-            self.fan.advance(self.worker)
-            self.revision += len(self.fan.shots) != count
-
-    def widen_fan(self, factor: float) -> None:
-        """Make the fan wider, and show it."""
-        self.fan_width = min(max(self.fan_width * factor, 1 / WIDEST), WIDEST)
-        self.fan_wanted = True
-
     # ----------------------------------------------------------------------------------------------------- scene files
 
     def open(self, source: str) -> None:
@@ -436,7 +423,7 @@ class Game:
 
     def _opened(self) -> None:
         """Start on another scene: only the shots of the one before are kept."""
-        self.playback = self.pull = self.before_save = self.fan = self.failure = self.unreadable = None
+        self.playback = self.pull = self.before_save = self.failure = self.unreadable = None
         self.stale, self.shooting = True, False
         self.start += 1
         if self.session.source not in self.opened:
@@ -455,7 +442,7 @@ class Game:
             self.unreadable = self.reason(error)
             return
         if code:
-            self.worker.submit(reread, folder)
+            self._everywhere(reread, folder)
         self.unreadable, self.code = None, self.code + code
         if self.session.base.folder != folder:
             self._opened()

@@ -315,7 +315,7 @@ class Panel:
             height = self.container.scrollable_container.rect.height
             bar.set_scroll_from_start_percentage((label.rect.top - first.rect.top) / height)
 
-    def nudge(self, by: int, fine: bool = False) -> None:
+    def nudge(self, by: float) -> None:
         """More or less of the chosen row: a hundredth of its slider, the next word, on or off."""
         if self.chosen is None:
             self.choose(0)
@@ -323,7 +323,8 @@ class Panel:
         value = row.part(self.session.value(row.parameter.key))
         if row.choice is not None:
             words = list(row.parameter.choices)
-            self._set(row, words[(words.index(value) + by) % len(words)] if value in words else words[0])
+            here = words.index(value) + (1 if by > 0 else -1) if value in words else 0
+            self._set(row, words[here % len(words)])
             chosen = self.chosen
             self._build()
             self.chosen = chosen
@@ -331,7 +332,7 @@ class Panel:
             self._set(row, not value)
         elif row.slider is not None:
             low, high = row.slider.value_range
-            value += by * (high - low) / (1000 if fine else 100)
+            value += by * (high - low) / 100
             bounds = row.parameter.low, row.parameter.high
             if bounds[0] is not None and bounds[1] is not None:
                 value = min(max(value, bounds[0]), bounds[1])

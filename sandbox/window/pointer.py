@@ -64,33 +64,25 @@ class Pointer:
 
     def _pressed(self, at: Place) -> None:
         view, game = self.view, self.view.game
-        on_bar = view.bar.command_at(at)
-        if view.menu is not None:
-            name = view.menu.name_at(at)
-            view.close_overlays()
-            if name is not None:
-                game.open(name)
-        elif view.choices is not None and on_bar != view.choices.group:
-            command = view.choices.command_at(at)
-            if command is None or not view.choices.stays:
-                view.choices = None
-            if command is not None:
-                commands.do(view, command)
-        elif "help" in view.on or view.energy is not None:
-            view.close_overlays()
-        elif view.bar.rect.collidepoint(at):
-            share = view.bar.share_at(at)
-            if on_bar is not None:
-                commands.do(view, on_bar)
-            elif share is not None and game.playback is not None:
-                self.scrubbing = True
-                game.playback.playing = False
-                self._scrub(at)
+        button = view.bar.command_at(at)
+        if button is not None:
+            commands.do(view, button)
+        elif view.over is not None:
+            over, view.over = view.over, None
+            if over.pressed(at):
+                view.over = over
+        elif view.bar.share_at(at) is not None and game.playback is not None:
+            self.scrubbing = True
+            game.playback.playing = False
+            self._scrub(at)
         elif view.area.collidepoint(at):
+            aimed = view.aim_on_map(at)
             if "tape" in view.on:
                 self._lay(at)
             elif pygame.key.get_mods() & pygame.KMOD_CTRL:
                 self.panning = True
+            elif aimed is not None:
+                game.nudge(aim.aimed(game.session, *aimed))
             elif game.playback is None:
                 self._begin_pull(at)
             elif game.playback.over:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -11,7 +12,6 @@ import numpy as np
 from sandbox.physics.forces import Gravity
 from sandbox.scene import Scene
 from sandbox.sport.amounts import amount
-from sandbox.sport.controls import Controls
 from sandbox.window.path import moves, points
 
 if TYPE_CHECKING:
@@ -25,10 +25,10 @@ def value_at(parameters: Any, key: str) -> Any:
     return parameters
 
 
-def place_of(scene: Scene) -> tuple[Any, ...]:
-    """A scene without the parameters that a player aims with: equal for two scenes at the same place."""
+def without(scene: Scene, keys: Iterable[str]) -> tuple[Any, ...]:
+    """A scene without the parameters at some keys: equal for two scenes that differ only there."""
     values = scene.parameters.model_dump()
-    for key in aimed_with(scene.controls):
+    for key in keys:
         *groups, last = key.split(".")
         node = values
         for group in groups:
@@ -37,12 +37,13 @@ def place_of(scene: Scene) -> tuple[Any, ...]:
     return scene.folder, values
 
 
-def aimed_with(controls: Controls) -> set[str]:
-    """The keys that a player aims with: speed, angle, spins, and how the shot begins."""
-    return {controls.speed, controls.angle, *controls.also, *(spin.key for spin in controls.spins)}
+def place_of(scene: Scene) -> tuple[Any, ...]:
+    """A scene without what a player aims with: speed, angle, spins, and how the shot begins."""
+    controls = scene.controls
+    return without(scene, {controls.speed, controls.angle, *controls.also, *(spin.key for spin in controls.spins)})
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(eq=False)
 class Shot:
     """A scene and its run."""
 
@@ -58,6 +59,17 @@ class Shot:
     def place(self) -> tuple[Any, ...]:
         """The scene without the parameters that a player aims with."""
         return place_of(self.scene)
+
+    @cached_property
+    def unaimed(self) -> tuple[Any, ...]:
+        """The scene without the speed and the angle of the shot."""
+        return without(self.scene, (self.scene.controls.speed, self.scene.controls.angle))
+
+    @cached_property
+    def aim(self) -> tuple[float, float]:
+        """The speed and the angle of the shot, in their units."""
+        controls = self.scene.controls
+        return value_at(self.scene.parameters, controls.speed), value_at(self.scene.parameters, controls.angle)
 
     @cached_property
     def ball(self) -> str:
@@ -105,6 +117,5 @@ class Shot:
     @property
     def aimed(self) -> str:
         """Speed and direction that a pull has set."""
-        controls = self.scene.controls
-        speed, angle = (value_at(self.scene.parameters, key) for key in (controls.speed, controls.angle))
+        speed, angle = self.aim
         return f"{amount(speed, 'm/s')} at {amount(angle, 'deg')}"

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from concurrent.futures import Future
 from dataclasses import replace
+from math import inf
 from threading import Thread
 from typing import TYPE_CHECKING, Any
 
@@ -19,16 +20,17 @@ from sandbox.picture.palette import palette
 from sandbox.picture.sheet import Entry, rows_of
 from sandbox.picture.vectors import Vectors
 from sandbox.window import overlay
-from sandbox.window.background import Background, ready
+from sandbox.window.background import Background, Latest, ready
 from sandbox.window.bar import HEIGHT, Bar, Shown
 from sandbox.window.canvas import Canvas
 from sandbox.window.charts import Charts
-from sandbox.window.fan_layer import FanLayer
-from sandbox.window.game import Game
+from sandbox.window.fan import Cloud, cloud
+from sandbox.window.game import LONG, Game
 from sandbox.window.measure import NEAR, Tape, draw_reading, reading, state_entries
-from sandbox.window.playback import Playback
+from sandbox.window.overlay import Overlay
+from sandbox.window.score_map import FINER, QUICK, ScoreMap, score_map
 from sandbox.window.shot import Shot
-from sandbox.window.stage import Stage, headline
+from sandbox.window.stage import Stage, draw_map, headline
 
 if TYPE_CHECKING:
     from sandbox.window.panel import Panel
@@ -41,13 +43,15 @@ SIZE = (1280, 720)
 SMALLEST = (480, 400)
 #: While an aim changes, the stage is composed anew at most this often, in s: the place must not jitter.
 STEADY = 0.3
-#: An aim that has not changed for this time, in s, gets a stage of its own.
+#: An aim that has not changed for this time, in s, gets a stage and a map of its own.
 AT_REST = 0.15
 #: While the mouse pulls, words and numbers stay for at least this time, in s, to be readable.
 LEGIBLE = 0.05
 #: The panel, for its tooltips and blinking cursor, is drawn in every frame until the first time, in s, after an event;
 #: later at intervals of the second while somebody types.
 LIVELY, BLINK = 1.5, 0.25
+#: So long, in s, the first fan of a shot may take, so that it follows the mouse.
+GLIMPSE = 0.1
 #: Largest and smallest zoom, compared with a view of the whole shot.
 NEAREST, FARTHEST = 60.0, 0.2
 
@@ -63,19 +67,18 @@ class View:
         self.background = Background()
         self.on = {"ghosts"}  # which of commands.SWITCHES
         self.at = (-1, -1)  # px, the mouse
-        self.menu: overlay.Menu | None = None
-        self.choices: overlay.Choices | None = None
+        self.over: Overlay | None = None
         self.tape: Tape | None = None
-        self.energy: tuple[Shot, Future[pygame.Surface]] | None = None
         self.panel: Panel | None = None
         self.panel_wanted = False
         self.building: Future[Panel] | None = None  # the panel
-        self.stage: Stage | None = None
-        self.composing: Future[Stage] | None = None  # the next one
-        self.composed = 0.0  # s since the last one
-        self.composed_for: Shot | None = None  # the shot of the last one
-        self.undrawable: str | None = None  # why there is none
+        self.stages: Latest[Stage] = Latest()
+        self.stage: Stage | None = None  # the last one that could be composed
+        self.composed = 0.0  # s since then
         self.chosen: Camera | None = None  # by zooming; None shows all of the shot
+        self.clouds: Latest[Cloud] = Latest()  # the fan
+        self.maps: Latest[ScoreMap] = Latest()
+        self.map_at = pygame.Rect(0, 0, 0, 0)  # where its cells are drawn
         self.head = pygame.Rect(0, 0, 0, 0)  # where the headline is
         self.frame_cost = 0.0  # s, smoothed
         self.changed = True  # something other than the game
@@ -87,10 +90,7 @@ class View:
         self._picture: pygame.Surface | None = None  # what was drawn last above the bar
         self._worded: Shot | None = None
         self._worded_for = 0.0  # s since its words were chosen
-        self._near: tuple[Shot, Any] | None = None
-        self._vectors: tuple[Shot, Vectors] | None = None
-        self._charts: tuple[Shot, Charts] | None = None
-        self._fan: FanLayer | None = None
+        self._made: dict[str, tuple[object, Any]] = {}  # by name, for the object given: see _once
         self.lay_out()
 
     # ------------------------------------------------------------------------------------------------------- places
@@ -146,25 +146,24 @@ class View:
             pygame.display.set_mode((0, 0), pygame.FULLSCREEN)
         self.resized()
 
-    def close_overlays(self) -> bool:
-        """Close what covers the picture; returns whether there was anything."""
-        was = self.covered
-        self.menu = self.choices = self.energy = None
-        self.on.discard("help")
-        self.changed |= was
-        return was
-
-    @property
-    def covered(self) -> bool:
-        """Whether something covers the picture."""
-        return self.menu is not None or self.choices is not None or "help" in self.on or self.energy is not None
+    def close_overlay(self) -> bool:
+        """Close what lies over the picture; returns whether there was anything."""
+        was, self.over = self.over, None
+        self.changed |= was is not None
+        return was is not None
 
     @property
     def switched(self) -> set[str]:
-        """The commands whose switches are on."""
+        """The commands whose switches are on, and the scene that is played."""
         sound = self.sound is not None and self.sound.on
-        others = {"panel": self.panel_wanted, "sound": sound, "fan": self.game.fan_wanted}
+        others = {"panel": self.panel_wanted, "sound": sound, self.game.session.source: True}
         return self.on | {command for command, on in others.items() if on}
+
+    def _once(self, name: str, of: object, make: Callable[[], Any]) -> Any:
+        """What ``make`` makes of an object, made once for it."""
+        if name not in self._made or self._made[name][0] is not of:
+            self._made[name] = of, make()
+        return self._made[name][1]
 
     # ------------------------------------------------------------------------------------------------------- cameras
 
@@ -187,9 +186,7 @@ class View:
         """The picture of a shot that follows its ball."""
         if self.stage is not None and self.stage.shot.run is shot.run and self.stage.chosen is None:
             return self.stage.picture
-        if self._near is None or self._near[0] is not shot:
-            self._near = shot, shot.scene.picture(shot.run, self.area.size)
-        return self._near[1]
+        return self._once("near", shot, lambda: shot.scene.picture(shot.run, self.area.size))
 
     def zoom(self, factor: float, at: tuple[float, float]) -> None:
         """Zoom by ``factor`` around a place (px); in a view from the side the ground stays where it is."""
@@ -242,12 +239,12 @@ class View:
     @property
     def busy(self) -> bool:
         """Whether something is being prepared that will have to be drawn."""
-        energy = self.energy is not None and not self.energy[1].done()
-        fan = self._fan is not None and not self._fan.complete
+        over = self.over is not None and not self.over.ready
         lively = self.panel is not None and (self._lively < LIVELY or not self.panel.complete)
         exporting = self.exporter is not None and self.exporter.is_alive()
-        coming = self.composing is not None or self.building is not None or self._words_late
-        return coming or self._stage_wanted() or energy or fan or lively or exporting
+        coming = any(latest.work is not None for latest in (self.stages, self.clouds, self.maps))
+        wanted = self._stage_wanted() or bool(self._cloud_wanted() or self._map_wanted())
+        return coming or wanted or self.building is not None or self._words_late or over or lively or exporting
 
     def _may_draw(self, stage: Stage, shot: Shot) -> bool:
         """Whether a shot may be drawn on a stage: when watched only on its own, when aimed on one of the same place."""
@@ -257,64 +254,109 @@ class View:
             return True
         return self.game.playback is None and stage.is_place_of(shot, self.game.code)
 
-    def _stage_wanted(self) -> bool:
-        """Whether the shot needs another stage, and one can be composed."""
-        shot, stage = self.game.shot, self.stage
-        if shot is None or (self.undrawable is not None and self.composed_for is shot):
-            return False
-        return stage is None or stage.size != self.area.size or not stage.shows(shot, self.game.code, self.chosen)
-
     def tick(self, dt: float, happened: bool) -> None:
         """``dt`` s have passed, and something may have happened in the window."""
         self._lively = 0.0 if happened else self._lively + dt
         self.composed += dt
         self._worded_for += dt
         self._take_panel()
-        self._take_stage()
-        self._follow()
+        self._follow_stage()
+        self._follow_cloud()
+        self._follow_map()
         if self.panel is not None:
             self.panel.update(dt)
-        if self.energy is not None and self.energy[0] is not self.game.shot:
-            self.energy, self.changed = None, True
+
+    # What follows the shot, computed elsewhere
+
+    def _stage_key(self) -> tuple[Any, ...]:
+        """What the stage of the shot belongs to."""
+        return self.game.shot, self.area.size, self.game.code, self.chosen
+
+    @property
+    def undrawable(self) -> str | None:
+        """Why there is no stage for the shot."""
+        if self.stages.error is None or self.stages.key != self._stage_key():
+            return None
+        return f"{self.game.session.title} cannot be drawn: {self.game.reason(self.stages.error)}"
+
+    def _stage_wanted(self) -> bool:
+        """Whether the shot needs another stage than the last one that was tried."""
+        shot, stage = self.game.shot, self.stage
+        if shot is None or self.stages.key == self._stage_key():
+            return False
+        return stage is None or stage.size != self.area.size or not stage.shows(shot, self.game.code, self.chosen)
 
     def _take_stage(self) -> None:
         """Switch to a stage that was composed."""
-        if self.composing is None or not ready(self.composing, self.patience):
-            return
-        composing, self.composing, self.composed, self.changed = self.composing, None, 0.0, True
-        try:
-            self.stage, self.undrawable = composing.result(), None
-        except Exception as error:
-            self.undrawable = f"{self.game.session.title} cannot be drawn: {self.game.reason(error)}"
+        if self.stages.take(self.patience):
+            self.composed, self.changed = 0.0, True
+            self.stage = self.stages.value or self.stage
 
-    def _follow(self) -> None:
-        """Start composing a stage for the shot, if this one does not show it."""
-        game, stage = self.game, self.stage
-        if self.composing is not None or not self._stage_wanted():
+    def _follow_stage(self) -> None:
+        """Compose a stage for the shot, if this one does not show it."""
+        self._take_stage()
+        game, stage, shot = self.game, self.stage, self.game.shot
+        if shot is None or not self._stage_wanted():
             return
-        shot = game.shot
-        assert shot is not None
         if stage is not None and game.playback is None and self._may_draw(stage, shot) and stage.chosen == self.chosen:
             moving = game.pull is not None or not game.settled or game.still < AT_REST
             if moving and (stage.holds(shot) or self.composed < STEADY):
                 return
-        self.composed_for = shot
-        self.composing = self.background.submit(Stage, shot, self.area.size, game.code, self.chosen, stage)
+        key = self._stage_key()
+        self.stages.follow(key, lambda: self.background.submit(Stage, *key, stage))
         self._take_stage()
+
+    def _cloud_wanted(self) -> tuple[Any, ...] | None:
+        """What a fan is still to be computed of: the shot; its first shots first, if all would take long."""
+        game, stage, known = self.game, self.stage, self.clouds
+        shown = game.failure is None and stage is not None and stage.camera is not None and self.up_to_date
+        if "fan" not in self.on or not shown or stage is None or game.shot is None:
+            return None
+        now = game.shot, game.fan_width, stage.camera
+        if known.key is None or known.key[:3] != now:
+            return (*now, GLIMPSE)
+        return (*now, inf) if known.value is not None and not known.value.complete else None
+
+    def _follow_cloud(self) -> None:
+        """Compute a fan of the shot, one after the other while the shot changes."""
+        self.changed |= self.clouds.take()
+        key = self._cloud_wanted()
+        if key is not None:
+            if self.clouds.takes > LONG and self.clouds.work_for[:3] != key[:3]:
+                self.game.helper.kill()
+            asked = key[0].scene, *key[1:], self.area.size, (CARD["good"], CARD["text"])
+            self.clouds.follow(key, lambda: self.game.helper.submit(cloud, *asked))
+
+    def _map_wanted(self) -> tuple[Any, ...] | None:
+        """What a map is still to be computed of: the scene apart from the aim, which stays in its middle for as long as
+        it is on the map; a coarse one first."""
+        game, shot, known = self.game, self.game.shot, self.maps.value
+        if "map" not in self.on or shot is None or game.failure is not None or game.still < AT_REST:
+            return None
+        same = self.maps.key is not None and self.maps.key[:2] == (shot.unaimed, game.code)
+        if same and (known is None or known.holds(*shot.aim)):
+            finer = known is not None and self.maps.key[3] == 1 and known.seconds < QUICK
+            return (*self.maps.key[:3], FINER) if finer else None
+        return shot.unaimed, game.code, shot.scene, 1
+
+    def _follow_map(self) -> None:
+        """Compute the map around the shot."""
+        self.changed |= self.maps.take()
+        key = self._map_wanted()
+        if key is not None:
+            self.maps.follow(key, lambda: self.game.helper.submit(score_map, *key[2:]))
 
     # ------------------------------------------------------------------------------------------------------- drawing
 
     def needs_drawing(self, happened: bool) -> bool:
         """Whether what would be drawn differs from what was drawn last."""
-        fan = self._fan is not None and not self._fan.complete
         lively = self.panel is not None and (self._lively < LIVELY or not self.panel.complete)
         blink = self._lively // BLINK if self.panel is not None and self.panel.typing else 0
-        energy = self.energy is not None and self.energy[1].done()
         playback = self.game.playback
         clock = (playback.t, playback.playing, playback.rate) if playback is not None else None
-        over = (self.menu, self.choices, self.tape, frozenset(self.on), energy)
+        over = (self.over, self.over is not None and self.over.ready, self.tape, frozenset(self.on))
         seen = (self.game.revision, self.game.failure, clock, over, self.panel, blink)
-        needed = happened or self.changed or fan or lively or self._words_late or seen != self._seen
+        needed = happened or self.changed or lively or self._words_late or seen != self._seen
         self._seen, self.changed = seen, False
         return needed
 
@@ -330,7 +372,9 @@ class View:
         if self.panel is not None:
             self.panel.draw(self.canvas)
         self.bar.draw(self.canvas, self._bar_shown(), self.at)
-        self._draw_over()
+        if self.over is not None:
+            sheet = Canvas(self.canvas.subsurface((0, 0), (self.canvas.get_width(), self.area.height)))
+            self.over.draw(sheet, self.at, self.switched)
         if self.canvas is not self.screen:
             self.screen.blit(self.canvas, (0, 0))
         if self.caption != self.game.session.title:
@@ -343,75 +387,87 @@ class View:
         sheet = Canvas(self.canvas.subsurface(self.area))
         drawn = False
         if shot is not None and stage is not None and self.undrawable is None and self._may_draw(stage, shot):
-            if game.failure is not None:
-                self._draw_failure(sheet, stage)
-                drawn = True
-            elif game.playback is not None:
-                self._draw_playing(sheet, stage, shot, game.playback)
-                drawn = True
-            elif game.same_place:
-                self._draw_aiming(sheet, stage, shot)
-                drawn = True
+            drawn = True
+            if game.failure is not None or game.late:
+                self._draw_no_path(sheet, stage)
+            elif game.playback is not None or game.same_place:
+                self._draw_shot(sheet, stage, shot)
+                self._draw_cards(sheet, stage, shot)
+            else:
+                drawn = False
         if drawn:
-            assert shot is not None
-            if game.failure is None:
-                self._draw_cards(sheet, shot)
             if self._picture is None:
                 self._picture = pygame.Surface(self.area.size)
             self._picture.blit(sheet.surface, (0, 0))
         elif self._picture is not None:
             sheet.surface.blit(self._picture, (0, 0))
-            if self.undrawable is not None or game.failure is not None:
+            if self.undrawable is not None or game.failure is not None or game.late:
                 _darken(sheet.surface)
         else:
             sheet.surface.fill(CARD["background"])
-        if self.energy is not None and self.energy[1].done():
-            surface = self.energy[1].result()
-            sheet.surface.blit(surface, surface.get_rect(center=sheet.surface.get_rect().center))
         undrawable = [(self.undrawable, True)] if self.undrawable is not None else []
         overlay.draw_messages(sheet, [*undrawable, *game.notices])
 
-    def _draw_over(self) -> None:
-        """What covers everything except the bar: the keys, the scenes, the lists of commands."""
-        if "help" not in self.on and self.menu is None and self.choices is None:
-            return
-        sheet = Canvas(self.canvas.subsurface((0, 0), (self.canvas.get_width(), self.area.height)))
-        if self.menu is not None:
-            self.menu.draw(sheet, self.game.session.source, self.at)
-        if "help" in self.on:
-            overlay.draw_help(sheet)
-        if self.choices is not None:
-            button = self.bar.places[self.choices.group]  # these three are never left out
-            words = {"accuracy": f"accuracy: {self.game.session.value('accuracy.level')}, and the next"}
-            self.choices.draw(sheet, button, self.switched, words, self.at)
-
-    def _draw_failure(self, sheet: Canvas, stage: Stage) -> None:
-        """The place, dark and without a path: the current parameters have none."""
+    def _draw_no_path(self, sheet: Canvas, stage: Stage) -> None:
+        """The place, dark and without a path: the current parameters have none, or none yet."""
         sheet.surface.blit(stage.backdrop, (0, 0))
         _darken(sheet.surface)
-        self.head = headline(sheet, "No path", ["the run of these parameters failed"], CARD["bad"])
+        if self.game.failure is not None:
+            self.head = headline(sheet, "No path", ["the run of these parameters failed"], CARD["bad"])
+        else:
+            self.head = headline(sheet, "Computing ...", ["the run of these parameters takes long"], CARD["text"])
 
-    def _draw_aiming(self, sheet: Canvas, stage: Stage, shot: Shot) -> None:
-        """The shot while it is aimed."""
-        game = self.game
+    def _draw_shot(self, sheet: Canvas, stage: Stage, shot: Shot) -> None:
+        """The shot with what is drawn around it, as it is aimed, or at the time to which it has been watched."""
+        game, playback = self.game, self.game.playback
+        t = playback.t if playback is not None else None
+        if t is not None and self.follows:
+            sheet.surface.blit(self.near(shot).frame(t), (0, 0))
+            return
         sheet.surface.blit(stage.backdrop, (0, 0))
         if stage.camera is None:
             return
         if "ghosts" in self.on:
-            before = [game.before_save] if game.before_save is not None else []
-            stage.draw_ghosts(sheet, [*before, *game.recent], shot if game.pull is None else None)
-        self._draw_fan(sheet, stage)
-        stage.draw_path(sheet, shot)
-        stage.draw_balls(sheet, 0.0)
-        self._draw_arrows(sheet, shot, stage.ball_at(shot), 0.0)
+            stage.draw_ghosts(sheet, self._ghosts(shot), shot if game.pull is None else None)
+        self._draw_cloud(sheet, stage, shot)
+        stage.draw_path(sheet, shot, t)
+        stage.draw_balls(sheet, t or 0.0)
+        forces = []
+        if "arrows" in self.on:
+            vectors: Vectors = self._once("vectors", shot, lambda: Vectors(shot.run, shot.ball))
+            vectors.draw(sheet, stage.ball_at(shot, t or 0.0), 9 * sheet.unit, t or 0.0)
+            forces = vectors.entries(t or 0.0)
+        self._draw_words(sheet, stage, shot, forces)
+        if game.pull is not None and game.pull.shoots:
+            stage.draw_pull(sheet, game.pull.start, game.pull.drawn, self._words(shot).aimed)
+
+    def _ghosts(self, shot: Shot) -> list[Shot]:
+        """The earlier shots that are drawn with this one."""
+        if self.game.playback is not None:
+            alike = shot.source, shot.start
+            return [each for each in self.game.shots if each is not shot and (each.source, each.start) == alike]
+        before = [self.game.before_save] if self.game.before_save is not None else []
+        return [*before, *self.game.recent]
+
+    def _draw_words(self, sheet: Canvas, stage: Stage, shot: Shot, forces: Sequence[Entry]) -> None:
+        """The headline, and the numbers along the bottom."""
+        game, playback = self.game, self.game.playback
         words = self._words(shot)
-        notes = [self._hint(), *stage.notes]
-        self.head = headline(sheet, words.verdict, notes, CARD["good"] if words.scored else CARD["text"])
-        sheet.numbers([*words.card, *(self._forces(shot).entries(0.0) if "arrows" in self.on else [])])
-        pull = game.pull
-        if pull is not None and pull.shoots:
-            vector = pull.drawn
-            stage.draw_pull(sheet, pull.start, vector, words.aimed)
+        text, colour = words.verdict, CARD["good"] if words.scored else CARD["text"]
+        entries: Sequence[Entry] = words.card
+        if game.pull is not None:
+            notes = ["let go to shoot, Esc to cancel"]
+        elif playback is None:
+            notes = ["pull back anywhere and let go, or press Space"]
+        else:
+            notes = [f"{'replay' if shot.recorded else 'shot'} {shot.number}"]
+            if playback.over:
+                again = "continue" if game.session.controls.next_start is not None else "aim again"
+                notes.append(f"Enter to {again}, R to see it again")
+            else:
+                text, colour, entries = f"{playback.t:.2f} s", CARD["text"], self._state(stage, shot, playback.t)
+        self.head = headline(sheet, text, [*notes, *stage.notes], colour)
+        sheet.numbers([*entries, *forces])
 
     def _words(self, shot: Shot) -> Shot:
         """The shot whose words and numbers are shown: during a pull they change less often, to be readable."""
@@ -424,39 +480,8 @@ class View:
     def _words_late(self) -> bool:
         """Whether the words that are shown are those of an earlier aim."""
         game = self.game
-        aiming = game.playback is None and game.failure is None and self.up_to_date
+        aiming = game.playback is None and game.failure is None and not game.late and self.up_to_date
         return aiming and self._worded is not None and self._worded is not game.shot
-
-    def _hint(self) -> str:
-        if self.game.pull is not None:
-            return "let go to shoot, Esc to cancel"
-        return "pull back anywhere and let go, or press Space"
-
-    def _draw_playing(self, sheet: Canvas, stage: Stage, shot: Shot, playback: Playback) -> None:
-        """The shot during playback."""
-        game, t = self.game, playback.t
-        if self.follows:
-            sheet.surface.blit(self.near(shot).frame(t), (0, 0))
-            return
-        sheet.surface.blit(stage.backdrop, (0, 0))
-        if "ghosts" in self.on:
-            others = [e for e in game.shots if e is not shot and (e.source, e.start) == (shot.source, shot.start)]
-            stage.draw_ghosts(sheet, others, shot)
-        self._draw_fan(sheet, stage)
-        stage.draw_path(sheet, shot, t)
-        stage.draw_balls(sheet, t)
-        self._draw_arrows(sheet, shot, stage.ball_at(shot, t), t)
-        forces = self._forces(shot).entries(t) if "arrows" in self.on else []
-        name = f"{'replay' if shot.recorded else 'shot'} {shot.number}"
-        if playback.over:
-            colour = CARD["good"] if shot.scored else CARD["text"]
-            again = "continue" if game.session.controls.next_start is not None else "aim again"
-            notes = [name, f"Enter to {again}, R to see it again", *stage.notes]
-            self.head = headline(sheet, shot.verdict, notes, colour)
-            sheet.numbers([*shot.card, *forces])
-        else:
-            self.head = headline(sheet, f"{t:.2f} s", [name, *stage.notes], CARD["text"])
-            sheet.numbers([*self._state(stage, shot, t), *forces])
 
     @staticmethod
     def _state(stage: Stage, shot: Shot, t: float) -> Sequence[Entry]:
@@ -464,62 +489,72 @@ class View:
         live: Callable[[float], Sequence[Entry]] | None = getattr(stage.picture, "live", None)
         return live(t) if live is not None else state_entries(shot, shot.ball, t)
 
-    # Around the shot
+    def _cloud_of(self, shot: Shot) -> Cloud | None:
+        """The fan of a shot; during a pull that of a moment ago."""
+        there = self.clouds.value is not None and self.clouds.key[0].place == shot.place
+        return self.clouds.value if there else None
 
-    def _draw_fan(self, sheet: Canvas, stage: Stage) -> None:
-        fan = self.game.fan
-        if fan is None or stage.camera is None:
-            self._fan = None
-            return
-        if self._fan is None or (self._fan.fan, self._fan.camera) != (fan, stage.camera):
-            self._fan = FanLayer(fan, stage.camera, sheet.size)
-        self._fan.draw(sheet)
+    def _map_of(self, shot: Shot) -> ScoreMap | None:
+        """The map around a shot."""
+        there = self.maps.value is not None and self.maps.key[:2] == (shot.unaimed, self.game.code)
+        return self.maps.value if there else None
 
-    def _forces(self, shot: Shot) -> Vectors:
-        if self._vectors is None or self._vectors[0] is not shot:
-            self._vectors = shot, Vectors(shot.run, shot.ball)
-        return self._vectors[1]
+    def _draw_cloud(self, sheet: Canvas, stage: Stage, shot: Shot) -> None:
+        found = self._cloud_of(shot) if "fan" in self.on else None
+        if found is not None and found.pixels and self.clouds.key[2] == stage.camera:
+            image = self._once("cloud", found, lambda: pygame.image.frombuffer(found.pixels, found.size, "RGBA"))
+            sheet.surface.blit(image, found.at)
 
-    def _draw_arrows(self, sheet: Canvas, shot: Shot, at: tuple[float, float], t: float) -> None:
-        if "arrows" in self.on:
-            self._forces(shot).draw(sheet, at, 9 * sheet.unit, t)
-
-    def _draw_cards(self, sheet: Canvas, shot: Shot) -> None:
+    def _draw_cards(self, sheet: Canvas, stage: Stage, shot: Shot) -> None:
         """Cards down the right side, what the mouse reads, the tape."""
         game, top = self.game, float(sheet.frame.top)
-        if not self.follows and self.stage is not None:
-            top = max(top, float(self.stage.foot_of_wind))
+        if not self.follows:
+            top = max(top, float(stage.foot_of_wind))
         if "cost" in self.on:
             level = game.session.value("accuracy.level")
             text = f"frame {1e3 * self.frame_cost:.1f} ms; run {1e3 * game.cost:.1f} ms, {level}"
             top = overlay.draw_note(sheet, [(text, CARD["accent"])], top, self.head)
-        if game.fan is not None:
-            share, spread = game.fan.summary()
-            top = overlay.draw_note(sheet, [(share, CARD["text"]), (spread, CARD["quiet"])], top, self.head)
+        if "fan" in self.on:
+            found = self._cloud_of(shot)
+            share, spread = found.said if found is not None else (_why(self.clouds, "the fan"), "")
+            lines = [(share, CARD["text"]), *([(spread, CARD["quiet"])] if spread else [])]
+            top = overlay.draw_note(sheet, lines, top, self.head)
+        if "map" in self.on:
+            known = self._map_of(shot)
+            if known is None:
+                top = overlay.draw_note(sheet, [(_why(self.maps, "the map"), CARD["text"])], top, self.head)
+            else:
+                self.map_at, top = draw_map(sheet, known, shot.aim, top, self.head)
         if "charts" in self.on:
-            if self._charts is None or self._charts[0] is not shot:
-                self._charts = shot, Charts(shot, self.stage.picture if self.stage is not None else None)
-            t = game.playback.t if game.playback is not None else None
-            self._charts[1].draw(sheet, top, t, self.head)
+            charts: Charts = self._once("charts", shot, lambda: Charts(shot, stage.picture))
+            charts.draw(sheet, top, game.playback.t if game.playback is not None else None, self.head)
         camera = self.camera
         if camera is not None and self.tape is not None:
             self.tape.draw(sheet, camera, shot.upright)
-        if camera is None or self.follows or self.covered or game.pull is not None:
+        if camera is None or self.follows or self.over is not None or game.pull is not None:
             return
         if self.area.collidepoint(self.at) and not pygame.mouse.get_pressed()[2]:
             until = game.playback.t if game.playback is not None else None
             read = reading(shot, camera, self.at, NEAR * sheet.unit, until)
-            if read is not None and self.stage is not None:
+            if read is not None:
                 own = read.ball == shot.ball
-                entries = self._state(self.stage, shot, read.t) if own else state_entries(shot, read.ball, read.t)
+                entries = self._state(stage, shot, read.t) if own else state_entries(shot, read.ball, read.t)
                 draw_reading(sheet, shot, read, entries)
+
+    def aim_on_map(self, at: tuple[int, int]) -> tuple[float, float] | None:
+        """The speed and the angle at a place (px) on the map; None if it is not on it."""
+        shot, rect = self.game.shot, self.map_at
+        known = self._map_of(shot) if "map" in self.on and shot is not None else None
+        if known is None or not rect.collidepoint(at):
+            return None
+        return known.aim((at[0] - rect.left) / rect.width, (rect.bottom - at[1]) / rect.height)
 
     def _bar_shown(self) -> Shown:
         """The contents of the bar."""
         game, playback, shot = self.game, self.game.playback, self.game.shot
-        opened = {"help": "help" in self.on, "panel": self.panel is not None}
-        if self.choices is not None:
-            opened[self.choices.group] = True
+        opened = {"panel"} if self.panel is not None else set()
+        if self.over is not None:
+            opened.add(self.over.name)
         return Shown(
             title=game.session.title + (" *" if game.session.changes.values else ""),
             playing=playback is not None and playback.playing,
@@ -528,7 +563,7 @@ class View:
             ticks=tuple(e.t for e in shot.run.events if e.kind == "impact")[:200] if shot else (),
             rate=playback.rate if playback is not None else 1.0,
             texts=("see", "keep", "more", "panel", "help"),
-            on=frozenset(name for name, on in opened.items() if on),
+            on=frozenset(opened),
         )
 
 
@@ -539,6 +574,11 @@ def _panel(game: Game, size: tuple[int, int], height: int, group: str) -> Panel:
     wide = min(max(NARROWEST, round(WIDTH * rows_of(size) / 720)), size[0] // 2)
     rect = pygame.Rect(size[0] - wide, 0, wide, height)
     return Panel(size, rect, lambda: game.session, game.change, game.reset, group or FAVOURITES, game.patience)
+
+
+def _why(latest: Latest[Any], what: str) -> str:
+    """Why there is no such value."""
+    return f"{what} ..." if latest.error is None else str(latest.error)
 
 
 def _darken(surface: pygame.Surface) -> None:

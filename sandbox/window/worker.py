@@ -3,20 +3,15 @@
 from __future__ import annotations
 
 import traceback
-from collections.abc import Sequence
 from contextlib import suppress
 from pathlib import Path
 from time import perf_counter
-from typing import Any, NamedTuple
-
-import numpy as np
+from typing import Any
 
 from sandbox.errors import RunError, SandboxError
-from sandbox.lab.runs import runs
 from sandbox.scene import Scene, check, load, simulate
 from sandbox.scene.modules import forget
 from sandbox.window.run_data import data_of
-from sandbox.window.shot import Shot
 
 
 def warm_up(source: str) -> None:
@@ -68,27 +63,3 @@ def cost_and_errors(scene: Scene) -> str:
     changed += [f"{name} is chaotic" for name in (*checked.chaotic, *checked.unsettled)]
     summary = ", ".join(text.strip() for text in changed or errors[:4]) or "the same in a finer run"
     return f"{1e3 * run.numerics.wall_s:.1f} ms a run; {summary.replace('_', ' ')}"
-
-
-class FanShot(NamedTuple):
-    """One shot of a fan."""
-
-    points: np.ndarray  # shape (n, 3): t in s, x and y in m
-    scored: bool
-    value: float | None  # of the fact that the fan reports
-
-
-def varied(
-    scene: Scene, keys: Sequence[str], points: Sequence[Sequence[float]], fact: str
-) -> tuple[list[FanShot | None], float]:
-    """Shots with other values at the keys, None for one that fails, and how long they took, in s; ``fact`` is the
-    name of the result to report."""
-    started = perf_counter()
-    found: list[FanShot | None] = []
-    for run in runs(scene, keys, points):
-        if isinstance(run, Exception):
-            found.append(None)
-            continue
-        shot, value = Shot(scene, run), run.result.get(fact)
-        found.append(FanShot(shot.track(shot.ball), shot.scored, value if isinstance(value, float) else None))
-    return found, perf_counter() - started

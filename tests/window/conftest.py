@@ -57,6 +57,13 @@ class Player:
         self.send(pygame.KEYDOWN, key=key, mod=modifiers, unicode="", scancode=0)
         self.send(pygame.KEYUP, key=key, mod=modifiers, unicode="", scancode=0)
 
+    def press_named(self, name: str) -> None:
+        """Press a key that is named as in the table of commands."""
+        held, _, plain = name.partition(" ") if name.startswith(("ctrl ", "alt ")) else ("", "", name)
+        modifiers = {"": 0, "ctrl": pygame.KMOD_CTRL, "alt": pygame.KMOD_ALT}[held]
+        self.send(pygame.KEYDOWN, key=pygame.key.key_code(plain), mod=modifiers, unicode="", scancode=0)
+        self.send(pygame.KEYUP, key=pygame.key.key_code(plain), mod=modifiers, unicode="", scancode=0)
+
     def move(self, at: tuple[int, int]) -> None:
         pygame.mouse.set_pos(at)  # pygame_gui asks for it
         self.send(pygame.MOUSEMOTION, pos=at, rel=(0, 0), buttons=(0, 0, 0), touch=False)

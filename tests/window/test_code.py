@@ -116,18 +116,17 @@ class TestWhatIsOpen:
         player.settle()
         assert "soccer" in pygame.display.get_caption()[0]
         player.button("menu")
-        rect = next(rect for rect, name in player.view.menu.places if name == str(file))
+        rect = next(rect for rect, row in player.view.over.places if row.action == str(file))
         player.click(rect.center)
         assert player.game.session.title == "mine.toml"
 
     def test_one_thing_at_a_time_lies_over_the_picture(self, player):
         player = player("golf/putt")
-        for key in (pygame.K_m, pygame.K_h, pygame.K_j, pygame.K_m):
+        for key, name in ((pygame.K_l, "menu"), (pygame.K_h, "help"), (pygame.K_j, "energy"), (pygame.K_l, "menu")):
             player.key(key)
-            view = player.view
-            assert [view.menu is not None, "help" in view.on, view.energy is not None].count(True) == 1
+            assert player.view.over.name == name
         player.key(pygame.K_ESCAPE)
-        assert not player.view.covered
+        assert player.view.over is None
 
     def test_escape_closes_a_list_of_the_panel_first(self, player):
         player = player("golf")

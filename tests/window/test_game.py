@@ -15,7 +15,7 @@ import sandbox.window
 from sandbox.engine.accuracy import LEVELS
 from sandbox.new import new_scene
 from sandbox.window.aim import nudged
-from sandbox.window.game import LONG, MOST_SHOTS, Game, State
+from sandbox.window.game import LATE, LONG, MOST_SHOTS, Game, State
 from sandbox.window.session import Session
 from sandbox.window.worker import computed
 from sandbox.workers import WorkerLost
@@ -163,6 +163,19 @@ class TestARunThatNeverEnds:
         assert stuck.worker.stopped == 1
         stuck.settle()
         assert stuck.shot.scene is stuck.session.scene
+
+    def test_the_path_from_before_is_not_shown_as_if_it_were_the_one_that_takes_long(self, game):
+        game.worker.never = True
+        game.change({"launch.speed": 2.0})
+        game.advance(0.0)
+        assert not game.late
+        revision, game.pending = game.revision, game.pending._replace(since=game.pending.since - LATE)
+        game.advance(0.0)
+        assert game.late
+        assert game.revision > revision
+        game.worker.kill()
+        game.advance(0.0)
+        assert not game.late
 
     def test_a_short_one_is_not_stopped(self, game):
         assert not game.stop()

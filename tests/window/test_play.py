@@ -15,7 +15,7 @@ import sandbox
 from sandbox.scene import listings
 from sandbox.window import aim
 from sandbox.window.game import State
-from sandbox.window.keys import BINDINGS
+from sandbox.window.keys import TABLE
 from sandbox.window.playback import LONGEST_FRAME, STEP
 from sandbox.window.session import Session
 from sandbox.window.view import SMALLEST
@@ -188,23 +188,28 @@ class TestScenes:
     def test_the_menu_opens_another_scene_by_mouse(self, player):
         player = player("golf")
         player.button("menu")
-        rect = next(rect for rect, name in player.view.menu.places if name == "golf/putt")
+        rect = next(rect for rect, row in player.view.over.places if row.action == "golf/putt")
         player.click(rect.center)
         assert player.game.session.title == "golf/putt"
-        assert player.view.menu is None
+        assert player.view.over is None
 
     def test_the_menu_opens_another_scene_by_key(self, player):
         player = player("golf")
-        player.key(pygame.K_m)
+        player.key(pygame.K_l)
         player.key(pygame.K_DOWN)
         golf = [listing.name for listing in listings() if listing.name.startswith("golf/")]
-        assert player.view.menu.chosen == golf[0]
+        assert player.view.over.chosen == golf[0]
         player.key(pygame.K_UP)
+        player.key(pygame.K_UP)
+        assert player.view.over.chosen.startswith("billiards/")
+        player.key(pygame.K_RIGHT)
+        assert player.view.over.chosen.startswith("golf/")
         player.key(pygame.K_LEFT)
-        assert player.view.menu.chosen == "billiards"
+        chosen = player.view.over.chosen
+        assert not chosen.startswith("golf")
         player.key(pygame.K_RETURN)
-        assert player.game.session.title == "billiards"
-        assert player.view.menu is None
+        assert player.game.session.title == chosen
+        assert player.view.over is None
 
 
 def test_what_cannot_be_is_said_and_the_last_good_parameters_stay(player):
@@ -229,23 +234,23 @@ def test_any_size_is_drawn(player, size):
     player.pull((-60, 20))
     player.frames(3)
     player.key(pygame.K_h)
-    player.key(pygame.K_m)
+    player.key(pygame.K_l)
 
 
 def test_every_key_does_something_harmless_in_every_state(player, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)  # some of them write files
     player = player("golf/putt", (640, 400))
     for state in ("aiming", "playing", "over"):
-        for binding in BINDINGS:
-            if binding.command in ("quit", "next_preset", "previous_preset", "fullscreen", "animation"):
+        for command, key in [(each, key) for each in TABLE for key in each.keys]:
+            if command.name in ("quit", "next_preset", "fullscreen", "animation"):
                 continue  # they have tests of their own
-            if binding.group == "Panel" and state != "aiming":
+            if command.group == "Panel" and state != "aiming":
                 continue  # it is the same panel
             if state != "aiming" and player.game.playback is None:
                 player.game.shoot()
             if state == "over":
                 player.game.playback.seek(1e9)
-            player.send(pygame.KEYDOWN, key=binding.key, mod=binding.modifier, unicode="", scancode=0)
+            player.press_named(key)
             assert player.game.running
         for _ in range(5):
             player.key(pygame.K_ESCAPE)

@@ -3,24 +3,25 @@
 from __future__ import annotations
 
 import re
-from concurrent.futures import wait
+from concurrent.futures import Future
 from itertools import combinations
 from math import hypot
+from unittest import mock
 
 import numpy as np
 import pygame
 import pytest
 
-from sandbox.picture.sheet import Sheet
+from sandbox.picture.camera import Camera
+from sandbox.scene import simulate
 from sandbox.window import commands
 from sandbox.window.canvas import Canvas
 from sandbox.window.charts import Charts
-from sandbox.window.fan import SHOTS, Fan, _short
-from sandbox.window.fan_layer import FanLayer
-from sandbox.window.keys import BINDINGS, LISTED, listed
+from sandbox.window.fan import FEWEST, SHOTS, cloud, density, short, spread_of
+from sandbox.window.keys import LISTED, TABLE, of_groups
 from sandbox.window.measure import reading
+from sandbox.window.score_map import COARSE, FINER, SCORED, score_map
 from sandbox.window.session import Session
-from sandbox.window.worker import FanShot
 
 PUTT = "golf/putt"
 
@@ -34,91 +35,167 @@ def differ(a: np.ndarray, b: np.ndarray) -> float:
     return float((a != b).any(axis=2).mean())
 
 
-def wait_for_fan(player) -> Fan:
-    player.frames(10)
-    fan = player.game.fan
-    while not fan.complete:
-        wait([fan.work])
-        player.frames(1)
-    return fan
-
-
 class TestTheFan:
     def test_spreads_are_told_without_powers_of_ten(self):
-        assert [_short(sigma) for sigma in (0.0874, 1.13, 36.4, 372.0, 1240.0)] == ["0.087", "1.1", "36", "370", "1200"]
+        assert [short(sigma) for sigma in (0.0874, 1.13, 36.4, 372.0, 1240.0)] == ["0.087", "1.1", "36", "370", "1200"]
 
     def test_it_tells_the_share_that_scores_and_by_what_the_shots_differ(self, player):
         player = player("basketball")
         player.key(pygame.K_f)
-        fan = wait_for_fan(player)
-        made = sum(shot.scored for shot in fan.shots)
-        assert len(fan.shots) == SHOTS
-        assert 0 < made < SHOTS
-        share, spread = fan.summary()
-        assert share.startswith(f"{made} of {SHOTS} score: {100 * made / SHOTS:.0f} ±")
+        player.settle()
+        fan = player.view.clouds.value
+        assert fan.shots == SHOTS
+        assert 0 < fan.scored < SHOTS
+        share, spread = fan.said
+        assert share.startswith(f"{fan.scored} of {SHOTS} score: {100 * fan.scored / SHOTS:.0f} ±")
         assert "angle ± 1 deg" in spread
-        steps = [shot.points[shot.points[:, 0] > 0.0][0] - shot.points[0] for shot in fan.shots]
-        sigma = np.std([hypot(x, y) / t for t, x, y in steps])
-        assert sigma == pytest.approx(fan.spread["launch.speed"], rel=0.2)
+
+    def test_its_shots_score_as_often_as_they_do_alone(self):
+        session = Session("basketball", {"launch.speed": 7.5})
+        spread = spread_of(session.scene, 1.0)
+        draws = np.random.default_rng(1).standard_normal((SHOTS, len(spread)))[:30]
+        made = 0
+        for row in draws:
+            values = {key: p.value + sigma * draw for (key, (p, sigma)), draw in zip(spread.items(), row, strict=True)}
+            session.change(values)
+            made += simulate(session.scene).result["made"]
+        camera = Camera((0.0, 0.0), (100.0, 300.0), 50.0)
+        session.reset()
+        session.change({"launch.speed": 7.5})
+        with mock.patch("sandbox.window.fan.SHOTS", 30):
+            found = cloud(session.scene, 1.0, camera, 9.0, (640, 360), ((0, 255, 0), (255, 255, 255)))
+        assert 0 < found.scored == made < 30
+
+    def test_one_that_takes_long_shows_its_first_shots_first(self, player, monkeypatch):
+        session, camera = Session("billiards/cut"), Camera((0.0, 0.0), (300.0, 200.0), 150.0)
+        few = cloud(session.scene, 1.0, camera, 0.0, (640, 360), ((0, 255, 0), (255, 255, 255)))
+        assert not few.complete
+        assert few.shots == FEWEST
+        assert few.said[0].startswith(f"{few.scored} of {FEWEST} score")
+        monkeypatch.setattr("sandbox.window.view.GLIMPSE", 0.0)
+        player = player("billiards/cut")
+        player.key(pygame.K_f)
+        player.settle()
+        assert player.view.clouds.value.shots == SHOTS
 
     def test_it_is_drawn_and_put_away(self, player):
         player = player(PUTT)
         plain = picture(player)
         player.key(pygame.K_f)
-        wait_for_fan(player)
-        player.frames(SHOTS // 6 + 1)
-        assert player.view._fan.drawn == SHOTS
+        player.settle()
         assert differ(picture(player), plain) > 0.005
         player.key(pygame.K_f)
-        assert player.game.fan is None
         assert differ(picture(player), plain) == 0
 
     @pytest.mark.parametrize("made", [True, False])
-    def test_those_that_score_are_green(self, shot_of, made):
+    def test_those_that_score_are_green(self, made):
         session = Session("basketball", {} if made else {"launch.speed": 5.0})
-        shot = shot_of(session)
-        fan = Fan(shot)
-        fan.shots = [FanShot(shot.track(shot.ball), shot.scored, None)] * 3
-        sheet = Sheet((640, 360))
-        layer = FanLayer(fan, fan.shot.scene.picture(fan.shot.run, (640, 360)).camera, sheet.size)
-        layer.draw(sheet)
-        drawn = pygame.surfarray.array3d(layer.surface)[pygame.surfarray.array_alpha(layer.surface) > 60].astype(int)
+        camera = Camera((0.0, 0.0), (100.0, 300.0), 60.0)
+        found = cloud(session.scene, 1e-6, camera, 9.0, (640, 360), ((0, 200, 0), (250, 250, 250)))
+        pixels = np.frombuffer(found.pixels, np.uint8).reshape(found.size[1], found.size[0], 4)
+        drawn = pixels[pixels[..., 3] > 60].astype(int)
         assert len(drawn) > 100
-        assert np.mean(drawn[:, 1] > drawn[:, 0] + 40) == pytest.approx(int(made), abs=0.05)
+        assert np.mean(drawn[:, 1] > drawn[:, 0] + 40) == int(made)
 
-    def test_another_aim_has_a_fan_of_its_own(self, player):
+    def test_lines_are_where_they_are_and_smooth(self):
+        line = np.array([[10.0, 10.0], [90.0, 40.0]])
+        drawn = density([line], (100, 50))
+        assert drawn[:, 20:80].sum(axis=0) == pytest.approx(np.hypot(80, 30) / 80, rel=0.15)  # of 1 px
+        rows = (drawn[:, 20:80] * np.arange(50)[:, None]).sum(axis=0) / drawn[:, 20:80].sum(axis=0)
+        assert rows + 0.5 == pytest.approx(10 + (np.arange(20, 80) + 0.5 - 10) * 3 / 8, abs=0.4)
+
+    def test_it_follows_the_aim_and_is_of_no_other_place(self, player):
         player = player(PUTT)
         player.key(pygame.K_f)
-        player.frames(10)
-        fan = player.game.fan
+        player.settle()
+        first = player.view.clouds.value
         player.key(pygame.K_UP)
-        assert player.game.fan is None
-        player.frames(10)
-        assert player.game.fan.shot is player.game.shot is not fan.shot
+        player.settle()
+        assert player.view.clouds.value is not first
+        assert player.view.clouds.key[0] is player.game.shot
+        player.view.clouds.work = Future()  # the next one takes for ever
+        player.game.change({"pin.distance": 6.0})
+        player.frames(20)
+        assert player.view._cloud_of(player.game.shot) is None
 
     def test_it_can_be_made_wider_and_narrower(self, player):
         player = player(PUTT)
         player.key(pygame.K_RIGHTBRACKET)
-        player.frames(10)
-        assert player.game.fan.spread["launch.speed"] == pytest.approx(
-            2 * 0.015 * player.game.session.value("launch.speed")
-        )
+        player.settle()
+        assert player.view.clouds.value.said[1].startswith(f"speed ± {short(2 * 0.015 * 2.95)} m/s")
         for _ in range(9):
             player.key(pygame.K_LEFTBRACKET)
         assert player.game.fan_width == 1 / 16
 
-    def test_a_shot_that_does_not_begin_as_a_players_has_none(self, shot_of):
-        fan = Fan(shot_of(Session("golf/club-head")))
-        assert fan.complete
-        assert "no fan" in fan.summary()[0]
+    def test_a_shot_that_does_not_begin_as_a_players_has_none(self, player):
+        player = player("golf/club-head")
+        player.key(pygame.K_f)
+        player.key(pygame.K_m)
+        player.frames(2, dt=0.2)
+        player.settle()
+        assert "no fan" in player.view.clouds.value.said[0]
+        assert "does not begin as a player's" in str(player.view.maps.error)
 
     def test_a_shot_is_watched_with_its_fan(self, player):
         player = player(PUTT)
         player.key(pygame.K_f)
         player.key(pygame.K_SPACE)
-        player.frames(10)
+        player.settle()
         assert player.game.playback is not None
-        assert player.game.fan.shot is player.game.shots[0]
+        assert player.view._cloud_of(player.game.shots[0]).shots == SHOTS
+
+    def test_one_that_never_ends_is_killed_when_the_aim_changes(self, player, monkeypatch):
+        player = player(PUTT)
+        player.key(pygame.K_f)
+        player.settle()
+        killed = []
+        monkeypatch.setattr(player.game.helper, "kill", lambda: killed.append(True))
+        player.view.clouds.work, player.view.clouds.began = Future(), 0.0
+        player.view.clouds.work_for = player.view.clouds.key
+        player.frames(3)
+        assert not killed
+        player.key(pygame.K_UP)
+        player.frames(1)
+        assert killed
+
+
+class TestTheMap:
+    def test_its_middle_is_the_shot_and_its_cells_are_what_such_shots_do(self):
+        session = Session("basketball/free-throw")
+        found = score_map(session.scene)
+        assert found.place(session.value("launch.speed"), session.value("launch.angle")) == pytest.approx((0.5, 0.5))
+        assert 0.02 < found.share < 0.6
+        columns, rows = found.cells.shape
+        for column, row in ((7, 5), (0, 0), (columns - 1, 4), (8, rows - 1)):
+            speed, angle = found.aim((column + 0.5) / columns, (row + 0.5) / rows)
+            session.change({"launch.speed": speed, "launch.angle": angle})
+            assert simulate(session.scene).result["made"] == (found.cells[column, row] == SCORED)
+
+    def test_it_is_drawn_refined_and_a_click_on_it_aims_there(self, player):
+        player = player(PUTT)
+        plain = picture(player)
+        player.key(pygame.K_m)
+        player.frames(2, dt=0.2)
+        player.settle()
+        known = player.view.maps.value
+        assert known.cells.shape in (COARSE, (FINER * COARSE[0], FINER * COARSE[1]))
+        assert differ(picture(player), plain) > 0.02
+        rect = player.view.map_at
+        at = rect.left + rect.width // 4, rect.top + rect.height // 3
+        player.click(at)
+        assert player.game.playback is None
+        assert player.game.pull is None
+        speed, angle = known.aim((at[0] - rect.left) / rect.width, (rect.bottom - at[1]) / rect.height)
+        assert player.game.session.value("launch.speed") == pytest.approx(speed, rel=1e-3)
+        assert player.game.session.value("launch.angle") == pytest.approx(angle, abs=0.01)
+        player.frames(5, dt=0.2)
+        player.settle()
+        assert player.view.maps.value is known  # the aim is on it
+        player.key(pygame.K_m)
+        player.game.reset()
+        player.settle()
+        player.frames(2, dt=9.0)
+        assert differ(picture(player), plain) == 0
 
 
 class TestReading:
@@ -240,31 +317,35 @@ def test_where_the_energy_goes_lies_over_the_picture_until_a_click(player):
 
 
 class TestTheLists:
-    def test_every_key_has_its_command(self):
-        known = {*commands.COMMANDS, *commands.NUDGES, *commands.PANEL, *commands.SWITCHES}
-        assert {binding.command for binding in BINDINGS} <= known
+    def test_every_command_is_known_and_every_key_has_one(self):
+        known = {*commands.COMMANDS, *commands.PANEL, *commands.SWITCHES}
+        assert {command.name for command in TABLE} | {group.lower() for group in LISTED} == known
+        keys = [key for command in TABLE for key in command.keys]
+        assert len(keys) == len(set(keys))
 
     @pytest.mark.parametrize("group", LISTED)
     def test_every_command_of_a_group_can_be_clicked(self, player, group, monkeypatch):
         done = []
-        monkeypatch.setattr("sandbox.window.pointer.commands.do", lambda view, command: done.append(command))
         player = player(PUTT)
-        for number, binding in enumerate(listed(group)):
-            commands.COMMANDS[group.lower()](player.view)
+        do = commands.do
+        monkeypatch.setattr(commands, "do", lambda view, command: done.append(command))
+        ((_, rows),) = of_groups([group])
+        for number, command in enumerate(rows):
+            player.view.over = None
+            do(player.view, group.lower())
             player.frames(1)
-            player.click(player.view.choices.places[number][0].center)
-            assert done[-1] == binding.command
-            player.view.choices = None
+            player.click(player.view.over.places[number][0].center)
+            assert done[-1] == command.name
 
     def test_a_button_opens_it_and_closes_it(self, player):
         player = player(PUTT)
         player.button("see")
-        assert player.view.choices.group == "see"
+        assert player.view.over.name == "see"
         player.button("see")
-        assert player.view.choices is None
+        assert player.view.over is None
         player.button("keep")
         player.key(pygame.K_ESCAPE)
-        assert player.view.choices is None
+        assert player.view.over is None
 
     def test_it_stays_open_while_the_window_changes(self, player):
         player = player(PUTT)
@@ -273,34 +354,34 @@ class TestTheLists:
         assert player.view.panel is not None
         player.screen = pygame.display.set_mode((900, 600), pygame.RESIZABLE)
         player.send(pygame.VIDEORESIZE, size=(900, 600), w=900, h=600)
-        foot = max(place.bottom for place, _ in player.view.choices.places)
+        foot = max(place.bottom for place, _ in player.view.over.places)
         assert 0 < player.view.bar.rect.top - foot < 20
 
     def test_what_is_shown_is_switched_by_mouse(self, player):
         player = player(PUTT)
         player.button("see")
-        row = next(rect for rect, command in player.view.choices.places if command == "charts")
-        player.click(row.center)
+        place = next(rect for rect, row in player.view.over.places if row.action == "charts")
+        player.click(place.center)
         assert "charts" in player.view.on
         player.click((300, 100))
-        assert player.view.choices is None
+        assert player.view.over is None
         assert player.game.pull is None
 
     def test_it_says_what_is_on(self, player):
         player = player(PUTT)
-        assert player.view.switched == {"ghosts"}
+        assert player.view.switched == {"ghosts", PUTT}
         player.key(pygame.K_TAB)
         player.key(pygame.K_o)
-        assert player.view.switched == {"ghosts", "panel", "arrows"}
+        assert player.view.switched == {"ghosts", "panel", "arrows", PUTT}
 
     def test_with_the_panel_open_the_help_and_the_menu_can_still_be_clicked(self, player):
         player = player(PUTT, (640, 400))
         player.key(pygame.K_TAB)
-        player.key(pygame.K_m)
-        place, name = player.view.menu.places[-1]
+        player.key(pygame.K_l)
+        place, row = max(player.view.over.places, key=lambda each: each[0].left)
         assert player.view.panel.rect.collidepoint(place.center)
         player.click(place.center)
-        assert player.game.session.title == name
+        assert player.game.session.title == row.action
 
 
 def test_accuracy_tells_its_cost_and_its_error(player):

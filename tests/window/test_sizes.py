@@ -11,9 +11,9 @@ import pytest
 from sandbox.picture.lettering import Lettering
 from sandbox.picture.sheet import rows_of
 from sandbox.scene import listings
-from sandbox.window import overlay
-from sandbox.window.bar import HEIGHT, HINTS, LEAST, Bar, Shown
-from sandbox.window.canvas import Canvas
+from sandbox.window import commands
+from sandbox.window.bar import HEIGHT, ICONS, LEAST, Bar, Shown
+from sandbox.window.keys import TABLE
 
 #: From half as wide as high to three times as wide.
 SIZES = [
@@ -23,6 +23,7 @@ SIZES = [
     if width / shape >= 400
 ]
 TITLES = ("golf", "billiards/three-rail-carom *", "soccer-curl/roberto-carlos-1997 *")
+PUTT = "golf/putt"
 WORDS = ("see", "keep", "more", "panel", "help")
 
 
@@ -62,7 +63,7 @@ class TestTheBar:
 
     def test_where_there_is_room_it_has_everything(self):
         bar = bar_of((1280, 720), TITLES[1], 15.86)
-        assert set(bar.buttons) == set(HINTS)
+        assert set(bar.buttons) == {*ICONS, *WORDS, "menu", "go"} - {"play", "pause"}
         assert bar.title == TITLES[1]
 
     def test_what_is_written_has_room(self):
@@ -98,24 +99,21 @@ def test_long_numbers_end_where_their_room_does(player, written, pull):
         assert player.view.area.contains(rect)
 
 
-@pytest.mark.parametrize("size", [(480, 376), (640, 373), (960, 1000), (1200, 373), (1280, 672)])
-def test_every_scene_and_preset_can_be_seen_in_the_menu(size):
-    menu = overlay.Menu(list(listings()))
-    sheet = Canvas(pygame.Surface(size))
-    menu.draw(sheet, "golf", (-1, -1))
-    assert [name for _, name in menu.places] == [listing.name for listing in listings()]
-    assert all(sheet.surface.get_rect().contains(place) for place, _ in menu.places)
-    assert all(not a.colliderect(b) for (a, _), (b, _) in combinations(menu.places, 2))
-
-
-@pytest.mark.parametrize("size", [(480, 376), (480, 920), (640, 373), (960, 1000), (1200, 373), (1280, 672)])
-def test_every_key_can_be_seen_in_the_help(size, written):
-    sheet = Canvas(pygame.Surface(size))
-    overlay.draw_help(sheet)
-    placed = [rect for _, rect in written]
-    assert len(placed) > 80
-    assert all(sheet.surface.get_rect().contains(rect) for rect in placed)
-    assert not any(a.inflate(0, -2).colliderect(b.inflate(0, -2)) for a, b in combinations(placed, 2))
+@pytest.mark.parametrize("size", [(480, 400), (480, 920), (640, 400), (960, 1000), (1200, 400), (1280, 720)])
+@pytest.mark.parametrize("name", ["menu", "help"])
+def test_every_scene_and_every_key_can_be_seen(player, size, written, name):
+    player = player(PUTT, size)
+    written.clear()
+    commands.do(player.view, name)
+    player.frames(1)
+    over, area = player.view.over, pygame.Rect(0, 0, size[0], player.view.area.height)
+    said = {row.action for _, row in over.places}
+    every = {listing.name for listing in listings()} if name == "menu" else {c.name for c in TABLE if c.meaning}
+    assert said == every
+    assert all(area.contains(place) for place, _ in over.places)
+    assert not any(a.colliderect(b) for (a, _), (b, _) in combinations(over.places, 2))
+    inside = [rect for _, rect in written if any(place.contains(rect.inflate(0, -8)) for place, _ in over.places)]
+    assert len(inside) >= len(every)
 
 
 @pytest.mark.parametrize("size", [(640, 400), (960, 1080), (1280, 720), (2560, 1440)])

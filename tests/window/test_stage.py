@@ -26,8 +26,8 @@ ACTIONS = {
     "place": lambda view: view.game.change(PLACES[view.game.session.base.name][0]),
     "other place": lambda view: view.game.change(PLACES[view.game.session.base.name][1]),
     "gravity": lambda view: view.game.change({"accuracy.level": "fast"}),
-    "stronger": lambda view: commands.do(view, "stronger"),
-    "turned": lambda view: commands.do(view, "turn_left"),
+    "stronger": lambda view: commands.do(view, "push"),
+    "turned": lambda view: commands.do(view, "turn"),
     "reset": lambda view: commands.do(view, "reset"),
     "undo": lambda view: commands.do(view, "undo"),
     "shoot": lambda view: view.game.shoot(),
@@ -35,12 +35,12 @@ ACTIONS = {
     "Enter": lambda view: commands.do(view, "again"),
     "Esc": lambda view: commands.do(view, "back"),
     "B": lambda view: commands.do(view, "rack"),
-    "P": lambda view: commands.do(view, "previous_shot"),
+    "P": lambda view: commands.do(view, "-next_shot"),
     "N": lambda view: commands.do(view, "next_shot"),
     "V": lambda view: commands.do(view, "view"),
     "next preset": lambda view: commands.do(view, "next_preset"),
     "saved": lambda view: view.game._reload([view.game.session.file]),
-    "zoomed": lambda view: commands.do(view, "zoom_in"),
+    "zoomed": lambda view: commands.do(view, "zoom"),
     "fit": lambda view: commands.do(view, "fit"),
     "pull": lambda view: view.pull_for_test(),
 }
@@ -57,13 +57,12 @@ class Watched(View):
         self.game.begin_pull((200, 200), self.area.height, 1.0)
         self.game.pull_to((150, 210))
 
-    def _draw_playing(self, sheet, stage, shot, playback):
-        assert stage.shot.scene.parameters == shot.scene.parameters
-        super()._draw_playing(sheet, stage, shot, playback)
-
-    def _draw_aiming(self, sheet, stage, shot):
-        assert stage.shot.place == shot.place == self.game.session.place
-        super()._draw_aiming(sheet, stage, shot)
+    def _draw_shot(self, sheet, stage, shot):
+        if self.game.playback is not None:
+            assert stage.shot.scene.parameters == shot.scene.parameters
+        else:
+            assert stage.shot.place == shot.place == self.game.session.place
+        super()._draw_shot(sheet, stage, shot)
 
     def draw(self):
         self._draw_picture()  # raises what the window would only report
