@@ -95,3 +95,16 @@ class Latest(Generic[T]):
     def forget(self) -> None:
         """Drop the value."""
         self.key = self.value = self.error = None
+
+
+class Once:
+    """Values that are made once for what they are made of, and again when that changes."""
+
+    def __init__(self) -> None:
+        self._made: dict[str, tuple[Any, Any]] = {}
+
+    def __call__(self, name: str, of: Any, make: Callable[[], Any]) -> Any:
+        """The value of this name for ``of``."""
+        if name not in self._made or self._made[name][0] != of:
+            self._made[name] = of, make()
+        return self._made[name][1]

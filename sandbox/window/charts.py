@@ -98,7 +98,7 @@ class Charts:
 
 def heights(shot: Shot, picture: Any, x: np.ndarray, y: np.ndarray) -> np.ndarray:
     """How high the played ball is above the ground at places in m, as in the pictures."""
-    ground = getattr(picture, "ground", None)
+    ground = getattr(picture, "ground", None)  # in a picture from the side
     if ground is None:
         return y
     radius = next(ball.radius for ball in shot.run.setup.balls if ball.name == shot.ball)

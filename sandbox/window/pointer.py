@@ -92,7 +92,7 @@ class Pointer:
 
     def _begin_pull(self, at: Place) -> None:
         stage = self.view.stage
-        stretch = stage.camera.stretch if stage is not None and stage.camera is not None else 1.0
+        stretch = stage.camera.stretch if stage is not None else 1.0
         self.view.game.begin_pull(at, self.view.area.height, stretch)
 
     def _scrub(self, at: Place) -> None:

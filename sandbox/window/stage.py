@@ -4,18 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import pairwise
-from math import hypot
+from math import dist, hypot
 from typing import Any
 
 import numpy as np
 import pygame
 
+from sandbox.picture import plain
 from sandbox.picture.camera import Camera
 from sandbox.picture.ghosts import colours_beside
 from sandbox.picture.painter import blank
 from sandbox.picture.palette import Colour, mix, palette
 from sandbox.picture.path import chip
 from sandbox.picture.sheet import Sheet
+from sandbox.picture.view import View
+from sandbox.window.background import Once
 from sandbox.window.canvas import Canvas
 from sandbox.window.path import simplify
 from sandbox.window.score_map import ScoreMap
@@ -61,126 +64,80 @@ class Stage:
         far, is kept if it does so too, or each small change of the aim would shift the picture.
         """
         self.shot, self.size, self.code, self.chosen = shot, size, code, chosen
-        self.picture: Any = shot.scene.picture(shot.run, size)
-        #: None for a scene whose picture has no stage: then only its poster is shown.
-        self.camera: Camera | None = None
-        self.whole: Camera | None = None  # the picture's own camera
-        self.turns = False  # whether the picture accepts another camera
-        self.notes: list[str] = []  # what is not drawn to scale
+        self.picture = picture_of(shot, size)
+        self.whole = self.picture.camera
+        vars(self.picture)["camera"] = chosen or self._camera_of(before) or self.whole
+        self.camera = self.picture.camera
+        self.backdrop = self.picture.stage()
+        sheet = Sheet(size, self.picture.on_dark, self.backdrop)
+        self.picture.measure(sheet, self.camera)
+        self.notes = self.picture.notes(self.camera)  # what is not drawn to scale
         self.foot_of_wind = 0  # px
-        if all(hasattr(self.picture, name) for name in ("stage", "camera", "draw_balls")):
-            self.camera = self.whole = self.picture.camera
-            self._turn_to(chosen or self._camera_of(before) or self.camera)
-            self.backdrop: pygame.Surface = self.picture.stage()
-            self._label()
-        else:
-            self.backdrop = self.picture.poster()
-        self._ghosts: tuple[Any, pygame.Surface] | None = None  # their lines, with the shots they belong to
-        self._labels: tuple[Any, pygame.Surface] | None = None
-        self._lines: dict[str, tuple[Any, np.ndarray]] = {}  # the last complete lines, by ball, in px
+        along, up = self.picture.wind
+        if along or up:
+            self.foot_of_wind = sheet.wind(along, up, sheet.frame.right, sheet.frame.top).bottom + sheet.gap
+        self._once = Once()
 
     def _camera_of(self, before: Stage | None) -> Camera | None:
         """The camera so far, if it shows the same place and all of the shot, large enough."""
-        if before is None or before.camera is None or before.chosen is not None or self.camera is None:
+        if before is None or before.chosen is not None or before.size != self.size:
             return None
-        if before.size != self.size or before.shot.place != self.shot.place or before.code != self.code:
+        if not before.is_place_of(self.shot, self.code):
             return None
-        near = self.camera.scale <= NEARER * before.camera.scale and before.camera.stretch == self.camera.stretch
+        near = self.whole.scale <= NEARER * before.camera.scale and before.camera.stretch == self.whole.stretch
         return before.camera if near and before.holds(self.shot) else None
-
-    def _turn_to(self, camera: Camera) -> None:
-        """Give the picture another camera, if it accepts one."""
-        try:
-            self.picture.camera = camera
-        except AttributeError:  # it is computed each time
-            return
-        self.camera, self.turns = camera, True
-
-    def _label(self) -> None:
-        """Draw ruler, labels and wind; and note what is not drawn to scale."""
-        picture, camera = self.picture, self.camera
-        sheet = Sheet(self.size, getattr(picture, "on_dark", False), self.backdrop)
-        if hasattr(picture, "measure"):
-            picture.measure(sheet, camera)
-        if hasattr(picture, "notes"):
-            self.notes = list(picture.notes(camera))
-        along, up = getattr(picture, "wind", (0.0, 0.0))
-        if along or up:
-            self.foot_of_wind = sheet.wind(along, up, sheet.frame.right, sheet.frame.top).bottom + sheet.gap
 
     def shows(self, shot: Shot, code: int, chosen: Camera | None) -> bool:
         """Whether it was composed for this shot, this version of the scene's code and this choice of camera."""
-        return self.shot.run is shot.run and (self.code, self.chosen) == (code, chosen)
+        return self.shot is shot and (self.code, self.chosen) == (code, chosen)
 
     def is_place_of(self, shot: Shot, code: int) -> bool:
         """Whether a shot differs from the composed one only in what a player aims with."""
-        if self.code != code or self.camera is None:
-            return False
-        return self.shot.place == shot.place
+        return self.code == code and self.shot.place == shot.place
 
     def holds(self, shot: Shot) -> bool:
         """Whether the path of another shot stays in sight."""
-        if self.camera is None or shot is self.shot:
-            return shot is self.shot
-        pixels = self.camera.pixels(shot.track(shot.ball)[:, 1:])
-        low, high = pixels.min(axis=0), pixels.max(axis=0)
-        width, height = self.size
-        return bool(
-            low[0] >= EDGE * width
-            and low[1] >= EDGE * height
-            and high[0] <= (1 - EDGE) * width
-            and high[1] <= (1 - EDGE) * height
-        )
+        shares = self.camera.pixels(shot.track(shot.ball)[:, 1:]) / self.size
+        return shot is self.shot or bool((shares >= EDGE).all() and (shares <= 1 - EDGE).all())
 
     def ball_at(self, shot: Shot, t: float = 0.0) -> tuple[float, float]:
         """Where the ball that is played is, in px."""
-        if self.camera is None:
-            return self.size[0] / 2, self.size[1] / 2
         return self.camera.pixel(*shot.run.state(shot.ball, t)[:2])
-
-    def sheet(self, surface: pygame.Surface) -> Canvas:
-        """A sheet on a surface, with the place on it."""
-        sheet = Canvas(surface)
-        sheet.surface.blit(self.backdrop, (0, 0))
-        return sheet
 
     def draw_ghosts(self, sheet: Canvas, ghosts: Sequence[Shot], around: Shot | None) -> None:
         """Earlier shots, the last five; with their numbers and results around the path of ``around``, if given."""
-        shown = ghosts[-SHOWN:]
-        if self.camera is None or not shown:
+        shown = tuple(ghosts[-SHOWN:])
+        if not shown:
             return
-        key = tuple(id(shot) for shot in shown)
-        if self._ghosts is None or self._ghosts[0] != key:
-            layer = blank(self.size, transparent=True)
-            for shot in shown:
-                line = self._line(shot, shot.ball)
-                draw_line(layer, line, 4, TRACE["rim"])
-                draw_line(layer, line, 2, self._colour_of(shot))
-            layer.set_alpha(EARLIER)
-            self._ghosts = key, layer
-        sheet.surface.blit(self._ghosts[1], (0, 0))
-        if around is None:
-            return
-        labelled = (*key, id(around.run))
-        if self._labels is None or self._labels[0] != labelled:
-            labels = Sheet(self.size, surface=blank(self.size, transparent=True))
-            labels.labels.frame.height -= sheet.card_height() + sheet.gap
-            labels.labels.take(pygame.Rect(sheet.frame.topleft, (round(0.66 * sheet.size[0]), sheet.top_row)))
-            labels.labels.take_path(self._line(around, around.ball).tolist(), 5 * sheet.unit)
-            for shot in shown:
-                self._label_ghost(labels, sheet, shot)
-            self._labels = labelled, labels.surface
-        sheet.surface.blit(self._labels[1], (0, 0))
+        sheet.surface.blit(self._once("ghosts", shown, lambda: self._ghost_lines(shown)), (0, 0))
+        if around is not None:
+            labels = self._once("labels", (shown, around), lambda: self._ghost_labels(sheet, shown, around))
+            sheet.surface.blit(labels, (0, 0))
 
-    def _label_ghost(self, labels: Sheet, sheet: Canvas, shot: Shot) -> None:
-        """Number and result of an earlier shot, where on its path there is room."""
-        name = str(shot.number) if shot.number else "before saving"
-        text = sheet.ended(f"{name}:  {shot.verdict}", "small", 0.3 * sheet.size[0])
-        line = self._line(shot, shot.ball)
-        places = line[np.linspace(len(line) - 1, 0, PLACES).round().astype(int)]
-        beyond = ((1.0, -1.0), (-1.0, -1.0), (1.0, 1.0), (-1.0, 1.0))
-        spots = [(x + 9 * a, y + 9 * d, a, d) for x, y in places.tolist() for a, d in beyond]
-        chip(labels, text, spots, mix(self._colour_of(shot), CARD["text"], LIGHTER))
+    def _ghost_lines(self, shown: Sequence[Shot]) -> pygame.Surface:
+        layer = blank(self.size, transparent=True)
+        for shot in shown:
+            line = self._line(shot, shot.ball)
+            draw_line(layer, line, 4, TRACE["rim"])
+            draw_line(layer, line, 2, self._colour_of(shot))
+        layer.set_alpha(EARLIER)
+        return layer
+
+    def _ghost_labels(self, sheet: Canvas, shown: Sequence[Shot], around: Shot) -> pygame.Surface:
+        """Number and result of each earlier shot, where on its path there is room."""
+        labels = Sheet(self.size, surface=blank(self.size, transparent=True))
+        labels.labels.frame.height -= sheet.card_height() + sheet.gap
+        labels.labels.take(pygame.Rect(sheet.frame.topleft, (round(0.66 * sheet.size[0]), sheet.top_row)))
+        labels.labels.take_path(self._line(around, around.ball).tolist(), 5 * sheet.unit)
+        for shot in shown:
+            name = str(shot.number) if shot.number else "before saving"
+            text = sheet.ended(f"{name}:  {shot.verdict}", "small", 0.3 * sheet.size[0])
+            line = self._line(shot, shot.ball)
+            places = line[np.linspace(len(line) - 1, 0, PLACES).round().astype(int)]
+            beyond = ((1.0, -1.0), (-1.0, -1.0), (1.0, 1.0), (-1.0, 1.0))
+            spots = [(x + 9 * a, y + 9 * d, a, d) for x, y in places.tolist() for a, d in beyond]
+            chip(labels, text, spots, mix(self._colour_of(shot), CARD["text"], LIGHTER))
+        return labels.surface
 
     def _colour_of(self, shot: Shot) -> Colour:
         """The colour of an earlier shot, which stays the same."""
@@ -189,59 +146,39 @@ class Stage:
 
     def draw_path(self, sheet: Canvas, shot: Shot, until: float | None = None) -> None:
         """The path of every ball that moves, that of the played one last and strongest, and where they touch."""
-        if self.camera is None:
-            return
+        colour_of = self.picture.colour_of
         thin = max(1, round(1.4 * sheet.unit))
         for ball in shot.movers[:-1]:
-            draw_line(sheet.surface, self._line(shot, ball, until), thin, self._path_colour(ball, CARD["text"]))
+            draw_line(sheet.surface, self._line(shot, ball, until), thin, colour_of(ball))
         width, line = max(3, round(3.6 * sheet.unit)), self._line(shot, shot.ball, until)
         draw_line(sheet.surface, line, width + 2, TRACE["rim"])
-        draw_line(sheet.surface, line, width, self._path_colour(shot.ball, TRACE["colours"][0]))
+        draw_line(sheet.surface, line, width, colour_of(shot.ball))
         self._contacts(sheet, shot, until)
-
-    def _path_colour(self, ball: str, otherwise: Colour) -> Colour:
-        """The colour of a ball's path: the picture's, if it has one."""
-        if not hasattr(self.picture, "colour_of"):
-            return otherwise
-        colour: Colour = self.picture.colour_of(ball)
-        return colour
 
     def draw_balls(self, sheet: Canvas, t: float) -> None:
         """The balls of the composed shot at time t in s."""
-        if self.camera is not None:
-            self.picture.draw_balls(sheet.painter, self.camera, t)
-
-    def _pixels(self, points: np.ndarray) -> np.ndarray:
-        """Where points in m are drawn, in px; both of shape (n, 2)."""
-        assert self.camera is not None
-        if hasattr(self.picture, "spots"):  # the picture draws balls enlarged
-            pixels: np.ndarray = self.picture.spots(self.camera, points, 0.0)
-            return pixels
-        return self.camera.pixels(points)
+        self.picture.draw_balls(sheet.painter, self.camera, t)
 
     def _line(self, shot: Shot, ball: str, until: float | None = None) -> np.ndarray:
         """Points of a ball's path in px, shape (n, 2); up to the time ``until`` (s), or all of it."""
-        last = self._lines.get(ball)
-        if until is None and last is not None and last[0] is shot.run:
-            return last[1]
-        track = shot.track(ball)
-        if until is not None:
-            track = track[track[:, 0] <= until]
-            track = np.vstack([track, (until, *shot.run.state(ball, until)[:2])])
-        line = simplify(np.clip(self._pixels(track[:, 1:]), -4000, 8000))
         if until is None:
-            self._lines[ball] = shot.run, line
-        return line
+            line: np.ndarray = self._once(ball, shot, lambda: self._drawn(shot.track(ball)))
+            return line
+        track = shot.track(ball)
+        track = track[track[:, 0] <= until]
+        return self._drawn(np.vstack([track, (until, *shot.run.state(ball, until)[:2])]))
+
+    def _drawn(self, track: np.ndarray) -> np.ndarray:
+        return simplify(np.clip(self.picture.spots(self.camera, track[:, 1:], 0.0), -4000, 8000))
 
     def _contacts(self, sheet: Canvas, shot: Shot, until: float | None) -> None:
-        assert self.camera is not None
         marked: list[tuple[float, float]] = []
         for event in shot.run.events:
             if event.kind != "impact" or event.ball != shot.ball or (until is not None and event.t > until):
                 continue
-            at = tuple(self._pixels(np.array([[event.x, event.y]]))[0].tolist())
-            if all(hypot(at[0] - x, at[1] - y) >= NEAR * sheet.unit for x, y in marked):
-                marked.append(at)
+            x, y = self.picture.spots(self.camera, np.array([[event.x, event.y]]), 0.0)[0].tolist()
+            if all(dist((x, y), other) >= NEAR * sheet.unit for other in marked):
+                marked.append((x, y))
         for at in marked[:MOST_CONTACTS]:
             sheet.painter.disc(at, 5.0 * sheet.unit, TRACE["rim"], 0.7)
             sheet.painter.disc(at, 3.6 * sheet.unit, CARD["accent"])
@@ -269,6 +206,12 @@ class Stage:
         rect = rect.inflate(4 * sheet.gap, 2 * sheet.gap).clamp(room)
         sheet.painter.panel(rect, CARD["background"], 0.85, 6 * sheet.unit)
         sheet.lettering.write(sheet.surface, text, "small", rect.center, CARD["text"], "center")
+
+
+def picture_of(shot: Shot, size: tuple[int, int]) -> View[Any]:
+    """The scene's picture of a shot; a plain one if the scene's draws posters and frames only."""
+    picture = shot.scene.picture(shot.run, size)
+    return picture if isinstance(picture, View) else plain.Picture(shot.run, shot.scene.parameters, size)
 
 
 def draw_line(surface: pygame.Surface, points: np.ndarray, width: float, colour: Colour) -> None:

@@ -6,7 +6,7 @@ ready, the last picture stays: a path is never drawn on the stage of another pla
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from concurrent.futures import Future
 from dataclasses import replace
 from math import inf
@@ -19,8 +19,9 @@ from sandbox.picture.camera import Camera
 from sandbox.picture.palette import palette
 from sandbox.picture.sheet import Entry, rows_of
 from sandbox.picture.vectors import Vectors
+from sandbox.picture.view import View as Picture
 from sandbox.window import overlay
-from sandbox.window.background import Background, Latest, ready
+from sandbox.window.background import Background, Latest, Once, ready
 from sandbox.window.bar import HEIGHT, Bar, Shown
 from sandbox.window.canvas import Canvas
 from sandbox.window.charts import Charts
@@ -30,7 +31,7 @@ from sandbox.window.measure import NEAR, Tape, draw_reading, reading, state_entr
 from sandbox.window.overlay import Overlay
 from sandbox.window.score_map import FINER, QUICK, ScoreMap, score_map
 from sandbox.window.shot import Shot
-from sandbox.window.stage import Stage, draw_map, headline
+from sandbox.window.stage import Stage, draw_map, headline, picture_of
 
 if TYPE_CHECKING:
     from sandbox.window.panel import Panel
@@ -45,8 +46,6 @@ SMALLEST = (480, 400)
 STEADY = 0.3
 #: An aim that has not changed for this time, in s, gets a stage and a map of its own.
 AT_REST = 0.15
-#: While the mouse pulls, words and numbers stay for at least this time, in s, to be readable.
-LEGIBLE = 0.05
 #: The panel, for its tooltips and blinking cursor, is drawn in every frame until the first time, in s, after an event;
 #: later at intervals of the second while somebody types.
 LIVELY, BLINK = 1.5, 0.25
@@ -88,9 +87,7 @@ class View:
         self._seen: Any = None  # what was drawn last
         self._lively = 0.0  # s since the last event
         self._picture: pygame.Surface | None = None  # what was drawn last above the bar
-        self._worded: Shot | None = None
-        self._worded_for = 0.0  # s since its words were chosen
-        self._made: dict[str, tuple[object, Any]] = {}  # by name, for the object given: see _once
+        self._once = Once()
         self.lay_out()
 
     # ------------------------------------------------------------------------------------------------------- places
@@ -159,66 +156,54 @@ class View:
         others = {"panel": self.panel_wanted, "sound": sound, self.game.session.source: True}
         return self.on | {command for command, on in others.items() if on}
 
-    def _once(self, name: str, of: object, make: Callable[[], Any]) -> Any:
-        """What ``make`` makes of an object, made once for it."""
-        if name not in self._made or self._made[name][0] is not of:
-            self._made[name] = of, make()
-        return self._made[name][1]
-
     # ------------------------------------------------------------------------------------------------------- cameras
 
     @property
     def follows(self) -> bool:
         """Whether the view follows the ball."""
-        stage = self.stage
-        return self.game.playback is not None and ("view" in self.on or stage is None or stage.camera is None)
+        return self.game.playback is not None and "view" in self.on
 
     @property
     def camera(self) -> Camera | None:
-        """The current camera; None if the scene has none."""
+        """The current camera; None until there is a stage."""
         playback, shot = self.game.playback, self.game.shot
         if not self.follows or playback is None or shot is None:
             return self.stage.camera if self.stage is not None else None
-        view: Callable[[float], Camera] | None = getattr(self.near(shot), "view", None)
-        return view(playback.t) if view is not None else None
+        return self.near(shot).view(playback.t)
 
-    def near(self, shot: Shot) -> Any:
+    def near(self, shot: Shot) -> Picture[Any]:
         """The picture of a shot that follows its ball."""
-        if self.stage is not None and self.stage.shot.run is shot.run and self.stage.chosen is None:
+        if self.stage is not None and self.stage.shot is shot and self.stage.chosen is None:
             return self.stage.picture
-        return self._once("near", shot, lambda: shot.scene.picture(shot.run, self.area.size))
+        found: Picture[Any] = self._once("near", shot, lambda: picture_of(shot, self.area.size))
+        return found
 
     def zoom(self, factor: float, at: tuple[float, float]) -> None:
         """Zoom by ``factor`` around a place (px); in a view from the side the ground stays where it is."""
-        camera, shot = self._standing_camera(), self.game.shot
-        whole = self.stage.whole if self.stage is not None else None
-        if camera is None or whole is None or shot is None:
+        stage, shot = self.stage, self.game.shot
+        if stage is None or shot is None:
             return
-        scale = min(max(camera.scale * factor, FARTHEST * whole.scale), NEAREST * whole.scale)
+        camera = self.chosen or stage.camera
+        scale = min(max(camera.scale * factor, FARTHEST * stage.whole.scale), NEAREST * stage.whole.scale)
         x, y = camera.world(*at)
         anchor = (at[0], camera.pixel(x, camera.at[1])[1]) if shot.upright else at
         self.look(replace(camera, at=(x, camera.at[1] if shot.upright else y), anchor=anchor, scale=scale))
 
     def pan(self, across: float, down: float) -> None:
         """Move the picture by so many px."""
-        camera, shot = self._standing_camera(), self.game.shot
-        if camera is not None and shot is not None:
+        stage, shot = self.stage, self.game.shot
+        if stage is not None and shot is not None:
+            camera = self.chosen or stage.camera
             right, foot = camera.anchor
             self.look(replace(camera, anchor=(right + across, foot if shot.upright else foot + down)))
 
     def look(self, camera: Camera | None) -> None:
         """Use another camera; None shows all of the shot."""
-        if self.stage is not None and not self.stage.turns:
-            self.game.tell("the picture of this scene always shows all of it")
-            return
         if self.follows:
             self.game.tell("the view follows the ball; V for the whole view")
             return
         self.chosen = camera
         self.changed = True
-
-    def _standing_camera(self) -> Camera | None:
-        return self.chosen or (self.stage.camera if self.stage is not None else None)
 
     # ------------------------------------------------------------------------------------------------------- time
 
@@ -244,7 +229,7 @@ class View:
         exporting = self.exporter is not None and self.exporter.is_alive()
         coming = any(latest.work is not None for latest in (self.stages, self.clouds, self.maps))
         wanted = self._stage_wanted() or bool(self._cloud_wanted() or self._map_wanted())
-        return coming or wanted or self.building is not None or self._words_late or over or lively or exporting
+        return coming or wanted or self.building is not None or over or lively or exporting
 
     def _may_draw(self, stage: Stage, shot: Shot) -> bool:
         """Whether a shot may be drawn on a stage: when watched only on its own, when aimed on one of the same place."""
@@ -258,7 +243,6 @@ class View:
         """``dt`` s have passed, and something may have happened in the window."""
         self._lively = 0.0 if happened else self._lively + dt
         self.composed += dt
-        self._worded_for += dt
         self._take_panel()
         self._follow_stage()
         self._follow_cloud()
@@ -309,7 +293,7 @@ class View:
     def _cloud_wanted(self) -> tuple[Any, ...] | None:
         """What a fan is still to be computed of: the shot; its first shots first, if all would take long."""
         game, stage, known = self.game, self.stage, self.clouds
-        shown = game.failure is None and stage is not None and stage.camera is not None and self.up_to_date
+        shown = game.failure is None and self.up_to_date
         if "fan" not in self.on or not shown or stage is None or game.shot is None:
             return None
         now = game.shot, game.fan_width, stage.camera
@@ -356,7 +340,7 @@ class View:
         clock = (playback.t, playback.playing, playback.rate) if playback is not None else None
         over = (self.over, self.over is not None and self.over.ready, self.tape, frozenset(self.on))
         seen = (self.game.revision, self.game.failure, clock, over, self.panel, blink)
-        needed = happened or self.changed or lively or self._words_late or seen != self._seen
+        needed = happened or self.changed or lively or seen != self._seen
         self._seen, self.changed = seen, False
         return needed
 
@@ -425,8 +409,6 @@ class View:
             sheet.surface.blit(self.near(shot).frame(t), (0, 0))
             return
         sheet.surface.blit(stage.backdrop, (0, 0))
-        if stage.camera is None:
-            return
         if "ghosts" in self.on:
             stage.draw_ghosts(sheet, self._ghosts(shot), shot if game.pull is None else None)
         self._draw_cloud(sheet, stage, shot)
@@ -439,7 +421,7 @@ class View:
             forces = vectors.entries(t or 0.0)
         self._draw_words(sheet, stage, shot, forces)
         if game.pull is not None and game.pull.shoots:
-            stage.draw_pull(sheet, game.pull.start, game.pull.drawn, self._words(shot).aimed)
+            stage.draw_pull(sheet, game.pull.start, game.pull.drawn, shot.aimed)
 
     def _ghosts(self, shot: Shot) -> list[Shot]:
         """The earlier shots that are drawn with this one."""
@@ -452,9 +434,8 @@ class View:
     def _draw_words(self, sheet: Canvas, stage: Stage, shot: Shot, forces: Sequence[Entry]) -> None:
         """The headline, and the numbers along the bottom."""
         game, playback = self.game, self.game.playback
-        words = self._words(shot)
-        text, colour = words.verdict, CARD["good"] if words.scored else CARD["text"]
-        entries: Sequence[Entry] = words.card
+        text, colour = shot.verdict, CARD["good"] if shot.scored else CARD["text"]
+        entries: Sequence[Entry] = shot.card
         if game.pull is not None:
             notes = ["let go to shoot, Esc to cancel"]
         elif playback is None:
@@ -465,29 +446,9 @@ class View:
                 again = "continue" if game.session.controls.next_start is not None else "aim again"
                 notes.append(f"Enter to {again}, R to see it again")
             else:
-                text, colour, entries = f"{playback.t:.2f} s", CARD["text"], self._state(stage, shot, playback.t)
+                text, colour, entries = f"{playback.t:.2f} s", CARD["text"], stage.picture.live(playback.t)
         self.head = headline(sheet, text, [*notes, *stage.notes], colour)
         sheet.numbers([*entries, *forces])
-
-    def _words(self, shot: Shot) -> Shot:
-        """The shot whose words and numbers are shown: during a pull they change less often, to be readable."""
-        pulling = self.game.pull is not None and self.game.pull.shoots
-        if self._worded is None or not pulling or self._worded_for >= LEGIBLE or self._worded.place != shot.place:
-            self._worded, self._worded_for = shot, 0.0
-        return self._worded
-
-    @property
-    def _words_late(self) -> bool:
-        """Whether the words that are shown are those of an earlier aim."""
-        game = self.game
-        aiming = game.playback is None and game.failure is None and not game.late and self.up_to_date
-        return aiming and self._worded is not None and self._worded is not game.shot
-
-    @staticmethod
-    def _state(stage: Stage, shot: Shot, t: float) -> Sequence[Entry]:
-        """The state of the ball at a time: as in the picture's own frames, if it has them."""
-        live: Callable[[float], Sequence[Entry]] | None = getattr(stage.picture, "live", None)
-        return live(t) if live is not None else state_entries(shot, shot.ball, t)
 
     def _cloud_of(self, shot: Shot) -> Cloud | None:
         """The fan of a shot; during a pull that of a moment ago."""
@@ -538,7 +499,7 @@ class View:
             read = reading(shot, camera, self.at, NEAR * sheet.unit, until)
             if read is not None:
                 own = read.ball == shot.ball
-                entries = self._state(stage, shot, read.t) if own else state_entries(shot, read.ball, read.t)
+                entries = stage.picture.live(read.t) if own else state_entries(shot, read.ball, read.t)
                 draw_reading(sheet, shot, read, entries)
 
     def aim_on_map(self, at: tuple[int, int]) -> tuple[float, float] | None:
