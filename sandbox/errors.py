@@ -27,16 +27,17 @@ class Stopped(SandboxError):
 
 
 class ExitCalled(Exception):
-    """A scene's own code called ``sys.exit``, which is a failure whatever the exit code."""
+    """A scene's own code called ``sys.exit`` or raised another exception that is not an Exception: a failure, whatever
+    its exit code."""
 
 
 @contextmanager
 def no_exit() -> Iterator[None]:
-    """Turn ``sys.exit`` in a scene's own code into an ExitCalled, so that it cannot end the program or a worker as if
-    nothing were wrong."""
+    """Turn ``sys.exit`` and its like in a scene's own code into an ExitCalled, so that it cannot end the program or a
+    worker as if nothing were wrong."""
     try:
         yield
-    except SystemExit as error:
-        raise ExitCalled(f"sys.exit({error.code!r}) : a scene must not end the program").with_traceback(
-            error.__traceback__
-        ) from None
+    except (Exception, KeyboardInterrupt):
+        raise
+    except BaseException as error:
+        raise ExitCalled(f"{error!r}: a scene must not end the program").with_traceback(error.__traceback__) from None

@@ -30,7 +30,7 @@ def one_line_error(error: Exception) -> str:
         return text
     own = [frame for frame in traceback.extract_tb(error.__traceback__) if not _is_ours(frame.filename)]
     place = f" ({'/'.join(Path(own[-1].filename).parts[-2:])}, line {own[-1].lineno})" if own else ""
-    return f"{type(error).__name__}: {text}{place}"
+    return f"{type(error).__name__}{': ' if text else ''}{text}{place}"
 
 
 def _is_ours(filename: str) -> bool:

@@ -576,14 +576,15 @@ def test_a_link_is_written_through(call, tmp_path: Path):
         ('"m/s", low=0, high=340', '"furlong", low=0, high=340', 'ValueError: "furlong" is not a known unit; use'),
         ('"m/s", low=0, high=340', '"MPH", low=0, high=340', 'ValueError: "MPH" is not a known unit; did you me'),
         ("import Accuracy", "import Accuracies, Accuracy", "ImportError: cannot import name 'Accuracies'"),
-        ("class Launch", "raise SystemExit(0)\nclass Launch", "ExitCalled: sys.exit(0)"),
-        ("    ball = Ball(", "    exit(0)\n    ball = Ball(", "ExitCalled: sys.exit(0)"),
+        ("class Launch", "raise SystemExit(0)\nclass Launch", "ExitCalled: SystemExit(0)"),
+        ("    ball = Ball(", "    exit(0)\n    ball = Ball(", "ExitCalled: SystemExit(0)"),
         (
             "        return 0.0 * velocity[0]",
             "        raise SystemExit('well')\n        return 0",
-            "ExitCalled: sys.exit('we",
+            "ExitCalled: SystemExit('we",
         ),
-        ("friction=0.5)", "friction=0.5, law=lambda *_: exit(0))", "ExitCalled: sys.exit(0)"),
+        ("friction=0.5)", "friction=0.5, law=lambda *_: exit(0))", "ExitCalled: SystemExit(0)"),
+        ("    ball = Ball(", "    raise GeneratorExit\n    ball = Ball(", "ExitCalled: GeneratorExit()"),
     ],
 )
 def test_a_failure_in_a_users_scene_shows_the_users_lines_only(call, drop: Path, old: str, new: str, expected: str):
@@ -605,13 +606,19 @@ def test_a_picture_that_calls_exit_has_failed(call, drop: Path, tmp_path: Path):
     assert "picture.py" in err
 
 
+def test_a_range_in_which_all_runs_fail_says_where(call, drop: Path):
+    change(drop, BUILD, f"{BUILD}    raise StopIteration\n")
+    outcome = call("aim", drop, "--vary", "launch.height=1:2", "--target", "bounces=2")
+    assert_refused(outcome, "the first error: StopIteration (drop/scene.py, line ", code=1)
+
+
 @pytest.mark.parametrize("jobs", [1, 2])
 def test_exit_in_a_sweep_fails_its_points(call, drop: Path, tmp_path: Path, jobs: int):
     change(drop, BUILD, f"{BUILD}    if parameters.launch.height < 1.5: raise SystemExit(0)\n")
     out = tmp_path / "rows.csv"
     assert call("sweep", drop, "--over", "launch.height=1,2", "--out", out, "--jobs", jobs).code == 0
     errors = [row["error"] for row in read_rows(out)]
-    assert re.fullmatch(r"ExitCalled: sys\.exit\(0\) .* \(drop/scene\.py, line \d+\)", errors[0])
+    assert re.fullmatch(r"ExitCalled: SystemExit\(0\): .* \(drop/scene\.py, line \d+\)", errors[0])
     assert errors[1] == ""
 
 

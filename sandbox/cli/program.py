@@ -77,7 +77,9 @@ def call(args: list[str] | None) -> int:
         return error.exit_code
     except SandboxError as error:
         return _fail(str(error), error.exit_code)
-    except (Exception, SystemExit) as error:
+    except KeyboardInterrupt:
+        raise
+    except BaseException as error:  # a scene's own picture may raise a SystemExit
         from sandbox.tracebacks import of_user_code
 
         text = of_user_code(error)

@@ -15,6 +15,7 @@ from sandbox.lab.aim.question import Target, Try
 from sandbox.lab.axes import Span
 from sandbox.lab.runs import runs
 from sandbox.scene import Scene, compare
+from sandbox.tracebacks import one_line_error
 
 #: Points of the scan of one parameter.
 _SCAN = 129
@@ -89,7 +90,8 @@ class Shots:
     def nearest(self) -> Try | None:
         """The try with the smallest miss. Raises RunError if none was completed."""
         if self._first_error is not None and self.failures == len(self.tries):
-            raise RunError(f"no run in the range could be completed; the first error: {self._first_error}")
+            first = one_line_error(self._first_error)
+            raise RunError(f"no run in the range could be completed; the first error: {first}")
         if not all(target.is_number for target in self.targets):
             return None
         complete = [each for each in self.tries if all(value is not None for value in each.found)]
