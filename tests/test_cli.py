@@ -847,7 +847,8 @@ def test_ctrl_c_ends_a_force_that_never_does(drop: Path, tmp_path: Path, monkeyp
     assert len(outcome.err.splitlines()) == 1
 
 
-def test_sigterm_stops_as_ctrl_c_does_and_leaves_no_frames(drop: Path, tmp_path: Path):
+@pytest.mark.parametrize(("by", "code"), [(signal.SIGTERM, 143), (signal.SIGHUP, 129)])
+def test_other_signals_stop_as_ctrl_c_does_and_leave_no_frames(drop: Path, tmp_path: Path, by: int, code: int):
     sign = tmp_path / "running"
     begun = "    def frame(self, t: float) -> pygame.Surface:\n"
     source = (drop / "picture.py").read_text("utf-8")
@@ -856,8 +857,8 @@ def test_sigterm_stops_as_ctrl_c_does_and_leaves_no_frames(drop: Path, tmp_path:
         f"{begun}        import pathlib, time\n        pathlib.Path({str(sign)!r}).touch()\n        time.sleep(0.1)\n"
     )
     (drop / "picture.py").write_text(source.replace(begun, waits))
-    outcome = stopped(signal.SIGTERM, sign, "run", drop, "--frames", tmp_path / "new" / "frames")
-    assert outcome == (143, "", "stopped\n")
+    outcome = stopped(by, sign, "run", drop, "--frames", tmp_path / "new" / "frames")
+    assert outcome == (code, "", "stopped\n")
     assert sorted(path.name for path in tmp_path.iterdir()) == ["drop", "running"]
 
 

@@ -6,14 +6,14 @@ import sys
 
 from sandbox.cli.interrupts import Interrupts
 
-#: Exit code after Ctrl-C; after SIGTERM it is 143.
+#: Exit code after Ctrl-C; after SIGTERM it is 143, and 129 if the terminal was closed.
 STOPPED = 130
 
 
 def main(args: list[str] | None = None) -> int:
     """Run one command; an error becomes a line on stderr and an exit code.
 
-    Called as the program (without ``args``), Ctrl-C and SIGTERM both stop it after cleaning up.
+    Called as the program (without ``args``), it cleans up when Ctrl-C, SIGTERM or a closed terminal stops it.
     """
     interrupts = Interrupts()
     try:
@@ -23,8 +23,11 @@ def main(args: list[str] | None = None) -> int:
 
         code = call(args)
     except KeyboardInterrupt:
+        from contextlib import suppress  # only here, so that signals are handled early
+
         if sys.stderr is not None:
-            sys.stderr.write("stopped\n")
+            with suppress(OSError):  # the terminal may be closed
+                sys.stderr.write("stopped\n")
         code = STOPPED
     interrupts.end()
     return interrupts.code if code == STOPPED else code

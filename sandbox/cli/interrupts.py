@@ -1,4 +1,4 @@
-"""Ctrl-C and SIGTERM as one KeyboardInterrupt that is never lost."""
+"""Ctrl-C, SIGTERM and a closed terminal as one KeyboardInterrupt that is never lost."""
 
 from __future__ import annotations
 
@@ -18,8 +18,14 @@ _ONE = 0.3
 _AGAIN = 0.01
 
 
+#: The signals, with the handler that each has if nobody handles or ignores it. Windows has no SIGHUP.
+_HANDLED = {signal.SIGINT: signal.default_int_handler, signal.SIGTERM: signal.SIG_DFL}
+if hasattr(signal, "SIGHUP"):
+    _HANDLED[signal.SIGHUP] = signal.SIG_DFL
+
+
 class Interrupts:
-    """The handler of both signals; between ``begin`` and ``end`` in the program's main thread."""
+    """The handler of the signals; between ``begin`` and ``end`` in the program's main thread."""
 
     def __init__(self) -> None:
         self.code = 128 + signal.SIGINT  # exit code if interrupted
@@ -27,14 +33,14 @@ class Interrupts:
 
     def begin(self) -> None:
         """Handle the signals that nobody else handles or ignores."""
-        for number, default in ((signal.SIGINT, signal.default_int_handler), (signal.SIGTERM, signal.SIG_DFL)):
+        for number, default in _HANDLED.items():
             if signal.getsignal(number) is default:
                 signal.signal(number, self)
         sys.unraisablehook = self._lost
 
     def end(self) -> None:
         """Ignore the signals while Python shuts down."""
-        for number in (signal.SIGINT, signal.SIGTERM):
+        for number in _HANDLED:
             if signal.getsignal(number) is self:
                 signal.signal(number, signal.SIG_IGN)
 
