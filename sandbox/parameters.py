@@ -237,6 +237,12 @@ class Parameter(NamedTuple):
     choices: tuple[Any, ...]  # of a word; empty for numbers
     meaning: str
 
+    def within(self, number: float) -> float:
+        """The number, or the bound that it exceeds."""
+        assert self.low is not None
+        assert self.high is not None
+        return min(max(number, self.low), self.high)
+
 
 def walk(parameters: Group, prefix: str = "") -> Iterator[Parameter]:
     """All parameters in order of declaration with their values; ``walk(Parameters())`` gives the defaults."""

@@ -2,24 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import asdict, dataclass, replace
 from math import hypot, isclose
-from time import perf_counter
 from typing import Any, NamedTuple
 
-from sandbox import parameters as declared
-from sandbox.engine import simulate
 from sandbox.engine.accuracy import LEVELS
 from sandbox.engine.acting import cause
 from sandbox.engine.run import Run
-from sandbox.engine.setup import Always, Ball, Bounce, Setup, Surface
+from sandbox.engine.setup import Always, Ball, Bounce, Force, Setup, Surface
 from sandbox.errors import SandboxError
 from sandbox.lab.reference import Reference, apart, looked_at, places, until
-from sandbox.lab.tables import length_above, significant, table
+from sandbox.lab.tables import length_above, table
+from sandbox.lab.timing import Timed, repeat
 from sandbox.lab.verdicts import verdict
+from sandbox.physics.air import UniformWind
+from sandbox.physics.coefficients import Constant, spin_ratio_lift
 from sandbox.physics.forces import Drag, Magnus, SpinDecay
-from sandbox.scene import Scene
+from sandbox.scene.running import simulate_at
+from sandbox.sport.amounts import significant
 
 #: Shifts below this, in m, do not matter to a player.
 NOTHING = 1e-4
@@ -27,24 +28,26 @@ NOTHING = 1e-4
 #: Spin decay of a golf ball from radar, added if a scene has none.
 _DECAY = 6e-5
 
-#: Normal and tangential speed in m/s at which a surface is tested for deformation.
-_BOUNCE = (10.0, 10.0)
+#: Normal and tangential speeds in m/s at which the laws of impacts are compared.
+_FAST, _SLOW = (10.0, 10.0), (1.0, 1.0)
 
-#: Repeats to measure the time that a part costs. The shortest counts, since other load only adds time.
-_REPEATS = 15
+#: Reynolds numbers and spin ratios at which coefficients are compared.
+_FLOWS = tuple((reynolds, spin_ratio) for reynolds in (3e4, 1e5, 3e5) for spin_ratio in (0.05, 0.2))
 
 #: Result numbers shown for each part, and the relative change below which a number counts as the same.
 _SHOWN, _SAME = 2, 1e-6
 
+#: A law of impacts: how a surface, or a ball, responds to a normal and a tangential speed.
+Law = Callable[[float, float], Bounce]
+
 
 class Variant(NamedTuple):
-    """The scene with one part of its model changed."""
+    """A setup with one part of its model changed."""
 
     part: str
     change: str
-    scene: Callable[[], Scene]
-    setup: Callable[[Scene], Setup] = lambda scene: scene.build()
-    touching: bool = False  # whether it matters only at a contact
+    setup: Setup
+    touching: bool  # whether it matters only at a contact
 
 
 @dataclass(frozen=True)
@@ -53,15 +56,15 @@ class Ablated:
 
     part: str
     change: str
-    shift_m: float | None  # by the scene's measure
-    flight_m: float | None  # at the first contact of the ball, with the part or without
     verdict: tuple[str, str]  # with the part, and without
-    saves: float | None  # fraction of the scene's time at the level "balanced"
-    results: dict[str, tuple[float, float]]  # numbers of the result, with the part and without
-    problem: str = ""
-    idle: bool = False  # whether it concerns contact, and nothing was touched
-    noise: float = 0.0  # relative difference of the shortest repeats
+    shift_m: float | None = None  # by the scene's measure
+    flight_m: float | None = None  # at the first contact of the ball, with the part or without
+    results: dict[str, tuple[float, float]] | None = None  # numbers of the result, with the part and without
+    saves: float | None = None  # fraction of the scene's time at the level "balanced"
+    saves_noise: float = 0.0  # relative difference of the shortest repeats
     resolution_m: float = 0.0  # error of the compared runs
+    idle: bool = False  # whether it concerns contact, and nothing was touched
+    problem: str = ""
 
     @property
     def is_nothing(self) -> bool:
@@ -70,40 +73,29 @@ class Ablated:
         return all(m is not None and m < NOTHING for m in shifts) and self.verdict[0] == self.verdict[1]
 
     def as_dict(self) -> dict[str, Any]:
-        return {
-            "part": self.part,
-            "change": self.change,
-            "shift_m": self.shift_m,
-            "flight_m": self.flight_m,
-            "nothing": self.is_nothing,
-            "verdict": list(self.verdict),
-            "saves": self.saves,
-            "saves_noise": self.noise,
-            "resolution_m": self.resolution_m,
-            "results": {name: list(pair) for name, pair in self.results.items()},
-            "problem": self.problem,
-        }
+        """For JSON."""
+        return {**asdict(self), "nothing": self.is_nothing}
 
-    def cells(self) -> tuple[str, ...]:
-        """A row of the table."""
-        saves = self._saves()
+    @property
+    def effect(self) -> str:
+        """What changes in the result, in words."""
         if self.problem:
-            return self.part, self.change, "", "", saves, f"run failed: {self.problem}"
-        shifts = [length_above(shift, self.resolution_m) for shift in (self.flight_m, self.shift_m)]
+            return f"run failed: {self.problem}"
         if self.is_nothing:
-            return self.part, self.change, *shifts, saves, "nothing: no contact" if self.idle else "nothing"
-        shown = [
-            f"{name} {significant(a, 4)} -> {significant(b, 4)}" for name, (a, b) in list(self.results.items())[:_SHOWN]
-        ]
+            return "nothing: no contact" if self.idle else "nothing"
+        numbers = list((self.results or {}).items())[:_SHOWN]
+        shown = [f"{name} {significant(a, 4)} -> {significant(b, 4)}" for name, (a, b) in numbers]
         if self.verdict[0] != self.verdict[1]:
             shown.append(_changed_words(*self.verdict))
-        return self.part, self.change, *shifts, saves, ", ".join(shown)
+        return ", ".join(shown)
 
-    def _saves(self) -> str:
-        if self.saves is None:
-            return ""
-        least = max(1.0, 200.0 * self.noise)
-        return f"{100.0 * self.saves:.0f} %" if 100.0 * abs(self.saves) >= least else f"< {least:.0f} %"
+    def cells(self) -> list[str]:
+        """A row of the table: the part, the change, both shifts, and what it saves."""
+        shifts = [length_above(shift, self.resolution_m) for shift in (self.flight_m, self.shift_m)]
+        least = max(1.0, 200.0 * self.saves_noise)
+        saves = 100.0 * (self.saves or 0.0)
+        saved = "" if self.saves is None else f"{saves:.0f} %" if abs(saves) >= least else f"< {least:.0f} %"
+        return [self.part, self.change, *shifts, saved]
 
 
 def _changed_words(before: str, after: str) -> str:
@@ -114,152 +106,86 @@ def _changed_words(before: str, after: str) -> str:
     )
 
 
-def as_text(rows: list[Ablated], time: float) -> list[str]:
-    """A table; ``time`` (s) is when the shift is measured."""
-    cells = [row.cells() for row in rows]
+def as_text(rows: Sequence[Ablated], time: float) -> list[str]:
+    """Two tables; ``time`` (s) is when the shift is measured."""
     headings = ("part", "", "shift at first touch", f"after {time:.4g} s", "saves")
-    found = [(f"{part} {change}", results) for part, change, *_, results in cells if results]
+    effects = [(f"{row.part} {row.change}", row.effect) for row in rows]
     return [
         "effect of each part of the model",
-        *table(headings, [row[:-1] for row in cells], "llrrr"),
+        *table(headings, [row.cells() for row in rows], "llrrr"),
         "",
         "changes in the result",
-        *table(("", ""), found, "ll"),
+        *table(("", ""), [cells for cells in effects if cells[1]], "ll"),
     ]
 
 
 def ablation(reference: Reference) -> list[Ablated]:
     """Change every part of the scene's model in turn."""
-    scene = reference.scene
-    names = [ball.name for ball in scene.build().balls]
-    whole = _run(scene, scene.build())
-    changes = list(variants(scene))
-    (own_cost, own_noise), *costs = _costs([Variant("", "", lambda: scene), *changes], reference.time)
+    scene, precise, balanced = reference.scene, LEVELS["precise"], LEVELS["balanced"]
+    whole = simulate_at(scene, precise)
+    names = list(whole.arcs)
+    before = verdict(scene, whole.result)
     resolution = max(reference.error, reference.error_of(whole))
+    changes = list(variants(scene.build()))
+    setups = [reference.setup(), *(until(change.setup, reference.time) for change in changes)]
+    own, *costs = trials = [Timed(setup, balanced, lambda run: None) for setup in setups]
+    repeat(trials)
     rows = []
-    for change, (cost, other_noise) in zip(changes, costs, strict=True):
-        before = verdict(whole.result)
-        saves = None if cost is None or own_cost is None else 1.0 - cost / own_cost
-        noise = max(own_noise, other_noise)
+    for (part, change, setup, touching), cost in zip(changes, costs, strict=True):
+        row = Ablated(
+            part,
+            change,
+            (before, ""),
+            saves=None if cost.problem or own.problem else 1.0 - min(cost.walls) / min(own.walls),
+            saves_noise=max(own.noise, cost.noise),
+            resolution_m=resolution,
+            idle=touching and reference.first_touch >= reference.time,
+        )
         try:
-            other = change.scene()
-            run = _run(other, change.setup(other))
+            run = simulate_at(scene, precise, setup)
         except SandboxError as error:
-            rows.append(
-                Ablated(
-                    change.part,
-                    change.change,
-                    None,
-                    None,
-                    (before, ""),
-                    saves,
-                    {},
-                    str(error),
-                    noise=noise,
-                    resolution_m=resolution,
-                )
-            )
+            rows.append(replace(row, problem=str(error)))
             continue
-        shift = apart(looked_at(scene, whole, reference.time), looked_at(other, run, reference.time))
         touch = min([reference.first_touch, *(event.t for event in run.events)])
-        flight = apart(places(whole, names, touch), places(run, names, touch))
-        turned, differences = (before, verdict(run.result)), _differences(whole, run)
-        idle = change.touching and reference.first_touch >= reference.time
         rows.append(
-            Ablated(
-                change.part,
-                change.change,
-                shift,
-                flight,
-                turned,
-                saves,
-                differences,
-                idle=idle,
-                noise=noise,
-                resolution_m=resolution,
+            replace(
+                row,
+                verdict=(before, verdict(scene, run.result)),
+                shift_m=apart(*(looked_at(scene, one, reference.time) for one in (whole, run))),
+                flight_m=apart(*(places(one, names, touch) for one in (whole, run))),
+                results=_differences(whole, run),
             )
         )
     return rows
 
 
-def variants(scene: Scene) -> Iterator[Variant]:
+def _differences(a: Run, b: Run) -> dict[str, tuple[float, float]]:
+    """The numbers of the result that differ, in the scene's order."""
+    numbers = [
+        {name: float(value) for name, value in run.result.items() if isinstance(value, int | float)} for run in (a, b)
+    ]
+    return {
+        name: (value, numbers[1][name])
+        for name, value in numbers[0].items()
+        if not isinstance(a.result[name], bool)
+        and name in numbers[1]
+        and not isclose(value, numbers[1][name], rel_tol=_SAME)
+    }
+
+
+# -------------------------------------------------------------------------------------------------------- the variants
+
+
+def variants(setup: Setup) -> Iterator[Variant]:
     """Each part of the model left out, simplified, or added if the scene lacks it."""
-    setup = scene.build()
-
-    def changed(part: str, change: str, apply: Callable[[Setup], Setup], touching: bool = True) -> Variant:
-        return Variant(part, change, lambda: scene, lambda same: apply(same.build()), touching)
-
-    for name in _terms(setup):
-        yield changed(name, "left out", lambda setup, name=name: _without(setup, name), touching=False)  # type: ignore[misc]
-    yield from _by_parameters(scene, setup)
-    if any(surface.law is not None for surface in setup.surfaces):
-        yield changed("bounce law", "as for a slow bounce", lambda s: _on_surfaces(s, _without_law))
-    if any(surface.law is not None and surface.law(*_BOUNCE).tilt != 0.0 for surface in setup.surfaces):
-        yield changed("deformation of the ground", "left out", lambda s: _on_surfaces(s, _without_tilt))
-    for field, part in (
-        ("friction", "friction of surfaces"),
-        ("rolling_resistance", "rolling resistance"),
+    for part, change, other, touching in (
+        *((name, "left out", _without(setup, name), False) for name in _terms(setup)),
+        *((*in_air, False) for in_air in _in_air(setup)),
+        *((*at_contacts, True) for at_contacts in _at_contacts(setup)),
+        *((*on_cloth, False) for on_cloth in _on_cloth(setup)),
     ):
-        if any(getattr(surface, field) > 0.0 for surface in setup.surfaces):
-            yield changed(part, "left out", lambda s, field=field: _on_surfaces(s, _without_field(field)))  # type: ignore[misc]
-    if any(surface.lowest_bounce > 0.0 for surface in setup.surfaces):
-        yield changed("loss of low bounces", "a tenth of the height", lambda s: _on_surfaces(s, _with_lower_bounces))
-    if len(setup.balls) > 1 and setup.between_balls(1.0, 1.0).friction > 0.0:
-        yield changed("friction of balls (throw)", "left out", _without_throw)
-        if setup.between_balls(1.0, 0.1) != setup.between_balls(1.0, 1.0):
-            yield changed("friction of balls (throw)", "at any speed as at 1 m/s", _with_one_throw)
-    if setup.cloth is not None:
-        for field in ("sliding", "rolling", "spinning"):
-            if getattr(setup.cloth, field) > 0.0:
-                part = f"{field} friction of the cloth"
-                yield changed(part, "left out", lambda s, f=field: _on_cloth(s, f), touching=False)  # type: ignore[misc]
-    spins = any(ball.spin != 0.0 and any(isinstance(force, Magnus) for force in ball.forces) for ball in setup.balls)
-    if spins and not any(ball.torques for ball in setup.balls):
-        yield changed("spin decay", "added, as of a golf ball", _with_decay, touching=False)
-
-
-def with_changes(scene: Scene, changes: dict[str, Any]) -> Scene:
-    """The scene with some of its parameters changed, by dotted key. Raises RequestError for a value out of bounds."""
-    parameters = declared.validate(type(scene.parameters), scene.parameters.model_dump(), scene.name, changes)
-    return replace(scene, parameters=parameters)
-
-
-# ------------------------------------------------------------------------------------------------------ by parameters
-
-
-def _by_parameters(scene: Scene, setup: Setup) -> Iterator[Variant]:
-    values = {parameter.key: parameter.value for parameter in declared.walk(scene.parameters)}
-
-    def changed(part: str, change: str, changes: dict[str, Any]) -> Variant:
-        return Variant(part, change, lambda: with_changes(scene, changes))
-
-    for key, force, part in (("drag", Drag, "drag coefficient"), ("lift", Magnus, "lift coefficient")):
-        if values.get(f"ball.{key}.model") in (None, "constant", "none"):
-            continue
-        steady = with_changes(scene, {f"ball.{key}.model": "constant", f"ball.{key}.coefficient": 1.0}).build()
-        pull, unit = _at_launch(setup, force), _at_launch(steady, force)
-        if pull > 0.0 and unit > 0.0:
-            changes = {f"ball.{key}.model": "constant", f"ball.{key}.coefficient": pull / unit}
-            yield changed(part, f"{pull / unit:.3f} as at the start", changes)
-    if values.get("air.density", 0.0) > 0.0:
-        if values["air.wind"] == (0.0, 0.0):
-            yield changed("wind", "added, 1 m/s headwind", {"air.wind": (-1.0, 0.0)})
-        else:
-            yield changed("wind", "left out", {"air.wind": (0.0, 0.0)})
-        if values.get("ball.lift.model") == "none":
-            yield changed("lift", "added, equal to the spin ratio", {"ball.lift.model": "spin-ratio"})
-
-
-def _at_launch(setup: Setup, kind: type) -> float:
-    """Magnitude in N of the first force of a kind at the start, 0 if there is none."""
-    for ball in setup.balls:
-        for force in ball.forces:
-            if isinstance(force, kind):
-                return hypot(*force(0.0, ball.position, ball.velocity, ball.spin))
-    return 0.0
-
-
-# ---------------------------------------------------------------------------------------------------------- by setup
+        if other != setup:
+            yield Variant(part, change, other, touching)
 
 
 def _terms(setup: Setup) -> list[str]:
@@ -267,115 +193,122 @@ def _terms(setup: Setup) -> list[str]:
     return list(dict.fromkeys(cause(term) for ball in setup.balls for term in (*ball.forces, *ball.torques)))
 
 
+def _on_balls(setup: Setup, change: Callable[[Ball], Ball]) -> Setup:
+    return replace(setup, balls=[change(ball) for ball in setup.balls])
+
+
 def _without(setup: Setup, name: str) -> Setup:
-    return replace(setup, balls=[_without_term(ball, name) for ball in setup.balls])
+    def change(ball: Ball) -> Ball:
+        forces, torques = ([term for term in terms if cause(term) != name] for terms in (ball.forces, ball.torques))
+        return replace(ball, forces=forces, torques=torques)
+
+    return _on_balls(setup, change)
 
 
-def _without_term(ball: Ball, name: str) -> Ball:
-    return replace(
-        ball,
-        forces=[force for force in ball.forces if cause(force) != name],
-        torques=[torque for torque in ball.torques if cause(torque) != name],
+def _in_air(setup: Setup) -> Iterator[tuple[str, str, Setup]]:
+    """Coefficients as at the start; wind, lift and spin decay."""
+    forces = [force for ball in setup.balls for force in ball.forces if isinstance(force, Drag | Magnus)]
+    for kind, part in ((Drag, "drag coefficient"), (Magnus, "lift coefficient")):
+        for ball in setup.balls[:1]:
+            start = [_at_start(ball, force) for force in ball.forces if isinstance(force, kind) and _varies(force)]
+            if any(start):
+                how = f"{start[0]:.3f} as at the start"
+                yield part, how, _on_balls(setup, lambda ball, kind=kind: _steady(ball, kind))  # type: ignore[misc]
+    if any(force.wind is not None for force in forces):
+        yield "wind", "left out", _on_balls(setup, lambda ball: _in_wind(ball, None))
+    elif forces:
+        headwind = UniformWind(-1.0, 0.0)
+        yield "wind", "added, 1 m/s headwind", _on_balls(setup, lambda ball: _in_wind(ball, headwind))
+    if not any(isinstance(force, Magnus) for force in forces):
+        yield "lift", "added, equal to the spin ratio", _on_balls(setup, _with_lift)
+    spins = any(ball.spin and isinstance(force, Magnus) for ball in setup.balls for force in ball.forces)
+    if spins and not any(ball.torques for ball in setup.balls):
+        yield "spin decay", "added, as of a golf ball", _on_balls(setup, _with_decay)
+
+
+def _varies(force: Drag | Magnus) -> bool:
+    return len({force.coefficient(*flow) for flow in _FLOWS}) > 1
+
+
+def _at_start(ball: Ball, force: Drag | Magnus) -> float:
+    """The coefficient of a force at the start; 0 for a ball at rest."""
+    pull, unit = (
+        hypot(*each(0.0, ball.position, ball.velocity, ball.spin))
+        for each in (force, replace(force, coefficient=Constant(1.0)))
     )
+    return pull / unit if unit else 0.0
 
 
-def _on_surfaces(setup: Setup, change: Callable[[Surface], Surface]) -> Setup:
-    return replace(setup, surfaces=[change(surface) for surface in setup.surfaces])
+def _steady(ball: Ball, kind: type[Drag | Magnus]) -> Ball:
+    def steady(force: Force) -> Force:
+        return replace(force, coefficient=Constant(_at_start(ball, force))) if isinstance(force, kind) else force
+
+    return replace(ball, forces=[steady(force) for force in ball.forces])
+
+
+def _in_wind(ball: Ball, wind: UniformWind | None) -> Ball:
+    forces, torques = (
+        [replace(term, wind=wind) if isinstance(term, Drag | Magnus | SpinDecay) else term for term in terms]
+        for terms in (ball.forces, ball.torques)
+    )
+    return replace(ball, forces=forces, torques=torques)
+
+
+def _with_lift(ball: Ball) -> Ball:
+    lifts = [
+        Magnus(drag.radius, drag.density, spin_ratio_lift, drag.wind, drag.area, drag.viscosity)
+        for drag in ball.forces
+        if isinstance(drag, Drag)
+    ]
+    return replace(ball, forces=[*ball.forces, *lifts])
+
+
+def _with_decay(ball: Ball) -> Ball:
+    return replace(ball, torques=[SpinDecay(ball.inertia, ball.radius, _DECAY)])
+
+
+def _at_contacts(setup: Setup) -> Iterator[tuple[str, str, Setup]]:
+    def surfaces(change: Callable[[Surface], Surface]) -> Setup:
+        return replace(setup, surfaces=[change(surface) for surface in setup.surfaces])
+
+    yield "bounce law", "as for a slow bounce", surfaces(lambda s: replace(s, law=None))
+    yield "deformation of the ground", "left out", surfaces(lambda s: replace(s, law=_law_without(s.law, "tilt")))
+    yield (
+        "friction of surfaces",
+        "left out",
+        surfaces(lambda s: replace(s, friction=0.0, law=_law_without(s.law, "friction"))),
+    )
+    yield "rolling resistance", "left out", surfaces(lambda s: replace(s, rolling_resistance=0.0))
+    lower = surfaces(lambda s: replace(s, lowest_bounce=0.1 * s.lowest_bounce))
+    yield "loss of low bounces", "a tenth of the height", lower
+    if len(setup.balls) > 1:
+        law = setup.between_balls
+        yield "friction of balls (throw)", "left out", replace(setup, between_balls=_law_without(law, "friction"))
+        if law(*_FAST) != law(*_SLOW):
+            yield (
+                "friction of balls (throw)",
+                "at any speed as at 1 m/s",
+                replace(setup, between_balls=Always(law(*_SLOW))),
+            )
 
 
 @dataclass(frozen=True)
-class _LawWithout:
+class _Without:
     """A law of impacts with one part left out."""
 
-    law: Callable[[float, float], Bounce]
-    field: str
+    law: Law
+    part: str
 
     def __call__(self, normal_speed: float, slip_speed: float) -> Bounce:
-        return self.law(normal_speed, slip_speed)._replace(**{self.field: 0.0})
+        return self.law(normal_speed, slip_speed)._replace(**{self.part: 0.0})
 
 
-def _without_field(field: str) -> Callable[[Surface], Surface]:
-    def change(surface: Surface) -> Surface:
-        if field != "friction" or surface.law is None:
-            return replace(surface, **{field: 0.0})  # type: ignore[arg-type]
-        return replace(surface, friction=0.0, law=_LawWithout(surface.law, "friction"))
-
-    return change
+def _law_without(law: Any, part: str) -> Any:
+    """A law without one of its parts; the law itself, or None, where that changes nothing."""
+    return law if law is None or not getattr(law(*_FAST), part) else _Without(law, part)
 
 
-def _with_lower_bounces(surface: Surface) -> Surface:
-    return replace(surface, lowest_bounce=0.1 * surface.lowest_bounce)
-
-
-def _without_law(surface: Surface) -> Surface:
-    return replace(surface, law=None)
-
-
-def _without_tilt(surface: Surface) -> Surface:
-    return surface if surface.law is None else replace(surface, law=_LawWithout(surface.law, "tilt"))
-
-
-def _without_throw(setup: Setup) -> Setup:
-    return replace(setup, between_balls=_LawWithout(setup.between_balls, "friction"))
-
-
-def _with_one_throw(setup: Setup) -> Setup:
-    return replace(setup, between_balls=Always(setup.between_balls(1.0, 1.0)))
-
-
-def _on_cloth(setup: Setup, field: str) -> Setup:
-    assert setup.cloth is not None
-    return replace(setup, cloth=replace(setup.cloth, **{field: 0.0}))
-
-
-def _with_decay(setup: Setup) -> Setup:
-    balls = [replace(ball, torques=[SpinDecay(ball.inertia, ball.radius, _DECAY)]) for ball in setup.balls]
-    return replace(setup, balls=balls)
-
-
-# ------------------------------------------------------------------------------------------------------------ running
-
-
-def _run(scene: Scene, setup: Setup) -> Run:
-    run = simulate(setup, LEVELS["precise"])
-    run.result = scene.result(run)
-    return run
-
-
-def _costs(changes: list[Variant], time: float) -> list[tuple[float | None, float]]:
-    """Seconds for each until ``time`` at "balanced", the shortest of interleaved repeats, and their relative noise;
-    None if it cannot be completed."""
-    walls: list[list[float]] = [[] for _ in changes]
-    failed = [False] * len(changes)
-    for _ in range(_REPEATS):
-        for index, change in enumerate(changes):
-            if failed[index]:
-                continue
-            try:
-                setup = until(change.setup(change.scene()), time)
-                started = perf_counter()
-                simulate(setup, LEVELS["balanced"])
-                walls[index].append(perf_counter() - started)
-            except SandboxError:
-                failed[index] = True
-    return [(None, 0.0) if bad else _shortest(taken) for taken, bad in zip(walls, failed, strict=True)]
-
-
-def _shortest(walls: list[float]) -> tuple[float, float]:
-    """The shortest time, and by what fraction the third shortest is longer."""
-    first, _, third, *_ = sorted(walls)
-    return first, third / first - 1.0
-
-
-def _differences(a: Run, b: Run) -> dict[str, tuple[float, float]]:
-    """The numbers of the result that differ, in the scene's order."""
-    numbers = {name: float(value) for name, value in b.result.items() if _is_number(value)}
-    return {
-        name: (float(value), numbers[name])
-        for name, value in a.result.items()
-        if name in numbers and _is_number(value) and not isclose(value, numbers[name], rel_tol=_SAME)
-    }
-
-
-def _is_number(value: Any) -> bool:
-    return isinstance(value, int | float) and not isinstance(value, bool)
+def _on_cloth(setup: Setup) -> Iterator[tuple[str, str, Setup]]:
+    for part in ("sliding", "rolling", "spinning") if setup.cloth is not None else ():
+        cloth = replace(setup.cloth, **{part: 0.0})  # type: ignore[type-var]
+        yield f"{part} friction of the cloth", "left out", replace(setup, cloth=cloth)

@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from itertools import pairwise
-from math import inf, nan, pi
+from math import nan, pi
 from typing import Any, NamedTuple
 
 from sandbox import parameters as declared
+from sandbox.engine.accuracy import Accuracy
 from sandbox.engine.setup import Ball, Bounce, Circle, Force, Segment, Setup, Surface
-from sandbox.lab.ablation import with_changes
-from sandbox.lab.verdicts import aimed_by
+from sandbox.errors import RequestError
 from sandbox.physics.coefficients import Constant
 from sandbox.physics.forces import Drag, Gravity, Magnus
+from sandbox.physics.integrators import INTEGRATORS
 from sandbox.scene import Scene
 
 #: Steps in s at which fixed-step methods are tested.
@@ -25,99 +26,68 @@ _MOST_STEPS = 1_500
 #: Simulated time in s after which a run is ended; one hour is an extreme of its own.
 _LONGEST, HOUR = 10.0, 3600.0
 
-#: The methods that an extreme applies to.
-ALL, EXACT, ERROR_CONTROL, PLAIN, FIXED_STEP = "all", "exact", "error control", "plain", "fixed step"
+
+def controls_error(how: Accuracy) -> bool:
+    """Whether the integrator chooses its steps."""
+    return how.method == "exact" and INTEGRATORS[how.integrator].controls_error
+
+
+def has_steps(how: Accuracy) -> bool:
+    """Whether the steps are fixed."""
+    return not controls_error(how)
+
+
+def is_plain(how: Accuracy) -> bool:
+    return how.method == "plain"
 
 
 class Extreme(NamedTuple):
-    """One row. ``build`` raises RequestError if the scene refuses; ``step`` (s) replaces that of the method."""
+    """One row, for the methods that it suits. ``build`` raises RequestError if the scene refuses; ``step`` (s) replaces
+    that of the method."""
 
     name: str
     build: Callable[[], Setup]
-    methods: str = ALL
+    suits: Callable[[Accuracy], bool] = lambda how: True
     step: float | None = None
 
 
 def of_scene(scene: Scene) -> Iterator[Extreme]:
-    """Every extreme of the scene's parameters, and its own setup at extreme steps."""
-    for name, changes in _changes(scene):
-
-        def build(changes: Mapping[str, Any] = changes) -> Setup:
-            return _ended(with_changes(scene, dict(changes)).build(), _LONGEST)
-
-        yield Extreme(name, build)
-
-    yield Extreme("an hour", lambda: replace(scene.build(), duration=HOUR, until=None), ERROR_CONTROL)
+    """Each number of the scene at its lowest and its highest, all of them, and its own setup at extreme steps."""
+    numbers = [
+        p
+        for p in declared.walk(scene.parameters)
+        if p.low is not None and not isinstance(p.value, list) and not p.key.startswith("accuracy.")
+    ]
+    own = scene.build()
+    for p in numbers:
+        for bound in (p.low, p.high):
+            extreme = _changed(scene, f"{p.key} {bound:g} {p.unit}".rstrip(), {p.key: _alike(p.value, bound)})
+            if not _is_built(extreme, own):
+                yield extreme
+    set_numbers = [p for p in numbers if p.value is not None]
+    yield _changed(scene, "all numbers at their lowest", {p.key: _alike(p.value, p.low) for p in set_numbers})
+    yield _changed(scene, "all numbers at their highest", {p.key: _alike(p.value, p.high) for p in set_numbers})
+    yield Extreme("an hour", lambda: replace(scene.build(), duration=HOUR, until=None), controls_error)
     for step in STEPS:
-
-        def at_step(step: float = step) -> Setup:
-            return _ended(scene.build(), min(_LONGEST, _MOST_STEPS * step))
-
-        yield Extreme(f"step {step:.3g} s", at_step, FIXED_STEP, step)
+        ended = _ended(own, min(_LONGEST, _MOST_STEPS * step))
+        yield Extreme(f"step {step:.3g} s", lambda ended=ended: ended, has_steps, step)  # type: ignore[misc]
 
 
-def _changes(scene: Scene) -> Iterator[tuple[str, dict[str, Any]]]:
-    keys = {parameter.key: parameter for parameter in declared.walk(scene.parameters)}
-    aim = aimed_by(scene)
-    if aim is not None:
-        speed, angle = aim
-        for value in (340.0, 30.0, 1e-9, 0.0):
-            yield f"speed {value:g} m/s", {speed: value}
-        for value in (90.0, 180.0, -90.0):
-            yield f"angle {value:g} deg", {angle: value}
-    if "launch.spin" in keys:
-        for value in (20_000.0, -20_000.0):
-            yield f"spin {value:g} rpm", {"launch.spin": value}
-    masses = [key for key in keys if key.endswith(".mass")]
-    if "ball.mass" in masses:
-        for name, own, others in (("lightest", -inf, inf), ("heaviest", inf, -inf)):
-            yield f"{name} ball", {k: _within(keys[k], own if k == "ball.mass" else others) for k in masses}
-    for part, values in (("restitution", (0.0, 1.0)), ("friction", (0.0, 10.0)), ("resistance", (0.0, 10.0))):
-        for value in values:
-            changes = _alike(scene, part, value)
-            if changes:
-                yield f"{part} {value:g}", changes
-    if "air.density" in keys:
-        for value in (0.0, 1000.0):
-            yield f"density {value:g} kg/m3", {"air.density": value}
-        if aim is not None:
-            yield "a bullet in water", {"air.density": 1000.0, aim[0]: 340.0}
-        for wind in ((100.0, 0.0), (-100.0, 0.0), (0.0, 100.0), (-70.0, -70.0)):
-            yield f"wind {wind[0]:g}, {wind[1]:g} m/s", {"air.wind": wind}
-    if "gravity" in keys:
-        for value in (0.0, 25.0):
-            yield f"gravity {value:g} m/s2", {"gravity": value}
-    if "ball.radius" in keys:
-        for value in (0.001, 1.0):
-            yield f"ball of {value:g} m", {"ball.radius": value}
-    walls = [k for k in keys if k.endswith(("thickness", "tube_radius", "post_radius", "jaw_radius"))]
-    if walls:
-        yield "walls of 0.1 mm", dict.fromkeys(walls, 1e-4)
-        yield "walls as thin as allowed", {key: _within(keys[key], -inf) for key in walls}
-        if aim is not None:
-            fastest = _within(keys[aim[0]], inf)
-            yield "thin walls, full speed", {**{k: _within(keys[k], -inf) for k in walls}, aim[0]: fastest}
-    for key in keys:
-        if key.endswith("gap") and keys[key].unit == "m" and "." not in key:
-            yield "a tight rack", {key: keys[key].low}
-    numbers = [p for p in keys.values() if p.low is not None and isinstance(p.value, float) and "accuracy" not in p.key]
-    yield "all numbers at their lowest", {p.key: p.low for p in numbers}
-    yield "all numbers at their highest", {p.key: p.high for p in numbers}
+def _alike(value: Any, number: Any) -> Any:
+    """The number, or as many of it as a vector has."""
+    return [number] * len(value) if isinstance(value, tuple) else number
 
 
-def _alike(scene: Scene, part: str, value: float) -> dict[str, Any]:
-    """Every number whose key ends in ``part`` set to ``value``, within its bounds."""
-    return {p.key: _within(p, value) for p in declared.walk(scene.parameters) if p.key.endswith(part) and _is_number(p)}
+def _changed(scene: Scene, name: str, changes: dict[str, Any]) -> Extreme:
+    return Extreme(name, lambda: _ended(scene.changed(changes).build(), _LONGEST))
 
 
-def _is_number(parameter: declared.Parameter) -> bool:
-    return parameter.low is not None and isinstance(parameter.value, float)
-
-
-def _within(parameter: declared.Parameter, value: float) -> float:
-    assert parameter.low is not None
-    assert parameter.high is not None
-    return min(max(value, parameter.low), parameter.high)
+def _is_built(extreme: Extreme, own: Setup) -> bool:
+    """Whether it is the scene's own setup: its number is one that this shot does not need."""
+    try:
+        return extreme.build() == _ended(own, _LONGEST)
+    except RequestError:
+        return False
 
 
 def _ended(setup: Setup, time: float) -> Setup:
@@ -142,7 +112,7 @@ def bare() -> Iterator[Extreme]:
     yield Extreme("start half inside a wall", lambda: _overlapping(0.5))
     yield Extreme("start 1 % inside a wall", lambda: _overlapping(0.99))
     yield Extreme("two balls in one place", _coinciding)
-    yield Extreme("an hour in a box, no loss", lambda: replace(_boxed(1.0), duration=HOUR), ERROR_CONTROL)
+    yield Extreme("an hour in a box, no loss", lambda: replace(_boxed(1.0), duration=HOUR), controls_error)
     yield Extreme("20,000 rpm, friction 10", lambda: _spinning(20_000.0, 10.0))
     yield Extreme("a bullet in water", _bullet)
     yield Extreme("a force that is not a number", lambda: _forced(lambda t, position, velocity, spin: (nan, 0.0)))
@@ -150,7 +120,7 @@ def bare() -> Iterator[Extreme]:
         "a force with a pole", lambda: _forced(lambda t, position, velocity, spin: (0.0, -1.0 / position[1] ** 3))
     )
     yield Extreme("drag that reverses the motion", lambda: _forced(_wrong_drag))
-    yield Extreme("1,000 balls in a pile", _heap, PLAIN)
+    yield Extreme("1,000 balls in a pile", _heap, is_plain)
 
 
 def _lone(ball: Ball, surfaces: list[Surface], duration: float = 2.0) -> Setup:

@@ -21,7 +21,7 @@ from sandbox.engine.ledger import ledger
 from sandbox.engine.run import Run
 from sandbox.engine.setup import Circle, Surface, kinetic
 from sandbox.errors import RequestError, SandboxError
-from sandbox.lab.extremes import ALL, ERROR_CONTROL, EXACT, FIXED_STEP, PLAIN, Extreme, bare, of_scene
+from sandbox.lab.extremes import Extreme, bare, of_scene
 from sandbox.lab.tables import length, paragraph, percent, significant, table
 from sandbox.physics.integrators import INTEGRATORS
 from sandbox.scene import Scene
@@ -101,18 +101,11 @@ def tried(
 ) -> Iterator[Outcome]:
     """One extreme with every method that it applies to, or with the methods named."""
     for method, accuracy in every_method(level).items():
-        if not _applies_to(extreme.methods, accuracy) or (methods is not None and method not in methods):
+        if not extreme.suits(accuracy) or (methods is not None and method not in methods):
             continue
         if extreme.step is not None:
             accuracy = replace(accuracy, step=extreme.step)
         yield _tried(scene, extreme, method, accuracy)
-
-
-def _applies_to(which: str, accuracy: Accuracy) -> bool:
-    exact = accuracy.method == "exact"
-    controls_error = exact and INTEGRATORS[accuracy.integrator].controls_error
-    meant = {ALL: True, EXACT: exact, ERROR_CONTROL: controls_error, PLAIN: not exact, FIXED_STEP: not controls_error}
-    return meant[which]
 
 
 def _tried(scene: str, extreme: Extreme, method: str, accuracy: Accuracy) -> Outcome:

@@ -2,23 +2,21 @@
 
 from __future__ import annotations
 
-import gc
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Iterator, Sequence
+from dataclasses import asdict, dataclass, field, replace
 from math import isfinite
-from time import perf_counter
 from typing import Any
 
-from sandbox.engine import simulate
 from sandbox.engine.accuracy import LEVELS, Accuracy, settle_for
-from sandbox.errors import RunError
 from sandbox.lab.ablation import Ablated, ablation
 from sandbox.lab.ablation import as_text as ablation_text
 from sandbox.lab.reference import Reference, converge
-from sandbox.lab.tables import length, length_above, paragraph, significant, table, time
+from sandbox.lab.tables import length, length_above, paragraph, table, time
+from sandbox.lab.timing import Progress, Timed, repeat
 from sandbox.lab.verdicts import ShotMap, shot_map
 from sandbox.physics.integrators import INTEGRATORS
 from sandbox.scene import Scene
+from sandbox.sport.amounts import significant
 
 #: Steps of the fixed-step methods, in 1/s, from the longest to the shortest.
 RATES = (2, 5, 10, 20, 60, 240, 1000, 4000, 16_000, 64_000)
@@ -38,10 +36,8 @@ _CHAOTIC = 1e3
 #: Relative variation of the time of the same run.
 _NOISE = 0.1
 
-#: Time in s to spend on the repeats of one setting, and the most repeats.
-_PATIENCE, _REPEATS = 0.1, 15
-
-Progress = Callable[[int, int], None]
+#: Time in s to spend on the repeats of one setting.
+_PATIENCE = 0.1
 
 
 @dataclass(frozen=True)
@@ -58,6 +54,11 @@ class Point:
     times_real_time: float
     stable: bool
     problem: str = ""
+
+    def as_dict(self) -> dict[str, Any]:
+        """For JSON."""
+        method = self.accuracy.method if self.method == "level" else self.method
+        return {**asdict(self), "accuracy": self.accuracy.level, "method": method}
 
 
 @dataclass(frozen=True)
@@ -119,88 +120,48 @@ def settings(reference: Reference) -> Iterator[tuple[str, str, Accuracy]]:
         yield "level", name, level
 
 
-class _Trial:
-    """One setting and the results of its runs so far."""
-
-    def __init__(self, reference: Reference, method: str, setting: str, accuracy: Accuracy) -> None:
-        self.method = method
-        self.setting = setting
-        self.accuracy = accuracy
-        self.walls: list[float] = []
-        self.error: float | None = None
-        self.evaluations = 0
-        self.problem = ""
-        self._reference = reference
-
-    def run(self) -> None:
-        setup = self._reference.setup()
-        started = perf_counter()
-        try:
-            run = simulate(setup, self.accuracy)
-        except RunError as error:
-            self.problem = str(error)
-            return
-        finally:
-            self.walls.append(perf_counter() - started)
-        if not self.evaluations:
-            self.error = self._reference.error_of(run)
-            self.evaluations = run.numerics.force_evaluations
-
-    def _why_far_off(self) -> str:
-        far, growth = "error larger than the length of the shot", self._reference.growth
-        if growth < _CHAOTIC:
-            return f"unstable: {far}"
-        return f"{far}, where small errors grow {significant(growth)} times"
-
-    @property
-    def wants_more(self) -> bool:
-        return not self.problem and sum(self.walls) < _PATIENCE and len(self.walls) < _REPEATS
-
-    def point(self) -> Point:
-        wall, error = min(self.walls), self.error
-        stable = error is not None and isfinite(error) and error < max(self._reference.size, 1e-9)
-        problem = self.problem or ("" if stable else self._why_far_off())
-        return Point(
-            self.method,
-            self.setting,
-            self.accuracy,
-            error,
-            wall,
-            len(self.walls),
-            self.evaluations,
-            self._reference.time / wall,
-            stable,
-            problem,
-        )
-
-
 def _measured(reference: Reference, progress: Progress) -> Iterator[Point]:
+    """Every setting once, from coarse to fine, and then again in turns."""
     wanted = list(settings(reference))
-    trials: list[_Trial] = []
+    trials: dict[tuple[str, str], Timed[tuple[float, int]]] = {}
+    last: dict[str, Timed[tuple[float, int]]] = {}  # by method
     for done, (method, setting, accuracy) in enumerate(wanted):
         progress(done, 2 * len(wanted))
-        before = trials[-1] if trials and trials[-1].method == method else None
-        if before is not None and _expected(before, accuracy) > _LONGEST:
+        coarser = last.get(method)
+        if coarser is not None and coarser.walls[0] * coarser.accuracy.step / accuracy.step > _LONGEST:
             continue
-        trial = _Trial(reference, method, setting, accuracy)
+        trial = Timed(
+            reference.setup(), accuracy, lambda run: (reference.error_of(run), run.numerics.force_evaluations)
+        )
         trial.run()
-        trials.append(trial)
-    for turn in range(1, _REPEATS):  # interleaved, so that other load affects all settings equally
-        progress(len(wanted) * (_REPEATS + turn) // _REPEATS, 2 * len(wanted))
-        gc.collect()
-        gc.disable()
-        try:
-            for trial in trials:
-                if trial.wants_more:
-                    trial.run()
-        finally:
-            gc.enable()
-    yield from (trial.point() for trial in trials)
+        trials[method, setting] = trial
+        if not trial.problem:
+            last[method] = trial
+    repeat(list(trials.values()), _PATIENCE, lambda done, total: progress(total + done, 2 * total))
+    for (method, setting), trial in trials.items():
+        yield _point(reference, method, setting, trial)
 
 
-def _expected(before: _Trial, accuracy: Accuracy) -> float:
-    """Expected seconds of a setting, from the previous one and the ratio of the steps."""
-    return before.walls[0] * max(1.0, before.accuracy.step / accuracy.step)
+def _point(reference: Reference, method: str, setting: str, trial: Timed[tuple[float, int]]) -> Point:
+    error, evaluations = trial.seen or (None, 0)
+    stable = error is not None and isfinite(error) and error < max(reference.size, 1e-9)
+    far = "error larger than the length of the shot"
+    if reference.growth < _CHAOTIC:
+        why = f"unstable: {far}"
+    else:
+        why = f"{far}, where small errors grow {significant(reference.growth)} times"
+    return Point(
+        method,
+        setting,
+        trial.accuracy,
+        error,
+        min(trial.walls),
+        len(trial.walls),
+        evaluations,
+        reference.time / min(trial.walls),
+        stable,
+        trial.problem or ("" if stable else why),
+    )
 
 
 # --------------------------------------------------------------------------------------------------------------- report
@@ -220,98 +181,67 @@ def as_dict(found: Trade) -> dict[str, Any]:
             "growth": reference.growth,
             "diverges_at_s": reference.diverges_at,
         },
-        "points": [_point(point) for point in found.points],
-        "best": {f"{target:g}": _named(found.best(target)) for target in TARGETS},
+        "points": [point.as_dict() for point in found.points],
+        "best": {f"{target:g}": best and best.as_dict() for target in TARGETS for best in [found.best(target)]},
         "levels": {
-            name: {**_point(point), "times_front": found.behind_front(name)} for name, point in found.levels.items()
+            name: {**point.as_dict(), "times_front": found.behind_front(name)} for name, point in found.levels.items()
         },
         "ablation": [row.as_dict() for row in found.ablation],
-        "verdicts": None if found.verdicts is None else found.verdicts.as_dict(),
+        "verdicts": found.verdicts and asdict(found.verdicts),
     }
-
-
-def _point(point: Point) -> dict[str, Any]:
-    return {
-        "method": point.accuracy.method if point.method == "level" else point.method,
-        "setting": point.setting,
-        "error_m": point.error_m,
-        "wall_s": point.wall_s,
-        "repeats": point.repeats,
-        "force_evaluations": point.force_evaluations,
-        "times_real_time": point.times_real_time,
-        "stable": point.stable,
-        "problem": point.problem,
-    }
-
-
-def _named(point: Point | None) -> dict[str, Any] | None:
-    return None if point is None else _point(point)
 
 
 def as_text(found: Trade) -> list[str]:
     """For people."""
-    lines = [*_about(found.reference), ""]
-    headings = ("method", "setting", "error", "time", "x real time", "forces")
     least = found.reference.error
-    lines += table(headings, [_row(point, least) for point in found.points], "llrrrr")
-    lines += _problems(found.points)
-    lines += ["", "levels"]
-    rows = []
-    for name, point in found.levels.items():
-        behind = found.behind_front(name)
-        aim = length(point.accuracy.tolerance)
-        place = "" if behind is None else significant(behind)
-        error = length_above(point.error_m, least)
-        rows.append((name, aim, error, time(point.wall_s), significant(point.times_real_time), place))
-    lines += table(("level", "target", "error", "time", "x real time", "x cheapest as accurate"), rows, "lrrrrr")
-    lines += ["", "cheapest choice"]
-    choices = [(target, best) for target in TARGETS if (best := found.best(target)) is not None]
-    cells = [
-        (length(target), f"{best.method} {best.setting}", length_above(best.error_m, least), time(best.wall_s))
-        for target, best in choices
+
+    def cells(point: Point) -> list[str]:
+        return [length_above(point.error_m, least), time(point.wall_s), significant(point.times_real_time)]
+
+    settings = [[p.method, p.setting, *cells(p), str(p.force_evaluations)] for p in found.points]
+    levels = [
+        [name, length(point.accuracy.tolerance), *cells(point), "" if behind is None else significant(behind)]
+        for name, point in found.levels.items()
+        for behind in [found.behind_front(name)]
     ]
-    lines += table(("for", "method", "error", "time"), cells, "llrr")
-    if found.ablation:
-        lines += ["", *ablation_text(found.ablation, found.reference.time)]
-    if found.verdicts is not None:
-        lines += ["", *found.verdicts.as_text()]
-    return lines
+    choices = [
+        [length(target), f"{best.method} {best.setting}", *cells(best)[:2]]
+        for target in TARGETS
+        if (best := found.best(target)) is not None
+    ]
+    return [
+        *_about(found.reference),
+        "",
+        *table(("method", "setting", "error", "time", "x real time", "forces"), settings, "llrrrr"),
+        *_problems(found.points),
+        "",
+        "levels",
+        *table(("level", "target", "error", "time", "x real time", "x cheapest as accurate"), levels, "lrrrrr"),
+        "",
+        "cheapest choice",
+        *table(("for", "method", "error", "time"), choices, "llrr"),
+        *(["", *ablation_text(found.ablation, found.reference.time)] if found.ablation else []),
+        *(["", *found.verdicts.as_text()] if found.verdicts is not None else []),
+    ]
 
 
 def _about(reference: Reference) -> list[str]:
-    scene = reference.scene
-    how = (
-        "contacts are computed, the rest is in closed form"
-        if reference.closed_form
-        else "checked with another integrator"
-    )
+    scene, chaotic = reference.scene, reference.diverges_at
+    closed = reference.closed_form
     many = "every ball" if len(reference.points) > 1 else "the ball"
-    lines = [
-        f"{scene.name}/{scene.preset}" if scene.preset else scene.name,
-        f"  measure    position of {many} after {reference.time:.4g} s",
-        f"  reference  error {length(reference.error)}, {how}",
-    ]
-    if scene.measure is not None:
-        lines[1] = "  measure    the scene's own"
-    if reference.exact_error is not None:
-        lines.append(
-            f"  exact      the reference is off the parabola by {length(reference.exact_error)} at first contact"
-        )
+    measure = "the scene's own" if scene.measure is not None else f"position of {many} after {reference.time:.4g} s"
+    how = "contacts are computed, the rest is in closed form" if closed else "checked with another integrator"
+    exact = f"the reference is off the parabola by {length(reference.exact_error)} at first contact"
     growth = f"a nudge at the start grows {significant(reference.growth)} times until then"
-    if reference.diverges_at is not None:
-        growth = f"chaotic: a nudge of 1e-9 has grown to 1 mm after {reference.diverges_at:.4g} s"
-    return [*lines, f"  growth     {growth}"]
-
-
-def _row(point: Point, least: float) -> tuple[str, ...]:
-    return (
-        point.method,
-        point.setting,
-        length_above(point.error_m, least),
-        time(point.wall_s),
-        significant(point.times_real_time),
-        str(point.force_evaluations),
-    )
+    if chaotic is not None:
+        growth = f"chaotic: a nudge of 1e-9 has grown to 1 mm after {chaotic:.4g} s"
+    return [
+        scene.title,
+        f"  measure    {measure}",
+        f"  reference  error {length(reference.error)}, {how}",
+        *([] if reference.exact_error is None else [f"  exact      {exact}"]),
+        f"  growth     {growth}",
+    ]
 
 
 def _problems(points: Sequence[Point]) -> Iterator[str]:

@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import dataclass
 from itertools import product
 from time import perf_counter
 from typing import Any
 
 from sandbox import parameters as declared
-from sandbox.engine import simulate
-from sandbox.engine.accuracy import LEVELS, Accuracy
-from sandbox.errors import SandboxError
+from sandbox.engine.accuracy import LEVELS
+from sandbox.lab.runs import runs
 from sandbox.lab.tables import paragraph, table
 from sandbox.scene import Scene
 
@@ -27,22 +26,23 @@ _TOO_LONG = 10.0
 #: Results whose value is clear without its name.
 _WITHOUT_NAME = ("verdict", "ended")
 
-_PLAIN = {f"plain 1/{rate} s": replace(LEVELS["balanced"], method="plain", step=1 / rate) for rate in (60, 240)}
+#: What is compared with the finest runs: changes of the scene's accuracy.
+_WAYS: dict[str, dict[str, Any]] = {
+    **{name: {"accuracy.level": name} for name in LEVELS},
+    **{f"plain 1/{rate} s": {"accuracy.method": "plain", "accuracy.step": 1 / rate} for rate in (60, 240)},
+}
 
 
 @dataclass(frozen=True)
 class ShotMap:
     """Fraction of the shots whose verdict differs from the finest run's, by level."""
 
-    keys: tuple[str, str]
+    over: tuple[str, str]  # the keys of speed and angle
     shots: int
     changed: dict[str, float]
 
-    def as_dict(self) -> dict[str, Any]:
-        return {"over": list(self.keys), "shots": self.shots, "changed": self.changed}
-
     def as_text(self) -> list[str]:
-        about = f"{self.shots} shots, {self.keys[0]} within {100 * _SPEED:.0f} %, {self.keys[1]} within {_ANGLE:g} deg"
+        about = f"{self.shots} shots, {self.over[0]} within {100 * _SPEED:.0f} %, {self.over[1]} within {_ANGLE:g} deg"
         rows = [(name, f"{100.0 * share:.1f} %") for name, share in self.changed.items()]
         return [
             *paragraph(f"verdicts that change with the accuracy ({about})", ""),
@@ -50,8 +50,8 @@ class ShotMap:
         ]
 
 
-def verdict(result: Mapping[str, Any]) -> str:
-    """The verdict of a result, or else its values that are not numbers."""
+def verdict(scene: Scene, result: Mapping[str, Any]) -> str:
+    """The verdict of a result, or else its values that are not numbers, without lists of what happened in order."""
     if isinstance(result.get("verdict"), str):
         return str(result["verdict"])
     words = []
@@ -60,66 +60,45 @@ def verdict(result: Mapping[str, Any]) -> str:
             words.append(name)
         elif isinstance(value, str):
             words.append(value if name in _WITHOUT_NAME else f"{name} {value}")
-        elif isinstance(value, list) and name != "touches" and all(isinstance(item, str) for item in value):
-            words.append(" ".join([name, *value]) if value else "")
-    return ", ".join(word for word in words if word)
+        elif value and isinstance(value, list) and not scene.facts[name].in_order:
+            words.append(" ".join([name, *value]))
+    return ", ".join(words)
 
 
 def shot_map(scene: Scene) -> ShotMap | None:
     """Run the map; None for a scene without speed and angle to vary, or without a verdict."""
-    keys = aimed_by(scene)
-    if keys is None:
+    controls = scene.controls
+    known = {parameter.key: parameter for parameter in declared.walk(scene.parameters)}
+    speed, angle = known.get(controls.speed), known.get(controls.angle)
+    if speed is None or angle is None or not speed.value:
         return None
-    finest = LEVELS["precise"].finer()
+    keys = (speed.key, angle.key)
+
+    def shots(side: int) -> list[tuple[float, float]]:
+        places = [2.0 * k / (side - 1) - 1.0 for k in range(side)]
+        return [
+            (speed.within(speed.value * (1.0 + _SPEED * p)), angle.within(angle.value + _ANGLE * q))
+            for p, q in product(places, places)
+        ]
+
+    def verdicts(points: list[tuple[float, float]], how: Mapping[str, Any], finer: bool = False) -> list[str]:
+        found = runs(scene.changed({**controls.also, **how}), keys, points, finer)
+        return [
+            f"failed: {type(run).__name__}" if isinstance(run, Exception) else verdict(scene, run.result)
+            for run in found
+        ]
+
     started = perf_counter()
-    if not _verdict_of(scene, finest):
+    own = [(speed.value, angle.value)]
+    if not verdicts(own, _WAYS["precise"], finer=True)[0]:
         return None
     side = int((_PATIENCE / (perf_counter() - started)) ** 0.5)
-    shots = list(_shots(scene, keys, max(_FEWEST, min(_MOST, side))))
-    truth = [_verdict_of(shot, finest) for shot in shots]
+    points = shots(max(_FEWEST, min(_MOST, side)))
+    truth = verdicts(points, _WAYS["precise"], finer=True)
     changed = {}
-    for name, accuracy in {**LEVELS, **_PLAIN}.items():
+    for name, how in _WAYS.items():
         started = perf_counter()
-        others = [_verdict_of(shots[0], accuracy)]
-        if len(shots) * (perf_counter() - started) > _TOO_LONG:
-            continue
-        others += [_verdict_of(shot, accuracy) for shot in shots[1:]]
-        changed[name] = sum(a != b for a, b in zip(truth, others, strict=True)) / len(shots)
-    return ShotMap(keys, len(shots), changed)
-
-
-def aimed_by(scene: Scene) -> tuple[str, str] | None:
-    """The keys of speed and angle of the first group that has both, and whose speed is not zero."""
-    values = {parameter.key: parameter.value for parameter in declared.walk(scene.parameters)}
-    for key, value in values.items():
-        group, _, last = key.rpartition(".")
-        if last == "speed" and f"{group}.angle" in values and value:
-            return key, f"{group}.angle"
-    return None
-
-
-def _shots(scene: Scene, keys: tuple[str, str], side: int) -> Iterator[Scene]:
-    places = [2.0 * k / (side - 1) - 1.0 for k in range(side)]
-    bounds = {parameter.key: parameter for parameter in declared.walk(scene.parameters)}
-    speed, angle = (bounds[key] for key in keys)
-    values = scene.parameters.model_dump()
-    for p, q in product(places, places):
-        changes = {
-            keys[0]: _within(speed, speed.value * (1.0 + _SPEED * p)),
-            keys[1]: _within(angle, angle.value + _ANGLE * q),
-        }
-        yield replace(scene, parameters=declared.validate(type(scene.parameters), values, scene.name, changes))
-
-
-def _within(bound: declared.Parameter, value: float) -> float:
-    assert bound.low is not None
-    assert bound.high is not None
-    return min(max(value, bound.low), bound.high)
-
-
-def _verdict_of(scene: Scene, accuracy: Accuracy) -> str:
-    try:
-        run = simulate(scene.build(), accuracy)
-    except SandboxError as error:
-        return f"failed: {type(error).__name__}"
-    return verdict(scene.result(run))
+        verdicts(own, how)
+        if len(points) * (perf_counter() - started) <= _TOO_LONG:
+            changed[name] = sum(a != b for a, b in zip(truth, verdicts(points, how), strict=True)) / len(points)
+    return ShotMap(keys, len(points), changed)

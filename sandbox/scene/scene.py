@@ -12,7 +12,7 @@ import inspect
 import os
 import tokenize
 from collections.abc import Callable, Collection, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import takewhile
 from pathlib import Path
 from types import ModuleType
@@ -64,6 +64,11 @@ class Scene:
         if self.preset is not None:
             return first_comment(self.folder / "presets" / f"{self.preset}.toml")
         return self.note or docstring(self.folder / "scene.py")
+
+    def changed(self, changes: Mapping[str, Any], by: str = "override") -> Scene:
+        """The scene with some of its parameters changed, by dotted key. Raises RequestError for an invalid value."""
+        values = declared.validate(type(self.parameters), self.parameters.model_dump(), "", changes, by)
+        return replace(self, parameters=values)
 
     def picture_module(self) -> ModuleType:
         """The scene's ``picture.py``, or a simple one for a scene without; imported on first use, as it imports

@@ -14,9 +14,9 @@ from PIL import Image
 from sandbox.cli import main
 from sandbox.engine import simulate
 from sandbox.engine.accuracy import LEVELS
+from sandbox.lab import timing, verdicts
 from sandbox.lab import trade as lab
-from sandbox.lab import verdicts
-from sandbox.lab.ablation import Ablated, ablation, variants, with_changes
+from sandbox.lab.ablation import Ablated, ablation, variants
 from sandbox.lab.reference import DIVERGED, REFERENCE, Reference, converge
 from sandbox.lab.tables import length_above
 from sandbox.lab.verdicts import shot_map, verdict
@@ -36,7 +36,7 @@ def fewer_settings() -> Iterator[None]:
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(lab, "RATES", (2, 60, 240))
         patch.setattr(lab, "TOLERANCES", (1e-1, 1e-3, 1e-6))
-        patch.setattr(lab, "_REPEATS", 2)
+        patch.setattr(timing, "REPEATS", 2)
         patch.setattr(verdicts, "_PATIENCE", 0.01)
         yield
 
@@ -170,14 +170,14 @@ def test_a_part_that_does_nothing_is_said_to():
         ablation(converge(load("soccer-curl", {"launch.spin": 0.0, "launch.angle": 8.0, "wall.present": False})))
     )
     assert rows["lift"].is_nothing
-    assert rows["lift"].cells()[-1] == "nothing"
+    assert rows["lift"].effect == "nothing"
     assert not rows["drag"].is_nothing
 
 
 def test_a_changed_verdict_shows_what_is_not_in_both():
     turned = "potted 6, first_contact 1, rest", "first_contact 1, scratch, duration"
-    row = Ablated("lift", "left out", 1.0, 1.0, turned, None, {})
-    assert row.cells()[-1] == "potted 6, rest -> scratch, duration"
+    row = Ablated("lift", "left out", turned, 1.0, 1.0)
+    assert row.effect == "potted 6, rest -> scratch, duration"
 
 
 def test_what_is_seen_on_the_way_is_not_nothing():
@@ -189,7 +189,7 @@ def test_what_is_seen_on_the_way_is_not_nothing():
 
 def test_parts_of_a_surface_that_nothing_touches_are_said_to_be_idle():
     rows = parts(ablation(converge(load("soccer-curl"))))
-    assert rows["friction of surfaces"].cells()[-1] == "nothing: no contact"
+    assert rows["friction of surfaces"].effect == "nothing: no contact"
 
 
 def test_what_a_scene_leaves_out_is_put_in():
@@ -200,9 +200,9 @@ def test_what_a_scene_leaves_out_is_put_in():
 
 
 def test_a_coefficient_as_at_the_start_is_that_of_the_start():
-    scene = load("golf")
-    change = next(variant for variant in variants(scene) if variant.part == "drag coefficient")
-    ball, steady = scene.build().balls[0], change.setup(change.scene()).balls[0]
+    setup = load("golf").build()
+    change = next(variant for variant in variants(setup) if variant.part == "drag coefficient")
+    ball, steady = setup.balls[0], change.setup.balls[0]
     drag = next(force for force in ball.forces if isinstance(force, Drag))
     same = next(force for force in steady.forces if isinstance(force, Drag))
     start = (0.0, ball.position, ball.velocity, ball.spin)
@@ -210,15 +210,15 @@ def test_a_coefficient_as_at_the_start_is_that_of_the_start():
 
 
 def test_throw_and_cloth_on_a_table():
-    names = {variant.part for variant in variants(load("billiards"))}
+    names = {variant.part for variant in variants(load("billiards").build())}
     assert {"friction of balls (throw)", "rolling friction of the cloth"} <= names
 
 
 def test_throw_by_speed_is_tried_as_one_number():
-    changes = [variant.change for variant in variants(load("billiards/cut"))]
+    changes = [variant.change for variant in variants(load("billiards/cut").build())]
     assert "at any speed as at 1 m/s" in changes
     assert "at any speed as at 1 m/s" not in [
-        v.change for v in variants(load("billiards/cut", {"ball.friction": 0.05}))
+        v.change for v in variants(load("billiards/cut", {"ball.friction": 0.05}).build())
     ]
 
 
@@ -230,7 +230,7 @@ def test_what_the_reference_cannot_tell_is_less_than_its_error(metres: float, le
 
 
 def test_changes_replace_a_model_whole():
-    scene = with_changes(load("golf"), {"ball.drag.model": "constant", "ball.drag.coefficient": 0.3})
+    scene = load("golf").changed({"ball.drag.model": "constant", "ball.drag.coefficient": 0.3})
     assert scene.parameters.ball.drag.coefficient == 0.3
 
 
@@ -241,23 +241,27 @@ def test_levels_agree_on_nearly_every_verdict(basketball: lab.Trade):
     found = basketball.verdicts
     assert found is not None
     assert shot_map(load(DROP)) is None  # without speed there is nothing to vary
-    assert found.keys == ("launch.speed", "launch.angle")
+    assert found.over == ("launch.speed", "launch.angle")
     assert found.changed["precise"] == 0.0
     assert found.changed["balanced"] <= found.changed["plain 1/60 s"]
 
 
 @pytest.mark.parametrize(
-    ("result", "said"),
+    ("scene", "result", "said"),
     [
-        ({"verdict": "swish", "made": True, "entry_angle": 43.0}, "swish"),
-        ({"holed": True, "ended": "cup", "carry": 3.0}, "holed, cup"),
-        ({"potted": ["3", "cue"], "scratch": True, "touches": ["1"], "positions": {}}, "potted 3 cue, scratch"),
-        ({"first_contact": "1", "ended": "rest"}, "first_contact 1, rest"),
-        ({"carry": 3.0}, ""),
+        ("basketball", {"verdict": "swish", "made": True, "entry_angle": 43.0}, "swish"),
+        ("golf", {"holed": True, "ended": "cup", "carry": 3.0}, "holed, cup"),
+        (
+            "billiards",
+            {"potted": ["3", "cue"], "scratch": True, "touches": ["1"], "positions": {}},
+            "potted 3 cue, scratch",
+        ),
+        ("billiards", {"first_contact": "1", "ended": "rest", "potted": []}, "first_contact 1, rest"),
+        ("golf", {"carry": 3.0}, ""),
     ],
 )
-def test_a_result_in_words(result: dict[str, object], said: str):
-    assert verdict(result) == said
+def test_a_result_in_words(scene: str, result: dict[str, object], said: str):
+    assert verdict(load(scene), result) == said
 
 
 # The command ---------------------------------------------------------------------------------------------------------

@@ -1,0 +1,65 @@
+"""Several runs timed in turns, so that whatever else the machine does affects all of them alike."""
+
+from __future__ import annotations
+
+import gc
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from time import perf_counter
+from typing import Generic, TypeVar
+
+from sandbox.engine import simulate
+from sandbox.engine.accuracy import Accuracy
+from sandbox.engine.run import Run
+from sandbox.engine.setup import Setup
+from sandbox.errors import SandboxError
+
+#: Most runs of each. The shortest counts, since other load only adds time.
+REPEATS = 15
+
+Seen = TypeVar("Seen")
+Progress = Callable[[int, int], None]
+
+
+@dataclass
+class Timed(Generic[Seen]):
+    """A setup to run several times: how long that takes, and what ``look`` saw in the first run."""
+
+    setup: Setup
+    accuracy: Accuracy
+    look: Callable[[Run], Seen]
+    seen: Seen | None = None
+    walls: list[float] = field(default_factory=list)  # s
+    problem: str = ""  # why it could not be completed
+
+    def run(self) -> None:
+        started = perf_counter()
+        try:
+            run = simulate(self.setup, self.accuracy)
+        except SandboxError as error:
+            self.problem = str(error)
+            return
+        finally:
+            self.walls.append(perf_counter() - started)
+        if self.seen is None:
+            self.seen = self.look(run)
+
+    @property
+    def noise(self) -> float:
+        """By what fraction the third shortest time is longer than the shortest."""
+        first, *others = sorted(self.walls)[:3]
+        return others[-1] / first - 1.0 if others else 0.0
+
+
+def repeat(trials: Sequence[Timed[Seen]], patience: float = float("inf"), progress: Progress = lambda *_: None) -> None:
+    """Run each several times, for ``patience`` s at most, except those that fail."""
+    for turn in range(REPEATS):
+        progress(turn, REPEATS)
+        gc.collect()
+        gc.disable()
+        try:
+            for trial in trials:
+                if not trial.problem and len(trial.walls) < REPEATS and sum(trial.walls) < patience:
+                    trial.run()
+        finally:
+            gc.enable()
