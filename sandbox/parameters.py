@@ -236,6 +236,7 @@ class Parameter(NamedTuple):
     high: float | None
     choices: tuple[Any, ...]  # of a word; empty for numbers
     meaning: str
+    optional: bool = False  # whether it may be left out
 
     def within(self, number: float) -> float:
         """The number, or the bound that it exceeds."""
@@ -255,7 +256,8 @@ def walk(parameters: Group, prefix: str = "") -> Iterator[Parameter]:
         unit, low, high = (
             (declared.unit, declared.low, declared.high) if isinstance(declared, Quantity) else (None,) * 3
         )
-        yield Parameter(key, value, unit, low, high, words_of(field.annotation), field.description or "")
+        meaning, optional = field.description or "", type(None) in get_args(field.annotation)
+        yield Parameter(key, value, unit, low, high, words_of(field.annotation), meaning, optional)
 
 
 def words_of(annotation: Any) -> tuple[Any, ...]:

@@ -7,8 +7,8 @@ ready, the last picture stays: a path is never drawn on the stage of another pla
 from __future__ import annotations
 
 from collections.abc import Sequence
-from concurrent.futures import Future
 from dataclasses import replace
+from functools import partial
 from math import inf
 from threading import Thread
 from typing import TYPE_CHECKING, Any
@@ -21,7 +21,7 @@ from sandbox.picture.sheet import Entry, rows_of
 from sandbox.picture.vectors import Vectors
 from sandbox.picture.view import View as Picture
 from sandbox.window import overlay
-from sandbox.window.background import Background, Latest, Once, ready
+from sandbox.window.background import Background, Latest, Once
 from sandbox.window.bar import HEIGHT, Bar, Shown
 from sandbox.window.canvas import Canvas
 from sandbox.window.charts import Charts
@@ -70,7 +70,9 @@ class View:
         self.tape: Tape | None = None
         self.panel: Panel | None = None
         self.panel_wanted = False
-        self.building: Future[Panel] | None = None  # the panel
+        self.panels: Latest[Panel] = Latest()  # while they are built
+        self.group = ""  # that the panel shows
+        self.area = pygame.Rect(0, 0, 0, 0)  # of the picture
         self.stages: Latest[Stage] = Latest()
         self.stage: Stage | None = None  # the last one that could be composed
         self.composed = 0.0  # s since then
@@ -101,26 +103,32 @@ class View:
         rows = rows_of((width, height))
         tall = round(HEIGHT * rows / 720)
         self.bar = Bar(pygame.Rect(0, height - tall, width, tall), rows)
-        group = self.panel.group if self.panel is not None else ""
-        self.building = None
-        if self.panel_wanted:
-            self.building = self.background.submit(_panel, self.game, (width, height), height - tall, group)
+        self.group = self.panel.wanted if self.panel is not None else self.group
+        self.panels.forget()
         self._make_room(None)
 
     def _make_room(self, panel: Panel | None) -> None:
         """Give the picture the width that the panel leaves."""
-        self.panel = panel
+        self.panel, self.changed = panel, True
         wide = panel.rect.width if panel is not None else 0
-        self.area = pygame.Rect(0, 0, self.canvas.get_width() - wide, self.bar.rect.top)
-        self.chosen = self._picture = None
-        self.changed = True
+        area = pygame.Rect(0, 0, self.canvas.get_width() - wide, self.bar.rect.top)
+        if area != self.area:
+            self.area, self.chosen, self._picture = area, None, None
 
-    def _take_panel(self) -> None:
-        """Show the panel once it is built."""
-        if self.building is None or not ready(self.building, self.patience):
-            return
-        building, self.building = self.building, None
-        self.panel_wanted = self.game.trying(lambda: self._make_room(building.result()))
+    def _follow_panel(self) -> None:
+        """Build the panel if it is wanted, or outdated, and show it once it is built."""
+        panel = self.panel
+        if self.panel_wanted and (panel is None or panel.outdated):
+            wanted = (panel.wanted, panel.chosen) if panel is not None else (self.group, None)
+            size, height = self.canvas.get_size(), self.bar.rect.top
+            work = partial(self.background.submit, _panel, self.game, size, height, *wanted)
+            self.panels.follow((size, panel), work)
+        if self.panels.take(self.patience):
+            if self.panels.error is not None:
+                self.panel_wanted = False
+                self.game.tell(self.game.reason(self.panels.error), bad=True)
+            elif self.panel_wanted:
+                self._make_room(self.panels.value)
 
     def open_panel(self, wanted: bool) -> None:
         """Show the panel of parameters, or close it."""
@@ -225,11 +233,12 @@ class View:
     def busy(self) -> bool:
         """Whether something is being prepared that will have to be drawn."""
         over = self.over is not None and not self.over.ready
-        lively = self.panel is not None and (self._lively < LIVELY or not self.panel.complete)
+        lively = self.panel is not None and self._lively < LIVELY
         exporting = self.exporter is not None and self.exporter.is_alive()
-        coming = any(latest.work is not None for latest in (self.stages, self.clouds, self.maps))
+        coming = any(latest.work is not None for latest in (self.stages, self.clouds, self.maps, self.panels))
         wanted = self._stage_wanted() or bool(self._cloud_wanted() or self._map_wanted())
-        return coming or wanted or self.building is not None or over or lively or exporting
+        wanted |= self.panel is not None and self.panel.outdated
+        return coming or wanted or over or lively or exporting
 
     def _may_draw(self, stage: Stage, shot: Shot) -> bool:
         """Whether a shot may be drawn on a stage: when watched only on its own, when aimed on one of the same place."""
@@ -243,7 +252,7 @@ class View:
         """``dt`` s have passed, and something may have happened in the window."""
         self._lively = 0.0 if happened else self._lively + dt
         self.composed += dt
-        self._take_panel()
+        self._follow_panel()
         self._follow_stage()
         self._follow_cloud()
         self._follow_map()
@@ -334,7 +343,7 @@ class View:
 
     def needs_drawing(self, happened: bool) -> bool:
         """Whether what would be drawn differs from what was drawn last."""
-        lively = self.panel is not None and (self._lively < LIVELY or not self.panel.complete)
+        lively = self.panel is not None and self._lively < LIVELY
         blink = self._lively // BLINK if self.panel is not None and self.panel.typing else 0
         playback = self.game.playback
         clock = (playback.t, playback.playing, playback.rate) if playback is not None else None
@@ -528,13 +537,12 @@ class View:
         )
 
 
-def _panel(game: Game, size: tuple[int, int], height: int, group: str) -> Panel:
+def _panel(game: Game, size: tuple[int, int], height: int, group: str, chosen: int | None) -> Panel:
     """The panel of a window of ``size`` px."""
-    from sandbox.window.panel import FAVOURITES, NARROWEST, WIDTH, Panel  # imports pygame_gui, which is slow
+    from sandbox.window.panel import NARROWEST, WIDTH, Panel  # imports pygame_gui, which is slow
 
     wide = min(max(NARROWEST, round(WIDTH * rows_of(size) / 720)), size[0] // 2)
-    rect = pygame.Rect(size[0] - wide, 0, wide, height)
-    return Panel(size, rect, lambda: game.session, game.change, game.reset, group or FAVOURITES, game.patience)
+    return Panel(size, pygame.Rect(size[0] - wide, 0, wide, height), game, group, chosen)
 
 
 def _why(latest: Latest[Any], what: str) -> str:

@@ -5,6 +5,8 @@ from __future__ import annotations
 import pygame
 import pytest
 
+from sandbox.window.panel import Switch, Word
+
 SCENE = """# A putt of mine.
 scene = "golf"
 
@@ -23,6 +25,15 @@ def file(tmp_path):
 
 def row(player, key: str):
     return next(row for row in player.view.panel.rows if row.parameter.key == key)
+
+
+def write(player, key: str, text: str) -> None:
+    """Type a text into the field of a parameter, and Enter."""
+    entry = row(player, key).entry
+    player.click(entry.rect.center)
+    entry.set_text(text)
+    player.key(pygame.K_RETURN)
+    player.frames(2)
 
 
 def drag(player, element, by: int) -> None:
@@ -62,10 +73,9 @@ class TestThePanel:
     def test_a_field_takes_units_and_says_what_is_wrong(self, player):
         player = player("golf")
         player.key(pygame.K_TAB)
-        panel = player.view.panel
-        panel._typed(row(player, "launch.speed"), "100 mph")
+        write(player, "launch.speed", "100 mph")
         assert player.game.session.value("launch.speed") == pytest.approx(44.704)
-        panel._typed(row(player, "launch.speed"), "9000")
+        write(player, "launch.speed", "9000")
         assert player.game.session.value("launch.speed") == pytest.approx(44.704)
         assert "from 0 to 340 m/s" in player.game.notices[-1][0]
         assert row(player, "launch.speed").entry.get_text() == "44.704"
@@ -74,13 +84,27 @@ class TestThePanel:
         player = player("golf")
         player.key(pygame.K_TAB)
         panel = player.view.panel
-        groups = panel._groups()
-        assert {"launch", "air", "ball.drag", "ground.green", "accuracy"} <= set(groups)
-        for group in ("air", "ball.drag", "accuracy", "golf"):
-            panel.group = group
-            panel._build()
-            player.frames(1)
-            assert panel.rows
+        assert {"launch", "air", "ball.drag", "ground.green", "accuracy"} <= set(panel.groups)
+        for _ in panel.groups:
+            player.key(pygame.K_PAGEDOWN, pygame.KMOD_CTRL)
+            player.frames(2)
+            assert player.view.panel.rows
+        assert player.view.panel.group == panel.group
+        assert player.view.panel is not panel
+
+    def test_a_word_that_brings_other_parameters_changes_the_rows_and_undo_changes_them_back(self, player):
+        player = player("golf")
+        player.key(pygame.K_TAB)
+        player.view.panel._turn_to("ball.drag")
+        player.frames(2)
+        before = [row.parameter.key for row in player.view.panel.rows]
+        player.view.panel.set(row(player, "ball.drag.model"), "constant")
+        player.frames(2)
+        assert "ball.drag.coefficient" in {row.parameter.key for row in player.view.panel.rows}
+        player.key(pygame.K_z, pygame.KMOD_CTRL)
+        player.frames(2)
+        assert [row.parameter.key for row in player.view.panel.rows] == before
+        assert row(player, "ball.drag.model").shown == player.game.session.value("ball.drag.model")
 
     def test_keys_typed_into_a_field_are_no_commands(self, player):
         player = player("golf")
@@ -113,6 +137,7 @@ class TestThePanelByKey:
         assert player.game.session.value("launch.angle") == pytest.approx(10.4 + 0.009 * (high - low), rel=1e-3)
         assert float(row.entry.get_text()) == player.game.session.value("launch.angle")
         player.key(pygame.K_BACKSPACE, pygame.KMOD_CTRL)
+        player.frames(2)
         assert player.game.session.changes.values == {}
         assert player.view.panel.chosen == 1
 
@@ -120,14 +145,16 @@ class TestThePanelByKey:
         player = player("soccer")
         player.key(pygame.K_TAB)
         panel = player.view.panel
-        panel.chosen = next(i for i, row in enumerate(panel.rows) if row.switch is not None)
+        panel.chosen = next(i for i, row in enumerate(panel.rows) if isinstance(row, Switch))
         key = panel.rows[panel.chosen].parameter.key
         before = player.game.session.value(key)
         player.key(pygame.K_RIGHT, pygame.KMOD_CTRL)
         assert player.game.session.value(key) is not before
         while panel.group != "ball.drag":
             player.key(pygame.K_PAGEDOWN, pygame.KMOD_CTRL)
-        panel.chosen = next(i for i, row in enumerate(panel.rows) if row.choice is not None)
+            player.frames(2)
+            panel = player.view.panel
+        panel.chosen = next(i for i, row in enumerate(panel.rows) if isinstance(row, Word))
         parameter = panel.rows[panel.chosen].parameter
         player.key(pygame.K_RIGHT, pygame.KMOD_CTRL)
         after = player.game.session.value(parameter.key)
