@@ -11,6 +11,7 @@ from sandbox.engine import simulate, simulate_many
 from sandbox.engine.accuracy import LEVELS, Accuracy, resolve
 from sandbox.engine.run import Run
 from sandbox.engine.setup import Ball, Segment, Setup, Surface
+from sandbox.lab import timing
 from sandbox.lab import trade as lab
 from sandbox.physics.coefficients import Constant
 from sandbox.physics.forces import Drag, Gravity
@@ -79,7 +80,7 @@ def test_finer_means_half_the_step_for_each_order():
 def test_trade_measures_it(monkeypatch: pytest.MonkeyPatch):
     monkeypatch.setattr(lab, "RATES", (60, 240))
     monkeypatch.setattr(lab, "TOLERANCES", (1e-1, 1e-3))
-    monkeypatch.setattr(lab, "_REPEATS", 1)
+    monkeypatch.setattr(timing, "REPEATS", 1)
     monkeypatch.setattr(lab, "ablation", lambda reference: [])
     monkeypatch.setattr(lab, "shot_map", lambda scene: None)
     points = lab.trade(load("basketball")).points
