@@ -413,12 +413,13 @@ def test_unreadable_files_are_refused(tmp_path):
 
 def test_walk_gives_each_parameter_with_its_declaration():
     found = {parameter.key: parameter for parameter in walk(Parameters())}
-    assert found["launch.speed"][1:] == (76.44, "m/s", 0.0, 340.0, (), "ball speed after impact")
+    assert found["launch.speed"][1:] == (76.44, "m/s", 0.0, 340.0, (), "ball speed after impact", False)
     assert found["air.wind"].value == (0.0, 0.0)
     assert found["ball.drag.velocity"].choices == ("air", "ground")
     assert "ball.drag.critical" in found
     assert "ball.drag.coefficient" not in found
     assert found["accuracy.method"].choices == ("exact", "plain")
+    assert found["accuracy.method"].optional is False
 
 
 def test_every_walked_key_is_a_known_key():
