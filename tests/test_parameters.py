@@ -419,7 +419,7 @@ def test_walk_gives_each_parameter_with_its_declaration():
     assert "ball.drag.critical" in found
     assert "ball.drag.coefficient" not in found
     assert found["accuracy.method"].choices == ("exact", "plain")
-    assert found["accuracy.method"].optional is False
+    assert found["accuracy.method"].optional
 
 
 def test_every_walked_key_is_a_known_key():
