@@ -445,20 +445,23 @@ class View(Generic[P]):
     def trails(self, sheet: Sheet, camera: Camera, t: float) -> None:
         """Where the balls have been: a thin line, and a thick one of late; kept out of the header."""
         sheet.surface.set_clip((0, sheet.top_row, *self.size))
-        for name, path in self.paths.items():
-            colour, here = self.colour_of(name), self.run.state(name, t)[:2]
+        for name in self.paths:
             if t <= self.told:
                 times, places = self._track(name, camera)
-                earlier = self.spots(camera, np.vstack([places[: np.searchsorted(times, t)], here]), 0.0)
+                been = np.vstack([places[: np.searchsorted(times, t)], self.run.state(name, t)[:2]])
+                earlier = self.spots(camera, been, 0.0)
                 sheet.painter.thread(earlier, self.unit, self.faint_of(name))
-            first, last = np.searchsorted(path.samples[:, 0], (t - self.TRAIL, t))
-            if first == last:
-                continue  # at rest
-            late = self.spots(camera, np.vstack([path.points[first:last], here]), 0.0)
-            if np.ptp(late, axis=0).max() > 2:
-                width = 1.1 * max(self.radii[name] * camera.scale, self.least)
-                sheet.painter.fading(late[apart(late, 2.0)], width, colour, 0.9)
+            self.trail(sheet.painter, camera, name, t)
         sheet.surface.set_clip(None)
+
+    def trail(self, painter: Painter, camera: Camera, name: str, t: float) -> None:
+        """Where a ball has been of late, at time t in s."""
+        path = self.paths[name]
+        first, last = np.searchsorted(path.samples[:, 0], (t - self.TRAIL, t))
+        late = self.spots(camera, np.vstack([path.points[first:last], self.run.state(name, t)[:2]]), 0.0)
+        if np.ptp(late, axis=0).max() > 2:
+            width = 1.1 * max(self.radii[name] * camera.scale, self.least)
+            painter.fading(late[apart(late, 2.0)], width, self.colour_of(name), 0.9)
 
     def _track(self, name: str, camera: Camera) -> tuple[np.ndarray, np.ndarray]:
         """Times (s) and places (m) along a ball's path that can be told apart; kept while the scale is similar."""

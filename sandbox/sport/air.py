@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from collections.abc import Mapping
+from typing import ClassVar, Literal
 
 from sandbox.parameters import Group, choice, quantity, vector
 from sandbox.physics.air import LogWind, UniformWind
@@ -41,6 +42,16 @@ class Model(Group):
     def coefficient_law(self) -> Coefficient | None:
         """The coefficient as a function of Reynolds number and spin ratio; None for no force."""
         return None
+
+
+class Measured(Model):
+    """A model of the coefficient as it was measured on a sport's own ball: one of its ``LAWS``, by name."""
+
+    LAWS: ClassVar[Mapping[str, Coefficient]]
+    model: str
+
+    def coefficient_law(self) -> Coefficient:
+        return self.LAWS[self.model]
 
 
 class Lift(Model):

@@ -6,7 +6,8 @@ from collections.abc import Sequence
 from math import pi
 from typing import Protocol
 
-from sandbox.engine.setup import HOLLOW_SPHERE, Ball, Force, Vector
+from sandbox.engine.setup import HOLLOW_SPHERE, Ball, Force, Surface, Vector
+from sandbox.engine.touch import Obstacle
 from sandbox.parameters import Group, quantity
 from sandbox.physics.coefficients import Scaled
 from sandbox.physics.elementwise import cos, sin
@@ -76,6 +77,14 @@ def forces_in_flight(ball: Flying, air: Air, gravity: float = 0.0, lift_share: f
         along_ground = isinstance(ball.lift, Lift) and ball.lift.velocity == "ground"
         forces.append(Magnus(ball.radius, air.density, lift, *about, along_ground=along_ground))
     return forces
+
+
+def height_on(surfaces: Sequence[Surface], radius: float, x: float = 0.0, above: float = 0.0) -> float:
+    """Height in m of the centre of a ball that lies on surfaces at x, found from ``above`` m down to 1e-12 m."""
+    obstacles, y = [Obstacle(surface, radius) for surface in surfaces], above + radius
+    while (gap := min(obstacle.near(x, y).gap for obstacle in obstacles)) > 1e-12:
+        y -= gap  # it cannot have reached anything on that way
+    return y
 
 
 def launched_ball(

@@ -1,81 +1,120 @@
-"""Drawing of stand, board and ring; the net is in its own file."""
+"""Stand, board, ring and net. The net is drawn apart from the physics: it yields to the ball and swings after it."""
 
 from __future__ import annotations
 
-from math import pi, tau
+from functools import lru_cache
+from math import cos, exp, pi, sin, tau
 
 import numpy as np
 
+from sandbox.engine.run import Run
 from sandbox.picture.depth import Eye
 from sandbox.picture.painter import Painter
-from sandbox.picture.palette import Colour, mix, palette, scene_colours
+from sandbox.picture.palette import mix, palette, scene_colours
+from sandbox.picture.places import Post, Shape, Thing
 
 from .scene import Parameters, board, rims
 
 COLOURS, SHADOW = scene_colours(__file__)["hoop"], palette("card")["shadow"]
 
-#: Width of the board, and size and height of the square on it, in m.
-BOARD_WIDTH, SQUARE_WIDTH, SQUARE_HEIGHT = 1.83, 0.61, 0.46
+#: Half the width of the board and of the square on it, and the square's height, in m.
+BOARD, SQUARE, SQUARE_HEIGHT = 0.915, 0.305, 0.46
+#: Strands around the ring, knots on each, and the width of the net's lower end over that of the ring.
+STRANDS, KNOTS, NARROW = 11, 9, 0.56
+#: After the ball has left, the net swings at this rate (rad/s) and settles at this rate (1/s), until its swing has fallen
+#: to exp(-SETTLED).
+SWING, SETTLE, SETTLED = 11.0, 3.0, 5.0
 
 
-class Stand:
-    """What carries the board."""
-
-    def __init__(self, parameters: Parameters):
-        _, self.bottom, self.back, self.top = board(parameters)
-
-    def draw(self, painter: Painter, eye: Eye, near: bool) -> None:
-        if near:
-            return
-        scale = eye.camera.scale
-        foot, head = self.back + 1.45, self.back + 0.95  # m, the mast leans towards the ring
-        height = self.top - self.bottom
-        top = self.bottom + 0.30 * height
-
-        def line(a: tuple[float, float], b: tuple[float, float], width: float, colour: Colour) -> None:
-            painter.line([eye.point(*a), eye.point(*b)], width * scale, colour)
-
-        painter.shadow(eye.point(foot + 0.1, 0.0), 0.9 * scale, 0.07 * scale, SHADOW, 0.4)
-        line((foot + 0.75, 0.25), (head + 0.02, top), 0.08, COLOURS["strut"])
-        for share in (0.15, 0.55):
-            line((self.back, self.bottom + share * height), (head, top - 0.06), 0.06, COLOURS["stand"])
-        line((foot, 0.2), (head, top), 0.16, COLOURS["stand"])
-        sides = ((-0.62, 0.0), (-0.55, 0.36), (0.95, 0.36), (0.95, 0.0))
-        painter.polygon([eye.point(foot + x, y) for x, y in sides], COLOURS["stand"])
+def stand(parameters: Parameters) -> list[Thing]:
+    """What carries the board: a mast that leans towards the ring, on a heavy foot."""
+    _, bottom, back, top = board(parameters)
+    foot, head, height = back + 1.45, back + 0.95, top - bottom
+    up = bottom + 0.30 * height
+    bars = [((foot + 0.75, 0.25), (head + 0.02, up), 0.04, "strut"), ((foot, 0.2), (head, up), 0.08, "stand")]
+    bars += [((back, bottom + share * height), (head, up - 0.06), 0.03, "stand") for share in (0.15, 0.55)]
+    base = [(foot + x, y, 0.0) for x, y in ((-0.62, 0.0), (-0.55, 0.36), (0.95, 0.36), (0.95, 0.0))]
+    posts = [Post([(*a, 0.0), (*b, 0.0)], radius, COLOURS[part]) for a, b, radius, part in bars]
+    return [*posts, Shape(base, COLOURS["stand"])]
 
 
-class Hoop:
+def hoop(parameters: Parameters) -> list[Thing]:
     """The glass board with its square, and the ring, whose near half is in front of the ball."""
+    face, bottom, _, top = board(parameters)
+    (front, height), (back, _) = rims(parameters)
+    middle, radius, tube = (front + back) / 2, (back - front) / 2, parameters.hoop.tube_radius
+    low = max(bottom, height)
+    high, shaded = max(low, min(top, low + SQUARE_HEIGHT)), mix(COLOURS["ring"], SHADOW, 0.35)
+    glass, square = (
+        [(face, y, z) for y, z in ((down, -half), (down, half), (up, half), (up, -half), (down, -half))]
+        for down, up, half in ((bottom, top, BOARD), (low, high, SQUARE))
+    )
+    behind, before = (
+        [(middle + radius * cos(turn), height, radius * sin(turn)) for turn in np.linspace(start, start + pi, 33)]
+        for start in (0.0, pi)
+    )
+    return [
+        Shape(glass, COLOURS["glass"], 0.30),
+        *(Post(edge, 0.011, COLOURS["edge"]) for edge in (glass, square)),
+        Post([(back, height, 0.0), (face, height, 0.0)], tube, shaded),
+        Post(behind, tube, shaded),
+        Post(before, tube, COLOURS["ring"], near=True),
+    ]
 
-    def __init__(self, parameters: Parameters):
-        self.face, self.bottom, _, self.top = board(parameters)
-        (front, self.height), self.back = rims(parameters)
-        self.middle, self.radius = (front + self.back[0]) / 2, (self.back[0] - front) / 2
-        self.tube = parameters.hoop.tube_radius
 
-    def draw(self, painter: Painter, eye: Eye, near: bool) -> None:
-        tube = max(2.4 * eye.unit, 2 * self.tube * eye.camera.scale)
-        if near:
-            painter.line(self._ring(eye, pi, tau), tube, COLOURS["ring"])
-            return
-        thin = max(1.2 * eye.unit, 0.022 * eye.camera.scale)
-        glass = self._on_board(eye, self.bottom, self.top, BOARD_WIDTH / 2)
-        painter.polygon(glass, COLOURS["glass"], 0.30)
-        low = max(self.bottom, self.height)
-        square = self._on_board(eye, low, max(low, min(self.top, low + SQUARE_HEIGHT)), SQUARE_WIDTH / 2)
-        for corners in (glass, square):
-            painter.lines([[*corners, *corners[:2]]], thin, COLOURS["edge"], 0.92)
-        colour = mix(COLOURS["ring"], SHADOW, 0.35)
-        painter.line([eye.point(*self.back), eye.point(self.face, self.height)], 0.9 * tube, colour)
-        painter.line(self._ring(eye, 0.0, pi), tube, colour)
+class Net:
+    """The net of one shot, at any time of it."""
 
-    def _on_board(self, eye: Eye, bottom: float, top: float, half: float) -> np.ndarray:
-        """Corners in px of a rectangle on the board's face, ``half`` m to either side of the plane of play."""
-        corners = ((bottom, -half), (bottom, half), (top, half), (top, -half))
-        return eye.points(np.array([(self.face, y, z) for y, z in corners]))
+    def __init__(self, run: Run, parameters: Parameters):
+        self.run = run
+        (front, self.top), (back, _) = rims(parameters)
+        self.middle, self.wide = (front + back) / 2, (back - front) / 2
+        self.length, self.radius = parameters.net.length, parameters.ball.radius
+        self._lines = lru_cache(maxsize=8)(self._strings)  # the same as long as net and camera rest
+        self.entered, self.left = self._passage() if run.result["made"] else (np.inf, np.inf)
 
-    def _ring(self, eye: Eye, start: float, end: float) -> np.ndarray:
-        """A part of the ring in px, from one angle to another; from 0 to pi it lies behind the plane of play."""
-        turn = np.linspace(start, end, 33)
-        x, z = self.middle + self.radius * np.cos(turn), self.radius * np.sin(turn)
-        return eye.points(np.column_stack([x, np.full(33, self.height), z]))
+    def _passage(self) -> tuple[float, float]:
+        """When the ball enters the net for the last time, and when it leaves it below, in s."""
+        floor = next((event.t for event in self.run.events if event.partner == "floor"), self.run.duration)
+        into = [t for t, _ in self.run.crossings("ball", (0.0, self.top), (0.0, 1.0)) if t <= floor]
+        end = self.top - self.length - 0.5 * self.radius
+        out = (t for t, _ in self.run.crossings("ball", (0.0, end), (0.0, 1.0)) if t > into[-1])
+        return into[-1], next(out, floor)
+
+    @property
+    def fullest(self) -> float:
+        """A time in s at which the ball is well inside the net, or one at which the net is at rest."""
+        return self.entered + 0.4 * (self.left - self.entered) if self.left < np.inf else 0.0
+
+    def draw(self, painter: Painter, eye: Eye, near: bool, t: float) -> None:
+        """The half in front of the ball or the one behind it, at time t in s."""
+        width = max(0.9 * eye.unit, 0.012 * eye.camera.scale)
+        lines = self._lines(eye, near, t if self.entered < t <= self.left + SETTLED / SETTLE else 0.0)
+        painter.lines(lines, width, COLOURS["net"], 0.75 if near else 0.3)
+
+    def _strings(self, eye: Eye, near: bool, t: float) -> np.ndarray:
+        """Their ends in px, shape (n, 2, 2)."""
+        down = np.linspace(0, 1, KNOTS)
+        aside, wide = self._shape(down, t)
+        strand = np.arange(2 * STRANDS)[:, None]
+        turn = strand // 2 / STRANDS * tau + (-1) ** strand * down * (KNOTS - 1) * pi / STRANDS
+        x, y, z = self.middle + aside + wide * np.cos(turn), self.top - self.length * down, wide * np.sin(turn)
+        places = np.stack([x, np.broadcast_to(y, x.shape), z], axis=-1)
+        points = eye.points(places.reshape(-1, 3)).reshape(*turn.shape, 2)
+        seen = (np.sin(turn) < 0) == near
+        return np.stack([points[:, :-1], points[:, 1:]], axis=2)[seen[:, :-1] | seen[:, 1:]]
+
+    def _shape(self, down: np.ndarray, t: float) -> tuple[np.ndarray, np.ndarray]:
+        """How far the net is displaced and how wide it is, in m, at shares ``down`` of its length below the ring."""
+        wide = self.wide * (1 - (1 - NARROW) * down**0.7)
+        if t == 0.0:
+            return 0.0 * down, wide
+        x, y, *_ = self.run.state("ball", min(t, self.left))
+        depth = max(0.05, (self.top - y) / self.length)
+        pushed = 0.7 * (x - self.middle) * np.where(down < depth, down / depth, 1 - 0.5 * (down - depth))
+        if t <= self.left:
+            around = np.sqrt(np.maximum(0.0, self.radius**2 - ((down - depth) * self.length) ** 2))
+            return pushed, np.maximum(wide, around * np.minimum(1.0, 6 * down))
+        after = t - self.left
+        swing = exp(-SETTLE * after)
+        return pushed * swing * cos(SWING * after), wide * (1 + 0.3 * down * swing * sin(1.7 * SWING * after))

@@ -22,8 +22,7 @@ from sandbox.picture.sheet import Entry, Sheet
 from sandbox.picture.side import Length, Place, SideView
 from sandbox.sport.amounts import metres, roughly, times
 
-from .hoop import Hoop, Stand
-from .net import Net
+from .hoop import Net, hoop, stand
 from .scene import Parameters, board
 
 CARD, COLOURS = palette("card"), scene_colours(__file__)
@@ -93,7 +92,7 @@ class Picture(SideView[Parameters]):
     def hoop(self) -> Group:
         """Ring, board and stand."""
         height = max(self.ring[1], self.parameters.backboard.top)
-        return Group(self.ring[0], [Stand(self.parameters), Hoop(self.parameters)], height, LEAST_HEIGHT)
+        return Group(self.ring[0], [*stand(self.parameters), *hoop(self.parameters)], height, LEAST_HEIGHT)
 
     @property
     def thrower(self) -> list[Person]:
@@ -123,23 +122,17 @@ class Picture(SideView[Parameters]):
         return Place(Hall(**COLOURS["hall"]), ground, [self.hoop, *self.thrower])
 
     def behind(self, painter: Painter, camera: Camera, t: float) -> None:
-        self.net.draw(painter, self._eye_of_hoop(camera), False, t)
+        self.net.draw(painter, self.hoop.eye(self.eye(camera)), False, t)
 
     def before(self, painter: Painter, camera: Camera, t: float) -> None:
-        self.net.draw(painter, self._eye_of_hoop(camera), True, t)
+        self.net.draw(painter, self.hoop.eye(self.eye(camera)), True, t)
         super().before(painter, camera, t)
-
-    def _eye_of_hoop(self, camera: Camera) -> Eye:
-        eye = self.eye(camera)
-        return eye.enlarged(self.ring[0], self.hoop.enlarged(eye))
 
     def remarks(self, camera: Camera) -> list[str]:
         distance, factor = self.ring[0], self.hoop.enlarged(self.eye(camera))
         if not 0 < camera.pixel(distance, 0)[0] < self.size[0]:
             return [f"the ring is {roughly(distance)} away"]
         return [f"ring and board drawn {times(factor)} their size"] if factor > 1 else []
-
-    # What is shown
 
     @property
     def company(self) -> Box:
@@ -149,29 +142,6 @@ class Picture(SideView[Parameters]):
     def target(self) -> Box:
         face, _, back, top = board(self.parameters)
         return Box(face, 0.0, back + STAND, top)
-
-    @cached_property
-    def camera(self) -> Camera:
-        """Leaves room for the lens if there is one."""
-        return self._beside_lens if self.has_lens else self.fitted(self.area)
-
-    @cached_property
-    def _beside_lens(self) -> Camera:
-        right = self.lens.left - 24 * self.unit
-        return self.fitted(self.area._replace(left=0.06 * self.size[0], right=right))
-
-    @cached_property
-    def has_lens(self) -> bool:
-        """Whether the ball comes to the ring, and the picture shows that from near by."""
-        alone, beside = self.fitted(self.area), self._beside_lens
-        near = np.abs(self.path.points - self.ring).max(axis=1).min() < 0.45 * LENS_VIEW
-        large = beside.scale >= LEAST_SHRINK * alone.scale and self._lens_factor(beside) > LEAST_LENS
-        return bool(near and large)
-
-    @cached_property
-    def columns(self) -> tuple[float, float]:
-        low, high = super().columns
-        return low, min(high, self.lens.left - 40 * self.unit) if self.has_lens else high
 
     def lengths(self) -> list[Length]:
         """From the release to the ring."""
@@ -188,74 +158,84 @@ class Picture(SideView[Parameters]):
             sheet.labels.take(self.lens)
 
     def impacts(self, camera: Camera) -> list[Mark]:
-        """Without those that the lens shows."""
-        return [mark for mark in super().impacts(camera) if not (self.has_lens and self._in_lens(mark.at))]
+        """Those that this camera shows; the rest are in the lens."""
+        marks = super().impacts(camera)
+        return [mark for mark in marks if self._in_lens(mark) == (camera == self.near)] if self.has_lens else marks
 
-    # The lens
+    # The lens: the ring from near by
 
     @cached_property
     def lens(self) -> pygame.Rect:
-        """Where the lens is, in px."""
+        """Where it is, in px."""
         side, frame = round(LENS * self.unit), self.sheet.frame
         return pygame.Rect(frame.right - side, frame.top, side, side)
 
-    def _lens_factor(self, camera: Camera) -> float:
-        return self.lens.width / LENS_VIEW / camera.scale
+    @cached_property
+    def near(self) -> Camera:
+        """Its camera."""
+        return Camera((self.ring[0] - 0.02, self.ring[1] + 0.08), self.lens.center, self.lens.width / LENS_VIEW)
+
+    def eye(self, camera: Camera) -> Eye:
+        if camera != self.near:
+            return super().eye(camera)
+        eye = super().eye(self.camera)  # the same eye sees what is in the lens
+        centre, level = camera.pixel(*self.camera.world(eye.centre, eye.level))
+        return replace(eye, camera=camera, centre=centre, level=level)
 
     @cached_property
-    def _lens_eye(self) -> Eye:
-        """Sees the ring and what is around it as the eye does, in the lens."""
-        eye = self.eye(self.camera)
-        factor, middle = self._lens_factor(self.camera), (self.ring[0] - 0.02, self.ring[1] + 0.08)
-        (px, py), (ax, ay) = self.camera.pixel(*middle), self.lens.center
-        camera = Camera(middle, (ax, ay), self.camera.scale * factor)
-        return replace(eye, camera=camera, centre=ax + (eye.centre - px) * factor, level=ay + (eye.level - py) * factor)
+    def camera(self) -> Camera:
+        """Leaves room for the lens if there is one."""
+        return self._beside_lens if self.has_lens else self.fitted(self.area)
 
-    def _in_lens(self, point: tuple[float, float], beyond: float = 0.0) -> bool:
-        """Whether a place in m is seen in the lens, or no more than ``beyond`` m outside it."""
-        return bool(np.abs(np.subtract(point, self.ring)).max() < LENS_VIEW / 2 + beyond)
+    @cached_property
+    def _beside_lens(self) -> Camera:
+        right = self.lens.left - 24 * self.unit
+        return self.fitted(self.area._replace(left=0.06 * self.size[0], right=right))
+
+    @cached_property
+    def has_lens(self) -> bool:
+        """Whether the ball comes to the ring, and the picture shows that from near by."""
+        alone, beside = self.fitted(self.area).scale, self._beside_lens.scale
+        comes = np.abs(self.path.points - self.ring).max(axis=1).min() < 0.45 * LENS_VIEW
+        return bool(comes and beside >= LEAST_SHRINK * alone and self.near.scale > LEAST_LENS * beside)
+
+    def _in_lens(self, mark: Mark) -> bool:
+        return bool(np.abs(np.subtract(mark.at, self.ring)).max() < LENS_VIEW / 2)
+
+    @cached_property
+    def columns(self) -> tuple[float, float]:
+        low, high = super().columns
+        return low, min(high, self.lens.left - 40 * self.unit) if self.has_lens else high
 
     def inset(self, sheet: Sheet, camera: Camera, t: float | None) -> pygame.Rect | None:
-        """The ring from near by, unless that would hide the ring itself: how the ball came, what it touched."""
+        """The lens, unless it would hide the ring itself: how the ball comes, and on the poster what it touches."""
         if not self.has_lens or (t is not None and self._under_lens(camera)):
             return None
-        eye, painter, hoop = self._lens_eye, sheet.painter, self.hoop.things[1]
-        moment = self.moment if t is None else t
+        near, painter, moment = self.near, sheet.painter, self.moment if t is None else t
         corners = around_corners(sheet.surface, self.lens, 10 * self.unit)
         sheet.surface.fill(COLOURS["lens"], self.lens)
         sheet.surface.set_clip(self.lens)
-        hoop.draw(painter, eye, False)
-        self.net.draw(painter, eye, False, moment)
+        self.hoop.draw(painter, self.eye(near), False)
+        self.behind(painter, near, moment)
+        outside, sheet.labels = sheet.labels, Labels(self.lens.inflate(-2 * sheet.gap, -2 * sheet.gap), sheet.gap)
         if t is None:
-            outside, sheet.labels = sheet.labels, Labels(self.lens.inflate(-2 * sheet.gap, -2 * sheet.gap), sheet.gap)
-            points = eye.camera.pixels(self.path.points)
+            points = near.pixels(self.path.points)
             seen = np.flatnonzero(np.abs(points - self.lens.center).max(axis=1) < self.lens.width)
             draw_trace(sheet, points[seen[0] : seen[-1] + 1], self.TRACE)
-            self._entry(sheet, eye.camera)
+            self._entry(sheet)
         else:
-            self._ball_in_lens(painter, eye.camera, t)
-        self.net.draw(painter, eye, True, moment)
-        hoop.draw(painter, eye, True)
+            self.trail(painter, near, self.ball, t)
+            self.draw_ball(painter, near, self.ball, t, *self._placed(near, t, 1.0)[self.ball])
+        self.before(painter, near, moment)
         if t is None:
-            mark_impacts(sheet, eye.camera, [mark for mark in super().impacts(camera) if self._in_lens(mark.at)])
+            mark_impacts(sheet, near, self.impacts(near))
             corner = self.lens.left + 2 * sheet.gap, self.lens.bottom - 1.6 * sheet.gap
-            sheet.label(f"{self._lens_factor(self.camera):.1f}×", "small", [(*corner, "bottomleft")], CARD["quiet"])
-            sheet.labels = outside
+            larger = f"{near.scale / self.camera.scale:.1f}×"
+            sheet.label(larger, "small", [(*corner, "bottomleft")], CARD["quiet"])
+        sheet.labels = outside
         sheet.surface.set_clip(None)
         sheet.surface.blit(corners, self.lens)
         return self.lens
-
-    def _ball_in_lens(self, painter: Painter, camera: Camera, t: float) -> None:
-        """The ball and its trail at time t in s."""
-        x, y = self.run.state(self.ball, t)[:2]
-        if not self._in_lens((x, y), self.radius):
-            return
-        moments = np.linspace(max(0.0, t - self.TRAIL), t, 25)
-        points = camera.pixels(np.array([self.run.state(self.ball, s)[:2] for s in moments]))
-        if np.ptp(points, axis=0).max() > 2:
-            painter.fading(points, 8 * self.unit, self.TRACE, 0.9)
-        radius = self.radius * camera.scale
-        self.LOOK.draw(painter, camera.pixel(x, y), radius, self.turn(self.ball, t), self.unit)
 
     def _under_lens(self, camera: Camera) -> bool:
         """Whether the lens would hide the ring and board that it shows: the camera has gone along with the ball."""
@@ -263,31 +243,27 @@ class Picture(SideView[Parameters]):
         (left, high), (right, low) = camera.pixel(self.ring[0] - 0.6, top), camera.pixel(back + 1.0, bottom)
         return bool(self.lens.colliderect((round(left), round(high), round(right - left), round(low - high))))
 
-    def _entry(self, sheet: Sheet, camera: Camera) -> None:
+    def _entry(self, sheet: Sheet) -> None:
         """The ball as it comes to the ring, and the angle at which it does."""
         t, angle = self.run.result["flight_time"], self.run.result["entry_angle"]
         if t is None:
             return
         x, y, vx, vy, _ = self.run.before("ball", t)
-        px, py = camera.pixel(x, y)
-        unit, radius = self.unit, self.radius * camera.scale
-        side = -1 if vx > 0 else 1
-        far = radius + 26 * unit
-        turn = np.linspace(0, atan2(-vy, abs(vx)), 25)
-        if self.lens.collidepoint(px + side * far, py) and angle > 5:
-            anchor, middle = "midright" if side < 0 else "midleft", turn[-1] / 2
-            spots = [
-                (px + side * (far + out * unit) * cos(middle), py - (far + out * unit) * sin(middle), anchor)
-                for out in (6, 12, 20, 30)
-            ]
-            if sheet.label(f"{angle:.1f}°", "small", spots, CARD["accent"], bold=True):
-                level = [(px, py), (px + side * (far + 8 * unit), py)]
-                sheet.painter.dashes(level, 1.3 * unit, CARD["accent"], 4 * unit, 4 * unit)
-                arc = np.column_stack([px + side * far * np.cos(turn), py - far * np.sin(turn)])
-                sheet.painter.line(arc, 1.8 * unit, CARD["accent"])
-                sheet.labels.take_path(arc, 2 * unit)
+        (px, py), unit, accent, side = self.near.pixel(x, y), self.unit, CARD["accent"], -1 if vx > 0 else 1
+        radius = self.radius * self.near.scale
+        far, turn = radius + 26 * unit, np.linspace(0, atan2(-vy, abs(vx)), 25)
+        across, down = side * cos(turn[-1] / 2), -sin(turn[-1] / 2)
+        anchor = "midright" if side < 0 else "midleft"
+        spots = [(px + across * (far + out * unit), py + down * (far + out * unit), anchor) for out in (6, 12, 20, 30)]
+        shown = self.lens.collidepoint(px + side * far, py) and angle > 5
+        if shown and sheet.label(f"{angle:.1f}°", "small", spots, accent, bold=True):
+            level = [(px, py), (px + side * (far + 8 * unit), py)]
+            sheet.painter.dashes(level, 1.3 * unit, accent, 4 * unit, 4 * unit)
+            arc = np.column_stack([px + side * far * np.cos(turn), py - far * np.sin(turn)])
+            sheet.painter.line(arc, 1.8 * unit, accent)
+            sheet.labels.take_path(arc, 2 * unit)
         self.LOOK.draw(sheet.painter, (px, py), radius, self.turn("ball", t), unit)
-        sheet.labels.take(pygame.Rect(round(px - radius), round(py - radius), round(2 * radius), round(2 * radius)))
+        sheet.labels.take_path([(px, py)], radius)
 
 
 def _markings(ring: float, throw: float, end: float) -> list[Line]:

@@ -18,7 +18,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import pairwise
-from math import hypot
 from typing import Any
 
 from sandbox.engine.run import Event, Run
@@ -33,8 +32,7 @@ from sandbox.sport.controls import Controls, Spin, Spread
 from sandbox.sport.facts import ENDED, Fact, once
 from sandbox.sport.flight import Launch, Sphere, forces_in_flight, launched_ball
 from sandbox.sport.readings import LAUNCH, Moment, at, before
-
-# --------------------------------------------------------------------------------------------------------- parameters
+from sandbox.sport.room import Solid, check_room, disc, ground
 
 
 class Release(Group):
@@ -110,8 +108,6 @@ CONTROLS = Controls(
     spread=(Spread("launch.speed", 0.01), Spread("launch.angle", least=1.0), Spread("launch.spin", 0.2)),  # assumed
 )
 
-# -------------------------------------------------------------------------------------------------------------- build
-
 #: A shot still moving after this time in s is ended.
 LONGEST = 60.0
 
@@ -145,11 +141,11 @@ class NetDrag:
     half_width: float  # m
     length: float  # m
 
-    @classmethod
-    def patch(cls, middle: Vector, half_width: float, length: float) -> Patch:
+    @property
+    def patch(self) -> Patch:
         """Where it acts: no integration step may skip it."""
-        (x, y), aside = middle, half_width + cls.EDGE
-        return Patch(x - aside, y - length, x + aside, y, step=0.02)
+        (x, y), aside = self.middle, self.half_width + self.EDGE
+        return Patch(x - aside, y - self.length, x + aside, y, step=0.02)
 
     def __call__(self, t: float, position: Any, velocity: Any, spin: Any) -> tuple[Any, Any]:
         x, y = position
@@ -173,11 +169,11 @@ def build(parameters: Parameters) -> Setup:
     _check(parameters)
     ball, hoop, net = parameters.ball, parameters.hoop, parameters.net
     forces = forces_in_flight(ball, parameters.air, parameters.gravity)
-    middle, half_width = (hoop.distance, hoop.height), 0.5 * hoop.inner_diameter
+    drag = NetDrag(ball.mass, net.damping, (hoop.distance, hoop.height), 0.5 * hoop.inner_diameter, net.length)
     if net.slows:
-        forces.append(NetDrag(ball.mass, net.damping, middle, half_width, net.length))
+        forces.append(drag)
     shot = launched_ball(parameters.launch, ball, (0.0, parameters.release.height), forces)
-    patches = [NetDrag.patch(middle, half_width, net.length)] if net.slows else []
+    patches = [drag.patch] if net.slows else []
     return Setup([shot], _court(parameters), duration=LONGEST, until=_is_tired, patches=patches)
 
 
@@ -200,37 +196,19 @@ def board(parameters: Parameters) -> tuple[float, float, float, float]:
 
 
 def _check(parameters: Parameters) -> None:
-    hoop, backboard, radius = parameters.hoop, parameters.backboard, parameters.ball.radius
-    height = parameters.release.height
-    release = f"release.height = {height:g} m with ball.radius = {radius:g} m"
-    if height < radius:
-        raise RequestError(f"{release} puts the ball into the floor: release it higher")
+    """Raise RequestError for what is upside down, or in something else."""
+    hoop, backboard = parameters.hoop, parameters.backboard
     if backboard.top <= backboard.bottom:
         raise RequestError(
             f"backboard.top = {backboard.top:g} m is not above backboard.bottom = {backboard.bottom:g} m: swap them"
         )
-    if backboard.gap < 2.0 * hoop.tube_radius:
-        raise RequestError(
-            f"backboard.gap = {backboard.gap:g} m has no room for the back of the ring, "
-            f"whose hoop.tube_radius is {hoop.tube_radius:g} m: they overlap"
-        )
-    if hoop.height < hoop.tube_radius:
-        raise RequestError(
-            f"hoop.height = {hoop.height:g} m puts the ring into the floor, "
-            f"as its hoop.tube_radius is {hoop.tube_radius:g} m: raise it"
-        )
-    left, bottom, right, top = board(parameters)
-    aside, above = max(left, -right, 0.0), max(bottom - height, height - top, 0.0)
-    if hypot(aside, above) < radius:
-        raise RequestError(
-            f"{release} is inside the backboard, which reaches from backboard.bottom = {bottom:g} m to "
-            f"backboard.top = {top:g} m at hoop.distance = {hoop.distance:g} m: release it further away"
-        )
-    if any(hypot(x, y - height) < radius + hoop.tube_radius for x, y in rims(parameters)):
-        raise RequestError(
-            f"{release} puts the ball on the ring, at hoop.height = {hoop.height:g} m and "
-            f"hoop.distance = {hoop.distance:g} m: release it further away"
-        )
+    place, tube = ("hoop.distance", "hoop.height", "hoop.tube_radius"), hoop.tube_radius
+    front, back = (disc("the ring", place, *rim, tube) for rim in rims(parameters))
+    glass = Solid("the board", ("backboard.gap", "backboard.bottom", "backboard.top"), *board(parameters))
+    release = ("release.height", "ball.radius")
+    ball = disc("the ball", release, 0.0, parameters.release.height, parameters.ball.radius)
+    for solids in ((ball, front, glass), (ball, back, glass), (ball, front, ground("the floor"))):
+        check_room(parameters, solids)
 
 
 def _court(parameters: Parameters) -> list[Surface]:
@@ -246,9 +224,6 @@ def _court(parameters: Parameters) -> list[Surface]:
         Surface("bracket", bracket, hoop.restitution, hoop.friction),
         *(Surface("backboard", Segment(a, b), backboard.restitution, backboard.friction) for a, b in pairwise(corners)),
     ]
-
-
-# -------------------------------------------------------------------------------------------------------------- facts
 
 
 @once

@@ -15,7 +15,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from math import hypot, inf, radians, sqrt
+from math import hypot, inf, radians
 from typing import Literal
 
 from sandbox.engine.run import Event, Run
@@ -24,14 +24,14 @@ from sandbox.errors import RequestError
 from sandbox.parameters import Accuracy, Group, choice, either, group, groups, quantity, vectors
 from sandbox.physics.club import Head, strike
 from sandbox.physics.club import Launch as Struck
-from sandbox.physics.coefficients import GOLF_DRAG, GOLF_LIFT, Coefficient
+from sandbox.physics.coefficients import GOLF_DRAG, GOLF_LIFT
 from sandbox.physics.forces import SpinDecay
 from sandbox.physics.turf import penner_bounce, penner_restitution, stimp_resistance
 from sandbox.sport.air import (
     ConstantDrag,
     ConstantLift,
     Lift,
-    Model,
+    Measured,
     NoDrag,
     NoLift,
     OutdoorAir,
@@ -41,7 +41,7 @@ from sandbox.sport.air import (
 from sandbox.sport.amounts import roughly
 from sandbox.sport.controls import Controls, Spin, Spread
 from sandbox.sport.facts import Fact, once
-from sandbox.sport.flight import RPM, Launch, Sphere, forces_in_flight, launched_ball
+from sandbox.sport.flight import RPM, Launch, Sphere, forces_in_flight, height_on, launched_ball
 from sandbox.sport.readings import BALL_SPEED, LAUNCH_ANGLE, LAUNCH_SPIN, Moment, at, before
 
 # ----------------------------------------------------------------------------------------------------------- parameters
@@ -62,15 +62,13 @@ class Club(Group):
     height: float = quantity(..., "m", -0.03, 0.03, "of the impact point above the centre of mass")
 
 
-class GolfDrag(Model):
+class GolfDrag(Measured):
     """Drag by a model of the golf ball."""
 
+    LAWS = GOLF_DRAG
     model: Literal["tour-fit", "smits-smith", "lyu", "usga", "quadratic", "power-law"] = choice(
         ..., "drag coefficient by its source"
     )
-
-    def coefficient_law(self) -> Coefficient:
-        return GOLF_DRAG[self.model]
 
 
 class DimpledDrag(ConstantDrag):
@@ -79,15 +77,13 @@ class DimpledDrag(ConstantDrag):
     coefficient: float = quantity(0.25, "", 0, 10, "drag coefficient")
 
 
-class GolfLift(Lift):
+class GolfLift(Measured, Lift):
     """Lift by a model of the golf ball."""
 
+    LAWS = GOLF_LIFT
     model: Literal["tour-fit", "smits-smith", "lyu", "usga", "quadratic", "power-law"] = choice(
         ..., "lift coefficient by its source"
     )
-
-    def coefficient_law(self) -> Coefficient:
-        return GOLF_LIFT[self.model]
 
 
 class GolfBall(Sphere):
@@ -98,23 +94,25 @@ class GolfBall(Sphere):
     lift: GolfLift | SpinRatioLift | ConstantLift | NoLift = either(..., "Magnus lift")
 
 
-class Turf(Group):
-    """A kind of ground: how a ball bounces and rolls on it."""
+class Grass(Group):
+    """How a ball bounces on a kind of ground."""
 
     bounce: float = quantity(..., "", 0, 2, "restitution over that of Penner's green")
     friction: float = quantity(..., "", 0, 10, "friction of ball and ground")
     give: float = quantity(..., "", 0, 2, "how far it gives way under a bounce, over Penner's green")
+
+
+class Turf(Grass):
+    """A kind of ground."""
+
     resistance: float = quantity(..., "", 0, 10, "deceleration of a rolling ball over gravity")
 
 
-class Green(Group):
+class Green(Grass):
     """The green around the pin."""
 
     length: float = quantity(..., "m", 0, 200, "length, the pin in its middle")
     stimp: float = quantity(..., "m", 0.3, 12, "reading of a stimpmeter")
-    bounce: float = quantity(..., "", 0, 2, "restitution over that of Penner's green")
-    friction: float = quantity(..., "", 0, 10, "friction of ball and ground")
-    give: float = quantity(..., "", 0, 2, "how far it gives way under a bounce, over Penner's green")
 
 
 class Strip(Group):
@@ -201,20 +199,15 @@ def build(parameters: Parameters) -> Setup:
     """Ball, course, and the forces that this shot needs. Raises RequestError where the course makes no sense."""
     air, ball, course = parameters.air, parameters.ball, _course(parameters)
     forces = forces_in_flight(ball, air, parameters.gravity)
-    teed = launched_ball(parameters.launch, ball, (0.0, _resting_height(parameters, 0.0)), forces, SOLID_SPHERE)
+    tee = height_on(course, ball.radius, above=max(y for _, y in _line(parameters)))
+    teed = launched_ball(parameters.launch, ball, (0.0, tee), forces, SOLID_SPHERE)
     if parameters.start == "club":
         struck = _struck(parameters.club, ball)
         teed = replace(teed, velocity=(struck.vx, struck.vy), spin=struck.spin)
     if air.density > 0.0 and ball.spin_decay > 0.0:
         rate = ball.spin_decay * air.density / STANDARD_DENSITY
         teed = replace(teed, torques=[SpinDecay(teed.inertia, ball.radius, rate, wind_in(air))])
-    return Setup(
-        balls=[teed],
-        surfaces=course,
-        duration=LONGEST,
-        until=_is_in_water,
-        bounds=Bounds(-FAR, -FAR, FAR, FAR),
-    )
+    return Setup([teed], course, duration=LONGEST, until=_is_in_water, bounds=Bounds(-FAR, -FAR, FAR, FAR))
 
 
 def _struck(club: Club, ball: GolfBall) -> Struck:
@@ -234,17 +227,16 @@ def _is_in_water(event: Event) -> bool:
 # --------------------------------------------------------------------------------------------------------------- course
 
 
+def _line(parameters: Parameters) -> list[tuple[float, float]]:
+    """The ground's line, in m: level beyond the ends of what the file gives."""
+    points = parameters.ground.heights or [(0.0, 0.0)]
+    return [(-FAR, points[0][1]), *points, (FAR, points[-1][1])]
+
+
 def height(parameters: Parameters, x: float) -> float:
     """Height of the ground in m at x."""
-    points = parameters.ground.heights
-    if not points:
-        return 0.0
-    if x <= points[0][0]:
-        return points[0][1]
-    for (x0, y0), (x1, y1) in pairwise(points):
-        if x <= x1:
-            return y0 + (y1 - y0) * (x - x0) / (x1 - x0)
-    return points[-1][1]
+    (x0, y0), (x1, y1) = next(piece for piece in pairwise(_line(parameters)) if x <= piece[1][0])
+    return y0 + (y1 - y0) * (x - x0) / (x1 - x0)
 
 
 def kind_at(parameters: Parameters, x: float) -> str:
@@ -257,24 +249,9 @@ def kind_at(parameters: Parameters, x: float) -> str:
     return "fairway"
 
 
-def _resting_height(parameters: Parameters, x: float) -> float:
-    """Height in m of the centre of a ball that touches the ground from above, at x."""
-    radius, points = parameters.ball.radius, parameters.ground.heights
-    if not points:
-        return radius
-    line = [(-FAR, points[0][1]), *points, (FAR, points[-1][1])]
-    touching = [y0 + sqrt(radius**2 - (x - x0) ** 2) for x0, y0 in points if abs(x - x0) <= radius]
-    for (x0, y0), (x1, y1) in pairwise(line):
-        length = hypot(x1 - x0, y1 - y0)
-        tx, ty = (x1 - x0) / length, (y1 - y0) / length
-        along = (x - x0 + radius * ty) / tx
-        if 0.0 <= along <= length:
-            touching.append(y0 + along * ty + radius * tx)
-    return max(touching)
-
-
 def _course(parameters: Parameters) -> list[Surface]:
-    ground, pin = parameters.ground, parameters.pin
+    """The ground in pieces of one kind, and the cup."""
+    ground, pin, radius = parameters.ground, parameters.pin, parameters.ball.radius
     for (x0, _), (x1, _) in pairwise(ground.heights):
         if x1 <= x0:
             raise RequestError(f"ground.heights: x must grow from point to point, but {x1:g} m follows {x0:g} m")
@@ -283,27 +260,21 @@ def _course(parameters: Parameters) -> list[Surface]:
             raise RequestError(
                 f"ground.strips: the {strip.kind} from {strip.start:g} m to {strip.end:g} m has no length"
             )
-    half = 0.5 * pin.cup_width
-    left, right = pin.distance - half, pin.distance + half
-    if half > 0.0 and left < parameters.ball.radius and right > -parameters.ball.radius:
+    left, right = pin.distance - 0.5 * pin.cup_width, pin.distance + 0.5 * pin.cup_width
+    if left < right and left < radius and right > -radius:
         raise RequestError(f"pin.distance: the cup at {pin.distance:g} m is where the ball starts, at 0 m")
-    edges = {-FAR, FAR, left, right, *(x for x, _ in ground.heights)}
-    for strip in ground.strips:
-        edges |= {strip.start, strip.end}
-    edges |= {pin.distance - 0.5 * ground.green.length, pin.distance + 0.5 * ground.green.length}
-    surfaces = []
-    if half > 0.0:
-        top_left, top_right = height(parameters, left), height(parameters, right)
-        bottom = min(top_left, top_right) - pin.cup_depth
-        corners = [(left, top_left), (left, bottom), (right, bottom), (right, top_right)]
-        surfaces += [Surface("cup", Segment(a, b), *CUP) for a, b in pairwise(corners)]
-    for a, b in pairwise(sorted(edges)):
-        middle = 0.5 * (a + b)
-        if left <= middle <= right:
-            continue  # the cup
-        kind = kind_at(parameters, middle)
-        surfaces.append(_turf(parameters, kind, (a, height(parameters, a)), (b, height(parameters, b))))
-    return surfaces
+    green = pin.distance - 0.5 * ground.green.length, pin.distance + 0.5 * ground.green.length
+    strips = (x for strip in ground.strips for x in (strip.start, strip.end))
+    edges = sorted({left, right, *green, *strips, *(x for x, _ in _line(parameters))})
+    line = [(x, height(parameters, x)) for x in edges]
+    pieces = [(a, b) for a, b in pairwise(line) if not left <= a[0] < right]
+    cup: list[Surface] = []
+    if left < right:
+        top_left, top_right = (left, height(parameters, left)), (right, height(parameters, right))
+        bottom = min(top_left[1], top_right[1]) - pin.cup_depth
+        corners = [top_left, (left, bottom), (right, bottom), top_right]
+        cup = [Surface("cup", Segment(a, b), *CUP) for a, b in pairwise(corners)]
+    return [*cup, *(_turf(parameters, kind_at(parameters, 0.5 * (a[0] + b[0])), a, b) for a, b in pieces)]
 
 
 @dataclass(frozen=True)
@@ -385,9 +356,8 @@ def _comes_back(run: Run, parameters: Parameters) -> float | None:
     """How far in m the ball ends short of the farthest place that it reached: spun back, or rolled back down."""
     end = _total(run, parameters)
     way = 1.0 if end >= 0.0 else -1.0
-    back = (
-        max(way * arc.state(arc.t1)[0] for arc in run.arcs["ball"]) - way * end
-    )  # it turns within 1 cm of an arc's end
+    # it turns within 1 cm of an arc's end
+    back = max(way * arc.state(arc.t1)[0] for arc in run.arcs["ball"]) - way * end
     return back if back > LEAST_BACK else None
 
 

@@ -263,7 +263,7 @@ def test_the_net_works_on_many_shots_at_once():
             ("release.height = 3.2 m", "backboard.bottom = 2.9 m"),
         ),
         ({"release.height": 3.05, "hoop.distance": 0.2}, ("release.height = 3.05 m", "hoop.height = 3.05 m")),
-        ({"backboard.gap": 0.01}, ("backboard.gap = 0.01 m", "hoop.tube_radius is 0.009 m")),
+        ({"backboard.gap": 0.01}, ("backboard.gap = 0.01 m", "hoop.tube_radius = 0.009 m")),
         ({"backboard.top": 2.5}, ("backboard.top = 2.5 m", "backboard.bottom = 2.9 m")),
         (
             {"hoop.height": 0.1, "hoop.tube_radius": 0.2, "backboard.gap": 1},

@@ -117,10 +117,13 @@ class Group:
         """How many times their size they are drawn."""
         return max(1.0, self.least * eye.unit / (self.height * eye.camera.scale))
 
+    def eye(self, eye: Eye) -> Eye:
+        """Sees them so large."""
+        return eye.enlarged(self.x, self.enlarged(eye))
+
     def draw(self, painter: Painter, eye: Eye, near: bool) -> None:
-        eye = eye.enlarged(self.x, self.enlarged(eye))
         for thing in self.things:
-            thing.draw(painter, eye, near)
+            thing.draw(painter, self.eye(eye), near)
 
 
 def goal(
