@@ -16,6 +16,7 @@ from sandbox.picture.chase import Chase
 from sandbox.picture.depth import Eye
 from sandbox.picture.painter import Painter
 from sandbox.picture.palette import Colour
+from sandbox.picture.path import chip
 from sandbox.picture.places import Ground, Scenery, Thing
 from sandbox.picture.sheet import CARD, Entry, Sheet, SideRows
 from sandbox.picture.view import P, View
@@ -248,6 +249,23 @@ class SideView(View[P]):
                     pygame.Rect(round(min(start, end)), round(row) - tall // 2, round(abs(end - start)), tall)
                 )
         sheet.labels.take(pygame.Rect(0, round(self.rows_at.ruler - sheet.ruler_heights()[0]), *self.size))
+
+    def gap(self, sheet: Sheet, camera: Camera, x: float, low: float, high: float, text: str) -> None:
+        """A stroke from one height to another at x, all in m, and how long it is, off the path."""
+        unit, ink = self.unit, CARD["accent"]
+        (px, top), (_, bottom) = camera.pixel(x, high), camera.pixel(x, low)
+        if bottom - top > 3 * unit:
+            sheet.painter.line([(px, top), (px, bottom)], 1.6 * unit, ink)
+            for y in (top, bottom):
+                sheet.painter.line([(px - 4 * unit, y), (px + 4 * unit, y)], 1.6 * unit, ink)
+        path = self.trace[np.argmin(np.abs(self.trace[:, 0] - px))]
+        spots = [
+            (px + side * aside * unit, edge + way * far * unit, side * 0.7 if aside else 0.0, way)
+            for far in (12, 20, 32, 46)
+            for edge, way in ((min(top, path[1]), -1), (max(bottom, path[1]), 1))
+            for aside, side in ((0, 0), (10, -1), (10, 1))
+        ]
+        chip(sheet, f"{metres(high - low)} {text}", spots, ink)
 
 
 def _joined(box: Box, other: Box | None) -> Box:

@@ -21,8 +21,8 @@ COLOURS, SHADOW = scene_colours(__file__)["hoop"], palette("card")["shadow"]
 BOARD, SQUARE, SQUARE_HEIGHT = 0.915, 0.305, 0.46
 #: Strands around the ring, knots on each, and the width of the net's lower end over that of the ring.
 STRANDS, KNOTS, NARROW = 11, 9, 0.56
-#: After the ball has left, the net swings at this rate (rad/s) and settles at this rate (1/s), until its swing has fallen
-#: to exp(-SETTLED).
+#: After the ball has left, the net swings at this rate (rad/s) and settles at this rate (1/s), until its swing
+#: has fallen to exp(-SETTLED).
 SWING, SETTLE, SETTLED = 11.0, 3.0, 5.0
 
 
@@ -89,8 +89,11 @@ class Net:
     def draw(self, painter: Painter, eye: Eye, near: bool, t: float) -> None:
         """The half in front of the ball or the one behind it, at time t in s."""
         width = max(0.9 * eye.unit, 0.012 * eye.camera.scale)
-        lines = self._lines(eye, near, t if self.entered < t <= self.left + SETTLED / SETTLE else 0.0)
+        lines = self._lines(eye, near, t if self._moves(t) else 0.0)
         painter.lines(lines, width, COLOURS["net"], 0.75 if near else 0.3)
+
+    def _moves(self, t: float) -> bool:
+        return self.entered < t <= self.left + SETTLED / SETTLE
 
     def _strings(self, eye: Eye, near: bool, t: float) -> np.ndarray:
         """Their ends in px, shape (n, 2, 2)."""
@@ -107,7 +110,7 @@ class Net:
     def _shape(self, down: np.ndarray, t: float) -> tuple[np.ndarray, np.ndarray]:
         """How far the net is displaced and how wide it is, in m, at shares ``down`` of its length below the ring."""
         wide = self.wide * (1 - (1 - NARROW) * down**0.7)
-        if t == 0.0:
+        if not self._moves(t):
             return 0.0 * down, wide
         x, y, *_ = self.run.state("ball", min(t, self.left))
         depth = max(0.05, (self.top - y) / self.length)

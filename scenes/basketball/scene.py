@@ -17,7 +17,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from itertools import pairwise
 from typing import Any
 
 from sandbox.engine.run import Event, Run
@@ -32,7 +31,7 @@ from sandbox.sport.controls import Controls, Spin, Spread
 from sandbox.sport.facts import ENDED, Fact, once
 from sandbox.sport.flight import Launch, Sphere, forces_in_flight, launched_ball
 from sandbox.sport.readings import LAUNCH, Moment, at, before
-from sandbox.sport.room import Solid, check_room, disc, ground
+from sandbox.sport.solids import Extent, Solid, below, check_apart, disc
 
 
 class Release(Group):
@@ -48,26 +47,22 @@ class Basketball(Sphere):
     lift: NoLift | ConstantLift | SpinRatioLift = either(..., "Magnus lift")
 
 
-class Hoop(Group):
+class Hoop(Solid):
     """The ring, seen from the side: two tubes."""
 
     distance: float = quantity(..., "m", 0, 500, "from the release to the middle of the ring")
     height: float = quantity(..., "m", 0.1, 100, "of the tubes' middle above the floor")
     inner_diameter: float = quantity(..., "m", 0.01, 5, "between the inner edges of the tubes")
     tube_radius: float = quantity(..., "m", 0.0005, 0.2, "radius of the tube")
-    restitution: float = quantity(..., "", 0, 1, "of ball and rim")
-    friction: float = quantity(..., "", 0, 10, "of ball and rim")
 
 
-class Backboard(Group):
+class Backboard(Solid):
     """The board behind the ring."""
 
     gap: float = quantity(..., "m", 0, 5, "from the inner edge of the ring to the face of the board")
     bottom: float = quantity(..., "m", 0, 100, "lower edge above the floor")
     top: float = quantity(..., "m", 0, 100, "upper edge above the floor")
     thickness: float = quantity(..., "m", 0.001, 1, "thickness")
-    restitution: float = quantity(..., "", 0, 1, "of ball and board")
-    friction: float = quantity(..., "", 0, 10, "of ball and board")
 
 
 class Net(Group):
@@ -76,13 +71,6 @@ class Net(Group):
     slows: bool = switch(..., "whether it slows the ball, or is only drawn")
     length: float = quantity(..., "m", 0.1, 2, "length")
     damping: float = quantity(..., "1/s", 0, 100, "deceleration over speed of a ball falling through it")
-
-
-class Floor(Group):
-    """The floor."""
-
-    restitution: float = quantity(..., "", 0, 1, "of ball and floor")
-    friction: float = quantity(..., "", 0, 10, "of ball and floor")
 
 
 class Parameters(Group):
@@ -96,7 +84,7 @@ class Parameters(Group):
     hoop: Hoop = group(..., "the ring")
     backboard: Backboard = group(..., "the board")
     net: Net = group(..., "the net")
-    floor: Floor = group(..., "the floor")
+    floor: Solid = group(..., "the floor")
     accuracy: Accuracy = group(Accuracy(), "speed against accuracy")
 
 
@@ -204,25 +192,24 @@ def _check(parameters: Parameters) -> None:
         )
     place, tube = ("hoop.distance", "hoop.height", "hoop.tube_radius"), hoop.tube_radius
     front, back = (disc("the ring", place, *rim, tube) for rim in rims(parameters))
-    glass = Solid("the board", ("backboard.gap", "backboard.bottom", "backboard.top"), *board(parameters))
+    glass = Extent("the board", ("backboard.gap", "backboard.bottom", "backboard.top"), *board(parameters))
     release = ("release.height", "ball.radius")
     ball = disc("the ball", release, 0.0, parameters.release.height, parameters.ball.radius)
-    for solids in ((ball, front, glass), (ball, back, glass), (ball, front, ground("the floor"))):
-        check_room(parameters, solids)
+    for others in ((front, glass), (back, glass), (front, below("the floor"))):
+        check_apart(parameters, ball, *others)
 
 
 def _court(parameters: Parameters) -> list[Surface]:
-    hoop, backboard, floor = parameters.hoop, parameters.backboard, parameters.floor
+    hoop, backboard = parameters.hoop, parameters.backboard
     front, back = rims(parameters)
     left, bottom, right, top = board(parameters)
     corners = [(left, bottom), (right, bottom), (right, top), (left, top), (left, bottom)]
-    bracket = Segment(back, (left, back[1]), BRACKET_SHARE * hoop.tube_radius)
     return [
-        Surface("floor", Segment((-FAR, 0.0), (FAR, 0.0)), floor.restitution, floor.friction),
-        Surface("rim front", Circle(front, hoop.tube_radius), hoop.restitution, hoop.friction),
-        Surface("rim back", Circle(back, hoop.tube_radius), hoop.restitution, hoop.friction),
-        Surface("bracket", bracket, hoop.restitution, hoop.friction),
-        *(Surface("backboard", Segment(a, b), backboard.restitution, backboard.friction) for a, b in pairwise(corners)),
+        parameters.floor.surface("floor", Segment((-FAR, 0.0), (FAR, 0.0))),
+        hoop.surface("rim front", Circle(front, hoop.tube_radius)),
+        hoop.surface("rim back", Circle(back, hoop.tube_radius)),
+        hoop.surface("bracket", Segment(back, (left, back[1]), BRACKET_SHARE * hoop.tube_radius)),
+        *backboard.outline("backboard", corners),
     ]
 
 

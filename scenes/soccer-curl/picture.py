@@ -6,24 +6,26 @@ from functools import cached_property
 from math import atan2, cos, degrees, hypot, radians, sin, tan
 
 import numpy as np
-import pygame
 
 from sandbox.picture.above import AboveView
-from sandbox.picture.camera import Camera
+from sandbox.picture.camera import Box, Camera
 from sandbox.picture.painter import Painter
-from sandbox.picture.palette import mix, palette
+from sandbox.picture.palette import mix, palette, scene_colours
 from sandbox.picture.path import chip
-from sandbox.picture.places.plan import BREADTH, Person, Plan, enlarged
+from sandbox.picture.places import plan
 from sandbox.picture.sheet import Entry, Sheet
 from sandbox.sport.amounts import metres, times
 
-from .pitch import BALL, COLOURS, KEEPER, pitch
-from .scene import Parameters
+from ..soccer.pitch import EARLIER, LINE, LOOK, SPOT, STRIPE, TRACE, markings
+from .scene import BOARDS_ASIDE, BOARDS_BEHIND, BOARDS_BEYOND, Parameters
 
-CARD = palette("card")
+CARD, COLOURS = palette("card"), scene_colours(__file__)
+WALL, KICKER, KEEPER = (plan.Kit(shirt=shirt, **COLOURS["person"]) for shirt in COLOURS["shirts"])
 
-#: Room for the kicker behind the ball, and beside each post, in m.
-KICKER, ASIDE = 1.3, 0.4
+#: Boards are so thick and so long, in m; behind them there is nothing to see, however far the camera looks.
+BOARD, BOARD_LENGTH, FAR = 0.4, 6.0, 1000.0
+#: The net's mesh, how far behind the ball the kicker stands, and room for him and beside each post, in m.
+MESH, BEHIND, ROOM, ASIDE = 0.12, 0.75, 1.3, 0.4
 #: The poster follows a ball that was stopped for so long, in s.
 AFTERMATH = 0.6
 #: The time between balls is chosen for the flight, or for this share of the whole path.
@@ -33,8 +35,8 @@ LEAST_SPAN = 0.6
 class Picture(AboveView[Parameters]):
     """One kick, seen by a camera that stays near the ball."""
 
-    LOOK, TRACE, EARLIER = BALL, COLOURS["trace"], COLOURS["earlier"]
-    FAINT = mix(COLOURS["trace"], COLOURS["grass"][0], 0.3)
+    LOOK, TRACE, EARLIER = LOOK, TRACE, EARLIER
+    FAINT = mix(TRACE, COLOURS["grass"][0], 0.3)
     TRAIL, NEAREST, DUSK = 0.4, 34.0, COLOURS["dusk"]
 
     @property
@@ -65,24 +67,48 @@ class Picture(AboveView[Parameters]):
     # The place
 
     @cached_property
-    def plan(self) -> Plan:
-        return pitch(self.parameters)
+    def plan(self) -> plan.Plan:
+        """Grass between boards, lines, goal, wall and kicker."""
+        goal, wall = self.parameters.goal, self.parameters.wall
+        left, end, right, middle = BOARDS_BEHIND, goal.distance, goal.distance + BOARDS_BEYOND, goal.offset
+        grass = Box(left, -BOARDS_ASIDE, right, BOARDS_ASIDE)
+        boards = grass._replace(left=left - BOARD, right=left), grass._replace(left=right, right=right + BOARD)
+        everywhere = Box(-FAR, -FAR, FAR, FAR)
+        sides = {"right": left}, {"left": right}, {"top": -BOARDS_ASIDE}, {"bottom": BOARDS_ASIDE}
+        count = max(1, round(wall.width / plan.BREADTH)) if wall.present else 0
+        players = [wall.offset + (i - (count - 1) / 2) * wall.width / count for i in range(count)]
+        aside = goal.width / 2 + goal.post_radius
+        return (
+            plan.Stripes(grass, COLOURS["grass"], STRIPE, end),
+            *(plan.Line(tuple(points), LINE, COLOURS["line"]) for points in markings(end, middle)),
+            plan.Spot((end - SPOT, middle), LINE, COLOURS["line"]),
+            *(plan.Ground(everywhere._replace(**edge), COLOURS["beyond"]) for edge in sides),
+            *(plan.Stripes(box, COLOURS["boards"], BOARD_LENGTH, -BOARDS_ASIDE, along=True) for box in boards),
+            plan.Worn((end - 0.3, middle), 1.2, 0.42 * goal.width, COLOURS["worn"], 0.4),
+            plan.Net(Box(end, middle - aside, end + goal.depth, middle + aside), MESH, COLOURS["net"]),
+            plan.Bar((end, middle - aside), (end, middle + aside), goal.post_radius, COLOURS["post"]),
+            *(plan.Person((wall.distance, y), 180.0, WALL, wall.width / count) for y in players),
+            plan.Person((0.0, 0.0), self.parameters.launch.angle, KICKER, behind=BEHIND),
+        )
 
     @cached_property
     def seen(self) -> np.ndarray:
         """The paths, the kicker, the goal, and where the straight line meets the goal line."""
         goal = self.parameters.goal
         half, back = goal.width / 2 + ASIDE, goal.distance + goal.depth
-        corners = [(-KICKER, 0.0), (back, goal.offset - half), (back, goal.offset + half)]
+        corners = [(-ROOM, 0.0), (back, goal.offset - half), (back, goal.offset + half)]
         return np.concatenate([self.points, corners, [self.straight] if self.straight else np.empty((0, 2))])
 
     def remarks(self, camera: Camera) -> list[str]:
-        factor = enlarged(camera, self.unit)
+        factor = plan.enlarged(camera, self.unit)
         return [f"players drawn {times(factor)} their size"] if factor > 1 else []
 
     def behind(self, painter: Painter, camera: Camera, t: float) -> None:
         """Where the ball would have gone without spin, and the keeper."""
-        self._straight_line(painter, camera, t)
+        straight = camera.pixels(np.array([(0.0, 0.0), self._without_spin(t)]))
+        if np.hypot(*(straight[1] - straight[0])) > 20 * self.unit:
+            faint = mix(COLOURS["straight"], COLOURS["grass"][0], 0.4)
+            painter.dashed_thread(straight, 1.4 * self.unit, faint, 7 * self.unit, 6 * self.unit)
         keeper = self.parameters.keeper
         if not keeper.present:
             return
@@ -94,7 +120,9 @@ class Picture(AboveView[Parameters]):
             painter.ring(way[0], reach, thin, colour, 0.5)
         painter.disc(camera.pixel(*at), reach, colour, 0.25)
         painter.ring(camera.pixel(*at), reach, thin, colour, 0.7)
-        Person(at, 180.0, KEEPER, min(BREADTH, 1.25 * keeper.radius), arms=keeper.radius).draw(painter, camera)
+        plan.Person(at, 180.0, KEEPER, min(plan.BREADTH, 1.25 * keeper.radius), arms=keeper.radius).draw(
+            painter, camera
+        )
 
     # How far it bends
 
@@ -106,14 +134,8 @@ class Picture(AboveView[Parameters]):
             return None
         return line, line * tan(radians(angle))
 
-    def _straight_line(self, painter: Painter, camera: Camera, t: float) -> None:
-        """To the goal line once the ball is there, and until then as far as the ball is."""
-        points = camera.pixels(np.array([(0.0, 0.0), self._without_spin(t)]))
-        if np.hypot(*(points[1] - points[0])) > 20 * self.unit:
-            colour = mix(COLOURS["straight"], COLOURS["grass"][0], 0.4)
-            painter.dashed_thread(points, 1.4 * self.unit, colour, 7 * self.unit, 6 * self.unit)
-
     def _without_spin(self, t: float) -> tuple[float, float]:
+        """Along the straight line as far as the ball is at time t in s; on the goal line once it is there."""
         if self.straight is not None and t >= self.moment:
             return self.straight
         far, angle = hypot(*self.run.state("ball", t)[:2]), radians(self.parameters.launch.angle)
@@ -121,38 +143,32 @@ class Picture(AboveView[Parameters]):
 
     def annotate(self, sheet: Sheet, camera: Camera) -> None:
         """How far from its straight line the ball comes to the goal line."""
-        if self.parameters.keeper.present:
-            (x, y), reach = camera.pixel(*self.run.state("keeper", self.moment)[:2]), self.parameters.keeper.radius
-            half = round(reach * camera.scale)
-            sheet.labels.take(pygame.Rect(round(x) - half, round(y) - half, 2 * half, 2 * half))
+        unit, accent, keeper = self.unit, CARD["accent"], self.parameters.keeper
+        if keeper.present:
+            at = camera.pixel(*self.run.state("keeper", self.moment)[:2])
+            sheet.labels.take_path([at], keeper.radius * camera.scale)
         line = np.linspace(camera.pixel(0.0, 0.0), camera.pixel(*self._without_spin(self.moment)), 80)
-        sheet.labels.take_path(line, 2 * self.unit)
-        deviation = self.run.result["deviation"]
-        if self.straight is None or deviation is None:
+        sheet.labels.take_path(line, 2 * unit)
+        if self.straight is None:
             return
-        unit, accent = self.unit, CARD["accent"]
-        start = camera.pixel(*self.straight)
-        end = camera.pixel(self.straight[0], self.straight[1] + deviation)
-        if abs(end[1] - start[1]) > 12 * unit:
-            sheet.painter.arrow(start, end, 2.6 * unit, accent)
-        sheet.painter.line([(start[0] - 6 * unit, start[1]), (start[0] + 6 * unit, start[1])], 2.0 * unit, accent)
-        sheet.labels.take_path(np.linspace(start, end, 30), 3 * unit)
-        way = 1.0 if end[1] < start[1] else -1.0
-        spots = [(start[0], start[1] + way * far * unit, 0.0, way) for far in (12, 20)]
+        deviation = self.run.result["deviation"]
+        (x, start), (_, end) = line[-1], camera.pixel(self.straight[0], self.straight[1] + deviation)
+        if abs(end - start) > 12 * unit:
+            sheet.painter.arrow((x, start), (x, end), 2.6 * unit, accent)
+        sheet.painter.line([(x - 6 * unit, start), (x + 6 * unit, start)], 2.0 * unit, accent)
+        sheet.labels.take_path([(x, row) for row in np.linspace(start, end, 30)], 3 * unit)
+        way = 1.0 if end < start else -1.0
+        spots = [(x, start + way * far * unit, 0.0, way) for far in (12, 20)]
         spots += [
-            (start[0] + side * far * unit, start[1] + (end[1] - start[1]) * share, side, 0.0)
+            (x + side * far * unit, start + (end - start) * share, side, 0.0)
             for far in (14, 24, 40)
             for share in (0.0, 0.25, 0.5, 0.75)
             for side in (1.0, -1.0)
         ]
         chip(sheet, f"{metres(abs(deviation))} to the {_side(deviation)}", spots, accent)
-        beside = [
-            (line[round(79 * share), 0], line[round(79 * share), 1] + way * far * unit)
-            for share in (0.62, 0.5, 0.75, 0.38)
-            for far in (10, 16, 24)
-        ]
-        anchor = "midtop" if way > 0 else "midbottom"
-        sheet.label("without spin", "small", [(*spot, anchor) for spot in beside], sheet.ink)
+        near, anchor = (10, 16, 24), "midtop" if way > 0 else "midbottom"
+        beside = [(*(line[i] + (0, way * far * unit)), anchor) for i in (49, 40, 59, 30) for far in near]
+        sheet.label("without spin", "small", beside, sheet.ink)
 
     # Frames
 

@@ -13,22 +13,20 @@ from __future__ import annotations
 
 from dataclasses import replace
 from itertools import pairwise
-from math import cos, hypot, radians, tan
+from math import cos, inf, radians, tan
 
 from sandbox.engine.run import Event, Run
 from sandbox.engine.setup import Always, Ball, Bounce, Circle, Segment, Setup, Surface, Vector
-from sandbox.errors import RequestError
 from sandbox.parameters import Accuracy, Group, group, quantity, switch
 from sandbox.sport.air import Air
 from sandbox.sport.amounts import roughly
-from sandbox.sport.controls import Controls, Spin, Spread
+from sandbox.sport.controls import Controls, Spin
 from sandbox.sport.facts import ENDED, Fact, once
 from sandbox.sport.flight import forces_in_flight, launched_ball
 from sandbox.sport.readings import BALL_SPEED, LAUNCH_ANGLE, LAUNCH_SPIN, Moment, at, first_touch, passing
+from sandbox.sport.solids import Extent, Solid, check_apart, disc
 
-from ..soccer.ball import SoccerBall
-
-# --------------------------------------------------------------------------------------------------------- parameters
+from ..soccer.kick import SPREAD, Goal, SoccerBall, Wall
 
 
 class Launch(Group):
@@ -42,33 +40,21 @@ class Launch(Group):
     )
 
 
-class Goal(Group):
+class WideGoal(Goal):
     """The goal from above."""
 
-    distance: float = quantity(..., "m", 0, 200, "from the ball straight to the middle of the goal line's width")
     offset: float = quantity(..., "m", -40, 40, "middle of the goal to the left of the ball")
     width: float = quantity(..., "m", 0, 20, "between the posts")
-    post_radius: float = quantity(..., "m", 0.001, 1, "radius of the posts; the goal line is as wide")
-    restitution: float = quantity(..., "", 0, 1, "of ball and post")
-    friction: float = quantity(..., "", 0, 10, "of ball and post")
-    depth: float = quantity(..., "m", 0.5, 5, "from the goal line to the back of the net")
-    net_restitution: float = quantity(..., "", 0, 1, "of ball and net")
-    net_friction: float = quantity(..., "", 0, 10, "of ball and net")
 
 
-class Wall(Group):
-    """The wall of players."""
+class WideWall(Wall):
+    """The wall of players, from above."""
 
-    present: bool = switch(..., "whether there is a wall of players")
-    distance: float = quantity(..., "m", 0, 200, "from the ball straight to the middle of the wall")
     offset: float = quantity(..., "m", -40, 40, "middle of the wall to the left of the ball")
     width: float = quantity(..., "m", 0.1, 40, "from side to side")
-    thickness: float = quantity(..., "m", 0.01, 5, "how deep a player is")
-    restitution: float = quantity(..., "", 0, 1, "of ball and player")
-    friction: float = quantity(..., "", 0, 10, "of ball and player")
 
 
-class Keeper(Group):
+class Keeper(Solid):
     """The keeper, a heavy disc."""
 
     present: bool = switch(..., "whether there is a keeper")
@@ -77,8 +63,6 @@ class Keeper(Group):
     speed: float = quantity(..., "m/s", -15, 15, "along the goal line from the kick on, to the left")
     radius: float = quantity(..., "m", 0.05, 5, "half the width that he covers")
     mass: float = quantity(..., "kg", 1, 1000, "mass")
-    restitution: float = quantity(..., "", 0, 1, "of ball and keeper")
-    friction: float = quantity(..., "", 0, 10, "of ball and keeper")
 
 
 class Parameters(Group):
@@ -87,9 +71,9 @@ class Parameters(Group):
     launch: Launch = group(..., "the ball just after the kick")
     air: Air = group(..., "the air")
     ball: SoccerBall = group(..., "the ball")
-    wall: Wall = group(..., "the wall of players")
+    wall: WideWall = group(..., "the wall of players")
     keeper: Keeper = group(..., "the keeper")
-    goal: Goal = group(..., "the goal")
+    goal: WideGoal = group(..., "the goal")
     accuracy: Accuracy = group(Accuracy(), "speed against accuracy")
 
 
@@ -98,10 +82,8 @@ CONTROLS = Controls(
     spins=(Spin("launch.spin", 50.0),),
     sliders=("launch.speed", "launch.angle", "launch.spin", "launch.tilt", "goal.distance", "air.wind"),
     scores="goal",
-    spread=(Spread("launch.speed", 0.02), Spread("launch.angle", least=1.0), Spread("launch.spin", 0.1)),  # assumed
+    spread=SPREAD,
 )
-
-# -------------------------------------------------------------------------------------------------------------- build
 
 #: A kick still moving after this time in s is ended: no ball stays in the air so long. A fast one is ended earlier,
 #: after this many times its flight time to the goal line without air, plus a moment to see it saved.
@@ -118,9 +100,7 @@ def build(parameters: Parameters) -> Setup:
     forces = forces_in_flight(ball, parameters.air, lift_share=cos(radians(launch.tilt)))
     balls = [launched_ball(launch, ball, (0.0, 0.0), forces)]
     if keeper.present:
-        balls.append(
-            Ball("keeper", keeper.mass, keeper.radius, position=_keeper(parameters), velocity=(0.0, keeper.speed))
-        )
+        balls.append(Ball("keeper", keeper.mass, keeper.radius, _keeper(parameters), (0.0, keeper.speed)))
     needed = parameters.goal.distance / max(launch.speed, 0.1)
     return Setup(
         balls,
@@ -141,71 +121,47 @@ def _keeper(parameters: Parameters) -> Vector:
     return goal.distance - keeper.distance, goal.offset + keeper.offset
 
 
-def _posts(parameters: Parameters) -> tuple[Vector, Vector]:
+def _posts(goal: WideGoal) -> tuple[Vector, Vector]:
     """Middles of the right and the left post."""
-    goal = parameters.goal
     aside = 0.5 * goal.width + goal.post_radius
     return (goal.distance, goal.offset - aside), (goal.distance, goal.offset + aside)
 
 
-def _from_wall(parameters: Parameters, point: Vector) -> float:
-    """Distance in m from a point to the wall, 0 inside."""
-    wall = parameters.wall
-    ahead = abs(point[0] - wall.distance) - 0.5 * wall.thickness
-    aside = abs(point[1] - wall.offset) - 0.5 * wall.width
-    return hypot(max(ahead, 0.0), max(aside, 0.0))
+def _wall(wall: WideWall) -> tuple[float, float, float, float]:
+    """Front, right, back and left of the wall."""
+    deep, aside = 0.5 * wall.thickness, 0.5 * wall.width
+    return wall.distance - deep, wall.offset - aside, wall.distance + deep, wall.offset + aside
 
 
 def _check(parameters: Parameters) -> None:
-    goal, wall, keeper, radius = parameters.goal, parameters.wall, parameters.keeper, parameters.ball.radius
-    at_goal = f"goal.distance = {goal.distance:g} m"
-    at_wall = f"wall.distance = {wall.distance:g} m, wall.offset = {wall.offset:g} m"
-    at_keeper = f"keeper.distance = {keeper.distance:g} m, keeper.offset = {keeper.offset:g} m"
-    ball = f"the ball, which starts at 0 m with ball.radius = {radius:g} m"
-    if goal.distance <= goal.post_radius + radius:
-        raise RequestError(f"{at_goal} puts the goal on {ball}: move it away")
-    if wall.present and _from_wall(parameters, (0.0, 0.0)) <= radius:
-        raise RequestError(f"{at_wall} puts the wall on {ball}: move it away, or set wall.present = false")
-    if wall.present and wall.distance + 0.5 * wall.thickness >= goal.distance - goal.post_radius:
-        raise RequestError(
-            f"wall.distance = {wall.distance:g} m is not in front of the goal, which is at {at_goal}: "
-            "bring it nearer, or set wall.present = false"
-        )
-    if not keeper.present:
-        return
-    x, y = _keeper(parameters)
-    if hypot(x, y) <= keeper.radius + radius:
-        raise RequestError(f"{at_keeper} puts the keeper on {ball}: move him, or set keeper.present = false")
-    if wall.present and _from_wall(parameters, (x, y)) <= keeper.radius:
-        raise RequestError(f"{at_keeper} puts the keeper into the wall, {at_wall}: move one of them")
-    if any(hypot(x - px, y - py) <= keeper.radius + goal.post_radius for px, py in _posts(parameters)):
-        raise RequestError(f"{at_keeper} puts the keeper into a post of goal.width = {goal.width:g} m: move him")
+    """Raise RequestError where two of ball, wall, keeper and goal are in each other, or the wall behind the goal."""
+    mouth, keeper, wall = parameters.goal, parameters.keeper, parameters.wall
+    ball = disc("the ball", ("ball.radius",), 0.0, 0.0, parameters.ball.radius)
+    players = [Extent("the wall", ("wall.distance", "wall.offset"), *_wall(wall))] if wall.present else []
+    goal = Extent("the goal", ("goal.distance",), mouth.distance, -inf, inf, inf, mouth.post_radius)
+    check_apart(parameters, ball, *players, goal)
+    if keeper.present:
+        stands = disc("the keeper", ("keeper.distance", "keeper.offset"), *_keeper(parameters), keeper.radius)
+        check_apart(parameters, ball, *players, stands)
+        for post in _posts(mouth):
+            check_apart(parameters, stands, disc("a post", ("goal.width",), *post, mouth.post_radius))
 
 
 def _pitch(parameters: Parameters) -> list[Surface]:
     goal, wall = parameters.goal, parameters.wall
-    behind, beyond = BOARDS_BEHIND, goal.distance + BOARDS_BEYOND
-    corners = _rectangle(behind, beyond, -BOARDS_ASIDE, BOARDS_ASIDE)
-    surfaces = [Surface("boards", Segment(a, b), 0.0, 0.0) for a, b in pairwise(corners)]
-    right, left = _posts(parameters)
-    for name, center in (("right post", right), ("left post", left)):
-        surfaces.append(Surface(name, Circle(center, goal.post_radius), goal.restitution, goal.friction))
-    back = goal.distance + goal.depth
-    corners = [right, (back, right[1]), (back, left[1]), left]
-    net = goal.net_restitution, goal.net_friction
-    surfaces += [Surface("net", Segment(a, b), *net) for a, b in pairwise(corners)]
-    if wall.present:
-        half, aside = 0.5 * wall.thickness, 0.5 * wall.width
-        corners = _rectangle(wall.distance - half, wall.distance + half, wall.offset - aside, wall.offset + aside)
-        surfaces += [Surface("wall", Segment(a, b), wall.restitution, wall.friction) for a, b in pairwise(corners)]
-    return surfaces
+    (right, left), back = _posts(goal), goal.distance + goal.depth
+    boards = _around(BOARDS_BEHIND, -BOARDS_ASIDE, goal.distance + BOARDS_BEYOND, BOARDS_ASIDE)
+    return [
+        *(Surface("boards", Segment(*ends), 0.0, 0.0) for ends in pairwise(boards)),
+        goal.surface("right post", Circle(right, goal.post_radius)),
+        goal.surface("left post", Circle(left, goal.post_radius)),
+        *goal.net([right, (back, right[1]), (back, left[1]), left]),
+        *(wall.outline("wall", _around(*_wall(wall))) if wall.present else ()),
+    ]
 
 
-def _rectangle(left: float, right: float, bottom: float, top: float) -> list[Vector]:
+def _around(left: float, bottom: float, right: float, top: float) -> list[Vector]:
     return [(left, bottom), (right, bottom), (right, top), (left, top), (left, bottom)]
-
-
-# -------------------------------------------------------------------------------------------------------------- facts
 
 
 @once
@@ -217,11 +173,10 @@ def at_goal(run: Run, parameters: Parameters) -> Moment | None:
 
 @once
 def _scored(run: Run, parameters: Parameters) -> bool:
-    """Whether the whole of the ball was over the whole of the line, between the posts."""
+    """Whether the ball was in the goal, between the posts."""
     goal = parameters.goal
-    over_the_line = goal.distance + goal.post_radius + parameters.ball.radius
-    crossings = run.crossings("ball", (over_the_line, 0.0), (-1.0, 0.0))
-    return any(abs(state[1] - goal.offset) < 0.5 * goal.width for _, state in crossings)
+    entries = goal.entries(run, parameters.ball.radius)
+    return any(abs(state[1] - goal.offset) < 0.5 * goal.width for _, state in entries)
 
 
 def _deviation(run: Run, parameters: Parameters) -> float | None:

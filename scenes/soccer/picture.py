@@ -3,36 +3,29 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from functools import cached_property
-from math import asin, pi
+from itertools import pairwise
 
 import numpy as np
 
 from sandbox.engine.setup import Segment
-from sandbox.picture.ball import Look, patches
 from sandbox.picture.camera import Box, Camera
-from sandbox.picture.depth import Eye
 from sandbox.picture.figures import KICKING
-from sandbox.picture.painter import Painter
-from sandbox.picture.palette import mix, palette, scene_colours
-from sandbox.picture.path import chip
-from sandbox.picture.places import Ground, Group, Line, Person, Stands, Stripes, Thing, goal
+from sandbox.picture.palette import mix
+from sandbox.picture.places import Ground, Group, Person, Shape, Stands, Stripes, Thing, goal
 from sandbox.picture.sheet import Sheet
 from sandbox.picture.side import Length, Place, SideView
 from sandbox.sport.amounts import metres, roughly, times
 
+from .pitch import COLOURS, EARLIER, LINE, LOOK, STRIPE, TRACE, WIDTH, markings
 from .scene import Parameters
 
-CARD, COLOURS = palette("card"), scene_colours(__file__)
-BALL, PITCH = COLOURS["ball"], COLOURS["pitch"]
+PITCH, BOARDS = COLOURS["pitch"], COLOURS["stands"]["boards"]
 
 #: Room for the kicker behind the ball, and least height that is shown, in m.
 KICKER, LEAST_TOP = 1.5, 2.7
-#: Stripes as wide as the goal area is deep, lines, and what they bound (Laws of the Game, law 1), in m.
-STRIPE, LINE = 5.5, 0.12
-GOAL_WIDTH, GOAL_AREA, PENALTY_AREA, SPOT, CIRCLE = 7.32, (5.5, 18.32), (16.5, 40.32), 11.0, 9.15
-PITCH_LENGTH, PITCH_WIDTH = 105.0, 68.0
+#: The goal, whose near post is in the plane of play, is so wide (Laws of the Game, law 1), and boards so long, in m.
+GOAL_WIDTH, BOARD = 7.32, 8.0
 #: How much smaller things look at the boards on the far side.
 FAR = 0.38
 #: Players of the wall stand so far apart, in m; they are this tall unless they jump or the wall is low.
@@ -44,8 +37,7 @@ GOAL_HEIGHT, LEAST_HEIGHT = 2.44, 22
 class Picture(SideView[Parameters]):
     """One kick."""
 
-    LOOK = Look(BALL["colour"], patches(BALL["patch"]))
-    TRACE, EARLIER = COLOURS["trace"], COLOURS["earlier"]
+    LOOK, TRACE, EARLIER = LOOK, TRACE, EARLIER
     FAINT = mix(TRACE, PITCH["grass"][0], 0.4)
     TRAIL = 0.6
     LEAST_IMPACT = 1.5
@@ -81,20 +73,30 @@ class Picture(SideView[Parameters]):
             Stripes(PITCH["grass"], STRIPE, mouth.distance),
             PITCH["soil"],
             edges=[(PITCH["edge"], 6)],
-            lines=_markings(mouth.distance),
+            lines=markings(mouth.distance, GOAL_WIDTH / 2),
             line=(PITCH["line"], LINE),
             far=FAR,
             haze=PITCH["far"],
         )
-        shapes = [surface.shape for surface in self.run.setup.surfaces if surface.name == "boards"]
-        boards = [Boards(*shape.b) for shape in shapes if isinstance(shape, Segment)]
         size = mouth.distance, mouth.depth, mouth.height, GOAL_WIDTH, mouth.post_radius
         standing = [
             self._standing_at(mouth.distance, goal(*size, **COLOURS["goal"]) if mouth.present else []),
             self._standing_at(wall.distance, self._wall() if wall.present else []),
             self._standing_at(0.0, [Person(-0.62, 1.82, COLOURS["kicker"], KICKING)]),
         ]
-        return Place(Stands(**COLOURS["stands"]), ground, [*boards, *standing])
+        return Place(Stands(**COLOURS["stands"]), ground, [*self._boards(), *standing])
+
+    def _boards(self) -> list[Shape]:
+        """Advertising boards across the pitch, where a ball is out of play."""
+        found = []
+        for shape in (surface.shape for surface in self.run.setup.surfaces if surface.name == "boards"):
+            assert isinstance(shape, Segment)
+            (x, low), (_, top) = shape.a, shape.b
+            edges = np.arange((GOAL_WIDTH + WIDTH) / 2, -BOARD, -BOARD).clip(0.0)
+            for i, (far, near) in enumerate(pairwise(edges.tolist())):
+                corners = [(x, low, near), (x, low, far), (x, top, far), (x, top, near)]
+                found.append(Shape(corners, mix(BOARDS[i * 3 % 4], PITCH["far"], 0.25)))
+        return found
 
     @staticmethod
     def _standing_at(x: float, things: Sequence[Thing]) -> Group:
@@ -138,61 +140,11 @@ class Picture(SideView[Parameters]):
         if wall.present and result["height_at_wall"] is not None:
             low = result["height_at_wall"] - self.radius
             if low > wall.height:
-                self._clearance(sheet, camera, wall.distance, wall.height, low, "over the wall")
+                self.gap(sheet, camera, wall.distance, wall.height, low, "over the wall")
         if goal.present and result["height_at_goal"] is not None:
             high, low = result["height_at_goal"] + self.radius, result["height_at_goal"] - self.radius
             if high < goal.height:
-                self._clearance(sheet, camera, goal.distance, high, goal.height, "under the bar")
+                self.gap(sheet, camera, goal.distance, high, goal.height, "under the bar")
             elif low > goal.height:
                 bar = goal.height + 2 * goal.post_radius
-                self._clearance(sheet, camera, goal.distance, bar, low, "over the bar")
-
-    def _clearance(self, sheet: Sheet, camera: Camera, x: float, low: float, high: float, text: str) -> None:
-        """A stroke from one height to another at x, all in m, and how long it is."""
-        unit = self.unit
-        (px, top), (_, bottom) = camera.pixel(x, high), camera.pixel(x, low)
-        if bottom - top > 3 * unit:
-            sheet.painter.line([(px, top), (px, bottom)], 1.6 * unit, CARD["accent"])
-            for y in (top, bottom):
-                sheet.painter.line([(px - 4 * unit, y), (px + 4 * unit, y)], 1.6 * unit, CARD["accent"])
-        path = self.trace[np.argmin(np.abs(self.trace[:, 0] - px))]
-        spots = [
-            (px + side * aside * unit, edge + way * far * unit, side * 0.7 if aside else 0.0, way)
-            for far in (12, 20, 32, 46)
-            for edge, way in ((min(top, path[1]), -1), (max(bottom, path[1]), 1))
-            for aside, side in ((0, 0), (10, -1), (10, 1))
-        ]
-        chip(sheet, f"{metres(high - low)} {text}", spots, CARD["accent"])
-
-
-@dataclass(frozen=True)
-class Boards:
-    """Advertising boards across the pitch at x, ``top`` m high, where a ball is out of play."""
-
-    x: float
-    top: float
-
-    def draw(self, painter: Painter, eye: Eye, near: bool) -> None:
-        edges = np.linspace(0.0, eye.depth(FAR), 9)
-        for i in reversed(range(0 if near else 8)):
-            a, b = edges[i], edges[i + 1]
-            corners = [(self.x, 0.0, a), (self.x, 0.0, b), (self.x, self.top, b), (self.x, self.top, a)]
-            seen, colour = eye.points(np.array(corners)), COLOURS["stands"]["boards"][i * 3 % 4]
-            if seen[:, 0].max() > 0 and seen[:, 0].min() < painter.surface.get_width():
-                painter.polygon(seen, mix(colour, PITCH["far"], 0.25))
-
-
-def _markings(end: float) -> list[Line]:
-    """All lines of a pitch behind the plane of play, which passes by the near post of the goal at x = ``end``."""
-    middle, start = GOAL_WIDTH / 2, end - PITCH_LENGTH
-    far, half = middle + PITCH_WIDTH / 2, end - PITCH_LENGTH / 2
-    turn = asin((PENALTY_AREA[0] - SPOT) / CIRCLE)
-    turns = np.linspace(turn - pi / 2, pi / 2 - turn, 40)
-    arc = [(end - SPOT - CIRCLE * np.cos(a), middle + CIRCLE * np.sin(a)) for a in turns]
-    circle = [(half + CIRCLE * np.cos(a), middle + CIRCLE * np.sin(a)) for a in np.linspace(0, 2 * pi, 60)]
-    lines: list[Line] = [[(end, 0.0), (end, far), (start, far), (start, 0.0)], arc, circle, [(half, 0.0), (half, far)]]
-    for deep, wide in (GOAL_AREA, PENALTY_AREA):
-        for line, way in ((end, -1), (start, 1)):
-            side = middle + wide / 2
-            lines.append([(line + way * deep, 0.0), (line + way * deep, side), (line, side)])
-    return [[(x, z) for x, z in line if z >= -0.01] for line in lines]
+                self.gap(sheet, camera, goal.distance, bar, low, "over the bar")

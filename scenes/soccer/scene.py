@@ -12,54 +12,38 @@ published for soccer), the dipping free kick would reach the goal 1.2 cm higher.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from itertools import pairwise
+from math import inf
 
 from sandbox.engine.run import Event, Run
 from sandbox.engine.setup import Circle, Segment, Setup, Surface
-from sandbox.errors import RequestError
 from sandbox.parameters import Accuracy, Group, group, quantity, switch
 from sandbox.sport.air import OutdoorAir
 from sandbox.sport.amounts import roughly
-from sandbox.sport.controls import Controls, Spin, Spread
+from sandbox.sport.controls import Controls, Spin
 from sandbox.sport.facts import ENDED, Fact, once
 from sandbox.sport.flight import Launch, forces_in_flight, launched_ball
 from sandbox.sport.readings import LAUNCH, Moment, at, first_touch, passing
+from sandbox.sport.solids import Extent, Solid, check_apart, disc
 
-from .ball import SoccerBall
-
-# --------------------------------------------------------------------------------------------------------- parameters
+from .kick import SPREAD, Goal, SoccerBall, Wall
 
 
-class Goal(Group):
+class HighGoal(Goal):
     """The goal at the far end, seen from the side."""
 
     present: bool = switch(..., "whether there is a goal")
-    distance: float = quantity(..., "m", 0, 2000, "from the ball to the middle of the goal line")
     height: float = quantity(..., "m", 0.1, 100, "from the ground to the lower edge of the bar")
-    post_radius: float = quantity(..., "m", 0.001, 1, "radius of the bar; the goal line is as wide as the bar")
-    restitution: float = quantity(..., "", 0, 1, "of ball and bar")
-    friction: float = quantity(..., "", 0, 10, "of ball and bar")
-    depth: float = quantity(..., "m", 0.5, 10, "from the goal line to the back of the net, a box")
-    net_restitution: float = quantity(..., "", 0, 1, "of ball and net")
-    net_friction: float = quantity(..., "", 0, 10, "of ball and net")
 
 
-class Wall(Group):
-    """The wall of players."""
+class HighWall(Wall):
+    """The wall of players, seen from the side."""
 
-    present: bool = switch(..., "whether there is a wall of players")
-    distance: float = quantity(..., "m", 0, 2000, "from the ball to the middle of the wall")
     height: float = quantity(..., "m", 0.05, 20, "height, a jump included")
-    thickness: float = quantity(..., "m", 0.01, 5, "how deep a player is")
-    restitution: float = quantity(..., "", 0, 1, "of ball and player")
-    friction: float = quantity(..., "", 0, 10, "of ball and player")
 
 
-class Ground(Group):
-    """The grass."""
+class Grass(Solid):
+    """The ground."""
 
-    restitution: float = quantity(..., "", 0, 1, "of ball and grass")
-    friction: float = quantity(..., "", 0, 10, "of ball and grass")
     rolling_resistance: float = quantity(..., "", 0, 10, "deceleration of a rolling ball over gravity")
 
 
@@ -70,9 +54,9 @@ class Parameters(Group):
     gravity: float = quantity(..., "m/s^2", 0, 30, "gravity")
     air: OutdoorAir = group(..., "the air")
     ball: SoccerBall = group(..., "the ball")
-    wall: Wall = group(..., "the wall of players")
-    goal: Goal = group(..., "the goal")
-    ground: Ground = group(..., "the grass")
+    wall: HighWall = group(..., "the wall of players")
+    goal: HighGoal = group(..., "the goal")
+    ground: Grass = group(..., "the grass")
     accuracy: Accuracy = group(Accuracy(), "speed against accuracy")
 
 
@@ -81,10 +65,8 @@ CONTROLS = Controls(
     spins=(Spin("launch.spin", 50.0),),
     sliders=("launch.speed", "launch.angle", "launch.spin", "goal.distance", "wall.present", "wall.height", "air.wind"),
     scores="goal",
-    spread=(Spread("launch.speed", 0.02), Spread("launch.angle", least=1.0), Spread("launch.spin", 0.1)),  # assumed
+    spread=SPREAD,
 )
-
-# -------------------------------------------------------------------------------------------------------------- build
 
 #: A kick still moving after this time in s is ended.
 LONGEST = 60.0
@@ -121,24 +103,15 @@ class OutOfPlay:
 
 
 def _check(parameters: Parameters) -> None:
+    """Raise RequestError where ball, wall and goal are in each other, or the wall behind the goal."""
     goal, wall, radius = parameters.goal, parameters.wall, parameters.ball.radius
-    if goal.present and goal.distance <= goal.post_radius + radius:
-        raise RequestError(
-            f"goal.distance = {goal.distance:g} m puts the goal on the ball, "
-            f"whose ball.radius is {radius:g} m: move it away, or set goal.present = false"
-        )
-    if not wall.present:
-        return
-    if wall.distance <= 0.5 * wall.thickness + radius:
-        raise RequestError(
-            f"wall.distance = {wall.distance:g} m puts the wall on the ball, "
-            f"whose ball.radius is {radius:g} m: move it away, or set wall.present = false"
-        )
-    if goal.present and wall.distance + 0.5 * wall.thickness >= goal.distance - goal.post_radius:
-        raise RequestError(
-            f"wall.distance = {wall.distance:g} m is not in front of the goal, which is at "
-            f"goal.distance = {goal.distance:g} m: bring it nearer, or set wall.present = false"
-        )
+    standing = [disc("the ball", ("ball.radius",), 0.0, radius, radius)]
+    if wall.present:
+        front, back = wall.distance - 0.5 * wall.thickness, wall.distance + 0.5 * wall.thickness
+        standing.append(Extent("the wall", ("wall.distance",), front, 0.0, back, wall.height))
+    if goal.present:
+        standing.append(Extent("the goal", ("goal.distance",), goal.distance, 0.0, inf, inf, goal.post_radius))
+    check_apart(parameters, *standing)
 
 
 def _beyond(parameters: Parameters) -> float:
@@ -149,34 +122,18 @@ def _beyond(parameters: Parameters) -> float:
 
 def _pitch(parameters: Parameters) -> list[Surface]:
     ground, goal, wall = parameters.ground, parameters.goal, parameters.wall
-    surfaces = [
-        Surface(
-            "ground",
-            Segment((-FAR, 0.0), (FAR, 0.0)),
-            ground.restitution,
-            ground.friction,
-            rolling_resistance=ground.rolling_resistance,
-            lowest_bounce=LOWEST_BOUNCE,
-        )
-    ]
-    surfaces += [
-        Surface("boards", Segment((x, 0.0), (x, BOARDS_HEIGHT)), 0.0, 0.0) for x in (BOARDS_BEHIND, _beyond(parameters))
-    ]
+    grass = {"rolling_resistance": ground.rolling_resistance, "lowest_bounce": LOWEST_BOUNCE}
+    boards = [Segment((x, 0.0), (x, BOARDS_HEIGHT)) for x in (BOARDS_BEHIND, _beyond(parameters))]
+    surfaces = [ground.surface("ground", Segment((-FAR, 0.0), (FAR, 0.0)), **grass)]
+    surfaces += [Surface("boards", shape, 0.0, 0.0) for shape in boards]
     if wall.present:
         front, back = wall.distance - 0.5 * wall.thickness, wall.distance + 0.5 * wall.thickness
-        corners = [(front, 0.0), (front, wall.height), (back, wall.height), (back, 0.0)]
-        surfaces += [Surface("wall", Segment(a, b), wall.restitution, wall.friction) for a, b in pairwise(corners)]
+        surfaces += wall.outline("wall", [(front, 0.0), (front, wall.height), (back, wall.height), (back, 0.0)])
     if goal.present:
-        bar = (goal.distance, goal.height + goal.post_radius)
-        back = goal.distance + goal.depth
-        corners = [bar, (back, bar[1]), (back, 0.0)]
-        surfaces.append(Surface("bar", Circle(bar, goal.post_radius), goal.restitution, goal.friction))
-        net = goal.net_restitution, goal.net_friction
-        surfaces += [Surface("net", Segment(a, b), *net) for a, b in pairwise(corners)]
+        bar, back = (goal.distance, goal.height + goal.post_radius), goal.distance + goal.depth
+        surfaces.append(goal.surface("bar", Circle(bar, goal.post_radius)))
+        surfaces += goal.net([bar, (back, bar[1]), (back, 0.0)])
     return surfaces
-
-
-# -------------------------------------------------------------------------------------------------------------- facts
 
 
 @once
@@ -193,11 +150,10 @@ def at_goal(run: Run, parameters: Parameters) -> Moment | None:
 
 @once
 def scored(run: Run, parameters: Parameters) -> float | None:
-    """When the whole of the ball was over the whole of the line under the bar, as in the Laws; None if never."""
+    """When the ball was in the goal, under the bar; None if never."""
     goal = parameters.goal
-    over_the_line = goal.distance + goal.post_radius + parameters.ball.radius
-    crossings = run.crossings("ball", (over_the_line, 0.0), (-1.0, 0.0))
-    return next((t for t, state in crossings if goal.present and state[1] < goal.height), None)
+    entries = goal.entries(run, parameters.ball.radius)
+    return next((t for t, state in entries if goal.present and state[1] < goal.height), None)
 
 
 def _clearance(run: Run, parameters: Parameters) -> float | None:

@@ -183,8 +183,8 @@ def test_an_effect_left_out_is_an_absent_term():
     [
         ({"wall.distance": 30}, ("wall.distance = 30 m", "goal.distance = 22 m")),
         ({"wall.distance": 21.9}, ("wall.distance = 21.9 m", "goal.distance = 22 m")),
-        ({"wall.distance": 0.2}, ("wall.distance = 0.2 m", "ball.radius is 0.11 m")),
-        ({"goal.distance": 0.1, "wall.present": False}, ("goal.distance = 0.1 m", "ball.radius is 0.11 m")),
+        ({"wall.distance": 0.2}, ("wall.distance = 0.2 m", "ball.radius = 0.11 m")),
+        ({"goal.distance": 0.1, "wall.present": False}, ("goal.distance = 0.1 m", "ball.radius = 0.11 m")),
     ],
 )
 def test_what_makes_no_sense_is_refused_in_a_line_that_names_both(changes: dict[str, Any], named: tuple[str, ...]):

@@ -124,12 +124,16 @@ class Ground:
             painter.surface.fill(colour, (0, deepest, width, max(1, round(deep * eye.unit))))
 
     def _line(self, drawn: pygame.Surface, eye: Eye, line: Line, project: Project) -> None:
-        """As wide as it is at its nearest, and narrower where it runs along the plane of play."""
+        """Behind the plane of play: as wide as it is at its nearest, and narrower where it runs along that plane."""
         colour, width = self.line
-        for a, b in pairwise(line):
+        for near, far in (sorted(ends, key=lambda point: point[1]) for ends in pairwise(line)):
+            if far[1] < 0.0:
+                continue
+            cut = max(0.0, -near[1]) / (far[1] - near[1] or 1.0)  # the part of it before the plane of play
+            a, b = (near[0] + cut * (far[0] - near[0]), max(near[1], 0.0)), far
             along, away = b[0] - a[0], b[1] - a[1]
             seen = hypot(0.35 * along, 0.5 * away) / (hypot(along, away) or 1.0)
-            thick = width * eye.camera.scale * eye.share(min(a[1], b[1])) * seen * OVERSAMPLING
+            thick = width * eye.camera.scale * eye.share(a[1]) * seen * OVERSAMPLING
             pygame.draw.lines(drawn, colour, False, project([a, b]), max(2, round(thick)))
 
 

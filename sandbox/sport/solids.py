@@ -1,0 +1,60 @@
+"""What a ball can strike: how it answers, and the room that it takes up."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import combinations, pairwise
+from math import hypot, inf
+from typing import Any, NamedTuple
+
+from sandbox.engine.setup import Circle, Segment, Surface, Vector
+from sandbox.errors import RequestError
+from sandbox.parameters import Group, quantity, walk
+
+
+class Solid(Group):
+    """What a ball can strike."""
+
+    restitution: float = quantity(..., "", 0, 1, "of the ball and this")
+    friction: float = quantity(..., "", 0, 10, "of the ball and this")
+
+    def surface(self, name: str, shape: Segment | Circle, **more: Any) -> Surface:
+        """Its surface, of that shape."""
+        return Surface(name, shape, self.restitution, self.friction, **more)
+
+    def outline(self, name: str, corners: Sequence[Vector]) -> list[Surface]:
+        """Its surface along a line through the corners, in m."""
+        return [self.surface(name, Segment(a, b)) for a, b in pairwise(corners)]
+
+
+class Extent(NamedTuple):
+    """The room that something takes up: a rectangle in m, ``radius`` m larger all around; ``keys`` say where it is."""
+
+    name: str
+    keys: Sequence[str]
+    left: float
+    bottom: float
+    right: float
+    top: float
+    radius: float = 0.0
+
+
+def disc(name: str, keys: Sequence[str], x: float, y: float, radius: float) -> Extent:
+    """Of a ball, or of a tube seen along its axis."""
+    return Extent(name, keys, x, y, x, y, radius)
+
+
+def below(name: str) -> Extent:
+    """Of everything below 0 m."""
+    return Extent(name, (), -inf, -inf, inf, 0.0)
+
+
+def check_apart(parameters: Group, *extents: Extent) -> None:
+    """Raise RequestError where two of them overlap, with the values of the keys that place them."""
+    for one, other in combinations(extents, 2):
+        across = max(one.left - other.right, other.left - one.right, 0.0)
+        up = max(one.bottom - other.top, other.bottom - one.top, 0.0)
+        if hypot(across, up) < one.radius + other.radius - 1e-9:
+            keys = {*one.keys, *other.keys}
+            where = ", ".join(f"{it.key} = {it.value:g} {it.unit}" for it in walk(parameters) if it.key in keys)
+            raise RequestError(f"{where}: {one.name} and {other.name} overlap; move one of them")
