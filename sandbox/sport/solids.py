@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import combinations, pairwise
-from math import hypot, inf
+from math import inf
 from typing import Any, NamedTuple
 
 from sandbox.engine.setup import Circle, Segment, Surface, Vector
 from sandbox.errors import RequestError
 from sandbox.parameters import Group, quantity, walk
+from sandbox.physics.elementwise import anywhere, most
 
 
 class Solid(Group):
@@ -52,9 +53,9 @@ def below(name: str) -> Extent:
 def check_apart(parameters: Group, *extents: Extent) -> None:
     """Raise RequestError where two of them overlap, with the values of the keys that place them."""
     for one, other in combinations(extents, 2):
-        across = max(one.left - other.right, other.left - one.right, 0.0)
-        up = max(one.bottom - other.top, other.bottom - one.top, 0.0)
-        if hypot(across, up) < one.radius + other.radius - 1e-9:
+        across = most(one.left - other.right, other.left - one.right, 0.0)
+        up = most(one.bottom - other.top, other.bottom - one.top, 0.0)
+        if anywhere((across * across + up * up) ** 0.5 < one.radius + other.radius - 1e-9):
             keys = {*one.keys, *other.keys}
             where = ", ".join(f"{it.key} = {it.value:g} {it.unit}" for it in walk(parameters) if it.key in keys)
             raise RequestError(f"{where}: {one.name} and {other.name} overlap; move one of them")
