@@ -128,9 +128,8 @@ def through(
     )
 
 
-def still(t: float, until: float, state: State, contact: object = None, last_spin: float | None = None) -> Arc:
-    """A ball that stays in place from t to ``until``; its spin changes linearly to ``last_spin`` (rad/s), if given."""
+def still(t: float, until: float, state: State, contact: object = None) -> Arc:
+    """A ball that stays in place from t to ``until`` and spins evenly."""
     x, y, _, _, spin, *rolling_spin = state
-    spins = (spin,) if last_spin is None else (spin, last_spin)
-    rest = tuple((component,) for component in rolling_spin)
-    return Arc(t, until, state, (x,), (y,), (0.0,), (0.0,), spins, contact, rest)
+    rolling = tuple((component,) for component in rolling_spin)
+    return Arc(t, until, state, (x,), (y,), (0.0,), (0.0,), (spin,), contact, rolling)

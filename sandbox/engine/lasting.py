@@ -1,27 +1,21 @@
-"""What follows a touch: flight, or lasting contact (sliding, rolling, wedged or at rest)."""
+"""Lasting contact: a ball that slides, rolls or rests on a surface, or is wedged between two.
+
+The surface adds its normal force N, which keeps the distance, and its friction: ``mu N`` against the slip ``v + r w``
+while sliding, and what the constraint ``v = -r w`` requires while rolling, up to ``mu N``. Rolling resistance slows a
+rolling ball by ``c N / m``. A wedged ball stays in place, and friction on both surfaces slows its spin.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from math import hypot
+from math import inf
+from typing import NamedTuple
 
-from sandbox.engine.arc import Arc
-from sandbox.engine.motion import (
-    PINNED,
-    RESTING,
-    ROLLING,
-    SLIDING,
-    LastingContact,
-    Mover,
-    friction_of_rolling,
-    on_surface,
-    rolling,
-)
-from sandbox.engine.setup import Ball
-from sandbox.engine.surfaces import leaves_at, press
-from sandbox.engine.touch import SIDE, Obstacle, Touching
-from sandbox.engine.track import Near, Track
+from sandbox.engine.setup import Ball, Surface
+from sandbox.engine.surfaces import press
+from sandbox.engine.touch import Obstacle, Touching
 from sandbox.physics.integrators import Acceleration, State
+
+SLIDING, ROLLING, PINNED, RESTING = "sliding", "rolling", "pinned", "resting"
 
 #: Speed in m/s and acceleration in m/s^2 below which a value is rounding.
 _STILL = 1e-10
@@ -29,100 +23,67 @@ _STILL = 1e-10
 #: Fraction of the applied force below which a normal force is rounding, as when a ball has just left a round top.
 _PRESSING = 1e-9
 
-#: Normals closer than this (sine of the angle) count as one: two flush surfaces.
-_FLUSH = 1e-7
+#: A ball that needs all the available grip still rolls.
+_WITHIN_ROUNDING = 1.0 + 1e-9
 
 
-class InPlane(Mover):
-    """A ball that flies in the plane of the picture, and slides, rolls and rests on the surfaces there."""
+class LastingContact(NamedTuple):
+    """What a ball is in lasting contact with, and how it moves there."""
 
-    def settle(self, t: float, state: State, track: Track, height: float) -> tuple[State, LastingContact | None]:
-        """The state from which the ball continues, and its lasting contact, or None for flight.
+    mode: str
+    obstacle: Obstacle
+    touching: Touching  # at the start of the contact: normal, curvature, feature
+    direction: float = 0.0  # sign of the slip if sliding, of the motion if rolling, of the spin if pinned
+    spin_rate: float = 0.0  # rad/s^2, at which the spin of a pinned ball decays
 
-        A ball stays on a surface if it is pressed on it and would not bounce higher than ``height`` (m). A lower
-        bounce is removed from the state, as is the overlap, of at most TOUCHING_GAP, at which the surface was found.
+    def progress(self, ball: Ball, state: State) -> float:
+        """What ends this motion when it falls to zero: slip or speed in m/s, or the spin of a wedged ball in rad/s."""
+        _, _, vx, vy, spin = state
+        if self.mode == PINNED:
+            return self.direction * float(spin)
+        nx, ny, _ = self.touching.normal_at(state[0], state[1])
+        speed = vx * ny - vy * nx
+        return self.direction * float(speed + ball.radius * spin if self.mode == SLIDING else speed)
+
+    def forces(self, ball: Ball, applied: Acceleration, state: State) -> tuple[Acceleration, float, float]:
+        """Acceleration in contact; the normal force and the remaining grip, both divided by the mass, in m/s^2.
+
+        ``applied`` is the acceleration that the ball would have in flight.
         """
-        near = track.near(*state[:2])
-        if not near:
-            return state, None
-        applied = self.acceleration(t, state)
-        kept, hardest = _stays_on(near, state, applied, height)
-        if not kept:
-            return state, None
-        x, y, vx, vy, spin = state
-        first = min(kept, key=lambda near: vx * near[1].nx + vy * near[1].ny)[1]
-        together = [(obstacle, touching) for obstacle, touching in kept if _sine(touching, first) <= _FLUSH]
-        if len(together) < len(kept) and hypot(vx, vy) <= leaves_at(hardest, height):
-            vx = vy = 0.0  # held in two directions
-        else:  # along the surface that the ball leaves most slowly; it may leave the others, but not enter them
-            kept = together
-            for _, touching in kept:
-                leaving = vx * touching.nx + vy * touching.ny
-                vx -= leaving * touching.nx
-                vy -= leaving * touching.ny
-            if any(vx * other.nx + vy * other.ny < -_STILL and _sine(other, first) > _FLUSH for _, other in near):
-                return state, None
-        state = (x, y, vx, vy, spin)
+        if self.mode in (PINNED, RESTING):
+            return (0.0, 0.0, -self.direction * self.spin_rate), inf, inf
+        surface = self.obstacle.surface
+        nx, ny, curvature = self.touching.normal_at(state[0], state[1])
+        tx, ty = ny, -nx
+        along = applied[0] * tx + applied[1] * ty
+        normal = press(state, applied, nx, ny, curvature)
+        pressed = max(normal, 0.0)
+        if self.mode == SLIDING:
+            friction = -self.direction * surface.friction * pressed
+            a = along + friction
+            alpha = applied[2] + friction / (ball.inertia_factor * ball.radius)
+            spare = 0.0
+        else:
+            a, spare = _rolling(ball, surface, along, applied[2], pressed, self.direction)
+            alpha = -a / ball.radius
+        speed = state[2] * tx + state[3] * ty
+        centripetal = curvature * speed * speed
+        return (a * tx - centripetal * nx, a * ty - centripetal * ny, alpha), normal, spare
 
-        held: list[LastingContact] = []
-        for obstacle, touching in kept:
-            mx, my = (vx, vy) if vx or vy else applied[:2]  # direction in which it will move
-            place = obstacle.next_feature(touching, x, y, mx, my)
-            contact = _contact_on(self.ball, state, obstacle, place, applied)
-            if contact is None:
-                continue
-            held.append(contact)
-        held.sort(key=lambda contact: contact.touching.curvature)  # the next piece's side before this one's corner
-        for contact in held:
-            (ax, ay, _), _, _ = on_surface(self.ball, applied, state, contact)
-            if contact.mode == RESTING:
-                ax = ay = 0.0
-            if all(
-                ax * other.nx + ay * other.ny >= -1e-9 or _sine(other, contact.touching) <= _FLUSH for _, other in kept
-            ):
-                return _placed_on(self.ball, state, contact), contact
-        if not held:
-            return state, None
-        return _wedged(self.ball, state, kept, held, applied)
-
-    def conclude(self, state: State, contact: LastingContact | None, reason: str) -> State:
-        """The state at the end of an arc: moved back exactly onto a round surface, which the arc follows only closely;
-        exactly rolling, or exactly at rest, if that is why the arc ended."""
-        if contact is None:
-            return state
+    def placed(self, ball: Ball, state: State) -> State:
+        """The state exactly on the surface, without speed away from it; exactly rolling or at rest if the ball is."""
         x, y, vx, vy, spin = state
-        nx, ny, _ = contact.touching.normal_at(x, y)
-        if contact.touching.feature != SIDE and contact.mode in (SLIDING, ROLLING):
-            x = contact.touching.center[0] + contact.obstacle.outline.reach * nx
-            y = contact.touching.center[1] + contact.obstacle.outline.reach * ny
-            leaving = vx * nx + vy * ny
-            vx -= leaving * nx
-            vy -= leaving * ny
-        if reason == "grip":
-            spin = -(vx * ny - vy * nx) / self.ball.radius
-        if reason == "stop":
-            vx = vy = spin = 0.0
+        gap, nx, ny = self.obstacle.on_feature(self.touching.feature, x, y)[:3]
+        leaving = vx * nx + vy * ny
+        x, y, vx, vy = x - gap * nx, y - gap * ny, vx - leaving * nx, vy - leaving * ny
+        if self.mode == RESTING:
+            return x, y, 0.0, 0.0, 0.0
+        if self.mode == ROLLING:
+            spin = -(vx * ny - vy * nx) / ball.radius
         return x, y, vx, vy, spin
 
-    def rests(self, arc: Arc) -> bool:
-        """Whether the ball is at rest on this arc."""
-        return isinstance(arc.contact, LastingContact) and arc.contact.mode == RESTING
 
-
-def _stays_on(near: Sequence[Near], state: State, applied: Acceleration, height: float) -> tuple[list[Near], float]:
-    """The surfaces off which a ball would bounce no higher than ``height`` or than their own lowest bounce, and
-    the largest pressing acceleration (m/s^2) on one of them."""
-    kept, hardest = [], 0.0
-    for obstacle, touching in near:
-        pressed = press(state, applied, touching.nx, touching.ny, touching.curvature)
-        away = state[2] * touching.nx + state[3] * touching.ny
-        if away <= leaves_at(pressed, max(height, obstacle.surface.lowest_bounce)):
-            kept.append((obstacle, touching))
-            hardest = max(hardest, pressed)
-    return kept, hardest
-
-
-def _contact_on(
+def contact_on(
     ball: Ball, state: State, obstacle: Obstacle, touching: Touching, applied: Acceleration
 ) -> LastingContact | None:
     """Sliding, rolling or resting on one surface; None if nothing presses the ball on."""
@@ -140,8 +101,8 @@ def _contact_on(
     moves = abs(speed) > _STILL
     drive = speed if moves else along - ball.inertia_factor * ball.radius * turning
     direction = 1.0 if drive > 0.0 else -1.0
-    a, spare = rolling(ball, obstacle.surface, along, turning, pressed, direction)
-    needed = friction_of_rolling(ball, along, turning)
+    a, spare = _rolling(ball, obstacle.surface, along, turning, pressed, direction)
+    needed = _friction_of_rolling(ball, along, turning)
     if spare < 0.0 or (spare == 0.0 and needed != 0.0):
         return LastingContact(SLIDING, obstacle, touching, 1.0 if needed < 0.0 else -1.0)
     if not moves and direction * a <= _STILL:
@@ -149,50 +110,39 @@ def _contact_on(
     return LastingContact(ROLLING, obstacle, touching, direction)
 
 
-def _placed_on(ball: Ball, state: State, contact: LastingContact) -> State:
-    """The state moved exactly onto the surface, and made exactly rolling or at rest if it is."""
-    x, y, vx, vy, spin = state
-    nx, ny = contact.touching.nx, contact.touching.ny
-    gap = contact.obstacle.gap(contact.touching, x, y)
-    x -= gap * nx
-    y -= gap * ny
-    if contact.mode == RESTING:
-        return x, y, 0.0, 0.0, 0.0
-    if contact.mode == ROLLING:
-        spin = -(vx * ny - vy * nx) / ball.radius
-    return x, y, vx, vy, spin
-
-
-def _wedged(
-    ball: Ball, state: State, kept: Sequence[Near], held: Sequence[LastingContact], applied: Acceleration
-) -> tuple[State, LastingContact]:
-    """Held by two surfaces at once: the position is fixed, and friction on both slows the spin.
-
-    The two normal forces balance only the applied force; the effect of friction on them is ignored.
-    """
-    first = held[0]
-    others = [near for near in kept if _sine(near[1], first.touching) > _FLUSH]
-    obstacle, second = others[0]
-    a, b = first.touching, second
-    ax, ay, _ = applied
+def wedged(
+    ball: Ball, spin: float, first: tuple[Obstacle, Touching], second: tuple[Obstacle, Touching], applied: Acceleration
+) -> LastingContact:
+    """Held by two surfaces at once. The two normal forces balance only the applied force; the effect of friction on
+    them is ignored."""
+    (obstacle, a), (other, b), (ax, ay, _) = first, second, applied
     determinant = a.nx * b.ny - a.ny * b.nx
     on_first = max(0.0, (-ax * b.ny + ay * b.nx) / determinant)
     on_second = max(0.0, (-ay * a.nx + ax * a.ny) / determinant)
-    friction = first.obstacle.surface.friction * on_first + obstacle.surface.friction * on_second
-    x, y, _, _, spin = state
-    for place, touching in ((first.obstacle, a), (obstacle, second)):
-        gap = place.gap(touching, x, y)
-        x -= gap * touching.nx
-        y -= gap * touching.ny
-    still = (x, y, 0.0, 0.0, spin)
     if abs(spin) <= _STILL:
-        return (x, y, 0.0, 0.0, 0.0), LastingContact(RESTING, first.obstacle, a)
+        return LastingContact(RESTING, obstacle, a)
+    friction = obstacle.surface.friction * on_first + other.surface.friction * on_second
     rate = friction / (ball.inertia_factor * ball.radius)
-    return still, LastingContact(PINNED, first.obstacle, a, 1.0 if spin > 0.0 else -1.0, rate)
+    return LastingContact(PINNED, obstacle, a, 1.0 if spin > 0.0 else -1.0, rate)
 
 
-def _sine(a: Touching, b: Touching) -> float:
-    """Sine of the angle between two normals; 2 where they face each other."""
-    if a.nx * b.nx + a.ny * b.ny < 0.0:
-        return 2.0
-    return abs(a.nx * b.ny - a.ny * b.nx)
+def _rolling(
+    ball: Ball, surface: Surface, along: float, turning: float, pressed: float, direction: float
+) -> tuple[float, float]:
+    """Acceleration in m/s^2 along the surface of a ball that rolls in ``direction``, and the remaining grip.
+
+    ``along`` and ``pressed`` (m/s^2) are the accelerations from the applied force along the surface and onto it,
+    ``turning`` (rad/s^2) that from the torque. Friction, up to ``mu N``, keeps the ball rolling and transmits the
+    rolling resistance. If the remaining grip is negative, friction cannot keep the ball rolling, and it slides.
+    """
+    grip = surface.friction * pressed
+    needed = _friction_of_rolling(ball, along, turning)
+    friction = needed - direction * surface.rolling_resistance * pressed
+    friction = max(-grip, min(grip, friction))
+    return along + friction, grip * _WITHIN_ROUNDING - abs(needed)
+
+
+def _friction_of_rolling(ball: Ball, along: float, turning: float) -> float:
+    """Acceleration in m/s^2 that friction must add to keep a ball rolling."""
+    factor = ball.inertia_factor
+    return -(factor * along + factor * ball.radius * turning) / (1.0 + factor)

@@ -11,7 +11,7 @@ from itertools import pairwise
 
 from sandbox.engine.acting import acceleration, by_cause
 from sandbox.engine.arc import Arc
-from sandbox.engine.motion import PINNED, RESTING, LastingContact, on_surface
+from sandbox.engine.lasting import LastingContact
 from sandbox.engine.run import Run
 from sandbox.engine.setup import Ball, kinetic
 from sandbox.engine.track import PRESSED
@@ -126,12 +126,9 @@ def _book(ball: Ball, arc: Arc, work: dict[str, float], contacts: dict[str, floa
         for name, power in powers:
             work[name] += weight * h * power
             applied += power
-        if isinstance(contact, LastingContact) and contact.mode != RESTING:
-            if contact.mode == PINNED:
-                total = -ball.inertia * contact.spin_rate * abs(spin)
-            else:
-                (ax, ay, alpha), _, _ = on_surface(ball, acceleration(ball, t, state), state, contact)
-                total = ball.mass * (ax * vx + ay * vy) + ball.inertia * alpha * spin
+        if isinstance(contact, LastingContact):
+            (ax, ay, alpha), _, _ = contact.forces(ball, acceleration(ball, t, state), state)
+            total = ball.mass * (ax * vx + ay * vy) + ball.inertia * alpha * spin
             contacts[contact.obstacle.surface.name] += weight * h * (total - applied)
             applied = total
         booked += weight * h * applied

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from math import isfinite
 
 from sandbox.engine.arc import Arc, still
-from sandbox.engine.motion import LastingContact
 from sandbox.engine.run import Numerics
 from sandbox.engine.setup import Ball
+from sandbox.engine.touch import Obstacle
 from sandbox.engine.track import Track
 from sandbox.errors import RunError
 from sandbox.physics.cloth import Cloth
@@ -24,16 +25,25 @@ def slowest_hop(cloth: Cloth, hop: float) -> float:
     return float((2.0 * cloth.sliding * cloth.gravity * hop) ** 0.5)
 
 
-class OnCloth:
-    """One ball and the cloth it moves on."""
+class OnCloth(Track):
+    """A ball on cloth, where there is no lasting contact with a cushion."""
 
-    def __init__(self, ball: Ball, cloth: Cloth, numerics: Numerics) -> None:
-        self.ball = ball
+    def __init__(
+        self,
+        ball: Ball,
+        state: State,
+        obstacles: Sequence[Obstacle],
+        catches: Sequence[Obstacle],
+        cloth: Cloth,
+        numerics: Numerics,
+    ) -> None:
+        super().__init__(ball, state, obstacles, catches)
         self._cloth = cloth
         self._numerics = numerics
 
-    def advance(self, t: float, until: float, state: State, contact: LastingContact | None) -> tuple[Arc, str]:
+    def advance(self, t: float, until: float) -> tuple[Arc, str]:
         """The next arc from t, at most to ``until``: a whole phase, of any length."""
+        state = self.state
         phase = self._cloth.phase(state, self.ball.radius)
         self._numerics.steps += 1
         if phase.mode == "resting":
@@ -63,14 +73,6 @@ class OnCloth:
         )
         return arc, ""
 
-    def settle(self, t: float, state: State, track: Track, height: float) -> tuple[State, LastingContact | None]:
-        """Unchanged: on cloth there is no lasting contact with a cushion."""
-        return state, None
-
-    def conclude(self, state: State, contact: LastingContact | None, reason: str) -> State:
-        """Unchanged: phases end exactly."""
-        return state
-
-    def rests(self, arc: Arc) -> bool:
-        """Whether the ball is at rest on this arc."""
-        return arc.t1 > arc.t0 and len(arc.x) == 1 and len(arc.spin) == 1
+    def rests(self) -> bool:
+        """Whether the ball is at rest on its current arc."""
+        return self.arc.t1 > self.arc.t0 and len(self.arc.x) == len(self.arc.spin) == 1

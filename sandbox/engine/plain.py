@@ -21,7 +21,7 @@ from sandbox.engine.accuracy import Accuracy
 from sandbox.engine.acting import checked
 from sandbox.engine.arc import Arc
 from sandbox.engine.event import Event
-from sandbox.engine.motion import Diverged
+from sandbox.engine.in_plane import Diverged
 from sandbox.engine.run import Numerics, Run
 from sandbox.engine.setup import Ball, Circle, Setup, Surface
 from sandbox.engine.surfaces import (

@@ -16,14 +16,15 @@ from sandbox.engine.accuracy import Accuracy
 from sandbox.engine.arc import Arc, still
 from sandbox.engine.event import Event
 from sandbox.engine.impacts import Impacts
-from sandbox.engine.lasting import InPlane
-from sandbox.engine.motion import RESTING, Diverged, LastingContact, Mover
+from sandbox.engine.in_plane import Diverged, InPlane
+from sandbox.engine.lasting import RESTING, LastingContact
 from sandbox.engine.on_cloth import OnCloth, slowest_hop
 from sandbox.engine.run import Numerics, Run
-from sandbox.engine.setup import Ball, Circle, Setup, Surface
-from sandbox.engine.touch import TOUCHING_GAP, Obstacle, balls_touch
-from sandbox.engine.track import Motion, Track
-from sandbox.errors import RequestError, RunError
+from sandbox.engine.setup import Circle, Setup, Surface
+from sandbox.engine.start import starts
+from sandbox.engine.touch import Obstacle, balls_touch
+from sandbox.engine.track import Track
+from sandbox.errors import RunError
 from sandbox.physics.integrators import State
 
 if TYPE_CHECKING:
@@ -40,10 +41,6 @@ _MOST_IMPACTS = 200_000
 #: that lie on one another. A ball that bounces on a surface settles by itself, at any restitution.
 _MOST_FAINT = 1_000
 _FAINT = 1e-4
-
-#: Deepest overlap at the start that is corrected, as a fraction of the radius; deeper is an error in the scene. And the
-#: most attempts, as one correction may cause another overlap.
-_SLIGHT, _MOST_PUSHES = 0.02, 200
 
 #: Most steps in one run, beyond which its forces are too stiff: about 5 s of computing.
 _MOST_STEPS = 100_000
@@ -68,7 +65,6 @@ class Simulation:
         self._faint = 0  # consecutive faint impacts between balls
         self._names = {ball.name for ball in setup.balls}
         self._tracks = self._make_tracks()
-        self._separate_balls()
         slowest = 0.0 if setup.cloth is None else slowest_hop(setup.cloth, accuracy.hop)
         self._impacts = Impacts(setup, self._tracks, self._numerics, slowest)
         self._pressed: Pressed | None = None
@@ -83,19 +79,17 @@ class Simulation:
         obstacles: dict[float, list[Obstacle]] = {}
         skin = self._accuracy.skin
         catches = [Obstacle(Surface(c.name, Circle(c.center, c.radius), 0.0, 0.0), 0.0, skin) for c in setup.catches]
-        tracks = []
-        for ball in setup.balls:
-            if ball.radius not in obstacles:
-                obstacles[ball.radius] = [Obstacle(surface, ball.radius, skin) for surface in setup.surfaces]
-            x, y = _clear_of(ball, ball.position, obstacles[ball.radius])
-            mover: Motion
+        for radius in {ball.radius for ball in setup.balls}:
+            obstacles[radius] = [Obstacle(surface, radius, skin) for surface in setup.surfaces]
+        tracks: list[Track] = []
+        for ball, (x, y) in zip(setup.balls, starts(setup.balls, obstacles), strict=True):
             state: State = (x, y, *map(float, (*ball.velocity, ball.spin)))
+            places = obstacles[ball.radius], catches
             if setup.cloth is None:
-                mover = InPlane(ball, self._accuracy, setup.bounds, setup.patches, self._numerics)
+                tracks.append(InPlane(ball, state, *places, setup, self._accuracy, self._numerics))
             else:
-                mover = OnCloth(ball, setup.cloth, self._numerics)
                 state = (*state, *map(float, ball.rolling_spin))
-            tracks.append(Track(mover, obstacles[ball.radius], catches, state))
+                tracks.append(OnCloth(ball, state, *places, setup.cloth, self._numerics))
         return tracks
 
     def run(self) -> Run:
@@ -126,8 +120,8 @@ class Simulation:
         started = perf_counter()
         track = self._tracks[0]
         track.arc, track.state, track.path = still(t, t, state), state, arcs
-        assert isinstance(track.mover, Mover)  # only this class has steps
-        track.mover.suggest(step)
+        assert isinstance(track, InPlane)  # only this class has steps
+        track.next_step = step
         self._events = events
         if how == "after" and events:
             self._over = self._setup.ends_with(events)  # the earlier events were checked before
@@ -171,7 +165,7 @@ class Simulation:
 
     def _all_rest(self) -> bool:
         for track in self._tracks:  # noqa: SIM110  (twice as quick as all())
-            if not (track.rests or track.caught):
+            if not (track.at_rest or track.caught):
                 return False
         return True
 
@@ -180,7 +174,7 @@ class Simulation:
         track = self._tracks[index]
         track.keep(t)
         track.state = track.arc.state(track.arc.t1)
-        track.state = track.mover.conclude(track.state, track.contact, reason)
+        track.conclude(reason)
         if reason == "":
             self._plan(index, t)
         else:
@@ -249,7 +243,7 @@ class Simulation:
         """Continue from the ball's state: find its contacts and plan its next arc."""
         track = self._tracks[index]
         before = track.contact
-        track.state, track.contact = track.mover.settle(t, track.state, track, self._accuracy.settle)
+        track.settle(t, self._accuracy.settle)
         self._note_contact(track, t, before)
         if self._over:
             track.arc = still(t, t, track.state, track.contact)  # nothing left to plan
@@ -268,8 +262,8 @@ class Simulation:
             self._note(Event(t, "contact", track.ball.name, now, 0.0, x, y))
 
     def _note_rest(self, track: Track, t: float) -> None:
-        rested, track.rests = track.rests, track.mover.rests(track.arc)
-        if track.rests and not rested and (t > 0.0 or track.contact is not None):
+        rested, track.at_rest = track.at_rest, track.rests()
+        if track.at_rest and not rested and (t > 0.0 or track.contact is not None):
             on = "" if track.contact is None else track.contact.obstacle.surface.name
             self._note(Event(t, "rest", track.ball.name, on, 0.0, *track.state[:2]))
 
@@ -278,7 +272,7 @@ class Simulation:
         track = self._tracks[index]
         track.version += 1
         if t < self._setup.duration:
-            arc, kind = track.mover.advance(t, self._setup.duration, track.state, track.contact)
+            arc, kind = track.advance(t, self._setup.duration)
         else:
             arc, kind = still(t, t, track.state, track.contact), ""
         track.arc = arc
@@ -310,21 +304,6 @@ class Simulation:
         other = self._tracks[j].version if j >= 0 else 0
         heapq.heappush(self._queue, (t, next(self._order), kind, i, self._tracks[i].version, j, other))
 
-    # ------------------------------------------------------------------ the start, and errors
-
-    def _separate_balls(self) -> None:
-        """Push slightly overlapping balls apart, and out of surfaces that this pushes them into, if there is room.
-        Raises RequestError for a deep overlap."""
-        for _ in range(_MOST_PUSHES):
-            pushed = False
-            for i, first in enumerate(self._tracks):
-                for second in self._tracks[i + 1 :]:
-                    pushed |= _push_apart(first, second)
-            if not pushed:
-                return
-            for track in self._tracks:
-                track.begin(*_clear_of(track.ball, track.state[:2], track.obstacles))
-
     def _stalled(self, t: float, index: int) -> RunError:
         track = self._tracks[index]
         x, y = track.arc.state(t)[:2]
@@ -337,41 +316,3 @@ class Simulation:
         return Stalled(
             f'{where}: endless events, the last with {other!r}; a pile of balls needs accuracy.method = "plain"'
         )
-
-
-def _push_apart(first: Track, second: Track) -> bool:
-    """Separate two balls that overlap slightly at the start. Returns whether they overlapped."""
-    dx, dy = first.state[0] - second.state[0], first.state[1] - second.state[1]
-    reach = first.ball.radius + second.ball.radius
-    distance = (dx * dx + dy * dy) ** 0.5
-    if distance < (1.0 - _SLIGHT) * reach:
-        raise RequestError(
-            f"balls {first.ball.name!r} and {second.ball.name!r} overlap at the start by {reach - distance:.3g} m: "
-            "move one of them"
-        )
-    if distance >= reach - TOUCHING_GAP:
-        return False
-    share = 0.5 * (reach - distance) / distance
-    first.begin(first.state[0] + share * dx, first.state[1] + share * dy)
-    second.begin(second.state[0] - share * dx, second.state[1] - share * dy)
-    return True
-
-
-def _clear_of(ball: Ball, place: Sequence[float], obstacles: Sequence[Obstacle]) -> tuple[float, float]:
-    """The start of a ball at ``place`` (m), moved out of a slight overlap. Raises RequestError for a deep one, naming
-    both."""
-    x, y = map(float, place)
-    for _ in range(_MOST_PUSHES):
-        near = [(obstacle.near(x, y), obstacle) for obstacle in obstacles if obstacle.may_meet((x, y, x, y))]
-        deepest = min(near, key=lambda near: near[0].gap, default=None)
-        if deepest is None or deepest[0].gap >= -1e-12:
-            return x, y
-        touching, obstacle = deepest
-        if -touching.gap > _SLIGHT * ball.radius:
-            raise RequestError(
-                f"ball {ball.name!r} at ({x:.4g}, {y:.4g}) m overlaps {obstacle.surface.name!r} at the start by "
-                f"{-touching.gap:.3g} m: move one of them"
-            )
-        x -= touching.gap * touching.nx
-        y -= touching.gap * touching.ny
-    raise RequestError(f"ball {ball.name!r} does not fit where it starts: surfaces overlap it from several sides")

@@ -164,14 +164,10 @@ class Obstacle:
         along = outline.along(x, y)
         forward = mx * outline.tx + my * outline.ty
         if abs(along) <= _SEAM:
-            return self._at(CORNER_A if forward < 0.0 else SIDE, x, y)
+            return self.on_feature(CORNER_A if forward < 0.0 else SIDE, x, y)
         if abs(along - outline.length) <= _SEAM:
-            return self._at(CORNER_B if forward > 0.0 else SIDE, x, y)
+            return self.on_feature(CORNER_B if forward > 0.0 else SIDE, x, y)
         return touching
-
-    def gap(self, touching: Touching, x: float, y: float) -> float:
-        """Gap in m between a ball at (x, y) and the feature that it touches."""
-        return self._at(touching.feature, x, y).gap
 
     def edge(self, feature: int, arc: Arc) -> float | None:
         """The first u at which a ball that stays on the feature reaches its end, or None."""
@@ -187,7 +183,8 @@ class Obstacle:
         found = (next(downward_crossings(end), None) for end in ends[feature])
         return min((u for u in found if u is not None), default=None)
 
-    def _at(self, feature: int, x: float, y: float) -> Touching:
+    def on_feature(self, feature: int, x: float, y: float) -> Touching:
+        """Gap and normal of a ball centred at (x, y) to this feature."""
         return self.outline.side(x, y) if feature == SIDE else self.outline.corner(feature, x, y)
 
     def first_touch(self, arc: Arc) -> float | None:

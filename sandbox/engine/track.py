@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Protocol
 
 from sandbox.engine.arc import Arc, still, through
-from sandbox.engine.motion import LastingContact
+from sandbox.engine.lasting import LastingContact
 from sandbox.engine.setup import Ball
 from sandbox.engine.touch import TOUCHING_GAP, Obstacle, Touching
 from sandbox.physics.integrators import State
@@ -20,31 +19,11 @@ _SAME = 1e-9
 Near = tuple[Obstacle, Touching]
 
 
-class Motion(Protocol):
-    """How one ball moves: in the plane of the picture, or on cloth."""
-
-    ball: Ball
-
-    def advance(self, t: float, until: float, state: State, contact: LastingContact | None) -> tuple[Arc, str]:
-        """The next arc from t, at most to ``until``, and why it ends: "" if only because of its length."""
-
-    def settle(self, t: float, state: State, track: Track, height: float) -> tuple[State, LastingContact | None]:
-        """The state from which the ball continues after a touch, and its lasting contact if it stays there because it
-        would not bounce higher than ``height`` (m)."""
-
-    def conclude(self, state: State, contact: LastingContact | None, reason: str) -> State:
-        """The state at the end of an arc that ended for ``reason``."""
-
-    def rests(self, arc: Arc) -> bool:
-        """Whether the ball is at rest on this arc."""
-
-
 class Track:
-    """A ball's state, the arc it is on, and the path behind it."""
+    """A ball's state, the arc it is on, and the path behind it; a subclass has how it moves."""
 
-    def __init__(self, mover: Motion, obstacles: Sequence[Obstacle], catches: Sequence[Obstacle], state: State) -> None:
-        self.mover = mover
-        self.ball = mover.ball
+    def __init__(self, ball: Ball, state: State, obstacles: Sequence[Obstacle], catches: Sequence[Obstacle]) -> None:
+        self.ball = ball
         self.obstacles = obstacles
         self.catches = catches
         self.state = state
@@ -52,13 +31,26 @@ class Track:
         self.arc = still(0.0, 0.0, state)  # the current arc
         self.path: list[Arc] = []
         self.version = 0  # of the arc: predictions for an earlier one are invalid
-        self.rests = False
+        self.at_rest = False  # as noted in the events
         self.caught = False
 
-    def begin(self, x: float, y: float) -> None:
-        """Start at (x, y), in m."""
-        self.state = (x, y, *self.state[2:])
-        self.arc = still(0.0, 0.0, self.state)
+    # ------------------------------------------------------------------ how the ball moves
+
+    def advance(self, t: float, until: float) -> tuple[Arc, str]:
+        """The next arc from t, at most to ``until``, and why it ends: "" if only because of its length."""
+        raise NotImplementedError
+
+    def conclude(self, reason: str) -> None:
+        """Make the state at the end of an arc that ended for ``reason`` exact."""
+
+    def settle(self, t: float, height: float) -> None:
+        """Find the contact that lasts after a touch: of a ball that would not bounce higher than ``height`` (m)."""
+
+    def rests(self) -> bool:
+        """Whether the ball is at rest on its current arc."""
+        raise NotImplementedError
+
+    # ------------------------------------------------------------------ its path
 
     def keep(self, t: float) -> None:
         """Add the arc up to t to the path."""

@@ -8,7 +8,7 @@ from typing import Any
 
 from sandbox.engine.accuracy import Accuracy
 from sandbox.engine.arc import Arc
-from sandbox.engine.motion import LastingContact
+from sandbox.engine.lasting import LastingContact
 from sandbox.engine.run import Event, Numerics, Run
 from sandbox.engine.setup import Ball, Setup
 from sandbox.engine.touch import Obstacle, Touching

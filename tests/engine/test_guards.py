@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 
 from sandbox.engine import simulate, simulate_many
 from sandbox.engine.accuracy import LEVELS, resolve
+from sandbox.engine.in_plane import Diverged
 from sandbox.engine.ledger import ledger
-from sandbox.engine.motion import Diverged
 from sandbox.engine.setup import Ball, Bounce, Bounds, Catch, Circle, Segment, Setup, Surface
 from sandbox.errors import RequestError, RunError, SandboxError
 from sandbox.physics.cloth import Cloth

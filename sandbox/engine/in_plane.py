@@ -1,0 +1,273 @@
+"""A ball in the plane of the picture: it flies under its forces, and slides, rolls and rests on surfaces.
+
+Both are the same integration: in lasting contact the surface adds a force, so a roll is as accurate as a flight.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from functools import partial
+from math import hypot, inf, isfinite
+
+from sandbox.engine.accuracy import Accuracy
+from sandbox.engine.acting import acceleration, checked
+from sandbox.engine.arc import Arc, still, through
+from sandbox.engine.lasting import RESTING, ROLLING, SLIDING, LastingContact, contact_on, wedged
+from sandbox.engine.run import Numerics
+from sandbox.engine.setup import Ball, Setup
+from sandbox.engine.step_control import LONGEST, StepControl, size, within
+from sandbox.engine.surfaces import leaves_at, press
+from sandbox.engine.touch import SIDE, Obstacle, Touching
+from sandbox.engine.track import Near, Track
+from sandbox.errors import RunError
+from sandbox.physics.integrators import INTEGRATORS, Acceleration, Law, State
+
+#: Largest angle in rad that one arc covers around a round feature: a quintic follows a circle to 1e-9 of its radius
+#: for an eighth of a turn or less.
+_LONGEST_TURN = 0.3
+
+#: Speed in m/s and acceleration in m/s^2 into a surface below which a value is rounding.
+_STILL, _PUSH = 1e-10, 1e-9
+
+#: Normals closer than this (sine of the angle) count as one: two flush surfaces.
+_FLUSH = 1e-7
+
+#: How the ball moves at the end of an arc that ended for one of these reasons.
+_BECOMES = {"grip": ROLLING, "stop": RESTING}
+
+
+class Diverged(RunError):
+    """A ball's state became invalid: not finite, or outside the world."""
+
+
+class InPlane(Track):
+    """A ball that flies in the plane of the picture, and slides, rolls and rests on the surfaces there."""
+
+    def __init__(
+        self,
+        ball: Ball,
+        state: State,
+        obstacles: Sequence[Obstacle],
+        catches: Sequence[Obstacle],
+        setup: Setup,
+        accuracy: Accuracy,
+        numerics: Numerics,
+    ) -> None:
+        super().__init__(ball, state, obstacles, catches)
+        self._bounds = setup.bounds
+        self._patches = setup.patches
+        self._numerics = numerics
+        self._law: Law = partial(acceleration, ball)
+        self._method = INTEGRATORS[accuracy.integrator]
+        self._control = StepControl(accuracy)
+        self._known: tuple[State, Acceleration] = ((), (0.0, 0.0, 0.0))  # the end of the last step: the next start
+        self.next_step = self._control.first  # s, to try
+
+    # ------------------------------------------------------------------ one piece of path
+
+    def advance(self, t: float, until: float) -> tuple[Arc, str]:
+        """The next arc from t, at most to ``until``, and why it ends: "" if only because of its length.
+
+        Raises Diverged with the time, the ball and the quantity if the state is not finite or out of bounds.
+        """
+        contact, ball = self.contact, self.ball
+        if contact is None:
+            return self._integrate(t, until, self._law), ""
+        if contact.mode == RESTING:
+            return still(t, until, self.state, contact), ""
+        arc = self._integrate(t, until, lambda at, state: contact.forces(ball, checked(ball, at, state), state)[0])
+        return self._cut_where_contact_changes(arc, contact)
+
+    def rests(self) -> bool:
+        """Whether the ball is at rest on its current arc."""
+        return self.contact is not None and self.contact.mode == RESTING
+
+    def _integrate(self, t: float, until: float, law: Law) -> Arc:
+        state, contact = self.state, self.contact
+        known, acceleration = self._known
+        if known is not state:
+            acceleration = law(t, state)
+            self._numerics.force_evaluations += 1
+        wanted = self.next_step
+        h = within(self._patches, min(wanted, LONGEST, until - t), state, acceleration)
+        if contact is not None and contact.touching.feature != SIDE:
+            h = min(h, _LONGEST_TURN / (contact.touching.curvature * (abs(state[2]) + abs(state[3])) + 1e-30))
+        shortest = max(1e-15, 1e-15 * t)
+        while True:
+            after, last, error = self._method.step(law, t, state, acceleration, h)
+            end_acceleration = law(t + h, after) if last is None else last
+            self._numerics.steps += 1
+            self._numerics.force_evaluations += self._method.evaluations
+            if not isinstance(acceleration[0] + end_acceleration[0] + end_acceleration[1] + end_acceleration[2], float):
+                self._method.step(
+                    partial(checked, self.ball), t, state, checked(self.ball, t, state), h
+                )  # raises the error, with its cause
+            off = None if error is None else size(error, self.ball.radius)
+            fits, following = self._control.judge(h, wanted, state, after, (acceleration, end_acceleration), off)
+            if fits:
+                break
+            if following < shortest:
+                raise self._too_short(t, h, after, end_acceleration)
+            self._numerics.refined_steps += 1
+            h = wanted = following
+        self.next_step = following
+        self._check(t + h, after)
+        self._known = (after, end_acceleration)
+        return through(t, h, state, acceleration, after, end_acceleration, contact)
+
+    def _too_short(self, t: float, h: float, after: State, acceleration: Acceleration) -> Diverged:
+        self._check(t + h, after)
+        if not all(map(isfinite, acceleration)):
+            return Diverged(
+                f"t = {t + h:.6g} s, ball {self.ball.name!r}: a force or torque is not finite; check the scene's forces"
+            )
+        return Diverged(
+            f"t = {t:.6g} s, ball {self.ball.name!r}: the velocity changes too fast for any step "
+            f"(down to {h:.1e} s); look for a force that is not smooth, or raise accuracy.tolerance"
+        )
+
+    def _check(self, t: float, state: State) -> None:
+        x, y, vx, vy, spin = state
+        total = x + y + vx + vy + spin
+        left, bottom, right, top = self._bounds
+        if total - total == 0.0 and left <= x <= right and bottom <= y <= top:
+            return
+        where = f"t = {t:.6g} s, ball {self.ball.name!r}: "
+        names, units = ("x", "y", "vx", "vy", "spin"), ("m", "m", "m/s", "m/s", "rad/s")
+        for quantity, unit, value in zip(names, units, state, strict=True):
+            if not isfinite(value):
+                raise Diverged(
+                    f"{where}{quantity} is {value} {unit}; "
+                    "check the forces, or lower accuracy.step or accuracy.tolerance"
+                )
+        quantity, value, low, high = ("x", x, left, right) if not left <= x <= right else ("y", y, bottom, top)
+        raise Diverged(
+            f"{where}{quantity} = {value:.6g} m is outside the world ({low:g} to {high:g} m); shorten the duration, or "
+            "widen the scene's bounds"
+        )
+
+    # ------------------------------------------------------------------ lasting contact
+
+    def _cut_where_contact_changes(self, arc: Arc, contact: LastingContact) -> tuple[Arc, str]:
+        def progress(t: float, state: State) -> float:
+            return contact.progress(self.ball, state)
+
+        def held(t: float, state: State) -> tuple[Acceleration, float, float]:
+            return contact.forces(self.ball, self._applied(t, state), state)
+
+        ends: list[tuple[float, str]] = []
+        last = arc.state(arc.t1)
+        if progress(arc.t1, last) < 0.0:
+            ends.append((_crossing(arc, progress), "grip" if contact.mode == SLIDING else "stop"))
+        _, normal, spare = held(arc.t1, last)
+        if normal < 0.0:
+            ends.append((_crossing(arc, lambda t, state: held(t, state)[1]), "leave"))
+        elif spare < 0.0:
+            ends.append((_crossing(arc, lambda t, state: held(t, state)[2]), "slip"))
+        edge = contact.obstacle.edge(contact.touching.feature, arc)
+        if edge is not None:
+            ends.append((arc.t0 + edge * (arc.t1 - arc.t0), "edge"))
+        t, reason = min(ends, default=(arc.t1, ""))
+        return arc.until(t), reason
+
+    def conclude(self, reason: str) -> None:
+        """Move the ball exactly onto its surface, which the arc follows only closely; make it exactly rolling, or
+        exactly at rest, if that is why the arc ended."""
+        if self.contact is not None:
+            mode = _BECOMES.get(reason, self.contact.mode)
+            self.state = self.contact._replace(mode=mode).placed(self.ball, self.state)
+
+    def settle(self, t: float, height: float) -> None:
+        """Find the contact that lasts after a touch, or None for flight.
+
+        A ball stays on a surface if it is pressed on it and would not bounce higher than ``height`` (m). A lower
+        bounce is removed from the state, as is the overlap, of at most TOUCHING_GAP, at which the surface was found.
+        """
+        self.contact = None
+        near = self.near(*self.state[:2])
+        if not near:
+            return
+        x, y, vx, vy, spin = self.state
+        applied = self._applied(t, self.state)
+        pressed = [press(self.state, applied, touch.nx, touch.ny, touch.curvature) for _, touch in near]
+        kept, hardest = list[Near](), 0.0
+        for (obstacle, touch), by in zip(near, pressed, strict=True):
+            if vx * touch.nx + vy * touch.ny <= leaves_at(by, max(height, obstacle.surface.lowest_bounce)):
+                kept.append((obstacle, touch))
+                hardest = max(hardest, by)
+        if not kept:
+            return
+        first = min(kept, key=lambda near: vx * near[1].nx + vy * near[1].ny)[1]
+        together = [(obstacle, touch) for obstacle, touch in kept if _sine(touch, first) <= _FLUSH]
+        if len(together) < len(kept) and hypot(vx, vy) <= leaves_at(hardest, height):
+            vx = vy = 0.0  # held in two directions
+        else:  # along the surface that the ball leaves most slowly; it may leave the others, but not enter them
+            kept = together
+            for _, touch in kept:
+                leaving = vx * touch.nx + vy * touch.ny
+                vx, vy = vx - leaving * touch.nx, vy - leaving * touch.ny
+            if any(vx * other.nx + vy * other.ny < -_STILL and _sine(other, first) > _FLUSH for _, other in near):
+                return
+        self.state = (x, y, vx, vy, spin)
+        self._hold(kept, applied)
+
+    def _hold(self, kept: Sequence[Near], applied: Acceleration) -> None:
+        """Choose the contact among the surfaces that the ball stays on."""
+        ball, state = self.ball, self.state
+        x, y, vx, vy, spin = state
+        mx, my = (vx, vy) if vx or vy else applied[:2]  # direction in which it will move
+        places = [(obstacle, obstacle.next_feature(touching, x, y, mx, my)) for obstacle, touching in kept]
+        found = [contact_on(ball, state, obstacle, touching, applied) for obstacle, touching in places]
+        held = [contact for contact in found if contact is not None]
+        held.sort(key=lambda contact: contact.touching.curvature)  # the next piece's side before this one's corner
+        for contact in held:
+            (ax, ay, _), _, _ = contact.forces(ball, applied, state)
+            others = (other for _, other in kept if _sine(other, contact.touching) > _FLUSH)
+            if all(ax * other.nx + ay * other.ny >= -_PUSH for other in others):
+                self.state, self.contact = contact.placed(ball, state), contact
+                return
+        if held:
+            one = held[0].obstacle, held[0].touching
+            two = next(near for near in kept if _sine(near[1], one[1]) > _FLUSH)
+            self.contact = wedged(ball, spin, one, two, applied)
+            for obstacle, touching in (one, two):
+                gap = obstacle.on_feature(touching.feature, x, y).gap
+                x, y = x - gap * touching.nx, y - gap * touching.ny
+            self.state = (x, y, 0.0, 0.0, 0.0 if self.contact.mode == RESTING else spin)
+
+    def _applied(self, t: float, state: State) -> Acceleration:
+        """Acceleration from the applied forces, without the contact's; m/s^2, rad/s^2. Counts evaluations."""
+        self._numerics.force_evaluations += 1
+        return checked(self.ball, t, state)
+
+
+def _sine(a: Touching, b: Touching) -> float:
+    """Sine of the angle between two normals; infinite where they face each other."""
+    if a.nx * b.nx + a.ny * b.ny < 0.0:
+        return inf
+    return abs(a.nx * b.ny - a.ny * b.nx)
+
+
+def _crossing(arc: Arc, value: Callable[[float, State], float]) -> float:
+    """The time at which ``value``, negative at the end of the arc, falls to zero; the start if it is never
+    positive."""
+    low, high = arc.t0, arc.t1
+    at_low, at_high = value(low, arc.start), value(high, arc.state(high))
+    for halvings in range(1, 40):  # it may start at zero, as slip does when a rolling ball loses its grip
+        if at_low > 0.0:
+            break
+        low = arc.t0 + (high - arc.t0) * 0.5**halvings
+        at_low = value(low, arc.state(low))
+    else:
+        return arc.t0
+    for _ in range(60):  # regula falsi with the Illinois weights: high is the latest point, low on the other side
+        t = low + (high - low) * at_low / (at_low - at_high)
+        here = value(t, arc.state(t))
+        if here == 0.0 or abs(t - high) <= 1e-15 * (1.0 + t):
+            return t
+        if here * at_high < 0.0:
+            low, at_low = high, at_high
+        else:
+            at_low *= 0.5
+        high, at_high = t, here
+    return high

@@ -1,0 +1,60 @@
+"""Where balls start: moved out of slight overlaps."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+
+from sandbox.engine.setup import Ball
+from sandbox.engine.touch import TOUCHING_GAP, Obstacle
+from sandbox.errors import RequestError
+
+#: Deepest overlap that is corrected, as a fraction of the radius; deeper is an error in the scene. And the most
+#: attempts, as one correction may cause another overlap.
+_SLIGHT, _MOST_PUSHES = 0.02, 200
+
+#: Overlap in m of a ball and a surface that is rounding.
+_ROUNDING = 1e-12
+
+
+def starts(balls: Sequence[Ball], obstacles: Mapping[float, Sequence[Obstacle]]) -> list[list[float]]:
+    """The position of each ball at the start, in m; ``obstacles`` are those for balls of a radius.
+
+    Balls that overlap slightly are pushed apart, and out of surfaces. Raises RequestError for a deep overlap, naming
+    both, and for a ball that does not fit.
+    """
+    places = [[float(x) for x in ball.position] for ball in balls]
+    for _ in range(_MOST_PUSHES):
+        name = ""
+        for i, j, what, reach, depth, nx, ny in _overlaps(balls, places, obstacles):
+            ball = name = balls[i].name
+            if depth > _SLIGHT * reach:
+                x, y = places[i]
+                raise RequestError(
+                    f"ball {ball!r} at ({x:.4g}, {y:.4g}) m overlaps {what!r} at the start by {depth:.3g} m: "
+                    "move one of them"
+                )
+            for index, push in ((i, depth),) if j is None else ((i, 0.5 * depth), (j, -0.5 * depth)):
+                places[index][0] += push * nx
+                places[index][1] += push * ny
+        if not name:
+            return places
+    raise RequestError(f"ball {name!r} does not fit where it starts: it is overlapped from several sides")
+
+
+def _overlaps(
+    balls: Sequence[Ball], places: Sequence[Sequence[float]], obstacles: Mapping[float, Sequence[Obstacle]]
+) -> Iterator[tuple[int, int | None, str, float, float, float, float]]:
+    """Each overlap of two balls, then of balls and surfaces, from the places when it is asked for: the balls, the name
+    of what the first overlaps, the sum of the radii and the depth in m, and the normal to the first."""
+    for i, ball in enumerate(balls):
+        for j, other in enumerate(balls[:i]):
+            dx, dy = places[i][0] - places[j][0], places[i][1] - places[j][1]
+            distance, reach = (dx * dx + dy * dy) ** 0.5, ball.radius + other.radius
+            if distance < reach - TOUCHING_GAP:
+                over = distance or 1.0  # their centres may coincide
+                yield i, j, other.name, reach, reach - distance, dx / over, dy / over
+    for i, ball in enumerate(balls):
+        for obstacle in obstacles[ball.radius]:
+            gap, nx, ny, *_ = obstacle.near(*places[i])
+            if gap < -_ROUNDING:
+                yield i, None, obstacle.surface.name, ball.radius, -gap, nx, ny
