@@ -32,7 +32,7 @@ _STILL, _PUSH = 1e-10, 1e-9
 #: Normals closer than this (sine of the angle) count as one: two flush surfaces.
 _FLUSH = 1e-7
 
-#: How the ball moves at the end of an arc that ended for one of these reasons.
+#: How a ball moves exactly at the end of an arc that ended for one of these reasons.
 _BECOMES = {"grip": ROLLING, "stop": RESTING}
 
 
@@ -174,8 +174,7 @@ class InPlane(Track):
         """Move the ball exactly onto its surface, which the arc follows only closely; make it exactly rolling, or
         exactly at rest, if that is why the arc ended."""
         if self.contact is not None:
-            mode = _BECOMES.get(reason, self.contact.mode)
-            self.state = self.contact._replace(mode=mode).placed(self.ball, self.state)
+            self.state = self.contact._replace(mode=_BECOMES.get(reason, SLIDING)).placed(self.ball, self.state)
 
     def settle(self, t: float, height: float) -> None:
         """Find the contact that lasts after a touch, or None for flight.

@@ -233,7 +233,7 @@ def test_slight_overlap_is_pushed_out_and_a_deep_one_refused():
     assert run.state("ball", 0.0)[1] == pytest.approx(0.05, abs=1e-12)
     with pytest.raises(RequestError, match=r"'ball'.*overlaps 'floor'.*0\.02 m"):
         simulate(Setup([ball((0.0, 0.03))], [floor], duration=0.5), resolve())
-    with pytest.raises(RequestError, match="ball 'b' at .* overlaps 'a' at the start"):
+    with pytest.raises(RequestError, match=r"ball 'b' at .* overlaps 'a' at the start"):
         simulate(Setup([ball((0.0, 0.0), name="a"), ball((0.05, 0.0), name="b")], duration=0.5), resolve())
 
 
