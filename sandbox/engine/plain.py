@@ -10,8 +10,8 @@ step, and a ball that passes through a surface within a step is an error. The cl
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from math import hypot
+from collections.abc import Callable
+from math import hypot, isfinite
 from time import perf_counter
 from typing import Any, NamedTuple
 
@@ -24,6 +24,7 @@ from sandbox.engine.event import Event
 from sandbox.engine.in_plane import Diverged
 from sandbox.engine.run import Numerics, Run
 from sandbox.engine.setup import Ball, Circle, Setup, Surface
+from sandbox.engine.step_control import JUMP, stiff
 from sandbox.engine.surfaces import (
     bounce_of_balls,
     bounce_off,
@@ -33,7 +34,7 @@ from sandbox.engine.surfaces import (
 )
 from sandbox.errors import RunError
 from sandbox.physics.cushion import rebound
-from sandbox.physics.integrators import State
+from sandbox.physics.integrators import Acceleration, State
 
 #: Overlap in m that Chipmunk allows; its default of 0.1 is meant for pixels.
 _SLOP = 1e-5
@@ -50,8 +51,6 @@ _REST_SPEED, _REST_TIME = 0.01, 0.25
 #: A change of velocity in a step larger than the velocity gained so far by more than this factor is a reversal by
 #: drag, which should only slow.
 _REVERSAL = 1.0
-#: Changes below this fraction of the speed are not a reversal: a force may jump.
-_JUMP = 0.01
 
 #: A ball rolls if its slip is below this fraction of its speed.
 _GRIP = 0.01
@@ -61,12 +60,15 @@ _LEAP = 0.5
 
 _BALL, _SURFACE = 1, 2
 
+#: What to do about an error that a finer step avoids.
+_REMEDY = 'lower accuracy.step, or use accuracy.method = "exact"'
+
 
 class _Pending(NamedTuple):
     """A contact between Chipmunk's ``pre_solve`` and ``post_solve`` callbacks."""
 
     friction: float  # of the pair, in all directions
-    slip: tuple[float, float]  # m/s, in the plane and upward
+    slip: tuple[float, float]  # m/s, along and upward
     resistance: float = 0.0  # rolling resistance, of lasting contact
     lowest: float = 0.0  # m/s, a bounce no faster than this is absorbed
     turned: float = 0.0  # rad, rotation of the velocity during contact with a tilted surface
@@ -82,9 +84,7 @@ class _Tracked:
         self.path: list[Arc] = []
         self.since = 0.0  # s, start of the current arc
         self.start: State = (*ball.position, *ball.velocity, ball.spin, *self.rolling_spin)
-        self.acceleration = (0.0, 0.0)
-        self.before = (0.0, 0.0)  # velocity before the last step's forces
-        self.leap: tuple[Any, Any] | None = None  # start and end of the last step, if it was long
+        self.last: tuple[State, Acceleration] | None = None  # before the forces of the last step
         self.touched = -2  # number of the last step in which it touched something
         self.pending: dict[Any, _Pending] = {}  # by the other's shape
         self.caught = False
@@ -137,25 +137,15 @@ class PlainSimulation:
         for ball in setup.balls:
             body = pymunk.Body(ball.mass, ball.inertia)
             body.position, body.velocity, body.angular_velocity = ball.position, ball.velocity, ball.spin
-            disc = pymunk.Circle(body, ball.radius)
-            disc.collision_type = _BALL
-            disc.filter = pymunk.ShapeFilter(categories=_BALL)
-            disc.elasticity = disc.friction = 1.0
-            tracked = _Tracked(ball, body, setup.cloth is not None)
             body.velocity_func = self._guarded(self._move)
-            self._tracked[body] = tracked
+            disc = pymunk.Circle(body, ball.radius)
+            disc.collision_type, disc.filter = _BALL, pymunk.ShapeFilter(categories=_BALL)
+            disc.elasticity = disc.friction = 1.0
+            self._tracked[body] = _Tracked(ball, body, setup.cloth is not None)
             self._space.add(body, disc)
-        for other, meet, part in (
-            (_SURFACE, self._meet_surface, self._part_from_surface),
-            (_BALL, self._meet_ball, self._part_from_ball),
-        ):
-            self._space.on_collision(
-                _BALL,
-                other,
-                begin=self._guarded(self._begin),
-                pre_solve=self._guarded(meet),
-                post_solve=self._guarded(part),
-            )
+        for other in (_SURFACE, _BALL):
+            meet, part = self._guarded(self._meet), self._guarded(self._part)
+            self._space.on_collision(_BALL, other, pre_solve=meet, post_solve=part)
 
     def run(self) -> Run:
         started = perf_counter()
@@ -169,7 +159,6 @@ class PlainSimulation:
 
     def _loop(self) -> str:
         step, duration = self._accuracy.step, self._setup.duration
-        space, numerics = self._space, self._numerics
         next_record = 0.0
         while self._t < duration:
             self._steps += 1
@@ -180,12 +169,9 @@ class PlainSimulation:
                 )
             # bodies move first: contacts and forces belong to the end of the step
             before, self._t = self._t, min(self._steps * step, duration)
-            space.step(self._t - before)
+            self._space.step(self._t - before)
             if self._raised is not None:
                 raise self._raised
-            for tracked in self._tracked.values():
-                if tracked.leap is not None:
-                    self._refuse_leap(tracked)
             for tracked in self._hit:
                 tracked.start = tracked.state()  # the next arc starts from the state after the impact
             self._hit.clear()
@@ -195,18 +181,21 @@ class PlainSimulation:
                 next_record = self._t + _RECORD_EVERY
                 if self._record_all():
                     break
-        numerics.pymunk_steps = numerics.steps = self._steps
+        self._numerics.pymunk_steps = self._numerics.steps = self._steps
         return "until" if self._over else "duration" if self._t >= duration else "rest"
 
     def _record_all(self) -> bool:
         """Record and check the state of all balls. Returns whether all are at rest."""
         if self._progress is not None:
             self._progress(self._t, min(self._setup.duration, MOST_STEPS * self._accuracy.step))
+        left, bottom, right, top = self._setup.bounds
         rest = True
         for tracked in self._tracked.values():
             if not tracked.caught:
                 tracked.record(self._t)
-                self._check(tracked)
+                x, y = tracked.body.position
+                if not (left <= x <= right and bottom <= y <= top):
+                    raise self._diverged(tracked, tracked.state())
                 self._catch(tracked)
                 rest = self._rests(tracked) and rest
         return rest
@@ -221,6 +210,17 @@ class PlainSimulation:
                 speed = tracked.body.velocity.length
                 self._note(Event(self._t, "caught", tracked.ball.name, catch.name, speed, x, y))
                 return
+
+    def _rests(self, tracked: _Tracked) -> bool:
+        _, _, vx, vy, spin = tracked.state()[:5]
+        slow = (vx * vx + vy * vy) ** 0.5 + tracked.ball.radius * abs(spin) < _REST_SPEED
+        held = self._setup.cloth is not None or self._steps - tracked.touched <= 1
+        if not (slow and held):
+            tracked.still_since = None
+            return False
+        if tracked.still_since is None:
+            tracked.still_since = self._t
+        return self._t - tracked.still_since >= _REST_TIME
 
     def _note(self, event: Event) -> None:
         self._events.append(event)
@@ -245,162 +245,126 @@ class PlainSimulation:
         """Apply forces, torques and the cloth to a ball for a step."""
         self._numerics.force_evaluations += 1
         tracked, cloth = self._tracked[body], self._setup.cloth
-        ball = tracked.ball
-        (x, y), (vx, vy), spin = body.position, body.velocity, body.angular_velocity
-        far = h * h * (vx * vx + vy * vy) > (_LEAP * ball.radius) ** 2
-        tracked.leap = ((x - h * vx, y - h * vy), (x, y)) if far else None
-        ax, ay, alpha = checked(ball, self._t, (x, y, vx, vy, spin))
-        if tracked.touched != self._steps:
-            self._refuse_reversal(tracked, ax, ay, (vx, vy), h)
-        tracked.acceleration, tracked.before = (ax, ay), (vx, vy)
-        vx, vy = vx + h * ax, vy + h * ay
+        state = tracked.state()
+        x, y, vx, vy, spin = state[:5]
+        if h * h * (vx * vx + vy * vy) > (_LEAP * tracked.ball.radius) ** 2:
+            self._refuse_leap(tracked, (x - h * vx, y - h * vy), (x, y))
+        acceleration = checked(tracked.ball, self._t, state[:5])
+        if tracked.last is not None and tracked.touched != self._steps:
+            self._refuse_reversal(tracked, *tracked.last, state, acceleration, h)
+        tracked.last = state, acceleration
+        ax, ay, alpha = acceleration
+        after: State = (x, y, vx + h * ax, vy + h * ay, *state[4:])
         if cloth is not None:
-            wx, wy = tracked.rolling_spin
-            phase = cloth.phase((x, y, vx, vy, spin, wx, wy), ball.radius)
-            _, _, vx, vy, spin, *tracked.rolling_spin = cloth.after(  # type: ignore[assignment]
-                (x, y, vx, vy, spin, wx, wy), phase, min(h, phase.duration)
-            )
-        spin += h * alpha
-        total = x + y + vx + vy + spin
-        if total - total != 0.0:
-            raise self._diverged(tracked, (x, y, vx, vy, spin))
-        body.velocity = (vx, vy)
-        body.angular_velocity = spin
+            phase = cloth.phase(after, tracked.ball.radius)
+            after = (x, y, *cloth.after(after, phase, min(h, phase.duration))[2:])
+        after = (*after[:4], after[4] + h * alpha, *after[5:])
+        if not isfinite(sum(after)):
+            raise self._diverged(tracked, after)
+        tracked.take(after)
 
-    def _refuse_reversal(self, tracked: _Tracked, ax: float, ay: float, velocity: Any, h: float) -> None:
-        change = h * (abs(ax - tracked.acceleration[0]) + abs(ay - tracked.acceleration[1]))
-        gain = abs(velocity[0] - tracked.before[0]) + abs(velocity[1] - tracked.before[1])
-        speed = abs(velocity[0]) + abs(velocity[1])
-        if (
-            tracked.before != (0.0, 0.0)
-            and change > _REVERSAL * gain
-            and change > _JUMP * speed
-            and gain > _JUMP * speed
-        ):
-            raise Diverged(
-                f"t = {self._t:.6g} s, ball {tracked.ball.name!r}: drag would reverse its velocity "
-                f'within a step of {h:.3g} s; lower accuracy.step, or use accuracy.method = "exact"'
-            )
-
-    def _begin(self, arbiter: pymunk.Arbiter, space: pymunk.Space, data: Any) -> None:
-        first, second = arbiter.shapes
-        tracked = self._tracked[_body(first)]
-        _, approach, _ = _closing(arbiter)
-        partner = self._surfaces[second].name if second in self._surfaces else self._tracked[_body(second)].ball.name
-        if approach > 0.0:
+    def _meet(self, arbiter: pymunk.Arbiter, space: pymunk.Space, data: Any) -> None:
+        """Set the restitution and friction of a contact, before Chipmunk solves it."""
+        balls, surface = self._touching(arbiter)
+        first, states = balls[0], [tracked.state() for tracked in balls]
+        nx, ny = -arbiter.normal
+        approach, *slips = speeds_where_touching([tracked.ball for tracked in balls], states, nx, ny)
+        slip = slips[0], slips[1]
+        for tracked in balls:
+            tracked.touched = self._steps
+        partner = balls[1].ball.name if surface is None else surface.name
+        if arbiter.is_first_contact and approach > 0.0:
             self._numerics.impacts += 1
-            tracked.record(self._t)
-            self._hit.append(tracked)
-            x, y = _body(first).position
-            self._note(Event(self._t, "impact", tracked.ball.name, partner, approach, x, y))
-
-    def _meet_surface(self, arbiter: pymunk.Arbiter, space: pymunk.Space, data: Any) -> None:
-        first, second = arbiter.shapes
-        tracked, surface = self._tracked[_body(first)], self._surfaces[second]
-        tracked.touched = self._steps
-        (nx, ny), approach, along = _closing(arbiter)
+            for tracked in balls:
+                tracked.record(self._t)
+                self._hit.append(tracked)
+            self._note(Event(self._t, "impact", first.ball.name, partner, approach, *states[0][:2]))
+        if surface is None:
+            bounce = bounce_of_balls(self._setup, approach, hypot(*slip), first.ball.name, partner)
+            arbiter.restitution, arbiter.friction = bounce.restitution, friction_in_plane(bounce.friction, *slip)
+            first.pending[arbiter.shapes[1]] = _Pending(bounce.friction, slip)
+            return
+        along = states[0][2] * ny - states[0][3] * nx
+        acceleration = (0.0, 0.0) if first.last is None else first.last[1]
+        press = max(0.0, -acceleration[0] * nx - acceleration[1] * ny)  # m/s^2
+        lasts = abs(approach) <= 2.0 * press * self._accuracy.step  # the speed that weight alone adds in a step or two
         if surface.nose_height is not None:  # Chipmunk sees only the plane, so it cannot solve this
             arbiter.process_collision = False
             if approach > 0.0:
                 bounce = bounce_off(surface, approach, along)
-                radius, height = tracked.ball.radius, surface.nose_height
-                x, y, *motion = tracked.state()
-                tracked.take((x, y, *rebound(tuple(motion), (-nx, -ny), radius, height, *bounce[:2])))
-            return
-        press = max(0.0, tracked.acceleration[0] * nx + tracked.acceleration[1] * ny)  # m/s^2
-        lasts = abs(approach) <= 2.0 * press * self._accuracy.step  # the speed that weight alone adds in a step or two
-        if approach <= 0.0 and not lasts:
-            return
-        slip = speeds_where_touching([tracked.ball], [tracked.state()], -nx, -ny)[1:]
-        restitution, friction, tilt = bounce_off(surface, approach, along)
-        arbiter.restitution, arbiter.friction = 0.0 if lasts else restitution, friction_in_plane(friction, *slip)
-        # a tilted surface is equivalent to a level one that meets a velocity rotated the other way; it is rotated back
-        # afterwards
-        turned = 0.0 if lasts or any(pending.turned for pending in tracked.pending.values()) else tilt
-        turned = turned if along >= 0.0 else -turned
-        tracked.body.velocity = tracked.body.velocity.rotated(-turned)
-        resistance = surface.rolling_resistance if lasts else 0.0
-        lowest = (2.0 * press * surface.lowest_bounce) ** 0.5
-        tracked.pending[second] = _Pending(friction, slip, resistance, lowest, turned)
+                radius, height = first.ball.radius, surface.nose_height
+                first.take((0.0, 0.0, *rebound(states[0][2:], (nx, ny), radius, height, *bounce[:2])))
+        elif approach > 0.0 or lasts:
+            restitution, friction, tilt = bounce_off(surface, approach, along)
+            arbiter.restitution, arbiter.friction = 0.0 if lasts else restitution, friction_in_plane(friction, *slip)
+            # a tilted surface is equivalent to a level one that meets a velocity rotated the other way; it is rotated
+            # back afterwards
+            turned = 0.0 if lasts or any(pending.turned for pending in first.pending.values()) else tilt
+            turned = turned if along >= 0.0 else -turned
+            first.body.velocity = first.body.velocity.rotated(-turned)
+            resistance = surface.rolling_resistance if lasts else 0.0
+            lowest = (2.0 * press * surface.lowest_bounce) ** 0.5
+            first.pending[arbiter.shapes[1]] = _Pending(friction, slip, resistance, lowest, turned)
 
-    def _part_from_surface(self, arbiter: pymunk.Arbiter, space: pymunk.Space, data: Any) -> None:
-        first, second = arbiter.shapes
-        tracked, body = self._tracked[_body(first)], _body(first)
-        pending = tracked.pending.pop(second, None)
+    def _part(self, arbiter: pymunk.Arbiter, space: pymunk.Space, data: Any) -> None:
+        """Apply what Chipmunk does not know of, after it has solved the contact."""
+        balls, surface = self._touching(arbiter)
+        first, (nx, ny) = balls[0], -arbiter.normal
+        pending = first.pending.pop(arbiter.shapes[1], None)
         if pending is None:
             return
-        body.velocity = body.velocity.rotated(pending.turned)
-        (nx, ny), approach, along = _closing(arbiter)
         push = abs(arbiter.total_impulse.dot(arbiter.normal))
-        if 0.0 < -approach <= pending.lowest:  # a bounce that the surface absorbs
-            body.velocity += (-approach * nx, -approach * ny)
-        speed = body.velocity.length
-        if pending.resistance > 0.0 and abs(along + tracked.ball.radius * body.angular_velocity) <= _GRIP * speed:
-            slower = max(0.0, 1.0 - pending.resistance * push / tracked.ball.mass / (speed + 1e-30))
-            body.velocity, body.angular_velocity = slower * body.velocity, slower * body.angular_velocity
-        self._rub([tracked], (-nx, -ny), pending, push)
-
-    def _meet_ball(self, arbiter: pymunk.Arbiter, space: pymunk.Space, data: Any) -> None:
-        first, second = arbiter.shapes
-        a, b = self._tracked[_body(first)], self._tracked[_body(second)]
-        a.touched = b.touched = self._steps
-        nx, ny = arbiter.normal
-        approach, *slip = speeds_where_touching([a.ball, b.ball], [a.state(), b.state()], -nx, -ny)
-        bounce = bounce_of_balls(self._setup, approach, hypot(*slip), a.ball.name, b.ball.name)
-        arbiter.restitution, arbiter.friction = bounce.restitution, friction_in_plane(bounce.friction, *slip)
-        a.pending[second] = _Pending(bounce.friction, (slip[0], slip[1]))
-
-    def _part_from_ball(self, arbiter: pymunk.Arbiter, space: pymunk.Space, data: Any) -> None:
-        first, second = arbiter.shapes
-        a, b = self._tracked[_body(first)], self._tracked[_body(second)]
-        nx, ny = arbiter.normal
-        self._rub([a, b], (-nx, -ny), a.pending.pop(second), abs(arbiter.total_impulse.dot(arbiter.normal)))
-
-    def _rub(self, balls: Sequence[_Tracked], normal: tuple[float, float], pending: _Pending, push: float) -> None:
-        """Apply the upward part of the friction, on cloth; ``normal`` points to the first of the balls."""
+        if surface is not None:
+            body = first.body
+            body.velocity = body.velocity.rotated(pending.turned)
+            approach, slip, _ = speeds_where_touching([first.ball], [first.state()], nx, ny)
+            if 0.0 < -approach <= pending.lowest:  # a bounce that the surface absorbs
+                body.velocity += (approach * nx, approach * ny)
+            speed = body.velocity.length
+            if pending.resistance > 0.0 and abs(slip) <= _GRIP * speed:
+                slower = max(0.0, 1.0 - pending.resistance * push / first.ball.mass / (speed + 1e-30))
+                body.velocity, body.angular_velocity = slower * body.velocity, slower * body.angular_velocity
         if pending.slip[1] != 0.0 and push > 0.0:
-            states = [tracked.state() for tracked in balls]
-            moving = [tracked.ball for tracked in balls]
-            after = rubbed_upward(moving, states, *normal, pending.slip, pending.friction * push)
+            states, most = [tracked.state() for tracked in balls], pending.friction * push
+            after = rubbed_upward([tracked.ball for tracked in balls], states, nx, ny, pending.slip, most)
             for tracked, state in zip(balls, after, strict=True):
                 tracked.take(state)
 
+    def _touching(self, arbiter: pymunk.Arbiter) -> tuple[list[_Tracked], Surface | None]:
+        """The ball or balls of a contact, and the surface, if it is with one."""
+        first, second = arbiter.shapes
+        surface = self._surfaces.get(second)
+        return [self._tracked[shape.body] for shape in ((first, second) if surface is None else (first,))], surface
+
     # ------------------------------------------------------------------ guards
 
-    def _check(self, tracked: _Tracked) -> None:
-        left, bottom, right, top = self._setup.bounds
-        state = tracked.state()
-        if not (left <= state[0] <= right and bottom <= state[1] <= top):
-            raise self._diverged(tracked, state)
+    def _refuse_reversal(
+        self, tracked: _Tracked, before: State, known: Acceleration, state: State, acceleration: Acceleration, h: float
+    ) -> None:
+        """Raise Diverged if a force grows faster with the velocity than a step can follow."""
+        gain = abs(state[2] - before[2]) + abs(state[3] - before[3])
+        gains = gain > JUMP * (abs(state[2]) + abs(state[3]))
+        if gains and before[2:4] != (0.0, 0.0) and stiff(before, state, known, acceleration, h, _REVERSAL):
+            raise Diverged(
+                f"t = {self._t:.6g} s, ball {tracked.ball.name!r}: drag would reverse its velocity within a step of "
+                f"{h:.3g} s; {_REMEDY}"
+            )
 
-    def _refuse_leap(self, tracked: _Tracked) -> None:
+    def _refuse_leap(self, tracked: _Tracked, start: tuple[float, float], end: tuple[float, float]) -> None:
         """Raise RunError if the ball's centre passed through a surface in the last step."""
-        assert tracked.leap is not None
-        met = self._space.segment_query_first(*tracked.leap, 0.0, pymunk.ShapeFilter(mask=_SURFACE))
-        if met is not None and not tracked.caught:
+        met = self._space.segment_query_first(start, end, 0.0, pymunk.ShapeFilter(mask=_SURFACE))
+        if met is not None:
             raise RunError(
                 f"t = {self._t:.6g} s, ball {tracked.ball.name!r}: went through {self._surfaces[met.shape].name!r} "
-                f'within a step of {self._accuracy.step:.3g} s; lower accuracy.step, or use accuracy.method = "exact"'
+                f"within a step of {self._accuracy.step:.3g} s; {_REMEDY}"
             )
 
     def _diverged(self, tracked: _Tracked, state: State) -> Diverged:
         x, y, vx, vy, spin = state[:5]
         return Diverged(
             f"t = {self._t:.6g} s, ball {tracked.ball.name!r}: position ({x:.6g}, {y:.6g}) m, velocity "
-            f"({vx:.6g}, {vy:.6g}) m/s, spin {spin:.6g} rad/s is not finite, or outside the world; "
-            'lower accuracy.step, or use accuracy.method = "exact"'
+            f"({vx:.6g}, {vy:.6g}) m/s, spin {spin:.6g} rad/s is not finite, or outside the world; {_REMEDY}"
         )
-
-    def _rests(self, tracked: _Tracked) -> bool:
-        _, _, vx, vy, spin = tracked.state()[:5]
-        slow = (vx * vx + vy * vy) ** 0.5 + tracked.ball.radius * abs(spin) < _REST_SPEED
-        held = self._setup.cloth is not None or self._steps - tracked.touched <= 1
-        if not (slow and held):
-            tracked.still_since = None
-            return False
-        if tracked.still_since is None:
-            tracked.still_since = self._t
-        return self._t - tracked.still_since >= _REST_TIME
 
 
 def _fixed(body: pymunk.Body, surface: Surface) -> pymunk.Shape:
@@ -415,21 +379,3 @@ def _fixed(body: pymunk.Body, surface: Surface) -> pymunk.Shape:
     fixed.elasticity = surface.restitution
     fixed.friction = surface.friction
     return fixed
-
-
-def _body(shape: pymunk.Shape) -> pymunk.Body:
-    """The body of a shape that is in the Space."""
-    assert shape.body is not None
-    return shape.body
-
-
-def _closing(arbiter: pymunk.Arbiter) -> tuple[Any, float, float]:
-    """Normal from the first to the second shape, speed of approach along it, and speed of the first along the surface
-    (m/s).
-    """
-    first, second = arbiter.shapes
-    normal = arbiter.normal
-    ux = _body(first).velocity[0] - _body(second).velocity[0]
-    uy = _body(first).velocity[1] - _body(second).velocity[1]
-    # the surface's own normal is -normal, and its forward direction (ny, -nx) of that
-    return normal, ux * normal.x + uy * normal.y, -ux * normal.y + uy * normal.x

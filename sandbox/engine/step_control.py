@@ -59,9 +59,9 @@ class StepControl:
         ``off`` is the estimated error in m, or None.
         """
         if off is None:
-            stiff = _stiff(start, end, *accelerations, h)
+            too_long = stiff(start, end, *accelerations, h)
             longer = choose(h >= wanted, clip(2.0 * h, 0.0, self._step), wanted)
-            return stiff ^ True, choose(stiff, 0.5 * h, longer)
+            return too_long ^ True, choose(too_long, 0.5 * h, longer)
         fits = off <= self._local_error
         change = clip(SAFETY * (self._local_error / (off + _NO_ERROR)) ** self._exponent, SHORTER, LONGER)
         following = h * choose(off < inf, change, LOST)
@@ -90,9 +90,12 @@ def within(patches: Iterable[Patch], h: Any, state: State, acceleration: Acceler
     return h
 
 
-def _stiff(before: State, after: State, acceleration: Acceleration, following: Acceleration, h: Any) -> Any:
-    """Whether a fixed step is too long for forces that depend on velocity, judged by their change over the step."""
+def stiff(
+    before: State, after: State, acceleration: Acceleration, following: Acceleration, h: Any, limit: float = STIFFEST
+) -> Any:
+    """Whether a fixed step is too long for forces that depend on velocity: in it they change by more than ``limit``
+    times the change of velocity, over h."""
     change = h * (abs(following[0] - acceleration[0]) + abs(following[1] - acceleration[1]))
     gain = abs(after[2] - before[2]) + abs(after[3] - before[3])
     speed = most(abs(before[2]) + abs(before[3]), abs(after[2]) + abs(after[3]))
-    return ((change <= STIFFEST * gain) | (change <= JUMP * speed)) ^ True
+    return ((change <= limit * gain) | (change <= JUMP * speed)) ^ True
