@@ -17,7 +17,7 @@ from sandbox.engine import flies_in_batches, simulate
 from sandbox.engine.accuracy import Accuracy
 from sandbox.engine.acting import acceleration, by_cause
 from sandbox.engine.arc import through
-from sandbox.engine.arc_rows import COLUMNS, CURVES, END, ArcRows, X, Y, arc_of
+from sandbox.engine.arc_rows import COLUMNS, CURVES, END, ArcRows, Paths, X, Y, arc_of
 from sandbox.engine.bernstein_many import until
 from sandbox.engine.event import Event
 from sandbox.engine.lanes import ManyLanes
@@ -176,9 +176,9 @@ class Batch:
         shots = np.concatenate([shots for shots, _ in self._paths])
         order = np.argsort(shots, kind="stable")
         rows = np.ascontiguousarray(np.concatenate([columns for _, columns in self._paths], axis=1)[:, order].T)
-        ends = np.cumsum(np.bincount(shots, minlength=len(self.setups)))
-        for number, path in enumerate(np.split(rows, ends[:-1])):
-            yield self._run(number, path)
+        paths = Paths(rows, np.cumsum(np.bincount(shots, minlength=len(self.setups))).tolist())
+        for number in range(len(self.setups)):
+            yield self._run(number, paths[number])
 
     # ------------------------------------------------------------------ forces
 
@@ -365,7 +365,7 @@ class Batch:
         state = tuple(self._state[:, lane].tolist())
         self._left[int(self._shot[lane])] = _Left(float(self._t[lane]), how, state, float(self._wanted[lane]))
 
-    def _run(self, number: int, rows: np.ndarray) -> Run | Exception:
+    def _run(self, number: int, path: ArcRows) -> Run | Exception:
         setup = self.setups[number]
         if number not in self._left:  # not started
             return _run_or_error(setup, self._accuracy)
@@ -374,11 +374,11 @@ class Batch:
         numerics = Numerics((self._method.evaluations + 1) * steps, steps, refined, impacts, impacts, queries, seconds)
         left, events = self._left[number], self._events[number]
         if left.how in ("until", "duration"):
-            arcs = {setup.balls[0].name: ArcRows(rows)}
+            arcs = {setup.balls[0].name: path}
             return Run(setup, self._accuracy, arcs, events, numerics, left.t, left.how)
         try:
             with setup_errors_named(setup):
                 simulation = Simulation(setup, self._accuracy, numerics)
-                return simulation.take_over(left.t, left.state, list(ArcRows(rows)), events, left.wanted, left.how)
+                return simulation.take_over(left.t, left.state, list(path), events, left.wanted, left.how)
         except Exception as error:
             return error

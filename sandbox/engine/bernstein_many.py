@@ -14,11 +14,13 @@ _MOST_STEPS = 60
 
 
 def evaluate(b: np.ndarray, u: np.ndarray) -> np.ndarray:
-    """f(u), shape (..., paths)."""
+    """f(u), shape (..., paths), by Horner's rule in u, with the powers of 1 - u multiplied in on the way."""
     n = len(b) - 1
-    k = np.arange(n + 1).reshape(-1, *[1] * (b.ndim - 1))
-    weights = np.array(binomials(n)).reshape(k.shape) * u**k * (1.0 - u) ** (n - k)
-    return (weights * b).sum(axis=0)
+    w, power, value = 1.0 - u, 1.0, b[0]
+    for k, count in enumerate(binomials(n)[1:], start=1):
+        power = power * u
+        value = value * w + (count * power) * b[k]
+    return value
 
 
 def until(b: np.ndarray, u: np.ndarray) -> np.ndarray:
@@ -74,6 +76,19 @@ def first_downward_crossing(b: np.ndarray, halvings: int = 4) -> tuple[np.ndarra
         u2, unclear2 = first_downward_crossing(late, halvings - 1)
         u[some] = np.where(np.isfinite(u1), 0.5 * u1, 0.5 + 0.5 * u2)
         unclear[some] = unclear1 | (np.isinf(u1) & unclear2)
+    return u, unclear
+
+
+def only_downward_crossing(b: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """The u in [0, 1] where each f goes from positive to negative, inf where none does; and a mask of those that may do
+    so more than once, which are left out. ``b`` has shape (degree + 1, paths); both arrays have shape (paths,)."""
+    u = np.full(b.shape[1], np.inf)
+    signs = np.sign(b)
+    changes = (signs[1:] != signs[:-1]).sum(axis=0)
+    unclear = (changes > 1) | (signs == 0.0).any(axis=0)
+    falling = np.flatnonzero((changes == 1) & (signs[0] > 0.0) & ~unclear)
+    if len(falling):
+        u[falling] = _single_root(b[:, falling])
     return u, unclear
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from bisect import bisect_left, bisect_right
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from math import dist, inf
 from typing import TYPE_CHECKING, Any
@@ -70,7 +70,10 @@ class Run:
 
     def _full_state(self, ball: str, t: float) -> State:
         arcs = self._path(ball)
-        index = bisect_right(arcs, t, key=lambda arc: arc.t0) - 1
+        if isinstance(arcs, list):
+            index = bisect_right(arcs, t, key=lambda arc: arc.t0) - 1
+        else:
+            index = bisect_right(arcs.starts, t) - 1
         return arcs[max(index, 0)].state(t)
 
     def rolling_spin(self, ball: str, t: float) -> tuple[float, float]:
@@ -85,7 +88,7 @@ class Run:
     def before(self, ball: str, t: float) -> State:
         """The state of a ball just before time t; differs from ``state`` if there is an impact at t."""
         arcs = self._path(ball)
-        index = bisect_left(arcs, t, key=lambda arc: arc.t1)
+        index = bisect_left(arcs, t, key=lambda arc: arc.t1) if isinstance(arcs, list) else bisect_left(arcs.stops, t)
         return (arcs[index].state(t) if index < len(arcs) and arcs[index].t1 == t else self._full_state(ball, t))[:5]
 
     def closing_speed(self, event: Event) -> float:
@@ -131,26 +134,29 @@ class Run:
 
         As exact as the path itself, for any step: roots of its polynomials.
         """
+        path = self._path(ball)
+        if not isinstance(path, list):
+            return iter(path.passages((*point, *normal)))
         px, py = point
         nx, ny = normal
-        path = self._path(ball)
-        for arc in path if isinstance(path, list) else path.passing(px, py, nx, ny):
-            gap = [(x - px) * nx + (y - py) * ny for x, y in zip(arc.x, arc.y, strict=True)]
-            for u in downward_crossings(gap):
-                t = arc.t0 + u * (arc.t1 - arc.t0)
-                yield t, arc.state(t)[:5]
+        return _passages(path, lambda arc: [(x - px) * nx + (y - py) * ny for x, y in zip(arc.x, arc.y, strict=True)])
 
-    def highest(self, ball: str) -> tuple[float, State]:
-        """Time and state at which a ball's centre is highest."""
-        first = self.state(ball, 0.0)
-        best = (0.0, first)
+    def highest(self, ball: str, until: float = inf) -> tuple[float, State]:
+        """Time and state at which a ball's centre is highest, up to a time at which it is not."""
         path = self._path(ball)
-        for arc in path if isinstance(path, list) else path.topmost():
-            if max(arc.y) <= best[1][1]:
-                continue
-            tops = [arc.t0 + u * (arc.t1 - arc.t0) for u in downward_crossings(arc.vy)]
-            for t in (*tops, arc.t1):
-                state = arc.state(t)
-                if state[1] > best[1][1]:
-                    best = (t, state)
-        return best
+        tops = _passages(path, lambda arc: arc.vy) if isinstance(path, list) else path.tops()
+        turns = [(0.0, self.state(ball, 0.0)), *tops, *self.ends(ball)]
+        return max((turn for turn in turns if turn[0] <= until), key=lambda turn: turn[1][1])
+
+    def ends(self, ball: str) -> Iterator[tuple[float, State]]:
+        """Time and state at the end of each arc of a ball's path."""
+        path = self._path(ball)
+        return ((arc.t1, arc.state(arc.t1)[:5]) for arc in path) if isinstance(path, list) else iter(path.ends())
+
+
+def _passages(path: list[Arc], gap: Callable[[Arc], Sequence[float]]) -> Iterator[tuple[float, State]]:
+    """Each time and state at which a gap, given as a polynomial for each arc, becomes negative."""
+    for arc in path:
+        for u in downward_crossings(gap(arc)):
+            t = arc.t0 + u * (arc.t1 - arc.t0)
+            yield t, arc.state(t)[:5]

@@ -327,9 +327,8 @@ def _flew(run: Run, parameters: Parameters) -> bool:
 def _apex(run: Run, parameters: Parameters) -> float:
     """Greatest height in m above the launch: of the flight, or of the whole run if the flight does not end."""
     landed = landing(run, parameters)
-    if landed is not None and landed.t > 0.0:
-        run = replace(run, arcs={"ball": [arc for arc in run.arcs["ball"] if arc.t0 < landed.t]})
-    return run.highest("ball")[1][1] - run.setup.balls[0].position[1]
+    until = landed.t if landed is not None and landed.t > 0.0 else inf
+    return run.highest("ball", until)[1][1] - run.setup.balls[0].position[1]
 
 
 def _smash_factor(run: Run, parameters: Parameters) -> float | None:
@@ -356,8 +355,7 @@ def _comes_back(run: Run, parameters: Parameters) -> float | None:
     """How far in m the ball ends short of the farthest place that it reached: spun back, or rolled back down."""
     end = _total(run, parameters)
     way = 1.0 if end >= 0.0 else -1.0
-    # it turns within 1 cm of an arc's end
-    back = max(way * arc.state(arc.t1)[0] for arc in run.arcs["ball"]) - way * end
+    back = max(way * state[0] for _, state in run.ends("ball")) - way * end  # it turns within 1 cm of an arc's end
     return back if back > LEAST_BACK else None
 
 

@@ -18,7 +18,7 @@ import sandbox
 from sandbox.engine import batch, simulate, simulate_many
 from sandbox.engine.accuracy import resolve
 from sandbox.engine.arc import Arc, through
-from sandbox.engine.arc_rows import ArcRows
+from sandbox.engine.arc_rows import Paths
 from sandbox.engine.event import Event
 from sandbox.engine.impulses import Contact, Lanes, exchange_at_once
 from sandbox.engine.lanes import ManyLanes
@@ -530,9 +530,10 @@ def test_rows_are_the_arcs_they_were_made_from():
     arcs = run.arcs["ball"]
     assert isinstance(arcs, list)
     flights = [arc for arc in arcs if len(arc.x) == 6]
-    rows = ArcRows(
-        np.array([[a.t0, a.t1, *a.start, *a.x, *a.y, *a.vx, *a.vy, *a.spin, *a.state(a.t1)] for a in flights])
-    )
+    numbers = [[a.t0, a.t1, *a.start, *a.x, *a.y, *a.vx, *a.vy, *a.spin, *a.state(a.t1)] for a in flights]
+    count = len(flights)
+    paths = Paths(np.array([*numbers, *numbers]), [count, 2 * count])
+    rows, _ = paths[0], paths[1].tops()
     assert len(rows) == len(flights) > 5
     for kept, arc in zip([*rows, *rows[1:3], rows[-1]], [*flights, *flights[1:3], flights[-1]], strict=True):
         assert isinstance(kept, Arc)
@@ -542,10 +543,19 @@ def test_rows_are_the_arcs_they_were_made_from():
     by_rows = Run(run.setup, run.accuracy, {"ball": rows}, run.events, run.numerics, run.duration, run.ended)
     by_list = Run(run.setup, run.accuracy, {"ball": flights}, run.events, run.numerics, run.duration, run.ended)
     for point, normal in (((0.0, 0.5), (0.0, 1.0)), ((1.5, 0.0), (-0.6, 0.8)), ((0.0, 0.5), (0.0, -1.0))):
-        crossings = list(by_rows.crossings("ball", point, normal))
-        assert crossings == list(by_list.crossings("ball", point, normal))
+        crossings = list(by_list.crossings("ball", point, normal))
         assert crossings
-    assert by_rows.highest("ball") == by_list.highest("ball")
+        for path in (rows, paths[1], rows):  # the second one that is asked computes them all
+            for (t, state), (at, there) in zip(path.passages((*point, *normal)), crossings, strict=True):
+                assert t == pytest.approx(at, abs=1e-13)
+                assert state == pytest.approx(there, abs=1e-11)
+    for moment in (0.5, 2.0, math.inf):
+        t, state = by_list.highest("ball", moment)
+        assert by_rows.highest("ball", moment)[0] == pytest.approx(t, abs=1e-13)
+        assert by_rows.highest("ball", moment)[1] == pytest.approx(state, abs=1e-11)
+    for t in (0.0, 1.0, by_list.events[0].t, by_list.duration):
+        assert by_rows.before("ball", t) == by_list.before("ball", t)
+        assert by_rows.state("ball", t) == by_list.state("ball", t)
 
 
 def test_python_may_fly_many_too():
