@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Hashable, Iterator, Sequence
 from time import perf_counter
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -23,7 +23,7 @@ from sandbox.engine.event import Event
 from sandbox.engine.lanes import ManyLanes
 from sandbox.engine.outlines import Outlines
 from sandbox.engine.run import Numerics, Run
-from sandbox.engine.setup import Ball, Bounds, Patch, Setup
+from sandbox.engine.setup import Ball, Bounds, Patch, Setup, Until
 from sandbox.engine.setup_errors import setup_errors_named
 from sandbox.engine.simulation import Simulation
 from sandbox.engine.stacking import FEWEST, Alike, Stack, chosen
@@ -78,15 +78,17 @@ def _groups(setups: Sequence[Setup], accuracy: Accuracy) -> Iterator[tuple[Seque
         if flies_in_batches(setups.whole, accuracy):
             yield range(len(setups)), setups
         return
-    groups: dict[Hashable, list[int]] = {}
+    groups: dict[tuple[Hashable, ...], list[int]] = {}
     alike = Alike()
     for number, setup in enumerate(setups):
         if flies_in_batches(setup, accuracy):
-            kind = tuple(map(alike.key, (setup.balls[0], setup.surfaces, setup.patches)))
+            until = setup.until if isinstance(setup.until, Until) else None
+            kind = tuple(map(alike.key, (setup.balls[0], setup.surfaces, setup.patches, until)))
             groups.setdefault(kind, []).append(number)
-    for members in groups.values():
+    for kind, members in groups.items():
         if len(members) >= FEWEST:
-            yield members, Stack.of([setups[member] for member in members], FLIGHT)
+            names = FLIGHT if kind[-1] is None else (*FLIGHT, "until")
+            yield members, Stack.of([setups[member] for member in members], names)
 
 
 def _ending(setup: Setup, events: Sequence[Event]) -> str:
@@ -116,6 +118,7 @@ class FlightTerms(NamedTuple):
     patches: Sequence[Patch]
     bounds: Bounds
     duration: float  # s
+    until: Any
 
 
 class _Left(NamedTuple):
@@ -136,7 +139,7 @@ class Batch:
         self._control = StepControl(accuracy)
         self._method = INTEGRATORS[accuracy.integrator]
         whole = setups.whole
-        self._all = FlightTerms(whole.balls[0], whole.patches, whole.bounds, whole.duration)
+        self._all = FlightTerms(whole.balls[0], whole.patches, whole.bounds, whole.duration, whole.until)
         self._outlines = Outlines(setups, accuracy.skin)
         self._lanes = ManyLanes()
         self._events: list[list[Event]] = [[] for _ in setups]
@@ -279,9 +282,12 @@ class Batch:
         self._paths.append((shots, rows))
         self._t[lanes], self._state[:, lanes] = t1, rows[END]
         leaving = t1 >= np.broadcast_to(self._now.duration, self._t.shape)[lanes]
+        how = np.where(leaving, "duration", "until")
+        if isinstance(self._now.until, Until):
+            leaving = leaving | chosen(self._now.until, lanes).passed(tuple(start), tuple(rows[END]))
         leaving[hits] = False
-        for lane in lanes[leaving].tolist():
-            self._leave(lane, "duration")
+        for place in np.flatnonzero(leaving).tolist():
+            self._leave(lanes[place], str(how[place]))
         if len(hits):
             leaving[hits[~self._impact(lanes[hits])]] = True
         return leaving

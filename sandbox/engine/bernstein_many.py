@@ -16,7 +16,7 @@ _MOST_STEPS = 60
 def evaluate(b: np.ndarray, u: np.ndarray) -> np.ndarray:
     """f(u), shape (..., paths), by Horner's rule in u, with the powers of 1 - u multiplied in on the way."""
     n = len(b) - 1
-    w, power, value = 1.0 - u, 1.0, b[0]
+    w, power, value = 1.0 - u, np.ones_like(u), b[0]
     for k, count in enumerate(binomials(n)[1:], start=1):
         power = power * u
         value = value * w + (count * power) * b[k]

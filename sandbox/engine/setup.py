@@ -235,6 +235,10 @@ class Until:
         """Whether the run ends with the last of these events."""
         raise NotImplementedError
 
+    def passed(self, start: State, end: State) -> Any:
+        """Whether the run ends with a step between these states, without an event; floats, or arrays for many shots."""
+        return False
+
 
 def is_over(until: Callable[[Event], bool] | Until | None, events: Sequence[Event]) -> bool:
     """Whether a run with this condition ends with the last of these events."""

@@ -20,7 +20,7 @@ from sandbox.engine.in_plane import Diverged, InPlane
 from sandbox.engine.lasting import RESTING, LastingContact
 from sandbox.engine.on_cloth import OnCloth, slowest_hop
 from sandbox.engine.run import Numerics, Run
-from sandbox.engine.setup import Circle, Setup, Surface
+from sandbox.engine.setup import Circle, Setup, Surface, Until
 from sandbox.engine.start import starts
 from sandbox.engine.touch import Obstacle, balls_touch
 from sandbox.engine.track import Track
@@ -62,6 +62,7 @@ class Simulation:
         self._queue: list[tuple[float, int, str, int, int, int, int]] = []
         self._order = count()
         self._over = False
+        self._until = setup.until
         self._faint = 0  # consecutive faint impacts between balls
         self._names = {ball.name for ball in setup.balls}
         self._tracks = self._make_tracks()
@@ -175,7 +176,10 @@ class Simulation:
         track.keep(t)
         track.state = track.arc.state(track.arc.t1)
         track.conclude(reason)
-        if reason == "":
+        if reason == "" and isinstance(self._until, Until) and self._until.passed(track.arc.start, track.state):
+            self._over = True
+            track.arc = still(t, t, track.state, track.contact)
+        elif reason == "":
             self._plan(index, t)
         else:
             track.arc = still(t, t, track.state)

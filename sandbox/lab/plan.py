@@ -34,10 +34,10 @@ _BLOCK = 1024
 
 #: Points computed together: more are faster, fewer give even shares and earlier results. The number must not depend on
 #: the workers, as the last digits of a shot depend on how many are computed with it.
-_SMALLEST_BLOCK, _LARGEST_BLOCK, _BLOCKS = 32, 640, 4
+_SMALLEST_BLOCK, _LARGEST_BLOCK, _BLOCKS = 32, 2560, 4
 
 #: Most evaluations of the forces in a block, about a second: a sweep that is interrupted loses what is not yet a row.
-_WORK = 200_000
+_WORK = 600_000
 
 #: One run as a row: swept parameters, results, flags, and ``error``, which is empty if the run was completed.
 Record = dict[str, Any]
@@ -97,7 +97,7 @@ class Plan:
         first = next(self.points(0, 1))
         if not fly_together(self.scene, self.keys, first):
             return 1
-        run = next(runs(self.scene, self.keys, [first]))
+        run = next(runs(self.scene, self.keys, [first], asked=self.asked))
         cost = 1 if isinstance(run, Exception) else run.numerics.force_evaluations
         block = min(_LARGEST_BLOCK, max(_SMALLEST_BLOCK, -(-self.size // _BLOCKS)), _WORK // max(cost, 1))
         return block if block >= _SMALLEST_BLOCK else 1

@@ -12,15 +12,15 @@ import numpy as np
 from sandbox import parameters as declared
 from sandbox.engine import flies_in_batches, simulate_many
 from sandbox.engine.accuracy import Accuracy, resolve
-from sandbox.engine.setup import Setup, Until, is_over
+from sandbox.engine.setup import Setup, Touches, Until, is_over
 from sandbox.engine.stacking import FEWEST, Stack, agree
 from sandbox.lab.axes import Varied
 from sandbox.scene import Scene
-from sandbox.sport.facts import Settled, is_settled
 
 if TYPE_CHECKING:
     from sandbox.engine.event import Event
     from sandbox.engine.run import Run
+    from sandbox.physics.integrators import State
 
 
 def runs(
@@ -75,7 +75,10 @@ def _builder(scene: Scene, asked: Sequence[str]) -> Callable[[Any], Setup]:
 
     def build(parameters: Any) -> Setup:
         setup = replace(scene, parameters=parameters).build()
-        return setup if settled is None else replace(setup, until=_AreSettled(settled, setup.until))
+        if settled is None:
+            return setup
+        conditions = tuple(Touches(by) if isinstance(by, str) else by(parameters) for by in settled)
+        return replace(setup, until=_Settled(conditions, setup.until))
 
     return build
 
@@ -95,14 +98,21 @@ def _stack(build: Callable[[Any], Setup], many: Any, each: Sequence[Any]) -> Sta
 
 
 @dataclass(frozen=True)
-class _AreSettled(Until):
-    """Ends a run when the requested facts are settled, or when its own condition is met."""
+class _Settled(Until):
+    """Ends a run when all these conditions have been met, or its own."""
 
-    settled: frozenset[Settled]
+    conditions: tuple[Until, ...]
     until: Callable[[Event], bool] | Until | None
 
     def over(self, events: Sequence[Event]) -> bool:
-        return all(is_settled(settled, events) for settled in self.settled) or is_over(self.until, events)
+        if is_over(self.until, events):
+            return True
+        so_far = [events[:count] for count in range(1, len(events) + 1)]
+        return all(any(map(condition.over, so_far)) for condition in self.conditions)
+
+    def passed(self, start: State, end: State) -> Any:
+        own = self.until.passed(start, end) if isinstance(self.until, Until) else False
+        return self.conditions[0].passed(start, end) | own if len(self.conditions) == 1 else own
 
 
 @lru_cache

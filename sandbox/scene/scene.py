@@ -148,7 +148,7 @@ class Scene:
 
     def settles(self, asked: Collection[str]) -> frozenset[Settled] | None:
         """What must have happened for all these facts to be final; None if one is not until the end."""
-        settled = frozenset(self.facts[key].settled for key in asked if key in self.facts)
+        settled = frozenset(self.facts[key].settled for key in asked if key in self.facts) - {"start"}
         return None if "end" in settled or not set(asked) <= self.facts.keys() else settled
 
     def rows(self, run: Run, errors: Mapping[str, float] | None = None, also: bool = False) -> list[tuple[str, str]]:

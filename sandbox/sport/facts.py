@@ -27,10 +27,12 @@ from sandbox import units
 from sandbox.sport.amounts import amount, converted, margin, metres
 
 if TYPE_CHECKING:
-    from sandbox.engine.run import Event, Run
+    from sandbox.engine.run import Run
+    from sandbox.engine.setup import Until
 
-#: ``"start"``, ``"end"``, the name of what must have been touched, or a function of the events so far.
-Settled = str | Callable[[Sequence["Event"]], bool]
+#: ``"start"``, ``"end"``, the name of what must have been touched, or a function of the parameters that gives the
+#: condition.
+Settled = str | Callable[[Any], "Until"]
 Value = TypeVar("Value")
 
 
@@ -40,7 +42,7 @@ class Fact:
 
     ``how(run, parameters)`` gives the value in ``unit``, None if it did not happen. ``settled`` says when it
     can no longer change: ``"start"``, ``"end"``, the first touch of a surface or ball of that name (``"floor"``), or
-    a function of the events so far.
+    a function of the parameters that gives a condition as for the end of a run.
     """
 
     key: str  # its name in the result, in JSON and CSV
@@ -94,13 +96,6 @@ def once(how: Callable[[Run, Any], Value]) -> Callable[[Run, Any], Value]:
         return value
 
     return remembered
-
-
-def is_settled(settled: Settled, events: Sequence[Event]) -> bool:
-    """Whether the events so far settle the facts that declare this."""
-    if callable(settled):
-        return settled(events)
-    return settled == "start" or any(settled in (e.partner, e.ball) and e.kind != "leave" for e in events)
 
 
 def mistake_in(facts: Any) -> str | None:

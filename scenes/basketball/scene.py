@@ -15,12 +15,12 @@ evaluations (524 instead of 298, 60 % more time), and a swish lands 1.6 m nearer
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 from sandbox.engine.run import Event, Run
-from sandbox.engine.setup import Circle, Patch, Segment, Setup, Surface, Vector
+from sandbox.engine.setup import Circle, Patch, Segment, Setup, Surface, Until, Vector
 from sandbox.errors import RequestError
 from sandbox.parameters import Accuracy, Group, either, group, quantity, switch
 from sandbox.physics.elementwise import clip
@@ -256,6 +256,32 @@ def _touches(run: Run, parameters: Parameters) -> list[str]:
     return [event.partner for event in run.events if event.kind in ("impact", "contact") and event.t <= decided]
 
 
+@dataclass(frozen=True)
+class Decided(Until):
+    """The ball is on the floor; or it has left the ring below, falling faster than a ball that rose into the ring from
+    below can."""
+
+    middle: Vector  # m, of the ring
+    half_width: float  # m, between the middle and the inner edges
+    below: float  # m, from the middle
+    fastest: float  # m/s, at which a ball falls that was no higher than the ring
+
+    def over(self, events: Sequence[Event]) -> bool:
+        return events[-1].partner == "floor"
+
+    def passed(self, start: State, end: State) -> Any:
+        (x, height), (x0, y0, *_), (x1, y1, _, vy, _) = self.middle, start, end
+        inside = (abs(x0 - x) < self.half_width) & (abs(x1 - x) < self.half_width)
+        return inside & (y0 >= height - self.below) & (y1 < height - self.below) & (vy < -self.fastest)
+
+
+def decided(parameters: Parameters) -> Decided:
+    """When a shot is decided."""
+    hoop, radius = parameters.hoop, parameters.ball.radius
+    fastest = 1.1 * (2.0 * parameters.gravity * radius) ** 0.5  # drag only slows it; the rest is for lift and wind
+    return Decided((hoop.distance, hoop.height), 0.5 * hoop.inner_diameter, radius, fastest)
+
+
 def _made(run: Run, parameters: Parameters) -> bool:
     return _through(run, parameters) is not None
 
@@ -280,15 +306,15 @@ def _apex(run: Run, parameters: Parameters) -> float:
 
 
 FACTS = (
-    Fact("made", "", "", _made, "floor"),
-    Fact("verdict", "", "", _word, "floor"),
-    Fact("entry_angle", "entry angle", "deg", at(entry, lambda ball: ball.descent), "floor"),
-    Fact("entry_speed", "entry speed", "m/s", at(entry, lambda ball: ball.speed), "floor"),
-    Fact("entry_offset", "from centre", "m", _offset, "floor", sides=("short", "long")),
-    Fact("apex", "apex above hand", "m", _apex, "floor"),
-    Fact("flight_time", "flight time", "s", at(entry, lambda ball: ball.t), "floor"),
+    Fact("made", "", "", _made, decided),
+    Fact("verdict", "", "", _word, decided),
+    Fact("entry_angle", "entry angle", "deg", at(entry, lambda ball: ball.descent), decided),
+    Fact("entry_speed", "entry speed", "m/s", at(entry, lambda ball: ball.speed), decided),
+    Fact("entry_offset", "from centre", "m", _offset, decided, sides=("short", "long")),
+    Fact("apex", "apex above hand", "m", _apex, decided),
+    Fact("flight_time", "flight time", "s", at(entry, lambda ball: ball.t), decided),
     *LAUNCH,
-    Fact("touches", "touches", "", _touches, "floor"),
+    Fact("touches", "touches", "", _touches, decided),
     ENDED,
 )
 

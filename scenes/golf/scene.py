@@ -12,7 +12,6 @@ moisture of the grass.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from math import hypot, inf, radians
@@ -306,16 +305,11 @@ def _turf(parameters: Parameters, kind: str, a: tuple[float, float], b: tuple[fl
 @once
 def landing(run: Run, parameters: Parameters) -> Moment | None:
     """The ball as it returns to launch height, or lands on higher ground before that."""
-    touched = next((event.t for event in run.events if is_down([event])), inf)
+    touched = next((event.t for event in run.events if event.kind != "leave"), inf)
     back = next(iter(run.crossings("ball", run.setup.balls[0].position, (0.0, 1.0))), None)
     if touched < (inf if back is None else back[0]):
         return before(run, touched)
     return None if back is None else Moment(back[0], *back[1])
-
-
-def is_down(events: Sequence[Event]) -> bool:
-    """Whether the ball has landed: the facts of its flight are then final."""
-    return any(event.kind in ("impact", "contact", "rest") for event in events)
 
 
 def _flew(run: Run, parameters: Parameters) -> bool:
@@ -372,23 +366,23 @@ def _ended(run: Run, parameters: Parameters) -> str:
 
 
 FACTS = (
-    Fact("carry", "carry", "m", at(landing, lambda ball: ball.x), is_down, also="yd", where=_flew),
+    Fact("carry", "carry", "m", at(landing, lambda ball: ball.x), "ball", also="yd", where=_flew),
     Fact("total", "total", "m", _total, also="yd"),
-    Fact("apex", "apex", "m", _apex, is_down, where=_flew),
-    Fact("flight_time", "flight time", "s", at(landing, lambda ball: ball.t), is_down, where=_flew),
+    Fact("apex", "apex", "m", _apex, "ball", where=_flew),
+    Fact("flight_time", "flight time", "s", at(landing, lambda ball: ball.t), "ball", where=_flew),
     BALL_SPEED,
     LAUNCH_ANGLE,
     LAUNCH_SPIN,
     Fact("smash_factor", "smash factor", "", _smash_factor, "start"),
     Fact("compared", "compared", "", _compared_with_tour, "start"),
-    Fact("landing_angle", "landing", "deg", at(landing, lambda ball: ball.descent), is_down, where=_flew),
-    Fact("landing_speed", "landing speed", "m/s", at(landing, lambda ball: ball.speed), is_down, where=_flew),
+    Fact("landing_angle", "landing", "deg", at(landing, lambda ball: ball.descent), "ball", where=_flew),
+    Fact("landing_speed", "landing speed", "m/s", at(landing, lambda ball: ball.speed), "ball", where=_flew),
     Fact(
         "landing_spin",
         "landing spin",
         "rpm",
         at(landing, lambda ball: ball.spin / RPM),
-        is_down,
+        "ball",
         sides=LAUNCH_SPIN.sides,
         where=_flew,
     ),
