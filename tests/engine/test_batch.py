@@ -326,7 +326,7 @@ def test_a_shot_that_fails_is_an_error_in_its_place():
             with pytest.raises(RunError) as alone:
                 simulate(setup, resolve())
             assert str(run).split(":")[0] == str(alone.value).split(":")[0]  # the time and the ball
-            assert "nan" in str(run)
+            assert "nan" in str(run) or "not finite" in str(run)  # which of them depends on rounding
         else:
             assert_same(run, simulate(setup, resolve()))
 
