@@ -55,11 +55,6 @@ class Background:
                 future.set_exception(error)
 
 
-def ready(future: Future[Any], patience: float | None) -> bool:
-    """Whether it is done, after waiting for at most ``patience`` s (None: until it is)."""
-    return bool(wait_for([future], patience).done)
-
-
 class Latest(Generic[T]):
     """The result of work that is done again whenever what it is done for changes, one after the other."""
 
@@ -76,9 +71,9 @@ class Latest(Generic[T]):
         """For how long the work has been going on, in s."""
         return perf_counter() - self.began if self.work is not None else 0.0
 
-    def take(self, patience: float = 0.0) -> bool:
-        """Take the result if it is there within ``patience`` s; returns whether there is a new one."""
-        if self.work is None or not ready(self.work, patience):
+    def take(self, patience: float | None = 0.0) -> bool:
+        """Take the result if it is there within ``patience`` s (None: wait); returns whether there is a new one."""
+        if self.work is None or not wait_for([self.work], patience).done:
             return False
         work, self.work, self.key = self.work, None, self.work_for
         try:
@@ -91,6 +86,14 @@ class Latest(Generic[T]):
         """Begin the work for ``key``, unless it was done for that, or other work has not ended yet."""
         if self.work is None and key != self.key:
             self.work, self.work_for, self.began = submit(), key, perf_counter()
+
+    def give_up(self, why: BaseException | None) -> Future[T]:
+        """Take no result of the work, which is returned; ``why`` is the error of what it was done for, if given."""
+        assert self.work is not None
+        work, self.work = self.work, None
+        if why is not None:
+            self.key, self.value, self.error = self.work_for, None, why
+        return work
 
     def forget(self) -> None:
         """Drop the value."""

@@ -7,20 +7,19 @@ is watched, paused, or replayed from a recording. ``advance`` passes time and ne
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from concurrent.futures import CancelledError, Future
-from enum import Enum
+from concurrent.futures import Future
+from dataclasses import replace
 from pathlib import Path
-from time import perf_counter, sleep
+from time import sleep
 from typing import Any, NamedTuple
 
-from sandbox.errors import SandboxError
-from sandbox.scene import Scene
+from sandbox.errors import RunError, SandboxError
 from sandbox.window import replay
 from sandbox.window.aim import Pull, strongest
-from sandbox.window.background import PATIENCE, ready
+from sandbox.window.background import PATIENCE, Latest
 from sandbox.window.playback import Playback
 from sandbox.window.run_data import run_of
-from sandbox.window.session import Changes, Session
+from sandbox.window.session import Session
 from sandbox.window.shot import Shot
 from sandbox.window.watch import Watch
 from sandbox.window.worker import computed, described, reread, warm_up
@@ -38,30 +37,12 @@ WIDEST = 16.0
 MOST_SHOTS = 50
 
 
-class State(Enum):
-    """What the game is doing."""
-
-    AIMING = "aiming"
-    WATCHING = "watching"
-    PAUSED = "paused"
-    REPLAY = "replay"
-
-
 class Message(NamedTuple):
     """A line for the player."""
 
     text: str
     bad: bool
     left: float  # s that it stays
-
-
-class Pending(NamedTuple):
-    """A run that is being computed."""
-
-    scene: Scene
-    changes: Changes
-    result: Future[tuple[dict[str, Any], float]]  # of worker.computed
-    since: float  # perf_counter, in s
 
 
 class Game:
@@ -76,12 +57,11 @@ class Game:
         self.running = True
         self.revision = 0
         self.code = 0  # how often the scene's code was read again
-        self.shot: Shot | None = None  # as aimed, or as watched
-        self.failure: str | None = None  # why there is no shot for the current parameters
-        self.stale = True  # the shot is outdated, and no new one is being computed
-        self.pending: Pending | None = None
+        self.runs: Latest[tuple[dict[str, Any], float]] = Latest()  # of worker.computed
+        self.aimed: Shot | None = None  # of the last run that did not fail
         self.shooting = False  # the shot is watched as soon as it is computed
-        self.playback: Playback | None = None  # None while aiming
+        self.watched: Shot | None = None
+        self.playback: Playback | None = None  # of that; None while aiming
         self.shots: list[Shot] = []  # the last ones, in order
         self.count = 0  # all of them
         self.start = 0  # which positions the next shot begins from
@@ -102,17 +82,24 @@ class Game:
     # ---------------------------------------------------------------------------------------------------------- state
 
     @property
-    def state(self) -> State:
-        if self.playback is None:
-            return State.AIMING
-        if self.shot is not None and self.shot.recorded:
-            return State.REPLAY
-        return State.WATCHING if self.playback.playing else State.PAUSED
+    def shot(self) -> Shot | None:
+        """The shot as it is watched, or as it is aimed."""
+        return self.watched if self.playback is not None else self.aimed
+
+    @property
+    def wanted(self) -> tuple[Any, ...]:
+        """What is to be run: the key of its run, from which the shot is made."""
+        return self.session.scene, self.code, self.session.changes.values, self.session.source, self.start
 
     @property
     def settled(self) -> bool:
         """Whether the shot is that of the current parameters, or is known to have failed."""
-        return not self.stale and self.pending is None
+        return self.runs.work is None and self.runs.key == self.wanted
+
+    @property
+    def failure(self) -> str | None:
+        """Why there is no shot that is aimed; until the next good run."""
+        return self.reason(self.runs.error) if self.playback is None and self.runs.error is not None else None
 
     @property
     def busy(self) -> bool:
@@ -121,19 +108,14 @@ class Game:
         return playing or not self.settled or bool(self.jobs)
 
     @property
-    def waited(self) -> float:
-        """How long the current run has taken so far, in s."""
-        return perf_counter() - self.pending.since if self.pending is not None else 0.0
-
-    @property
     def late(self) -> bool:
         """Whether the path that is aimed is long in coming."""
-        return self.playback is None and self.waited >= LATE
+        return self.playback is None and self.runs.takes >= LATE
 
     @property
     def same_place(self) -> bool:
         """Whether the shot and the parameters differ only in what a player aims with."""
-        return self.shot is not None and self.shot.place == self.session.place
+        return self.aimed is not None and self.aimed.place == self.session.place
 
     @property
     def recent(self) -> list[Shot]:
@@ -144,8 +126,8 @@ class Game:
     def notices(self) -> list[tuple[str, bool]]:
         """The current messages for the player: each text, and whether it is bad. An error stays while it is true."""
         found = [(text, True) for text in (self.failure, self.unreadable) if text is not None]
-        if self.playback is None and self.waited >= LONG:
-            found.append((f"still computing after {self.waited:.0f} s; Esc stops it", False))
+        if self.playback is None and self.runs.takes >= LONG:
+            found.append((f"still computing after {self.runs.takes:.0f} s; Esc stops it", False))
         if self.message is not None and self.message.text not in (self.failure, self.unreadable):
             found.append((self.message.text, self.message.bad))
         return found
@@ -188,9 +170,9 @@ class Game:
             self._reload(files)
         self.still += dt
         self._end_dropped()
-        self._compute()
+        self._compute(self.patience)
         self._finish_jobs()
-        waited = self.late + (int(self.waited) if self.waited >= LONG else 0)  # s, as the player is told
+        waited = self.late + (int(self.runs.takes) if self.runs.takes >= LONG else 0)  # s, as the player is told
         if waited != self._waited:
             self._waited = waited
             self.revision += 1
@@ -207,8 +189,7 @@ class Game:
             self._end_dropped()
             sleep(0.01)
         while not self.settled:
-            self._begin_run()
-            self._take_run(None)
+            self._compute(None)
 
     def _everywhere(self, work: Callable[..., Any], *args: Any) -> None:
         """Have it done in every process."""
@@ -228,47 +209,45 @@ class Game:
 
     # ------------------------------------------------------------------------------------------------------- the shot
 
-    def _compute(self) -> None:
+    def _compute(self, patience: float | None) -> None:
         """Run the scene with the current parameters, and take the path that this frame shows."""
         self._take_run(0.0)
-        if self.stale and self.waited >= LONG:  # the run is outdated
-            self._stop_worker()
-        if self._begin_run() and self.cost <= self.patience and self.shot is not None:
-            self._take_run(self.patience)
-
-    def _begin_run(self) -> bool:
-        """Start a run with the current parameters, once the one before has ended; whether there is one to wait for."""
-        if self.stale and self.pending is None:
-            self.stale, scene = False, self.session.scene
-            result = self.worker.submit(computed, scene)
-            self.pending = Pending(scene, self.session.changes, result, perf_counter())
-        return self.pending is not None
+        if self.runs.takes >= LONG and self.runs.work_for != self.wanted:
+            self._abandon(None)
+        scene = self.session.scene
+        self.runs.follow(self.wanted, lambda: self.worker.submit(computed, scene))
+        if patience is None or (self.cost <= patience and self.aimed is not None):
+            self._take_run(patience)
 
     def _take_run(self, patience: float | None) -> None:
-        """Take the result of the run."""
-        if self.pending is None or not ready(self.pending.result, patience):
+        """Make a shot of the run that has ended."""
+        if not self.runs.take(patience):
             return
-        (scene, changes, result, _), self.pending = self.pending, None
         self.revision += 1
-        if self.playback is not None:
+        if self.runs.key[3] != self.session.source:  # of the scene before
+            self.runs.forget()
             return
-        try:
-            record, cost = result.result()
-            shot = Shot(scene, run_of(scene, record), changes.values, self.session.source, self.start)
-        except (Exception, CancelledError) as error:
-            self.failure, self.shooting = self.reason(error), False
+        if self.runs.value is not None:
+            scene, _, changes, source, start = self.runs.key
+            record, self.cost = self.runs.value
+            try:
+                self.aimed = shot = Shot(scene, run_of(scene, record), changes, source, start)
+            except Exception as error:
+                self.runs.error = error
+        if self.runs.error is not None:
+            self.shooting = False
             return
-        self.shot, self.cost, self.still, self.failure = shot, cost, 0.0, None
+        self.still = 0.0
         if self.before_save is not None and self.before_save.run.result == shot.run.result:
             self.before_save = None  # saving changed nothing
-        if self.shooting and not self.stale:
+        if self.shooting and self.settled:
             self._keep(shot)
 
-    def _stop_worker(self) -> None:
-        asked: list[Future[Any]] = [self.pending.result] if self.pending is not None else []
-        asked += [result for result, _ in self.jobs]
-        self.pending, self.jobs = None, []
-        self.dropped = [result for result in asked if not result.cancel()]
+    def _abandon(self, why: RunError | None) -> None:
+        """Give up a run, and end its process."""
+        work = self.runs.give_up(why)
+        if not work.cancel():
+            self.dropped.append(work)
         self._end_dropped()
         self.revision += 1
 
@@ -280,11 +259,10 @@ class Game:
 
     def stop(self) -> bool:
         """Stop a long run; returns whether there was one."""
-        if self.waited < LONG:
+        if self.runs.takes < LONG:
             return False
-        self._stop_worker()
-        self.stale = self.shooting = False
-        self.failure = "stopped: this run did not end; change something to compute it again"
+        self._abandon(RunError("stopped: this run did not end; change something to compute it again"))
+        self.shooting = False
         return True
 
     def change(self, values: Mapping[str, Any]) -> bool:
@@ -296,10 +274,9 @@ class Game:
 
     def _changing(self, action: Callable[[], object]) -> bool:
         """Do something that changes the parameters; returns whether they are valid."""
-        scene, changes = self.session.scene, self.session.changes
+        changes = self.session.changes
         if not self.trying(action):
             return False
-        self.stale = self.stale or self.session.scene is not scene
         self.start += changes.moved != self.session.changes.moved
         self.shooting = False
         return True
@@ -363,23 +340,21 @@ class Game:
         """Let go: the shot is watched, as soon as it is computed."""
         self.pull, self.shooting = None, True
         self.revision += 1
-        if self.settled and self.shot is not None and self.failure is None:
-            self._keep(self.shot)
-        elif self.settled:
+        if self.settled:
             self.shooting = False
+            if self.aimed is not None and self.failure is None:
+                self._keep(self.aimed)
 
     def _keep(self, shot: Shot) -> None:
         """Count a shot, and watch it."""
         self.count += 1
-        shot.start, shot.number = self.start, self.count
-        self.shots.append(shot)
+        self.shots.append(replace(shot, start=self.start, number=self.count))
         del self.shots[:-MOST_SHOTS]
-        self.watch(shot)
+        self.watch(self.shots[-1])
 
     def watch(self, shot: Shot) -> None:
         """Play one of the shots so far from its start."""
-        self.shot, self.still, self.failure = shot, 0.0, None
-        self.stale = self.shooting = False
+        self.watched, self.still, self.shooting = shot, 0.0, False
         rate = self.playback.rate if self.playback is not None else 1.0
         self.playback = Playback(shot.run.duration, rate)
         self.revision += 1
@@ -389,7 +364,7 @@ class Game:
         if not self.shots:
             self.tell("no shots yet: pull back and let go")
             return
-        now = self.shots.index(self.shot) if self.playback and self.shot in self.shots else len(self.shots)
+        now = self.shots.index(self.shot) if self.shot in self.shots else len(self.shots)
         self.watch(self.shots[min(max(now + by, 0), len(self.shots) - 1)])
 
     def aim_again(self, from_rest: bool = False) -> None:
@@ -397,7 +372,7 @@ class Game:
         playback, shot = self.playback, self.shot
         if playback is None:
             return
-        self.playback, self.stale = None, True
+        self.playback, self.still = None, 0.0
         self.revision += 1
         ours = shot is not None and shot.source == self.session.source
         if from_rest and playback.over and ours and self.session.controls.next_start is not None:
@@ -423,8 +398,9 @@ class Game:
 
     def _opened(self) -> None:
         """Start on another scene: only the shots of the one before are kept."""
-        self.playback = self.pull = self.before_save = self.failure = self.unreadable = None
-        self.stale, self.shooting = True, False
+        self.playback = self.pull = self.before_save = self.unreadable = None
+        self.shooting = False
+        self.runs.forget()
         self.start += 1
         if self.session.source not in self.opened:
             self.opened.append(self.session.source)
@@ -448,7 +424,7 @@ class Game:
             self._opened()
         else:
             self.aim_again()
-            self.before_save, self.stale = before, True
+            self.before_save = before if not self.settled else None
         self.tell(f"read {', '.join(str(file) for file in files)} again")
 
     def compare(self, shot: Shot) -> None:
@@ -457,7 +433,7 @@ class Game:
         def then(result: tuple[dict[str, Any], float]) -> None:
             self.tell(replay.compared(shot.run, run_of(shot.scene, result[0])))
 
-        self.ask(self.worker.submit(computed, shot.scene), then)
+        self.ask(self.helper.submit(computed, shot.scene), then)
 
     def nudge(self, values: Mapping[str, Any]) -> bool:
         """Change what a player aims with, by key or wheel; not while a shot is watched."""

@@ -43,7 +43,7 @@ def place_of(scene: Scene) -> tuple[Any, ...]:
     return without(scene, {controls.speed, controls.angle, *controls.also, *(spin.key for spin in controls.spins)})
 
 
-@dataclass(eq=False)
+@dataclass(frozen=True, eq=False)
 class Shot:
     """A scene and its run."""
 

@@ -89,7 +89,7 @@ class Stage:
 
     def shows(self, shot: Shot, code: int, chosen: Camera | None) -> bool:
         """Whether it was composed for this shot, this version of the scene's code and this choice of camera."""
-        return self.shot is shot and (self.code, self.chosen) == (code, chosen)
+        return self.shot.run is shot.run and (self.code, self.chosen) == (code, chosen)
 
     def is_place_of(self, shot: Shot, code: int) -> bool:
         """Whether a shot differs from the composed one only in what a player aims with."""
@@ -98,7 +98,7 @@ class Stage:
     def holds(self, shot: Shot) -> bool:
         """Whether the path of another shot stays in sight."""
         shares = self.camera.pixels(shot.track(shot.ball)[:, 1:]) / self.size
-        return shot is self.shot or bool((shares >= EDGE).all() and (shares <= 1 - EDGE).all())
+        return shot.run is self.shot.run or bool((shares >= EDGE).all() and (shares <= 1 - EDGE).all())
 
     def ball_at(self, shot: Shot, t: float = 0.0) -> tuple[float, float]:
         """Where the ball that is played is, in px."""

@@ -181,7 +181,7 @@ class View:
 
     def near(self, shot: Shot) -> Picture[Any]:
         """The picture of a shot that follows its ball."""
-        if self.stage is not None and self.stage.shot is shot and self.stage.chosen is None:
+        if self.stage is not None and self.stage.shot.run is shot.run and self.stage.chosen is None:
             return self.stage.picture
         found: Picture[Any] = self._once("near", shot, lambda: picture_of(shot, self.area.size))
         return found

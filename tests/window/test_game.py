@@ -15,7 +15,7 @@ import sandbox.window
 from sandbox.engine.accuracy import LEVELS
 from sandbox.new import new_scene
 from sandbox.window.aim import nudged
-from sandbox.window.game import LATE, LONG, MOST_SHOTS, Game, State
+from sandbox.window.game import LATE, LONG, MOST_SHOTS, Game
 from sandbox.window.session import Session
 from sandbox.window.worker import computed
 from sandbox.workers import WorkerLost
@@ -78,13 +78,13 @@ def test_it_draws_nothing():
 
 
 def test_a_game_aims_is_watched_pauses_and_aims_again(game):
-    assert game.state is State.AIMING
+    assert game.playback is None
     game.shoot()
-    assert game.state is State.WATCHING
+    assert game.playback.playing
     game.playback.toggle()
-    assert game.state is State.PAUSED
+    assert not game.playback.playing
     game.aim_again()
-    assert game.state is State.AIMING
+    assert game.playback is None
     assert [shot.number for shot in game.shots] == [1]
 
 
@@ -143,8 +143,8 @@ class TestARunThatNeverEnds:
         game.worker.never = True
         game.change({"launch.speed": 2.0})
         game.advance(0.0)
-        assert game.pending is not None
-        game.pending = game.pending._replace(since=game.pending.since - LONG)
+        assert game.runs.work is not None
+        game.runs.began -= LONG
         game.advance(0.0)
         return game
 
@@ -169,7 +169,7 @@ class TestARunThatNeverEnds:
         game.change({"launch.speed": 2.0})
         game.advance(0.0)
         assert not game.late
-        revision, game.pending = game.revision, game.pending._replace(since=game.pending.since - LATE)
+        revision, game.runs.began = game.revision, game.runs.began - LATE
         game.advance(0.0)
         assert game.late
         assert game.revision > revision
@@ -186,7 +186,7 @@ class TestARunThatNeverEnds:
         game.settle()
         game.change({"launch.speed": 60.0})
         game.advance(0.0)
-        game.pending = game.pending._replace(since=game.pending.since - LONG)
+        game.runs.began -= LONG
         assert game.stop()
         game.change({"launch.speed": 8.0})
         game.settle()

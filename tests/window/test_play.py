@@ -14,7 +14,6 @@ import pytest
 import sandbox
 from sandbox.scene import listings
 from sandbox.window import aim
-from sandbox.window.game import State
 from sandbox.window.keys import TABLE
 from sandbox.window.playback import LONGEST_FRAME, STEP
 from sandbox.window.session import Session
@@ -295,10 +294,10 @@ class TestASlowRun:
     def test_a_shot_begins_as_soon_as_it_is_there(self, slow):
         slow.key(pygame.K_UP)
         slow.key(pygame.K_SPACE)
-        assert slow.game.state is State.AIMING
+        assert slow.game.playback is None
         slow.game.worker.let_go()
         slow.frames(2)
-        assert slow.game.state is State.WATCHING
+        assert slow.game.playback.playing
         assert slow.game.shots[-1].scene is slow.game.session.scene
 
     def test_a_process_that_is_killed_is_begun_again(self, player):
