@@ -272,11 +272,15 @@ def _at_contacts(setup: Setup) -> Iterator[tuple[str, str, Setup]]:
         return replace(setup, surfaces=[change(surface) for surface in setup.surfaces])
 
     yield "bounce law", "as for a slow bounce", surfaces(lambda s: replace(s, law=None))
-    yield "deformation of the ground", "left out", surfaces(lambda s: replace(s, law=_law_without(s.law, "tilt")))
+    yield (
+        "deformation of the ground",
+        "left out",
+        surfaces(lambda s: replace(s, law=s.law and _law_without(s.law, "tilt"))),
+    )
     yield (
         "friction of surfaces",
         "left out",
-        surfaces(lambda s: replace(s, friction=0.0, law=_law_without(s.law, "friction"))),
+        surfaces(lambda s: replace(s, friction=0.0, law=s.law and _law_without(s.law, "friction"))),
     )
     yield "rolling resistance", "left out", surfaces(lambda s: replace(s, rolling_resistance=0.0))
     lower = surfaces(lambda s: replace(s, lowest_bounce=0.1 * s.lowest_bounce))
@@ -303,9 +307,9 @@ class _Without:
         return self.law(normal_speed, slip_speed)._replace(**{self.part: 0.0})
 
 
-def _law_without(law: Any, part: str) -> Any:
-    """A law without one of its parts; the law itself, or None, where that changes nothing."""
-    return law if law is None or not getattr(law(*_FAST), part) else _Without(law, part)
+def _law_without(law: Law, part: str) -> Law:
+    """A law without one of its parts; the law itself where that changes nothing."""
+    return law if not getattr(law(*_FAST), part) else _Without(law, part)
 
 
 def _on_cloth(setup: Setup) -> Iterator[tuple[str, str, Setup]]:

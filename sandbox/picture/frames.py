@@ -13,12 +13,13 @@ from collections.abc import Callable, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
 from itertools import pairwise
 from pathlib import Path
-from typing import Any, Protocol, TypeVar
+from typing import Protocol, TypeVar
 
 import numpy as np
 import pygame
 from PIL import GifImagePlugin, Image, ImageChops
 
+from sandbox.engine.run import Run
 from sandbox.errors import RequestError, RunError
 from sandbox.files import written_whole
 
@@ -121,7 +122,7 @@ def save_poster(picture: Picture, path: Path | str) -> None:
     save_png(poster_of(picture), path)
 
 
-def save_frames(picture: Picture, run: Any, folder: Path | str, fps: float, progress: Progress | None = None) -> int:
+def save_frames(picture: Picture, run: Run, folder: Path | str, fps: float, progress: Progress | None = None) -> int:
     """Write frame_00000.png, frame_00001.png, ... into a folder, all or none; returns how many.
 
     Frames of an earlier run with higher numbers are removed, or a film made of the folder would end in two runs.
@@ -168,7 +169,7 @@ def _is_ours(file: Path) -> bool:
         return False
 
 
-def save_gif(picture: Picture, run: Any, path: Path | str, fps: float, progress: Progress | None = None) -> int:
+def save_gif(picture: Picture, run: Run, path: Path | str, fps: float, progress: Progress | None = None) -> int:
     """Write the run as an animated GIF that repeats; returns the number of frames.
 
     All frames share one palette, and times are rounded to the 10 ms that the format knows so that none is lost. Of each
@@ -199,7 +200,7 @@ def save_gif(picture: Picture, run: Any, path: Path | str, fps: float, progress:
     return len(times)
 
 
-def save_webp(picture: Picture, run: Any, path: Path | str, fps: float, progress: Progress | None = None) -> int:
+def save_webp(picture: Picture, run: Run, path: Path | str, fps: float, progress: Progress | None = None) -> int:
     """Write the run as an animated WebP that repeats, in all colours; returns the number of frames.
 
     Of each frame only the rectangle that differs from the frame before is kept. Pillow would encode one frame after the

@@ -6,7 +6,6 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from math import cos, pi, sin
-from typing import Any
 
 import numpy as np
 
@@ -68,7 +67,7 @@ class Ghost:
         return f"{self.label}: {verdict[0].lower()}{verdict[1:]}"
 
 
-def colours_beside(kind: Any) -> Sequence[Colour]:
+def colours_beside(kind: type) -> Sequence[Colour]:
     """Of other runs on pictures of this class: its own ``EARLIER`` where the usual ones would be hard to see."""
     return getattr(kind, "EARLIER", TRACE["colours"][1:])
 

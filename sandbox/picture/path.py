@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from math import ceil, cos, dist, floor, hypot, pi, sin
-from typing import Any
 
 import numpy as np
 import pygame
 
+from sandbox.engine.event import Event
+from sandbox.engine.run import Run
 from sandbox.picture.camera import Camera
 from sandbox.picture.palette import Colour, palette
 from sandbox.picture.sheet import Sheet, nice
@@ -47,7 +48,7 @@ class Mark:
 class Path:
     """The path of one ball of a run from its start to the time ``until`` in s."""
 
-    def __init__(self, run: Any, name: str = "ball", until: float | None = None):
+    def __init__(self, run: Run, name: str = "ball", until: float | None = None):
         self.run, self.name = run, name
         self.radius: float = next(ball.radius for ball in run.setup.balls if ball.name == name)
         self.until = run.duration if until is None else until
@@ -81,7 +82,7 @@ class Path:
                 other = event.partner if event.ball == self.name else event.ball
                 yield self._mark(event, other)
 
-    def _mark(self, event: Any, other: str) -> Mark:
+    def _mark(self, event: Event, other: str) -> Mark:
         x, y, *_ = self.run.state(self.name, event.t)
         near = min(self._nearest_points(x, y, other, event.t), key=lambda point: hypot(point[0] - x, point[1] - y))
         away = hypot(near[0] - x, near[1] - y) or 1.0

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from sandbox import parameters as declared
+from sandbox.engine.run import Run
 from sandbox.errors import RequestError, RunError
 from sandbox.lab.aim.question import Target, Try
 from sandbox.lab.axes import Span
@@ -112,7 +113,7 @@ class Shots:
     def _keys(self) -> list[str]:
         return [span.key for span in self.spans]
 
-    def _result(self, run: Any) -> dict[str, Any] | None:
+    def _result(self, run: Run | Exception) -> dict[str, Any] | None:
         if isinstance(run, Exception):
             self.failures += 1
             self._first_error = self._first_error or run
