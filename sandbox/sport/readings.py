@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from math import atan2, degrees, hypot
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 from sandbox.sport.facts import Fact
 from sandbox.sport.flight import RPM
 
 if TYPE_CHECKING:
     from sandbox.engine.run import Event, Run
+
+Value = TypeVar("Value")
 
 
 class Moment(NamedTuple):
@@ -34,10 +36,10 @@ class Moment(NamedTuple):
         return degrees(atan2(0.0 - self.vy, abs(self.vx)))
 
 
-def at(moment: Callable[[Run, Any], Moment | None], what: Callable[[Moment], float]) -> Callable[[Run, Any], Any]:
-    """The function that reads a fact from a moment; it gives None if the run has no such moment."""
+def at(moment: Callable[[Run, Any], Value | None], what: Callable[[Value], Any]) -> Callable[[Run, Any], Any]:
+    """The function that reads a fact from a moment or whatever else was found; it gives None if nothing was."""
 
-    def how(run: Run, parameters: Any) -> float | None:
+    def how(run: Run, parameters: Any) -> Any:
         found = moment(run, parameters)
         return None if found is None else what(found)
 

@@ -7,7 +7,7 @@ from sandbox.picture.palette import mix, scene_colours
 from sandbox.picture.places.plan import Ground, Line, Plan, Point, Spot, arc
 from sandbox.picture.places.table import Lamp, Pocket, Rails, Room, around, cushions, sights
 
-from .table import Snooker, Table
+from .table import Table
 
 COLOURS = scene_colours(__file__)
 
@@ -39,7 +39,7 @@ def place(setup: Setup, table: Table) -> Plan:
     back = bed[0] + table.cushion_width, bed[1] + table.cushion_width
     beds = (back, THROAT), (bed, COLOURS["cloth"])
     middle = 0.55 * back[0] + 0.45 * outer[0], 0.55 * back[1] + 0.45 * outer[1]
-    snooker = isinstance(table, Snooker)
+    snooker = table.kind == "snooker"
     head = PLATE_INSIDE - outer[0]
     plate = Line(((head, -0.5 * PLATE_LENGTH), (head, 0.5 * PLATE_LENGTH)), PLATE, COLOURS["plate"])
     return (

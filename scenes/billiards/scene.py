@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import random
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import combinations
 from math import cos, hypot, pi, radians, sin, sqrt
 from typing import Any, Literal
@@ -32,11 +32,10 @@ from sandbox.physics.throw import friction_by_speed
 from sandbox.sport.amounts import roughly
 from sandbox.sport.controls import Controls, Spin, Spread
 from sandbox.sport.facts import ENDED, Fact, once
-from sandbox.sport.readings import travelled
+from sandbox.sport.readings import at, travelled
+from sandbox.sport.solids import Solid
 
-from .table import Carom, EightFoot, NineFoot, SevenFoot, Snooker, catches, check, cushions, on_bed
-
-# --------------------------------------------------------------------------------------------------------- parameters
+from .table import AnyTable, catches, check, cushions, on_bed
 
 
 class Spot(Group):
@@ -78,13 +77,11 @@ class ClothParameters(Group):
     spinning_friction: float = quantity(..., "", 0, 1, "torque on a ball spinning upright, over m g r")
 
 
-class Cushion(Group):
+class Cushion(Solid):
     """The cushions, jaws included."""
 
     model: Literal["nose", "vertical"] = choice(..., "a nose above the ball's centre, or a wall")
     nose_height: float = quantity(..., "m", 0.001, 0.4, "height of the nose above the cloth")
-    restitution: float = quantity(..., "", 0, 1, "of ball and cushion")
-    friction: float = quantity(..., "", 0, 10, "of ball and cushion")
 
 
 class Contact(Group):
@@ -105,7 +102,7 @@ class Parameters(Group):
     rack_seed: float = quantity(..., "", 0, 1e9, "which of the random racks")
     balls: list[Spot] = groups(..., "balls placed one by one, in addition to the rack")
     cue: Cue = group(..., "the stroke")
-    table: NineFoot | EightFoot | SevenFoot | Snooker | Carom = either(..., "the table", by="kind")
+    table: AnyTable = either(..., "the table", by="kind")
     ball: BallParameters = group(..., "the balls")
     cloth: ClothParameters = group(..., "the cloth")
     cushion: Cushion = group(..., "the cushions")
@@ -126,8 +123,6 @@ CONTROLS = Controls(
     next_start=lambda run, parameters: from_rest(run, parameters),
 )
 
-# -------------------------------------------------------------------------------------------------------------- build
-
 #: A shot still moving after this time in s is ended.
 LONGEST = 300.0
 
@@ -147,28 +142,22 @@ RACKS = {
 
 def build(parameters: Parameters) -> Setup:
     """Table, balls and the stroke. Raises RequestError for balls that do not fit, and for a miscue."""
-    check(parameters.table, parameters.ball.radius)
+    ball, cloth, cushion, table = parameters.ball, parameters.cloth, parameters.cushion, parameters.table
+    check(table, ball.radius)
     spots = laid_out(parameters)
-    surfaces = cushions(
-        parameters.table, parameters.cushion.restitution, parameters.cushion.friction, _nose(parameters)
-    )
-    holes = catches(parameters.table)
-    _check_spots(spots, parameters, [Obstacle(surface, parameters.ball.radius) for surface in surfaces])
+    surfaces = cushions(table, cushion.restitution, cushion.friction, _nose(parameters))
+    _check_spots(spots, parameters, [Obstacle(surface, ball.radius) for surface in surfaces])
+    balls = {name: Ball(name, ball.mass, ball.radius, place) for name, place in spots.items()}
     velocity, spin, rolling_spin = struck(parameters)
-    ball, cloth = parameters.ball, parameters.cloth
-    balls = []
-    for name, position in spots.items():
-        motion = (velocity, spin, rolling_spin) if name == parameters.cue.ball else ((0.0, 0.0), 0.0, (0.0, 0.0))
-        balls.append(
-            Ball(name, ball.mass, ball.radius, position, velocity=motion[0], spin=motion[1], rolling_spin=motion[2])
-        )
+    cue = balls[parameters.cue.ball]
+    balls[cue.name] = replace(cue, velocity=velocity, spin=spin, rolling_spin=rolling_spin)
     return Setup(
-        balls,
+        list(balls.values()),
         surfaces,
         duration=LONGEST,
         between_balls=_between_balls(ball),
         cloth=Cloth(cloth.sliding_friction, cloth.rolling_friction, cloth.spinning_friction, parameters.gravity),
-        catches=holes,
+        catches=catches(table),
         contact=ContactModel(parameters.contact.model, parameters.contact.stiffness),
     )
 
@@ -292,9 +281,6 @@ class SlowerThrowsMore:
         return Bounce(self.restitution, friction_by_speed(slip_speed))
 
 
-# -------------------------------------------------------------------------------------------------------------- facts
-
-
 @once
 def _met(run: Run, parameters: Parameters) -> list[Event]:
     """Every meeting of two balls or of a ball with cushion, jaw or pocket. The hops of balls that are pressed together
@@ -312,15 +298,15 @@ def _met(run: Run, parameters: Parameters) -> list[Event]:
     return met
 
 
-def _by_struck(run: Run, parameters: Parameters) -> list[Event]:
-    """The meetings of the struck ball."""
-    return [event for event in _met(run, parameters) if parameters.cue.ball in (event.ball, event.partner)]
+@once
+def _meetings(run: Run, parameters: Parameters) -> list[tuple[str, Event]]:
+    """What the struck ball met, in order: other balls, cushions and jaws, and the pocket it fell into."""
+    cue, met = parameters.cue.ball, _met(run, parameters)
+    return [(e.partner if e.ball == cue else e.ball, e) for e in met if cue in (e.ball, e.partner)]
 
 
 def _touches(run: Run, parameters: Parameters) -> list[str]:
-    """What the struck ball met, in order: other balls, cushions and jaws, and the pocket it fell into."""
-    cue = parameters.cue.ball
-    return [event.partner if event.ball == cue else event.ball for event in _by_struck(run, parameters)]
+    return [name for name, _ in _meetings(run, parameters)]
 
 
 def _caught(run: Run, parameters: Parameters) -> dict[str, str]:
@@ -332,20 +318,10 @@ def _others(run: Run, parameters: Parameters) -> set[str]:
     return {ball.name for ball in run.setup.balls} - {parameters.cue.ball}
 
 
-def _first_contact(run: Run, parameters: Parameters) -> Event | None:
+def _first_contact(run: Run, parameters: Parameters) -> tuple[str, Event] | None:
     """The first meeting of the struck ball with another."""
     others = _others(run, parameters)
-    return next((event for event in _by_struck(run, parameters) if others & {event.ball, event.partner}), None)
-
-
-def _first_met(run: Run, parameters: Parameters) -> str | None:
-    first = _first_contact(run, parameters)
-    return None if first is None else first.partner if first.ball == parameters.cue.ball else first.ball
-
-
-def _first_speed(run: Run, parameters: Parameters) -> float | None:
-    first = _first_contact(run, parameters)
-    return None if first is None else first.speed
+    return next((met for met in _meetings(run, parameters) if met[0] in others), None)
 
 
 def _point(run: Run, parameters: Parameters) -> int | None:
@@ -394,11 +370,11 @@ def _tip(run: Run, parameters: Parameters) -> str:
 
 FACTS = (
     Fact("pockets", "potted", "", _caught),
-    Fact("first_contact", "first contact", "", _first_met),
+    Fact("first_contact", "first contact", "", at(_first_contact, lambda met: met[0])),
     Fact("stroke", "stroke", "m/s", lambda run, parameters: parameters.cue.speed, "start"),
     Fact("tip", "tip", "", _tip, "start"),
     Fact("cushions", "cushions", "", _cushions),
-    Fact("contact_speed", "contact", "m/s", _first_speed),
+    Fact("contact_speed", "contact", "m/s", at(_first_contact, lambda met: met[1].speed)),
     Fact("path", "path", "m", lambda run, parameters: travelled(run, parameters.cue.ball)),
     Fact("rest_time", "at rest after", "s", lambda run, parameters: run.duration if run.ended == "rest" else None),
     Fact("rails", "cushions, all balls", "", _rails),
@@ -448,9 +424,6 @@ def _named(names: list[str]) -> str:
     """The 1, the 3 and the 7."""
     called = [f"the {name}" for name in names]
     return " and ".join([", ".join(called[:-1]), called[-1]] if len(called) > 1 else called)
-
-
-# --------------------------------------------------------------------------------------------------------- next shot
 
 
 def from_rest(run: Run, parameters: Parameters) -> dict[str, Any]:

@@ -16,20 +16,24 @@ Specifications: corner mouth 4.5 to 4.625 in, 142 deg, shelf 1 to 2.25 in; side 
 
 from __future__ import annotations
 
+from copy import copy
+from functools import reduce
 from itertools import product
 from math import cos, pi, sin, sqrt, tan
-from typing import Literal, NamedTuple
+from operator import or_
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
+
+from pydantic import create_model
 
 from sandbox.engine.setup import Catch, Segment, Surface
 from sandbox.errors import RequestError
 from sandbox.parameters import Group, choice, quantity, switch
 
-Point = tuple[float, float]
-
 
 class Table(Group):
-    """The cushions' noses and the pockets between them."""
+    """The cushions' noses and the pockets between them: a 9 ft pool table, where a kind does not say otherwise."""
 
+    kind: str = choice("9-ft", "the table whose sizes stand where none are given")
     length: float = quantity("100 in", "m", 0.3, 20, "between the noses of the short rails")
     width: float = quantity("50 in", "m", 0.3, 20, "between the noses of the long rails")
     pockets: bool = switch(True, "whether there are pockets")
@@ -46,98 +50,93 @@ class Table(Group):
     cushion_width: float = quantity("2 in", "m", 0.005, 0.5, "from nose to rail: how deep the facings go")
 
 
-class NineFoot(Table):
-    """A 9 ft pool table."""
-
-    kind: Literal["9-ft"] = choice("9-ft", "the table whose sizes stand where none are given")
-
-
-class EightFoot(Table):
-    """An 8 ft pool table."""
-
-    kind: Literal["8-ft"] = choice("8-ft", "the table whose sizes stand where none are given")
-    length: float = quantity("92 in", "m", 0.3, 20, "between the noses of the short rails")
-    width: float = quantity("46 in", "m", 0.3, 20, "between the noses of the long rails")
-
-
-class SevenFoot(Table):
-    """A 7 ft pool table."""
-
-    kind: Literal["7-ft"] = choice("7-ft", "the table whose sizes stand where none are given")
-    length: float = quantity("78 in", "m", 0.3, 20, "between the noses of the short rails")
-    width: float = quantity("39 in", "m", 0.3, 20, "between the noses of the long rails")
-
-
-class Snooker(Table):
-    """A 12 ft snooker table: its jaws are wide curves into a throat with parallel sides. Sizes of pockets assumed."""
-
-    kind: Literal["snooker"] = choice("snooker", "the table whose sizes stand where none are given")
-    length: float = quantity("3569 mm", "m", 0.3, 20, "between the noses of the short rails")
-    width: float = quantity("1778 mm", "m", 0.3, 20, "between the noses of the long rails")
-    corner_mouth: float = quantity("85 mm", "m", 0.01, 1, "width of a corner pocket between its points")
-    corner_angle: float = quantity(135.0, "deg", 135, 170, "cut angle at a corner pocket, from nose to facing")
-    corner_jaw_radius: float = quantity("90 mm", "m", 0, 0.5, "rounding of a corner pocket's points")
-    corner_shelf: float = quantity("5 mm", "m", -0.1, 0.5, "bed from the middle of the mouth to the hole's edge")
-    corner_hole_radius: float = quantity("45 mm", "m", 0.01, 0.5, "radius of a corner pocket's hole")
-    side_mouth: float = quantity("90 mm", "m", 0.01, 1, "width of a side pocket between its points")
-    side_angle: float = quantity(90.0, "deg", 90, 170, "cut angle at a side pocket, from nose to facing")
-    side_jaw_radius: float = quantity("40 mm", "m", 0, 0.5, "rounding of a side pocket's points")
-    side_shelf: float = quantity("5 mm", "m", -0.1, 0.5, "bed from the middle of the mouth to the hole's edge")
-    side_hole_radius: float = quantity("45 mm", "m", 0.01, 0.5, "radius of a side pocket's hole")
+#: The kinds of tables, by what differs from a 9 ft pool table. Those of snooker have jaws that are wide curves into a
+#: throat with parallel sides; the sizes of its pockets are assumed.
+KINDS: dict[str, dict[str, Any]] = {
+    "9-ft": {},
+    "8-ft": {"length": "92 in", "width": "46 in"},
+    "7-ft": {"length": "78 in", "width": "39 in"},
+    "snooker": {
+        "length": "3569 mm",
+        "width": "1778 mm",
+        "corner_mouth": "85 mm",
+        "corner_angle": 135.0,
+        "corner_jaw_radius": "90 mm",
+        "corner_shelf": "5 mm",
+        "corner_hole_radius": "45 mm",
+        "side_mouth": "90 mm",
+        "side_angle": 90.0,
+        "side_jaw_radius": "40 mm",
+        "side_shelf": "5 mm",
+        "side_hole_radius": "45 mm",
+    },
+    "carom": {"length": "2.84 m", "width": "1.42 m", "pockets": False},
+}
 
 
-class Carom(Table):
-    """A carom table, without pockets."""
+def _kind(kind: str, sizes: dict[str, Any]) -> type[Table]:
+    """The group of a table of that kind."""
+    fields: dict[str, Any] = {}
+    for name, default in sizes.items():
+        field = copy(Table.model_fields[name])
+        field.default = default
+        fields[name] = (field.annotation, field)
+    fields["kind"] = (Literal[kind], choice(kind, Table.model_fields["kind"].description or ""))
+    return create_model("Table_" + kind.replace("-", "_"), __base__=Table, __doc__=f"A table: {kind}.", **fields)
 
-    kind: Literal["carom"] = choice("carom", "the table whose sizes stand where none are given")
-    length: float = quantity("2.84 m", "m", 0.3, 20, "between the noses of the short rails")
-    width: float = quantity("1.42 m", "m", 0.3, 20, "between the noses of the long rails")
-    pockets: bool = switch(False, "whether there are pockets")
+
+if TYPE_CHECKING:
+    AnyTable = Table
+else:
+    AnyTable = reduce(or_, (_kind(kind, sizes) for kind, sizes in KINDS.items()))
 
 
-class _Mouth(NamedTuple):
-    """Half the table's opening at one kind of pocket, all in m and rad."""
+class Pocket(NamedTuple):
+    """A kind of pocket; lengths in m, angles in rad."""
 
     name: str
     mouth: float
     turn: float  # from the nose's direction into the pocket to the facing's
-    inward: float  # by which a facing leans towards the pocket's axis
     jaw_radius: float
     shelf: float
     hole_radius: float
-    facing: float  # length of a facing, from where its line meets the nose's
+    deep: float  # how far facings go into the pocket, across their noses
+
+    @property
+    def facing(self) -> float:
+        """Length of a facing, from where its line meets the nose's."""
+        return self.deep / sin(self.turn)
 
     @property
     def tangent(self) -> float:
         """From where the lines of nose and facing meet to where the rounding begins."""
         return self.jaw_radius * tan(0.5 * self.turn)
 
+    @property
+    def lost(self) -> float:
+        """How much of a nose the pocket takes, from the middle of a side pocket or from the corner of the noses."""
+        return self.tangent + (self.mouth / sqrt(2.0) if self.name == "corner" else 0.5 * self.mouth)
 
-def _mouths(table: Table) -> tuple[_Mouth, _Mouth]:
+    def jaw(self, nose: float, lost: float, forward: float) -> Segment:
+        """A facing as thick as its point is round, beyond the line of its nose at ``nose`` on the second axis.
+
+        The nose runs towards the pocket along ``forward`` times the first axis, and ends at ``lost`` on it.
+        """
+        ax, ay, length = lost, nose + self.jaw_radius, self.facing - self.tangent
+        b = (ax + forward * length * cos(self.turn), ay + length * sin(self.turn))
+        return Segment((ax, ay), b, self.jaw_radius)
+
+
+def pockets(table: Table) -> tuple[Pocket, Pocket]:
     """Corner and side pocket."""
-    corner_turn, side_turn = pi * (1.0 - table.corner_angle / 180.0), pi * (1.0 - table.side_angle / 180.0)
-    return (
-        _Mouth(
-            "corner",
-            table.corner_mouth,
-            corner_turn,
-            0.25 * pi - corner_turn,
-            table.corner_jaw_radius,
-            table.corner_shelf,
-            table.corner_hole_radius,
-            table.cushion_width / sin(corner_turn),
-        ),
-        _Mouth(
-            "side",
-            table.side_mouth,
-            side_turn,
-            0.5 * pi - side_turn,
-            table.side_jaw_radius,
-            table.side_shelf,
-            table.side_hole_radius,
-            table.cushion_width / sin(side_turn),
-        ),
-    )
+
+    def pocket(name: str) -> Pocket:
+        mouth, angle, jaw, shelf, hole = (
+            getattr(table, f"{name}_{size}") for size in ("mouth", "angle", "jaw_radius", "shelf", "hole_radius")
+        )
+        return Pocket(name, mouth, pi * (1.0 - angle / 180.0), jaw, shelf, hole, table.cushion_width)
+
+    return pocket("corner"), pocket("side")
 
 
 def check(table: Table, ball_radius: float) -> None:
@@ -149,35 +148,30 @@ def check(table: Table, ball_radius: float) -> None:
         )
     if not table.pockets:
         return
-    corner, side = _mouths(table)
-    lost = corner.mouth / sqrt(2.0) + corner.tangent
-    for key, room, need in (
-        ("table.width", 0.5 * table.width, lost),
-        ("table.length", 0.5 * table.length, lost + 0.5 * side.mouth + side.tangent),
-    ):
-        if room <= need:
+    corner, side = pockets(table)
+    for key, size, need in (("width", table.width, corner.lost), ("length", table.length, corner.lost + side.lost)):
+        if size <= 2.0 * need:
             raise RequestError(
-                f"{key} = {2.0 * room:g} m: the pockets leave no rail; it must be more than {2.0 * need:g} m"
+                f"table.{key} = {size:g} m: the pockets leave no rail; it must be more than {2.0 * need:g} m"
             )
-    for pocket in (corner, side):
-        if pocket.facing <= pocket.tangent:
-            raise RequestError(
-                f"table.{pocket.name}_jaw_radius = {pocket.jaw_radius:g} m: the rounding is longer than the facing; "
-                f"it must be less than {pocket.facing / tan(0.5 * pocket.turn):g} m"
-            )
+    for pocket, inward in ((corner, 0.25 * pi - corner.turn), (side, 0.5 * pi - side.turn)):
         half = max(0.5 * pocket.mouth - ball_radius, 0.0)  # how far from the pocket's axis a ball can pass
-        if pocket.hole_radius <= half:
-            raise RequestError(
-                f"table.{pocket.name}_hole_radius = {pocket.hole_radius:g} m: balls pass beside the hole; "
-                f"it must be more than {half:g} m"
-            )
-        beyond = pocket.hole_radius - sqrt(pocket.hole_radius**2 - half**2)
-        deepest = pocket.facing * cos(pocket.inward) - beyond
-        if pocket.shelf > deepest:
-            raise RequestError(
-                f"table.{pocket.name}_shelf = {pocket.shelf:g} m: the hole lies behind the cushions; "
-                f"it must be at most {deepest:.4g} m"
-            )
+        widest = pocket.facing / tan(0.5 * pocket.turn)
+        beyond = pocket.hole_radius - sqrt(max(0.0, pocket.hole_radius**2 - half**2))
+        deepest = pocket.facing * cos(inward) - beyond
+        for key, fits, wrong, bound in (
+            (
+                "jaw_radius",
+                pocket.jaw_radius < widest,
+                "the rounding is longer than the facing",
+                f"less than {widest:g}",
+            ),
+            ("hole_radius", pocket.hole_radius > half, "balls pass beside the hole", f"more than {half:g}"),
+            ("shelf", pocket.shelf <= deepest, "the hole lies behind the cushions", f"at most {deepest:.4g}"),
+        ):
+            if not fits:
+                value = f"table.{pocket.name}_{key} = {getattr(pocket, key):g} m"
+                raise RequestError(f"{value}: {wrong}; it must be {bound} m")
 
 
 def on_bed(table: Table, x: float, y: float) -> bool:
@@ -187,7 +181,7 @@ def on_bed(table: Table, x: float, y: float) -> bool:
         return True
     if not table.pockets:
         return False
-    corner, side = _mouths(table)
+    corner, side = pockets(table)
     deep, aside = (x + y + corner.mouth / sqrt(2.0)) / sqrt(2.0), (x - y) / sqrt(2.0)
     in_corner = 0.0 <= deep <= corner.shelf + corner.hole_radius and abs(aside) < 0.5 * corner.mouth
     in_side = 0.0 <= y <= side.shelf + side.hole_radius and x + 0.5 * table.length < 0.5 * side.mouth
@@ -200,60 +194,45 @@ def cushions(table: Table, restitution: float, friction: float, nose: float | No
     Head is at negative x, foot at positive x; left, seen from the head, is at positive y.
     """
     x, y = 0.5 * table.length, 0.5 * table.width
-    if not table.pockets:
-        lines = {
-            "left long cushion": Segment((-x, y), (x, y)),
-            "right long cushion": Segment((-x, -y), (x, -y)),
-            "head cushion": Segment((-x, -y), (-x, y)),
-            "foot cushion": Segment((x, -y), (x, y)),
-        }
-        return [Surface(name, shape, restitution, friction, nose_height=nose) for name, shape in lines.items()]
-    corner, side = _mouths(table)
-    cut = corner.mouth / sqrt(2.0)  # from the crossing of two rails' noses to a corner pocket's point
     noses: list[tuple[str, Segment]] = []
     jaws: list[tuple[str, Segment]] = []
-    for sx, end in ((-1.0, "head"), (1.0, "foot")):
-        reach = y - cut - corner.tangent
-        noses.append((f"{end} cushion", Segment((sx * x, -reach), (sx * x, reach))))
-    for sx, sy in product((-1.0, 1.0), (-1.0, 1.0)):
-        end, flank = ("head" if sx < 0.0 else "foot"), ("right" if sy < 0.0 else "left")
-        near, far = 0.5 * side.mouth + side.tangent, x - cut - corner.tangent
-        noses.append((f"{flank} long cushion", Segment((sx * near, sy * y), (sx * far, sy * y))))
-        for (ax, ay), (bx, by), radius, name in (
-            (*_facing(0.5 * side.mouth, y, -1.0, side), side.jaw_radius, f"{flank} side jaw"),
-            (*_facing(x - cut, y, 1.0, corner), corner.jaw_radius, f"{flank} {end} corner jaw"),
-        ):
-            jaws.append((name, Segment((sx * ax, sy * ay), (sx * bx, sy * by), radius)))
-        (ay, ax), (by, bx) = _facing(y - cut, x, 1.0, corner)
-        jaws.append((f"{flank} {end} corner jaw", Segment((sx * ax, sy * ay), (sx * bx, sy * by), corner.jaw_radius)))
+    if table.pockets:
+        corner, side = pockets(table)
+        ends, flanks, reach = ((-1.0, "head"), (1.0, "foot")), ((-1.0, "right"), (1.0, "left")), y - corner.lost
+        rail, facing = Segment((side.lost, y), (x - corner.lost, y)), side.jaw(y, side.lost, -1.0)
+        facings = corner.jaw(y, x - corner.lost, 1.0), _swapped(corner.jaw(x, reach, 1.0))
+        noses += [(f"{end} cushion", Segment((sx * x, -reach), (sx * x, reach))) for sx, end in ends]
+        for (sx, end), (sy, flank) in product(ends, flanks):
+            noses.append((f"{flank} long cushion", _mirrored(rail, sx, sy)))
+            jaws.append((f"{flank} side jaw", _mirrored(facing, sx, sy)))
+            jaws += [(f"{flank} {end} corner jaw", _mirrored(shape, sx, sy)) for shape in facings]
+    else:
+        noses += [("left long cushion", Segment((-x, y), (x, y))), ("right long cushion", Segment((-x, -y), (x, -y)))]
+        noses += [("head cushion", Segment((-x, -y), (-x, y))), ("foot cushion", Segment((x, -y), (x, y)))]
     return [Surface(name, shape, restitution, friction, nose_height=nose) for name, shape in (*noses, *jaws)]
 
 
-def _facing(point: float, nose: float, forward: float, pocket: _Mouth) -> tuple[Point, Point]:
-    """Ends of the middle line of a facing that is as thick as its point is round.
+def _mirrored(shape: Segment, sx: float, sy: float) -> Segment:
+    (ax, ay), (bx, by) = shape.a, shape.b
+    return Segment((sx * ax, sy * ay), (sx * bx, sy * by), shape.radius)
 
-    (point, nose) is where its line meets that of the nose, which runs towards the pocket along ``forward`` times the
-    first axis; the second axis points away from the table.
-    """
-    a = (point - forward * pocket.tangent, nose + pocket.jaw_radius)
-    length = pocket.facing - pocket.tangent
-    return a, (a[0] + forward * length * cos(pocket.turn), a[1] + length * sin(pocket.turn))
+
+def _swapped(shape: Segment) -> Segment:
+    """With its axes exchanged, from a long rail to a short one."""
+    return Segment(shape.a[::-1], shape.b[::-1], shape.radius)
 
 
 def catches(table: Table) -> list[Catch]:
     """The holes."""
     if not table.pockets:
         return []
-    corner, side = _mouths(table)
+    corner, side = pockets(table)
     # from the crossing of the noses out along the diagonal; the mouth's middle lies half a mouth inside of it
     out = (corner.shelf + corner.hole_radius - 0.5 * corner.mouth) / sqrt(2.0)
-    x, y = 0.5 * table.length + out, 0.5 * table.width + out
-    side_y = 0.5 * table.width + side.shelf + side.hole_radius
+    x, y, aside = 0.5 * table.length + out, 0.5 * table.width + out, 0.5 * table.width + side.shelf + side.hole_radius
+    holes = (("head corner", -x, y, corner), ("side", 0.0, aside, side), ("foot corner", x, y, corner))
     return [
-        Catch("left head corner pocket", (-x, y), corner.hole_radius),
-        Catch("right head corner pocket", (-x, -y), corner.hole_radius),
-        Catch("left side pocket", (0.0, side_y), side.hole_radius),
-        Catch("right side pocket", (0.0, -side_y), side.hole_radius),
-        Catch("left foot corner pocket", (x, y), corner.hole_radius),
-        Catch("right foot corner pocket", (x, -y), corner.hole_radius),
+        Catch(f"{flank} {name} pocket", (across, sy * up), pocket.hole_radius)
+        for name, across, up, pocket in holes
+        for sy, flank in ((1.0, "left"), (-1.0, "right"))
     ]
