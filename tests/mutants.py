@@ -1,15 +1,15 @@
-"""Seeded mutants of sandbox/engine and sandbox/physics, each against its related tests: which go unnoticed?
+"""Seeded mutants of the program, each against its related tests: which go unnoticed?
 
-Run ``python tests/mutants.py [--number N] [--seed S] [--part I/N] [--timeout SECONDS]``; not a part of ``make test``.
-Each mutant changes one place: a number, an operator, a comparison, a condition. A copy of the tree is mutated, never
-the tree itself. Survivors are listed with their lines; whether one is equivalent is for people to judge.
+Run ``python tests/mutants.py [--room FOLDER] [--number N] [--seed S] [--part I/N] [--timeout SECONDS]``; not a part of
+``make test``. Each mutant changes one place: a number, an operator, a comparison, a condition, a statement that is
+left out, two arguments that are swapped. A copy of the tree is mutated, never the tree itself. Survivors are listed
+with their lines; whether one is equivalent is for people to judge.
 """
 
 from __future__ import annotations
 
 import argparse
 import ast
-import copy
 import os
 import random
 import shutil
@@ -22,37 +22,80 @@ from typing import Any
 
 ROOT = Path(__file__).resolve().parent.parent
 
-#: Tests of each module, the quickest to notice first; ``tests/physics/test_NAME.py`` where there is no entry.
-RELATED = {
-    "accuracy": "methods exact plain",
-    "acting": "guards run methods batch",
-    "arc": "run exact contact batch",
-    "arc_rows": "batch",
-    "batch": "batch methods",
-    "bernstein": "bernstein contact exact",
-    "bernstein_many": "batch",
-    "setup_errors": "guards",
-    "clusters": "clusters",
-    "contacts": "contact cloth batch",
-    "impacts": "contact cloth clusters",
-    "lanes": "batch",
-    "lasting": "contact exact run",
-    "ledger": "run cloth guards",
-    "motion": "guards contact exact run",
-    "on_cloth": "cloth plain",
-    "outlines": "batch",
-    "plain": "plain run guards cloth",
-    "pressed": "clusters",
-    "run": "run batch cloth",
-    "setup": "guards contact run batch",
-    "simulation": "contact guards cloth exact",
-    "stacking": "batch",
-    "step_control": "methods run guards exact batch",
-    "surfaces": "contact guards plain",
-    "touch": "contact exact batch",
-    "track": "contact cloth clusters",
-    "elementwise": "../physics/test_coefficients ../physics/test_forces ../physics/test_air batch",
-    "hertz": "clusters",
+#: The tests of each module, the quickest to notice first; those of a room's other modules under "". A name is that of a
+#: file ``test_NAME.py`` in the room's own folder of tests, or in the one that it begins with.
+TESTS: dict[str, dict[str, str]] = {
+    "sandbox/engine": {
+        "accuracy": "methods exact plain",
+        "acting": "guards run methods batch",
+        "arc": "run exact contact batch",
+        "arc_rows": "batch",
+        "batch": "batch methods",
+        "bernstein": "bernstein contact exact",
+        "bernstein_many": "batch",
+        "clusters": "clusters",
+        "contacts": "contact cloth batch",
+        "impacts": "contact cloth clusters",
+        "impulses": "contact cloth clusters",
+        "lanes": "batch",
+        "lasting": "contact exact run",
+        "ledger": "run cloth guards",
+        "motion": "guards contact exact run",
+        "on_cloth": "cloth plain",
+        "outlines": "batch",
+        "plain": "plain run guards cloth",
+        "pressed": "clusters",
+        "run": "run batch cloth",
+        "setup": "guards contact run batch",
+        "setup_errors": "guards",
+        "simulation": "contact guards cloth exact",
+        "stacking": "batch",
+        "step_control": "methods run guards exact batch",
+        "surfaces": "contact guards plain",
+        "touch": "contact exact batch",
+        "track": "contact cloth clusters",
+    },
+    "sandbox/physics": {
+        "elementwise": "coefficients forces air engine/batch",
+        "hertz": "hertz engine/clusters",
+        "": "{name} scenes/golf",
+    },
+    "sandbox/sport": {
+        "": "scenes/golf scenes/soccer scenes/soccer_curl scenes/basketball scenes/billiards window/tweak"
+    },
+    "sandbox/scene": {"checking": "checking", "": "scene cli"},
+    "sandbox/lab": {
+        "maps": "maps",
+        "stress": "stress",
+        "extremes": "stress",
+        "tables": "tables",
+        "verdicts": "stress",
+        "runs": "runs sweep",
+        "": "sweep trade",
+        "chart": "sweep trade",
+        "trade": "trade",
+        "ablation": "trade",
+        "reference": "trade",
+        "validate": "scenes/published docs cli",
+    },
+    "sandbox/lab/aim": {"": "lab/aim"},
+    "sandbox/workers": {"": "lab/sweep"},
+    "sandbox/cli": {"lab": "lab/sweep cli lab/aim lab/trade", "": "cli"},
+    "sandbox": {
+        "golden": "picture/golden",
+        "record": "picture/golden",
+        "files": "cli lab/sweep",
+        "new": "new",
+        "parameters": "parameters scene cli",
+        "report": "cli",
+        "tracebacks": "cli lab/sweep",
+        "units": "parameters",
+        "": "{name} cli",
+    },
+    **{
+        f"scenes/{scene}": {"": f"scenes/{scene.replace('-', '_')} golden_runs"}
+        for scene in ("basketball", "billiards", "golf", "soccer", "soccer-curl", "volleyball")
+    },
 }
 
 #: Not looked into: what holds names only, and shapes of types.
@@ -84,6 +127,23 @@ def places(tree: ast.AST) -> Iterator[tuple[ast.AST, str]]:
             yield node, "condition"
         elif isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub):
             yield node, "sign"
+        elif isinstance(node, ast.Call) and _can_be_swapped(node):
+            yield node, "arguments"
+        elif _can_be_left_out(node):
+            yield node, "statement"
+
+
+def _can_be_swapped(call: ast.Call) -> bool:
+    """Whether its last two arguments differ and their order may matter."""
+    name = call.func.id if isinstance(call.func, ast.Name) else ""
+    return name not in ("max", "min") and len({ast.unparse(each) for each in call.args[-2:]}) == 2
+
+
+def _can_be_left_out(node: ast.AST) -> bool:
+    """Whether it is a statement that makes no name known."""
+    if isinstance(node, ast.Assign):
+        return isinstance(node.targets[0], ast.Attribute | ast.Subscript)
+    return isinstance(node, ast.AugAssign) or (isinstance(node, ast.Expr) and isinstance(node.value, ast.Call))
 
 
 def changed(node: Any, how: str) -> None:
@@ -100,15 +160,19 @@ def changed(node: Any, how: str) -> None:
         node.test = ast.UnaryOp(ast.Not(), node.test)
     elif how == "sign":
         node.op = ast.UAdd()
+    elif how == "arguments":
+        node.args[-2:] = node.args[:-3:-1]
+    elif how == "statement":
+        node.__class__, node.value = ast.Expr, ast.Constant(None)
 
 
-def drawn(number: int, seed: int) -> list[tuple[Path, int]]:
-    """Modules and the places in them to change, each once."""
-    files = sorted([*(ROOT / "sandbox/engine").glob("*.py"), *(ROOT / "sandbox/physics").glob("*.py")])
+def drawn(room: str, number: int, seed: int) -> list[tuple[Path, int]]:
+    """Modules and the places in them to change, each once; ``room`` is a folder, or a module in it."""
+    files = [file for folder in TESTS for file in sorted((ROOT / folder).glob("*.py"))]
     every = [
         (file, place)
         for file in files
-        if file.stem not in LEFT_OUT
+        if file.stem not in LEFT_OUT and file.relative_to(ROOT).as_posix().startswith(room)
         for place in range(len(list(places(ast.parse(file.read_text("utf-8"))))))
     ]
     return random.Random(seed).sample(every, min(number, len(every)))
@@ -116,20 +180,29 @@ def drawn(number: int, seed: int) -> list[tuple[Path, int]]:
 
 def mutant(file: Path, place: int) -> tuple[str, str]:
     """The source with the change, and what it is."""
-    tree = copy.deepcopy(ast.parse(file.read_text("utf-8")))
+    tree = ast.parse(file.read_text("utf-8"))
+    node: Any
     node, how = list(places(tree))[place]
-    before = ast.unparse(node.test if how == "condition" else node)  # type: ignore[attr-defined]
+    shown = node.test if how == "condition" else node
+    before = ast.unparse(shown)
     changed(node, how)
-    after = ast.unparse(node.test if how == "condition" else node)  # type: ignore[attr-defined]
-    where = f"{file.relative_to(ROOT)}:{node.lineno}"  # type: ignore[attr-defined]
-    return ast.unparse(ast.fix_missing_locations(tree)), f"{where}  {before}  ->  {after}"
+    after = "left out" if how == "statement" else ast.unparse(node.test if how == "condition" else node)
+    return ast.unparse(
+        ast.fix_missing_locations(tree)
+    ), f"{file.relative_to(ROOT)}:{node.lineno}  {before}  ->  {after}"
 
 
 def tests_of(file: Path) -> list[str]:
-    engine = file.parent.name == "engine" or file.stem in RELATED
-    names = RELATED.get(file.stem, "").split() if engine else [f"../physics/test_{file.stem}", "../scenes/test_golf"]
-    paths = [f"tests/engine/test_{name}.py" if "/" not in name else f"tests/engine/{name}.py" for name in names]
-    return [path for path in paths if (ROOT / path).is_file()]
+    """The files of the module's tests."""
+    room = file.parent.relative_to(ROOT).as_posix()
+    names = TESTS[room].get(file.stem, TESTS[room].get("", "")).format(name=file.stem).split()
+    own = room.removeprefix("sandbox").strip("/")
+    found = []
+    for name in names:
+        folder, _, last = name.rpartition("/")
+        places = (f"tests/{folder or own}/test_{last}.py", f"tests/test_{last}.py")
+        found += [path for path in places if (ROOT / path).is_file()][:1]
+    return found
 
 
 def noticed(copied: Path, file: Path, source: str, timeout: float) -> bool:
@@ -137,18 +210,7 @@ def noticed(copied: Path, file: Path, source: str, timeout: float) -> bool:
     place = copied / file.relative_to(ROOT)
     original = place.read_text("utf-8")
     place.write_text(source, "utf-8")
-    command = [
-        sys.executable,
-        "-m",
-        "pytest",
-        "-x",
-        "-q",
-        "-p",
-        "no:cacheprovider",
-        "-p",
-        "no:randomly",
-        *tests_of(file),
-    ]
+    command = [sys.executable, "-m", "pytest", "-x", "-q", "-n", "0", "-p", "no:cacheprovider", *tests_of(file)]
     variables = {**os.environ, "PYTHONDONTWRITEBYTECODE": "1", "SDL_VIDEODRIVER": "dummy"}
     try:
         return subprocess.run(command, cwd=copied, env=variables, capture_output=True, timeout=timeout).returncode != 0
@@ -160,6 +222,7 @@ def noticed(copied: Path, file: Path, source: str, timeout: float) -> bool:
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--room", default="", help="a folder such as scenes/golf, or a module; all if not given")
     parser.add_argument("--number", type=int, default=300)
     parser.add_argument("--seed", type=int, default=18)
     parser.add_argument("--part", default="1/1", help="every N-th mutant from the I-th on: I/N")
@@ -170,7 +233,7 @@ def main() -> None:
     with tempfile.TemporaryDirectory() as folder:
         copied = Path(folder) / "tree"
         shutil.copytree(ROOT, copied, ignore=shutil.ignore_patterns(".git", ".venv", "__pycache__", "dist"))
-        for file, place in drawn(arguments.number, arguments.seed)[part - 1 :: parts]:
+        for file, place in drawn(arguments.room, arguments.number, arguments.seed)[part - 1 :: parts]:
             source, what = mutant(file, place)
             tried += 1
             if not noticed(copied, file, source, arguments.timeout):
