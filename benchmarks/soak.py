@@ -7,7 +7,7 @@ the same cases, each of which can be repeated alone: ``--only scenes:123``. Part
 - setups: balls, surfaces and forces with numbers from 1e-320 to 1e300
 - faulty: user scenes with mistakes, in run, sweep and aim
 - replays: recorded shots with changed bytes, and forged ones with a correct checksum
-- kills: sweeps ended by SIGKILL, SIGTERM or Ctrl-C at any moment, with damaged files, or two at once into one file;
+- kills: sweeps ended by SIGKILL or another signal at any moment, with damaged files, or two at once into one file;
   then finished by the same command, and compared byte by byte with an undisturbed sweep
 
 A case ends in a class; those that are neither a good run nor a named error are listed with their details, and the
@@ -33,11 +33,26 @@ import traceback
 from collections import Counter, defaultdict
 from collections.abc import Callable, Iterator
 from functools import cache
-from math import cos, isfinite, sin
+from math import cos, sin
 from pathlib import Path
 from threading import Thread
 from typing import Any
 
+from page import filled
+
+import sandbox
+from sandbox import parameters as declared
+from sandbox import resources
+from sandbox.cli import main as program
+from sandbox.engine import simulate
+from sandbox.engine.accuracy import resolve
+from sandbox.engine.setup import Ball, Segment, Setup, Surface
+from sandbox.errors import RequestError, RunError
+from sandbox.new import new_scene
+from sandbox.physics.forces import Gravity
+from sandbox.scene import listings
+from sandbox.window import replay
+from sandbox.window.shot import Shot
 from sandbox.workers import Processes, WorkerLost, cores
 
 #: Processor time in s after which a case counts as endless; by the clock, this many times as long.
@@ -47,29 +62,22 @@ LONGEST, BY_THE_CLOCK = 30.0, 6
 AT_ONCE = {"scenes": 20, "setups": 40, "faulty": 4, "replays": 40}
 
 #: Number of cases of the other parts, as fractions of the fuzzed scenes.
-SHARES = {"setups": 0.15, "faulty": 0.03, "replays": 0.06}
+SHARES = {"scenes": 1.0, "setups": 0.15, "faulty": 0.03, "replays": 0.06}
+
+REFUSED, FAILED = "request refused", "run failed by name"
+SAME, ONE_OF_TWO = "finished, the same bytes", "one wrote, the other was refused"
 
 #: Classes that pass; all others fail.
-GOOD = (
-    "ran",
-    "request refused",
-    "run failed by name",
-    "read",
-    "finished, the same bytes",
-    "one wrote, the other was refused",
-)
+GOOD = ("ran", REFUSED, FAILED, "read", SAME, ONE_OF_TWO)
 
 #: A traceback line from this program after start-up; earlier ones are from Python's own start.
 OURS = re.compile(r'File "[^"]*/sandbox/(?!__init__|__main__|cli/__init__)')
 
-PROGRAM = [sys.executable, "-m", "sandbox"]
-
 Outcome = tuple[str, str]  # class, and details of one that is not good
 
 
-def say(text: str) -> None:
-    sys.stdout.write(f"{text}\n")
-    sys.stdout.flush()
+class Wrong(Exception):
+    """A case that ended neither well nor in a named error: its class, and details."""
 
 
 class TooLong(BaseException):
@@ -82,119 +90,78 @@ class TooLong(BaseException):
 
 NONSENSE: list[Any] = [
     None, True, "", "12 m", "1e400 m", "nan", float("nan"), float("inf"), -1, 10**400, 1e300, 1e-320, [], [1],
-    [1, 2, 3],
-    {}, {"a": 1}, {5: 1}, "none", "\x1b[31m", "=1+1", "a" * 300, [[]], {"model": "constant"}, b"x", 1j,
+    [1, 2, 3], {}, {"a": 1}, {5: 1}, "none", "\x1b[31m", "=1+1", "a" * 300, [[]], {"model": "constant"}, b"x", 1j,
 ]  # fmt: skip
-
-
-def fuzzed_scene(draw: random.Random) -> Outcome:
-    import sandbox
-    from sandbox import parameters as declared
-
-    name = draw.choice(scenes_and_presets())
-    if draw.random() < 0.4:
-        return scrambled_file(draw, name)
-    known = [p for p in declared.walk(sandbox.load(name).parameters) if not p.key.startswith("accuracy.")]
-    changes: dict[str, Any] = {}
-    for parameter in draw.sample(known, draw.choice((1, 2, 3, 6, len(known)))):
-        changes[parameter.key] = any_value(draw, parameter)
-    if draw.random() < 0.15:
-        changes[draw.choice([*(p.key for p in known), "nothing", "air", "air.wind[0]", "a.b[9].c"])] = draw.choice(
-            NONSENSE
-        )
-    changes.setdefault("accuracy.level", draw.choice(("fast", "fast", "balanced")))
-    if draw.random() < 0.1:
-        changes |= {"accuracy.method": "plain", "accuracy.step": draw.choice((1 / 60, 1 / 240))}
-    return run_and_look(lambda: sandbox.load(name, changes), changes)
 
 
 @cache
 def scenes_and_presets() -> list[str]:
-    from sandbox.scene import listings
-
     return [found.name for found in listings()]
+
+
+def fuzzed_scene(draw: random.Random) -> str:
+    name = draw.choice(scenes_and_presets())
+    if draw.random() < 0.4:
+        return scrambled_file(draw, name)
+    known = [p for p in declared.walk(sandbox.load(name).parameters) if not p.key.startswith("accuracy.")]
+    some = draw.sample(known, draw.choice((1, 2, 3, 6, len(known))))
+    changes = {parameter.key: any_value(draw, parameter) for parameter in some}
+    if draw.random() < 0.15:
+        keys = [*(p.key for p in known), "nothing", "air", "air.wind[0]", "a.b[9].c"]
+        changes[draw.choice(keys)] = draw.choice(NONSENSE)
+    changes.setdefault("accuracy.level", draw.choice(("fast", "fast", "balanced")))
+    if draw.random() < 0.1:
+        changes |= {"accuracy.method": "plain", "accuracy.step": draw.choice((1 / 60, 1 / 240))}
+    return looked_at(sandbox.simulate(sandbox.load(name, changes)), changes)
 
 
 def any_value(draw: random.Random, parameter: Any) -> Any:
     """A value that the declaration of a parameter allows, or its current one."""
-    if parameter.choices:
-        return draw.choice(parameter.choices)
-    if isinstance(parameter.value, bool):
-        return draw.random() < 0.5
-    if parameter.low is None or parameter.high is None:
-        return parameter.value
+    value, low, high = parameter.value, parameter.low, parameter.high
 
     def number() -> float:
-        low, high = parameter.low, parameter.high
         special = [x for x in (low, high, 0.0, 1e-9, 1.0) if low <= x <= high]
-        near = parameter.value if isinstance(parameter.value, float) else 0.5 * (low + high)
-        kinds = [draw.choice(special), draw.uniform(low, high), min(max(near * draw.uniform(0.5, 1.5), low), high)]
+        near = value if isinstance(value, float) else 0.5 * (low + high)
+        kinds = draw.choice(special), draw.uniform(low, high), min(max(near * draw.uniform(0.5, 1.5), low), high)
         return float(draw.choice(kinds))
 
-    if isinstance(parameter.value, tuple | list):
-        return [number() if isinstance(part, float) else part for part in parameter.value]
+    if parameter.choices:
+        return draw.choice(parameter.choices)
+    if isinstance(value, bool):
+        return draw.random() < 0.5
+    if low is None or high is None:
+        return value
+    if isinstance(value, tuple | list):
+        return [number() if isinstance(part, float) else part for part in value]
     return number()
 
 
-def scrambled_file(draw: random.Random, name: str) -> Outcome:
+def scrambled_file(draw: random.Random, name: str) -> str:
     """A scene file with some bytes changed, removed or added."""
-    import sandbox
-    from sandbox import resources
-
-    folder = resources.folder("scenes") / name.partition("/")[0]
+    scene = name.partition("/")[0]
+    folder = resources.folder("scenes") / scene
     file = draw.choice([*folder.glob("*.toml"), *folder.glob("presets/*.toml")])
     text = bytearray(file.read_bytes())
     for _ in range(draw.choice((1, 1, 2, 5, 30))):
         place = draw.randrange(len(text))
-        part = bytes(draw.choice((b"\0", b"\xff", b'"', b"[", b"=", b"9", b"-", b"\n", b"1e999", b"nan", b"\x1b[2J")))
+        part = draw.choice((b"\0", b"\xff", b'"', b"[", b"=", b"9", b"-", b"\n", b"1e999", b"nan", b"\x1b[2J"))
         text[place : place + draw.choice((0, 1, 1, 40))] = part
     if b"scene" not in text:
-        text = bytearray(f'scene = "{name.partition("/")[0]}"\n'.encode()) + text
+        text = bytearray(f'scene = "{scene}"\n'.encode()) + text
     with tempfile.TemporaryDirectory() as place_of_it:
         path = Path(place_of_it) / "shot.toml"
         path.write_bytes(bytes(text))
-        return run_and_look(lambda: sandbox.load(path, {"accuracy.level": "fast"}), file.name)
+        return looked_at(sandbox.simulate(sandbox.load(path, {"accuracy.level": "fast"})), file.name)
 
 
-def run_and_look(load: Callable[[], Any], about: object) -> Outcome:
-    import sandbox
-    from sandbox.errors import RequestError, RunError
-
-    try:
-        run = sandbox.simulate(load())
-    except RequestError as error:
-        return named("request refused", error)
-    except RunError as error:
-        return named("run failed by name", error)
-    json.dumps(run.result, default=str)
-    return looked_at(run, about)
-
-
-def looked_at(run: Any, about: object) -> Outcome:
+def looked_at(run: Any, about: object) -> str:
     """Whether all numbers of a run are finite."""
-    values: list[Any] = [run.result, run.duration]
-    for arcs in run.arcs.values():
-        values += [arc.start for arc in arcs]
-        values += [arc.state(arc.t1) for arc in arcs[-1:]]
-    return ("ran", "") if all(isfinite(x) for x in numbers(values)) else ("not finite", repr(about))
-
-
-def numbers(value: Any) -> Iterator[float]:
-    for part in (
-        list(value.values()) if isinstance(value, dict) else value if isinstance(value, list | tuple) else [value]
-    ):
-        if isinstance(part, dict | list | tuple):
-            yield from numbers(part)
-        elif isinstance(part, float):
-            yield part
-
-
-def named(outcome: str, error: Exception) -> Outcome:
-    """Check that a named error is one or a few lines of text."""
-    text = str(error)
-    if not text.strip() or len(text.splitlines()) > 4 or "Traceback" in text:
-        return "an error without a message", repr(text[:500])
-    return outcome, ""
+    states = [(arc.start, arc.state(arc.t1)) for arcs in run.arcs.values() for arc in arcs]
+    try:
+        json.dumps([run.result, run.duration, states], allow_nan=False, default=str)
+    except ValueError:
+        raise Wrong("not finite", repr(about)) from None
+    return "ran"
 
 
 # ---------------------------------------------------------------------------------------------------------------------
@@ -202,39 +169,26 @@ def named(outcome: str, error: Exception) -> Outcome:
 # ---------------------------------------------------------------------------------------------------------------------
 
 
-def extreme_setup(draw: random.Random) -> Outcome:
-    from sandbox.engine import simulate
-    from sandbox.engine.accuracy import resolve
-    from sandbox.engine.setup import Ball, Segment, Setup, Surface
-    from sandbox.errors import RequestError, RunError
-    from sandbox.physics.forces import Gravity
-
+def extreme_setup(draw: random.Random) -> str:
     def size(usual: float) -> float:
         return draw.choice((usual, usual, usual, usual * 10 ** draw.uniform(-9, 9), 10 ** draw.uniform(-320, 300)))
 
     def signed(usual: float) -> float:
         return draw.choice((-1.0, 1.0, 1.0, 0.0)) * size(usual)
 
-    mass, angle = size(0.1), draw.uniform(-1.5, 1.5)
-    try:
-        ball = Ball(
-            "ball", mass, size(0.03), (signed(1.0), size(2.0)), (signed(10.0), signed(10.0)), signed(100.0),
-            forces=(Gravity(mass, size(9.81)),),
-        )  # fmt: skip
-        far = size(100.0)
-        floor = Segment((-far * cos(angle), -far * sin(angle)), (far * cos(angle), far * sin(angle)))
-        surfaces = (Surface("floor", floor, draw.random(), friction=draw.choice((0.0, 0.4, 1e300))),)
-        balls = [ball]
-        if draw.random() < 0.4:
-            balls.append(Ball("other", size(0.1), size(0.03), (signed(1.0), signed(1.0)), (signed(1.0), 0.0)))
-        method = draw.choice(({}, {}, {}, {"method": "plain", "step": draw.choice((1e-3, 1 / 60))}))
-        accuracy = resolve(level=draw.choice(("fast", "balanced")), **method)
-        run = simulate(Setup(tuple(balls), surfaces, duration=draw.choice((0.5, 2.0, 2.0))), accuracy)
-    except RequestError as error:
-        return named("request refused", error)
-    except RunError as error:
-        return named("run failed by name", error)
-    return looked_at(run, "a setup")
+    mass, angle, far = size(0.1), draw.uniform(-1.5, 1.5), size(100.0)
+    ball = Ball(
+        "ball", mass, size(0.03), (signed(1.0), size(2.0)), (signed(10.0), signed(10.0)), signed(100.0),
+        forces=(Gravity(mass, size(9.81)),),
+    )  # fmt: skip
+    floor = Segment((-far * cos(angle), -far * sin(angle)), (far * cos(angle), far * sin(angle)))
+    surface = Surface("floor", floor, draw.random(), friction=draw.choice((0.0, 0.4, 1e300)))
+    balls = [ball]
+    if draw.random() < 0.4:
+        balls.append(Ball("other", size(0.1), size(0.03), (signed(1.0), signed(1.0)), (signed(1.0), 0.0)))
+    method = draw.choice(({}, {}, {}, {"method": "plain", "step": draw.choice((1e-3, 1 / 60))}))
+    accuracy = resolve(level=draw.choice(("fast", "balanced")), **method)
+    return looked_at(simulate(Setup(tuple(balls), (surface,), draw.choice((0.5, 2.0, 2.0))), accuracy), "a setup")
 
 
 # ---------------------------------------------------------------------------------------------------------------------
@@ -245,7 +199,7 @@ def extreme_setup(draw: random.Random) -> Outcome:
 FORCES = (
     "return None", "return 1.0", "return (1.0,)", "return (1j, 0.0)", "return (10**400, 0.0)", "return 'a', 'b'",
     "return (float('nan'), 0.0)", "return (float('inf'), 0.0)", "raise ValueError('\\x1b[31mred')",
-    "import sys; sys.exit(0)",
+    "import sys; sys.exit(0)", "raise GeneratorExit",
     "raise SystemExit", "import numpy; return numpy.ones((2, 1))", "return self(t, position, velocity, spin)", "1 / 0",
     "raise KeyboardInterrupt", "raise type('Odd', (Exception,), {})('two\\nlines')", "return 1e308 * velocity[0], 0.0",
     "import sandbox; return sandbox.nothing", "return 0.0, -1e9 * position[1]", "assert False",
@@ -255,14 +209,7 @@ FACTS = (
     "import sys; sys.exit(3)", "return '\\x1b[2J\\nx'", "return 10**400", "return b'x'", "return run.nothing",
     "return ...",
 )  # fmt: skip
-VERDICTS = (
-    "return None",
-    "return 5",
-    "return '\\x1b]0;x\\x07'",
-    "1 / 0",
-    "return 'a' * 10000",
-    "import os; os.close(1)",
-)
+VERDICTS = ("return None", "return 5", "return '\\x1b]0;x\\x07'", "1 / 0", "return 'a' * 10000")
 BUILDS = (
     "return None", "1 / 0", "import sys; sys.exit(0)", "return Setup((), ())", "parameters.launch.nothing",
     "return Setup((Ball('a', 1, 1, (0, 0)), Ball('a', 1, 1, (9, 9))), ())",
@@ -285,134 +232,112 @@ TEXTS = (
 )  # fmt: skip
 
 
-def faulty_scene(draw: random.Random) -> Outcome:
-    from sandbox.new import new_scene
-
+def faulty_scene(draw: random.Random) -> str:
     with tempfile.TemporaryDirectory() as place:
         folder = Path(place) / "mine"
         new_scene(folder)
         file = folder / "scene.py"
         text = file.read_text("utf-8")
         kind = draw.choice(("force", "force", "fact", "verdict", "build", "text"))
-        if kind == "force":
-            mistake = draw.choice(FORCES)
-            when = draw.choice(("", "if t > 0.05:\n            "))
-            text = after(text, r"    def __call__\(self, t[^\n]*\n", f"        {when}{mistake}\n")
-        elif kind == "fact":
-            mistake = draw.choice(FACTS)
-            text = f"{text}\n\ndef _mistake(run, parameters):\n    {mistake}\n\n\n"
-            text += "FACTS = (*FACTS, Fact('mistake', 'mistake', '', _mistake))\n"
-        elif kind == "verdict":
-            mistake = draw.choice(VERDICTS[:-1])
-            text += f"\n\ndef verdict(run, parameters):\n    {mistake}\n"
-        elif kind == "build":
-            mistake = draw.choice(BUILDS)
-            text = after(text, r"def build\([^\n]*\n", f"    {mistake}\n")
-        else:
+        if kind == "text":
             old, mistake = draw.choice(TEXTS)
             text = text.replace(old, mistake, draw.choice((1, -1)))
+        else:
+            mistake = draw.choice({"force": FORCES, "fact": FACTS, "verdict": VERDICTS, "build": BUILDS}[kind])
+            when = draw.choice(("", "if t > 0.05:\n            "))
+            text = {
+                "force": lambda: after(text, r"    def __call__\(self, t[^\n]*\n", f"        {when}{mistake}\n"),
+                "fact": lambda: (
+                    f"{text}\n\ndef _mistake(run, parameters):\n    {mistake}\n\n\n"
+                    "FACTS = (*FACTS, Fact('mistake', 'mistake', '', _mistake))\n"
+                ),
+                "verdict": lambda: f"{text}\n\ndef verdict(run, parameters):\n    {mistake}\n",
+                "build": lambda: after(text, r"def build\([^\n]*\n", f"    {mistake}\n"),
+            }[kind]()
         file.write_bytes(text.encode("latin-1" if "\xff" in text else "utf-8", "replace"))
-        command = draw.choice(
+        command, *more = draw.choice(
             (
-                ["run", str(folder)],
-                ["run", str(folder), "--json"],
-                ["run", str(folder), "--set", "accuracy.method=plain"],
-                ["run", str(folder), "--check"],
-                ["sweep", str(folder), "--over", "launch.speed=5:9:3", "--jobs", "1", "--out", f"{place}/x.csv"],
-                ["aim", str(folder), "--vary", "launch.angle=40:70", "--target", "hit=true"],
+                ["run"],
+                ["run", "--json"],
+                ["run", "--set", "accuracy.method=plain"],
+                ["run", "--check"],
+                ["sweep", "--over", "launch.speed=5:9:3", "--jobs", "1", "--out", f"{place}/x.csv"],
+                ["aim", "--vary", "launch.angle=40:70", "--target", "hit=true"],
             )
         )
-        return called(command, f"{kind}: {mistake!r}: {command[0]} {' '.join(command[2:])}")
+        return called([command, str(folder), *more], f"{kind}: {mistake!r}: {command} {' '.join(more)}")
 
 
 def after(text: str, pattern: str, added: str) -> str:
-    """Insert ``added`` below the docstring of the first function that matches ``pattern``."""
+    """Insert ``added`` below the first line that matches ``pattern``."""
     found = re.search(pattern, text)
     assert found, pattern
     return text[: found.end()] + added + text[found.end() :]
 
 
-def called(command: list[str], about: str) -> Outcome:
+def called(command: list[str], about: str) -> str:
     """Run the program in this process and check its output."""
-    from sandbox.cli import main
-
     out, err = io.StringIO(), io.StringIO()
     with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
-        code = main(command)
+        code = program(command)
     said = err.getvalue()
     if any(ord(mark) < 32 and mark not in "\n\t\r" for mark in out.getvalue() + said):
-        return "control characters", about
+        raise Wrong("control characters", about)
     if code == 0:
-        return "ran", ""
+        return "ran"
     if code == 130 and "KeyboardInterrupt" in about:
-        return "run failed by name", ""
-    lines = said.splitlines()
-    if code not in (1, 2) or not lines or not lines[0].startswith("error: "):
-        return f"exit {code} without an error line", f"{about}: {said[-500:]}"
-    if "Traceback" in said and "your scene failed" not in lines[0]:
-        return "a traceback of our own", f"{about}: {said[-500:]}"
-    return ("request refused" if code == 2 else "run failed by name"), ""
+        return FAILED
+    first = said.partition("\n")[0]
+    if code not in (1, 2) or not first.startswith("error: "):
+        raise Wrong(f"exit {code} without an error line", f"{about}: {said[-500:]}")
+    if "Traceback" in said and "your scene failed" not in first:
+        raise Wrong("a traceback of our own", f"{about}: {said[-500:]}")
+    return REFUSED if code == 2 else FAILED
 
 
 # ---------------------------------------------------------------------------------------------------------------------
 # Replays
 # ---------------------------------------------------------------------------------------------------------------------
 
-_recorded: list[bytes] = []
+
+@cache
+def recorded() -> list[bytes]:
+    """Replays of some shots."""
+    found = []
+    with tempfile.TemporaryDirectory() as place:
+        path = Path(place) / f"x{replay.SUFFIX}"
+        for name in ("golf/putt", "basketball", "billiards"):
+            scene = sandbox.load(name)
+            replay.save(Shot(scene, sandbox.simulate(scene), {}, name), path)
+            found.append(path.read_bytes())
+    return found
 
 
-def forged_replay(draw: random.Random) -> Outcome:
-    from sandbox.errors import RequestError, RunError
-    from sandbox.window import replay
-
-    if not _recorded:
-        record_some()
-    content = draw.choice(_recorded)
+def forged_replay(draw: random.Random) -> str:
+    content = bytearray(draw.choice(recorded()))
     if draw.random() < 0.4:
-        changed = bytearray(content)
         for _ in range(draw.choice((1, 1, 3, 50))):
-            changed[draw.randrange(len(changed))] = draw.randrange(256)
-        content = bytes(changed[: draw.choice((len(changed), len(changed), draw.randrange(len(changed))))])
+            content[draw.randrange(len(content))] = draw.randrange(256)
+        del content[draw.choice((len(content), len(content), draw.randrange(len(content)))) :]
     else:
         record = json.loads(content)
         for _ in range(draw.choice((1, 1, 2, 6))):
             forge(draw, record["body"])
         record["check"] = replay._sum(record["body"])
-        content = json.dumps(record).encode()
+        content = bytearray(json.dumps(record).encode())
     with tempfile.TemporaryDirectory() as place:
         path = Path(place) / f"shot{replay.SUFFIX}"
         path.write_bytes(content)
         (Path(place) / "scene.py").write_text("raise SystemExit('code of the replay ran')\n")
-        try:
-            session, shot = replay.read(path)
-        except RequestError as error:
-            return named("request refused", error)
-        except RunError as error:
-            return named("run failed by name", error)
+        session, shot = replay.read(path)
         shot.run.state(shot.ball, 0.5 * shot.run.duration)
         assert session.scene is not None
-        return "read", ""
-
-
-def record_some() -> None:
-    from sandbox.scene import load, simulate
-    from sandbox.window import replay
-    from sandbox.window.shot import Shot
-
-    for name in ("golf/putt", "basketball", "billiards"):
-        scene = load(name)
-        with tempfile.TemporaryDirectory() as place:
-            path = Path(place) / f"x{replay.SUFFIX}"
-            replay.save(Shot(scene, simulate(scene), {}, name), path)
-            _recorded.append(path.read_bytes())
+        return "read"
 
 
 def forge(draw: random.Random, node: Any) -> None:
     """Change one thing, somewhere in the tree."""
-    while True:
-        keys = list(node) if isinstance(node, dict) else list(range(len(node)))
-        if not keys:
-            return
+    while keys := list(node) if isinstance(node, dict) else list(range(len(node))):
         key = draw.choice(keys)
         below = node[key]
         if isinstance(below, dict | list) and draw.random() < 0.8:
@@ -432,7 +357,8 @@ def forge(draw: random.Random, node: Any) -> None:
 # Sweeps that are killed
 # ---------------------------------------------------------------------------------------------------------------------
 
-#: A scene of one ball whose runs take a few ms each; one point raises, which is a row like others.
+#: A scene of two balls whose runs take a few ms each. The first points and some others fail: their rows have an error,
+#: and the first row that has more makes all rows be written again.
 SLOW = '''"""A drop."""
 
 import time
@@ -452,12 +378,22 @@ class Parameters(Group):
 
 def build(parameters):
     time.sleep(0.001 * parameters.pause)
-    if 1.5 < parameters.height < 1.51:
+    if parameters.height < 1.05 or 1.5 < parameters.height < 1.51:
         raise ValueError("not there")
     ball = Ball("ball", 0.1, 0.03, (0.0, parameters.height), forces=(Gravity(0.1, 9.81),))
     floor = Surface("floor", Segment((-9, 0), (9, 0)), 0.5, 0.5)
     return Setup((ball, Ball("other", 0.1, 0.03, (5.0, 5.0))), (floor,), 0.4)
 '''
+
+#: Signals that end a sweep, and the exit codes of the program that they may lead to; 0 if it was done.
+SIGNALS = {
+    signal.SIGKILL: (0, -signal.SIGKILL),
+    **{by: (0, 128 + by, -by) for by in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP)},
+}
+
+
+def started(command: list[str]) -> subprocess.Popen[str]:
+    return subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True)
 
 
 class Kills:
@@ -466,103 +402,103 @@ class Kills:
     def __init__(self, seed: int, kills: int, deadline: float, note: Callable[[str, Outcome], None]) -> None:
         self.seed, self.kills, self.deadline, self.note = seed, kills, deadline, note
         self.done = 0
+        self._expected: dict[int, bytes] = {}
+
+    @property
+    def is_over(self) -> bool:
+        return self.done >= self.kills or time.monotonic() > self.deadline
 
     def run(self) -> None:
         with tempfile.TemporaryDirectory() as place:
-            folder = Path(place) / "slow"
-            folder.mkdir()
+            (folder := Path(place) / "slow").mkdir()
             (folder / "scene.py").write_text(SLOW)
             number = 0
-            while self.done < self.kills and time.monotonic() < self.deadline:
+            while not self.is_over:
+                (here := Path(place) / f"{number}").mkdir()
                 draw = random.Random(f"{self.seed}:kills:{number}")
-                try:
-                    outcome = self.one(draw, folder, Path(place) / f"{number}")
-                except Exception:
-                    outcome = "the soak itself failed", traceback.format_exc()
-                self.note("kills", (outcome[0], f"case {number}: {outcome[1]}" if outcome[1] else ""))
+                outcome, details = judged(lambda: self.one(draw, folder, here))  # noqa: B023 (called at once)
+                self.note("kills", (outcome, f"case {number}: {details}" if details else ""))
                 number += 1
 
-    def one(self, draw: random.Random, folder: Path, place: Path) -> Outcome:
-        place.mkdir()
-        points, jobs = draw.choice((150, 400)), draw.choice((1, 2))
+    def one(self, draw: random.Random, folder: Path, here: Path) -> str:
+        points, jobs, out = draw.choice((150, 400)), draw.choice((1, 2)), here / "rows.csv"
         over = ["--over", f"height=1:2:{points}", "--set", "accuracy.level=fast"]
-        expected, out = place / "expected.csv", place / "rows.csv"
-        command = [*PROGRAM, "sweep", str(folder), *over, "--jobs", str(jobs), "--out", str(out)]
-        good = subprocess.run([*command[:-1], str(expected)], capture_output=True, text=True, timeout=120)
-        if good.returncode:
-            return f"exit {good.returncode}", good.stderr[-500:]
+        command = [sys.executable, "-m", "sandbox", "sweep", str(folder), *over, "--jobs", str(jobs), "--out"]
+        if points not in self._expected:
+            finished([*command, str(out)])
+            self._expected[points] = out.read_bytes()
+            out.unlink()
+        command.append(str(out))
         story: list[str] = []
-        for _ in range(60):
-            if self.done >= self.kills or time.monotonic() > self.deadline or draw.random() < 0.08:
-                break
+        while not self.is_over and draw.random() > 0.08:
             if draw.random() < 0.06:
-                problem = self.two_at_once(command, place)
-                if problem is not None:
-                    return problem
+                self.two_at_once(command)
                 break
-            by = draw.choice((signal.SIGKILL, signal.SIGKILL, signal.SIGTERM, signal.SIGINT))
-            problem = self.kill(command, by, draw.choice((draw.uniform(0.0, 0.4), draw.uniform(0.3, 1.2))))
-            if problem is not None:
-                return problem
+            by = draw.choice([signal.SIGKILL, *SIGNALS])
+            end(command, by, draw.choice((draw.uniform(0.0, 0.4), draw.uniform(0.3, 1.2))))
             self.done += 1
             story.append(by.name)
-            if not out.exists():
-                continue
-            if not (place / "rows.csv.resume").exists():  # it was already done
+            if out.exists() and not (here / "rows.csv.resume").exists():  # it was already done
                 break
-            if draw.random() < 0.1:
+            if out.exists() and draw.random() < 0.1:
                 damage(draw, out)
                 story.append("damaged")
-        last = subprocess.run(command, capture_output=True, text=True, timeout=120)
-        if last.returncode == 2 and "damaged" in story and "its first line is not what" in last.stderr:
-            return "request refused", ""
-        if last.returncode or "Traceback" in last.stderr:
-            return f"exit {last.returncode}", f"{story}: {last.stderr[-500:]}"
-        if out.read_bytes() != expected.read_bytes():
-            return "finished, other bytes", repr(story)
-        left = {path.name for path in place.iterdir()} - {"expected.csv", "rows.csv", "rows.csv~"}
-        if {name for name in left if not name.endswith(".part")}:  # from a rewrite that was killed
-            return "files were left", repr(sorted(left))
-        shutil.rmtree(place)
-        return "finished, the same bytes", ""
-
-    def kill(self, command: list[str], by: signal.Signals, after: float) -> Outcome | None:
-        """Start the sweep and end it; None if that worked as expected."""
-        process = subprocess.Popen(
-            command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True
-        )
-        time.sleep(after)
-        whole = by is signal.SIGINT and after > 0.2
-        with contextlib.suppress(ProcessLookupError):
-            os.killpg(process.pid, by) if whole else process.send_signal(by)
         try:
-            _, said = process.communicate(timeout=30)
-        except subprocess.TimeoutExpired:
-            os.killpg(process.pid, signal.SIGKILL)
-            return "does not end", f"{by.name} after {after:.2f} s"
-        if "leaked" in said or OURS.search(said):
-            return "a traceback of our own", f"{by.name} after {after:.2f} s: {said[-600:]}"
-        for _ in range(100):
-            try:
-                os.killpg(process.pid, 0)
-            except (ProcessLookupError, PermissionError):
-                return None
-            time.sleep(0.05)
-        os.killpg(process.pid, signal.SIGKILL)
-        return "processes were left", f"{by.name} after {after:.2f} s"
+            finished(command)
+        except Wrong as wrong:
+            if "damaged" in story and "its first line is not what" in str(wrong):
+                return REFUSED
+            raise Wrong(wrong.args[0], f"{story}: {wrong.args[1]}") from None
+        if out.read_bytes() != self._expected[points]:
+            raise Wrong("finished, other bytes", repr(story))
+        left = {path.name for path in here.iterdir()} - {"rows.csv", "rows.csv~"}
+        if any(not name.endswith(".part") for name in left):  # from a rewrite that was killed
+            raise Wrong("files were left", repr(sorted(left)))
+        shutil.rmtree(here)
+        return SAME
 
-    def two_at_once(self, command: list[str], place: Path) -> Outcome | None:
-        both = [subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) for _ in range(2)]
+    def two_at_once(self, command: list[str]) -> None:
+        both = [started(command) for _ in range(2)]
         said = [process.communicate(timeout=120)[1] for process in both]
         codes = sorted(process.returncode for process in both)
-        refused = [text for text in said if "another sweep is writing to this file" in text]
-        if codes == [0, 2] and len(refused) == 1:
-            self.note("kills", ("one wrote, the other was refused", ""))
-        elif codes == [0, 0]:  # the first was done before the second started
-            self.note("kills", ("finished, the same bytes", ""))
-        else:
-            return f"two at once: exits {codes}", repr(said)[-600:]
-        return None
+        refused = sum("another sweep is writing to this file" in text for text in said)
+        if (codes, refused) not in (([0, 2], 1), ([0, 0], 0)):  # the second: one was done before the other started
+            raise Wrong(f"two at once: exits {codes}", repr(said)[-600:])
+        self.note("kills", (ONE_OF_TWO if refused else SAME, ""))
+
+
+def finished(command: list[str]) -> None:
+    """Run a command to its end."""
+    done = subprocess.run(command, capture_output=True, text=True, timeout=120)
+    if done.returncode or "Traceback" in done.stderr:
+        raise Wrong(f"exit {done.returncode}", done.stderr[-500:])
+
+
+def end(command: list[str], by: signal.Signals, moment: float) -> None:
+    """Start the sweep, end it after ``moment`` s, and see that nothing of it is left."""
+    process = started(command)
+    time.sleep(moment)
+    whole = by is signal.SIGINT and moment > 0.2
+    with contextlib.suppress(ProcessLookupError):
+        os.killpg(process.pid, by) if whole else process.send_signal(by)
+    about = f"{by.name} after {moment:.2f} s"
+    try:
+        _, said = process.communicate(timeout=30)
+        if "leaked" in said or OURS.search(said):
+            raise Wrong("a traceback of our own", f"{about}: {said[-600:]}")
+        if process.returncode not in (*SIGNALS[by], 1 if "Traceback" in said else 0):  # 1: by Python, at its start
+            raise Wrong(f"exit {process.returncode}", f"{about}: {said[-600:]}")
+        for _ in range(100):
+            os.killpg(process.pid, 0)
+            time.sleep(0.05)
+        raise Wrong("processes were left", about)
+    except subprocess.TimeoutExpired:
+        raise Wrong("does not end", about) from None
+    except (ProcessLookupError, PermissionError):
+        pass  # as it should be
+    finally:
+        with contextlib.suppress(ProcessLookupError, PermissionError):
+            os.killpg(process.pid, signal.SIGKILL)
 
 
 def damage(draw: random.Random, file: Path) -> None:
@@ -586,14 +522,14 @@ def damage(draw: random.Random, file: Path) -> None:
         content[end - 1 : end] = b"\r\n"
     else:
         content[end:end] = content[start:end]
-    file.write_bytes(bytes(content))
+    file.write_bytes(content)
 
 
 # ---------------------------------------------------------------------------------------------------------------------
 # Main program
 # ---------------------------------------------------------------------------------------------------------------------
 
-CASES: dict[str, Callable[[random.Random], Outcome]] = {
+CASES: dict[str, Callable[[random.Random], str]] = {
     "scenes": fuzzed_scene,
     "setups": extreme_setup,
     "faulty": faulty_scene,
@@ -605,78 +541,102 @@ def cases(part: str, seed: int, first: int, last: int) -> list[Outcome]:
     """Some cases of a part, in any process; each depends only on the seed and its number."""
     found = []
     for number in range(first, last):
-        outcome, details = alone(part, random.Random(f"{seed}:{part}:{number}"))
+        outcome, details = alone(part, seed, number)
         found.append((outcome, f"--only {part}:{number}: {details}" if outcome not in GOOD else ""))
     return found
 
 
-def alone(part: str, draw: random.Random) -> Outcome:
+def alone(part: str, seed: int, number: int) -> Outcome:
+    """One case, in limited time."""
+
     def too_long(*_: object) -> None:
         raise TooLong
 
     signal.signal(signal.SIGPROF, too_long)
     signal.setitimer(signal.ITIMER_PROF, LONGEST)
     try:
-        return CASES[part](draw)
-    except TooLong:
-        return f"longer than {LONGEST:g} s", traceback.format_exc()[-700:]
-    except (Exception, SystemExit, KeyboardInterrupt):
-        return "a raw exception", traceback.format_exc()[-1500:]
+        return judged(lambda: CASES[part](random.Random(f"{seed}:{part}:{number}")))
     finally:
         signal.setitimer(signal.ITIMER_PROF, 0.0)
 
 
-def soak(seed: int, minutes: float, scenes: int, kills: int) -> tuple[dict[str, Counter[str]], list[str], float]:
-    """Counts by part and class, the failures, and the total time in s."""
-    begun, counts, wrong = time.monotonic(), defaultdict[str, Counter[str]](Counter), list[str]()
+def judged(case: Callable[[], str]) -> Outcome:
+    """The class of a case, and its details if it went wrong."""
+    try:
+        return case(), ""
+    except (RequestError, RunError) as error:
+        text = str(error)
+        if not text.strip() or len(text.splitlines()) > 4 or "Traceback" in text:
+            return "an error without a message", repr(text[:500])
+        return REFUSED if isinstance(error, RequestError) else FAILED, ""
+    except Wrong as wrong:
+        return wrong.args[0], wrong.args[1]
+    except TooLong:
+        return f"longer than {LONGEST:g} s", traceback.format_exc()[-700:]
+    except BaseException:
+        return "a raw exception", traceback.format_exc()[-1500:]
+
+
+def soak(seed: int, minutes: float, scenes: int, kills: int) -> tuple[dict[str, Counter[str]], bool, float]:
+    """Counts by part and class, whether all is well, and the total time in s."""
+    begun, counts = time.monotonic(), defaultdict[str, Counter[str]](Counter)
     deadline = begun + 60.0 * minutes
 
     def note(part: str, outcome: Outcome) -> None:
         counts[part][outcome[0]] += 1
         if outcome[0] not in GOOD:
-            wrong.append(f"{part}: {outcome[0]}: {outcome[1]}")
-            say(wrong[-1])
+            say(f"{part}: {outcome[0]}: {outcome[1]}")
 
     killing = Kills(seed, kills, deadline, note)
     thread = Thread(target=killing.run)
     thread.start()
     pool = Processes(cores())
-    sizes = {"scenes": scenes, **{part: round(share * scenes) for part, share in SHARES.items()}}
-    queue = [
-        (part, first, min(first + AT_ONCE[part], size))
-        for part, size in sizes.items()
-        for first in range(0, size, AT_ONCE[part])
-    ]
-    random.Random(seed).shuffle(queue)  # so that an interrupted run has some of each part
-    waiting: list[tuple[str, int, int, Any]] = []
-    while queue or waiting:
-        while queue and len(waiting) < 2 * pool.width and time.monotonic() < deadline:
-            part, first, last = queue.pop()
-            waiting.append((part, first, last, pool.submit(cases, part, seed, first, last)))
-        if not waiting:
-            break
-        part, first, last, call = waiting.pop(0)
+    for part, first, last, call in submitted(pool, seed, scenes, deadline):
+        where = f"--only {part}:{first} to {last - 1}"
         try:
             found = call.result(timeout=BY_THE_CLOCK * LONGEST * pool.width)
         except TimeoutError:
             pool.kill()
-            found = [("does not end", f"--only {part}:{first} to {last - 1}")]
+            found = [("does not end", where)]
         except WorkerLost as error:
-            found = [("the process died", f"--only {part}:{first} to {last - 1}: {error}")]
+            found = [("the process died", f"{where}: {error}")]
         for outcome in found:
             note(part, outcome)
     pool.close(abandon=False)
     thread.join()
+    well = all(outcome in GOOD for part in counts.values() for outcome in part)
     counts["kills"]["(ended by a signal)"] = killing.done
-    return counts, wrong, time.monotonic() - begun
+    return counts, well, time.monotonic() - begun
+
+
+def submitted(pool: Processes, seed: int, scenes: int, deadline: float) -> Iterator[tuple[str, int, int, Any]]:
+    """Calls for all cases, two for each process at a time, until the deadline: part, first and last case, the call."""
+    queue = [
+        (part, first, min(first + AT_ONCE[part], round(share * scenes)))
+        for part, share in SHARES.items()
+        for first in range(0, round(share * scenes), AT_ONCE[part])
+    ]
+    random.Random(seed).shuffle(queue)  # so that an interrupted run has some of each part
+    waiting: list[tuple[str, int, int, Any]] = []
+    while True:
+        while queue and len(waiting) < 2 * pool.width and time.monotonic() < deadline:
+            part, first, last = queue.pop()
+            waiting.append((part, first, last, pool.submit(cases, part, seed, first, last)))
+        if not waiting:
+            return
+        yield waiting.pop(0)
+
+
+def say(text: str) -> None:
+    sys.stdout.write(f"{text}\n")
+    sys.stdout.flush()
 
 
 def as_table(counts: dict[str, Counter[str]], seconds: float, seed: int) -> list[str]:
     """Markdown."""
     lines = ["| part | class | cases |", "|---|---|---:|"]
     for part in [*CASES, "kills"]:
-        for outcome, count in sorted(counts[part].items(), key=lambda item: -item[1]):
-            lines.append(f"| {part} | {outcome} | {count:,} |")
+        lines += [f"| {part} | {outcome} | {count:,} |" for outcome, count in counts[part].most_common()]
     total = sum(count for part in counts.values() for outcome, count in part.items() if not outcome.startswith("("))
     return [*lines, "", f"{total:,} cases in {seconds / 60:.1f} minutes on {cores()} cores, seed {seed}."]
 
@@ -692,19 +652,15 @@ def main() -> int:
     asked = parser.parse_args()
     if asked.only:
         part, number = asked.only.split(":")
-        outcome = CASES[part](random.Random(f"{asked.seed}:{part}:{number}"))
+        outcome = alone(part, asked.seed, int(number))
         say(" ".join(outcome))
         return outcome[0] not in GOOD
-    counts, wrong, seconds = soak(asked.seed, asked.minutes, asked.scenes, asked.kills)
+    counts, well, seconds = soak(asked.seed, asked.minutes, asked.scenes, asked.kills)
     table = as_table(counts, seconds, asked.seed)
     say("\n".join(table))
     if asked.page is not None:
-        begin, end = "<!-- soak -->\n", "<!-- end -->\n"
-        text = asked.page.read_text("utf-8")
-        head, _, rest = text.partition(begin)
-        _, _, tail = rest.partition(end)
-        asked.page.write_text(f"{head}{begin}{chr(10).join(table)}\n{end}{tail}", "utf-8")
-    return 1 if wrong else 0
+        asked.page.write_text(filled(asked.page.read_text("utf-8"), "soak", table), "utf-8")
+    return not well
 
 
 if __name__ == "__main__":

@@ -862,12 +862,14 @@ def test_other_signals_stop_as_ctrl_c_does_and_leave_no_frames(drop: Path, tmp_p
     assert sorted(path.name for path in tmp_path.iterdir()) == ["drop", "running"]
 
 
-def test_an_interrupt_before_the_first_import_is_a_line(tmp_path: Path):
+@pytest.mark.parametrize(("by", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
+@pytest.mark.parametrize("source", ["{}", "import contextlib; exec({!r})"])
+def test_an_interrupt_during_the_first_import_is_a_line(tmp_path: Path, source: str, by: int, code: int):
     """Before any code of ours Python itself says what it likes; from the first line of ours on, so do we."""
-    (tmp_path / "typer.py").write_text("import signal\nsignal.raise_signal(signal.SIGINT)\n")
+    (tmp_path / "typer.py").write_text(source.format(f"import signal; signal.raise_signal({by:d})"))
     environment = os.environ | {"PYTHONPATH": str(tmp_path)}
     outcome = subprocess.run([*COMMAND, "list"], capture_output=True, text=True, env=environment)
-    assert (outcome.returncode, outcome.stdout, outcome.stderr) == (130, "", "stopped\n")
+    assert (outcome.returncode, outcome.stdout, outcome.stderr) == (code, "", "stopped\n")
 
 
 class _Deleted:

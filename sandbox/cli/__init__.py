@@ -30,4 +30,7 @@ def main(args: list[str] | None = None) -> int:
                 sys.stderr.write("stopped\n")
         code = STOPPED
     interrupts.end()
-    return interrupts.code if code == STOPPED else code
+    if code != STOPPED:
+        return code
+    eval("0")  # or Python would end with SIGINT and not with this code, if it was in an exec when it was interrupted
+    return interrupts.code
