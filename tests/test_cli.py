@@ -868,7 +868,7 @@ def test_an_interrupt_during_the_first_import_is_a_line(tmp_path: Path, source: 
     """Before any code of ours Python itself says what it likes; from the first line of ours on, so do we."""
     (tmp_path / "typer.py").write_text(source.format(f"import signal; signal.raise_signal({by:d})"))
     environment = os.environ | {"PYTHONPATH": str(tmp_path)}
-    outcome = subprocess.run([*COMMAND, "list"], capture_output=True, text=True, env=environment)
+    outcome = subprocess.run([sys.executable, "-m", "sandbox", "list"], capture_output=True, text=True, env=environment)
     assert (outcome.returncode, outcome.stdout, outcome.stderr) == (code, "", "stopped\n")
 
 
