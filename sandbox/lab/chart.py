@@ -1,9 +1,9 @@
-"""Charts of the lab's measurements, with matplotlib (extra ``lab``)."""
+"""The frame of all charts of the lab, and the chart of ``sandbox trade``; with matplotlib (extra ``lab``)."""
 
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from contextlib import contextmanager
 from itertools import takewhile
 from pathlib import Path
@@ -12,7 +12,8 @@ from typing import TYPE_CHECKING, Any
 from sandbox import resources
 from sandbox.errors import RequestError
 from sandbox.files import written_whole
-from sandbox.lab.tables import length, significant
+from sandbox.lab.tables import length
+from sandbox.sport.amounts import significant
 
 if TYPE_CHECKING:
     from sandbox.lab.trade import Point, Trade
@@ -26,6 +27,9 @@ _TARGETS = (0.1, 0.01, 0.001, 0.0001)
 #: Smaller errors, in m, are drawn at this value: they do not matter.
 _LEAST = 1e-9
 
+#: Behind a text on a drawing.
+PLATE = {"facecolor": "white", "edgecolor": "none", "alpha": 0.75, "pad": 1.5}
+
 
 def check_installed(option: str) -> None:
     """Raise RequestError with installation instructions if matplotlib is missing."""
@@ -33,90 +37,6 @@ def check_installed(option: str) -> None:
         import matplotlib  # noqa: F401
     except ImportError:
         raise RequestError(f"{option} needs matplotlib, which is not installed: pip install matplotlib") from None
-
-
-def draw_trade(found: Trade, path: Path) -> None:
-    """Error against speed: one curve per method, best at the top right, levels marked."""
-    reference = found.reference
-    name = f"{reference.scene.name}/{reference.scene.preset}" if reference.scene.preset else reference.scene.name
-    with chart(path, f"{name}: error against speed", _measure(found)) as (axes, colours):
-        floor = max(_LEAST, reference.error)
-        methods = list(dict.fromkeys(point.method for point in found.points))
-        for method, colour in zip(methods, _colours(methods, colours), strict=True):
-            points = _stable_end([point for point in found.points if point.method == method])
-            _curve(axes, points, floor, colour, method)
-        for level, point in found.levels.items():
-            if point.error_m is not None:
-                _level(axes, level, point, floor, colours)
-        _targets(axes, colours)
-        axes.set_xscale("log")
-        axes.set_yscale("log")
-        slowest, fastest = axes.get_xlim()
-        axes.set_xlim(slowest, fastest * (fastest / slowest) ** 0.1)  # room for the levels' names
-        axes.invert_yaxis()
-        axes.set_xlabel("speed, times real time")
-        axes.set_ylabel("error, smaller upwards")
-        axes.xaxis.set_major_formatter(lambda value, position: significant(value))
-        axes.tick_params(axis="x", which="minor", pad=7)  # aligned with the other labels, which have ticks
-        axes.xaxis.set_minor_formatter(lambda value, position: significant(value) if f"{value:e}"[0] in "25" else "")
-        axes.yaxis.set_major_formatter(lambda value, position: length(value))
-        ink = colours["card"]["ink"]
-        figure = axes.get_figure()
-        figure.legend(
-            loc="outside lower center", ncols=len(methods), frameon=False, fontsize=9.5, labelcolor=ink,
-            handlelength=1.4, columnspacing=1.4,
-        )  # fmt: skip
-
-
-def _colours(methods: Sequence[str], colours: dict[str, Any]) -> Iterator[str]:
-    """The last method, which the levels use, has the first colour; the plain one is grey."""
-    traces = iter(colours["trace"]["colours"])
-    own = {method: next(traces) for method in reversed(methods) if method != "plain"}
-    return (own.get(method, colours["card"]["quiet"]) for method in methods)
-
-
-def _stable_end(points: Sequence[Point]) -> list[Point]:
-    """The settings from the finest to the last stable one."""
-    return list(takewhile(lambda point: point.stable, reversed(points)))
-
-
-def _measure(found: Trade) -> str:
-    reference = found.reference
-    what = "the worst ball" if len(reference.points) > 1 else "the ball"
-    text = f"position error of {what} after {reference.time:.3g} s, on this machine"
-    if reference.diverges_at is not None:
-        text += f"; chaotic from {reference.diverges_at:.3g} s on"
-    return text
-
-
-def _curve(axes: Any, points: Sequence[Point], floor: float, colour: str, label: str) -> None:
-    if not points:
-        return
-    x = [point.times_real_time for point in points]
-    y = [max(point.error_m or 0.0, floor) for point in points]
-    axes.plot(x, y, color=colour, linewidth=1.8, marker="o", markersize=4.5, markeredgewidth=0, label=label, zorder=3)
-
-
-def _targets(axes: Any, colours: dict[str, Any]) -> None:
-    ink, quiet = colours["card"]["ink_quiet"], colours["card"]["quiet"]
-    for target in _TARGETS:
-        axes.axhline(target, color=quiet, linewidth=0.8, linestyle=(0, (1, 3)), zorder=1)
-        place = {"xycoords": ("axes fraction", "data"), "va": "center"}
-        axes.annotate(length(target), (1.008, target), fontsize=9, color=ink, **place)
-
-
-def _level(axes: Any, name: str, point: Point, floor: float, colours: dict[str, Any]) -> None:
-    from matplotlib.patheffects import withStroke
-
-    place = point.times_real_time, max(point.error_m or 0.0, floor)
-    card = colours["card"]
-    axes.plot(*place, marker="D", markersize=9, markerfacecolor=card["accent"], markeredgecolor=card["ink"], zorder=5)
-    axes.annotate(name, place, xytext=(11, 0), textcoords="offset points", va="center", fontsize=10.5,
-                  fontweight="bold", color=card["ink"], zorder=6,
-                  path_effects=[withStroke(linewidth=3.5, foreground="white")])  # fmt: skip
-
-
-# ---------------------------------------------------------------------------------------------------------------- frame
 
 
 @contextmanager
@@ -130,19 +50,99 @@ def chart(path: Path, title: str, about: str) -> Iterator[tuple[Any, dict[str, A
     colours = tomllib.loads((resources.folder("assets") / "palette.toml").read_text("utf-8"))
     for file in sorted((resources.folder("assets") / "fonts").glob("*.ttf")):
         font_manager.fontManager.addfont(str(file))
-    ink, quiet_ink, quiet = (colours["card"][name] for name in ("ink", "ink_quiet", "quiet"))
-    with matplotlib.rc_context({"font.family": ["Noto Sans", "sans-serif"]}):
+    with matplotlib.rc_context(_style(colours)):
         figure = Figure(figsize=_SIZE, dpi=_DOTS, facecolor="white", layout=ConstrainedLayoutEngine(rect=_FRAME))
         axes = figure.subplots()
-        axes.set_title(f"{about}\n", loc="left", fontsize=10, color=quiet_ink)
+        axes.set_title(f"{about}\n", loc="left", fontsize=10, color=colours["card"]["ink_quiet"])
         axes.annotate(title, (0, 1), xytext=(0, 36), xycoords="axes fraction", textcoords="offset points",
-                      fontsize=15, fontweight="bold", color=ink)  # fmt: skip
-        for side, colour in (("top", "none"), ("right", "none"), ("left", quiet), ("bottom", quiet)):
-            axes.spines[side].set_color(colour)
-        axes.tick_params(colors=quiet_ink, which="both", labelsize=9.5)
-        axes.tick_params(which="minor", length=0)
-        axes.xaxis.label.set_color(quiet_ink)
-        axes.yaxis.label.set_color(quiet_ink)
+                      fontsize=15, fontweight="bold")  # fmt: skip
         yield axes, colours
         with written_whole(path) as out:
             figure.savefig(out.buffer, format="png")
+
+
+def _style(colours: dict[str, Any]) -> Any:
+    """What all charts have in common, as matplotlib's parameters."""
+    from cycler import cycler
+
+    card = colours["card"]
+    ticks = {"color": card["quiet"], "labelcolor": card["ink_quiet"], "labelsize": 9.5}
+    return {
+        "font.family": ["Noto Sans", "sans-serif"],
+        "text.color": card["ink"],
+        "axes.spines.top": False,
+        "axes.spines.right": False,
+        "axes.edgecolor": card["quiet"],
+        "axes.labelcolor": card["ink_quiet"],
+        "axes.prop_cycle": cycler(color=colours["trace"]["colours"]),
+        **{f"{side}tick.{name}": value for side in "xy" for name, value in ticks.items()},
+        **{f"{side}tick.minor.size": 0 for side in "xy"},
+        "grid.color": card["quiet"],
+        "grid.linewidth": 0.5,
+        "grid.alpha": 0.4,
+        "legend.frameon": False,
+        "legend.fontsize": 10.5,
+        "legend.labelcolor": card["ink"],
+        "legend.borderaxespad": 0.0,
+        "lines.linewidth": 1.8,
+        "scatter.edgecolors": "none",
+    }
+
+
+def legend(axes: Any, **options: Any) -> None:
+    """A legend to the right of the axes."""
+    axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1.0), **options)
+
+
+def mark(axes: Any, place: tuple[float, ...], text: str, card: dict[str, str], beside: bool = False) -> None:
+    """A diamond with its name, above it or to its right."""
+    axes.plot(*place, marker="D", markersize=9, markerfacecolor=card["accent"], markeredgecolor=card["ink"], zorder=5)
+    where = {"xytext": (11, 0), "va": "center"} if beside else {"xytext": (0, 11), "ha": "center", "va": "bottom"}
+    axes.annotate(text, place, textcoords="offset points", fontsize=10.5, fontweight="bold", zorder=6, bbox=PLATE,
+                  **where)  # fmt: skip
+
+
+# ---------------------------------------------------------------------------------------------------------------- trade
+
+
+def draw_trade(found: Trade, path: Path) -> None:
+    """Error against speed: one curve per method, best at the top right, levels marked."""
+    floor = max(_LEAST, found.reference.error)
+
+    def places(*points: Point) -> tuple[list[float], list[float]]:
+        return [point.times_real_time for point in points], [max(point.error_m or 0.0, floor) for point in points]
+
+    with chart(path, f"{found.reference.scene.title}: error against speed", _measure(found)) as (axes, colours):
+        card, methods = colours["card"], list(dict.fromkeys(point.method for point in found.points))
+        traces = iter(colours["trace"]["colours"])  # the levels' method, which is the last, has the first
+        own = {method: card["quiet"] if method == "plain" else next(traces) for method in reversed(methods)}
+        for method in methods:
+            finest_first = reversed([point for point in found.points if point.method == method])
+            points = list(takewhile(lambda point: point.stable, finest_first))
+            if points:
+                axes.plot(*places(*points), color=own[method], marker="o", markersize=4.5, label=method, zorder=3)
+        for level, point in found.levels.items():
+            if point.error_m is not None:
+                mark(axes, tuple(value for (value,) in places(point)), level, card, beside=True)
+        for target in _TARGETS:
+            axes.axhline(target, color=card["quiet"], linewidth=0.8, linestyle=(0, (1, 3)), zorder=1)
+            axes.annotate(length(target), (1.008, target), xycoords=("axes fraction", "data"), va="center",
+                          fontsize=9, color=card["ink_quiet"])  # fmt: skip
+        axes.set(xscale="log", yscale="log", xlabel="speed, times real time", ylabel="error, smaller upwards")
+        slowest, fastest = axes.get_xlim()
+        axes.set_xlim(slowest, fastest * (fastest / slowest) ** 0.1)  # room for the levels' names
+        axes.invert_yaxis()
+        axes.xaxis.set_major_formatter(lambda value, position: significant(value))
+        axes.tick_params(axis="x", which="minor", pad=7)  # aligned with the other labels, which have ticks
+        axes.xaxis.set_minor_formatter(lambda value, position: significant(value) if f"{value:e}"[0] in "25" else "")
+        axes.yaxis.set_major_formatter(lambda value, position: length(value))
+        axes.get_figure().legend(
+            loc="outside lower center", ncols=len(methods), fontsize=9.5, handlelength=1.4, columnspacing=1.4
+        )
+
+
+def _measure(found: Trade) -> str:
+    reference = found.reference
+    what = "the worst ball" if len(reference.points) > 1 else "the ball"
+    text = f"position error of {what} after {reference.time:.3g} s, on this machine"
+    return text if reference.diverges_at is None else f"{text}; chaotic from {reference.diverges_at:.3g} s on"

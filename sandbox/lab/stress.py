@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict, dataclass, replace
-from itertools import pairwise
+from itertools import pairwise, takewhile
 from math import isfinite
 from time import perf_counter
 from typing import TYPE_CHECKING, Any
@@ -22,9 +22,10 @@ from sandbox.engine.run import Run
 from sandbox.engine.setup import Circle, Surface, kinetic
 from sandbox.errors import RequestError, SandboxError
 from sandbox.lab.extremes import Extreme, bare, of_scene
-from sandbox.lab.tables import length, paragraph, percent, significant, table
+from sandbox.lab.tables import length, paragraph, percent, table
 from sandbox.physics.integrators import INTEGRATORS
 from sandbox.scene import Scene
+from sandbox.sport.amounts import significant
 
 if TYPE_CHECKING:
     import numpy as np
@@ -60,10 +61,10 @@ class Outcome:
     method: str
     outcome: str  # "held", "refused" or "failed"
     message: str = ""
+    wall_s: float = 0.0
     energy_gained: float | None = None  # not from any force, relative to the largest energy of the run
     penetration_m: float | None = None
     left: bool = False  # whether anything passed through a surface, or left the world
-    wall_s: float = 0.0
 
 
 def every_method(level: str = "balanced") -> dict[str, Accuracy]:
@@ -87,8 +88,7 @@ def stress(
     """Run every extreme of the scenes, and those without a scene, with every method."""
     rows = [("", extreme) for extreme in bare()] if with_bare else []
     for scene in scenes:
-        name = f"{scene.name}/{scene.preset}" if scene.preset else scene.name
-        rows += [(name, extreme) for extreme in of_scene(scene)]
+        rows += [(scene.title, extreme) for extreme in of_scene(scene)]
     outcomes = []
     for done, (name, extreme) in enumerate(rows):
         progress(done, len(rows))
@@ -110,32 +110,30 @@ def tried(
 
 def _tried(scene: str, extreme: Extreme, method: str, accuracy: Accuracy) -> Outcome:
     started = perf_counter()
+
+    def outcome(what: str, message: str, *found: Any) -> Outcome:
+        return Outcome(scene, extreme.name, method, what, message, perf_counter() - started, *found)
+
     try:
         run = simulate(extreme.build(), accuracy)
     except SandboxError as error:
-        wall = perf_counter() - started
-        what = REFUSED if wall < ENDLESS else FAILED
         kind = "" if isinstance(error, RequestError) else f"{type(error).__name__}: "
-        return Outcome(scene, extreme.name, method, what, f"{kind}{error}", wall_s=wall)
+        return outcome(REFUSED if perf_counter() - started < ENDLESS else FAILED, f"{kind}{error}")
     except Exception as error:  # any other exception is a failure, which this test looks for
-        wall = perf_counter() - started
-        return Outcome(scene, extreme.name, method, FAILED, f"{type(error).__name__}: {error}", wall_s=wall)
+        return outcome(FAILED, f"{type(error).__name__}: {error}")
     wall = perf_counter() - started
-    problems = []
     gained, overlap, through = _energy_gained(run), *_overlap(run)
-    if not _is_finite(run):
-        problems.append("NaN or infinite")
     bound = ENERGY if INTEGRATORS[accuracy.integrator].controls_error else ENERGY_FIXED_STEP
-    if accuracy.method == "exact" and gained > bound:
-        problems.append(f"energy gained, {significant(100.0 * gained)} %")
-    if accuracy.method == "exact" and overlap > OVERLAP:
-        problems.append(f"overlap of {length(overlap)}")
-    if through:
-        problems.append(f"passed through {through}")
-    if wall > ENDLESS:
-        problems.append(f"took {wall:.0f} s")
-    what = FAILED if problems else HELD
-    return Outcome(scene, extreme.name, method, what, "; ".join(problems), gained, overlap, bool(through), wall)
+    exact = accuracy.method == "exact"
+    problems = {
+        "NaN or infinite": not _is_finite(run),
+        f"energy gained, {significant(100.0 * gained)} %": exact and gained > bound,
+        f"overlap of {length(overlap)}": exact and overlap > OVERLAP,
+        f"passed through {through}": through,
+        f"took {wall:.0f} s": wall > ENDLESS,
+    }
+    message = "; ".join(problem for problem, seen in problems.items() if seen)
+    return outcome(FAILED if message else HELD, message, gained, overlap, bool(through))
 
 
 # ------------------------------------------------------------------------------------------------------------ checks
@@ -250,6 +248,10 @@ def _overlap_of_balls(run: Run) -> float:
 # -------------------------------------------------------------------------------------------------------------- report
 
 
+#: Headings of what ``_sums`` gives.
+_SUMS = ("held", "refused", "failed", "energy", "overlap")
+
+
 def as_dicts(outcomes: Sequence[Outcome]) -> list[dict[str, Any]]:
     """For JSON."""
     return [asdict(outcome) for outcome in outcomes]
@@ -258,25 +260,41 @@ def as_dicts(outcomes: Sequence[Outcome]) -> list[dict[str, Any]]:
 def as_text(outcomes: Sequence[Outcome]) -> list[str]:
     """A table for each scene, with refusals and failures below it; then the totals."""
     lines: list[str] = []
-    for scene in dict.fromkeys(outcome.scene for outcome in outcomes):
-        own = [outcome for outcome in outcomes if outcome.scene == scene]
-        lines += [scene or "setups without a scene", *_table(own), *_remarks(own), ""]
+    for scene, own in _grouped(outcomes, "scene"):
+        rows = []
+        for extreme, tries in _grouped(own, "extreme"):
+            rows.append([extreme, *_sums([each for each in tries if each.method != "plain"], tries)])
+        lines += [scene or "setups without a scene", *table(("extreme", *_SUMS), rows, "lrrrrr"), *_remarks(own), ""]
     headings, rows = summary(outcomes)
     return [*lines, "total", *table(headings, rows, "l" + "r" * (len(headings) - 1))]
 
 
-def _table(outcomes: Sequence[Outcome]) -> list[str]:
-    """The number of methods that held, refused and failed at each extreme; their names follow below the table."""
+def summary(outcomes: Sequence[Outcome]) -> tuple[list[str], list[list[str]]]:
+    """Headings and rows: how often each method held, its largest energy gain and its largest overlap, and the longest
+    step at which it held in every scene."""
     rows = []
-    for extreme in dict.fromkeys(outcome.extreme for outcome in outcomes):
-        own = [outcome for outcome in outcomes if outcome.extreme == extreme]
-        exact = [outcome for outcome in own if outcome.method != "plain"]
-        energy = max((o.energy_gained for o in exact if o.energy_gained is not None), default=None)
-        deepest = max((o.penetration_m for o in exact if o.penetration_m is not None), default=None)
-        counts = [sum(outcome.outcome == word for outcome in own) for word in (HELD, REFUSED, FAILED)]
-        gained = "" if energy is None else percent(energy)
-        rows.append((extreme, *(str(count) if count else "" for count in counts), gained, length(deepest)))
-    return table(("extreme", "held", "refused", "failed", "energy", "overlap"), rows, "lrrrrr")
+    for method, own in _grouped(outcomes, "method"):
+        steps = _grouped([each for each in own if each.extreme.startswith("step ")], "extreme")
+        held = takewhile(lambda step: all(each.outcome == HELD for each in step[1]), steps)
+        longest = "".join([step for step, _ in held][-1:])
+        rows.append([method, *_sums(own, own), longest])
+    return ["method", *_SUMS, "holds up to"], rows
+
+
+def _grouped(outcomes: Sequence[Outcome], by: str) -> list[tuple[str, list[Outcome]]]:
+    groups: dict[str, list[Outcome]] = defaultdict(list)
+    for outcome in outcomes:
+        groups[getattr(outcome, by)].append(outcome)
+    return list(groups.items())
+
+
+def _sums(measured: Sequence[Outcome], outcomes: Sequence[Outcome]) -> list[str]:
+    """How many held, were refused, and failed; of those measured the largest energy gain and overlap."""
+    counts = [sum(each.outcome == word for each in outcomes) for word in (HELD, REFUSED, FAILED)]
+    energy = [each.energy_gained for each in measured if each.energy_gained is not None]
+    overlap = [each.penetration_m for each in measured if each.penetration_m is not None]
+    worst = [percent(max(energy)), length(max(overlap))] if energy and overlap else ["", ""]
+    return [*(str(count or "") for count in counts), *worst]
 
 
 def _remarks(outcomes: Sequence[Outcome]) -> Iterator[str]:
@@ -289,29 +307,3 @@ def _remarks(outcomes: Sequence[Outcome]) -> Iterator[str]:
     for (outcome, extreme, message), names in by_message.items():
         who = "" if len(names) == everybody else f" ({', '.join(names)})"
         yield from paragraph(f"{outcome}, {extreme}{who}: {message}", "    ")
-
-
-def summary(outcomes: Sequence[Outcome]) -> tuple[list[str], list[list[str]]]:
-    """Headings and rows: how often each method held, its largest overlap and its largest energy gain."""
-    rows = []
-    for method in dict.fromkeys(outcome.method for outcome in outcomes):
-        own = [outcome for outcome in outcomes if outcome.method == method]
-        counts = [str(sum(outcome.outcome == word for outcome in own)) for word in (HELD, REFUSED, FAILED)]
-        energy = max((o.energy_gained for o in own if o.energy_gained is not None), default=0.0)
-        deepest = max((o.penetration_m for o in own if o.penetration_m is not None), default=0.0)
-        steps = [o for o in own if o.extreme.startswith("step ")]
-        rows.append([method, *counts, percent(energy), length(deepest), _longest_step(steps)])
-    return ["method", "held", "refused", "failed", "energy gained", "deepest overlap", "holds up to"], rows
-
-
-def _longest_step(outcomes: Sequence[Outcome]) -> str:
-    """The longest step at which a method held in every scene."""
-    steps = {outcome.extreme: True for outcome in outcomes}
-    for outcome in outcomes:
-        steps[outcome.extreme] &= outcome.outcome == HELD
-    longest = ""
-    for name, held in steps.items():
-        if not held:
-            break
-        longest = name
-    return longest

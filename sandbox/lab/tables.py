@@ -11,9 +11,6 @@ from typing import Literal
 from sandbox.sport.amounts import significant
 from sandbox.text import one_line
 
-#: Words up to this length are never wrapped.
-_SHORT = 8
-
 #: Units of length, with the length in m from which each is used.
 _LENGTHS = (
     (1e3, "km", 1e-3),
@@ -40,38 +37,16 @@ def table(headings: Sequence[str], rows: Iterable[Sequence[str]], align: str, in
     from rich.text import Text
 
     cells = [[one_line(cell) for cell in row] for row in rows]
-    widths = _widths(headings, cells, align, width() - len(indent))
     drawn = Table(box=None, padding=(0, 2, 0, 0), pad_edge=False, show_header=any(headings), header_style="")
-    for heading, side, columns in zip(headings, align, widths, strict=True):
+    for heading, side in zip(headings, align, strict=True):
         justify: Literal["left", "right"] = "left" if side == "l" else "right"
-        drawn.add_column(Text(heading), justify=justify, width=columns, vertical="top", overflow="fold")
+        drawn.add_column(Text(heading), justify=justify, no_wrap=side == "r", overflow="fold")
     for row in cells:
         drawn.add_row(*map(Text, row))
-    whole = len(indent) + sum(widths) + 2 * len(widths)
-    console = Console(file=io.StringIO(), width=whole, color_system=None, legacy_windows=False)
+    console = Console(file=io.StringIO(), width=width(), color_system=None, legacy_windows=False)
     with console.capture() as captured:
         console.print(Padding(drawn, (0, 0, 0, len(indent)), expand=False))
     return [line.rstrip() for line in captured.get().splitlines()]
-
-
-def _widths(headings: Sequence[str], rows: Sequence[Sequence[str]], align: str, room: int) -> list[int]:
-    """The width of each column in characters: its content's, or less if all columns do not fit into ``room``; words,
-    and above all numbers, are kept whole if possible."""
-    widths, words, shortest = [], [], []
-    for column, (heading, side) in enumerate(zip(headings, align, strict=True)):
-        texts = [row[column] for row in rows]
-        numbers = texts if side == "r" else []
-        widths.append(max(map(len, [heading, *texts])))
-        words.append(max(map(len, [*heading.split(), *(word for text in texts for word in text.split())]), default=0))
-        shortest.append(max(map(len, numbers), default=min(words[-1], _SHORT)))
-    for least in ([max(pair) for pair in zip(words, shortest, strict=True)], shortest):
-        while sum(widths) + 2 * (len(widths) - 1) > room:
-            excess = [has - needs for has, needs in zip(widths, least, strict=True)]
-            if max(excess) <= 0:
-                break
-            widest = max((number for number in range(len(widths)) if excess[number] > 0), key=widths.__getitem__)
-            widths[widest] -= 1
-    return widths
 
 
 def paragraph(text: str, indent: str = "  ") -> list[str]:

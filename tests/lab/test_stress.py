@@ -161,9 +161,9 @@ def test_the_command_prints_json(capsys: pytest.CaptureFixture[str], monkeypatch
 
 def test_the_command_prints_a_table_with_reasons():
     outcomes = [
-        Outcome("golf", "wind", "rk4", HELD, "", 1e-5, 2e-11),
-        Outcome("golf", "wind", "plain", FAILED, "passed through fairway", 0.0, 0.1, True),
-        Outcome("golf", "step 0.1 s", "plain", HELD, "", 0.0, 0.1),
+        Outcome("golf", "wind", "rk4", HELD, "", 0.1, 1e-5, 2e-11),
+        Outcome("golf", "wind", "plain", FAILED, "passed through fairway", 0.1, 0.0, 0.1, True),
+        Outcome("golf", "step 0.1 s", "plain", HELD, "", 0.1, 0.0, 0.1),
         Outcome("golf", "ball of 1 m", "rk4", REFUSED, "ball.radius = 1: must be from 0.0005 to 0.5 m"),
     ]
     text = "\n".join(lab.as_text(outcomes))

@@ -13,8 +13,9 @@ import numpy as np
 from sandbox.files import json_ready
 from sandbox.lab.aim.question import Aim, Interval, Solution, Target
 from sandbox.lab.axes import label, result_label, unit_of
-from sandbox.lab.chart import chart
-from sandbox.lab.tables import significant, table
+from sandbox.lab.chart import chart, legend, mark
+from sandbox.lab.tables import table
+from sandbox.sport.amounts import significant
 
 #: Most solutions in the text; a target met in narrow bands can have dozens.
 _SHOWN = 12
@@ -92,10 +93,9 @@ def as_text(aim: Aim) -> list[str]:
 
 
 def _question(aim: Aim) -> str:
-    name = f"{aim.scene.name}/{aim.scene.preset}" if aim.scene.preset else aim.scene.name
     wanted = " and ".join(f"{target.name} = {_value(target, aim)}" for target in aim.targets)
     ranges = " and ".join(_range(aim, span.key, span.low, span.high) for span in aim.spans)
-    return f"{name}: {wanted} by {ranges}"
+    return f"{aim.scene.title}: {wanted} by {ranges}"
 
 
 def _range(aim: Aim, key: str, low: float, high: float) -> str:
@@ -215,16 +215,14 @@ def _draw_one(axes: Any, aim: Aim, colours: Mapping[str, Any]) -> None:
     for solving, colour, size in ((False, card["quiet"], 14.0), (True, colours["trace"]["colours"][0], 22.0)):
         tries = [each for each in aim.tries if each.phase.startswith("solve") == solving and each.found[0] is not None]
         places, found = [each.values[0] for each in tries], [each.found[0] for each in tries]
-        axes.scatter(
-            places, found, s=size, color=colour, linewidths=0, zorder=2 + solving, label=("scan", "solver")[solving]
-        )
+        axes.scatter(places, found, s=size, color=colour, zorder=2 + solving, label=("scan", "solver")[solving])
     axes.axhline(target.value, color=card["ink"], linewidth=1.0, linestyle=(0, (4, 3)), zorder=1, label="target")
     for solution in aim.solutions:
         place = solution.values[aim.spans[0].key]
-        _mark(axes, (place, target.value), _with_unit(aim, 0, f"{place:.6g}"), card)
+        mark(axes, (place, target.value), _with_unit(aim, 0, f"{place:.6g}"), card)
     axes.set_xlim(aim.spans[0].low, aim.spans[0].high)
     axes.set_ylabel(result_label(aim.scene, target.name))
-    _legend(axes, card)
+    legend(axes)
 
 
 def _draw_two(axes: Any, aim: Aim, colours: Mapping[str, Any]) -> None:
@@ -240,18 +238,16 @@ def _draw_two(axes: Any, aim: Aim, colours: Mapping[str, Any]) -> None:
         if np.nanmin(heights) <= target.value <= np.nanmax(heights):
             axes.contour(*places, np.ma.masked_invalid(heights), levels=[target.value], colors=[colour], linewidths=1.8)
         axes.plot([], [], color=colour, linewidth=1.8, label=f"{target.name} = {_value(target, aim)}")
-    axes.scatter(
-        *zip(*(each.values for each in scan), strict=True), s=5, color=card["quiet"], linewidths=0, label="scan"
-    )
+    axes.scatter(*zip(*(each.values for each in scan), strict=True), s=5, color=card["quiet"], label="scan")
     for number, phase in enumerate(dict.fromkeys(each.phase for each in aim.tries if each.phase.startswith("solve "))):
         steps = [each.values for each in aim.tries if each.phase == phase]
         axes.plot(*zip(*steps, strict=True), color=traces[0], linewidth=0.8, marker="o", markersize=3.5,
                   label="solver" if number == 0 else None)  # fmt: skip
     for solution in aim.solutions:
         place = tuple(solution.values.values())
-        _mark(axes, place, ", ".join(_with_unit(aim, axis, f"{value:.5g}") for axis, value in enumerate(place)), card)
+        mark(axes, place, ", ".join(_with_unit(aim, axis, f"{value:.5g}") for axis, value in enumerate(place)), card)
     axes.set_ylabel(label(aim.scene, aim.spans[1].key))
-    _legend(axes, card)
+    legend(axes)
 
 
 def _draw_intervals(axes: Any, aim: Aim, colours: Mapping[str, Any]) -> None:
@@ -261,21 +257,9 @@ def _draw_intervals(axes: Any, aim: Aim, colours: Mapping[str, Any]) -> None:
         axes.axvspan(solution.interval.low, solution.interval.high, color=card["good"], alpha=0.35, linewidth=0)
     for met, colour, name in ((False, card["quiet"], "not met"), (True, card["good"], "met")):
         places = [each.values[0] for each in aim.tries if aim.targets[0].met(each.found[0]) == met]
-        axes.scatter(places, [float(met)] * len(places), s=14, color=colour, linewidths=0, label=name, zorder=3)
+        axes.scatter(places, [float(met)] * len(places), s=14, color=colour, label=name, zorder=3)
     for solution in aim.solutions[:1]:
-        _mark(axes, (solution.values[key], 0.5), _forgiving(aim), card)
+        mark(axes, (solution.values[key], 0.5), _forgiving(aim), card)
     axes.set_yticks([0.0, 1.0], ["not met", "met"])
     axes.set_ylim(-0.3, 1.3)
     axes.set_xlim(aim.spans[0].low, aim.spans[0].high)
-
-
-def _mark(axes: Any, place: tuple[float, ...], text: str, card: Mapping[str, str]) -> None:
-    axes.plot(*place, marker="D", markersize=9, markerfacecolor=card["accent"], markeredgecolor=card["ink"], zorder=5)
-    note = axes.annotate(text, place, xytext=(0, 11), textcoords="offset points", ha="center", va="bottom", zorder=6,
-                         fontsize=10.5, fontweight="bold", color=card["ink"])  # fmt: skip
-    note.set_bbox({"facecolor": "white", "edgecolor": "none", "alpha": 0.75, "pad": 1.5})
-
-
-def _legend(axes: Any, card: Mapping[str, str]) -> None:
-    axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1.0), borderaxespad=0.0, frameon=False, fontsize=10.5,
-                labelcolor=card["ink"])  # fmt: skip
