@@ -93,23 +93,15 @@ def resolve(
 ) -> Accuracy:
     """The accuracy that a level means, with individual settings replaced. Raises RequestError for an unknown
     name and for a value that is not positive."""
-    if level not in LEVELS:
-        raise RequestError(f"accuracy.level: {level!r} is not one of {', '.join(LEVELS)}")
+    choices = {"level": (level, LEVELS), "method": (method, METHODS), "integrator": (integrator, INTEGRATORS)}
+    for what, (name, known) in choices.items():
+        if name is not None and name not in known:
+            raise RequestError(f"accuracy.{what}: {name!r} is not one of {', '.join(known)}")
     for what, value, unit in (("tolerance", tolerance, "m"), ("step", step, "s")):
         if value is not None and not 0.0 < value < inf:
             raise RequestError(f"accuracy.{what}: {value} {unit} must be positive")
-    accuracy = LEVELS[level]
-    if tolerance is not None:
-        accuracy = replace(accuracy, tolerance=tolerance, settle=settle_for(tolerance))
-    if method is not None:
-        if method not in METHODS:
-            raise RequestError(f"accuracy.method: {method!r} is not one of {', '.join(METHODS)}")
-        accuracy = replace(accuracy, method=method)
-    if integrator is not None:
-        if integrator not in INTEGRATORS:
-            raise RequestError(f"accuracy.integrator: {integrator!r} is not one of {', '.join(INTEGRATORS)}")
-        accuracy = replace(accuracy, integrator=integrator)
-    if step is not None:
-        # a user's own step needs an integrator with a fixed step
-        accuracy = replace(accuracy, step=step, integrator=integrator or "rk4")
-    return accuracy
+    if step is not None and integrator is None:
+        integrator = "rk4"  # a user's own step needs an integrator with a fixed step
+    settle = None if tolerance is None else settle_for(tolerance)
+    wanted = {"tolerance": tolerance, "settle": settle, "method": method, "integrator": integrator, "step": step}
+    return replace(LEVELS[level], **{what: value for what, value in wanted.items() if value is not None})  # type: ignore[arg-type]

@@ -5,6 +5,7 @@ Computed from the finished path on request, so that it costs a run nothing.
 
 from __future__ import annotations
 
+from bisect import bisect_left, bisect_right
 from collections import defaultdict
 from dataclasses import dataclass
 from itertools import pairwise
@@ -44,7 +45,7 @@ def ledger(run: Run) -> Ledger:
     impacts: dict[str, float] = defaultdict(float)
     contacts: dict[str, float] = defaultdict(float)
     start = end = residue = 0.0
-    hits = _hits(run)
+    met = _Impacts(run)
     for ball in run.setup.balls:
         arcs = run.arcs[ball.name]
         start += kinetic(ball, arcs[0].start)
@@ -52,7 +53,7 @@ def ledger(run: Run) -> Ledger:
         for arc in arcs:
             gain = kinetic(ball, arc.state(arc.t1)) - kinetic(ball, arc.start)
             if arc.contact == PRESSED:
-                impacts[_meanwhile(run, ball.name, arc)] += gain
+                impacts[met.partner(ball.name, arc.t0, arc.t1) or ""] += gain
                 continue
             if run.setup.cloth is not None:
                 contacts["cloth"] += gain
@@ -60,7 +61,7 @@ def ledger(run: Run) -> Ledger:
                 residue += gain - _book(ball, arc, work, contacts)
         for before, after in pairwise(arcs):
             jump = kinetic(ball, after.start) - kinetic(ball, before.state(before.t1))
-            hit = hits.get((ball.name, after.t0))
+            hit = met.partner(ball.name, after.t0, after.t0)
             lasting = after.contact or before.contact
             if hit is not None:
                 impacts[hit] += jump
@@ -87,29 +88,21 @@ def warnings(run: Run) -> list[str]:
     ]
 
 
-def _hits(run: Run) -> dict[tuple[str, float], str]:
-    """The partner of each impact, by ball and time."""
-    balls = {ball.name for ball in run.setup.balls}
-    hits: dict[tuple[str, float], str] = {}
-    for event in run.events:
-        if event.kind != "impact":
-            continue
-        mutual = event.partner in balls
-        what = " and ".join(sorted((event.ball, event.partner))) if mutual else event.partner
-        for ball in balls:  # balls that touch these are involved too, without an approach of their own
-            hits.setdefault((ball, event.t), what)
-        hits[event.ball, event.t] = what
-        if mutual:
-            hits[event.partner, event.t] = what
-    return hits
+class _Impacts:
+    """The impacts of a run, in order of time."""
 
+    def __init__(self, run: Run) -> None:
+        self._balls = {ball.name for ball in run.setup.balls}
+        self._hits = [event for event in run.events if event.kind == "impact"]
 
-def _meanwhile(run: Run, ball: str, arc: Arc) -> str:
-    """The first partner that a ball hit during an arc of contact."""
-    balls = {each.name for each in run.setup.balls}
-    during = [event for event in run.events if event.kind == "impact" and arc.t0 <= event.t <= arc.t1]
-    own = next((event for event in during if ball in (event.ball, event.partner)), during[0])
-    return " and ".join(sorted((own.ball, own.partner))) if own.partner in balls else own.partner
+    def partner(self, ball: str, start: float, end: float) -> str | None:
+        """What a ball met between two times: in an impact of its own, or else in one of balls that touch it."""
+        first = bisect_left(self._hits, start, key=lambda hit: hit.t)
+        during = self._hits[first : bisect_right(self._hits, end, key=lambda hit: hit.t)]
+        own = next((hit for hit in during if ball in (hit.ball, hit.partner)), during[0] if during else None)
+        if own is None:
+            return None
+        return " and ".join(sorted((own.ball, own.partner))) if own.partner in self._balls else own.partner
 
 
 def _book(ball: Ball, arc: Arc, work: dict[str, float], contacts: dict[str, float]) -> float:

@@ -94,15 +94,10 @@ class Outline(NamedTuple):
         along = self.along(x, y)
         beyond = along > self.length
         on_side = (along >= 0.0) & (beyond ^ True) & (self.length > 0.0)
+        if isinstance(on_side, bool):
+            return self.side(x, y) if on_side else self.corner(CORNER_B if beyond else CORNER_A, x, y)
         side, corner = self.side(x, y), self.corner(choose(beyond, CORNER_B, CORNER_A), x, y)
-        return Touching(
-            choose(on_side, side.gap, corner.gap),
-            choose(on_side, side.nx, corner.nx),
-            choose(on_side, side.ny, corner.ny),
-            choose(on_side, 0.0, corner.curvature),
-            corner.center,
-            choose(on_side, SIDE, corner.feature),
-        )
+        return Touching(*(choose(on_side, *parts) for parts in zip(side, corner, strict=True)))
 
     def side(self, x: Any, y: Any) -> Touching:
         """Gap and normal of a ball to the side, or to its extension."""
