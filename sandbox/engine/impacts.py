@@ -20,7 +20,7 @@ from sandbox.engine.surfaces import (
     speeds_where_touching,
     tilted,
 )
-from sandbox.engine.touch import TOUCHING_GAP
+from sandbox.engine.touch import FLUSH, TOUCHING_GAP
 from sandbox.engine.track import Track
 from sandbox.physics.cushion import raised
 from sandbox.physics.integrators import State
@@ -30,9 +30,6 @@ _GAIN = 1e-7
 
 #: Alternations between balls and soft walls at one instant, after which all exchange impulses at once.
 _TURNS = 9
-
-#: Two normals with a larger cosine belong to flush surfaces, which count as one.
-_FLUSH = 1.0 - 1e-12
 
 
 class Hit(NamedTuple):
@@ -119,7 +116,7 @@ class Impacts:
                 surface, nx, ny = obstacle.surface, touching.nx, touching.ny
                 if (self._all_soft or surface.nose_height is not None) not in softness:
                     continue
-                if any(nx * other[0] + ny * other[1] > _FLUSH for other in met):
+                if any(nx * other[0] + ny * other[1] > FLUSH for other in met):
                     continue
                 met.append((nx, ny))
                 _, _, vx, vy, *_ = states[index]

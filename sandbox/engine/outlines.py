@@ -14,7 +14,7 @@ from sandbox.engine.accuracy import SKIN
 from sandbox.engine.arc import Arc
 from sandbox.engine.bernstein_many import evaluate, first_downward_crossing, squared_length, without_root_at_start
 from sandbox.engine.stacking import Stack
-from sandbox.engine.touch import NOISE, TOUCHING_GAP, Obstacle, Outline, Touching
+from sandbox.engine.touch import FLUSH, NOISE, TOUCHING_GAP, Obstacle, Outline, Touching
 
 #: First crossing of each path, and a mask of the unclear ones; both of shape (paths,).
 Crossings = tuple[np.ndarray, np.ndarray]
@@ -37,16 +37,18 @@ class Outlines:
         self._obstacles: dict[tuple[int, int], Obstacle] = {}
 
     def near(self, shots: np.ndarray, x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray, Touching]:
-        """How many surfaces touch the balls of these shots, centred at x and y (m), the index of the nearest, and its
-        Touching."""
+        """How many surfaces touch the balls of these shots, centred at x and y (m), of which flush ones count as one;
+        the index of the first that does, or else of the nearest; and its Touching."""
         touching = Outline(*(part[:, shots] for part in self._table)).near(x, y)
-        nearest = touching.gap.argmin(axis=0)
-        pick = (nearest, np.arange(len(shots)))
+        touches = touching.gap <= TOUCHING_GAP
+        first = np.where(touches.any(axis=0), touches.argmax(axis=0), touching.gap.argmin(axis=0))
+        pick = (first, np.arange(len(shots)))
         center = touching.center[0][pick], touching.center[1][pick]
         parts = (touching.gap, touching.nx, touching.ny, touching.curvature)
-        count = (touching.gap <= TOUCHING_GAP).sum(axis=0)
         gap, nx, ny, curvature = (part[pick] for part in parts)
-        return count, nearest, Touching(gap, nx, ny, curvature, center, touching.feature[pick])
+        flush = touching.nx * nx + touching.ny * ny > FLUSH
+        count = (touches & ~flush).sum(axis=0) + touches.any(axis=0)
+        return count, first, Touching(gap, nx, ny, curvature, center, touching.feature[pick])
 
     def first_touch(
         self, shots: np.ndarray, x: np.ndarray, y: np.ndarray, arc: Callable[[int], Arc]

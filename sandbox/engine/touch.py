@@ -22,6 +22,9 @@ from sandbox.physics.elementwise import choose, hypot, least, most
 #: Largest gap in m at which shapes count as in contact when an impact or a new contact is resolved.
 TOUCHING_GAP = 1e-10
 
+#: Two normals with a larger cosine belong to flush surfaces, which count as one.
+FLUSH = 1.0 - 1e-12
+
 #: Distance in m along a side within which a ball counts as at the side's end.
 _SEAM = 1e-11
 
