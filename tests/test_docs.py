@@ -67,9 +67,8 @@ def test_models_are_found():
     assert ("sandbox.physics.integrators", "INTEGRATORS") in MODELS
 
 
-@pytest.mark.parametrize("name", [name for _, name in MODELS])
-def test_every_model_has_a_section(name: str):
-    assert [heading for heading in HEADINGS if f"`{name}`" in heading], f"docs/physics.md has no section for {name}"
+def test_every_model_has_a_section():
+    assert [name for _, name in MODELS if not any(f"`{name}`" in heading for heading in HEADINGS)] == []
 
 
 @pytest.mark.parametrize("name", {**GOLF_DRAG, **GOLF_LIFT, **SOCCER_DRAG, **SOCCER_LIFT})
@@ -202,10 +201,10 @@ def test_pictures_of_the_readme_are_shown_and_small(picture: Path):
 # Contributing -------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("path", sorted((ROOT / "sandbox").glob("[a-z]*")), ids=lambda path: path.name)
-def test_every_room_is_in_the_house(path: Path):
+def test_every_room_is_in_the_house():
     house = (ROOT / "CONTRIBUTING.md").read_text("utf-8")
-    assert path.name == "py.typed" or f"`{path.name}`" in house or f"`sandbox/{path.name}`" in house
+    rooms = {path.name for path in (ROOT / "sandbox").glob("[a-z]*")} - {"py.typed"}
+    assert [room for room in rooms if f"`{room}`" not in house and f"`sandbox/{room}`" not in house] == []
 
 
 # Links --------------------------------------------------------------------------------------------------------------
