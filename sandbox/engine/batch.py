@@ -302,7 +302,7 @@ class Batch:
         approach = -(vx * near.nx + vy * near.ny)
         along = vx * near.ny - vy * near.nx
         plain = (count == 1) & (approach > STILL)
-        bounces = np.zeros((len(lanes), 3))  # restitution, friction, tilt
+        bounces = np.zeros((len(lanes), 4))  # as in Bounce
         for i in np.flatnonzero(plain).tolist():
             setup = self.setups[shots[i]]
             surface, speed = setup.surfaces[obstacle[i]], float(approach[i])
@@ -321,18 +321,20 @@ class Batch:
             here = lanes[at]
             self._counts[IMPACTS, shots[at]] += 1
             nx, ny = near.nx[at], near.ny[at]
-            self._exchange(here, *tilted(nx, ny, bounces[at, 2], along[at]), bounces[at, :2])
+            self._exchange(here, *tilted(nx, ny, bounces[at, 2], along[at]), bounces[at])
             self._touched[here] = obstacle[at]
             self._normal = np.zeros((3, len(self._shot)))
             self._normal[:, here] = nx, ny, near.curvature[at]
         return plain
 
     def _exchange(self, lanes: np.ndarray, nx: np.ndarray, ny: np.ndarray, bounces: np.ndarray) -> None:
-        """Change velocities and spins by impacts on surfaces with these normals, restitutions and frictions."""
+        """Change velocities and spins by impacts on surfaces with these normals."""
         motion, ball = tuple(self._state[2:, lanes]), self._now.ball
         r, factor = (np.broadcast_to(part, self._t.shape)[lanes] for part in (ball.radius, ball.inertia_factor))
         approach, slip, _ = surface_speeds(motion, nx, ny, r)
-        push, rub = self._lanes.exchange_all(approach, slip, np.column_stack((bounces, factor)))
+        push, rub = self._lanes.exchange_all(
+            approach, (1.0 + bounces[:, 3]) * slip, np.column_stack((bounces[:, :2], factor))
+        )
         self._state[2:, lanes] = after_impulse(motion, nx, ny, r, factor, (push, rub, 0.0))
 
     def _leaving(self, acceleration: np.ndarray) -> np.ndarray:

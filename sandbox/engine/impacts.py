@@ -148,8 +148,9 @@ class Impacts:
         turning = sum(1.0 / (ball.mass * ball.inertia_factor) for ball in balls)
         approach, along, upward = contact.speeds
         slip = hypot(along, upward)
-        restitution, friction, _ = contact.bounce
-        push, rub = self._lanes.exchange(approach, slip, mobility / turning, restitution, friction)
+        restitution, friction, _, tangential = contact.bounce
+        wanted = (1.0 + tangential) * slip  # ending that much slip is reversing a share of what there is
+        push, rub = self._lanes.exchange(approach, wanted, mobility / turning, restitution, friction)
         self._numerics.pymunk_steps += 1
         share = rub / (slip * mobility) if slip > 0.0 else 0.0
         impulse = push / mobility, share * along, share * upward

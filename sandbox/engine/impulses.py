@@ -128,7 +128,7 @@ def exchange_at_once(
         if number is None:  # close enough to overlap here, but not in contact
             arbiter.process_collision = False
         else:
-            arbiter.restitution, arbiter.friction, _ = bounces[number]
+            arbiter.restitution, arbiter.friction, *_ = bounces[number]
 
     def read(arbiter: pymunk.Arbiter, space: pymunk.Space, data: Any) -> None:
         impulses[pairs[frozenset(arbiter.shapes)]] = abs(arbiter.total_impulse.dot(arbiter.normal))

@@ -295,8 +295,10 @@ class PlainSimulation:
                 radius, height = first.ball.radius, surface.nose_height
                 first.take((0.0, 0.0, *rebound(states[0][2:], (nx, ny), radius, height, *bounce[:2])))
         elif approach > 0.0 or lasts:
-            restitution, friction, tilt = bounce_off(surface, approach, along)
+            restitution, friction, tilt, tangential = bounce_off(surface, approach, along)
             arbiter.restitution, arbiter.friction = 0.0 if lasts else restitution, friction_in_plane(friction, *slip)
+            back = 0.0 if lasts else tangential * slip[0]
+            arbiter.surface_velocity = -back * ny, back * nx
             # a tilted surface is equivalent to a level one that meets a velocity rotated the other way; it is rotated
             # back afterwards
             turned = 0.0 if lasts or any(pending.turned for pending in first.pending.values()) else tilt

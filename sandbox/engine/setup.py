@@ -128,6 +128,7 @@ class Bounce(NamedTuple):
     restitution: float
     friction: float
     tilt: float = 0.0  # rad; the surface deforms and its normal tilts against the ball's motion along it
+    tangential: float = 0.0  # restitution along it: share of the slip that a single contact reverses
 
 
 @dataclass(frozen=True)

@@ -24,7 +24,7 @@ _AWAY = 1e-10
 
 
 def bounce_off(surface: Surface, approach: float, along: float) -> Bounce:
-    """Restitution, friction and tilt of an impact at these speeds (m/s). Raises RunError for invalid values."""
+    """How a surface responds to an impact at these speeds (m/s). Raises RunError for invalid values."""
     if surface.law is None or approach <= 0.0:
         return Bounce(surface.restitution, surface.friction)
     return _valid(surface.law(approach, abs(along)), surface.name)
@@ -42,7 +42,8 @@ def _valid(bounce: Bounce, partner: str) -> Bounce:
             f"a ball meets {partner!r}: the scene's law must return a Bounce of numbers, such as "
             f"Bounce(restitution=0.7, friction=0.3), and returned {bounce!r:.60}"
         )
-    if 0.0 <= bounce.restitution < inf and 0.0 <= bounce.friction < inf and isfinite(bounce.tilt):
+    along = isfinite(bounce.tilt) and 0.0 <= bounce.tangential <= 1.0
+    if 0.0 <= bounce.restitution < inf and 0.0 <= bounce.friction < inf and along:
         return bounce
     raise RunError(f"{bounce} off {partner!r} is invalid: check the scene's law for it")
 

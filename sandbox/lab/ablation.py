@@ -272,11 +272,8 @@ def _at_contacts(setup: Setup) -> Iterator[tuple[str, str, Setup]]:
         return replace(setup, surfaces=[change(surface) for surface in setup.surfaces])
 
     yield "bounce law", "as for a slow bounce", surfaces(lambda s: replace(s, law=None))
-    yield (
-        "deformation of the ground",
-        "left out",
-        surfaces(lambda s: replace(s, law=s.law and _law_without(s.law, "tilt"))),
-    )
+    for part, name in (("deformation of the ground", "tilt"), ("restitution along surfaces", "tangential")):
+        yield part, "left out", surfaces(lambda s, name=name: replace(s, law=s.law and _law_without(s.law, name)))  # type: ignore[misc]
     yield (
         "friction of surfaces",
         "left out",

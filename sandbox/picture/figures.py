@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from math import cos, sin
+from math import cos, hypot, sin, tau
 from typing import NamedTuple
 
 from sandbox.picture.painter import Painter, Point
@@ -64,6 +64,34 @@ KICKING = (
     Stroke("shirt", [(-0.07, 0.785), (-0.14, 0.70)], 0.055),
     Stroke("body", [(-0.14, 0.70), (-0.23, 0.66)], 0.044),
 )
+
+
+def _racket(hand: Point, head: Point, size: float) -> tuple[Stroke, ...]:
+    """A racket from the hand to the middle of its head."""
+    (x, y), reach = hand, hypot(head[0] - hand[0], head[1] - hand[1])
+    ahead, up = (head[0] - x) / reach, (head[1] - y) / reach
+    turns = [tau * i / 16 for i in range(17)]
+    rim = [(1.25 * size * cos(turn), size * sin(turn)) for turn in turns]
+    oval = [(head[0] + a * ahead - b * up, head[1] + a * up + b * ahead) for a, b in rim]
+    neck = head[0] - 1.2 * size * ahead, head[1] - 1.2 * size * up
+    return Stroke("racket", [hand, neck], 0.02), Stroke("racket", oval, 0.014)
+
+
+_STROKE = (
+    Stroke("far", [(0.0, 0.50), (-0.06, 0.27), (-0.13, 0.03), (-0.06, 0.014)], 0.055),
+    Stroke("far", [(0.02, 0.79), (-0.07, 0.66), (-0.02, 0.58)], 0.046),
+    Stroke("body", [(0.0, 0.50), (0.08, 0.28), (0.09, 0.03), (0.165, 0.014)], 0.062),
+    Stroke("shorts", [(0.0, 0.52), (0.03, 0.38)], 0.110),
+    Stroke("shirt", [(0.0, 0.54), (0.02, 0.66), (0.03, 0.77)], 0.128),
+    Stroke("body", [(0.04, 0.83), (0.055, 0.875)], 0.05),
+    Stroke("body", [(0.065, 0.915), (0.07, 0.935)], 0.108),
+    Stroke("body", [(0.03, 0.78), (0.09, 0.66), (0.19, 0.60)], 0.048),
+)
+#: With a racket or a bat, the middle of which is ...
+SERVING, SERVED_AT = (*_racket((0.165, 1.20), (0.225, 1.38), 0.062), *REACHING), (0.225, 1.38)
+STROKING, STROKED_AT = (*_racket((0.19, 0.60), (0.40, 0.58), 0.066), *_STROKE), (0.40, 0.58)
+_BAT = Stroke("racket", [(0.19, 0.60), (0.24, 0.592)], 0.022), Stroke("racket", [(0.265, 0.575), (0.275, 0.605)], 0.05)
+LOOPING, LOOPED_AT = (*_BAT, *_STROKE), (0.295, 0.59)
 
 
 def draw_figure(

@@ -37,11 +37,13 @@ def wind_in(air: Air) -> Wind | None:
 
 
 class Model(Group):
-    """One model of drag or lift, chosen by the key ``model``; a sport adds the models of its ball."""
+    """One model of drag or lift, chosen by the key ``model``; a sport adds the ``LAWS`` of its ball, by name."""
+
+    LAWS: ClassVar[Mapping[str, Coefficient]] = {}
 
     def coefficient_law(self) -> Coefficient | None:
         """The coefficient as a function of Reynolds number and spin ratio; None for no force."""
-        return None
+        return self.LAWS.get(getattr(self, "model", ""))
 
 
 class Measured(Model):

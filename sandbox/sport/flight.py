@@ -26,6 +26,13 @@ class Launch(Group):
     spin: float = quantity(..., "rpm", -20000, 20000, "backspin positive, topspin negative")
 
 
+class Release(Group):
+    """Where the ball leaves hand or racket."""
+
+    place: float = quantity(..., "m", -20, 20, "from the player's own line, forward")
+    height: float = quantity(..., "m", 0.01, 10, "of the ball's centre above the ground")
+
+
 class Sphere(Group):
     """A ball."""
 

@@ -15,6 +15,7 @@ from sandbox.engine.setup import (
     DISC,
     HOLLOW_SPHERE,
     SOLID_SPHERE,
+    Always,
     Ball,
     Bounce,
     Circle,
@@ -474,3 +475,20 @@ def test_a_rolling_ball_stops_where_its_resistance_says(resistance: float, way: 
     run = simulate(Setup([rolls], [floor], duration=20.0), resolve())
     assert run.ended == "rest"
     assert way * run.state("ball", 20.0)[0] == pytest.approx(2.0**2 / (2.0 * resistance * 9.81), rel=1e-6)
+
+
+@pytest.mark.parametrize("method", ["exact", "plain"])
+@pytest.mark.parametrize("mirror", [1.0, -1.0])
+def test_some_of_the_slip_of_a_ball_that_grips_is_reversed(method: str, mirror: float):
+    """v' = v - (1 + t) a / (1 + a) (v + r w), limited by friction: mu (1 + e) v_n is all that it can take."""
+    for friction, share, speed, spin in ((5.0, 0.1, 10.0, 0.0), (5.0, 0.5, 10.0, -600.0), (0.1, 0.5, 10.0, 0.0)):
+        ball = Ball("ball", 0.05, 0.03, (0.0, 1.0), (mirror * speed, -5.0), mirror * spin, inertia_factor=0.55)
+        floor = Surface(
+            "floor", Segment((-9.0, 0.0), (9.0, 0.0)), 0.8, friction, law=Always(Bounce(0.8, friction, 0.0, share))
+        )
+        run = simulate(Setup([ball], [floor], 0.3), replace(LEVELS["precise"], method=method))
+        _, _, vx, _, after = run.state("ball", 0.3)
+        slip = (1.0 + share) * (speed + 0.03 * spin) / 1.55
+        lost = max(-friction * 9.0, min(0.55 * slip, friction * 9.0))
+        assert mirror * vx == pytest.approx(speed - lost, abs=1e-9)
+        assert mirror * after == pytest.approx(spin - lost / 0.55 / 0.03, abs=1e-6)

@@ -1,11 +1,12 @@
 """Of what a place is made, seen from the side: ground, what lies behind it, and things that stand on it."""
 
-from sandbox.picture.places.ground import Ground, Line, Planks, Stripes
+from sandbox.picture.places.ground import COURT_WIDTH, Ground, Line, Planks, Stripes, tennis_court
 from sandbox.picture.places.landscape import Landscape
 from sandbox.picture.places.scenery import Hall, Scenery, Stands
-from sandbox.picture.places.things import Group, Net, Person, Post, Shape, Thing, goal
+from sandbox.picture.places.things import Group, Net, Person, Post, Shape, Thing, goal, net_across, table
 
 __all__ = [
+    "COURT_WIDTH",
     "Ground",
     "Group",
     "Hall",
@@ -21,4 +22,7 @@ __all__ = [
     "Stripes",
     "Thing",
     "goal",
+    "net_across",
+    "table",
+    "tennis_court",
 ]

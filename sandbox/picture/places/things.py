@@ -99,9 +99,9 @@ class Person:
     def draw(self, painter: Painter, eye: Eye, near: bool) -> None:
         if near:
             return
-        tall = self.tall * eye.camera.scale * eye.share(self.z)
-        painter.shadow(eye.point(self.x, 0.0, self.z), 0.24 * tall, 0.05 * tall, SHADOW, 0.42)
-        draw_figure(painter, eye.point(self.x, self.up, self.z), tall, self.pose, self.colours, self.facing)
+        tall, ground = self.tall * eye.camera.scale * eye.share(self.z), eye.camera.at[1]
+        painter.shadow(eye.point(self.x, ground, self.z), 0.24 * tall, 0.05 * tall, SHADOW, 0.42)
+        draw_figure(painter, eye.point(self.x, ground + self.up, self.z), tall, self.pose, self.colours, self.facing)
 
 
 @dataclass(frozen=True)
@@ -144,3 +144,29 @@ def goal(
         Net(before, net, 0.42, near=True),
         Post([(front, bar, 0.0), (front, 0.0, 0.0)], radius, post, near=True),
     ]
+
+
+def net_across(
+    x: float, low: float, top: float, width: float, band: float, post: Colour, mesh: Colour, tape: Colour
+) -> list[Thing]:
+    """A net across the plane of play at x, from height ``low`` to ``top``, with tape along its edge; lengths in m."""
+    edge = [(x, top - down, z) for down, z in ((0.0, 0.0), (band, 0.0), (band, width), (0.0, width))]
+    posts = [Post([(x, 0.0, z), (x, 1.04 * top, z)], 0.02 * top, post, near=z == 0.0) for z in (width, 0.0)]
+    woven = Net([((x, low, 0.0), (0.0, top - low, 0.0), (0.0, 0.0, width))], mesh, 0.6, mesh=1.6 * band)
+    return [posts[0], woven, Shape(edge, tape), posts[1]]
+
+
+def table(
+    length: float, width: float, height: float, top: Colour, side: Colour, leg: Colour, line: Colour
+) -> list[Thing]:
+    """A table with its top at y = 0, from x = 0 on, and its near edge in the plane of play; lengths in m."""
+    legs = [
+        Post([(x, -height, z), (x, 0.0, z)], 0.02, leg)
+        for z in (0.9 * width, 0.1 * width)
+        for x in (0.12 * length, 0.88 * length)
+    ]
+    corners = [(0.0, 0.0, 0.0), (length, 0.0, 0.0), (length, 0.0, width), (0.0, 0.0, width)]
+    front = [*corners[:2], (length, -0.03 * length, 0.0), (0.0, -0.03 * length, 0.0)]
+    lines = [Post([(0.0, 0.0, z), (length, 0.0, z)], 0.008, line) for z in (width, 0.5 * width)]
+    ends = [Post([(x, 0.0, 0.0), (x, 0.0, width)], 0.008, line) for x in (0.0, length)]
+    return [*legs, Shape(corners, top), *lines, *ends, Shape(front, side)]

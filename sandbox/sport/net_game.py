@@ -1,0 +1,166 @@
+"""A ball that is played over a net: what stands in its way, where it comes down, and whether that is in.
+
+x = 0 is the player's own end line, the net stands in the middle, and y = 0 is the court.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from sandbox.engine.run import Event, Run
+from sandbox.engine.setup import Bounce, Segment, Surface, Until
+from sandbox.parameters import Group, quantity
+from sandbox.physics.court import cross_restitution
+from sandbox.sport.amounts import roughly
+from sandbox.sport.facts import Fact, once
+from sandbox.sport.flight import RPM
+from sandbox.sport.readings import Moment, at, before, passing
+
+
+class Net(Group):
+    """The net across the middle of the court."""
+
+    height: float = quantity(..., "m", 0.05, 10, "of its upper edge above the court")
+    depth: float = quantity(..., "m", 0.05, 5, "from its upper to its lower edge")
+    restitution: float = quantity(..., "", 0, 1, "of ball and net")
+    friction: float = quantity(..., "", 0, 10, "of ball and net")
+
+
+class Court(Group):
+    """The court and its ground."""
+
+    length: float = quantity(..., "m", 1, 200, "from end line to end line")
+    restitution: float = quantity(..., "", 0, 1, "of ball and court")
+    friction: float = quantity(..., "", 0, 10, "of ball and court")
+
+
+class HardCourt(Court):
+    """Ground as hard as a tennis court; ``restitution`` is for a ball that arrives at 16 deg."""
+
+    slope: float = quantity(..., "", 0, 0.01, "restitution less for each degree that the ball arrives at steeper")
+    tangential: float = quantity(..., "", 0, 1, "share of the slip that is reversed if the ball grips")
+
+
+@dataclass(frozen=True)
+class CourtBounce:
+    """How a hard court responds to an impact."""
+
+    court: HardCourt
+
+    def __call__(self, normal_speed: float, along_speed: float) -> Bounce:
+        court = self.court
+        restitution = cross_restitution(normal_speed, along_speed, court.restitution, court.slope)
+        return Bounce(restitution, court.friction, tangential=court.tangential)
+
+
+def net_of(parameters: Any) -> Surface:
+    """The net, as a thing to hit."""
+    net, middle = parameters.net, 0.5 * parameters.court.length
+    mesh = Segment((middle, max(0.0, net.height - net.depth)), (middle, net.height), 0.01)
+    return Surface("net", mesh, net.restitution, net.friction)
+
+
+def bounces(events: Sequence[Event]) -> list[Event]:
+    """Impacts on anything but the net."""
+    return [event for event in events if event.kind == "impact" and event.partner != "net"]
+
+
+def is_down(events: Sequence[Event]) -> bool:
+    """Whether the ball has come down: the facts of its flight are then final."""
+    return bool(bounces(events))
+
+
+@dataclass(frozen=True)
+class SecondBounce(Until):
+    """A run ends when the ball bounces for the second time."""
+
+    def over(self, events: Sequence[Event]) -> bool:
+        return len(bounces(events)) == 2
+
+
+@once
+def landing(run: Run, parameters: Any) -> Moment | None:
+    """The ball just before it comes down."""
+    return next((before(run, event.t) for event in bounces(run.events)), None)
+
+
+def rebound(run: Run, parameters: Any) -> Moment | None:
+    """The ball just after it came down."""
+    return next((Moment(event.t, *run.state("ball", event.t)) for event in bounces(run.events)), None)
+
+
+def taken(run: Run, parameters: Any) -> float:
+    """When the other player takes the ball, in s: a little beyond the end line; at the end if it does not get there."""
+    passed = at_baseline(run, parameters)
+    return run.duration if passed is None else min(run.duration, passed.t + 0.15)
+
+
+def at_baseline(run: Run, parameters: Any) -> Moment | None:
+    """The ball as it passes the far end line."""
+    return passing(run, parameters.court.length)
+
+
+def net_clearance(run: Run, parameters: Any) -> float | None:
+    """Gap in m between ball and net as it passes over; negative if it passes below the upper edge."""
+    over = passing(run, 0.5 * parameters.court.length)
+    return None if over is None else over.y - parameters.ball.radius - parameters.net.height
+
+
+def word(run: Run, parameters: Any, limit: float) -> str:
+    """in; long, beyond ``limit`` (m); net, into or under it; short, on the player's own side; gone, never down."""
+    landed, gap = landing(run, parameters), net_clearance(run, parameters)
+    if landed is None:
+        return "gone"
+    if landed.x < 0.5 * parameters.court.length:
+        return "net" if any(event.partner == "net" and event.t < landed.t for event in run.events) else "short"
+    if gap is None or gap < -parameters.ball.radius:
+        return "net"
+    return "in" if landed.x <= limit else "long"
+
+
+def net_facts(limit: Callable[[Any], float]) -> tuple[Fact, ...]:
+    """Whether the ball is in, up to ``limit(parameters)`` m, and how it got there."""
+
+    def said(run: Run, parameters: Any) -> str:
+        return word(run, parameters, limit(parameters))
+
+    return (
+        Fact("in", "", "", lambda run, parameters: said(run, parameters) == "in", is_down),
+        Fact("verdict", "", "", said, is_down),
+        Fact("net_clearance", "over the net", "m", net_clearance, is_down),
+        Fact("landing", "landing", "m", at(landing, lambda ball: ball.x), is_down),
+        Fact("landing_speed", "landing speed", "m/s", at(landing, lambda ball: ball.speed), is_down, also="km/h"),
+        Fact("apex", "apex", "m", lambda run, parameters: run.highest("ball")[1][1], is_down),
+        Fact("flight_time", "flight time", "s", at(landing, lambda ball: ball.t), is_down),
+    )
+
+
+def _kept(run: Run, parameters: Any) -> float | None:
+    """Speed along the court after the bounce over that before it."""
+    down, up = landing(run, parameters), rebound(run, parameters)
+    return up.vx / down.vx if down is not None and up is not None and down.vx else None
+
+
+#: What the bounce makes of the ball, in a game in which it is played after that.
+BOUNCE_FACTS = (
+    Fact("landing_angle", "", "deg", at(landing, lambda ball: ball.descent), is_down),
+    Fact("bounce_speed", "after the bounce", "m/s", at(rebound, lambda ball: ball.speed), is_down),
+    Fact("bounce_angle", "rises at", "deg", at(rebound, lambda ball: -ball.descent), is_down),
+    Fact("bounce_spin", "", "rpm", at(rebound, lambda ball: ball.spin / RPM), is_down),
+    Fact("speed_kept", "", "", _kept, is_down),
+    Fact("baseline_speed", "", "m/s", at(at_baseline, lambda ball: ball.speed)),
+)
+
+
+def sentence(run: Run, parameters: Any, limit: float, line: str) -> str:
+    """What happened; the ball may land up to ``limit`` m, which is at the ``line``."""
+    said, landed = run.result["verdict"], run.result["landing"]
+    if said == "in":
+        return f"In, {roughly(limit - landed)} before the {line}"
+    if said == "long":
+        return f"Out, {roughly(landed - limit)} beyond the {line}"
+    if said == "short":
+        return f"Comes down on its own side, {roughly(abs(0.5 * parameters.court.length - landed))} from the net"
+    return "Into the net" if said == "net" else "Did not come down"

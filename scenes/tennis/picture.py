@@ -1,0 +1,68 @@
+"""Tennis from the side: the court under the lamps, or a table in a hall."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import cached_property
+
+import numpy as np
+
+from sandbox.picture.ball import Look, seams
+from sandbox.picture.camera import Box, Camera
+from sandbox.picture.depth import Eye
+from sandbox.picture.figures import LOOPED_AT, LOOPING, SERVED_AT, SERVING, STROKED_AT, STROKING
+from sandbox.picture.palette import scene_colours
+from sandbox.picture.places import COURT_WIDTH, Ground, Hall, Person, Planks, Stands, net_across, table, tennis_court
+from sandbox.picture.side import Place, SideView
+from sandbox.sport.net_game import taken
+
+from .scene import Parameters
+
+COLOURS = scene_colours(__file__)
+COURT, TABLE = COLOURS["court"], COLOURS["table"]
+TABLE_WIDTH, TALL = 1.525, 1.85  # m: the table (ITTF law 2.1), and people
+LOOKS = [Look(ball["colour"], seams(ball["seam"])) for ball in (COURT["ball"], TABLE["ball"])]
+
+
+class Picture(SideView[Parameters]):
+    TRACE, EARLIER = COLOURS["trace"], COLOURS["earlier"]
+    LENGTHS, SECOND_UNIT, FROM = 0, "ft", "from the racket"
+
+    @property
+    def target(self) -> Box:
+        end = self.parameters.court.length
+        left = min(-0.3 - 0.04 * end, self.parameters.release.place - 0.7)
+        return Box(left, 0.0, 0.3 + 1.1 * end, 2.0 - self.parameters.court.table)
+
+    def look_of(self, name: str) -> Look:
+        return LOOKS[self.parameters.court.table > 0.0]
+
+    def ground(self, x: np.ndarray) -> np.ndarray:
+        return np.zeros_like(x) - self.parameters.court.table
+
+    def eye(self, camera: Camera) -> Eye:
+        eye = super().eye(camera)
+        return replace(eye, level=eye.level - self.parameters.court.table * camera.scale)  # sees the table from above
+
+    @cached_property
+    def told(self) -> float:
+        return taken(self.run, self.parameters)
+
+    @cached_property
+    def place(self) -> Place:
+        court, net, release = self.parameters.court, self.parameters.net, self.parameters.release
+        end, high, on_table = court.length, release.height + court.table, court.table > 0.0
+        stroke, struck_at = (LOOPING, LOOPED_AT) if on_table else (STROKING, STROKED_AT)
+        pose, (ahead, up) = (SERVING, SERVED_AT) if high > 1.8 else (stroke, struck_at)
+        tall = min(TALL, max(1.6, high / up))
+        player = Person(release.place - ahead * tall, tall, COLOURS["player"], pose, up=max(0.0, high - up * tall))
+        other = Person(1.1 * end + 0.5, TALL, COLOURS["opponent"], stroke, z=0.5 * TABLE_WIDTH, facing=-1)
+        hung = 0.5 * end, net.height - net.depth, net.height
+        if on_table:
+            ground = Ground(Planks(TABLE["wood"]), TABLE["soil"], edges=[(TABLE["edge"], 4)], far=0.5)
+            across = net_across(*hung, TABLE_WIDTH, 0.015, **TABLE["net"])
+            top = table(end, TABLE_WIDTH, court.table, **TABLE["top"])
+            return Place(Hall(**TABLE["hall"]), ground, [other, *top, *across, player])
+        across = net_across(*hung, COURT_WIDTH, 0.06, **COURT["net"])
+        ground = tennis_court(end, court.service, **COURT["ground"])
+        return Place(Stands(**COURT["stands"]), ground, [other, *across, player])

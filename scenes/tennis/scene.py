@@ -1,0 +1,117 @@
+"""Tennis from the side: serves, drives, slices and lobs, over the net, and what the court makes of them.
+
+Models: gravity; drag and Magnus lift; the strings of the racket; the net as a thing to hit; a bounce in which the ball
+slides, or grips and springs back along the court. Table tennis is the same game, on a table.
+Leaves out: everything sideways; the sag of the net; how the contact point moves under a ball; the loss of spin in air.
+"""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from sandbox.engine.run import Run
+from sandbox.engine.setup import Segment, Setup, Surface
+from sandbox.parameters import Accuracy, Group, choice, either, group, quantity
+from sandbox.physics.coefficients import TENNIS_DRAG, TENNIS_LIFT
+from sandbox.physics.swing import RUBBER, STRINGS
+from sandbox.sport.air import Air, ConstantDrag, ConstantLift, Lift, Model, NoDrag, NoLift, SpinRatioLift
+from sandbox.sport.controls import Controls, Spin, Spread
+from sandbox.sport.facts import ENDED
+from sandbox.sport.flight import Launch, Release, Sphere, forces_in_flight, launched_ball
+from sandbox.sport.net_game import BOUNCE_FACTS, CourtBounce, HardCourt, Net, SecondBounce, net_facts, net_of, sentence
+from sandbox.sport.readings import LAUNCH
+from sandbox.sport.swing import Swing, struck_by
+
+
+class TennisDrag(Model):
+    """Drag of a tennis ball."""
+
+    LAWS = TENNIS_DRAG
+    model: Literal["cross-lindsey", "stepanek"] = choice(..., "drag coefficient by its source")
+
+
+class TennisLift(Lift):
+    """Lift of a tennis ball."""
+
+    LAWS = TENNIS_LIFT
+    model: Literal["stepanek"] = choice(..., "lift coefficient by its source")
+
+
+class TennisBall(Sphere):
+    """The ball."""
+
+    inertia: float = quantity(..., "", 0.1, 1, "moment of inertia over m r^2")
+    drag: TennisDrag | ConstantDrag | NoDrag = either(..., "drag of the air")
+    lift: TennisLift | SpinRatioLift | ConstantLift | NoLift = either(..., "Magnus lift")
+
+
+class Racket(Swing):
+    """The racket, and the ball that it meets."""
+
+    face_of: Literal["strings", "rubber"] = choice(..., "strings of tennis, rubber of table tennis")
+
+
+class TennisCourt(HardCourt):
+    """The court, or the table."""
+
+    service: float = quantity(..., "m", 0, 50, "from the net to the line before which a serve must land; 0 for none")
+    table: float = quantity(..., "m", 0, 2, "height of the table above the floor; 0 for a court")
+
+
+class Parameters(Group):
+    """All parameters of a shot."""
+
+    start: Literal["launch", "racket"] = choice(..., "begin with the ball's launch, or with the racket")
+    shot: Literal["serve", "rally"] = choice(..., "a serve must land before the service line")
+    launch: Launch = group(..., "the ball as it leaves the strings")
+    racket: Racket = group(..., "the racket and the incoming ball")
+    release: Release = group(..., "where the ball is struck")
+    gravity: float = quantity(..., "m/s^2", 0, 30, "gravity")
+    air: Air = group(..., "the air")
+    ball: TennisBall = group(..., "the ball")
+    net: Net = group(..., "the net")
+    court: TennisCourt = group(..., "the court")
+    accuracy: Accuracy = group(Accuracy(), "speed against accuracy")
+
+    @property
+    def limit(self) -> tuple[float, str]:
+        """How far from the player's own end the ball may land, in m, and what is there."""
+        if self.shot == "serve" and self.court.service > 0.0:
+            return 0.5 * self.court.length + self.court.service, "service line"
+        return self.court.length, "end of the table" if self.court.table > 0.0 else "baseline"
+
+
+CONTROLS = Controls(
+    strongest=60.0,
+    spins=(Spin("launch.spin", 100.0),),
+    also={"start": "launch"},
+    sliders=("release.place", "release.height", "court.restitution", "court.friction", "net.height", "air.wind"),
+    scores="in",
+    spread=(Spread("launch.speed", 0.03), Spread("launch.angle", least=0.8), Spread("launch.spin", 0.1)),  # assumed
+)
+
+
+def build(parameters: Parameters) -> Setup:
+    """Ball, net, and court, or table and floor."""
+    court, ball, release = parameters.court, parameters.ball, parameters.release
+    forces = forces_in_flight(ball, parameters.air, parameters.gravity)
+    place = release.place, max(release.height, ball.radius)
+    played = launched_ball(parameters.launch, ball, place, forces, ball.inertia)
+    if parameters.start == "racket":
+        face = RUBBER if parameters.racket.face_of == "rubber" else STRINGS
+        played = struck_by(parameters.racket, "racket", face, played)
+    bounce, ends = CourtBounce(court), (0.0, court.length) if court.table > 0.0 else (-1e4, 1e4)
+    top = Segment((ends[0], 0.0), (ends[1], 0.0))
+    surfaces = [Surface("court", top, bounce(1.0, 0.0).restitution, court.friction, law=bounce), net_of(parameters)]
+    if court.table > 0.0:
+        surfaces.append(Surface("floor", Segment((-1e4, -court.table), (1e4, -court.table)), 0.7, court.friction))
+    return Setup([played], surfaces, 20.0, SecondBounce())
+
+
+FACTS = (*net_facts(lambda parameters: parameters.limit[0]), *BOUNCE_FACTS, *LAUNCH, ENDED)
+
+
+def verdict(run: Run, parameters: Parameters) -> str:
+    """What happened, in a sentence."""
+    said = sentence(run, parameters, *parameters.limit)
+    return f"Fault: {said[0].lower()}{said[1:]}" if parameters.shot == "serve" and not run.result["in"] else said
