@@ -93,7 +93,7 @@ def test_every_number_of_a_result_has_its_unit(name: str):
     presets = [listing for listing in NAMES if listing.partition("/")[0] == name]
     runs = [sandbox.simulate(sandbox.load(preset)) for preset in presets]
     numbers = {key for run in runs for key, value in run.result.items() if isinstance(value, float)}
-    assert {key for key in numbers if not sandbox.load(name).units[key]} <= {"smash_factor"}  # a ratio
+    assert {key for key in numbers if not sandbox.load(name).units[key]} <= {"smash_factor", "speed_kept"}  # ratios
 
 
 @pytest.mark.parametrize("listing", list(listings()), ids=lambda listing: listing.name)

@@ -12,7 +12,17 @@ from sandbox.picture.camera import Box, Camera
 from sandbox.picture.depth import Eye
 from sandbox.picture.figures import LOOPED_AT, LOOPING, SERVED_AT, SERVING, STROKED_AT, STROKING
 from sandbox.picture.palette import scene_colours
-from sandbox.picture.places import COURT_WIDTH, Ground, Hall, Person, Planks, Stands, net_across, table, tennis_court
+from sandbox.picture.places import (
+    COURT_WIDTH,
+    Ground,
+    Hall,
+    Person,
+    Planks,
+    Stands,
+    net_across,
+    standing_table,
+    tennis_court,
+)
 from sandbox.picture.side import Place, SideView
 from sandbox.sport.net_game import taken
 
@@ -61,7 +71,7 @@ class Picture(SideView[Parameters]):
         if on_table:
             ground = Ground(Planks(TABLE["wood"]), TABLE["soil"], edges=[(TABLE["edge"], 4)], far=0.5)
             across = net_across(*hung, TABLE_WIDTH, 0.015, **TABLE["net"])
-            top = table(end, TABLE_WIDTH, court.table, **TABLE["top"])
+            top = standing_table(end, TABLE_WIDTH, court.table, **TABLE["top"])
             return Place(Hall(**TABLE["hall"]), ground, [other, *top, *across, player])
         across = net_across(*hung, COURT_WIDTH, 0.06, **COURT["net"])
         ground = tennis_court(end, court.service, **COURT["ground"])

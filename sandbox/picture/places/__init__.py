@@ -3,7 +3,7 @@
 from sandbox.picture.places.ground import COURT_WIDTH, Ground, Line, Planks, Stripes, tennis_court
 from sandbox.picture.places.landscape import Landscape
 from sandbox.picture.places.scenery import Hall, Scenery, Stands
-from sandbox.picture.places.things import Group, Net, Person, Post, Shape, Thing, goal, net_across, table
+from sandbox.picture.places.things import Group, Net, Person, Post, Shape, Thing, goal, net_across, standing_table
 
 __all__ = [
     "COURT_WIDTH",
@@ -23,6 +23,6 @@ __all__ = [
     "Thing",
     "goal",
     "net_across",
-    "table",
+    "standing_table",
     "tennis_court",
 ]

@@ -156,7 +156,7 @@ def net_across(
     return [posts[0], woven, Shape(edge, tape), posts[1]]
 
 
-def table(
+def standing_table(
     length: float, width: float, height: float, top: Colour, side: Colour, leg: Colour, line: Colour
 ) -> list[Thing]:
     """A table with its top at y = 0, from x = 0 on, and its near edge in the plane of play; lengths in m."""
