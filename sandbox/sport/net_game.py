@@ -67,17 +67,19 @@ def bounces(events: Sequence[Event]) -> list[Event]:
     return [event for event in events if event.kind == "impact" and event.partner != "net"]
 
 
-def is_down(events: Sequence[Event]) -> bool:
-    """Whether the ball has come down: the facts of its flight are then final."""
-    return bool(bounces(events))
-
-
 @dataclass(frozen=True)
-class SecondBounce(Until):
-    """A run ends when the ball bounces for the second time."""
+class Bounces(Until):
+    """Over when the ball has bounced so many times."""
+
+    times: int = 1
 
     def over(self, events: Sequence[Event]) -> bool:
-        return len(bounces(events)) == 2
+        return len(bounces(events)) >= self.times
+
+
+def is_down(parameters: Any) -> Until:
+    """When the ball has come down, the facts of its flight are final."""
+    return Bounces()
 
 
 @once

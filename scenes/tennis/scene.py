@@ -18,7 +18,7 @@ from sandbox.sport.air import Air, ConstantDrag, ConstantLift, Lift, Model, NoDr
 from sandbox.sport.controls import Controls, Spin, Spread
 from sandbox.sport.facts import ENDED
 from sandbox.sport.flight import Launch, Release, Sphere, forces_in_flight, launched_ball
-from sandbox.sport.net_game import BOUNCE_FACTS, CourtBounce, HardCourt, Net, SecondBounce, net_facts, net_of, sentence
+from sandbox.sport.net_game import BOUNCE_FACTS, Bounces, CourtBounce, HardCourt, Net, net_facts, net_of, sentence
 from sandbox.sport.readings import LAUNCH
 from sandbox.sport.swing import Swing, struck_by
 
@@ -105,7 +105,7 @@ def build(parameters: Parameters) -> Setup:
     surfaces = [Surface("court", top, bounce(1.0, 0.0).restitution, court.friction, law=bounce), net_of(parameters)]
     if court.table > 0.0:
         surfaces.append(Surface("floor", Segment((-1e4, -court.table), (1e4, -court.table)), 0.7, court.friction))
-    return Setup([played], surfaces, 20.0, SecondBounce())
+    return Setup([played], surfaces, 20.0, Bounces(2))
 
 
 FACTS = (*net_facts(lambda parameters: parameters.limit[0]), *BOUNCE_FACTS, *LAUNCH, ENDED)
