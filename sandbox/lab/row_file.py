@@ -11,28 +11,19 @@ import os
 import re
 import shutil
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from contextlib import contextmanager, suppress
+from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
-from typing import Any, Protocol, TextIO
+from typing import TYPE_CHECKING, Any, TextIO
 
 from sandbox.errors import RequestError, RunError
-from sandbox.files import reason
+from sandbox.files import json_ready, reason, written_whole
 from sandbox.text import csv_text
+
+if TYPE_CHECKING:
+    from sandbox.lab.plan import Plan
 
 #: The last column of a sweep, and all columns of a path that ``run --trajectory`` writes.
 _LAST, _TRAJECTORY = "error", b"t,ball,x,y,vx,vy,spin"
-
-
-class Points(Protocol):
-    """The points of a sweep, in order: a Plan."""
-
-    @property
-    def fingerprint(self) -> str: ...
-    @property
-    def keys(self) -> list[str]: ...
-    @property
-    def size(self) -> int: ...
-    def points(self, start: int, stop: int) -> Iterator[tuple[Any, ...]]: ...
 
 
 class RowFile:
@@ -48,42 +39,36 @@ class RowFile:
     rows are in the new file. Devices such as /dev/stdout are simply written to.
     """
 
-    def __init__(self, path: Path, plan: Points) -> None:
+    def __init__(self, path: Path, plan: Plan) -> None:
         self.path = path
         self.done = 0
         self.damaged: int | None = None
         self._plan = plan
-        self._is_device = path.exists() and not path.is_file()
-        self._lock: TextIO | None = None
         self._columns: list[str] = []
-        self._target = path.resolve() if path.is_symlink() else path  # the target of a link, not the link
-        self._mark = self._target.with_name(f"{self._target.name}.resume")
-        self.before = self._target.with_name(f"{self._target.name}~")
+        self._is_device = path.exists() and not path.is_file()
+        self._file_path = path if self._is_device else path.resolve()  # the target of a link, not the link
+        self._mark_path = self._file_path.with_name(f"{self._file_path.name}.resume")
+        self.before = self._file_path.with_name(f"{self._file_path.name}~")
+        self._open = ExitStack()
 
     def __enter__(self) -> RowFile:
-        with _writing(self.path):
-            if self._is_device:
-                self._file = self.path.open("w", encoding="utf-8", newline="")
-                return self
-            self._lock = self._locked()
-            try:
-                self._begin(self._lock)
-            except BaseException:
-                self._lock.close()
-                raise
+        with _writing(self.path), self._open:
+            if not self._is_device:
+                self._begin(self._open.enter_context(self._locked()))
+            self._file = self._file_path.open("w" if self._is_device else "a", encoding="utf-8", newline="")
+            self._open = self._open.pop_all()
         return self
 
     def __exit__(self, *failure: object) -> None:
         with suppress(OSError):  # a full disk, which append has already reported
             self._file.close()
-        if self._lock is not None:
-            self._lock.close()
+        self._open.close()
 
     def finish(self) -> None:
         """Mark the file as complete."""
         if not self._is_device:
-            self._mark.unlink(missing_ok=True)
-            if self.before.is_file() and filecmp.cmp(self.path, self.before, shallow=False):
+            self._mark_path.unlink(missing_ok=True)
+            if self.before.is_file() and filecmp.cmp(self._file_path, self.before, shallow=False):
                 self.before.unlink()
 
     def append(self, records: Sequence[Mapping[str, Any]]) -> None:
@@ -92,7 +77,7 @@ class RowFile:
         Raises RunError if writing fails, for example on a full disk; earlier rows are kept.
         """
         named = [{csv_text(name): value for name, value in record.items()} for record in records]
-        columns = merged_columns(self._columns, named)
+        columns = _merged(self._columns, named)
         with _writing(self.path):
             if columns != self._columns:
                 self._widen(columns)
@@ -102,23 +87,20 @@ class RowFile:
             self._file.flush()
 
     def _widen(self, columns: list[str]) -> None:
-        if self.done and self._is_device:
-            raise RunError(f"{self.path}: later rows have more columns than the first ones; write to a file instead")
+        """Write the first line, or the existing rows again with more columns."""
         if not self.done:
-            self._columns = columns
             self._file.write(_line(columns))
-            return
-        self._file.close()
-        wider = self._target.with_name(f".{self._target.name}.{os.getpid()}.part")
-        try:
-            with wider.open("w", encoding="utf-8", newline="") as file:
-                file.write(_line(columns))
-                for row in rows(self.path):
-                    file.write(_line([row.get(name, "") for name in columns]))
-            wider.replace(self._target)
-        finally:
-            wider.unlink(missing_ok=True)
-            self._file = self.path.open("a", encoding="utf-8", newline="")
+        elif self._is_device:
+            raise RunError(f"{self.path}: later rows have more columns than the first ones; write to a file instead")
+        else:
+            self._file.close()
+            try:
+                with written_whole(self._file_path) as file:
+                    file.write(_line(columns))
+                    for row in rows(self._file_path):
+                        file.write(_line([row.get(name, "") for name in columns]))
+            finally:
+                self._file = self._file_path.open("a", encoding="utf-8", newline="")
         self._columns = columns
 
     # Before the first row
@@ -126,74 +108,66 @@ class RowFile:
     def _locked(self) -> TextIO:
         """The marker file, locked by this process. Raises RequestError if another process holds it."""
         while True:
-            mark = self._mark.open("a+", encoding="utf-8", errors="replace")
-            try:
+            with ExitStack() as opened:
+                mark = opened.enter_context(self._mark_path.open("a+", encoding="utf-8", errors="replace"))
                 if not _lock(mark):
                     raise RequestError(f"--out {self.path}: another sweep is writing to this file; choose another name")
-                if self._mark.exists() and os.path.samestat(os.fstat(mark.fileno()), self._mark.stat()):
+                # the other process may have finished and removed its marker just now: then begin again
+                if self._mark_path.exists() and os.path.samestat(os.fstat(mark.fileno()), self._mark_path.stat()):
+                    opened.pop_all()
                     return mark
-            except BaseException:
-                mark.close()
-                raise
-            mark.close()  # the other process has just finished and removed its marker
 
     def _begin(self, mark: TextIO) -> None:
-        """Open the file after the rows that are kept."""
+        """Leave only the rows that are kept in the file."""
         mark.seek(0)
         known = mark.read(100).strip()
         if known and not re.fullmatch("[0-9a-f]{64}", known):
-            raise RequestError(f"--out {self.path}: {self._mark.name} is a file of yours; choose another name")
-        there = self._target.is_file() and self._target.stat().st_size > 0
+            raise RequestError(f"--out {self.path}: {self._mark_path.name} is a file of yours; choose another name")
+        there = self._file_path.is_file() and self._file_path.stat().st_size > 0
         if known and there:
             if known != self._plan.fingerprint:
                 raise RequestError(
-                    f"--out {self.path}: contains rows of another interrupted sweep, or of this one with "
-                    f"another scene or program version; choose another name, or remove this file and {self._mark.name}"
+                    f"--out {self.path}: contains rows of another interrupted sweep, or of this one with another scene "
+                    f"or program version; choose another name, or remove this file and {self._mark_path.name}"
                 )
-            if self._keep_rows():
-                self._file = self.path.open("a", encoding="utf-8", newline="")
-                return
-        elif there:
+            self._keep_rows()
+            return
+        if there:
             try:
                 self._check_before()
             except RequestError:
-                self._mark.unlink()
+                self._mark_path.unlink()
                 raise
-            self._target.replace(self.before)
+            self._file_path.replace(self.before)
         mark.truncate(0)
         mark.write(self._plan.fingerprint + "\n")
         mark.flush()
-        self._file = self.path.open("w", encoding="utf-8", newline="")
 
-    def _keep_rows(self) -> bool:
-        """Count the intact rows and cut off the rest. Returns whether there are any."""
-        with self.path.open("rb+") as file:
+    def _keep_rows(self) -> None:
+        """Count the intact rows and cut off the rest; without any, the first line too."""
+        with self._file_path.open("rb+") as file:
             header = file.readline()
-            if not header.endswith(b"\n"):
-                return False
-            columns = _cells(header)
+            columns = _cells(header) or []
             keys = [csv_text(key) for key in self._plan.keys]
-            if not columns or columns[: len(keys)] != keys or columns[-1] != _LAST or len({*columns}) < len(columns):
+            is_whole = columns[: len(keys)] == keys and columns[-1] == _LAST and len({*columns}) == len(columns)
+            if header.endswith(b"\n") and not is_whole:
                 raise RequestError(
                     f"--out {self.path}: its first line is not what this sweep wrote; repair it, or remove the "
-                    f"file and {self._mark.name} to start again"
+                    f"file and {self._mark_path.name} to start again"
                 )
-            end, done = file.tell(), 0
+            end = 0
             for point in self._plan.points(0, self._plan.size):
-                line = file.readline()
-                cells = _cells(line)
+                cells = _cells(file.readline())
                 if cells is None or len(cells) != len(columns) or cells[: len(keys)] != [cell(part) for part in point]:
                     break
-                end, done = file.tell(), done + 1
-            file.seek(end)
+                self._columns, self.done, end = columns, self.done + 1, file.tell()
+            file.seek(end or len(header))
             rest = file.readline()
             if rest.endswith(b"\n") or b"\0" in rest:  # not just the line that was being written
                 self._check_before()
-                shutil.copyfile(self.path, self.before)
-                self.damaged = done + 1
+                shutil.copyfile(self._file_path, self.before)
+                self.damaged = self.done + 1
             file.truncate(end)
-        self._columns, self.done = columns, done
-        return True
 
     def _check_before(self) -> None:
         """Raise RequestError if a file of the user's is in the way of the backup."""
@@ -251,7 +225,7 @@ def _writing(path: Path) -> Iterator[None]:
         raise RunError(f"--out {path}: cannot be written: {reason(error)}") from None
 
 
-def merged_columns(columns: list[str], records: Iterable[Mapping[str, Any]]) -> list[str]:
+def _merged(columns: list[str], records: Iterable[Mapping[str, Any]]) -> list[str]:
     """The columns plus those that the records add, in the records' order; the last stays last."""
     known = dict.fromkeys(columns)
     new = {name: None for record in records for name in record if name not in known}
@@ -271,11 +245,9 @@ def cell(value: Any) -> str:
         return "true" if value else "false"
     if isinstance(value, float):
         return "" if math.isnan(value) else repr(value)
-    if isinstance(value, str):
-        return csv_text(value)
     if isinstance(value, list | tuple | dict):
-        return json.dumps(value, ensure_ascii=False, default=str)
-    return str(value)
+        value = json.dumps(json_ready(value), ensure_ascii=False, default=str)
+    return csv_text(value) if isinstance(value, str) else str(value)
 
 
 def rows(path: Path) -> Iterator[dict[str, str]]:

@@ -233,9 +233,11 @@ def test_cells():
         {"a": [1]},
         np.float64(2.5),
         np.bool_(False),
+        [float("nan"), "\x9b"],
     ]
     assert [cell(value) for value in values] == [
         "", "", "true", "1.0", "0.30000000000000004", "3", "a b", '["x", 1.5]', '{"a": [1]}', "2.5", "false",
+        '[null, "\\u009b"]',
     ]  # fmt: skip
 
 
@@ -312,6 +314,16 @@ def test_damaged_rows_are_computed_again(drop, tmp_path, kind):
     assert (tmp_path / "rows.csv~").read_bytes() == found
     assert done.damaged == done.resumed + 1
     assert f"row {done.damaged} was damaged: computed again" in done.as_text()
+
+
+@pytest.mark.parametrize("found", ["launch.height,error\n", "launch.height,err", "launch.height,error\n1.0,"])
+def test_a_first_line_without_rows_is_written_again(drop, tmp_path, found: str):
+    plan, path = grid(drop, "launch.height=0.5:2:5"), tmp_path / "rows.csv"
+    expected = whole(plan, path)
+    path.write_text(found)
+    path.with_name("rows.csv.resume").write_text(plan.fingerprint + "\n")
+    assert whole(plan, path) == expected
+    assert not path.with_name("rows.csv~").exists()
 
 
 def test_rows_beyond_the_last_point_are_dropped(drop, tmp_path):
