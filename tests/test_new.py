@@ -86,9 +86,12 @@ def test_nothing_is_called_template_any_more(scene: Path):
 
 
 def test_the_scene_is_small(scene: Path):
-    """Little enough to read before lunch."""
-    assert len((scene / "scene.py").read_text("utf-8").splitlines()) < 170
-    assert len((scene / "picture.py").read_text("utf-8").splitlines()) < 70
+    """Little enough to read before lunch, and so is one seen from above."""
+    other = scene.parent / "above"
+    assert main(["new", str(other), "--from-above"]) == 0
+    for folder in (scene, other):
+        lines = sum(len((folder / name).read_text("utf-8").splitlines()) for name in ("scene.py", "picture.py"))
+        assert lines < 120
 
 
 @pytest.mark.parametrize("name", ["Beach-volley", "x2", "my_scene", "template", "test", "a/../b"])
@@ -146,7 +149,7 @@ def test_a_full_or_closed_folder_is_told_and_nothing_stays_behind(call, monkeypa
 def test_it_runs_and_draws(call, scene: Path):
     code, out, err = call("run", f"./{NAME}", "--poster", "poster.png", "--trajectory", "path.csv")
     assert (code, err) == (0, "")
-    assert "On the mat" in out
+    assert "Comes down" in out
     with Image.open("poster.png") as image:
         assert image.size == (1280, 720)
     assert Path("path.csv").read_text().count("\n") > 100
@@ -215,7 +218,7 @@ def test_two_scenes_may_have_one_name(call, scene: Path, tmp_path: Path):
         {"launch.angle": 180, "launch.speed": 340, "fan.push": 100, "fan.width": 0.05},
         {"ball.radius": 0.5, "launch.height": 0, "floor.restitution": 1},
         {"air.density": 1100, "launch.speed": 340},
-        {"floor.mat": -100, "floor.mat_length": 0},
+        {"fan.place": -100, "fan.width": 50},
     ],
 )
 def test_extremes_run_and_draw(scene: Path, settings: dict[str, float]):
@@ -252,7 +255,7 @@ def test_its_golden_test(scene: Path):
     change(scene / f"{NAME}.toml", "push = 4.0", "push = 3.9")
     assert "the physics changed" in pytest_in(scene.parent, NAME, "-k", "toss").stdout
     change(scene / f"{NAME}.toml", "push = 3.9", "push = 4.0")
-    change(scene / "picture.py", "MAT, AIR = (38,", "MAT, AIR = (98,")
+    change(scene / "picture.py", "(40, 52, 60)", "(140, 52, 60)")
     changed = pytest_in(scene.parent, NAME, "-k", "toss")
     assert changed.returncode == 1
     assert "same physics" in changed.stdout
@@ -266,16 +269,16 @@ def test_its_golden_test(scene: Path):
     [
         (
             "scene.py",
-            "parameters.launch.height, ball",
-            "parameters.launch.hight, ball",
+            "launch.height, ball",
+            "launch.hight, ball",
             "AttributeError: 'Toss' object has no",
         ),
         ("scene.py", "def build(", "def build((", "SyntaxError: "),
         ("scene.py", "def build(", "\udcff\ndef build(", "SyntaxError: "),
         ("scene.py", "(position[0]", "(position[2]", "IndexError: tuple index out of range"),
-        ("scene.py", "landed.x - floor.mat)", "landed.x - floor.matt)", "AttributeError: 'Floor' object has no"),
-        ("scene.py", 'run.result["hit"]', 'run.result["hat"]', "KeyError: 'hat'"),
-        ("scene.py", "duration=20.0)", "duration=20.0, until=lambda event: event.foo)", "AttributeError: 'Event'"),
+        ("scene.py", "lambda ball: ball.x)", "lambda ball: ball.ex)", "AttributeError: 'Moment' object has no"),
+        ("scene.py", 'run.result["distance"]', 'run.result["distanse"]', "KeyError: 'distanse'"),
+        ("scene.py", 'until=Touches("floor", 4)', "until=lambda event: event.foo", "AttributeError: 'Event'"),
         (
             "scene.py",
             "Fan(fan.place, fan.width, fan.push)]",
@@ -288,7 +291,7 @@ def test_its_golden_test(scene: Path):
             "launch, ball.model_copy(update={'mass': -1.0}), (0.0",
             "mass = -1.0 must be positive",
         ),
-        ("picture.py", "Place(HALL", "Place(HOLE", "NameError: name 'HOLE' is not defined"),
+        ("picture.py", "Place(Hall", "Place(Hole", "NameError: name 'Hole' is not defined"),
         ("picture.py", "launch.height)", "launch.hight)", "AttributeError: 'Toss' object has no"),
         (
             "picture.py",
@@ -312,7 +315,7 @@ def test_a_failure_shows_the_users_lines_and_nothing_of_ours(
 
 
 #: Before this method of the picture others are put in.
-LENGTHS = "    def lengths("
+PLACE = "    @cached_property"
 
 
 @pytest.mark.parametrize("file", ["scene.py", "picture.py"])
@@ -326,7 +329,7 @@ def test_a_file_with_nul_bytes_is_named(call, scene: Path, file: str):
     ("file", "old", "new", "expected"),
     [
         ("scene.py", "return Setup([", "Setup([", "scene.py: build must return a Setup, but returned None"),
-        ("scene.py", 'return "On the mat"', '"On the mat"', "verdict must return text, but returned None"),
+        ("scene.py", 'return "Never', '"Never', "verdict must return text, but returned None"),
         ("scene.py", "FACTS = (", "FACTS = (3,", "FACTS must be a tuple of facts, but 3 is not one"),
         ("scene.py", '"apex", "m"', '"apex", "metres"', 'FACTS: apex has the unit "metres", which is not known'),
         ("scene.py", '"apex", "apex"', '"distance", "apex"', "FACTS: two are called distance"),
@@ -334,18 +337,18 @@ def test_a_file_with_nul_bytes_is_named(call, scene: Path, file: str):
         ("scene.py", "def verdict(run: Run, ", "def verdict(", "verdict is called as verdict(run, parameters)"),
         ("scene.py", "def build(", "def built(", "a scene needs Parameters, build; build is missing"),
         ("picture.py", "class Picture", "class Pictures", "Picture(run, parameters, size) is missing"),
-        ("picture.py", LENGTHS, f"    poster = None\n\n{LENGTHS}", "picture.py: Picture.poster(self) is missing"),
+        ("picture.py", PLACE, f"    poster = None\n\n{PLACE}", "picture.py: Picture.poster(self) is missing"),
         (
             "picture.py",
-            LENGTHS,
-            f"    def __init__(self, run): ...\n{LENGTHS}",
+            PLACE,
+            f"    def __init__(self, run): ...\n{PLACE}",
             "called as Picture(run, parameters, size)",
         ),
-        ("picture.py", LENGTHS, f"    def frame(self, x, t): ...\n{LENGTHS}", "called as Picture.frame(self, t)"),
+        ("picture.py", PLACE, f"    def frame(self, x, t): ...\n{PLACE}", "called as Picture.frame(self, t)"),
         (
             "picture.py",
-            LENGTHS,
-            f"    def poster(self): ...\n{LENGTHS}",
+            PLACE,
+            f"    def poster(self): ...\n{PLACE}",
             "must return a pygame.Surface, and returned None",
         ),
         ("scene.py", "return 0.0, self.push", "0.0, self.push", "must return"),
@@ -360,8 +363,13 @@ def test_a_file_with_nul_bytes_is_named(call, scene: Path, file: str):
         ),
         ("scene.py", "strongest=20.0", 'speed="launch.sped"', 'CONTROLS speed "launch.sped": unknown key; did'),
         ("scene.py", '(Spin("launch.spin", 20.0),)', '(Spin("launch.spin", 20.0))', "CONTROLS spins = Spin("),
-        ("scene.py", 'scores="hit"', 'scores="hitt"', 'CONTROLS scores "hitt": no such result; did you mean hit?'),
-        ("scene.py", 'scores="hit"', 'fan_fact="apx"', 'CONTROLS fan_fact "apx": no such result; did you mean apex?'),
+        (
+            "scene.py",
+            "strongest=20.0",
+            'scores="enbed"',
+            'CONTROLS scores "enbed": no such result; did you mean ended?',
+        ),
+        ("scene.py", "strongest=20.0", 'fan_fact="apx"', 'CONTROLS fan_fact "apx": no such result; did you mean apex?'),
     ],
 )
 def test_what_is_handed_back_wrongly_is_said_in_a_line(call, scene: Path, file: str, old: str, new: str, expected: str):

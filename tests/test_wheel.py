@@ -121,7 +121,7 @@ def test_all_scenes_are_there(installed: Call):
 
 def test_a_scene_of_ones_own_and_its_golden_test_there(installed: Call):
     checked(installed("sandbox", "new", "beachvolley"))
-    assert "On the mat" in checked(installed("sandbox", "run", "./beachvolley"))
+    assert "Comes down" in checked(installed("sandbox", "run", "./beachvolley"))
     made = installed("python", "-m", "pytest", "beachvolley", "--golden-update")
     assert (made.returncode, "golden/beachvolley.png: new" in made.stdout) == (0, True)
     assert installed("python", "-m", "pytest", "beachvolley").returncode == 0

@@ -8,11 +8,11 @@ from typing import Protocol
 
 from sandbox.engine.setup import HOLLOW_SPHERE, Ball, Force, Surface, Vector
 from sandbox.engine.touch import Obstacle
-from sandbox.parameters import Group, quantity
+from sandbox.parameters import Group, either, quantity
 from sandbox.physics.coefficients import Scaled
 from sandbox.physics.elementwise import cos, sin
 from sandbox.physics.forces import Drag, Gravity, Magnus
-from sandbox.sport.air import Air, Lift, Model, wind_in
+from sandbox.sport.air import Air, ConstantDrag, ConstantLift, Lift, Model, NoDrag, NoLift, SpinRatioLift, wind_in
 
 RPM = pi / 30.0  # rad/s
 DEGREE = pi / 180.0  # rad
@@ -39,6 +39,13 @@ class Sphere(Group):
     mass: float = quantity(..., "kg", 0.0001, 20, "mass")
     radius: float = quantity(..., "m", 0.0005, 0.5, "radius")
     cross_section: float | None = quantity(None, "m^2", 1e-7, 1, "frontal area, if it does not follow from the radius")
+
+
+class FlyingBall(Sphere):
+    """A hollow sphere whose drag and lift have one coefficient for all speeds."""
+
+    drag: ConstantDrag | NoDrag = either(..., "drag of the air")
+    lift: NoLift | ConstantLift | SpinRatioLift = either(..., "Magnus lift")
 
 
 class Flying(Protocol):

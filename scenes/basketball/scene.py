@@ -22,14 +22,14 @@ from typing import Any
 from sandbox.engine.run import Event, Run
 from sandbox.engine.setup import Circle, Patch, Segment, Setup, Surface, Until, Vector
 from sandbox.errors import RequestError
-from sandbox.parameters import Accuracy, Group, either, group, quantity, switch
+from sandbox.parameters import Accuracy, Group, group, quantity, switch
 from sandbox.physics.elementwise import clip
 from sandbox.physics.integrators import State
-from sandbox.sport.air import Air, ConstantDrag, ConstantLift, NoDrag, NoLift, SpinRatioLift
+from sandbox.sport.air import Air
 from sandbox.sport.amounts import roughly
 from sandbox.sport.controls import Controls, Spin, Spread
 from sandbox.sport.facts import ENDED, Fact, once
-from sandbox.sport.flight import Launch, Sphere, forces_in_flight, launched_ball
+from sandbox.sport.flight import FlyingBall, Launch, forces_in_flight, launched_ball
 from sandbox.sport.readings import LAUNCH, Moment, at, before
 from sandbox.sport.solids import Extent, Solid, below, check_apart, disc
 
@@ -38,13 +38,6 @@ class Release(Group):
     """Where the ball leaves the hand."""
 
     height: float = quantity(..., "m", 0, 100, "of the ball's centre above the floor")
-
-
-class Basketball(Sphere):
-    """The basketball, a hollow sphere."""
-
-    drag: ConstantDrag | NoDrag = either(..., "drag of the air")
-    lift: NoLift | ConstantLift | SpinRatioLift = either(..., "Magnus lift")
 
 
 class Hoop(Solid):
@@ -80,7 +73,7 @@ class Parameters(Group):
     release: Release = group(..., "where it leaves the hand")
     gravity: float = quantity(..., "m/s^2", 0, 30, "gravity")
     air: Air = group(..., "the air")
-    ball: Basketball = group(..., "the ball")
+    ball: FlyingBall = group(..., "the ball")
     hoop: Hoop = group(..., "the ring")
     backboard: Backboard = group(..., "the board")
     net: Net = group(..., "the net")

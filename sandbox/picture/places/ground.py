@@ -13,7 +13,9 @@ import pygame
 
 from sandbox.picture.depth import Eye
 from sandbox.picture.painter import Painter, blank, soil
-from sandbox.picture.palette import Colour, mix
+from sandbox.picture.palette import Colour, mix, palette
+
+FLOOR = palette("floor")
 
 #: The ground differs little from place to place, so a lower factor than for other shapes will do.
 OVERSAMPLING = 2
@@ -83,8 +85,8 @@ class Ground:
     stands there; ``beyond`` colours the rest of the way to the horizon, far and near, where nothing does.
     """
 
-    surface: Stripes | Planks
-    soil: tuple[Colour, Colour, Colour]  # from the top down
+    surface: Stripes | Planks = Planks(FLOOR["wood"])
+    soil: tuple[Colour, Colour, Colour] = FLOOR["beneath"]  # from the top down
     edges: Sequence[tuple[Colour, float]] = ()  # thin layers at the top of the cut, how deep they go, px on 720 rows
     areas: Sequence[tuple[Line, Colour]] = ()
     lines: Sequence[Line] = ()

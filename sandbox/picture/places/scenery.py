@@ -14,7 +14,7 @@ from sandbox.picture.painter import Painter, blank, from_colours
 from sandbox.picture.palette import Colour, mix, palette
 from sandbox.picture.sheet import Sheet, rows_of
 
-SHADOW, WHITE = palette("card")["shadow"], (255, 255, 255)
+HALL, SHADOW, WHITE = palette("hall"), palette("card")["shadow"], (255, 255, 255)
 
 #: Heads larger than this, in px, have shoulders below them.
 SHOULDERS = 4
@@ -48,10 +48,10 @@ class Stands:
 class Hall:
     """A wall lit from above on the right, rows of people before it, and padding along its foot."""
 
-    wall: tuple[Colour, Colour]  # top, foot
-    light: Colour
-    crowd: tuple[Colour, ...]
-    padding: Colour
+    wall: tuple[Colour, Colour] = HALL["wall"]  # top, foot
+    light: Colour = HALL["light"]
+    crowd: tuple[Colour, ...] = HALL["crowd"]
+    padding: Colour = HALL["padding"]
 
     def draw(self, surface: pygame.Surface, foot: int, moved: float) -> None:
         size = surface.get_size()

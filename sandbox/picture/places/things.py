@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from math import dist
 from typing import Protocol
 
@@ -14,7 +14,7 @@ from sandbox.picture.figures import STANDING, Stroke, draw_figure
 from sandbox.picture.painter import Painter
 from sandbox.picture.palette import Colour, palette
 
-SHADOW = palette("card")["shadow"]
+PERSON, SHADOW = palette("person"), palette("card")["shadow"]
 
 #: The least that is drawn of a net's mesh and of a post's width, px on 720 rows.
 LEAST_MESH, LEAST_POST = 4.0, 1.8
@@ -90,7 +90,7 @@ class Person:
 
     x: float
     tall: float
-    colours: Mapping[str, Colour]
+    colours: Mapping[str, Colour] = field(default_factory=PERSON.copy)
     pose: Sequence[Stroke] = STANDING
     z: float = 0.0
     up: float = 0.0
