@@ -21,12 +21,9 @@ pixels, this comparison 44), and it takes 0.8 s for 640x360.
 
 from __future__ import annotations
 
-import hashlib
 import io
 import json
 import os
-import shutil
-import tempfile
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from math import isfinite
@@ -62,6 +59,8 @@ SIZE = (480, 270)
 MOST_CHANGES = 5
 
 NEW = "new"
+#: Kinds of notes in the report of a test.
+WRITTEN, CHECKED = "golden file written", "golden name"
 HOW_TO_ACCEPT = "if the change is intended: pytest --golden-update"
 FOLDER = "golden"
 REPORT = Path("out", "golden")
@@ -146,11 +145,9 @@ def side_by_side(expected: Image.Image, actual: Image.Image) -> Image.Image:
 class Golden:
     """The fixture: compares runs and pictures with the golden ones of one test."""
 
-    def __init__(
-        self, folder: Path, report: Path, update: bool, note: Callable[[str], None], claim: Callable[[Path], str | None]
-    ):
-        """``claim`` reserves a golden file for this test; it returns the test that already has it, or None."""
-        self.folder, self.report, self.update, self.note, self.claim = folder, report, update, note, claim
+    def __init__(self, folder: Path, report: Path, update: bool, note: Callable[[str, str], None]):
+        """``note`` adds a line of a kind to the test's report: WRITTEN or CHECKED."""
+        self.folder, self.report, self.update, self.note = folder, report, update, note
         self.checked: set[str] = set()
 
     def check(self, name: str, subject: Any, until: float | None = None) -> None:
@@ -161,9 +158,7 @@ class Golden:
         """
         if until is not None and not (isfinite(until) and until > 0.0):
             _fail(f"{name}: until = {until}: must be a time greater than 0 s")
-        other = self.claim(self.folder / name)
-        if other is not None:
-            _fail(f"{name} is also the golden name of {other}: each test needs its own name")
+        self.note(CHECKED, str(self.folder / name))
         update = self.update and name not in self.checked  # a second check in one test must match the first
         self.checked.add(name)
         run = subject if hasattr(subject, "setup") else None
@@ -210,7 +205,7 @@ class Golden:
     def _write(self, path: Path, data: bytes, change: str) -> None:
         path.parent.mkdir(parents=True, exist_ok=True)
         _save(path, data)
-        self.note(f"{path}: {change}")
+        self.note(WRITTEN, f"{path}: {change}")
 
     def _shown(self, name: str, expected: Image.Image, actual: Image.Image, drawing: str | None) -> Iterator[str]:
         if drawing is not None:
@@ -376,65 +371,49 @@ def pytest_configure(config: pytest.Config) -> None:
         raise pytest.UsageError("--golden-update: golden files are never written on CI, and the variable CI is set")
 
 
-@pytest.hookimpl(optionalhook=True)
-def pytest_configure_node(node: Any) -> None:
-    """Give each process of pytest-xdist the folder in which all tests claim their golden files."""
-    node.workerinput["golden_claims"] = str(_claims_folder(node.config))
-
-
-def pytest_unconfigure(config: pytest.Config) -> None:
-    folder = config.stash.get(_CLAIMS, None)
-    if folder is not None and not hasattr(config, "workerinput"):
-        shutil.rmtree(folder, ignore_errors=True)
-
-
-#: A folder with a file for each golden name, which holds the test that uses it.
-_CLAIMS = pytest.StashKey[Path]()
-
-
-def _claims_folder(config: pytest.Config) -> Path:
-    """The folder in which the tests of all processes claim golden names; made on first use."""
-    if _CLAIMS not in config.stash:
-        given = getattr(config, "workerinput", {}).get("golden_claims")
-        config.stash[_CLAIMS] = Path(given or tempfile.mkdtemp(prefix="golden-"))
-    return config.stash[_CLAIMS]
-
-
-def _claimed(folder: Path, path: Path, test: str) -> str | None:
-    """Claim a golden file for a test; returns the test that has already claimed it, or None."""
-    claim = folder / hashlib.sha256(str(path).encode()).hexdigest()
-    own = folder / f"{claim.name}.{os.getpid()}"
-    own.write_text(test, "utf-8")
-    try:
-        claim.hardlink_to(own)  # atomic, and only if there is none
-    except FileExistsError:
-        other = claim.read_text("utf-8")
-        return None if other == test else other
-    finally:
-        own.unlink()
-    return None
-
-
 @pytest.fixture
 def golden(request: pytest.FixtureRequest) -> Golden:
     """Compares runs and pictures with golden ones: ``golden.check("name", run)``."""
 
-    def note(line: str) -> None:
+    def note(kind: str, line: str) -> None:
         # Part of the test's report, which pytest-xdist sends back from its processes.
-        request.node.user_properties.append(("golden", line))
-
-    def claim(path: Path) -> str | None:
-        return _claimed(_claims_folder(request.config), path, request.node.nodeid)
+        request.node.user_properties.append((kind, line))
 
     config = request.config
     folder = _folder_for(request.path, config.rootpath)
-    return Golden(folder, config.rootpath / REPORT, bool(config.getoption("--golden-update")), note, claim)
+    return Golden(folder, config.rootpath / REPORT, bool(config.getoption("--golden-update")), note)
 
 
-def pytest_terminal_summary(terminalreporter: Any) -> None:
-    reports = [report for kind in ("passed", "failed") for report in terminalreporter.stats.get(kind, [])]
-    lines = sorted({line for r in reports for key, line in getattr(r, "user_properties", ()) if key == "golden"})
-    if lines:
-        terminalreporter.section("golden files written: look at them")
-        for line in lines:
-            terminalreporter.line(line)
+def _noted(config: pytest.Config, kind: str) -> dict[str, set[str]]:
+    """What the tests of all processes have noted, with their names."""
+    terminal = config.pluginmanager.get_plugin("terminalreporter")
+    lines: dict[str, set[str]] = {}
+    for outcome in ("passed", "failed"):
+        for report in terminal.stats.get(outcome, []) if terminal is not None else []:
+            for key, line in getattr(report, "user_properties", ()):
+                if key == kind:
+                    lines.setdefault(line, set()).add(report.nodeid)
+    return lines
+
+
+def _used_twice(config: pytest.Config) -> list[str]:
+    return [
+        f"{Path(line).name} is the golden name of {' and '.join(sorted(tests))}: each test needs its own name"
+        for line, tests in _noted(config, CHECKED).items()
+        if len(tests) > 1
+    ]
+
+
+def pytest_sessionfinish(session: pytest.Session) -> None:
+    if _used_twice(session.config):
+        session.exitstatus = pytest.ExitCode.TESTS_FAILED
+
+
+def pytest_terminal_summary(terminalreporter: Any, config: pytest.Config) -> None:
+    for title, lines in (
+        ("golden files written: look at them", sorted(_noted(config, WRITTEN))),
+        ("golden names used twice", _used_twice(config)),
+    ):
+        if lines:
+            terminalreporter.section(title)
+            terminalreporter.write("".join(f"{line}\n" for line in lines))
