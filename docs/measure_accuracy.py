@@ -178,9 +178,8 @@ def _share(share: float | None) -> str:
 def parts(found: dict[str, Trade]) -> list[str]:
     lines: list[str] = []
     for name in DEFAULTS:
-        rows = [row.cells() for row in found[name].ablation]
         after = f"after {found[name].reference.time:.3g} s"
-        body = [[part, change, first, end, what] for part, change, first, end, _, what in rows]
+        body = [[*row.cells()[:4], row.effect] for row in found[name].ablation]
         lines += [f"`{name}`", "", *markdown(["part", "", "first touch", after, "result"], body, left=2), ""]
     return lines[:-1]
 
@@ -202,17 +201,17 @@ def published(rows: list[Compared]) -> list[str]:
     def row(name: str, own: list[Compared]) -> list[str]:
         return [name, str(len(own)), str(sum(compared.holds for compared in own))]
 
-    exact: Callable[[Compared], bool] = lambda compared: compared.case.source.startswith("exact")  # noqa: E731
+    exact: Callable[[Compared], bool] = lambda compared: compared.source.startswith("exact")  # noqa: E731
     groups = {"exact cases": [compared for compared in rows if exact(compared)]}
     for compared in rows:
         if not exact(compared):
-            groups.setdefault(compared.case.source, []).append(compared)
+            groups.setdefault(compared.source, []).append(compared)
     return markdown(["source", "numbers", "hold"], [row(name, own) for name, own in groups.items()])
 
 
 def not_held(rows: list[Compared]) -> list[str]:
     own = [compared for compared in rows if not compared.holds]
-    body = [[*cells(compared)[:6], compared.case.reason] for compared in own]
+    body = [[*cells(compared)[:6], compared.reason] for compared in own]
     return markdown(["case", "result", "published", "computed", "difference", "tolerance", "why"], body, left=2)
 
 

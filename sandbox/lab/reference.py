@@ -15,7 +15,6 @@ from sandbox.engine.accuracy import LEVELS, SKIN, Accuracy
 from sandbox.engine.run import Run
 from sandbox.engine.setup import Ball, Setup
 from sandbox.errors import RequestError
-from sandbox.physics.forces import Gravity
 from sandbox.scene import Scene
 
 #: A thousand times finer than the finest level.
@@ -56,7 +55,6 @@ class Reference:
     growth: float  # of a nudge until ``time``, in m per unit
     diverges_at: float | None  # s, when a nudge of 1e-9, or the method's own error, has grown to 1 mm; None if never
     closed_form: bool  # whether the motion has a closed form, so that only contacts are computed
-    exact_error: float | None  # m, compared with the parabola, if only gravity acts before the first contact
 
     def setup(self) -> Setup:
         """A new setup of the scene, ending at ``time``."""
@@ -101,7 +99,6 @@ def converge(scene: Scene) -> Reference:
         growth,
         diverges_at,
         setup.cloth is not None,
-        _exact_error(setup, first, time),
     )
 
 
@@ -159,15 +156,3 @@ def _size(run: Run, time: float) -> float:
             x, y = run.state(ball.name, min(arc.t1, time))[:2]
             farthest = max(farthest, hypot(x - x0, y - y0))
     return farthest
-
-
-def _exact_error(setup: Setup, run: Run, time: float) -> float | None:
-    """Distance in m of a single ball under gravity alone from its parabola at the first contact."""
-    ball = setup.balls[0]
-    if len(setup.balls) > 1 or setup.cloth is not None or not all(isinstance(f, Gravity) for f in ball.forces):
-        return None
-    t = min([time, *(event.t for event in run.events)])
-    fy = sum(force(0.0, ball.position, ball.velocity, ball.spin)[1] for force in ball.forces)
-    x0, y0 = run.state(ball.name, 0.0)[:2]
-    parabola = x0 + t * ball.velocity[0], y0 + t * ball.velocity[1] + 0.5 * t * t * fy / ball.mass
-    return apart([parabola], places(run, [ball.name], t))

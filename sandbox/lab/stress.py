@@ -43,8 +43,8 @@ ENDLESS = 20.0
 #: Step in s of the integrators without error control, and of the plain method, unless the extreme sets it.
 _STEP, _PLAIN_STEP = 1 / 60, 1 / 240
 
-#: Most samples on each arc, approximate samples of a whole path, and times at which pairs of balls are checked.
-_SAMPLES, _ALL_SAMPLES, _LOOKS = 6, 6_000, 300
+#: Samples of a path in addition to the ends of its arcs, and times at which pairs of balls are checked.
+_SAMPLES, _LOOKS = 300, 300
 
 #: Most balls for which pairs are checked along the whole path.
 _MOST_PAIRED = 40
@@ -169,26 +169,12 @@ def _overlap(run: Run) -> tuple[float, str]:
     """The deepest overlap in m of any ball with anything, and what a ball passed through, if anything."""
     deepest, through = 0.0, ""
     for ball in run.setup.balls:
-        path = _path(run, ball.name)
+        path = run.trajectory(ball.name, max(run.duration, 1e-9) / _SAMPLES, ends=True)[:, 1:3]
         for surface in run.setup.surfaces:
             deepest = max(deepest, ball.radius - float(_clearance(path, surface).min()))
             if not through and _crosses(path, surface):
                 through = surface.name
     return max(deepest, _overlap_of_balls(run)), through
-
-
-def _path(run: Run, ball: str) -> np.ndarray:
-    """Positions of a ball along its path, shape (n, 2), in m."""
-    import numpy as np
-
-    places = []
-    most = max(1, min(_SAMPLES, _ALL_SAMPLES // len(run.arcs[ball])))
-    for arc in run.arcs[ball]:
-        samples = most if len(arc.x) > 2 else 1
-        span = arc.t1 - arc.t0
-        places += [arc.position(arc.t0 + span * k / samples) for k in range(samples)]
-    last = run.arcs[ball][-1]
-    return np.array([*places, last.position(last.t1)])
 
 
 def _clearance(path: np.ndarray, surface: Surface) -> np.ndarray:

@@ -177,7 +177,6 @@ def as_dict(found: Trade) -> dict[str, Any]:
             "time_s": reference.time,
             "points_m": reference.points,
             "error_m": reference.error,
-            "exact_error_m": reference.exact_error,
             "growth": reference.growth,
             "diverges_at_s": reference.diverges_at,
         },
@@ -231,7 +230,6 @@ def _about(reference: Reference) -> list[str]:
     many = "every ball" if len(reference.points) > 1 else "the ball"
     measure = "the scene's own" if scene.measure is not None else f"position of {many} after {reference.time:.4g} s"
     how = "contacts are computed, the rest is in closed form" if closed else "checked with another integrator"
-    exact = f"the reference is off the parabola by {length(reference.exact_error)} at first contact"
     growth = f"a nudge at the start grows {significant(reference.growth)} times until then"
     if chaotic is not None:
         growth = f"chaotic: a nudge of 1e-9 has grown to 1 mm after {chaotic:.4g} s"
@@ -239,7 +237,6 @@ def _about(reference: Reference) -> list[str]:
         scene.title,
         f"  measure    {measure}",
         f"  reference  error {length(reference.error)}, {how}",
-        *([] if reference.exact_error is None else [f"  exact      {exact}"]),
         f"  growth     {growth}",
     ]
 

@@ -17,9 +17,10 @@ from typing import Any
 
 from sandbox import units
 from sandbox.errors import RequestError
-from sandbox.lab.tables import paragraph, significant, table
+from sandbox.lab.tables import paragraph, table
 from sandbox.parameters import parse_assignment
 from sandbox.scene import load, parameters_of, simulate
+from sandbox.sport.amounts import significant
 
 PUBLISHED = Path(__file__).resolve().parent / "published"
 
@@ -43,10 +44,9 @@ class Case:
 
 
 @dataclass(frozen=True)
-class Compared:
+class Compared(Case):
     """A case and the number computed here, in the case's unit."""
 
-    case: Case
     computed: Any
     difference: float | None  # None for words
     holds: bool
@@ -120,16 +120,16 @@ def _inside(result: Any, key: str) -> Any:
 
 
 def _compare(case: Case, computed: Any) -> Compared:
+    difference, holds = None, False
     if case.tolerance is None:
-        word = str(computed).lower() if isinstance(computed, bool) else str(computed)
-        return Compared(case, word, None, word == case.value)
-    if computed is None:
-        return Compared(case, None, None, False)
-    kind = units.KIND_OF[case.unit]
-    own = _OWN_UNITS.get(kind, next(iter(units.KINDS[kind])))
-    number = units.convert(float(computed), own, case.unit)
-    difference = number - float(case.value)
-    return Compared(case, number, difference, math.isfinite(difference) and abs(difference) <= case.tolerance)
+        computed = str(computed).lower() if isinstance(computed, bool) else str(computed)
+        holds = computed == case.value
+    elif computed is not None:
+        kind = units.KIND_OF[case.unit]
+        computed = units.convert(float(computed), _OWN_UNITS.get(kind, next(iter(units.KINDS[kind]))), case.unit)
+        difference = computed - float(case.value)
+        holds = abs(difference) <= case.tolerance  # not where it is NaN
+    return Compared(**vars(case), computed=computed, difference=difference, holds=holds)
 
 
 # ------------------------------------------------------------------------------------------------------------- report
@@ -137,54 +137,42 @@ def _compare(case: Case, computed: Any) -> Compared:
 
 def as_dicts(rows: Sequence[Compared]) -> list[dict[str, Any]]:
     """For JSON."""
-    return [
-        {**asdict(row.case), "computed": row.computed, "difference": row.difference, "holds": row.holds} for row in rows
-    ]
+    return [asdict(row) for row in rows]
 
 
 def as_text(rows: Sequence[Compared]) -> list[str]:
     """A table for each source."""
-    lines: list[str] = []
-    for scene, source in dict.fromkeys((row.case.scene.partition("/")[0], row.case.source) for row in rows):
-        own = [row for row in rows if (row.case.scene.partition("/")[0], row.case.source) == (scene, source)]
-        lines += paragraph(f"{scene}: {source}", "")
-        headings = ("case", "result", "published", "computed", "off by", "allowed", "")
-        lines += [*table(headings, [cells(row) for row in own], "llrrrrl"), *_reasons(own), ""]
-    held = sum(row.holds for row in rows)
-    return [*lines, f"{held} of {len(rows)} hold"]
+    tables: dict[str, list[Compared]] = {}
+    for row in rows:
+        tables.setdefault(f"{row.scene.partition('/')[0]}: {row.source}", []).append(row)
+    headings = ("case", "result", "published", "computed", "off by", "allowed", "")
+    lines = []
+    for title, own in tables.items():
+        lines += [*paragraph(title, ""), *table(headings, [cells(row) for row in own], "llrrrrl")]
+        for row in own:
+            if not row.holds:
+                case, result, *_ = cells(row)
+                lines += paragraph(f"{case}, {result}, does not hold: {row.reason or 'no reason known'}")
+        lines.append("")
+    return [*lines, f"{sum(row.holds for row in rows)} of {len(rows)} hold"]
 
 
 def cells(row: Compared) -> tuple[str, ...]:
     """A row of the table."""
-    case = row.case
+    about = f"{row.scene.partition('/')[2]} {row.name}".strip(), row.result.replace("_", " ")
     verdict = "holds" if row.holds else "does not"
-    result = case.result.replace("_", " ")
     if row.difference is None:
-        return _name(case), result, case.value, str(row.computed), "", "", verdict
-    digits = _digits(case)
-    published = f"{float(case.value):.{digits}f}" if len(case.value.partition(".")[2]) > digits else case.value
+        return *about, row.value, str(row.computed), "", "", verdict
+    digits = _digits(row)
+    published = f"{float(row.value):.{digits}f}" if len(row.value.partition(".")[2]) > digits else row.value
     return (
-        _name(case),
-        result,
-        f"{published} {case.unit}".strip(),
+        *about,
+        f"{published} {row.unit}".strip(),
         f"{row.computed:.{digits}f}",
         ("-" if row.difference < 0.0 else "+") + significant(abs(row.difference)),
-        significant(case.tolerance or 0.0),
+        significant(row.tolerance or 0.0),
         verdict,
     )
-
-
-def _name(case: Case) -> str:
-    """Name of a case as shown."""
-    return f"{case.scene.partition('/')[2]} {case.name}".strip()
-
-
-def _reasons(rows: Sequence[Compared]) -> Iterator[str]:
-    """Reasons for numbers that do not match, below their table."""
-    for row in rows:
-        if not row.holds:
-            result = row.case.result.replace("_", " ")
-            yield from paragraph(f"{_name(row.case)}, {result}, does not hold: {row.case.reason or 'no reason known'}")
 
 
 def _digits(case: Case) -> int:
