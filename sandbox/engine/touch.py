@@ -231,12 +231,13 @@ def _first_within(xs: Sequence[float], ys: Sequence[float], center: Point, radiu
     dy = [y - cy for y in ys]
     if min(dx) > radius or max(dx) < -radius or min(dy) > radius or max(dy) < -radius:
         return None
-    # all control points are beyond a tangent of the circle: no touch
-    middle = len(dx) // 2
-    mx, my = dx[middle], dy[middle]
-    length = sqrt(mx * mx + my * my)
-    if length > radius and min([x * mx + y * my for x, y in zip(dx, dy, strict=True)]) > radius * length:
-        return None
+    # all control points are beyond a tangent of the circle, towards the path's middle or square to it: no touch
+    middle, ex, ey = len(dx) // 2, dx[-1] - dx[0], dy[-1] - dy[0]
+    if dx[0] * ey < dy[0] * ex:
+        ex, ey = -ex, -ey
+    for mx, my in ((dx[middle], dy[middle]), (ey, -ex)):
+        if min([x * mx + y * my for x, y in zip(dx, dy, strict=True)]) > radius * sqrt(mx * mx + my * my):
+            return None
     gap = [(p + q - radius * radius) / (2.0 * radius) for p, q in zip(product(dx, dx), product(dy, dy), strict=True)]
     return next(iter(_closings(gap, True)), None)
 
