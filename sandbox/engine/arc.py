@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from math import hypot
 from typing import Any
 
 from sandbox.engine.bernstein import evaluate, until
@@ -37,6 +38,7 @@ class Arc:
     rolling_spin: tuple[Sequence[float], ...] = ()
     end: State | None = None  # the state at t1, if known without evaluation
     _box: tuple[float, float, float, float] | None = None
+    _fastest: float | None = None
 
     def state(self, t: float) -> State:
         """Position, velocity and spin at time t in [t0, t1]."""
@@ -68,6 +70,12 @@ class Arc:
         if self._box is None:
             self._box = min(self.x), min(self.y), max(self.x), max(self.y)
         return self._box
+
+    def fastest(self) -> float:
+        """A speed in m/s that the ball does not exceed."""
+        if self._fastest is None:
+            self._fastest = hypot(max(map(abs, self.vx)), max(map(abs, self.vy)))
+        return self._fastest
 
     def until(self, t: float) -> Arc:
         """The same path, ending at t."""

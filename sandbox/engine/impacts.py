@@ -48,6 +48,7 @@ class Impacts:
         self._tracks = tracks
         self._numerics = numerics
         self._lanes = Lanes()
+        self.gap = TOUCHING_GAP  # m, up to which shapes touch; wider in a heap
         self._slowest_hop = slowest_hop  # m/s, minimum speed at which balls on cloth separate
         # Walls softer than balls push back after the balls have separated.
         model = setup.contact
@@ -59,10 +60,10 @@ class Impacts:
         """The states after the impact of balls that touch, directly or through others, and the hits.
 
         Balls and hard walls exchange impulses at once; soft walls push back afterwards, one after another, and so on
-        until nothing closes. If that takes too many turns, all exchange impulses at once instead.
+        until nothing closes. If that takes too many turns, or in a heap, all exchange impulses at once instead.
         """
         start, hits = states, list[Hit]()
-        last = _TURNS if self._some_soft else 0
+        last = _TURNS if self._some_soft and self.gap == TOUCHING_GAP else 0
         for turn in range(last + 1):
             if turn in (0, last):
                 states, hits = dict(start), []
@@ -100,7 +101,7 @@ class Impacts:
             for other, neighbour in enumerate(self._tracks):
                 if other in states or neighbour.caught:
                     continue
-                reach = track.ball.radius + neighbour.ball.radius + TOUCHING_GAP
+                reach = track.ball.radius + neighbour.ball.radius + self.gap
                 x, y = neighbour.arc.position(t)
                 if (x - state[0]) ** 2 + (y - state[1]) ** 2 <= reach * reach:
                     waiting.append(other)
@@ -112,7 +113,7 @@ class Impacts:
         """The contacts with hard or soft walls, or both, each from the states when it is asked for."""
         for index in states:
             ball, met = self._tracks[index].ball, list[Vector]()
-            for obstacle, touching in self._tracks[index].near(*states[index][:2]):
+            for obstacle, touching in self._tracks[index].near(*states[index][:2], self.gap):
                 surface, nx, ny = obstacle.surface, touching.nx, touching.ny
                 if (self._all_soft or surface.nose_height is not None) not in softness:
                     continue
@@ -133,7 +134,7 @@ class Impacts:
             a, b = self._tracks[i].ball, self._tracks[j].ball
             dx, dy = states[i][0] - states[j][0], states[i][1] - states[j][1]
             distance = (dx**2 + dy**2) ** 0.5
-            if distance <= a.radius + b.radius + TOUCHING_GAP:
+            if distance <= a.radius + b.radius + self.gap:
                 nx, ny = dx / distance, dy / distance
                 speeds = speeds_where_touching([a, b], [states[i], states[j]], nx, ny)
                 bounce = bounce_of_balls(self._setup, speeds[0], hypot(*speeds[1:]), a.name, b.name)

@@ -12,6 +12,7 @@ from itertools import pairwise
 
 from sandbox.engine.acting import acceleration, by_cause
 from sandbox.engine.arc import Arc
+from sandbox.engine.heap import Heaped
 from sandbox.engine.lasting import LastingContact
 from sandbox.engine.run import Run
 from sandbox.engine.setup import Ball, kinetic
@@ -35,7 +36,9 @@ class Ledger:
     end: float
     work: dict[str, float]  # by force or torque
     impacts: dict[str, float]  # by the partner; an impact of two balls under both names
-    contacts: dict[str, float]  # by the surface slid or rolled on, including bounces too low to simulate
+    #: By the surface slid or rolled on, including bounces too low to simulate; "heap", where balls press on one another,
+    #: and "position correction", what their separation in a heap adds.
+    contacts: dict[str, float]
     residue: float  # kinetic energy gained along the path that no cause accounts for: the numerical error
 
 
@@ -57,6 +60,10 @@ def ledger(run: Run) -> Ledger:
                 continue
             if run.setup.cloth is not None:
                 contacts["cloth"] += gain
+            elif isinstance(arc.contact, Heaped):
+                lifted = -_work_of_forces(ball, arc, arc.contact)
+                contacts["position correction"] += lifted
+                contacts["heap"] += gain - lifted - _book(ball, arc, work, contacts)
             else:
                 residue += gain - _book(ball, arc, work, contacts)
         for before, after in pairwise(arcs):
@@ -65,6 +72,8 @@ def ledger(run: Run) -> Ledger:
             lasting = after.contact or before.contact
             if hit is not None:
                 impacts[hit] += jump
+            elif isinstance(lasting, Heaped):
+                contacts["heap"] += jump
             elif isinstance(lasting, LastingContact):
                 contacts[lasting.obstacle.surface.name] += jump
             else:
@@ -103,6 +112,12 @@ class _Impacts:
         if own is None:
             return None
         return " and ".join(sorted((own.ball, own.partner))) if own.partner in self._balls else own.partner
+
+
+def _work_of_forces(ball: Ball, arc: Arc, moved: Heaped) -> float:
+    """The work in J of the forces on a ball while position correction moves it."""
+    forces = [force for _, force in by_cause(ball.forces, arc.t0, arc.start)]
+    return sum(fx * moved.dx + fy * moved.dy for fx, fy in forces)
 
 
 def _book(ball: Ball, arc: Arc, work: dict[str, float], contacts: dict[str, float]) -> float:

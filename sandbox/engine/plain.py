@@ -131,7 +131,7 @@ class PlainSimulation:
         self._surfaces: dict[Any, Surface] = {}
         self._tracked: dict[Any, _Tracked] = {}
         for surface in setup.surfaces:
-            shape = _fixed(self._space.static_body, surface)
+            shape = fixed(self._space.static_body, surface)
             self._surfaces[shape] = surface
             self._space.add(shape)
         for ball in setup.balls:
@@ -369,7 +369,8 @@ class PlainSimulation:
         )
 
 
-def _fixed(body: pymunk.Body, surface: Surface) -> pymunk.Shape:
+def fixed(body: pymunk.Body, surface: Surface) -> pymunk.Shape:
+    """A surface as a shape of pymunk's."""
     shape = surface.shape
     fixed: pymunk.Shape
     if isinstance(shape, Circle):

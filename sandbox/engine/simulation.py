@@ -7,7 +7,7 @@ two balls. Only the balls it changes get a new arc and new predictions.
 from __future__ import annotations
 
 import heapq
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from itertools import count
 from time import perf_counter
 from typing import TYPE_CHECKING
@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 from sandbox.engine.accuracy import Accuracy
 from sandbox.engine.arc import Arc, still
 from sandbox.engine.event import Event
+from sandbox.engine.heap import Heap, Heaped
 from sandbox.engine.impacts import Impacts
 from sandbox.engine.in_plane import Diverged, InPlane
 from sandbox.engine.lasting import RESTING, LastingContact
@@ -22,7 +23,7 @@ from sandbox.engine.on_cloth import OnCloth, slowest_hop
 from sandbox.engine.run import Numerics, Run
 from sandbox.engine.setup import Circle, Setup, Surface, Until
 from sandbox.engine.start import starts
-from sandbox.engine.touch import Obstacle, balls_touch
+from sandbox.engine.touch import TOUCHING_GAP, Obstacle, balls_touch
 from sandbox.engine.track import Track
 from sandbox.errors import RunError
 from sandbox.physics.integrators import State
@@ -69,9 +70,13 @@ class Simulation:
         slowest = 0.0 if setup.cloth is None else slowest_hop(setup.cloth, accuracy.hop)
         self._impacts = Impacts(setup, self._tracks, self._numerics, slowest)
         self._pressed: Pressed | None = None
+        self._heap: Heap | None = None
         if len(setup.balls) > 1:
             # here, not above: it brings numpy, which a run of one ball does not need
             from sandbox.engine.pressed import Pressed
+
+            if setup.cloth is None:
+                self._heap = Heap(setup, self._tracks, accuracy, self._numerics)
 
             self._pressed = Pressed(setup, self._tracks, accuracy.contact_step)
 
@@ -158,8 +163,10 @@ class Simulation:
                 self._collide(t, [i] if j < 0 else [i, j])
             elif kind == "catch":
                 self._catch(t, i)
-            elif kind == "" and track.arc.t1 >= duration:
+            elif kind in ("", "heap") and track.arc.t1 >= duration:
                 return duration, "duration"
+            elif kind == "heap":
+                self._press_on(t, ())
             else:
                 self._end_arc(t, i, kind)
         return t, "until" if self._over else "rest"
@@ -187,8 +194,12 @@ class Simulation:
 
     def _collide(self, t: float, seeds: Sequence[int]) -> None:
         """Everything that touches at this instant exchanges impulses at once, or is simulated through the contact."""
+        if self._heap is not None:
+            self._impacts.gap = self._heap.margin if self._heap.members else TOUCHING_GAP
         touching = self._impacts.touching(t, seeds)
-        parted = self._pressed.through(t, touching) if self._pressed is not None and len(touching) > 1 else None
+        parted = None
+        if self._pressed is not None and len(touching) > 1 and not (self._heap and self._heap.members):
+            parted = self._pressed.through(t, touching)
         if parted is not None:
             self._part(t, touching, parted)
             return
@@ -205,7 +216,34 @@ class Simulation:
             self._note(Event(t, "impact", self._tracks[hit.ball].ball.name, hit.partner, hit.speed, x, y))
         for index, state in states.items():
             self._tracks[index].state = state
+        held: Collection[int] = ()
+        if self._heap is not None and self._heap.presses(t, states):
+            held = self._press_on(t, states.keys())
+        for index in states:
+            if index not in held:
+                self._resume(index, t)
+
+    def _press_on(self, t: float, joining: Collection[int]) -> Collection[int]:
+        """Step the heap from t, with these balls if they press on others. Returns the balls in it."""
+        assert self._heap is not None
+        members = set(self._heap.members)
+        for index in members - set(joining):
+            track = self._tracks[index]
+            track.keep(t)
+            track.state = track.arc.state(t)
+        states = {index: self._tracks[index].state for index in sorted(members.union(joining))}
+        stepped = self._heap.step(t, self._setup.duration, states)
+        for index, step in stepped.items():
+            self._tracks[index].version += 1
+            self._tracks[index].arc = step.arc
+        done: set[object] = set()
+        for index, step in stepped.items():
+            self._note_rest(self._tracks[index], t)
+            self._predict(index, t, "heap", done.union(step.touching))
+            done.add(index)
+        for index in members - set(joining) - stepped.keys():
             self._resume(index, t)
+        return stepped.keys()
 
     def _part(self, t: float, touching: dict[int, State], parted: Parted) -> None:
         """Apply the outcome of a contact that lasts from t until the balls separate."""
@@ -217,7 +255,8 @@ class Simulation:
             self._faint = 0
             ball = self._tracks[hit.ball]
             self._note(Event(hit.t, "impact", ball.ball.name, hit.partner, hit.speed, *ball.arc.position(t)))
-        for index in touching.keys() - parted.states.keys():
+        held = () if self._heap is None else self._heap.members
+        for index in touching.keys() - parted.states.keys() - set(held):
             self._tracks[index].state = touching[index]
             self._resume(index, t)
         for index, state in parted.states.items():
@@ -266,7 +305,8 @@ class Simulation:
             self._note(Event(t, "contact", track.ball.name, now, 0.0, x, y))
 
     def _note_rest(self, track: Track, t: float) -> None:
-        rested, track.at_rest = track.at_rest, track.rests()
+        heaped = isinstance(track.arc.contact, Heaped)
+        rested, track.at_rest = track.at_rest, len(track.arc.x) == 1 if heaped else track.rests()
         if track.at_rest and not rested and (t > 0.0 or track.contact is not None):
             on = "" if track.contact is None else track.contact.obstacle.surface.name
             self._note(Event(t, "rest", track.ball.name, on, 0.0, *track.state[:2]))
@@ -281,12 +321,19 @@ class Simulation:
             arc, kind = still(t, t, track.state, track.contact), ""
         track.arc = arc
         self._note_rest(track, t)
-        at, own = arc.t1, None if track.contact is None else track.contact.obstacle
+        self._predict(index, t, kind, () if track.contact is None else (track.contact.obstacle,))
+
+    def _predict(self, index: int, t: float, kind: str, touching: Collection[object]) -> None:
+        """Predict the first event on a ball's new arc, which ends for the reason ``kind``; it does not meet what it is
+        ``touching``: obstacles, and balls by index."""
+        track = self._tracks[index]
+        arc = track.arc
+        at = arc.t1
         left, bottom, right, top = arc.box()
         for obstacles, what in ((track.obstacles, "touch"), (track.catches, "catch")):
             for obstacle in obstacles:
                 west, south, east, north = obstacle.box
-                if left > east or right < west or bottom > north or top < south or obstacle is own:
+                if left > east or right < west or bottom > north or top < south or obstacle in touching:
                     continue
                 self._numerics.queries += 1
                 u = obstacle.first_touch(arc)
@@ -294,11 +341,14 @@ class Simulation:
                     at, kind = touch, what
         self._push(at, kind, index)
         for other, neighbour in enumerate(self._tracks):
-            if other == index or neighbour.caught:
+            if other == index or neighbour.caught or other in touching:
                 continue
             reach = track.ball.radius + neighbour.ball.radius
             a, b, c, d = neighbour.arc.box()
             if left <= c + reach and right >= a - reach and bottom <= d + reach and top >= b - reach:
+                dx, dy = max(0.0, left - c, a - right), max(0.0, bottom - d, b - top)
+                if dx * dx + dy * dy > reach * reach:
+                    continue
                 self._numerics.queries += 1
                 pair_at = balls_touch(arc, neighbour.arc, reach, max(t, neighbour.arc.t0), self._accuracy.skin)
                 if pair_at is not None and pair_at <= at:

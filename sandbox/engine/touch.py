@@ -265,6 +265,10 @@ def balls_touch(first: Arc, second: Arc, reach: float, t: float, skin: float = S
     until = min(first.t1, second.t1)
     if until <= t:
         return None
+    (ax, ay), (bx, by) = first.position(t), second.position(t)
+    apart = sqrt((ax - bx) * (ax - bx) + (ay - by) * (ay - by)) - reach
+    if apart > (until - t) * (first.fastest() + second.fastest()):
+        return None
     xs, ys = _between(first, t, until)
     us, vs = _between(second, t, until)
     degree = max(len(xs), len(us)) - 1
@@ -275,6 +279,8 @@ def balls_touch(first: Arc, second: Arc, reach: float, t: float, skin: float = S
 
 
 def _between(arc: Arc, t: float, until: float) -> tuple[Sequence[float], Sequence[float]]:
+    if t <= arc.t0 and until >= arc.t1:
+        return arc.x, arc.y
     h = arc.t1 - arc.t0
     u0 = max(0.0, (t - arc.t0) / h)
     u1 = min(1.0, (until - arc.t0) / h)

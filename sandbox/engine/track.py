@@ -79,8 +79,8 @@ class Track:
         ):
             self.path.append(last)
 
-    def near(self, x: float, y: float) -> list[Near]:
-        """The surfaces that the ball touches at (x, y), each at its nearest feature."""
-        point = (x, y, x, y)
+    def near(self, x: float, y: float, gap: float = TOUCHING_GAP) -> list[Near]:
+        """The surfaces that the ball touches at (x, y), up to a ``gap`` in m, each at its nearest feature."""
+        point = (x - gap, y - gap, x + gap, y + gap)
         found = [(obstacle, obstacle.near(x, y)) for obstacle in self.obstacles if obstacle.may_meet(point)]
-        return [(obstacle, touching) for obstacle, touching in found if touching.gap <= TOUCHING_GAP]
+        return [(obstacle, touching) for obstacle, touching in found if touching.gap <= gap]

@@ -1,0 +1,304 @@
+"""Balls that press on one another: a heap, stepped by pymunk until its balls part or rest.
+
+Between balls that lie on one another impacts never end: each is weaker than the one before. A bounce that lasts no
+longer than ``accuracy.step`` is lasting contact, and the balls are stepped together in a Space of real shapes. In each
+step Chipmunk finds the impulses, starting from those of the step before, that keep apart what touches at its start.
+Velocities change at the start of a step, positions move with the mean of the velocities before and after. Everything
+else is exact as ever: what does not touch at the start of a step meets at its exact time, with restitution.
+
+Rolling resistance is a torque on the ball up to ``c N R (1 + k)``, with k the inertia over m R^2: then a ball that rolls
+freely is slowed by c N / m. Left out: restitution between what lies together, and waves through a heap that is struck
+(it is one rigid lump).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Mapping, Sequence
+from collections import defaultdict
+from dataclasses import replace
+from itertools import combinations
+from math import hypot, inf
+from typing import Any, NamedTuple
+
+import pymunk
+
+from sandbox.engine.accuracy import Accuracy
+from sandbox.engine.acting import checked
+from sandbox.engine.arc import Arc, still
+from sandbox.engine.plain import fixed
+from sandbox.engine.run import Numerics
+from sandbox.engine.setup import Ball, Setup
+from sandbox.engine.surfaces import bounce_of_balls
+from sandbox.engine.touch import Obstacle
+from sandbox.engine.track import Track
+from sandbox.physics.integrators import Acceleration, State
+
+#: Gap, as a fraction of the smallest radius, up to which shapes are in contact in a heap.
+_MARGIN = 4e-5
+
+#: Solver iterations. Each step starts from the impulses of the one before.
+_ITERATIONS = 60
+
+#: Steps without pressure after which two balls have parted.
+_PATIENCE = 8
+
+#: Impulse, as a fraction of the largest that forces give a ball in a step, below which it is rounding.
+_PRESSURE = 1e-6
+
+#: Time in s for which all balls of a heap have to be slow before they rest.
+_REST_TIME = 0.25
+
+#: Share of an overlap that is left after a step.
+_LEFT = 0.6
+
+_BALL, _SURFACE = 1, 2
+
+
+class Heaped(NamedTuple):
+    """Value of ``Arc.contact`` for a ball in a heap: how far position correction moves it along the arc, in m."""
+
+    dx: float = 0.0
+    dy: float = 0.0
+
+
+class Stepped(NamedTuple):
+    """A ball in a step of its heap."""
+
+    arc: Arc
+    touching: Collection[object]  # obstacles, and balls by index, from which the heap keeps it
+
+
+class _Member:
+    """A ball of the heap in pymunk's Space."""
+
+    def __init__(self, ball: Ball, space: pymunk.Space, margin: float) -> None:
+        self.ball = ball
+        self.body = pymunk.Body(ball.mass, ball.inertia)
+        self.disc = pymunk.Circle(self.body, ball.radius + margin)
+        self.disc.collision_type = _BALL
+        self.disc.friction = 1.0  # pymunk multiplies it by the surface's
+        self.brake = pymunk.SimpleMotor(self.body, space.static_body, 0.0)  # rolling resistance
+        self.resistance = 0.0  # N m, of this step's pressure: for the next
+        space.add(self.body, self.disc, self.brake)
+
+
+class Heap:
+    """All balls of a run that press on one another, in one heap or in several; they are stepped together."""
+
+    def __init__(self, setup: Setup, tracks: Sequence[Track], accuracy: Accuracy, numerics: Numerics) -> None:
+        self._setup = setup
+        self._tracks = tracks
+        self._longest = accuracy.step
+        self._settle = accuracy.settle
+        self._numerics = numerics
+        self._members: dict[int, _Member] = {}
+        self._of_disc: dict[pymunk.Shape, int] = {}
+        self._pressed: dict[frozenset[int], int] = {}  # the last step in which two balls pressed on each other
+        #: By ball: obstacles, and balls by index, and the last step in which they were in contact.
+        self._touched: dict[int, dict[Obstacle | int, int]] = defaultdict(dict)
+        self._steps = 0
+        self._slow_for = 0.0  # s
+        self._forced = 0.0  # m/s^2, the largest acceleration by forces in this step
+        self._h = 0.0  # s, the length of this step
+        self._raised: BaseException | None = None
+        self.margin = _MARGIN * min(ball.radius for ball in setup.balls)  # m, gap up to which shapes touch
+        self._space = pymunk.Space()
+        self._space.iterations = _ITERATIONS
+        self._space.collision_slop = self.margin
+        self._space.collision_bias = _LEFT ** (1.0 / self._longest)
+        self._surfaces: dict[pymunk.Shape, int] = {}  # index into the surfaces of the setup
+        for place, surface in enumerate(setup.surfaces):
+            wider = replace(surface.shape, radius=surface.shape.radius + 0.5 * self.margin)
+            shape = fixed(self._space.static_body, replace(surface, shape=wider, restitution=0.0))
+            shape.collision_type = _SURFACE
+            self._surfaces[shape] = place
+            self._space.add(shape)
+        for other in (_BALL, _SURFACE):
+            self._space.on_collision(
+                _BALL, other, pre_solve=self._guarded(self._meet), post_solve=self._guarded(self._press)
+            )
+
+    @property
+    def members(self) -> Collection[int]:
+        """The balls in the heap."""
+        return self._members.keys()
+
+    def presses(self, t: float, states: Mapping[int, State]) -> bool:
+        """Whether balls that touch at t belong in the heap: two of them part too slowly to stay apart for a step.
+
+        What touches slowly counts as in contact for the next steps: round shapes that slide over one another leave
+        each other by a hair in each step.
+        """
+        slowest = {index: 1.0 * self._longest * hypot(*self._applied(index, t, state)[:2]) for index, state in states.items()}
+        found = False
+        for (i, a), (j, b) in combinations(states.items(), 2):
+            dx, dy = b[0] - a[0], b[1] - a[1]
+            distance = hypot(dx, dy)
+            if distance <= self._tracks[i].ball.radius + self._tracks[j].ball.radius + self.margin:
+                parting = ((b[2] - a[2]) * dx + (b[3] - a[3]) * dy) / distance
+                if parting < max(slowest[i], slowest[j]):
+                    found = True
+                    self._pressed[frozenset((i, j))] = self._touched[i][j] = self._touched[j][i] = self._steps
+        if found or self._members.keys() & states.keys():
+            for index, (x, y, vx, vy, _) in states.items():
+                for obstacle, touching in self._tracks[index].near(x, y, self.margin):
+                    if vx * touching.nx + vy * touching.ny < slowest[index]:
+                        self._touched[index][obstacle] = self._steps
+            return True
+        return False
+
+    def step(self, t: float, until: float, states: Mapping[int, State]) -> dict[int, Stepped]:
+        """Step these balls from t; returns those that press on others, or did just before, or rest with them.
+
+        The step is half a drift, the impulses of forces and contacts, and half a drift; none goes beyond ``until``.
+        """
+        self._h = h = min(self._longest, until - t)
+        self._take(states)
+        self._steps += 1
+        applied = {}
+        for index, (x, y, vx, vy, spin) in states.items():
+            middle = (x + 0.5 * h * vx, y + 0.5 * h * vy, vx, vy, spin)
+            applied[index] = self._applied(index, t + 0.5 * h, middle)
+        self._forced = max(hypot(ax, ay) for ax, ay, _ in applied.values())
+        for index, (x, y, vx, vy, spin) in states.items():
+            member, (ax, ay, turning) = self._members[index], applied[index]
+            body, ball = member.body, member.ball
+            body.position = (x - 0.5 * h * vx, y - 0.5 * h * vy)  # from which Chipmunk moves it to the middle
+            body.velocity, body.angular_velocity = (vx, vy), spin
+            body.force, body.torque = (ball.mass * ax, ball.mass * ay), ball.inertia * turning
+            member.brake.max_force, member.resistance = member.resistance, 0.0
+        self._space.step(h)
+        self._numerics.pymunk_steps += 1
+        if self._raised is not None:
+            raise self._raised
+        held = self._held()
+        self._take({index: states[index] for index in held})
+        stepped = {
+            index: Stepped(self._arc(t, self._members[index], states[index]), self._in_contact(index, states))
+            for index in sorted(held)
+        }
+        fastest = max((hypot(*states[index][2:4]) for index in held), default=inf)
+        self._slow_for = self._slow_for + h if fastest * fastest <= 2.0 * self._forced * self._settle else 0.0
+        if self._slow_for >= _REST_TIME:
+            for index, (arc, touching) in stepped.items():
+                x, y, *_ = states[index]
+                stepped[index] = Stepped(still(t, until, (x, y, 0.0, 0.0, 0.0), Heaped()), touching)
+        return stepped
+
+    def _applied(self, index: int, t: float, state: State) -> Acceleration:
+        self._numerics.force_evaluations += 1
+        return checked(self._tracks[index].ball, t, state)
+
+    def _take(self, indices: Collection[int]) -> None:
+        """Make these balls the members."""
+        for index in self._members.keys() - indices:
+            member = self._members.pop(index)
+            del self._of_disc[member.disc]
+            self._space.remove(member.body, member.disc, member.brake)
+        for index in indices - self._members.keys():
+            member = self._members[index] = _Member(self._tracks[index].ball, self._space, 0.5 * self.margin)
+            self._of_disc[member.disc] = index
+
+    def _held(self) -> set[int]:
+        """The balls of the pairs that pressed on each other in the last steps."""
+        held: set[int] = set()
+        for pair, last in list(self._pressed.items()):
+            i, j = pair
+            if self._steps - last <= _PATIENCE and i in self._members and j in self._members:
+                held |= pair
+            else:
+                del self._pressed[pair]
+        return held
+
+    def _arc(self, t: float, member: _Member, state: State) -> Arc:
+        """The path of a step in which the velocity changes evenly, moved by position correction."""
+        h, body = self._h, member.body
+        x, y, ux, uy, turned = state
+        (px, py), (vx, vy), spin = body.position, body.velocity, body.angular_velocity
+        dx, dy = px - x - 0.5 * h * ux, py - y - 0.5 * h * uy
+        end = (px + 0.5 * h * vx, py + 0.5 * h * vy, vx, vy, spin)
+        return Arc(
+            t,
+            t + h,
+            state,
+            (x, x + 0.5 * (h * ux + dx), end[0]),
+            (y, y + 0.5 * (h * uy + dy), end[1]),
+            (ux + dx / h, vx + dx / h),
+            (uy + dy / h, vy + dy / h),
+            (turned, spin),
+            Heaped(dx, dy),
+            end=end,
+        )
+
+    def _in_contact(self, index: int, states: Mapping[int, State]) -> set[Obstacle | int]:
+        """What a ball is in contact with, or was in the last steps and does not strike now."""
+        x, y, vx, vy, _ = states[index]
+        touched = self._touched[index]
+        for other, last in list(touched.items()):
+            if self._steps - last > _PATIENCE:
+                del touched[other]
+            elif last < self._steps:
+                if isinstance(other, int):
+                    if other not in states:
+                        del touched[other]
+                        continue
+                    u, v, wx, wy, _ = states[other]
+                    nx, ny = (x - u) / hypot(x - u, y - v), (y - v) / hypot(x - u, y - v)
+                else:
+                    (_, nx, ny, *_), wx, wy = other.near(x, y), 0.0, 0.0
+                if (wx - vx) * nx + (wy - vy) * ny > 2.0 * self._forced * self._longest:
+                    del touched[other]
+        return set(touched)
+
+    # ------------------------------------------------------------------ callbacks
+
+    def _guarded(self, callback: Callable[[pymunk.Arbiter], None]) -> Any:
+        """The callback, storing what it raises until after the step: cffi would swallow it."""
+
+        def call(arbiter: pymunk.Arbiter, space: pymunk.Space, data: Any) -> None:
+            if self._raised is None:
+                try:
+                    callback(arbiter)
+                except BaseException as error:
+                    self._raised = error
+
+        return call
+
+    def _meet(self, arbiter: pymunk.Arbiter) -> None:
+        """Leave out what meets too fast for lasting contact: it has an impact of its own, at its exact time."""
+        first, second = arbiter.shapes
+        i, nx, ny = self._of_disc[first], *arbiter.normal
+        here = self._members[i]
+        vx, vy = here.body.velocity
+        place, j = self._surfaces.get(second), self._of_disc.get(second)
+        other: Obstacle | int = self._tracks[i].obstacles[place] if j is None else j
+        ux, uy = (0.0, 0.0) if j is None else self._members[j].body.velocity
+        fresh = self._touched[i].get(other, 0) < self._steps - 1
+        if fresh and (vx - ux) * nx + (vy - uy) * ny > 2.0 * self._forced * self._longest:
+            arbiter.process_collision = False
+            return
+        arbiter.process_collision = True  # it is remembered
+        self._touched[i][other] = self._steps
+        if j is not None:
+            there = self._members[j]
+            self._touched[j][i] = self._steps
+            slip = abs(
+                (vy - uy) * nx
+                - (vx - ux) * ny
+                + here.ball.radius * here.body.angular_velocity
+                + there.ball.radius * there.body.angular_velocity
+            )
+            bounce = bounce_of_balls(self._setup, 0.0, slip, here.ball.name, there.ball.name)
+            arbiter.restitution, arbiter.friction = 0.0, bounce.friction
+
+    def _press(self, arbiter: pymunk.Arbiter) -> None:
+        """Note which balls press on each other, and how hard a ball presses on a surface that resists its rolling."""
+        first, second = arbiter.shapes
+        i = self._of_disc[first]
+        here = self._members[i]
+        push = abs(arbiter.total_impulse.dot(arbiter.normal))
+        if second in self._surfaces:
+            resistance = self._setup.surfaces[self._surfaces[second]].rolling_resistance
+            here.resistance += resistance * here.ball.radius * (1.0 + here.ball.inertia_factor) * push / self._h
+        elif push > _PRESSURE * here.ball.mass * self._forced * self._h:
+            self._pressed[frozenset((i, self._of_disc[second]))] = self._steps
