@@ -1,20 +1,20 @@
 """Balls that press on one another: a heap, stepped by pymunk until its balls part or rest.
 
-Between balls that lie on one another impacts never end: each is weaker than the one before. A bounce that lasts no
-longer than ``accuracy.step`` is lasting contact, and the balls are stepped together in a Space of real shapes. In each
-step Chipmunk finds the impulses, starting from those of the step before, that keep apart what touches at its start.
-Velocities change at the start of a step, positions move with the mean of the velocities before and after. Everything
-else is exact as ever: what does not touch at the start of a step meets at its exact time, with restitution.
+Impacts between balls that lie on one another never end: each is weaker than the one before. So a bounce that lasts less
+than two steps of ``accuracy.step`` is lasting contact, and the balls are stepped together in a Space of real shapes.
+In the middle of each step Chipmunk finds the impulses that keep apart what overlaps, starting from those of the step
+before; the paths are parabolas between. Second order in the forces, first order in the curvature of what they roll on.
+Faster impacts are exact events, as ever.
 
-Rolling resistance is a torque on the ball up to ``c N R (1 + k)``, with k the inertia over m R^2: then a ball that rolls
-freely is slowed by c N / m. Left out: restitution between what lies together, and waves through a heap that is struck
-(it is one rigid lump).
+Rolling resistance is a torque on the ball up to ``c N R (1 + k)``, with k the inertia over m R^2: then a ball that
+rolls freely is slowed by c N / m. Left out: the exact time and the event of an impact inside the heap that is slower
+than 8 a h, with a the acceleration by forces and h the step; and waves through a heap that is struck, which is one
+rigid lump.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping, Sequence
-from collections import defaultdict
 from dataclasses import replace
 from itertools import combinations
 from math import hypot, inf
@@ -27,20 +27,24 @@ from sandbox.engine.acting import checked
 from sandbox.engine.arc import Arc, still
 from sandbox.engine.plain import fixed
 from sandbox.engine.run import Numerics
-from sandbox.engine.setup import Ball, Setup
-from sandbox.engine.surfaces import bounce_of_balls
+from sandbox.engine.setup import Ball, Setup, Surface
+from sandbox.engine.surfaces import bounce_of_balls, bounce_off, press
 from sandbox.engine.touch import Obstacle
 from sandbox.engine.track import Track
 from sandbox.physics.integrators import Acceleration, State
 
-#: Gap, as a fraction of the smallest radius, up to which shapes are in contact in a heap.
-_MARGIN = 4e-5
+#: Gap, as a fraction of the smallest radius, up to which shapes are in contact in a heap: at rest they stay in touch.
+_MARGIN = 1e-3
 
 #: Solver iterations. Each step starts from the impulses of the one before.
 _ITERATIONS = 60
 
 #: Steps without pressure after which two balls have parted.
 _PATIENCE = 8
+
+#: Speed, in units of what forces give a ball in a step, up to which balls of a heap meet in its steps, found late and
+#: overlapped by up to half of what they move in a step; if faster, they have an impact at its exact time.
+_SLOW = 8.0
 
 #: Impulse, as a fraction of the largest that forces give a ball in a step, below which it is rounding.
 _PRESSURE = 1e-6
@@ -61,13 +65,6 @@ class Heaped(NamedTuple):
     dy: float = 0.0
 
 
-class Stepped(NamedTuple):
-    """A ball in a step of its heap."""
-
-    arc: Arc
-    touching: Collection[object]  # obstacles, and balls by index, from which the heap keeps it
-
-
 class _Member:
     """A ball of the heap in pymunk's Space."""
 
@@ -79,7 +76,14 @@ class _Member:
         self.disc.friction = 1.0  # pymunk multiplies it by the surface's
         self.brake = pymunk.SimpleMotor(self.body, space.static_body, 0.0)  # rolling resistance
         self.resistance = 0.0  # N m, of this step's pressure: for the next
+        self.start: State = ()
+        self.touching: set[Obstacle | int] = set()  # obstacles, and balls by index, in this step
+        self.before: set[Obstacle | int] = set()  # the same in the step before
         space.add(self.body, self.disc, self.brake)
+
+    def resist(self, surface: Surface, push: float) -> None:
+        """Add the torque of rolling resistance on a surface that presses with ``push`` (N)."""
+        self.resistance += surface.rolling_resistance * push * self.ball.radius * (1.0 + self.ball.inertia_factor)
 
 
 class Heap:
@@ -94,11 +98,10 @@ class Heap:
         self._members: dict[int, _Member] = {}
         self._of_disc: dict[pymunk.Shape, int] = {}
         self._pressed: dict[frozenset[int], int] = {}  # the last step in which two balls pressed on each other
-        #: By ball: obstacles, and balls by index, and the last step in which they were in contact.
-        self._touched: dict[int, dict[Obstacle | int, int]] = defaultdict(dict)
         self._steps = 0
         self._slow_for = 0.0  # s
         self._forced = 0.0  # m/s^2, the largest acceleration by forces in this step
+        self._fastest = 0.0  # m/s, approach in the heap that is no impact of its own
         self._h = 0.0  # s, the length of this step
         self._raised: BaseException | None = None
         self.margin = _MARGIN * min(ball.radius for ball in setup.balls)  # m, gap up to which shapes touch
@@ -124,48 +127,47 @@ class Heap:
         return self._members.keys()
 
     def presses(self, t: float, states: Mapping[int, State]) -> bool:
-        """Whether balls that touch at t belong in the heap: two of them part too slowly to stay apart for a step.
-
-        What touches slowly counts as in contact for the next steps: round shapes that slide over one another leave
-        each other by a hair in each step.
-        """
-        slowest = {index: 1.0 * self._longest * hypot(*self._applied(index, t, state)[:2]) for index, state in states.items()}
-        found = False
+        """Whether balls that touch at t belong in the heap: some are in it, or two part too slowly to stay apart for
+        two steps."""
+        found = not self._members.keys().isdisjoint(states)
         for (i, a), (j, b) in combinations(states.items(), 2):
             dx, dy = b[0] - a[0], b[1] - a[1]
             distance = hypot(dx, dy)
             if distance <= self._tracks[i].ball.radius + self._tracks[j].ball.radius + self.margin:
                 parting = ((b[2] - a[2]) * dx + (b[3] - a[3]) * dy) / distance
-                if parting < max(slowest[i], slowest[j]):
+                forced = max(hypot(*self._applied(i, t, a)[:2]), hypot(*self._applied(j, t, b)[:2]))
+                if parting < forced * self._longest:
                     found = True
-                    self._pressed[frozenset((i, j))] = self._touched[i][j] = self._touched[j][i] = self._steps
-        if found or self._members.keys() & states.keys():
-            for index, (x, y, vx, vy, _) in states.items():
-                for obstacle, touching in self._tracks[index].near(x, y, self.margin):
-                    if vx * touching.nx + vy * touching.ny < slowest[index]:
-                        self._touched[index][obstacle] = self._steps
-            return True
-        return False
+                    self._pressed[frozenset((i, j))] = self._steps
+        return found
 
-    def step(self, t: float, until: float, states: Mapping[int, State]) -> dict[int, Stepped]:
-        """Step these balls from t; returns those that press on others, or did just before, or rest with them.
+    def step(self, t: float, until: float, states: Mapping[int, State]) -> dict[int, Arc]:
+        """Step these balls from t; returns the arcs of those that press on others or did just before.
 
         The step is half a drift, the impulses of forces and contacts, and half a drift; none goes beyond ``until``.
         """
         self._h = h = min(self._longest, until - t)
+        fresh = states.keys() - self._members.keys()
         self._take(states)
         self._steps += 1
         applied = {}
         for index, (x, y, vx, vy, spin) in states.items():
             middle = (x + 0.5 * h * vx, y + 0.5 * h * vy, vx, vy, spin)
             applied[index] = self._applied(index, t + 0.5 * h, middle)
+            if index in fresh:
+                for obstacle, touching in self._tracks[index].near(x, y, self.margin):
+                    pushed = press(states[index], applied[index], touching.nx, touching.ny, touching.curvature)
+                    self._members[index].resist(obstacle.surface, self._tracks[index].ball.mass * max(0.0, pushed))
         self._forced = max(hypot(ax, ay) for ax, ay, _ in applied.values())
+        self._fastest = _SLOW * self._forced * self._longest
         for index, (x, y, vx, vy, spin) in states.items():
             member, (ax, ay, turning) = self._members[index], applied[index]
             body, ball = member.body, member.ball
             body.position = (x - 0.5 * h * vx, y - 0.5 * h * vy)  # from which Chipmunk moves it to the middle
             body.velocity, body.angular_velocity = (vx, vy), spin
             body.force, body.torque = (ball.mass * ax, ball.mass * ay), ball.inertia * turning
+            member.start = states[index]
+            member.before, member.touching = member.touching, set()
             member.brake.max_force, member.resistance = member.resistance, 0.0
         self._space.step(h)
         self._numerics.pymunk_steps += 1
@@ -173,17 +175,11 @@ class Heap:
             raise self._raised
         held = self._held()
         self._take({index: states[index] for index in held})
-        stepped = {
-            index: Stepped(self._arc(t, self._members[index], states[index]), self._in_contact(index, states))
-            for index in sorted(held)
-        }
         fastest = max((hypot(*states[index][2:4]) for index in held), default=inf)
         self._slow_for = self._slow_for + h if fastest * fastest <= 2.0 * self._forced * self._settle else 0.0
         if self._slow_for >= _REST_TIME:
-            for index, (arc, touching) in stepped.items():
-                x, y, *_ = states[index]
-                stepped[index] = Stepped(still(t, until, (x, y, 0.0, 0.0, 0.0), Heaped()), touching)
-        return stepped
+            return {index: still(t, until, (*states[index][:2], 0.0, 0.0, 0.0), Heaped()) for index in sorted(held)}
+        return {index: self._arc(t, self._members[index]) for index in sorted(held)}
 
     def _applied(self, index: int, t: float, state: State) -> Acceleration:
         self._numerics.force_evaluations += 1
@@ -210,17 +206,17 @@ class Heap:
                 del self._pressed[pair]
         return held
 
-    def _arc(self, t: float, member: _Member, state: State) -> Arc:
+    def _arc(self, t: float, member: _Member) -> Arc:
         """The path of a step in which the velocity changes evenly, moved by position correction."""
         h, body = self._h, member.body
-        x, y, ux, uy, turned = state
+        x, y, ux, uy, turned = member.start
         (px, py), (vx, vy), spin = body.position, body.velocity, body.angular_velocity
         dx, dy = px - x - 0.5 * h * ux, py - y - 0.5 * h * uy
         end = (px + 0.5 * h * vx, py + 0.5 * h * vy, vx, vy, spin)
         return Arc(
             t,
             t + h,
-            state,
+            member.start,
             (x, x + 0.5 * (h * ux + dx), end[0]),
             (y, y + 0.5 * (h * uy + dy), end[1]),
             (ux + dx / h, vx + dx / h),
@@ -230,25 +226,22 @@ class Heap:
             end=end,
         )
 
-    def _in_contact(self, index: int, states: Mapping[int, State]) -> set[Obstacle | int]:
-        """What a ball is in contact with, or was in the last steps and does not strike now."""
-        x, y, vx, vy, _ = states[index]
-        touched = self._touched[index]
-        for other, last in list(touched.items()):
-            if self._steps - last > _PATIENCE:
-                del touched[other]
-            elif last < self._steps:
-                if isinstance(other, int):
-                    if other not in states:
-                        del touched[other]
-                        continue
-                    u, v, wx, wy, _ = states[other]
-                    nx, ny = (x - u) / hypot(x - u, y - v), (y - v) / hypot(x - u, y - v)
-                else:
-                    (_, nx, ny, *_), wx, wy = other.near(x, y), 0.0, 0.0
-                if (wx - vx) * nx + (wy - vy) * ny > 2.0 * self._forced * self._longest:
-                    del touched[other]
-        return set(touched)
+    def keeps_apart(self, index: int, other: Obstacle | int) -> bool:
+        """Whether the heap keeps a ball from this obstacle or ball, so that they have no impact of their own: they
+        touch, or would meet slowly."""
+        member = self._members[index]
+        if other in member.touching:
+            return True
+        x, y, vx, vy, _ = member.start
+        if isinstance(other, Obstacle):
+            _, nx, ny, *_ = other.near(x, y)
+        elif other not in self._members:
+            return False
+        else:
+            u, v, wx, wy, _ = self._members[other].start
+            distance = hypot(x - u, y - v)
+            nx, ny, vx, vy = (x - u) / distance, (y - v) / distance, vx - wx, vy - wy
+        return -(vx * nx + vy * ny) <= self._fastest
 
     # ------------------------------------------------------------------ callbacks
 
@@ -267,29 +260,27 @@ class Heap:
     def _meet(self, arbiter: pymunk.Arbiter) -> None:
         """Leave out what meets too fast for lasting contact: it has an impact of its own, at its exact time."""
         first, second = arbiter.shapes
-        i, nx, ny = self._of_disc[first], *arbiter.normal
-        here = self._members[i]
-        vx, vy = here.body.velocity
-        place, j = self._surfaces.get(second), self._of_disc.get(second)
-        other: Obstacle | int = self._tracks[i].obstacles[place] if j is None else j
-        ux, uy = (0.0, 0.0) if j is None else self._members[j].body.velocity
-        fresh = self._touched[i].get(other, 0) < self._steps - 1
-        if fresh and (vx - ux) * nx + (vy - uy) * ny > 2.0 * self._forced * self._longest:
-            arbiter.process_collision = False
+        i, (nx, ny) = self._of_disc[first], arbiter.normal
+        here, there = self._members[i], self._members.get(self._of_disc.get(second, -1))
+        (vx, vy), (ux, uy) = here.body.velocity, (0.0, 0.0) if there is None else there.body.velocity
+        other = self._tracks[i].obstacles[self._surfaces[second]] if there is None else self._of_disc[second]
+        approach, along = (vx - ux) * nx + (vy - uy) * ny, (vy - uy) * nx - (vx - ux) * ny
+        arbiter.process_collision = other in here.before or approach <= self._fastest  # it is remembered
+        if not arbiter.process_collision:
             return
-        arbiter.process_collision = True  # it is remembered
-        self._touched[i][other] = self._steps
-        if j is not None:
-            there = self._members[j]
-            self._touched[j][i] = self._steps
-            slip = abs(
-                (vy - uy) * nx
-                - (vx - ux) * ny
-                + here.ball.radius * here.body.angular_velocity
-                + there.ball.radius * there.body.angular_velocity
+        here.touching.add(other)
+        bounces = approach > self._forced * self._h
+        if there is not None:
+            there.touching.add(i)
+            slip = (
+                along + here.ball.radius * here.body.angular_velocity + there.ball.radius * there.body.angular_velocity
             )
-            bounce = bounce_of_balls(self._setup, 0.0, slip, here.ball.name, there.ball.name)
-            arbiter.restitution, arbiter.friction = 0.0, bounce.friction
+            bounce = bounce_of_balls(self._setup, approach, abs(slip), here.ball.name, there.ball.name)
+        elif bounces:
+            bounce = bounce_off(self._setup.surfaces[self._surfaces[second]], approach, along)
+        else:
+            return
+        arbiter.restitution, arbiter.friction = bounce.restitution if bounces else 0.0, bounce.friction
 
     def _press(self, arbiter: pymunk.Arbiter) -> None:
         """Note which balls press on each other, and how hard a ball presses on a surface that resists its rolling."""
@@ -298,7 +289,6 @@ class Heap:
         here = self._members[i]
         push = abs(arbiter.total_impulse.dot(arbiter.normal))
         if second in self._surfaces:
-            resistance = self._setup.surfaces[self._surfaces[second]].rolling_resistance
-            here.resistance += resistance * here.ball.radius * (1.0 + here.ball.inertia_factor) * push / self._h
+            here.resist(self._setup.surfaces[self._surfaces[second]], push / self._h)
         elif push > _PRESSURE * here.ball.mass * self._forced * self._h:
             self._pressed[frozenset((i, self._of_disc[second]))] = self._steps

@@ -113,7 +113,8 @@ class Impacts:
         """The contacts with hard or soft walls, or both, each from the states when it is asked for."""
         for index in states:
             ball, met = self._tracks[index].ball, list[Vector]()
-            for obstacle, touching in self._tracks[index].near(*states[index][:2], self.gap):
+            x, y, *_ = states[index]
+            for obstacle, touching in self._tracks[index].near(x, y, self.gap):
                 surface, nx, ny = obstacle.surface, touching.nx, touching.ny
                 if (self._all_soft or surface.nose_height is not None) not in softness:
                     continue

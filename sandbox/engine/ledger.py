@@ -36,8 +36,8 @@ class Ledger:
     end: float
     work: dict[str, float]  # by force or torque
     impacts: dict[str, float]  # by the partner; an impact of two balls under both names
-    #: By the surface slid or rolled on, including bounces too low to simulate; "heap", where balls press on one another,
-    #: and "position correction", what their separation in a heap adds.
+    #: By the surface slid or rolled on, including bounces too low to simulate; by "heap" where balls press on one
+    #: another, and "position correction", what moving them apart there adds.
     contacts: dict[str, float]
     residue: float  # kinetic energy gained along the path that no cause accounts for: the numerical error
 

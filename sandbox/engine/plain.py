@@ -1,5 +1,4 @@
-"""The plain method: stock pymunk at a fixed step, forces in ``velocity_func``. The baseline, and the method for piles
-of balls.
+"""The plain method: stock pymunk at a fixed step, forces in ``velocity_func``. The baseline for comparison.
 
 Chipmunk moves bodies first, then finds contacts, updates velocities and applies impulses: so a contact is found up to
 one step late, at whatever depth that step gives, and forces are integrated to first order. Nothing here improves on

@@ -19,13 +19,11 @@ from sandbox.engine.setup import (
     Ball,
     Bounce,
     Circle,
-    ContactModel,
     Segment,
     Setup,
     Surface,
     kinetic,
 )
-from sandbox.engine.simulation import Stalled
 from sandbox.engine.touch import Obstacle
 from sandbox.errors import RequestError
 from sandbox.physics.coefficients import Constant
@@ -255,19 +253,6 @@ def test_no_room_between_surfaces_is_an_error():
         simulate(Setup([ball((0.0, 0.0))], walls, duration=0.5), resolve())
 
 
-# -------------------------------------------------------------------------------------------------------------- stalls
-
-
-def test_a_ball_resting_on_another_is_a_named_error():
-    floor = Surface("floor", Segment((-5.0, 0.0), (5.0, 0.0)), 0.5, 0.5)
-    pair = [ball((0.0, 0.05), name="lower"), ball((0.0, 0.25), name="upper")]
-    setup = Setup(pair, [floor], duration=5.0, between_balls=lambda n, s: Bounce(0.5, 0.0))
-    with pytest.raises(Stalled, match=r"t = .* s, ball '(upper|lower)' at .* m: endless events, the last with"):
-        simulate(setup, resolve())
-    heap = simulate(setup, resolve(method="plain", step=1e-3))
-    assert heap.state("upper", 5.0)[1] == pytest.approx(0.15, abs=1e-3)
-
-
 def test_a_lively_ball_comes_to_lie_after_however_many_faint_bounces():
     floor = Surface("floor", Segment((-5.0, 0.0), (5.0, 0.0)), 0.997, 0.5)
     run = simulate(Setup([ball((0.0, 0.0501))], [floor], duration=60.0), resolve("precise"))
@@ -408,33 +393,6 @@ def test_where_friction_must_give_way_some_of_it_is_left():
 
 def _after(shot: Ball, *surfaces: Surface) -> tuple[float, ...]:
     return simulate(Setup([shot], surfaces, duration=0.01), resolve()).state("ball", 0.01)
-
-
-def test_faint_impacts_count_only_without_others_between():
-    """1,200 faint impacts of two balls, and 1,200 of two others that are none: neither stalls a run."""
-    radius, fast, slow = 0.05, 1.0, 1e-5
-
-    def pair(y: float, gap: float, speed: float, name: str) -> list[Ball]:
-        return [
-            Ball(f"{name}1", 1.0, radius, (-radius - 0.5 * gap, y), (speed, 0.0)),
-            Ball(f"{name}2", 1.0, radius, (radius + 0.5 * gap, y), (-speed, 0.0)),
-        ]
-
-    def box(y: float, gap: float, name: str) -> list[Surface]:
-        aside = 2.0 * radius + gap
-        return [
-            Surface(f"{name}{side:+.0f}", Segment((side * aside, y - 0.1), (side * aside, y + 0.1)), 1.0, 0.0)
-            for side in (-1.0, 1.0)
-        ]
-
-    balls = [*pair(0.0, 0.02, fast, "fast"), *pair(1.0, 2e-7, slow, "slow")]
-    run = simulate(
-        Setup(balls, [*box(0.0, 0.02, "a"), *box(1.0, 2e-7, "b")], duration=50.0, contact=ContactModel("rigid")),
-        resolve(),
-    )
-    mutual = [event for event in run.events if event.partner in ("fast1", "fast2", "slow1", "slow2")]
-    assert sum(event.speed > 1e-4 for event in mutual) > 1100
-    assert sum(event.speed < 1e-4 for event in mutual) > 1100
 
 
 @pytest.mark.parametrize("way", [1.0, -1.0])

@@ -1,0 +1,156 @@
+"""Balls that press on one another: they come to rest without overlap, roll together as their forces say, and part."""
+
+from __future__ import annotations
+
+from itertools import combinations, pairwise
+from math import cos, hypot, pi, sin, sqrt
+from random import Random
+
+import pytest
+
+from sandbox.engine import simulate
+from sandbox.engine.accuracy import resolve
+from sandbox.engine.ledger import ledger
+from sandbox.engine.setup import Always, Ball, Bounce, Segment, Setup, Surface
+from sandbox.engine.touch import Outline
+from sandbox.physics.forces import Gravity
+
+R, M, G = 0.03, 0.1, 9.81  # m, kg, m/s^2
+
+
+class Push:
+    """A constant force to the right, in N."""
+
+    def __init__(self, force):
+        self.force = force
+
+    def __call__(self, t, position, velocity, spin):
+        return self.force, 0.0
+
+
+def ball(name, x, y, vx=0.0, vy=0.0, push=0.0):
+    return Ball(str(name), M, R, (x, y), (vx, vy), forces=[Gravity(M, G), *([Push(push)] if push else [])])
+
+
+def surface(name, a, b, restitution=0.5, friction=0.5, resistance=0.02):
+    return Surface(name, Segment(a, b), restitution, friction, resistance)
+
+
+FLOOR = [surface("floor", (-5.0, 0.0), (5.0, 0.0))]
+TURNS = [pi + pi * part / 24 for part in range(25)]
+RIM = [(0.5 * cos(turn), 0.5 + 0.5 * sin(turn)) for turn in TURNS]
+BOWL = [surface(f"bowl {place}", *ends) for place, ends in enumerate(pairwise(RIM))]
+BOX = [
+    *FLOOR,
+    surface("left", (-0.25, 0.0), (-0.25, 9.0)),
+    surface("right", (0.25, 0.0), (0.25, 9.0)),
+]
+SLOPE = [surface("slope", (-4.0, 1.46), (0.0, 0.0)), surface("wall", (0.0, -0.5), (0.0, 3.0))]
+
+
+def poured(count, across, x=0.0, y=0.6):
+    random = Random(count)
+    columns = int(across / (2.4 * R))
+    return [
+        ball(
+            place,
+            x + (place % columns - 0.5 * columns + 0.5) * 2.4 * R + 0.1 * R * random.uniform(-1, 1),
+            y + place // columns * 2.4 * R + 0.1 * R * random.uniform(-1, 1),
+        )
+        for place in range(count)
+    ]
+
+
+def pyramid(rows):
+    places = [(row, place) for row in range(rows) for place in range(rows - row)]
+    return [ball(f"{row} {place}", (2 * place - rows + row + 1) * R, R + row * sqrt(3) * R) for row, place in places]
+
+
+def run_of(balls, surfaces, friction=0.3, restitution=0.5, duration=30.0, level="balanced"):
+    setup = Setup(balls, surfaces, duration, between_balls=Always(Bounce(restitution, friction)))
+    return simulate(setup, resolve(level))
+
+
+def overlap(run, t):
+    """The deepest overlap at t, as a fraction of the radius."""
+    places = {each.name: run.state(each.name, t)[:2] for each in run.setup.balls}
+    between = [2 * R - hypot(a[0] - b[0], a[1] - b[1]) for a, b in combinations(places.values(), 2)]
+    within = [-Outline.of(each.shape, R).near(x, y).gap for each in run.setup.surfaces for x, y in places.values()]
+    return max(*between, *within) / R
+
+
+HEAPS = {
+    "one on one": ([ball(0, 0.0, R), ball(1, 0.005, 0.3)], FLOOR),
+    "one on two": ([ball(0, -R, R), ball(1, R, R), ball(2, 0.0, 0.2)], FLOOR),
+    "a column": ([ball(place, 0.0, R + 2.5 * R * place) for place in range(3)], BOX),
+    "a pyramid": (pyramid(4), FLOOR),
+    "3 into a bowl": (poured(3, 0.3), BOWL),
+    "12 into a bowl": (poured(12, 0.3), BOWL),
+    "20 into a box": (poured(20, 0.4), BOX),
+    "15 down a slope": (poured(15, 0.4, -0.5), SLOPE),
+}
+
+
+@pytest.mark.parametrize("heap", HEAPS)
+def test_a_heap_comes_to_rest_without_overlap_and_its_energy_is_accounted_for(heap):
+    run = run_of(*HEAPS[heap])
+    assert run.ended == "rest"
+    assert overlap(run, run.duration) < 1e-4
+    book = ledger(run)
+    booked = sum(book.work.values()) + sum(book.impacts.values()) + sum(book.contacts.values())
+    assert book.start + booked == pytest.approx(book.end, abs=1e-9)
+    assert abs(book.residue) < 1e-9
+    assert book.contacts.get("heap", 0.0) < 0.0
+    assert -1e-12 <= book.contacts["position correction"] < 0.02 * sum(book.work.values())
+
+
+@pytest.mark.parametrize("restitution", [0.0, 0.95, 1.0])
+def test_a_heap_of_any_restitution_is_no_error(restitution):
+    """With no loss between balls only the floor takes energy."""
+    run = run_of([ball(place, 0.001 * place, R + 3 * R * place) for place in range(4)], BOX, 0.2, restitution)
+    assert run.ended == "rest"
+    assert overlap(run, run.duration) < 1e-4
+
+
+def test_a_pyramid_at_rest_stays_at_rest():
+    run = run_of(pyramid(4), FLOOR, friction=1.0)
+    assert run.ended == "rest"
+    for each in run.setup.balls:
+        assert run.state(each.name, run.duration)[:2] == pytest.approx(each.position, abs=2e-3 * R)
+
+
+def test_without_friction_a_pyramid_slides_apart():
+    run = run_of(pyramid(2), [surface("floor", (-5.0, 0.0), (5.0, 0.0), 0.5, 0.0, 0.0)], friction=0.0, duration=0.6)
+    x, y, vx, *_ = run.state("0 1", 0.6)
+    assert x > 3 * R
+    assert vx > 0.1
+    assert run.state("1 0", 0.6)[1] == pytest.approx(R, abs=1e-3)
+
+
+def test_a_ball_that_pushes_another_rolls_as_its_force_says():
+    """Two roll as one: a = F / (2 m (1 + k)) - c g, without friction between them."""
+    force, resistance = 0.2, 0.02
+    floor = [surface("floor", (-5.0, 0.0), (50.0, 0.0), 0.5, 0.8, resistance)]
+    run = run_of([ball("rear", 0.0, R, push=force), ball("front", 2 * R, R)], floor, friction=0.0, duration=2.0)
+    expected = 0.5 * (force / (2 * M * 1.4) - resistance * G) * 2.0**2
+    assert run.state("front", 2.0)[0] - 2 * R == pytest.approx(expected, rel=2e-3)
+    assert run.state("rear", 2.0)[0] == pytest.approx(expected, rel=2e-3)
+    contact = run.state("front", 2.0)[2]
+    assert run.state("front", 2.0)[4] == pytest.approx(-contact / R, rel=1e-3)
+
+
+def test_a_heap_at_rest_that_is_struck_moves_and_rests_again():
+    struck = [*pyramid(2), ball("late", -3.0, R, vx=2.5)]
+    run = run_of(struck, FLOOR, friction=1.0)
+    assert run.state("1 0", 0.9)[:2] == pytest.approx((0.0, R + sqrt(3) * R), abs=1e-4)
+    assert hypot(run.state("1 0", run.duration)[0], run.state("1 0", run.duration)[1] - R - sqrt(3) * R) > R
+    assert run.ended == "rest"
+    assert overlap(run, run.duration) < 1e-4
+
+
+def test_balls_that_part_fly_on_exactly():
+    """Thrown up together in touch, they press on nothing: two parabolas, and soon no heap."""
+    run = run_of([ball("a", 0.0, 1.0, vy=2.0), ball("b", 2 * R, 1.0, vy=2.0)], FLOOR, duration=0.3)
+    for name in "ab":
+        assert run.state(name, 0.3)[1] == pytest.approx(1.0 + 2.0 * 0.3 - 0.5 * G * 0.3**2, abs=1e-9)
+    assert run.numerics.pymunk_steps < 12
