@@ -331,6 +331,22 @@ def test_a_shot_that_fails_is_an_error_in_its_place():
             assert_same(run, simulate(setup, resolve()))
 
 
+def turf(normal_speed: float, tangential_speed: float) -> Bounce:
+    """Gives way more at a steep impact, and tilts against the ball."""
+    return Bounce(0.7 / (1.0 + 0.1 * normal_speed), 0.3 + 0.01 * tangential_speed, 0.02 * tangential_speed)
+
+
+@pytest.mark.parametrize("rise", [-20.0, 0.0, 20.0])
+def test_a_law_is_asked_for_both_speeds_on_a_slope(flown: list[int], rise: float):
+    slope = Surface("turf", Segment((-50.0, -rise), (50.0, rise)), 0.5, 0.5, law=turf)
+    setups = [replace(thrown(4.0 + 0.1 * i, 0.9), surfaces=[slope], duration=2.5) for i in range(30)]
+    for setup, run in zip(setups, simulate_many(setups, resolve()), strict=True):
+        alone = simulate(setup, resolve())
+        assert alone.numerics.impacts >= 1
+        assert_same(run, alone)
+    assert flown == [30]
+
+
 def test_what_a_scene_gets_wrong_is_an_error_of_its_shot():
     def law(normal_speed: float, tangential_speed: float) -> Bounce:
         return Bounce(1.0 / (normal_speed > 5.5), 0.1)
