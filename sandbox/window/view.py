@@ -127,7 +127,7 @@ class View:
             if self.panels.error is not None:
                 self.panel_wanted = False
                 self.game.tell(self.game.reason(self.panels.error), bad=True)
-            elif self.panel_wanted:
+            elif self.panel_wanted and self.panels.key[0] == self.canvas.get_size():
                 self._make_room(self.panels.value)
 
     def open_panel(self, wanted: bool) -> None:
