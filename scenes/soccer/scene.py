@@ -11,12 +11,15 @@ published for soccer), the dipping free kick would reach the goal 1.2 cm higher.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from math import inf
+from typing import Any
 
 from sandbox.engine.run import Event, Run
-from sandbox.engine.setup import Circle, Segment, Setup, Surface
+from sandbox.engine.setup import Circle, Segment, Setup, Surface, Until
 from sandbox.parameters import Accuracy, Group, group, quantity, switch
+from sandbox.physics.integrators import State
 from sandbox.sport.air import OutdoorAir
 from sandbox.sport.amounts import roughly
 from sandbox.sport.controls import Controls, Spin
@@ -76,6 +79,9 @@ FAR = 25_000.0
 
 #: Bounces lower than this, in m, are lost in the grass and the ball rolls; assumed.
 LOWEST_BOUNCE = 0.01
+
+#: A ball that crosses the goal line so far under the bar, in m, is known to be in before its path is.
+UNDER = 0.1
 
 #: Advertising boards behind the ball and beyond the goal, in m; a ball that gets there is out of play.
 BOARDS_BEHIND, BOARDS_BEYOND, BOARDS_HEIGHT = -30.0, 8.0, 0.9
@@ -156,6 +162,27 @@ def scored(run: Run, parameters: Parameters) -> float | None:
     return next((t for t, state in entries if goal.present and state[1] < goal.height), None)
 
 
+@dataclass(frozen=True)
+class Entered(Until):
+    """The ball has crossed the goal line, well under the bar: a goal, whatever comes later."""
+
+    line: float  # m, of the middle of a ball that is over the line
+    height: float  # m
+
+    def over(self, events: Sequence[Event]) -> bool:
+        return False
+
+    def passed(self, start: State, end: State) -> Any:
+        (x0, y0, *_), (x1, y1, *_) = start, end
+        return (x0 < self.line) & (x1 >= self.line) & (y0 < self.height) & (y1 < self.height)
+
+
+def entered(parameters: Parameters) -> Entered:
+    """When it is known that a kick is a goal; that it is none is known at the end."""
+    goal, under = parameters.goal, parameters.goal.height - UNDER
+    return Entered(goal.distance + goal.post_radius + parameters.ball.radius, under if goal.present else -inf)
+
+
 def _clearance(run: Run, parameters: Parameters) -> float | None:
     """Gap in m between ball and heads."""
     passed, wall = at_wall(run, parameters), parameters.wall
@@ -204,7 +231,7 @@ def _word(run: Run, parameters: Parameters) -> str:
 
 
 FACTS = (
-    Fact("goal", "", "", lambda run, parameters: scored(run, parameters) is not None),
+    Fact("goal", "", "", lambda run, parameters: scored(run, parameters) is not None, entered),
     Fact("verdict", "", "", _word),
     Fact("height_at_goal", "height at goal", "m", at(at_goal, lambda ball: ball.y)),
     Fact("speed_at_goal", "speed at goal", "m/s", at(at_goal, lambda ball: ball.speed), also="km/h"),
