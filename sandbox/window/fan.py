@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from math import sqrt
-from time import perf_counter
+from time import process_time
 from typing import NamedTuple
 
 import numpy as np
@@ -15,11 +15,12 @@ from sandbox.picture.camera import Camera
 from sandbox.picture.palette import Colour
 from sandbox.scene import Scene
 from sandbox.sport.controls import Spread
+from sandbox.window.path import points
 from sandbox.window.shot import Shot
 
 SHOTS = 100
-#: So many are computed at least.
-FEWEST = 8
+#: So many are computed at least, and no more after this time, in s, where the fan must be quick.
+FEWEST, QUICK = 8, 0.3
 #: Spread if the scene gives none: of the speed, as a share of it, and of the angle, in deg.
 SPEED, ANGLE = 0.01, 0.5
 #: Opacity of one path; and how far from the picture, in px, a path is still followed.
@@ -37,7 +38,7 @@ class Cloud(NamedTuple):
     said: tuple[str, str]  # how many score, and by how much the shots differ
     shots: int
     scored: int
-    complete: bool = True
+    complete: bool  # whether it has all shots to their end
 
 
 def spread_of(scene: Scene, width: float) -> dict[str, tuple[declared.Parameter, float]]:
@@ -60,51 +61,54 @@ def cloud(
     scene: Scene,
     width: float,
     camera: Camera,
-    limit: float,
+    quick: bool,
+    early: str,
     size: tuple[int, int],
     colours: tuple[Colour, Colour],
 ) -> Cloud:
-    """The fan of a scene as a camera sees it, in the colours of shots that score and that do not; only the first shots
-    where they are computed one by one and take longer than ``limit`` s."""
-    started = perf_counter()
+    """The fan of a scene as a camera sees it, in the colours of shots that score and that do not.
+
+    A ``quick`` one, for an aim that changes, ends where the fact ``early`` is known, such as at the landing, if it is
+    known only at the end which shots score; and after QUICK s of work where they are computed one by one.
+    """
+    started = process_time()
     spread = spread_of(scene, width)
     if not spread:
-        return Cloud((0, 0), (0, 0), b"", ("no fan: this shot does not begin as a player's does", ""), 0, 0)
+        return Cloud((0, 0), (0, 0), b"", ("no fan: this shot does not begin as a player's does", ""), 0, 0, True)
     draws = np.random.default_rng(1).standard_normal((SHOTS, len(spread)))
     columns = [within(p, p.value + sigma * draw) for (p, sigma), draw in zip(spread.values(), draws.T, strict=True)]
     controls = scene.controls
     asked = [fact for fact in (controls.scores, controls.fan_fact) if fact]
+    in_full = not quick or not early or scene.settles(asked) is not None
+    asked = asked if in_full else [early]
     found = runs(scene, list(spread), np.column_stack(columns).tolist(), asked=asked)
     shots, count = [], 0
     for count, run in enumerate(found, 1):
         if not isinstance(run, Exception):
             shots.append(Shot(scene, run))
-        if perf_counter() - started > limit and count >= FEWEST:
+        if quick and count >= FEWEST and process_time() - started > QUICK:
             break
-    lines = [np.clip(camera.pixels(shot.track(shot.ball)[:, 1:]), -FAR, max(size) + FAR) for shot in shots]
-    scored = [shot.scored for shot in shots]
-    values = [shot.run.result.get(controls.fan_fact) for shot in shots]
-    said = (
-        _share(scene, scored, [v for v in values if isinstance(v, float)]),
-        ", ".join(
-            f"{key.rpartition('.')[2]} ± {short(sigma)} {p.unit or ''}".rstrip() for key, (p, sigma) in spread.items()
-        ),
-    )
-    good = [line for line, good in zip(lines, scored, strict=True) if good]
-    others = [line for line, good in zip(lines, scored, strict=True) if not good]
-    return Cloud(
-        *_drawn(density(good, size), density(others, size), colours), said, len(shots), sum(scored), count == SHOTS
-    )
+    paths = points([(shot.run, shot.ball) for shot in shots]) if shots else []
+    lines = [np.clip(camera.pixels(path[:, 1:]), -FAR, max(size) + FAR) for path in paths]
+    good = density([line for line, shot in zip(lines, shots, strict=True) if shot.scored], size)
+    others = density([line for line, shot in zip(lines, shots, strict=True) if not shot.scored], size)
+    sigmas = [f"{key.rpartition('.')[2]} ± {short(sigma)} {p.unit or ''}" for key, (p, sigma) in spread.items()]
+    said = _said(scene, asked, shots), ", ".join(map(str.rstrip, sigmas))
+    scored = sum(shot.scored for shot in shots)
+    return Cloud(*_drawn(good, others, colours), said, len(shots), scored, in_full and count == SHOTS)
 
 
-def _share(scene: Scene, scored: Sequence[bool], values: Sequence[float]) -> str:
-    """How many score, and the mean and spread of the fact that the scene names."""
-    count = len(scored)
+def _said(scene: Scene, asked: Sequence[str], shots: Sequence[Shot]) -> str:
+    """How many score, and the mean and spread of the last number that was asked for."""
+    count = len(shots)
     text = f"{count} shots" if count else "no such shot could be computed"
-    if scene.controls.scores and count:
-        p = sum(scored) / count
-        text = f"{sum(scored)} of {count} score: {100 * p:.0f} ± {max(1.0, 100 * sqrt(p * (1 - p) / count)):.0f} %"
-    fact = scene.facts.get(scene.controls.fan_fact)
+    if scene.controls.scores in asked and count:
+        scored = sum(shot.scored for shot in shots)
+        p = scored / count
+        text = f"{scored} of {count} score: {100 * p:.0f} ± {max(1.0, 100 * sqrt(p * (1 - p) / count)):.0f} %"
+    fact = scene.facts.get(asked[-1]) if asked else None
+    values = [shot.run.result[fact.key] for shot in shots] if fact is not None else []
+    values = [value for value in values if isinstance(value, float)]
     if fact is not None and len(values) > 1:
         text += f"; {fact.label} {np.mean(values):.1f} ± {np.std(values):.1f} {fact.unit}"
     return text

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import lru_cache
 from math import comb
 from typing import TYPE_CHECKING
@@ -25,11 +26,11 @@ def _basis(terms: int) -> np.ndarray:
     return np.array([comb(terms - 1, i) for i in range(terms)]) * u**k * (1 - u) ** (terms - 1 - k)
 
 
-def points(run: Run, ball: str) -> np.ndarray:
-    """Points along a ball's path, shape (n, 3): t in s, x and y in m, in order of time."""
-    arcs = run.arcs[ball]
+def points(paths: Sequence[tuple[Run, str]]) -> list[np.ndarray]:
+    """Points along the paths of balls of runs, each of shape (n, 3): t in s, x and y in m, in order of time."""
+    arcs = [arc for run, ball in paths for arc in run.arcs[ball]]
     out = np.empty((len(arcs), POINTS, 3))
-    spans = np.array([(arc.t0, min(arc.t1, run.duration)) for arc in arcs])
+    spans = np.array([(arc.t0, min(arc.t1, run.duration)) for run, ball in paths for arc in run.arcs[ball]])
     u = np.linspace(0.0, 1.0, POINTS)
     out[:, :, 0] = spans[:, :1] + (spans[:, 1:] - spans[:, :1]) * u
     for column, curves in ((1, [arc.x for arc in arcs]), (2, [arc.y for arc in arcs])):
@@ -38,7 +39,7 @@ def points(run: Run, ball: str) -> np.ndarray:
             rows = np.flatnonzero(lengths == terms)
             coefficients = np.array([curves[row] for row in rows])
             out[rows, :, column] = coefficients @ _basis(terms).T
-    return out.reshape(-1, 3)
+    return np.split(out.reshape(-1, 3), POINTS * np.cumsum([len(run.arcs[ball]) for run, ball in paths])[:-1])
 
 
 def moves(run: Run, ball: str) -> bool:

@@ -84,6 +84,15 @@ class Shot:
         return bool(self.run.result.get(self.scene.controls.scores))
 
     @cached_property
+    def early(self) -> str:
+        """The first fact that is known before the end, such as where the ball lands; "" if there is none."""
+        for key, fact in self.scene.facts.items():
+            applies = fact.where is None or fact.where(self.run, self.scene.parameters)
+            if fact.settled not in ("start", "end") and applies:
+                return key
+        return ""
+
+    @cached_property
     def upright(self) -> bool:
         """Whether y is height: seen from above, gravity does not act in the plane."""
         return any(isinstance(force, Gravity) for ball in self.run.setup.balls for force in ball.forces)
@@ -97,7 +106,7 @@ class Shot:
     def track(self, ball: str) -> np.ndarray:
         """Points along a ball's path, shape (n, 3): t in s, x and y in m."""
         if ball not in self._tracks:
-            self._tracks[ball] = points(self.run, ball)
+            self._tracks[ball] = points([(self.run, ball)])[0]
         return self._tracks[ball]
 
     @cached_property

@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
-from math import inf
 from threading import Thread
 from typing import TYPE_CHECKING, Any
 
@@ -49,8 +48,6 @@ AT_REST = 0.15
 #: The panel, for its tooltips and blinking cursor, is drawn in every frame until the first time, in s, after an event;
 #: later at intervals of the second while somebody types.
 LIVELY, BLINK = 1.5, 0.25
-#: So long, in s, the first fan of a shot may take, so that it follows the mouse.
-GLIMPSE = 0.1
 #: Largest and smallest zoom, compared with a view of the whole shot.
 NEAREST, FARTHEST = 60.0, 0.2
 
@@ -300,15 +297,17 @@ class View:
         self._take_stage()
 
     def _cloud_wanted(self) -> tuple[Any, ...] | None:
-        """What a fan is still to be computed of: the shot; its first shots first, if all would take long."""
+        """What a fan is still to be computed of: the shot; a quick one while it changes."""
         game, stage, known = self.game, self.stage, self.clouds
         shown = game.failure is None and self.up_to_date
         if "fan" not in self.on or not shown or stage is None or game.shot is None:
             return None
         now = game.shot, game.fan_width, stage.camera
+        moving = game.pull is not None or game.still < AT_REST
         if known.key is None or known.key[:3] != now:
-            return (*now, GLIMPSE)
-        return (*now, inf) if known.value is not None and not known.value.complete else None
+            return (*now, moving)
+        incomplete = known.value is not None and not known.value.complete
+        return (*now, False) if incomplete and not moving else None
 
     def _follow_cloud(self) -> None:
         """Compute a fan of the shot, one after the other while the shot changes."""
@@ -317,7 +316,7 @@ class View:
         if key is not None:
             if self.clouds.takes > LONG and self.clouds.work_for[:3] != key[:3]:
                 self.game.helper.kill()
-            asked = key[0].scene, *key[1:], self.area.size, (CARD["good"], CARD["text"])
+            asked = key[0].scene, *key[1:], key[0].early, self.area.size, (CARD["good"], CARD["text"])
             self.clouds.follow(key, lambda: self.game.helper.submit(cloud, *asked))
 
     def _map_wanted(self) -> tuple[Any, ...] | None:

@@ -22,6 +22,7 @@ from sandbox.window.keys import LISTED, TABLE, of_groups
 from sandbox.window.measure import reading
 from sandbox.window.score_map import COARSE, FINER, SCORED, score_map
 from sandbox.window.session import Session
+from sandbox.window.view import AT_REST
 
 PUTT = "golf/putt"
 
@@ -63,20 +64,28 @@ class TestTheFan:
         session.reset()
         session.change({"launch.speed": 7.5})
         with mock.patch("sandbox.window.fan.SHOTS", 30):
-            found = cloud(session.scene, 1.0, camera, 9.0, (640, 360), ((0, 255, 0), (255, 255, 255)))
+            found = cloud(session.scene, 1.0, camera, False, "", (640, 360), ((0, 255, 0), (255, 255, 255)))
         assert 0 < found.scored == made < 30
 
-    def test_one_that_takes_long_shows_its_first_shots_first(self, player, monkeypatch):
+    def test_a_quick_one_has_only_its_first_shots_where_they_take_long(self, monkeypatch):
         session, camera = Session("billiards/cut"), Camera((0.0, 0.0), (300.0, 200.0), 150.0)
-        few = cloud(session.scene, 1.0, camera, 0.0, (640, 360), ((0, 255, 0), (255, 255, 255)))
+        monkeypatch.setattr("sandbox.window.fan.QUICK", 0.0)
+        few = cloud(session.scene, 1.0, camera, True, "", (640, 360), ((0, 255, 0), (255, 255, 255)))
         assert not few.complete
         assert few.shots == FEWEST
         assert few.said[0].startswith(f"{few.scored} of {FEWEST} score")
-        monkeypatch.setattr("sandbox.window.view.GLIMPSE", 0.0)
-        player = player("billiards/cut")
+
+    def test_while_the_aim_changes_it_ends_where_something_is_known_and_at_rest_it_is_complete(self, player):
+        player = player("golf")
         player.key(pygame.K_f)
+        player.game.nudge({"launch.speed": 70.0})
+        player.frames(1, dt=0.0)
+        while player.view.clouds.work is not None:
+            player.frames(1, dt=0.0)
+        assert player.view.clouds.value.said[0].startswith(f"{SHOTS} shots; carry 2")
+        player.frames(1, dt=AT_REST)
         player.settle()
-        assert player.view.clouds.value.shots == SHOTS
+        assert f" of {SHOTS} score: " in player.view.clouds.value.said[0]
 
     def test_it_is_drawn_and_put_away(self, player):
         player = player(PUTT)
@@ -91,7 +100,7 @@ class TestTheFan:
     def test_those_that_score_are_green(self, made):
         session = Session("basketball", {} if made else {"launch.speed": 5.0})
         camera = Camera((0.0, 0.0), (100.0, 300.0), 60.0)
-        found = cloud(session.scene, 1e-6, camera, 9.0, (640, 360), ((0, 200, 0), (250, 250, 250)))
+        found = cloud(session.scene, 1e-6, camera, False, "", (640, 360), ((0, 200, 0), (250, 250, 250)))
         pixels = np.frombuffer(found.pixels, np.uint8).reshape(found.size[1], found.size[0], 4)
         drawn = pixels[pixels[..., 3] > 60].astype(int)
         assert len(drawn) > 100
@@ -140,6 +149,7 @@ class TestTheFan:
         player = player(PUTT)
         player.key(pygame.K_f)
         player.key(pygame.K_SPACE)
+        player.frames(12)
         player.settle()
         assert player.game.playback is not None
         assert player.view._cloud_of(player.game.shots[0]).shots == SHOTS
