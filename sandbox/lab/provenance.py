@@ -23,8 +23,8 @@ from sandbox import resources
 from sandbox.lab.row_file import is_of_a_sweep
 from sandbox.scene import Scene
 
-#: Pictures and tables that the program writes; a file of these kinds that a scene reads is not noticed.
-_OUTPUTS = (".png", ".gif", ".webp", ".parquet", ".resume", ".part", "~")
+#: Files that the program writes; one of these kinds that a scene reads is not noticed.
+_OUTPUTS = (".png", ".gif", ".webp", ".parquet", ".replay.json", ".resume", ".part", "~")
 
 #: Folders that no run depends on.
 _IGNORED = {"__pycache__", "golden", "out"}

@@ -208,13 +208,13 @@ def _cells(line: bytes) -> list[str] | None:
 
 
 def is_of_a_sweep(path: Path) -> bool:
-    """Whether a file is a table written by this program: rows of a sweep, or a trajectory."""
+    """Whether a file is a table written by this program, rows of a sweep or a trajectory, or is still empty."""
     try:
         with path.open("rb") as file:
             first = file.readline(1 << 16).rstrip(b"\r\n")
     except OSError:
         return False
-    return first.endswith(f",{_LAST}".encode()) or first == _TRAJECTORY
+    return first.endswith(f",{_LAST}".encode()) or first in (_TRAJECTORY, b"")
 
 
 @contextmanager

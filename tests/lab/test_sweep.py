@@ -438,11 +438,20 @@ def test_all_that_rows_depend_on_makes_another_sweep(tmp_path, monkeypatch):
         file.write_text((file.read_text("utf-8") if file.exists() else "") + text, "utf-8")
         assert found() not in seen, file
         seen.append(found())
-    for name in (".notes", "rows.csv~", "golf.png", "__pycache__/scene.pyc", "golden/a.json", ".git/index"):
+    for name in (
+        ".notes",
+        "rows.csv~",
+        "golf.png",
+        "shot.replay.json",
+        "__pycache__/scene.pyc",
+        "golden/a.json",
+        ".git/index",
+    ):
         (folder / name).parent.mkdir(exist_ok=True)
         (folder / name).write_text("made from it")
-    (folder / "rows.csv").write_text("launch.height,carry,error\n")
-    assert found() == seen[-1]
+    for content in ("", "launch.height,carry,error\n"):  # a sweep into this folder before and after its first row
+        (folder / "rows.csv").write_text(content)
+        assert found() == seen[-1]
     for name in ("version", "platform.python_version", "platform.machine"):
         with monkeypatch.context() as patched:
             patched.setattr(f"sandbox.lab.provenance.{name}", lambda *args: "another")
