@@ -374,8 +374,28 @@ class TestRecords:
         told = changed_results(kept, other)
         assert [line.split()[0] for line in told] == ["carry", "apex", "holed", "extra"]
 
+    @pytest.mark.parametrize(
+        ("before", "after", "same"),
+        [
+            ([1.0, {"a": True}], [1.0 + 1e-9, {"a": True}], True),
+            ([1.0, 2.0], [1.0, 2.1], False),
+            ([1.0], [1.0, 2.0], False),
+            ({"a": 1.0}, {"a": 1.1}, False),
+            ({"a": 1.0}, {"b": 1.0}, False),
+            ([1.0], {"a": 1.0}, False),
+            ({"a": 1.0}, 1.0, False),
+            (True, 1, False),
+            (1.0, 1, True),
+            (None, 0.0, False),
+            ("in", "out", False),
+        ],
+    )
+    def test_results_of_any_kind(self, before, after, same: bool):
+        for one, other in ((before, after), (after, before)):
+            assert (changed_results({"result": {"it": one}}, {"result": {"it": other}}) == []) is same
+
     def test_text_reads_back(self):
-        kept = self.records()
+        kept = self.records() | {"events": [], "result": {"spots": [1.0, {"a": "Fußball"}]}}
         assert json.loads(as_text(kept)) == kept
 
 
