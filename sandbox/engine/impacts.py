@@ -35,9 +35,18 @@ _TURNS = 9
 class Hit(NamedTuple):
     """One contact that closed."""
 
+    t: float  # s
     ball: int  # index into the balls of the setup
     partner: str
     speed: float  # m/s, normal speed of approach
+
+
+class Outcome(NamedTuple):
+    """What follows an impact."""
+
+    t: float  # s, when the last two bodies separate
+    states: dict[int, State]  # of all balls that are touched
+    hits: list[Hit]  # in order of time
 
 
 class Impacts:
@@ -56,8 +65,8 @@ class Impacts:
         self._some_soft = self._all_soft or any(surface.nose_height is not None for surface in setup.surfaces)
         self._heaviest = max(ball.mass for ball in setup.balls)  # kg
 
-    def exchange(self, states: dict[int, State]) -> tuple[dict[int, State], list[Hit]]:
-        """The states after the impact of balls that touch, directly or through others, and the hits.
+    def exchange(self, t: float, states: dict[int, State]) -> Outcome:
+        """The impact at t of balls that touch, directly or through others.
 
         Balls and hard walls exchange impulses at once; soft walls push back afterwards, one after another, and so on
         until nothing closes. If that takes too many turns, or in a heap, all exchange impulses at once instead.
@@ -85,8 +94,8 @@ class Impacts:
                 break
             if self._slowest_hop > 0.0:
                 self._pay_for_hops(before, states)
-            hits += [Hit(contact.balls[0], contact.partner, contact.speed) for contact in closed]
-        return states, hits
+            hits += [Hit(t, contact.balls[0], contact.partner, contact.speed) for contact in closed]
+        return Outcome(t, states, hits)
 
     def touching(self, t: float, seeds: Sequence[int]) -> dict[int, State]:
         """The states at t of all balls that touch those in ``seeds``, directly or through others."""

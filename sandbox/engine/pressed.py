@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from functools import partial
 from itertools import combinations, pairwise
 from math import hypot
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
 from sandbox.engine.bernstein import evaluate
 from sandbox.engine.clusters import Body, Cluster, Link, StaysPressed
+from sandbox.engine.impacts import Hit, Outcome
 from sandbox.engine.setup import Bounce, Setup
 from sandbox.engine.surfaces import bounce_of_balls, bounce_off
 from sandbox.engine.touch import TOUCHING_GAP, Obstacle
@@ -28,24 +28,6 @@ STICKY = 0.25
 FAINTEST = 1e-3
 
 
-class TimedHit(NamedTuple):
-    """One contact that closed during the impact."""
-
-    t: float  # s
-    ball: int  # index into the balls of the setup
-    partner: str
-    speed: float  # m/s, normal speed of approach
-
-
-@dataclass(frozen=True)
-class Parted:
-    """The balls after they have separated."""
-
-    t: float  # s, when the last two separated
-    states: dict[int, State]  # of all that were touched
-    hits: list[TimedHit]  # in order of time
-
-
 class Pressed:
     """Finds clusters among the balls of a run, according to its contact model."""
 
@@ -55,7 +37,7 @@ class Pressed:
         self._tracks = tracks
         self._step = step
 
-    def through(self, t: float, touching: dict[int, State]) -> Parted | None:
+    def through(self, t: float, touching: dict[int, State]) -> Outcome | None:
         """Simulate the contact of the cluster around the balls that touch at t (with their states).
 
         None if impulses are right: no two balls strike each other, other forces change their speed more during the
@@ -146,7 +128,7 @@ class Pressed:
             if obstacle.near(state[0], state[1]).gap <= reach
         ]
 
-    def _overlapping(self, parted: Parted) -> set[frozenset[int]]:
+    def _overlapping(self, parted: Outcome) -> set[frozenset[int]]:
         """The pairs that overlap after the balls have separated, with at least one ball that was touched."""
         pairs = set()
         for index, state in parted.states.items():
@@ -167,7 +149,7 @@ class Pressed:
         walls: Sequence[tuple[int, Obstacle]],
         pairs: Sequence[tuple[int, int]],
         speed: float,
-    ) -> Parted:
+    ) -> Outcome:
         order = list(members)
         place = {index: number for number, index in enumerate(order)}
         bodies = [self._body(t, index, state) for index, state in members.items()]
@@ -180,7 +162,7 @@ class Pressed:
         outcome = Cluster(bodies, links, self._setup.cloth is not None).pass_through(self._step)
         touched = np.flatnonzero(outcome.impulse > 0.0).tolist()
         hits = [
-            TimedHit(t + float(outcome.closed[link]), linked[link][0], names[link], float(outcome.approach[link]))
+            Hit(t + float(outcome.closed[link]), linked[link][0], names[link], float(outcome.approach[link]))
             for link in touched
         ]
         states = {}
@@ -189,7 +171,7 @@ class Pressed:
             wx, wy, wz = outcome.spin[place[index]].tolist()
             rolling = (wx, wy) if self._setup.cloth is not None else ()
             states[index] = (x, y, vx, vy, wz, *rolling)
-        return Parted(t + outcome.duration, states, sorted(hits))
+        return Outcome(t + outcome.duration, states, sorted(hits))
 
     def _body(self, t: float, index: int, state: State) -> Body:
         track = self._tracks[index]

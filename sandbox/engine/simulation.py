@@ -17,7 +17,7 @@ from sandbox.engine.accuracy import Accuracy
 from sandbox.engine.arc import Arc, still
 from sandbox.engine.event import Event
 from sandbox.engine.heap import Heap, Heaped
-from sandbox.engine.impacts import Impacts
+from sandbox.engine.impacts import Impacts, Outcome
 from sandbox.engine.in_plane import Diverged, InPlane
 from sandbox.engine.lasting import RESTING, LastingContact
 from sandbox.engine.on_cloth import OnCloth, slowest_hop
@@ -30,7 +30,7 @@ from sandbox.errors import RunError
 from sandbox.physics.integrators import State
 
 if TYPE_CHECKING:
-    from sandbox.engine.pressed import Parted, Pressed
+    from sandbox.engine.pressed import Pressed
 
 #: Most events while time advances by less than _STANDSTILL s, beyond which the run has stalled.
 _MOST_AT_ONCE = 2_000
@@ -191,25 +191,26 @@ class Simulation:
         if self._heap is not None:
             self._impacts.gap = self._heap.margin if self._heap.members else TOUCHING_GAP
         touching = self._impacts.touching(t, seeds)
-        parted = None
+        outcome = None
         if self._pressed is not None and len(touching) > 1 and not (self._heap and self._heap.members):
-            parted = self._pressed.through(t, touching)
-        if parted is not None:
-            self._part(t, touching, parted)
-            return
-        states, hits = self._impacts.exchange(touching)
-        for index in states:
+            outcome = self._pressed.through(t, touching)
+        if outcome is None:
+            outcome = self._impacts.exchange(t, touching)
+        for index in touching.keys() | outcome.states.keys():
             self._tracks[index].keep(t)
-        for hit in hits:
+        for hit in outcome.hits:
             self._numerics.impacts += 1
-            x, y = states[hit.ball][:2]
-            self._note(Event(t, "impact", self._tracks[hit.ball].ball.name, hit.partner, hit.speed, x, y))
-        for index, state in states.items():
+            ball = self._tracks[hit.ball]
+            self._note(Event(hit.t, "impact", ball.ball.name, hit.partner, hit.speed, *ball.arc.state(t)[:2]))
+        if outcome.t > t:
+            self._part(t, touching, outcome)
+            return
+        for index, state in outcome.states.items():
             self._tracks[index].state = state
         held: Collection[int] = ()
-        if self._heap is not None and self._heap.presses(t, states):
-            held = self._press_on(t, states.keys())
-        for index in states:
+        if self._heap is not None and self._heap.presses(t, outcome.states):
+            held = self._press_on(t, outcome.states.keys())
+        for index in outcome.states:
             if index not in held:
                 self._resume(index, t)
 
@@ -233,15 +234,9 @@ class Simulation:
             self._resume(index, t)
         return stepped.keys()
 
-    def _part(self, t: float, touching: dict[int, State], parted: Parted) -> None:
+    def _part(self, t: float, touching: dict[int, State], parted: Outcome) -> None:
         """Apply the outcome of a contact that lasts from t until the balls separate."""
         self._numerics.clusters += 1
-        for index in touching.keys() | parted.states.keys():
-            self._tracks[index].keep(t)
-        for hit in parted.hits:
-            self._numerics.impacts += 1
-            ball = self._tracks[hit.ball]
-            self._note(Event(hit.t, "impact", ball.ball.name, hit.partner, hit.speed, *ball.arc.position(t)))
         held = () if self._heap is None else self._heap.members
         for index in touching.keys() - parted.states.keys() - set(held):
             self._tracks[index].state = touching[index]
