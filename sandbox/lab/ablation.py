@@ -178,6 +178,8 @@ def _differences(a: Run, b: Run) -> dict[str, tuple[float, float]]:
 
 def variants(setup: Setup) -> Iterator[Variant]:
     """Each part of the model left out, simplified, or added if the scene lacks it."""
+    balls = [replace(ball, forces=[*ball.forces], torques=[*ball.torques]) for ball in setup.balls]
+    setup = replace(setup, balls=balls, surfaces=[*setup.surfaces])  # lists throughout, to be compared
     for part, change, other, touching in (
         *((name, "left out", _without(setup, name), False) for name in _terms(setup)),
         *((*in_air, False) for in_air in _in_air(setup)),

@@ -14,6 +14,7 @@ from PIL import Image
 from sandbox.cli import main
 from sandbox.engine import simulate
 from sandbox.engine.accuracy import LEVELS
+from sandbox.engine.setup import Ball, Setup
 from sandbox.lab import timing, verdicts
 from sandbox.lab import trade as lab
 from sandbox.lab.ablation import Ablated, ablation, variants
@@ -21,6 +22,7 @@ from sandbox.lab.reference import DIVERGED, REFERENCE, Reference, converge
 from sandbox.lab.tables import length_above
 from sandbox.lab.verdicts import shot_map, verdict
 from sandbox.new import new_scene
+from sandbox.physics.coefficients import Constant
 from sandbox.physics.forces import Drag
 from sandbox.scene import load
 
@@ -212,6 +214,14 @@ def test_a_coefficient_as_at_the_start_is_that_of_the_start():
 def test_throw_and_cloth_on_a_table():
     names = {variant.part for variant in variants(load("billiards").build())}
     assert {"friction of balls (throw)", "rolling friction of the cloth"} <= names
+    assert not {"lift", "wind", "spin decay", "bounce law"} & names
+
+
+def test_a_setup_of_nothing_has_no_parts_but_what_it_lacks():
+    ball = Ball("ball", 1.0, 0.1, (0.0, 0.0), (1.0, 0.0))
+    assert list(variants(Setup((ball,), ()))) == []
+    drag = Drag(0.1, 1.2, Constant(0.5))
+    assert [v.part for v in variants(Setup((replace(ball, forces=(drag,)),)))] == ["drag", "wind", "lift"]
 
 
 def test_throw_by_speed_is_tried_as_one_number():
