@@ -249,7 +249,8 @@ def as_text(outcomes: Sequence[Outcome]) -> list[str]:
     for scene, own in _grouped(outcomes, "scene"):
         rows = []
         for extreme, tries in _grouped(own, "extreme"):
-            rows.append([extreme, *_sums([each for each in tries if each.method != "plain"], tries)])
+            sums = _sums([each for each in tries if each.method != "plain"], tries)
+            rows.append([extreme, *("" if cell == "0" else cell for cell in sums)])
         lines += [scene or "setups without a scene", *table(("extreme", *_SUMS), rows, "lrrrrr"), *_remarks(own), ""]
     headings, rows = summary(outcomes)
     return [*lines, "total", *table(headings, rows, "l" + "r" * (len(headings) - 1))]
@@ -280,7 +281,7 @@ def _sums(measured: Sequence[Outcome], outcomes: Sequence[Outcome]) -> list[str]
     energy = [each.energy_gained for each in measured if each.energy_gained is not None]
     overlap = [each.penetration_m for each in measured if each.penetration_m is not None]
     worst = [percent(max(energy)), length(max(overlap))] if energy and overlap else ["", ""]
-    return [*(str(count or "") for count in counts), *worst]
+    return [*map(str, counts), *worst]
 
 
 def _remarks(outcomes: Sequence[Outcome]) -> Iterator[str]:
