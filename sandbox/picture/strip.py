@@ -1,4 +1,4 @@
-"""A film strip: a few frames of a run side by side, from its first to its last."""
+"""A film strip: a few frames of a run side by side, until its story is told."""
 
 from __future__ import annotations
 
@@ -12,45 +12,43 @@ from sandbox.picture.palette import palette
 
 FILM = palette("film")
 
-#: Frames on a strip, and samples by which they are spread.
+#: Frames along the way, and samples by which they are spread.
 FRAMES, SAMPLES = 5, 400
-#: All touches together count for this share of the way; a frame shows the touch that is nearer than this share of the
-#: way between two frames.
-TOUCHES, NEAR = 0.5, 0.4
+#: So many touches have a frame of their own: the hardest, at least so hard as a share of the hardest of all, and so far
+#: apart in time as a share of the run.
+TOUCHES, HARD, APART = 8, 0.15, 0.005
+#: A frame along the way is left out where a touch is nearer than this share of the way between two of them.
+NEAR = 0.4
 #: Heights over a frame's: of the margin with the holes, of a hole; and the gap between frames.
 MARGIN, HOLE, GAP = 0.11, 0.05, 0.022
 #: Holes along each frame.
 HOLES = 8
 
 
-def strip_times(run: Run) -> list[float]:
-    """Times in s, the first and the last among them, between which all balls together go equally far.
-
-    Where something is struck, that counts as a part of the way, the more the harder, and the frame next to it shows it.
-    """
-    impacts = [event for event in run.events if event.kind == "impact" and 0.0 < event.t < run.duration]
-    hits, hardness = np.array([event.t for event in impacts]), np.cumsum([0.0, *(event.speed for event in impacts)])
-    times = np.union1d(np.linspace(0.0, run.duration, SAMPLES), hits)
-    way = np.zeros(len(times))
+def strip_times(run: Run, until: float) -> list[float]:
+    """Times in s from 0 to ``until``: some between which all balls together go equally far, and the hardest touches."""
+    times = np.linspace(0.0, until, SAMPLES)
+    way = np.zeros(SAMPLES)
     for ball in run.setup.balls:
         places = np.array([run.state(ball.name, float(t))[:2] for t in times])
         way[1:] += np.cumsum(np.hypot(*np.diff(places, axis=0).T))
-    if way[-1] == 0.0:
-        return [float(t) for t in np.linspace(0.0, run.duration, FRAMES)]
-    way += TOUCHES * way[-1] * hardness[np.searchsorted(hits, times, side="right")] / max(hardness[-1], 1e-9)
-    shares = np.linspace(0.0, way[-1], FRAMES)
-    near = shares[1] * NEAR
-    inner = []
-    for share in shares[1:-1]:
-        away = np.abs(np.interp(hits, times, way) - share)
-        touch = len(hits) > 0 and away.min() < near
-        inner.append(float(hits[away.argmin()] if touch else np.interp(share, way, times)))
-    return [0.0, *inner, run.duration]
+    even = np.interp(np.linspace(0.0, way[-1], FRAMES), way, times) if way[-1] > 0.0 else times[:: SAMPLES // FRAMES]
+    impacts = [event for event in run.events if event.kind == "impact" and 0.0 < event.t < until]
+    shown: list[float] = []
+    for event in sorted(impacts, key=lambda event: -event.speed)[:TOUCHES]:
+        hard = event.speed >= HARD * max(impact.speed for impact in impacts)
+        if hard and all(abs(event.t - t) > APART * until for t in shown):
+            shown.append(event.t)
+    near = NEAR * way[-1] / (FRAMES - 1)
+    touched = np.interp(shown, times, way)
+    between = [float(t) for t in even[1:-1] if np.all(abs(np.interp(t, times, way) - touched) > near)]
+    return sorted([0.0, *between, *shown, until])
 
 
 def film_strip(picture: Picture, run: Run) -> pygame.Surface:
     """The strip; each of its frames is as large as the picture's."""
-    frames = [frame_of(picture, t) for t in strip_times(run)]
+    until = getattr(picture, "told", run.duration)  # a scene's own picture may say no more than how to draw a frame
+    frames = [frame_of(picture, t) for t in strip_times(run, until)]
     width, height = frames[0].get_size()
     margin, gap = round(MARGIN * height), round(GAP * height)
     strip = blank((len(frames) * (width + gap) + gap, height + 2 * margin))
