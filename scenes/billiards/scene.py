@@ -177,7 +177,8 @@ def _nose(parameters: Parameters) -> float | None:
 
 
 def laid_out(parameters: Parameters) -> dict[str, Vector]:
-    """Where each ball lies at the start, in m: those listed, those racked, and with a rack a cue ball on the head spot.
+    """Where each ball lies at the start, in m: those listed, those racked, and with a rack a cue ball, to the
+    left of the head spot, from where players break.
 
     Raises RequestError for a name given twice and for a struck ball that is not there.
     """
@@ -191,7 +192,7 @@ def laid_out(parameters: Parameters) -> dict[str, Vector]:
             raise RequestError(f'balls: "{name}" is in the rack already; rename it, or set rack = "none"')
         spots[name] = position
     if _rack(parameters) != "none" and "cue" not in spots:
-        spots["cue"] = (-0.25 * parameters.table.length, 0.0)
+        spots["cue"] = (-0.25 * parameters.table.length, parameters.table.width / 6.0)
     if parameters.cue.ball not in spots:
         there = ", ".join(spots) or "none"
         raise RequestError(f'cue.ball = "{parameters.cue.ball}": there is no such ball on the table; there are {there}')
