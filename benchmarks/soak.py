@@ -101,7 +101,7 @@ def scenes_and_presets() -> list[str]:
 
 def fuzzed_scene(draw: random.Random) -> str:
     name = draw.choice(scenes_and_presets())
-    if draw.random() < 0.4:
+    if draw.random() < 0.3:
         return scrambled_file(draw, name)
     known = [p for p in declared.walk(sandbox.load(name).parameters) if not p.key.startswith("accuracy.")]
     some = draw.sample(known, draw.choice((1, 2, 3, 6, len(known))))

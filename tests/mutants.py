@@ -94,7 +94,7 @@ TESTS: dict[str, dict[str, str]] = {
         "": "{name} cli",
     },
     **{
-        f"scenes/{scene}": {"": f"scenes/{scene.replace('-', '_')} golden_runs"}
+        f"scenes/{scene}": {"": f"schemas scenes/{scene.replace('-', '_')} golden_runs"}
         for scene in ("basketball", "billiards", "golf", "soccer", "soccer-curl", "volleyball")
     },
 }
