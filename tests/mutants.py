@@ -94,8 +94,8 @@ TESTS: dict[str, dict[str, str]] = {
         "": "{name} cli",
     },
     **{
-        f"scenes/{scene}": {"": f"schemas scenes/{scene.replace('-', '_')} golden_runs"}
-        for scene in ("basketball", "billiards", "golf", "soccer", "soccer-curl", "volleyball")
+        f"scenes/{file.parent.name}": {"": f"schemas scenes/{file.parent.name.replace('-', '_')} golden_runs"}
+        for file in sorted(ROOT.glob("scenes/*/scene.py"))
     },
 }
 
