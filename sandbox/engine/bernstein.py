@@ -15,6 +15,9 @@ from functools import lru_cache
 from itertools import pairwise
 from math import comb
 
+#: After a Newton step shorter than this, the error is its square times a moderate factor, which is rounding.
+CONVERGED = 1e-12
+
 #: Deepest halving of [0, 1]: two roots closer than 2**-40 of the interval count as a touch without crossing.
 _DEEPEST = 40
 
@@ -179,7 +182,7 @@ def _single_root(b: list[float]) -> float:
         else:
             low = u
         following = u - value / fall if fall < 0.0 else low  # where it rises the root is only rounding
-        if (fall < 0.0 and abs(following - u) <= 2e-16) or high - low <= 1e-16:
+        if (fall < 0.0 and abs(following - u) <= CONVERGED) or high - low <= 1e-16:
             return min(max(following, low), high)
         if not low < following < high:
             following = 0.5 * (low + high)

@@ -7,20 +7,37 @@ from __future__ import annotations
 
 import numpy as np
 
-from sandbox.engine.bernstein import binomials
+from sandbox.engine.bernstein import CONVERGED, binomials
 
-#: Most Newton steps to a root: five or six are typical, and bisection alone needs 53.
+#: Most Newton steps to a root: four or five are typical, and bisection alone needs 53.
 _MOST_STEPS = 60
 
 
 def evaluate(b: np.ndarray, u: np.ndarray) -> np.ndarray:
-    """f(u), shape (..., paths), by Horner's rule in u, with the powers of 1 - u multiplied in on the way."""
+    """f(u), shape (..., paths)."""
     n = len(b) - 1
-    w, power, value = 1.0 - u, np.ones_like(u), b[0]
-    for k, count in enumerate(binomials(n)[1:], start=1):
-        power = power * u
-        value = value * w + (count * power) * b[k]
-    return value
+    return _summed(_scaled(b), _powers(u, n), _powers(1.0 - u, n))
+
+
+def _scaled(b: np.ndarray) -> np.ndarray:
+    """Coefficients times their binomials."""
+    return np.array(binomials(len(b) - 1), float).reshape(-1, *[1] * (b.ndim - 1)) * b
+
+
+def _powers(u: np.ndarray, n: int) -> np.ndarray:
+    """u^0 to u^n, shape (n + 1, paths)."""
+    powers = np.ones((n + 1, len(u)))
+    for k in range(n):
+        np.multiply(powers[k], u, out=powers[k + 1])
+    return powers
+
+
+def _summed(scaled: np.ndarray, powers: np.ndarray, backwards: np.ndarray) -> np.ndarray:
+    """f from scaled coefficients, and the powers of u and of 1 - u at least up to its degree."""
+    n = len(scaled) - 1
+    weights = powers[: n + 1] * backwards[n::-1]
+    found: np.ndarray = (scaled * weights.reshape(n + 1, *[1] * (scaled.ndim - 2), -1)).sum(axis=0)
+    return found
 
 
 def until(b: np.ndarray, u: np.ndarray) -> np.ndarray:
@@ -105,18 +122,19 @@ def _halves(b: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 def _single_root(b: np.ndarray) -> np.ndarray:
     """The root of polynomials that fall through zero exactly once in [0, 1]: Newton, kept inside a bracket."""
     low, high = np.zeros(b.shape[1]), np.ones(b.shape[1])
-    slope = (len(b) - 1) * (b[1:] - b[:-1])
+    n = len(b) - 1
+    scaled, slope = _scaled(b), _scaled(n * (b[1:] - b[:-1]))
     u = b[0] / (b[0] - b[-1])
     near = np.zeros(b.shape[1], dtype=bool)
     for _ in range(_MOST_STEPS):
-        value, fall = evaluate(b, u), evaluate(slope, u)
+        powers = _powers(u, n), _powers(1.0 - u, n)
+        value, fall = _summed(scaled, *powers), _summed(slope, *powers)
         low, high = np.where(value >= 0.0, u, low), np.where(value < 0.0, u, high)
-        following = u - value / fall
+        before, following = u, u - value / fall
         falls = fall < 0.0  # where it rises the root is only rounding
-        near |= falls & ((value == 0.0) | (np.abs(following - u) <= 2e-16))
-        near |= high - low <= 1e-16
+        inside = falls & (low <= following) & (following <= high)
+        u = np.where(near, u, np.where(inside, following, 0.5 * (low + high)))
+        near |= (inside & (np.abs(following - before) <= CONVERGED)) | (high - low <= 1e-16)
         if near.all():
             break
-        inside = falls & (low < following) & (following < high)
-        u = np.where(near, u, np.where(inside, following, 0.5 * (low + high)))
     return u

@@ -23,7 +23,7 @@ from sandbox.engine.run import Event, Run
 from sandbox.engine.setup import Circle, Patch, Segment, Setup, Surface, Until, Vector
 from sandbox.errors import RequestError
 from sandbox.parameters import Accuracy, Group, group, quantity, switch
-from sandbox.physics.elementwise import clip
+from sandbox.physics.elementwise import anywhere, clip
 from sandbox.physics.integrators import State
 from sandbox.sport.air import Air
 from sandbox.sport.amounts import roughly
@@ -132,6 +132,8 @@ class NetDrag:
         x, y = position
         depth = self.middle[1] - y
         inside = self.half_width - abs(x - self.middle[0])
+        if not anywhere((depth > 0.0) & (depth < self.length) & (inside > -self.EDGE)):
+            return 0.0, 0.0
         hold = (
             _smooth(depth / self.EDGE) * _smooth((self.length - depth) / self.EDGE) * _smooth(1.0 + inside / self.EDGE)
         )

@@ -12,9 +12,12 @@ import numpy as np
 from sandbox.lab.aim.question import Interval, Solution, Target
 from sandbox.lab.aim.shots import Shots, scan
 
-#: Ends of intervals: runs per refinement between the known points, and number of refinements; then, as fractions of
-#: the range, the distance within which finer runs look for the same end first, and the final accuracy.
-_BETWEEN, _REFINEMENTS, _NEAR, _END = 9, 6, 1e-5, 1e-8
+#: Runs between the known points in the first refinement of an end, where there may be several, and in later ones.
+_FIRST, _LATER = 9, 3
+
+#: The accuracy of ends, and the distance within which finer runs look for an end that they do not see within this
+#: accuracy, both as fractions of the range.
+_END, _NEAR = 2e-7, 1e-5
 
 #: Two neighbouring values, and whether the target is met at the first, but not at the second, or vice versa.
 _Change = tuple[float, float, bool]
@@ -47,9 +50,9 @@ def _meets(result: Mapping[str, Any] | None, target: Target) -> bool:
 
 def _seen_finer(shots: Shots, changes: Sequence[_Change], ends: Sequence[float]) -> list[float | None]:
     """The same ends from finer runs; None for an end that they do not find, even between the points of the scan."""
-    near = _NEAR * (shots.spans[0].high - shots.spans[0].low)
+    least, near = (share * (shots.spans[0].high - shots.spans[0].low) for share in (_END, _NEAR))
     found: list[float | None] = [None] * len(ends)
-    for width in (near, inf):
+    for width in (least, near, inf):
         missing = [number for number, end in enumerate(found) if end is None]
         tight = [
             (max(low, ends[number] - width), min(high, ends[number] + width), met)
@@ -71,10 +74,9 @@ def _refined(shots: Shots, changes: Sequence[_Change], finer: bool) -> list[floa
     """The position at which the target starts or stops being met, for each change."""
     brackets = list(changes)
     least = _END * (shots.spans[0].high - shots.spans[0].low)
-    for _ in range(_REFINEMENTS):
-        if all(high - low <= least for low, high, _ in brackets):
-            break
-        inner = [np.linspace(low, high, _BETWEEN + 2).tolist()[1:-1] for low, high, _ in brackets]
+    between = _FIRST
+    while any(high - low > 2.0 * least for low, high, _ in brackets):
+        inner = [np.linspace(low, high, between + 2).tolist()[1:-1] for low, high, _ in brackets]
         results = iter(shots.results([(place,) for places in inner for place in places], "solve", finer))
         for number, ((low, high, before), places) in enumerate(zip(brackets, inner, strict=True)):
             known = [low, *places, high]
@@ -83,6 +85,7 @@ def _refined(shots: Shots, changes: Sequence[_Change], finer: bool) -> list[floa
             # of several ends, the one next to the interval in which the target is met
             change = ends_here[0] if before else ends_here[-1]
             brackets[number] = (known[change], known[change + 1], before)
+        between = _LATER
     return [0.5 * (low + high) for low, high, _ in brackets]
 
 
