@@ -24,6 +24,8 @@ RUNS = {
     "billiards/three-rail-carom": None,
     "volleyball": None,
     "tennis": None,
+    "baseball": None,
+    "baseball/green-monster": None,
     "tennis/topspin-forehand": None,
     "tennis/table-tennis": None,
     "golf": None,

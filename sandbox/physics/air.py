@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Any
 
-from sandbox.physics.elementwise import clip, log
+from sandbox.physics.elementwise import clip, exp, log
 
 
 def viscosity(temperature: float) -> float:
@@ -15,6 +15,19 @@ def viscosity(temperature: float) -> float:
     equation 51.
     """
     return 1.458e-6 * temperature**1.5 / (temperature + 110.4)
+
+
+def moist_density(temperature: float, pressure: float, humidity: float, elevation: float) -> float:
+    """Density of air in kg/m^3: ``1.2929 (273 / T) (p exp(-h / 8217 m) - 0.3783 H p_v) / 101325``.
+
+    ``temperature`` T in K, ``pressure`` p in Pa as weather stations give it (reduced to sea level), relative
+    ``humidity`` H from 0 to 1, ``elevation`` h in m above the sea; p_v is the vapour pressure of water (Buck).
+    Source: Nathan 2016, trajectory calculator, which has them in mm of mercury; second-hand (pybaseball).
+    """
+    celsius = temperature - 273.15
+    vapour = 611.2 * exp((18.687 - celsius / 234.5) * celsius / (257.14 + celsius))
+    here = pressure * exp(-0.0001217 * elevation) - 0.3783 * humidity * vapour
+    return 1.2929 * 273.0 / temperature * here / 101325.0
 
 
 #: Dynamic viscosity in Pa s of air at 15 C.

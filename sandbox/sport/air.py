@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import ClassVar, Literal
 
 from sandbox.parameters import Group, choice, quantity, vector
-from sandbox.physics.air import LogWind, UniformWind
+from sandbox.physics.air import LogWind, UniformWind, moist_density
 from sandbox.physics.coefficients import Coefficient, Constant, spin_ratio_lift
 from sandbox.physics.forces import Wind
 
@@ -27,6 +27,25 @@ class OutdoorAir(Air):
     roughness: float = quantity(..., "m", 0.0001, 2, "roughness length of a log profile")
 
 
+class Weather(Group):
+    """The air, by its weather unless its density is given."""
+
+    density: float | None = quantity(None, "kg/m^3", 0, 1100, "density, if it does not follow from the weather")
+    viscosity: float = quantity(..., "Pa s", 1e-7, 10, "dynamic viscosity, for the Reynolds number")
+    wind: tuple[float, float] = vector(..., "m/s", -100, 100, "along x and y; negative x is a headwind")
+    temperature: float = quantity(..., "C", -60, 60, "temperature")
+    pressure: float = quantity(..., "hPa", 500, 1100, "pressure reduced to sea level, as in weather reports")
+    humidity: float = quantity(..., "", 0, 1, "relative humidity")
+    elevation: float = quantity(..., "m", -500, 9000, "above the sea")
+
+    @property
+    def air(self) -> Air:
+        """The air of that density."""
+        moist = moist_density(self.temperature + 273.15, 100.0 * self.pressure, self.humidity, self.elevation)
+        density = moist if self.density is None else self.density
+        return Air(density=density, viscosity=self.viscosity, wind=self.wind)
+
+
 def wind_in(air: Air) -> Wind | None:
     """The wind as a velocity field, or None for still air."""
     if air.wind == (0.0, 0.0):
@@ -44,6 +63,10 @@ class Model(Group):
     def coefficient_law(self) -> Coefficient | None:
         """The coefficient as a function of Reynolds number and spin ratio; None for no force."""
         return self.LAWS.get(getattr(self, "model", ""))
+
+    def coefficient_in(self, air: Air, radius: float) -> Coefficient | None:
+        """The same for a ball of that radius (m), where it depends on more than those two."""
+        return self.coefficient_law()
 
 
 class Measured(Model):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from math import pi
 from typing import Protocol
 
@@ -11,7 +12,7 @@ from sandbox.engine.touch import Obstacle
 from sandbox.parameters import Group, either, quantity
 from sandbox.physics.coefficients import Scaled
 from sandbox.physics.elementwise import cos, sin
-from sandbox.physics.forces import Drag, Gravity, Magnus
+from sandbox.physics.forces import Drag, Gravity, Magnus, SpinDecay
 from sandbox.sport.air import Air, ConstantDrag, ConstantLift, Lift, Model, NoDrag, NoLift, SpinRatioLift, wind_in
 
 RPM = pi / 30.0  # rad/s
@@ -83,7 +84,7 @@ def forces_in_flight(ball: Flying, air: Air, gravity: float = 0.0, lift_share: f
     if air.density == 0.0:
         return forces
     about = (wind_in(air), ball.cross_section, air.viscosity)
-    drag, lift = ball.drag.coefficient_law(), ball.lift.coefficient_law()
+    drag, lift = ball.drag.coefficient_in(air, ball.radius), ball.lift.coefficient_in(air, ball.radius)
     if drag is not None:
         forces.append(Drag(ball.radius, air.density, drag, *about))
     if lift is not None:
@@ -116,3 +117,10 @@ def launched_ball(
         inertia_factor=inertia_factor,
         forces=forces,
     )
+
+
+def with_spin_decay(ball: Ball, rate: float, air: Air) -> Ball:
+    """The ball, whose spin the air slows: ``rate`` k of ``dw/dt = -k |u| w / r``."""
+    if air.density == 0.0 or rate == 0.0:
+        return ball
+    return replace(ball, torques=[*ball.torques, SpinDecay(ball.inertia, ball.radius, rate, wind_in(air))])

@@ -40,9 +40,8 @@ class Picture(SideView[Parameters]):
 
     @property
     def target(self) -> Box:
-        end = self.parameters.court.length
-        left = min(-0.3 - 0.04 * end, self.parameters.release.place - 0.7)
-        return Box(left, 0.0, 0.3 + 1.1 * end, 2.0 - self.parameters.court.table)
+        end, left = self.parameters.court.length, self.parameters.release.place - 0.7
+        return Box(min(-0.3 - 0.04 * end, left), 0.0, 0.3 + 1.1 * end, 2.0 - self.parameters.court.table)
 
     def look_of(self, name: str) -> Look:
         return LOOKS[self.parameters.court.table > 0.0]

@@ -1,0 +1,63 @@
+"""Baseball from the side: the ball park on a summer's day, and the fence."""
+
+from __future__ import annotations
+
+from functools import cached_property
+
+from sandbox.picture.ball import Look, seams
+from sandbox.picture.camera import Box
+from sandbox.picture.figures import BATTING
+from sandbox.picture.palette import scene_colours
+from sandbox.picture.places import Ground, Group, Landscape, Person, Post, Shape, Stripes
+from sandbox.picture.side import Length, Place, SideView
+from sandbox.sport.amounts import metres
+from sandbox.sport.readings import passing
+
+from .scene import Parameters
+
+COLOURS = scene_colours(__file__)
+FIELD = COLOURS["field"]
+INFIELD, TRACK, DEEP, POLE = 44.0, 4.6, 60.0, 9.0  # m: dirt, warning track, length of fence, pole above it
+
+
+class Picture(SideView[Parameters]):
+    LOOK = Look(COLOURS["ball"]["colour"], seams(COLOURS["ball"]["seam"]))
+    TRACE, EARLIER = COLOURS["trace"], COLOURS["earlier"]
+    LENGTHS, SECOND_UNIT, FROM, LEVEL, ASIDE = 1, "ft", "from the plate", 90, 0.4
+
+    @property
+    def on_dark(self) -> bool:
+        return False
+
+    @cached_property
+    def told(self) -> float:
+        """A ball that hits the fence is told until then."""
+        passed, gap = passing(self.run, self.parameters.fence.distance), self.run.result["over_fence"]
+        return passed.t if passed is not None and gap <= 0.0 else self.run.duration
+
+    @property
+    def target(self) -> Box:
+        fence = self.parameters.fence
+        return Box(-4.0, 0.0, fence.distance + 2.0, fence.height)
+
+    @cached_property
+    def place(self) -> Place:
+        foot, high = self.parameters.fence.distance, self.parameters.fence.height
+        dirt = [(-6.0, 0.0), (INFIELD, 0.0), (0.7 * INFIELD, INFIELD), (-6.0, INFIELD)]
+        track = [(foot - TRACK, 0.0), (foot, 0.0), (foot, DEEP), (foot - TRACK, DEEP)]
+        ground = Ground(
+            Stripes(FIELD["grass"], 8.0),
+            FIELD["soil"],
+            edges=[(FIELD["edge"], 6)],
+            areas=[(dirt, FIELD["infield"]), (track, FIELD["track"])],
+        )
+        corners = [(foot, 0.0, 0.0), (foot, high, 0.0), (foot, high, DEEP), (foot, 0.0, DEEP)]
+        batter = Group(0.0, [Person(0.0, 1.85, COLOURS["batter"], BATTING)], 1.85, 30)
+        pole = Post([(foot, 0.0, 0.0), (foot, high + POLE, 0.0)], 0.1, COLOURS["fence"]["pole"])
+        return Place(
+            Landscape(**COLOURS["landscape"]), ground, [Shape(corners, COLOURS["fence"]["wall"]), pole, batter]
+        )
+
+    def lengths(self) -> list[Length]:
+        far = self.parameters.fence.distance
+        return [Length(f"fence {metres(far)}   {far / 0.3048:.0f} ft", 0.0, far)]

@@ -1,0 +1,101 @@
+"""Baseball from the side: a ball off the bat, over the fence or not.
+
+Models: gravity; drag that grows with spin and Magnus lift, as fitted to tracked fly balls; loss of spin; the air by
+weather and height above the sea; a bat that recoils, and that the ball grips.
+Leaves out: everything sideways, with foul balls; fielders; the fence as a thing to hit, for the
+distance is that to where the ball would come down.
+"""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from sandbox.engine.run import Run
+from sandbox.engine.setup import SOLID_SPHERE, Segment, Setup, Surface, Touches
+from sandbox.parameters import Accuracy, Group, choice, group, quantity
+from sandbox.sport.air import Weather
+from sandbox.sport.amounts import roughly
+from sandbox.sport.controls import Controls, Spin
+from sandbox.sport.facts import ENDED, Fact, once
+from sandbox.sport.flight import Launch, Release, forces_in_flight, launched_ball, with_spin_decay
+from sandbox.sport.readings import LAUNCH, Moment, at, before, passing
+from sandbox.sport.swing import Bat, struck_by
+
+from .ball import Baseball
+
+
+class Fence(Group):
+    """The outfield fence."""
+
+    distance: float = quantity(..., "m", 10, 300, "from the plate")
+    height: float = quantity(..., "m", 0, 30, "height")
+
+
+class Parameters(Group):
+    """All parameters of a fly ball; x = 0 is the plate."""
+
+    start: Literal["launch", "bat"] = choice(..., "begin with the ball's launch, or with the bat")
+    launch: Launch = group(..., "the ball as it leaves the bat")
+    bat: Bat = group(..., "the bat and the pitch")
+    release: Release = group(..., "where the ball is hit")
+    gravity: float = quantity(..., "m/s^2", 0, 30, "gravity")
+    air: Weather = group(..., "the air")
+    ball: Baseball = group(..., "the ball")
+    fence: Fence = group(..., "the fence")
+    accuracy: Accuracy = group(Accuracy(), "speed against accuracy")
+
+
+CONTROLS = Controls(
+    strongest=55.0,
+    spins=(Spin("launch.spin", 100.0),),
+    also={"start": "launch"},
+    sliders=("fence.distance", "fence.height", "air.elevation", "air.temperature", "air.wind"),
+    scores="home_run",
+)
+
+
+def build(parameters: Parameters) -> Setup:
+    """The ball over level ground."""
+    ball, bat, release, air = parameters.ball, parameters.bat, parameters.release, parameters.air.air
+    forces = forces_in_flight(ball, air, parameters.gravity)
+    place = release.place, max(release.height, ball.radius)
+    hit = with_spin_decay(launched_ball(parameters.launch, ball, place, forces, SOLID_SPHERE), ball.spin_decay, air)
+    if parameters.start == "bat":
+        hit = struck_by(bat, "bat", bat.rebound(ball.mass, SOLID_SPHERE), hit)
+    return Setup([hit], [Surface("ground", Segment((-1e4, 0.0), (1e4, 0.0)), 0.5, 0.5)], 60.0, Touches("ground"))
+
+
+@once
+def landing(run: Run, parameters: Parameters) -> Moment | None:
+    """The ball as it comes down."""
+    return next((before(run, event.t) for event in run.events if event.partner == "ground"), None)
+
+
+def over_fence(run: Run, parameters: Parameters) -> float | None:
+    """Gap in m between the ball and the top of the fence as it passes; negative if it would hit it."""
+    passed = passing(run, parameters.fence.distance)
+    return None if passed is None else passed.y - parameters.ball.radius - parameters.fence.height
+
+
+FACTS = (
+    Fact("distance", "distance", "m", at(landing, lambda ball: ball.x), settled="ground", also="ft"),
+    Fact("over_fence", "over the fence", "m", over_fence, settled="ground", also="ft"),
+    Fact("apex", "apex", "m", lambda run, parameters: run.highest("ball")[1][1], settled="ground", also="ft"),
+    Fact("hang_time", "hang time", "s", at(landing, lambda ball: ball.t), settled="ground"),
+    Fact("landing_angle", "comes down at", "deg", at(landing, lambda ball: ball.descent), settled="ground"),
+    *LAUNCH,
+    Fact("home_run", "", "", lambda run, parameters: (over_fence(run, parameters) or -1.0) > 0.0, settled="ground"),
+    ENDED,
+)
+
+
+def verdict(run: Run, parameters: Parameters) -> str:
+    """What happened, in a sentence."""
+    distance, gap = run.result["distance"], run.result["over_fence"]
+    if distance is None:
+        return "Did not come down"
+    if run.result["home_run"]:
+        return f"Home run, {roughly(distance)}"
+    if gap is not None:
+        return f"Off the fence, {roughly(-gap)} below its top"
+    return f"{roughly(abs(distance))}, {roughly(parameters.fence.distance - distance)} short of the fence"
