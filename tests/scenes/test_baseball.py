@@ -20,7 +20,7 @@ def hit(preset: str = "baseball", **changes: Any) -> dict[str, Any]:
 def errors() -> list[float]:
     """Of the distances of measured fly balls, in ft."""
     return [
-        row.difference for row in validate("baseball") if row.case.source.startswith("Statcast, fly") and row.difference
+        row.difference for row in validate("baseball") if row.source.startswith("Statcast, fly") and row.difference
     ]
 
 
