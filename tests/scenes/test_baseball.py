@@ -19,9 +19,7 @@ def hit(preset: str = "baseball", **changes: Any) -> dict[str, Any]:
 @pytest.fixture(scope="module")
 def errors() -> list[float]:
     """Of the distances of measured fly balls, in ft."""
-    return [
-        row.difference for row in validate("baseball") if row.source.startswith("Statcast, fly") and row.difference
-    ]
+    return [row.difference for row in validate("baseball") if row.source.startswith("Statcast, fly") and row.difference]
 
 
 def test_with_one_offset_fly_balls_scatter_by_20_ft(errors: list[float]):
