@@ -98,24 +98,31 @@ def test_a_rolling_ball_comes_to_rest_where_it_should():
 
 
 @pytest.mark.parametrize(
-    ("changes", "verdict", "met"),
+    ("changes", "verdict", "met", "said"),
     [
-        ({}, "goal", "net"),
-        ({"launch.spin": 0}, "over", "ground"),
-        ({"launch.angle": 12}, "wall", "wall"),
-        ({"launch.angle": 22, "launch.speed": 28.2}, "bar", "bar"),
-        ({"launch.speed": 6, "wall.present": False}, "short", "ground"),
-        ({"launch.speed": 0}, "short", "ground"),
-        ({"goal.present": False}, "past", "ground"),
-        ({"wall.present": False, "launch.angle": 5}, "goal", "net"),
+        ({}, "goal", "net", "Goal, 1.1 m under the bar"),
+        ({"launch.spin": 0}, "over", "ground", "Over the bar by 1.2 m"),
+        ({"launch.angle": 12}, "wall", "wall", "Into the wall"),
+        ({"launch.angle": 22, "launch.speed": 28.2}, "bar", "bar", "Off the bar"),
+        ({"launch.speed": 6, "wall.present": False}, "short", "ground", "Short, 9.6 m from the goal"),
+        ({"launch.speed": 0}, "short", "ground", "Short, 21 m from the goal"),
+        (
+            {"launch.speed": 0, "air.wind": [-30, 0], "wall.present": False},
+            "short",
+            "ground",
+            "Ends 30 m behind the kick",
+        ),
+        ({"goal.present": False}, "past", "ground", "30 m up the field"),
+        ({"wall.present": False, "launch.angle": 5}, "goal", "net", "Goal, 2.2 m under the bar"),
     ],
 )
-def test_verdicts(changes: dict[str, Any], verdict: str, met: str):
+def test_verdicts(changes: dict[str, Any], verdict: str, met: str, said: str):
     run = sandbox.simulate(sandbox.load("soccer", changes))
     assert run.result["verdict"] == verdict
     assert run.result["goal"] is (verdict == "goal")
     assert met in touched(run)
     assert run.ended in ("rest", "until")
+    assert run.scene.verdict(run) == said
 
 
 def test_a_goal_is_the_whole_ball_over_the_whole_line():
