@@ -51,6 +51,13 @@ def test_trajectory_meets_every_impact_where_that_is_asked(bouncing):
     assert set(impacts) <= set(path[:, 0])
 
 
+def test_a_run_that_ends_with_an_impact_ends_with_its_outcome():
+    floor = Surface("floor", Segment((-1.0, 0.0), (1.0, 0.0)), 0.6, 0.0)
+    ball = Ball("ball", 0.2, 0.05, (0.0, 0.55), forces=[Gravity(0.2, G)])
+    run = simulate(Setup([ball], [floor], until=lambda event: event.kind == "impact"), resolve())
+    assert run.state("ball", run.duration)[3] == pytest.approx(0.6 * sqrt(2 * G * 0.5), abs=1e-6)
+
+
 def test_state_at_an_impact_is_the_one_after_and_before_gives_the_one_before(bouncing):
     event = next(event for event in bouncing.events if event.kind == "impact")
     before, after = bouncing.before("ball", event.t), bouncing.state("ball", event.t)
