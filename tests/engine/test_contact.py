@@ -234,6 +234,14 @@ def test_slight_overlap_is_pushed_out_and_a_deep_one_refused():
         simulate(Setup([ball((0.0, 0.03))], [floor], duration=0.5), resolve())
     with pytest.raises(RequestError, match=r"ball 'b' at .* overlaps 'a' at the start"):
         simulate(Setup([ball((0.0, 0.0), name="a"), ball((0.05, 0.0), name="b")], duration=0.5), resolve())
+    with pytest.raises(RequestError, match=r"ball 'b' at .* overlaps 'a' at the start"):
+        simulate(Setup([ball((1.0, 2.0), name="a"), ball((1.0, 2.0), name="b")], duration=0.5), resolve())
+
+
+def test_two_balls_are_pushed_apart_by_the_same_distance():
+    pair = [ball((k * 0.0996, 0.0), gravity=0.0, name=f"{k}") for k in range(2)]
+    run = simulate(Setup(pair, duration=0.1), resolve())
+    assert [run.state(b.name, 0.0)[0] for b in pair] == pytest.approx([-0.0002, 0.0998], abs=1e-12)
 
 
 @pytest.mark.parametrize("overlap", [1e-9, 1e-6, 5e-4])

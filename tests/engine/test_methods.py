@@ -70,6 +70,15 @@ def test_the_step_follows_the_order_of_the_method():
     assert counts[2] / counts[1] == pytest.approx(2.0, rel=0.1)
 
 
+def test_steps_follow_a_torque_as_they_follow_a_force():
+    """alpha = A cos(w t), so spin = A / w sin(w t), without any force that would shorten the steps."""
+    inertia, most, rate = 1e-3, 200.0, 40.0
+    ball = Ball("ball", 0.6, 0.12, (0.0, 0.0), inertia_factor=inertia / (0.6 * 0.12**2),
+                torques=[lambda t, position, velocity, spin: inertia * most * cos(rate * t)])  # fmt: skip
+    run = simulate(Setup([ball], duration=2.0), resolve())
+    assert run.state("ball", 2.0)[4] == pytest.approx(most / rate * sin(rate * 2.0), abs=1e-3)
+
+
 def test_finer_means_half_the_step_for_each_order():
     third, fifth = chosen("bogacki-shampine").finer(), LEVELS["balanced"].finer()
     assert third.tolerance == pytest.approx(1e-4 / 8)

@@ -35,6 +35,20 @@ def struck(english: float, follow: float) -> Setup:
     )
 
 
+def test_an_impact_of_two_balls_divides_the_paths_of_both():
+    """So that between samples a path never cuts the corner at an impact."""
+    cue, other = Ball("cue", M, R, (0.0, 0.0), (1.0, 0.0)), Ball("1", M, R, (0.5001, 0.0))
+    run = simulate(Setup([cue, other], duration=1.0, between_balls=elastic), resolve(**by_steps_of(1e-3)))
+    (impact,) = run.events
+    for name, before in (("cue", 1.0), ("1", 0.0)):
+        assert run.before(name, impact.t)[2] == pytest.approx(before)
+        assert run.state(name, impact.t)[2] == pytest.approx(1.0 - before)
+
+
+def elastic(normal_speed: float, slip_speed: float) -> Bounce:
+    return Bounce(1.0, 0.0)
+
+
 @pytest.mark.parametrize(("english", "follow"), [(0.0, 1.0), (0.0, -1.0), (1.5, 0.5), (-1.5, -0.5)])
 def test_it_converges_to_exact_on_cloth(english: float, follow: float):
     setup = struck(english, follow)
