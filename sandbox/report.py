@@ -34,28 +34,14 @@ LEAST_REPORTED = 1e-3
 def as_json(scene: Scene, run: Run, check: Check | None = None, other: Run | None = None) -> str:
     """One JSON object; NaN and infinities are null. ``other`` is a run to compare with."""
     report = {
-        "scene": scene.name,
-        "preset": scene.preset,
-        "parameters": scene.parameters.model_dump(mode="json"),
+        **_outcome(scene, run),
         "accuracy": asdict(run.accuracy),
         "warnings": warnings(run),
-        "result": run.result,
-        "verdict": scene.verdict(run),
-        "ended": run.ended,
-        "duration": run.duration,
         "events": [_event(event) for event in run.events],
         "numerics": asdict(run.numerics),
     }
     if other is not None:
-        report["compared"] = {
-            "scene": other.scene.name,
-            "preset": other.scene.preset,
-            "parameters": other.scene.parameters.model_dump(mode="json"),
-            "result": other.result,
-            "verdict": other.scene.verdict(other),
-            "ended": other.ended,
-            "duration": other.duration,
-        }
+        report["compared"] = _outcome(other.scene, other)
     if check is not None:
         report["errors"] = check.errors
         report["changed"] = {name: list(pair) for name, pair in check.changed.items()}
@@ -70,6 +56,18 @@ def as_json(scene: Scene, run: Run, check: Check | None = None, other: Run | Non
         return json.dumps(json_ready(report), allow_nan=False, ensure_ascii=False)
     except TypeError as error:  # a result with other values than numbers, words and lists of them
         raise RunError(f"{scene.name}: its result cannot be written as JSON: {error}") from None
+
+
+def _outcome(scene: Scene, run: Run) -> dict[str, Any]:
+    return {
+        "scene": scene.name,
+        "preset": scene.preset,
+        "parameters": scene.parameters.model_dump(mode="json"),
+        "result": run.result,
+        "verdict": scene.verdict(run),
+        "ended": run.ended,
+        "duration": run.duration,
+    }
 
 
 def _event(event: Event) -> dict[str, Any]:

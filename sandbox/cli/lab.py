@@ -48,7 +48,6 @@ def aim(
       sandbox aim basketball --vary launch.speed=6:10 --target made=true --show tries.png
       sandbox aim golf --vary launch.angle=2:60 --vary launch.speed=40:90 --target carry="219 yd" --target apex=30
     """
-    from sandbox.files import check_file
     from sandbox.lab.aim import parse_target, search
     from sandbox.lab.axes import parse_span
     from sandbox.progress import bar
@@ -57,10 +56,9 @@ def aim(
     spans = [parse_span(chosen, "--vary", text) for text in vary]
     targets = [parse_target(text, chosen) for text in target]
     if show is not None:
-        from sandbox.lab.chart import check_installed
+        from sandbox.lab.chart import check_chart
 
-        check_file("--show", show, ".png")
-        check_installed("--show")
+        check_chart("--show", show)
     with bar("aim") as progress:
         found = search(chosen, spans, targets, progress)
     from sandbox.lab.aim import report
@@ -145,13 +143,13 @@ def sweep(
     if plot is not None:
         from sandbox.lab.maps import check_plot
 
-        check_file("--plot", plot, ".png")
-        check_plot(plan, of)
+        check_plot(plan, plot, of)
     if parquet is not None:
-        from sandbox.lab.parquet import check_installed, write_parquet
+        from sandbox.lab.chart import check_installed
+        from sandbox.lab.parquet import write_parquet
 
         check_file("--parquet", parquet, ".parquet")
-        check_installed("--parquet")
+        check_installed("--parquet", "pyarrow")
     with workers(jobs or jobs_that_pay(plan), scheduler) as pool, bar("sweep") as progress:
         done = sweep_to_file(plan, out, pool, progress)
     if plot is not None:
@@ -188,15 +186,13 @@ def trade(
       sandbox trade basketball/rattle --plot rattle.png
       sandbox trade my-shot.toml --set air.wind=[-8,0] --json
     """
-    from sandbox.files import check_file
     from sandbox.lab import chart
     from sandbox.lab import trade as lab
     from sandbox.progress import bar
 
     chosen = load(scene, set_, accuracy)
     if plot is not None:
-        check_file("--plot", plot, ".png")
-        chart.check_installed("--plot")
+        chart.check_chart("--plot", plot)
     with bar("trade") as progress:
         found = lab.trade(chosen, progress)
     if plot is not None:

@@ -15,7 +15,7 @@ import numpy as np
 from sandbox import parameters as declared
 from sandbox.errors import RequestError
 from sandbox.lab.axes import Axis, Values, at, label, result_label
-from sandbox.lab.chart import PLATE, chart, check_installed, legend
+from sandbox.lab.chart import PLATE, chart, check_chart, legend
 from sandbox.lab.plan import CHANGED, FLAGS, Plan, records
 from sandbox.lab.row_file import cell, rows
 from sandbox.parameters import path_of
@@ -62,9 +62,9 @@ class Found:
         return bool(known.size and (known == np.round(known)).all() and np.ptp(known) <= _MOST_COUNTS)
 
 
-def check_plot(plan: Plan, of: str | None) -> None:
+def check_plot(plan: Plan, path: Path, of: str | None) -> None:
     """Raise RequestError, before any work is done, if the chart cannot be drawn."""
-    check_installed("--plot")
+    check_chart("--plot", path)
     if len(plan.axes) > 2:
         raise RequestError(f"--plot shows one or two parameters, not {len(plan.axes)}: {', '.join(plan.keys)}")
     if any(len(axis.values) < 2 for axis in plan.axes if isinstance(axis, Values)):

@@ -4,18 +4,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from sandbox.errors import RequestError
 from sandbox.files import written_whole
 from sandbox.lab.axes import Span
 from sandbox.lab.plan import Plan
-
-
-def check_installed(option: str) -> None:
-    """Raise RequestError with installation instructions if pyarrow is missing."""
-    try:
-        import pyarrow  # noqa: F401
-    except ImportError:
-        raise RequestError(f"{option} needs pyarrow, which is not installed: pip install pyarrow") from None
 
 
 def write_parquet(plan: Plan, file: Path, path: Path) -> None:

@@ -14,7 +14,7 @@ from sandbox.files import json_ready
 from sandbox.lab.aim.question import Aim, Interval, Solution, Target
 from sandbox.lab.axes import label, result_label, unit_of
 from sandbox.lab.chart import chart, legend, mark
-from sandbox.lab.tables import table
+from sandbox.lab.tables import paragraph, table
 from sandbox.sport.amounts import significant
 
 #: Most solutions in the text; a target met in narrow bands can have dozens.
@@ -75,7 +75,7 @@ def _found(aim: Aim, found: tuple[Any, ...]) -> dict[str, Any]:
 
 def as_text(aim: Aim) -> list[str]:
     """Lines for the terminal: the question, and every solution with its numerical error, or the nearest miss."""
-    lines = [_question(aim), ""]
+    lines = [*paragraph(_question(aim), ""), ""]
     if not aim.solutions:
         lines += _no_solution(aim)
     elif aim.solutions[0].interval is not None:
@@ -84,8 +84,8 @@ def as_text(aim: Aim) -> list[str]:
         lines += _root_lines(aim)
     for one, other in aim.jumps:
         places = " and ".join(f"{side.values[0]:.10g}" for side in (one, other))
-        lines.append(
-            f"  between {aim.spans[0].key} = {places} {aim.targets[0].name} jumps from {one.found[0]:.6g} to "
+        lines += paragraph(
+            f"between {aim.spans[0].key} = {places} {aim.targets[0].name} jumps from {one.found[0]:.6g} to "
             f"{other.found[0]:.6g}, over the target"
         )
     failures = f", {aim.failures} of which failed" if aim.failures else ""
@@ -147,8 +147,8 @@ def _interval_lines(aim: Aim) -> list[str]:
     room = _with_unit(aim, 0, significant(0.5 * best.width))
     side = "both sides" if best.open_low and best.open_high else "the lower side" if best.open_low else "the upper side"
     cut = f"; it continues beyond the range on {side}: widen the range to see its middle" if _is_cut(best) else ""
-    forgiving = f"  {_forgiving(aim)}, with {room} of room to either side{cut}"
-    return [*table(headings, rows, "rrrrrl"), *_more(aim), "", forgiving]
+    forgiving = paragraph(f"{_forgiving(aim)}, with {room} of room to either side{cut}")
+    return [*table(headings, rows, "rrrrrl"), *_more(aim), "", *forgiving]
 
 
 def _is_cut(interval: Interval) -> bool:
@@ -186,7 +186,7 @@ def _no_solution(aim: Aim) -> list[str]:
             f"{name} = {aim.nearest.found[index]:.6g} ({miss:+.3g})"
             for index, (name, miss) in enumerate(aim.misses.items())
         )
-        lines.append(f"  nearest: {got} at {place}")
+        lines += paragraph(f"nearest: {got} at {place}")
     return lines
 
 
