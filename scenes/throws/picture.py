@@ -1,0 +1,53 @@
+"""Shot put from the side: circle, stop board and sector in a stadium."""
+
+from __future__ import annotations
+
+from functools import cached_property
+
+from sandbox.picture.ball import Look, seams
+from sandbox.picture.camera import Box
+from sandbox.picture.figures import REACHING
+from sandbox.picture.palette import scene_colours
+from sandbox.picture.places import Ground, Person, Post, Shape, Stands, Stripes
+from sandbox.picture.side import Length, Place, SideView
+from sandbox.sport.amounts import metres
+
+from .scene import Parameters
+
+COLOURS = scene_colours(__file__)
+FIELD = COLOURS["field"]
+CIRCLE, BOARD, SLOPE, EVERY = 2.135, 0.10, 0.35, 5.0  # m, m, half the sector's width over its length, m between lines
+UP = 1.20  # of the hand, in heights of the athlete
+
+
+class Picture(SideView[Parameters]):
+    LOOK = Look(COLOURS["ball"]["colour"], seams(COLOURS["ball"]["mark"]))
+    TRACE, EARLIER = COLOURS["trace"], COLOURS["earlier"]
+    LENGTHS, SECOND_UNIT, FROM = 1, "ft", "from the board"
+
+    @property
+    def target(self) -> Box:
+        return Box(-CIRCLE - 0.3, 0.0, self.parameters.record + 1.5, 2.5)
+
+    @cached_property
+    def place(self) -> Place:
+        release, record = self.parameters.release, self.parameters.record
+        tall = min(1.95, release.height / UP)
+        count = int((record + EVERY) / EVERY) + 1
+        arcs = [[(i * EVERY, 0.0), (i * EVERY, 2.0 * SLOPE * i * EVERY)] for i in range(1, count + 1)]
+        end = count * EVERY
+        ground = Ground(
+            Stripes(FIELD["grass"], 2.5),
+            FIELD["soil"],
+            edges=[(FIELD["edge"], 5)],
+            areas=[([(-CIRCLE, 0.0), (0.0, 0.0), (0.0, 1.2), (-CIRCLE, 1.2)], FIELD["circle"])],
+            lines=[*arcs, [(0.0, 0.0), (end, 0.0)], [(0.0, 0.0), (end, 2.0 * SLOPE * end)]],
+            line=(FIELD["line"], 0.05),
+        )
+        board = Shape([(0.0, 0.0, 0.0), (0.11, 0.0, 0.0), (0.11, BOARD, 0.0), (0.0, BOARD, 0.0)], FIELD["board"])
+        flag = Post([(record, 0.0, 0.0), (record, 0.9, 0.0)], 0.03, FIELD["mark"])
+        athlete = Person(release.place - 0.165 * tall, tall, COLOURS["athlete"], REACHING)
+        return Place(Stands(**COLOURS["stands"]), ground, [flag, board, athlete])
+
+    def lengths(self) -> list[Length]:
+        return [Length(f"mark {metres(self.parameters.record)}", 0.0, self.parameters.record)]

@@ -1,0 +1,102 @@
+"""Throws from the side: the shot, how far it goes, and the angle that would have been best.
+
+Models: gravity; drag of a sphere; a release above the ground. Without air the best angle has a closed form.
+Leaves out: everything sideways; that people throw faster at flatter angles, which is why they choose 37 to 38 deg and
+not the best angle for one speed (Lenz & Rappl 2010, arXiv:1007.3689); discus and javelin, which fly like wings.
+"""
+
+from __future__ import annotations
+
+from math import atan2, degrees, hypot, sqrt
+
+from sandbox.engine.run import Run
+from sandbox.engine.setup import SOLID_SPHERE, Segment, Setup, Surface, Touches
+from sandbox.parameters import Accuracy, Group, either, group, quantity
+from sandbox.sport.air import Air, ConstantDrag, NoDrag, NoLift
+from sandbox.sport.amounts import roughly
+from sandbox.sport.controls import Controls, Spread
+from sandbox.sport.facts import ENDED, Fact, once
+from sandbox.sport.flight import Launch, Release, Sphere, forces_in_flight, launched_ball
+from sandbox.sport.readings import BALL_SPEED, LAUNCH_ANGLE, Moment, at, before
+
+
+class Shot(Sphere):
+    """The shot."""
+
+    drag: ConstantDrag | NoDrag = either(..., "drag of the air")
+    lift: NoLift = group(NoLift(), "none")
+
+
+class Parameters(Group):
+    """All parameters of a throw; x = 0 is the inner edge of the stop board."""
+
+    launch: Launch = group(..., "the shot as it leaves the hand")
+    release: Release = group(..., "where that is")
+    gravity: float = quantity(..., "m/s^2", 0, 30, "gravity")
+    air: Air = group(..., "the air")
+    ball: Shot = group(..., "the shot")
+    record: float = quantity(..., "m", 0, 200, "the distance to beat, marked in the sector")
+    accuracy: Accuracy = group(Accuracy(), "speed against accuracy")
+
+
+CONTROLS = Controls(
+    strongest=18.0,
+    sliders=("launch.speed", "launch.angle", "release.height", "record", "air.density", "gravity"),
+    scores="record_beaten",
+    spread=(Spread("launch.speed", 0.02), Spread("launch.angle", least=2.0)),  # assumed
+)
+
+
+def build(parameters: Parameters) -> Setup:
+    """The shot over level ground; its distance is that of its centre at height 0, so the ground lies a radius lower."""
+    ball, release = parameters.ball, parameters.release
+    forces = forces_in_flight(ball, parameters.air, parameters.gravity)
+    thrown = launched_ball(parameters.launch, ball, (release.place, release.height), forces, SOLID_SPHERE)
+    ground = Surface("ground", Segment((-1e4, -ball.radius), (1e4, -ball.radius)), 0.0, 0.5)
+    return Setup([thrown], [ground], 60.0, Touches("ground"))
+
+
+@once
+def landing(run: Run, parameters: Parameters) -> Moment | None:
+    """The shot as it lands."""
+    return next((before(run, event.t) for event in run.events if event.partner == "ground"), None)
+
+
+def best_angle(run: Run, parameters: Parameters) -> float:
+    """Angle in deg at which this speed goes farthest from this height, without air: tan = v / (v^2 + 2 g h)^(1/2)."""
+    speed = hypot(*run.setup.balls[0].velocity)
+    return degrees(atan2(speed, sqrt(speed**2 + 2.0 * parameters.gravity * parameters.release.height)))
+
+
+def vacuum_distance(run: Run, parameters: Parameters) -> float | None:
+    """How far in m the shot would go without air: a parabola."""
+    (x, y), (vx, vy), gravity = run.setup.balls[0].position, run.setup.balls[0].velocity, parameters.gravity
+    return x + vx * (vy + sqrt(vy * vy + 2.0 * gravity * y)) / gravity if gravity > 0.0 else None
+
+
+def _beaten(run: Run, parameters: Parameters) -> bool:
+    landed = landing(run, parameters)
+    return landed is not None and landed.x > parameters.record
+
+
+FACTS = (
+    Fact("distance", "distance", "m", at(landing, lambda ball: ball.x), settled="ground", also="ft"),
+    Fact("vacuum_distance", "without air", "m", vacuum_distance, settled="start"),
+    Fact("apex", "apex", "m", lambda run, parameters: run.highest("ball")[1][1], settled="ground"),
+    Fact("flight_time", "flight time", "s", at(landing, lambda ball: ball.t), settled="ground"),
+    Fact("landing_angle", "lands at", "deg", at(landing, lambda ball: ball.descent), settled="ground"),
+    BALL_SPEED,
+    LAUNCH_ANGLE,
+    Fact("best_angle", "best angle", "deg", best_angle, settled="start"),
+    Fact("record_beaten", "", "", _beaten, settled="ground"),
+    ENDED,
+)
+
+
+def verdict(run: Run, parameters: Parameters) -> str:
+    """What happened, in a sentence."""
+    distance, record = run.result["distance"], parameters.record
+    if distance is None:
+        return "Did not come down"
+    beyond = distance - record
+    return f"{distance:.2f} m, {roughly(abs(beyond))} {'beyond' if beyond > 0.0 else 'short of'} the mark"

@@ -1,0 +1,36 @@
+"""Throws: the closed form of the parabola, and the angle that is best for it."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+import sandbox
+
+
+def throw(preset: str = "throws", **changes: Any) -> dict[str, Any]:
+    scene = sandbox.load(preset, {key.replace("__", "."): value for key, value in changes.items()})
+    return sandbox.simulate(scene).result
+
+
+@pytest.mark.parametrize("angle", [20.0, 38.0, 60.0])
+def test_without_air_the_distance_is_that_of_the_parabola(angle: float):
+    result = throw(air__density=0.0, launch__angle=angle)
+    assert result["distance"] == pytest.approx(result["vacuum_distance"], rel=1e-9)
+
+
+def test_the_best_angle_is_the_best():
+    best = throw(air__density=0.0)["best_angle"]
+    farthest = throw(air__density=0.0, launch__angle=best)["distance"]
+    assert all(throw(air__density=0.0, launch__angle=best + off)["distance"] < farthest for off in (-0.5, 0.5))
+
+
+def test_air_costs_a_shot_little():
+    result = throw()
+    assert 0.05 < result["vacuum_distance"] - result["distance"] < 0.3
+
+
+def test_a_light_shot_flies_beyond_the_mark():
+    assert throw(record=21.0)["record_beaten"]
+    assert not throw(record=23.0)["record_beaten"]
