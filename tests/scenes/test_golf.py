@@ -342,6 +342,15 @@ def test_a_slow_putt_meets_the_far_wall_and_a_faster_one_the_far_edge():
         assert (impact.y <= 0.0) is on_the_wall
 
 
+@pytest.mark.parametrize("rise", [-0.5, 0.0, 0.5])
+def test_on_a_slope_the_cup_is_as_deep_below_its_lower_lip(rise: float):
+    scene = sandbox.load("golf/putt", {"ground.heights": [(-10.0, -rise), (10.0, rise)]})
+    pin = scene.parameters.pin
+    corners = {point for each in scene.build().surfaces if each.name == "cup" for point in (each.shape.a, each.shape.b)}
+    lips = [0.1 * rise * x for x in (pin.distance - 0.5 * pin.cup_width, pin.distance + 0.5 * pin.cup_width)]
+    assert min(y for _, y in corners) == pytest.approx(min(lips) - pin.cup_depth, abs=1e-12)
+
+
 def test_a_cup_of_no_width_is_no_cup():
     run = play("golf/putt", pin__cup_width=0.0)
     assert not run.result["holed"]
