@@ -451,3 +451,18 @@ def test_walking_the_parameters_of_a_file_covers_it():
 
     keys = dotted(read_toml(SCENES / "golf" / "golf.toml")) - {"scene"}
     assert keys <= {parameter.key for parameter in walk(sandbox.load("golf").parameters)}
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({"launch.speed": 3.0, "launch.height": 1.0}, "Still moving after 1.00 s, 0.41 m from the start"),
+        ({"floor.restitution": 0.0}, "At rest after 0.63 s, 1.95 m from the start"),
+    ],
+)
+def test_a_scene_without_facts_and_verdict_has_some(drop: Path, changes: dict[str, Any], said: str):
+    source = (drop / "scene.py").read_text("utf-8")
+    (drop / "scene.py").write_text(source.replace("FACTS = (", "_FACTS = (").replace("def verdict", "def _verdict"))
+    run = sandbox.simulate(sandbox.load(drop, changes))
+    assert list(run.result) == ["distance", "duration", "ended"]
+    assert run.scene.verdict(run) == said
