@@ -29,9 +29,12 @@ def aim(
         list[str], typer.Option(metavar="KEY=LO:HI", help="A number and its range; once or twice.", show_default=False)
     ],
     target: Annotated[
-        list[str],
+        list[str] | None,
         typer.Option(metavar="NAME=VALUE", help="A result and its target value; once or twice.", show_default=False),
-    ],
+    ] = None,
+    maximize: Annotated[
+        str | None, typer.Option(metavar="NAME", help="A number that is to be as great as possible.")
+    ] = None,
     set_: Settings = None,
     accuracy: Level = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object in place of the card.")] = False,
@@ -40,21 +43,29 @@ def aim(
     """Find the values that give a result: all of them in the range, each with its numerical error.
 
     For a target that is true or false, or a word, it finds intervals: the widest first, with its middle, which is the
-    most forgiving value. If there is no solution it reports the nearest result, and the exit code is 0.
+    most forgiving value; by two parameters it finds regions, each with its most forgiving point. If there is no
+    solution it reports the nearest result, and the exit code is 0.
 
     \b
     Examples:
       sandbox aim golf --vary launch.angle=2:75 --target carry=200
       sandbox aim basketball --vary launch.speed=6:10 --target made=true --show tries.png
+      sandbox aim basketball --vary launch.speed=6:9 --vary launch.angle=35:70 --target made=true
+      sandbox aim golf --vary launch.angle=2:60 --maximize carry
       sandbox aim golf --vary launch.angle=2:60 --vary launch.speed=40:90 --target carry="219 yd" --target apex=30
     """
     from sandbox.lab.aim import parse_target, search
+    from sandbox.lab.aim.question import GREATEST, Target
     from sandbox.lab.axes import parse_span
     from sandbox.progress import bar
 
     chosen = load(scene, set_, accuracy)
     spans = [parse_span(chosen, "--vary", text) for text in vary]
-    targets = [parse_target(text, chosen) for text in target]
+    targets = [parse_target(text, chosen) for text in target or []]
+    if maximize is not None:
+        targets.append(Target(maximize, GREATEST))
+    if not targets:
+        raise RequestError("nothing to aim at: give --target NAME=VALUE or --maximize NAME")
     if show is not None:
         from sandbox.lab.chart import check_chart
 

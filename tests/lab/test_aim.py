@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from dataclasses import replace
-from math import asin, atan, degrees, radians, sin, sqrt
+from math import asin, atan, degrees, hypot, radians, sin, sqrt
 from pathlib import Path
 
 import pytest
@@ -122,6 +122,35 @@ def test_what_holds_or_not_has_intervals():
     assert solution.result["bounced"] is True
 
 
+def test_what_holds_by_two_parameters_has_regions():
+    """The ball bounces within its second if h - r < g / 2: with both ranges taken as 1 a trapezoid, of half the area,
+    whose largest circle touches three sides."""
+    low, high = (0.1, 5.0), (10.0, 15.0)
+    (solution,) = aim(DROP, {"launch.height": (0.1, 10.0), "gravity": (5.0, 15.0)}, {"bounced": True}).solutions
+    wide, tall = (b - a for a, b in zip(low, high, strict=True))
+    at_bottom, lean = (0.05 + 0.5 * low[1] - low[0]) / wide, 0.5 * tall / wide
+    radius = (at_bottom + lean) / (1.0 + lean + hypot(1.0, lean))
+    spacing = 1.0 / 60.0
+    assert solution.values["launch.height"] == pytest.approx(low[0] + radius * wide, abs=spacing * wide)
+    assert solution.values["gravity"] == pytest.approx(high[1] - radius * tall, abs=spacing * tall)
+    room = solution.region.room
+    assert (room["launch.height"] / wide, room["gravity"] / tall) == pytest.approx((radius, radius), abs=spacing)
+    assert solution.region.share == pytest.approx(at_bottom + 0.5 * lean, abs=2.0 * spacing)
+    assert aim(DROP, {"launch.height": (9.0, 10.0), "gravity": (5.0, 6.0)}, {"bounced": True}).solutions == []
+
+
+def test_the_greatest_value_is_found(vacuum):
+    """The range v^2 sin(2 a) / g is greatest at 45 deg; with the speed too it is at the end of its range."""
+    (farthest,) = aim(vacuum, {"launch.angle": (5, 85)}, maximize="carry").solutions
+    assert farthest.values["launch.angle"] == pytest.approx(45.0, abs=1e-4)
+    assert farthest.result["carry"] == pytest.approx(SPEED**2 / GRAVITY, abs=1e-8)
+    found = aim(vacuum, {"launch.angle": (5, 85), "launch.speed": (20, 50)}, maximize="carry")
+    assert found.solutions[0].values == pytest.approx({"launch.angle": 45.0, "launch.speed": 50.0}, abs=1e-4)
+    assert "greatest carry" in repr(found)
+    with pytest.raises(RequestError, match="--maximize holed: is not a number"):
+        aim(vacuum, {"launch.angle": (5, 85)}, maximize="holed")
+
+
 def test_a_word_is_aimed_at():
     found = aim("basketball", {"launch.speed": (7.3, 7.6)}, {"verdict": "swish"})
     assert [solution.result["verdict"] for solution in found.solutions] == ["swish"]
@@ -152,7 +181,7 @@ def test_targets_have_units():
         ({"launch.height": (1, 2)}, {"bouncd": True}, "did you mean bounced?"),
         ({"launch.height": (1, 2)}, {"bounced": True, "bounces": 2.0}, "1 parameter and 2 targets: give one of each"),
         ({"launch.height": (1, 2)}, {"final_height": float("nan")}, "cannot be aimed at"),
-        ({"launch.height": (1, 2)}, {}, "give one of each, or two of each"),
+        ({"launch.height": (1, 2)}, {}, "give one of each, two of each"),
     ],
 )
 def test_requests_that_make_no_sense_are_told(vary, target, told):

@@ -2,8 +2,8 @@
 
 The range is scanned finely enough to see every branch, more finely where results jump; then scipy's solvers continue:
 ``brentq`` in each bracket for one number, ``root`` (Powell's hybrid method) from several starts for two. A yes-or-no
-target (``made = true``) has intervals, whose ends are bisected. Finer runs estimate how far numerical errors move a
-solution.
+target (``made = true``) has intervals, whose ends are bisected, or regions of two parameters. Finer runs estimate how
+far numerical errors move a solution.
 """
 
 from __future__ import annotations
@@ -13,9 +13,11 @@ from pathlib import Path
 from typing import Any
 
 from sandbox.errors import RequestError
+from sandbox.lab.aim.greatest import greatest
 from sandbox.lab.aim.intervals import intervals
 from sandbox.lab.aim.pair import pairs
-from sandbox.lab.aim.question import Aim, Target, Try, as_target, parse_target
+from sandbox.lab.aim.question import GREATEST, Aim, Target, Try, as_target, parse_target
+from sandbox.lab.aim.regions import regions
 from sandbox.lab.aim.scalar import roots_of
 from sandbox.lab.aim.shots import Progress, Shots, silent
 from sandbox.lab.axes import Span, as_axis
@@ -27,15 +29,17 @@ __all__ = ["Aim", "Target", "aim", "as_target", "parse_target", "search"]
 def aim(
     scene: Scene | str | Path,
     vary: Mapping[str, tuple[Any, Any]],
-    target: Mapping[str, Any],
+    target: Mapping[str, Any] | None = None,
     *,
+    maximize: str | None = None,
     progress: Progress = silent,
 ) -> Aim:
     """All values within a range that meet a target: ``aim("golf", {"launch.angle": (5, 75)}, {"carry": 200.0})``.
 
     Two parameters with two targets likewise. A target that is true, false or a word gives the intervals in which it is
-    met, the widest first, each with its middle, which tolerates the largest error. Raises RequestError for an
-    invalid request, and RunError if no run in the range could be completed.
+    met, the widest first, each with its middle, which tolerates the largest error; by two parameters, the regions, each
+    with its most forgiving point. ``maximize="carry"``, in place of a target, gives the place at which a number is
+    greatest. Raises RequestError for an invalid request, and RunError if no run in the range could be completed.
     """
     chosen = as_scene(scene)
     spans = []
@@ -44,7 +48,8 @@ def aim(
         if not isinstance(axis, Span):
             raise RequestError(f"vary {key}: only numbers have a range, (low, high), but this is {given!r}")
         spans.append(axis)
-    return search(chosen, spans, [as_target(name, value, scene=chosen) for name, value in target.items()], progress)
+    targets = [as_target(name, value, scene=chosen) for name, value in (target or {}).items()]
+    return search(chosen, spans, [*targets, *([] if maximize is None else [Target(maximize, GREATEST)])], progress)
 
 
 def search(scene: Scene, spans: Sequence[Span], targets: Sequence[Target], progress: Progress = silent) -> Aim:
@@ -58,19 +63,22 @@ def search(scene: Scene, spans: Sequence[Span], targets: Sequence[Target], progr
         if twice is not None:
             raise RequestError(f"{option} {twice}: given twice")
     numbers = [target.is_number for target in targets]
-    if not (len(spans) == len(targets) == 1 or (len(spans) == len(targets) == 2 and all(numbers))):
+    one, several = len(targets) == 1 and not numbers[0], len(targets) == 2 and all(numbers)
+    if not (len(spans) == len(targets) == 1 or (len(spans) == 2 and (one or several))):
         raise RequestError(
-            f"{_count(spans, 'parameter')} and {_count(targets, 'target')}: give one of each, or two of each "
-            "with number targets; for more use sandbox sweep"
+            f"{_count(spans, 'parameter')} and {_count(targets, 'target')}: give one of each, two of each with number "
+            "targets, or two parameters and a target that is not a number; for more use sandbox sweep"
         )
     shots = Shots(scene, spans, targets, progress)
     jumps: list[tuple[Try, Try]] = []
-    if len(spans) == 2:
+    if targets[0].value is GREATEST:
+        solutions = greatest(shots)
+    elif len(targets) == 2:
         solutions = pairs(shots)
     elif numbers[0]:
         solutions, jumps = roots_of(shots)
     else:
-        solutions = intervals(shots)
+        solutions = intervals(shots) if len(spans) == 1 else regions(shots)
     nearest = None if solutions else shots.nearest()
     tries = shots.tries
     return Aim(scene, tuple(spans), tuple(targets), solutions, nearest, jumps, tries, shots.failures)

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from itertools import pairwise
 from math import inf
-from typing import Any
 
 import numpy as np
 
-from sandbox.lab.aim.question import Interval, Solution, Target
+from sandbox.lab.aim.question import Interval, Solution
 from sandbox.lab.aim.shots import Shots, scan
 
 #: Runs between the known points in the first refinement of an end, where there may be several, and in later ones.
@@ -26,7 +25,7 @@ _Change = tuple[float, float, bool]
 def intervals(shots: Shots) -> list[Solution]:
     """The middles of all intervals in which the target is met, the widest first."""
     span, target = shots.spans[0], shots.targets[0]
-    seen = [(place, _meets(result, target)) for place, result in scan(shots)]
+    seen = [(place, result is not None and target.met(result.get(target.name))) for place, result in scan(shots)]
     changes = [(low, high, met) for (low, met), (high, after) in pairwise(seen) if met != after]
     ends = _refined(shots, changes, finer=False)
     finer = _seen_finer(shots, changes, ends)
@@ -44,10 +43,6 @@ def intervals(shots: Shots) -> list[Solution]:
     return [_middle(shots, interval) for interval in sorted(found, key=lambda interval: -interval.width)]
 
 
-def _meets(result: Mapping[str, Any] | None, target: Target) -> bool:
-    return result is not None and target.met(result.get(target.name))
-
-
 def _seen_finer(shots: Shots, changes: Sequence[_Change], ends: Sequence[float]) -> list[float | None]:
     """The same ends from finer runs; None for an end that they do not find, even between the points of the scan."""
     least, near = (share * (shots.spans[0].high - shots.spans[0].low) for share in (_END, _NEAR))
@@ -58,8 +53,7 @@ def _seen_finer(shots: Shots, changes: Sequence[_Change], ends: Sequence[float])
             (max(low, ends[number] - width), min(high, ends[number] + width), met)
             for number, (low, high, met) in ((number, changes[number]) for number in missing)
         ]
-        results = shots.results([(place,) for low, high, _ in tight for place in (low, high)], "solve", finer=True)
-        met = [_meets(result, shots.targets[0]) for result in results]
+        met = shots.meets([(place,) for low, high, _ in tight for place in (low, high)], "solve", finer=True)
         seen = [
             number
             for number, change in enumerate(tight)
@@ -77,10 +71,10 @@ def _refined(shots: Shots, changes: Sequence[_Change], finer: bool) -> list[floa
     between = _FIRST
     while any(high - low > 2.0 * least for low, high, _ in brackets):
         inner = [np.linspace(low, high, between + 2).tolist()[1:-1] for low, high, _ in brackets]
-        results = iter(shots.results([(place,) for places in inner for place in places], "solve", finer))
+        found = iter(shots.meets([(place,) for places in inner for place in places], "solve", finer))
         for number, ((low, high, before), places) in enumerate(zip(brackets, inner, strict=True)):
             known = [low, *places, high]
-            met = [before, *(_meets(next(results), shots.targets[0]) for _ in places), not before]
+            met = [before, *(next(found) for _ in places), not before]
             ends_here = [index for index in range(len(places) + 1) if met[index] != met[index + 1]]
             # of several ends, the one next to the interval in which the target is met
             change = ends_here[0] if before else ends_here[-1]

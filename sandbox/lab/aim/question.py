@@ -13,10 +13,13 @@ from sandbox.errors import RequestError
 from sandbox.lab.axes import Span
 from sandbox.scene import Scene
 
+#: The wanted value of a number that is to be as great as possible.
+GREATEST = object()
+
 
 @dataclass(frozen=True)
 class Target:
-    """A result and its wanted value: a number in the result's unit, or true, false or a word."""
+    """A result and its wanted value: a number in the result's unit, or true, false or a word; or GREATEST."""
 
     name: str
     value: Any
@@ -24,6 +27,9 @@ class Target:
     @property
     def is_number(self) -> bool:
         return isinstance(self.value, float)
+
+    def __str__(self) -> str:
+        return f"greatest {self.name}" if self.value is GREATEST else f"{self.name} = {self.value}"
 
     def met(self, value: Any) -> bool:
         """Whether a run's value is the wanted one; for targets that are not numbers."""
@@ -56,6 +62,14 @@ class Interval:
 
 
 @dataclass(frozen=True)
+class Region:
+    """A connected region of two parameters in which the target is met."""
+
+    share: float  # of the whole range, by area
+    room: dict[str, float]  # by which each parameter may be off, in its unit, as long as the other is right
+
+
+@dataclass(frozen=True)
 class Solution:
     """Values that meet the targets, their numerical errors (None: unknown), and the run's result with its errors."""
 
@@ -64,6 +78,7 @@ class Solution:
     result: dict[str, Any]
     result_errors: dict[str, float]
     interval: Interval | None = None  # for a target that is not a number; the value is its middle
+    region: Region | None = None  # the same for two parameters; the values are its most forgiving point
 
 
 @dataclass(frozen=True)
@@ -80,7 +95,7 @@ class Aim:
     failures: int = 0  # tries that failed
 
     def __repr__(self) -> str:
-        wanted = ", ".join(f"{target.name} = {target.value}" for target in self.targets)
+        wanted = ", ".join(map(str, self.targets))
         found = "; ".join(", ".join(f"{k} = {v:.6g}" for k, v in one.values.items()) for one in self.solutions)
         return f"<Aim of {self.scene.title} at {wanted}: {found or 'no solution'}>"
 

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from sandbox.files import json_ready
-from sandbox.lab.aim.question import Aim, Interval, Solution, Target
+from sandbox.lab.aim.question import GREATEST, Aim, Interval, Solution, Target
 from sandbox.lab.axes import label, result_label, unit_of
 from sandbox.lab.chart import chart, legend, mark
 from sandbox.lab.tables import paragraph, table
@@ -33,7 +33,8 @@ def as_json(aim: Aim) -> str:
         "scene": aim.scene.name,
         "preset": aim.scene.preset,
         "vary": {span.key: [span.low, span.high] for span in aim.spans},
-        "target": {target.name: target.value for target in aim.targets},
+        "target": {target.name: target.value for target in aim.targets if target.value is not GREATEST},
+        "maximize": next((target.name for target in aim.targets if target.value is GREATEST), None),
         "solutions": [_solution(solution) for solution in aim.solutions],
         "nearest": None
         if nearest is None
@@ -57,6 +58,8 @@ def _solution(solution: Solution) -> dict[str, Any]:
     }
     if solution.interval is not None:
         told["interval"] = asdict(solution.interval) | {"width": solution.interval.width}
+    if solution.region is not None:
+        told["region"] = asdict(solution.region)
     return told
 
 
@@ -80,6 +83,8 @@ def as_text(aim: Aim) -> list[str]:
         lines += _no_solution(aim)
     elif aim.solutions[0].interval is not None:
         lines += _interval_lines(aim)
+    elif aim.solutions[0].region is not None:
+        lines += _region_lines(aim)
     else:
         lines += _root_lines(aim)
     for one, other in aim.jumps:
@@ -93,9 +98,13 @@ def as_text(aim: Aim) -> list[str]:
 
 
 def _question(aim: Aim) -> str:
-    wanted = " and ".join(f"{target.name} = {_value(target, aim)}" for target in aim.targets)
+    wanted = " and ".join(_wanted(target, aim) for target in aim.targets)
     ranges = " and ".join(_range(aim, span.key, span.low, span.high) for span in aim.spans)
     return f"{aim.scene.title}: {wanted} by {ranges}"
+
+
+def _wanted(target: Target, aim: Aim) -> str:
+    return str(target) if target.value is GREATEST else f"{target.name} = {_value(target, aim)}"
 
 
 def _range(aim: Aim, key: str, low: float, high: float) -> str:
@@ -151,6 +160,18 @@ def _interval_lines(aim: Aim) -> list[str]:
     return [*table(headings, rows, "rrrrrl"), *_more(aim), "", *forgiving]
 
 
+def _region_lines(aim: Aim) -> list[str]:
+    """Most forgiving points, with the room around them: both parameters may be off by it together as on an ellipse."""
+    rows = []
+    for solution in aim.solutions[:_SHOWN]:
+        assert solution.region is not None  # the target has regions
+        room = solution.region.room
+        row = [part for key, value in solution.values.items() for part in (f"{value:.5g}", significant(room[key], 2))]
+        rows.append([*row, f"{100.0 * solution.region.share:.2g} %"])
+    headings = [part for span in aim.spans for part in (label(aim.scene, span.key), "room")]
+    return ["  most forgiving points", *table([*headings, "of the range"], rows, "rrrrr"), *_more(aim)]
+
+
 def _is_cut(interval: Interval) -> bool:
     return interval.open_low or interval.open_high
 
@@ -201,9 +222,11 @@ def draw(aim: Aim, path: Path) -> None:
     what = "interval" if aim.solutions and aim.solutions[0].interval is not None else "solution"
     found = f"{len(aim.solutions)} {what}{'' if len(aim.solutions) == 1 else 's'}" if aim.solutions else "no solution"
     with chart(path, title, f"{found}; {len(aim.tries):,} runs") as (axes, colours):
-        if len(aim.spans) == 2:
+        if len(aim.spans) == 2 and aim.targets[0].is_number:
             _draw_two(axes, aim, colours)
-        elif aim.targets[0].is_number:
+        elif len(aim.spans) == 2:
+            _draw_plane(axes, aim, colours)
+        elif aim.targets[0].is_number or aim.targets[0].value is GREATEST:
             _draw_one(axes, aim, colours)
         else:
             _draw_intervals(axes, aim, colours)
@@ -216,10 +239,11 @@ def _draw_one(axes: Any, aim: Aim, colours: Mapping[str, Any]) -> None:
         tries = [each for each in aim.tries if each.phase.startswith("solve") == solving and each.found[0] is not None]
         places, found = [each.values[0] for each in tries], [each.found[0] for each in tries]
         axes.scatter(places, found, s=size, color=colour, zorder=2 + solving, label=("scan", "solver")[solving])
-    axes.axhline(target.value, color=card["ink"], linewidth=1.0, linestyle=(0, (4, 3)), zorder=1, label="target")
+    if target.is_number:
+        axes.axhline(target.value, color=card["ink"], linewidth=1.0, linestyle=(0, (4, 3)), zorder=1, label="target")
     for solution in aim.solutions:
         place = solution.values[aim.spans[0].key]
-        mark(axes, (place, target.value), _with_unit(aim, 0, f"{place:.6g}"), card)
+        mark(axes, (place, solution.result[target.name]), _with_unit(aim, 0, f"{place:.6g}"), card)
     axes.set_xlim(aim.spans[0].low, aim.spans[0].high)
     axes.set_ylabel(result_label(aim.scene, target.name))
     legend(axes)
@@ -248,6 +272,24 @@ def _draw_two(axes: Any, aim: Aim, colours: Mapping[str, Any]) -> None:
         mark(axes, place, ", ".join(_with_unit(aim, axis, f"{value:.5g}") for axis, value in enumerate(place)), card)
     axes.set_ylabel(label(aim.scene, aim.spans[1].key))
     legend(axes)
+
+
+def _draw_plane(axes: Any, aim: Aim, colours: Mapping[str, Any]) -> None:
+    """All tries by two parameters: whether they meet the target, or how great the number is."""
+    card, target = colours["card"], aim.targets[0]
+    if target.value is GREATEST:
+        tries = [each for each in aim.tries if each.found[0] is not None]
+        places, heights = list(zip(*(each.values for each in tries), strict=True)), [each.found[0] for each in tries]
+        axes.figure.colorbar(axes.scatter(*places, c=heights, s=9), label=result_label(aim.scene, target.name))
+    else:
+        for met, colour, name in ((False, card["quiet"], "not met"), (True, card["good"], "met")):
+            some = [each.values for each in aim.tries if target.met(each.found[0]) == met]
+            axes.scatter(*(zip(*some, strict=True) if some else ([], [])), s=9, color=colour, label=name)
+        legend(axes)
+    for solution in aim.solutions[:1]:
+        place = tuple(solution.values.values())
+        mark(axes, place, ", ".join(_with_unit(aim, axis, f"{value:.5g}") for axis, value in enumerate(place)), card)
+    axes.set_ylabel(label(aim.scene, aim.spans[1].key))
 
 
 def _draw_intervals(axes: Any, aim: Aim, colours: Mapping[str, Any]) -> None:

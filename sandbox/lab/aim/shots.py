@@ -12,7 +12,7 @@ import numpy as np
 from sandbox import parameters as declared
 from sandbox.engine.run import Run
 from sandbox.errors import RequestError, RunError
-from sandbox.lab.aim.question import Target, Try
+from sandbox.lab.aim.question import GREATEST, Target, Try
 from sandbox.lab.axes import Span
 from sandbox.lab.runs import runs
 from sandbox.scene import Scene, compare
@@ -69,6 +69,12 @@ class Shots:
     def numbers(self, point: tuple[float, ...], phase: str, finer: bool = False) -> np.ndarray:
         """The miss of each target at one point; NaN if there is no such result."""
         return self.missed(self.results([point], phase, finer)[0])
+
+    def meets(self, points: Sequence[tuple[float, ...]], phase: str, finer: bool = False) -> list[bool]:
+        """Whether the target, which is not a number, is met at each of these points."""
+        target = self.targets[0]
+        found = self.results(points, phase, finer)
+        return [result is not None and target.met(result.get(target.name)) for result in found]
 
     def missed(self, result: Mapping[str, Any] | None) -> np.ndarray:
         values = [None if result is None else result.get(target.name) for target in self.targets]
@@ -128,11 +134,14 @@ class Shots:
             if target.name not in result:
                 raise RequestError(f"--target {target.name}: {declared.no_such_result(target.name, tuple(result))}")
             value = result[target.name]
-            if isinstance(value, bool) and not isinstance(target.value, bool):
+            if isinstance(value, bool) and not isinstance(target.value, bool) and target.value is not GREATEST:
                 raise RequestError(f"--target {target.name}: is true or false; write {target.name}=true")
-            if isinstance(value, str) and not isinstance(target.value, str):
+            if isinstance(value, str) and not isinstance(target.value, str) and target.value is not GREATEST:
                 raise RequestError(f"--target {target.name}: is a word, such as {target.name}={value}")
-            if isinstance(value, int | float) and not isinstance(value, bool) and not target.is_number:
+            if target.value is GREATEST:
+                if isinstance(value, bool | str):
+                    raise RequestError(f"--maximize {target.name}: is not a number")
+            elif isinstance(value, int | float) and not isinstance(value, bool) and not target.is_number:
                 raise RequestError(f"--target {target.name}: is a number, such as {target.name}={value:.4g}")
             if isinstance(value, list | tuple | dict):
                 raise RequestError(f"--target {target.name}: is a list and cannot be a target")

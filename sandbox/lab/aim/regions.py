@@ -1,0 +1,64 @@
+"""A target that is true, false or a word, by two parameters: the regions in which it is met."""
+
+from __future__ import annotations
+
+from itertools import product
+
+import numpy as np
+
+from sandbox.lab.aim.question import Region, Solution
+from sandbox.lab.aim.shots import Shots
+
+#: Points of the scan along each parameter: regions narrower than this fraction of the range may be missed.
+_SCAN_EACH = 61
+
+#: Directions in which the border is searched for around the most forgiving point, and the steps of that search, each
+#: of which makes it four times as accurate.
+_DIRECTIONS, _STEPS = 48, 5
+
+
+def regions(shots: Shots) -> list[Solution]:
+    """The most forgiving point of each connected region in which the target is met, the one with the most room first.
+
+    Room is the distance to the border, or to the end of the range, in fractions of the ranges. Regions that hold no
+    point of the scan with all its neighbours are left out if there are others.
+    """
+    from scipy.ndimage import distance_transform_edt, label
+
+    shots.planned = _SCAN_EACH**2
+    axes = [np.linspace(span.low, span.high, _SCAN_EACH).tolist() for span in shots.spans]
+    met = np.array(shots.meets(list(product(*axes)), "scan")).reshape(_SCAN_EACH, _SCAN_EACH)
+    room = distance_transform_edt(np.pad(met, 1))[1:-1, 1:-1]
+    kinds, count = label(met)
+    found = []
+    for kind in range(1, count + 1):
+        here = np.where(kinds == kind, room, 0.0)
+        place = np.unravel_index(int(here.argmax()), here.shape)
+        point = tuple(axis[index] for axis, index in zip(axes, place, strict=True))
+        found.append((float(here.max()), point, float((kinds == kind).mean())))
+    found.sort(reverse=True)
+    wide = [each for each in found if each[0] > 1.0] or found[:1]
+    return [_solution(shots, point, share) for _, point, share in wide]
+
+
+def _solution(shots: Shots, point: tuple[float, ...], share: float) -> Solution:
+    spans = shots.spans
+    result, errors, _ = shots.checked(point)
+    whole = np.array([span.high - span.low for span in spans])
+    ends = np.array([(span.low, span.high) for span in spans])
+    angles = (np.arange(_DIRECTIONS) + 0.5) * (2.0 * np.pi / _DIRECTIONS)  # none along an axis
+    ways = np.array([np.cos(angles), np.sin(angles)]).T * whole
+    limits = np.maximum((ends[:, 0] - point) / ways, (ends[:, 1] - point) / ways)
+    low, high = np.zeros(_DIRECTIONS), limits.min(axis=1)
+    shares = np.linspace(0.0, 1.0, 5)[1:]
+    for _ in range(_STEPS):
+        far = low[:, None] + (high - low)[:, None] * shares
+        tries = np.clip(point + far[..., None] * ways[:, None, :], ends[:, 0], ends[:, 1])
+        met = np.array(shots.meets([tuple(each) for each in tries.reshape(-1, 2).tolist()], "solve")).reshape(far.shape)
+        inside = np.cumprod(met, axis=1).sum(axis=1)  # of the four, as far as the target is met without a gap
+        step = 0.25 * (high - low)
+        low, high = low + inside * step, np.minimum(low + (inside + 1) * step, high)
+    values = dict(zip([span.key for span in spans], point, strict=True))
+    room = dict(zip(values, (float(low.min()) * whole).tolist(), strict=True))
+    spacing = dict(zip(values, (0.5 * whole / (_SCAN_EACH - 1)).tolist(), strict=True))
+    return Solution(values, spacing, result, errors, region=Region(share, room))
