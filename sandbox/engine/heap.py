@@ -14,18 +14,17 @@ rigid lump.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping, Sequence
-from dataclasses import replace
+from collections.abc import Collection, Mapping, Sequence
 from itertools import combinations
 from math import hypot, inf
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import pymunk
 
 from sandbox.engine.accuracy import Accuracy
 from sandbox.engine.acting import checked
 from sandbox.engine.arc import Arc, still
-from sandbox.engine.plain import fixed
+from sandbox.engine.real_space import RealSpace
 from sandbox.engine.run import Numerics
 from sandbox.engine.setup import Ball, Setup, Surface
 from sandbox.engine.surfaces import bounce_of_balls, bounce_off, press
@@ -55,8 +54,6 @@ _REST_TIME = 0.25
 #: Share of an overlap that is left after a step.
 _LEFT = 0.6
 
-_BALL, _SURFACE = 1, 2
-
 
 class Heaped(NamedTuple):
     """Value of ``Arc.contact`` for a ball in a heap: how far position correction moves it along the arc, in m."""
@@ -68,18 +65,15 @@ class Heaped(NamedTuple):
 class _Member:
     """A ball of the heap in pymunk's Space."""
 
-    def __init__(self, ball: Ball, space: pymunk.Space, margin: float) -> None:
+    def __init__(self, ball: Ball, real: RealSpace) -> None:
         self.ball = ball
-        self.body = pymunk.Body(ball.mass, ball.inertia)
-        self.disc = pymunk.Circle(self.body, ball.radius + margin)
-        self.disc.collision_type = _BALL
-        self.disc.friction = 1.0  # pymunk multiplies it by the surface's
-        self.brake = pymunk.SimpleMotor(self.body, space.static_body, 0.0)  # rolling resistance
+        self.body, self.disc = real.add(ball)
+        self.brake = pymunk.SimpleMotor(self.body, real.space.static_body, 0.0)  # rolling resistance
         self.resistance = 0.0  # N m, of this step's pressure: for the next
         self.start: State = ()
         self.touching: set[Obstacle | int] = set()  # obstacles, and balls by index, in this step
         self.before: set[Obstacle | int] = set()  # the same in the step before
-        space.add(self.body, self.disc, self.brake)
+        real.space.add(self.brake)
 
     def resist(self, surface: Surface, push: float) -> None:
         """Add the torque of rolling resistance on a surface that presses with ``push`` (N)."""
@@ -103,23 +97,11 @@ class Heap:
         self._forced = 0.0  # m/s^2, the largest acceleration by forces in this step
         self._fastest = 0.0  # m/s, approach in the heap that is no impact of its own
         self._h = 0.0  # s, the length of this step
-        self._raised: BaseException | None = None
         self.margin = _MARGIN * min(ball.radius for ball in setup.balls)  # m, gap up to which shapes touch
-        self._space = pymunk.Space()
-        self._space.iterations = _ITERATIONS
-        self._space.collision_slop = self.margin
-        self._space.collision_bias = _LEFT ** (1.0 / self._longest)
-        self._surfaces: dict[pymunk.Shape, int] = {}  # index into the surfaces of the setup
-        for place, surface in enumerate(setup.surfaces):
-            wider = replace(surface.shape, radius=surface.shape.radius + 0.5 * self.margin)
-            shape = fixed(self._space.static_body, replace(surface, shape=wider, restitution=0.0))
-            shape.collision_type = _SURFACE
-            self._surfaces[shape] = place
-            self._space.add(shape)
-        for other in (_BALL, _SURFACE):
-            self._space.on_collision(
-                _BALL, other, pre_solve=self._guarded(self._meet), post_solve=self._guarded(self._press)
-            )
+        # at rest shapes stay in touch: their margins overlap
+        self._real = RealSpace(setup.surfaces, _ITERATIONS, self.margin, 0.5 * self.margin)
+        self._real.space.collision_bias = _LEFT ** (1.0 / self._longest)
+        self._real.on_contact(self._meet, self._press)
 
     @property
     def members(self) -> Collection[int]:
@@ -169,10 +151,8 @@ class Heap:
             member.start = states[index]
             member.before, member.touching = member.touching, set()
             member.brake.max_force, member.resistance = member.resistance, 0.0
-        self._space.step(h)
+        self._real.step(h)
         self._numerics.pymunk_steps += 1
-        if self._raised is not None:
-            raise self._raised
         held = self._held()
         self._take({index: states[index] for index in held})
         fastest = max((hypot(*states[index][2:4]) for index in held), default=inf)
@@ -190,9 +170,9 @@ class Heap:
         for index in self._members.keys() - indices:
             member = self._members.pop(index)
             del self._of_disc[member.disc]
-            self._space.remove(member.body, member.disc, member.brake)
+            self._real.space.remove(member.body, member.disc, member.brake)
         for index in indices - self._members.keys():
-            member = self._members[index] = _Member(self._tracks[index].ball, self._space, 0.5 * self.margin)
+            member = self._members[index] = _Member(self._tracks[index].ball, self._real)
             self._of_disc[member.disc] = index
 
     def _held(self) -> set[int]:
@@ -245,25 +225,13 @@ class Heap:
 
     # ------------------------------------------------------------------ callbacks
 
-    def _guarded(self, callback: Callable[[pymunk.Arbiter], None]) -> Any:
-        """The callback, storing what it raises until after the step: cffi would swallow it."""
-
-        def call(arbiter: pymunk.Arbiter, space: pymunk.Space, data: Any) -> None:
-            if self._raised is None:
-                try:
-                    callback(arbiter)
-                except BaseException as error:
-                    self._raised = error
-
-        return call
-
     def _meet(self, arbiter: pymunk.Arbiter) -> None:
         """Leave out what meets too fast for lasting contact: it has an impact of its own, at its exact time."""
         first, second = arbiter.shapes
         i, (nx, ny) = self._of_disc[first], arbiter.normal
         here, there = self._members[i], self._members.get(self._of_disc.get(second, -1))
         (vx, vy), (ux, uy) = here.body.velocity, (0.0, 0.0) if there is None else there.body.velocity
-        other = self._tracks[i].obstacles[self._surfaces[second]] if there is None else self._of_disc[second]
+        other = self._tracks[i].obstacles[self._real.surface_of[second]] if there is None else self._of_disc[second]
         approach, along = (vx - ux) * nx + (vy - uy) * ny, (vy - uy) * nx - (vx - ux) * ny
         arbiter.process_collision = other in here.before or approach <= self._fastest  # it is remembered
         if not arbiter.process_collision:
@@ -277,8 +245,9 @@ class Heap:
             )
             bounce = bounce_of_balls(self._setup, approach, abs(slip), here.ball.name, there.ball.name)
         elif bounces:
-            bounce = bounce_off(self._setup.surfaces[self._surfaces[second]], approach, along)
+            bounce = bounce_off(self._setup.surfaces[self._real.surface_of[second]], approach, along)
         else:
+            arbiter.restitution = 0.0
             return
         arbiter.restitution, arbiter.friction = bounce.restitution if bounces else 0.0, bounce.friction
 
@@ -288,7 +257,7 @@ class Heap:
         i = self._of_disc[first]
         here = self._members[i]
         push = abs(arbiter.total_impulse.dot(arbiter.normal))
-        if second in self._surfaces:
-            here.resist(self._setup.surfaces[self._surfaces[second]], push / self._h)
+        if second in self._real.surface_of:
+            here.resist(self._setup.surfaces[self._real.surface_of[second]], push / self._h)
         elif push > _PRESSURE * here.ball.mass * self._forced * self._h:
             self._pressed[frozenset((i, self._of_disc[second]))] = self._steps

@@ -21,8 +21,9 @@ from sandbox.engine.acting import checked
 from sandbox.engine.arc import Arc
 from sandbox.engine.event import Event
 from sandbox.engine.in_plane import Diverged
+from sandbox.engine.real_space import ONLY_SURFACES, RealSpace
 from sandbox.engine.run import Numerics, Run
-from sandbox.engine.setup import Ball, Circle, Setup, Surface
+from sandbox.engine.setup import Ball, Setup, Surface
 from sandbox.engine.step_control import JUMP, stiff
 from sandbox.engine.surfaces import (
     bounce_of_balls,
@@ -35,8 +36,8 @@ from sandbox.errors import RunError
 from sandbox.physics.cushion import rebound
 from sandbox.physics.integrators import Acceleration, State
 
-#: Overlap in m that Chipmunk allows; its default of 0.1 is meant for pixels.
-_SLOP = 1e-5
+#: Overlap in m that Chipmunk allows, as its default of 0.1 is meant for pixels, and its iterations.
+_SLOP, _ITERATIONS = 1e-5, 30
 
 #: Interval in s at which the path is recorded and balls are checked for rest and for having left the world.
 _RECORD_EVERY = 1 / 240
@@ -56,8 +57,6 @@ _GRIP = 0.01
 
 #: A ball that moves more than this fraction of its radius in a step may pass through a surface unnoticed.
 _LEAP = 0.5
-
-_BALL, _SURFACE = 1, 2
 
 #: What to do about an error that a finer step avoids.
 _REMEDY = 'lower accuracy.step, or use accuracy.method = "exact"'
@@ -119,32 +118,18 @@ class PlainSimulation:
         self._progress = progress
         self._numerics = Numerics()
         self._events: list[Event] = []
-        self._raised: BaseException | None = None
         self._over = False
         self._t = 0.0
         self._steps = 0
         self._hit: list[_Tracked] = []  # in the current step
-        self._space = pymunk.Space()
-        self._space.iterations = 30
-        self._space.collision_slop = _SLOP
-        self._surfaces: dict[Any, Surface] = {}
+        self._real = RealSpace(setup.surfaces, _ITERATIONS, _SLOP)
+        self._real.on_contact(self._meet, self._part)
         self._tracked: dict[Any, _Tracked] = {}
-        for surface in setup.surfaces:
-            shape = fixed(self._space.static_body, surface)
-            self._surfaces[shape] = surface
-            self._space.add(shape)
         for ball in setup.balls:
-            body = pymunk.Body(ball.mass, ball.inertia)
+            body, _ = self._real.add(ball)
             body.position, body.velocity, body.angular_velocity = ball.position, ball.velocity, ball.spin
-            body.velocity_func = self._guarded(self._move)
-            disc = pymunk.Circle(body, ball.radius)
-            disc.collision_type, disc.filter = _BALL, pymunk.ShapeFilter(categories=_BALL)
-            disc.elasticity = disc.friction = 1.0
+            body.velocity_func = self._real.guarded(self._move)
             self._tracked[body] = _Tracked(ball, body, setup.cloth is not None)
-            self._space.add(body, disc)
-        for other in (_SURFACE, _BALL):
-            meet, part = self._guarded(self._meet), self._guarded(self._part)
-            self._space.on_collision(_BALL, other, pre_solve=meet, post_solve=part)
 
     def run(self) -> Run:
         started = perf_counter()
@@ -168,9 +153,7 @@ class PlainSimulation:
                 )
             # bodies move first: contacts and forces belong to the end of the step
             before, self._t = self._t, min(self._steps * step, duration)
-            self._space.step(self._t - before)
-            if self._raised is not None:
-                raise self._raised
+            self._real.step(self._t - before)
             for tracked in self._hit:
                 tracked.start = tracked.state()  # the next arc starts from the state after the impact
             self._hit.clear()
@@ -205,7 +188,7 @@ class PlainSimulation:
         for catch in self._setup.catches:
             if (x - catch.center[0]) ** 2 + (y - catch.center[1]) ** 2 <= catch.radius**2:
                 tracked.caught = True
-                self._space.remove(tracked.body, *tracked.body.shapes)
+                self._real.space.remove(tracked.body, *tracked.body.shapes)
                 speed = tracked.body.velocity.length
                 self._note(Event(self._t, "caught", tracked.ball.name, catch.name, speed, x, y))
                 return
@@ -227,18 +210,6 @@ class PlainSimulation:
             self._over = True
 
     # ------------------------------------------------------------------ callbacks
-
-    def _guarded(self, callback: Any) -> Any:
-        """The callback, storing what it raises until after the step."""
-
-        def call(*arguments: Any) -> None:
-            if self._raised is None:
-                try:
-                    callback(*arguments)
-                except BaseException as error:
-                    self._raised = error
-
-        return call
 
     def _move(self, body: pymunk.Body, gravity: Any, damping: float, h: float) -> None:
         """Apply forces, torques and the cloth to a ball for a step."""
@@ -262,7 +233,7 @@ class PlainSimulation:
             raise self._diverged(tracked, after)
         tracked.take(after)
 
-    def _meet(self, arbiter: pymunk.Arbiter, space: pymunk.Space, data: Any) -> None:
+    def _meet(self, arbiter: pymunk.Arbiter) -> None:
         """Set the restitution and friction of a contact, before Chipmunk solves it."""
         balls, surface = self._touching(arbiter)
         first, states = balls[0], [tracked.state() for tracked in balls]
@@ -307,7 +278,7 @@ class PlainSimulation:
             lowest = (2.0 * press * surface.lowest_bounce) ** 0.5
             first.pending[arbiter.shapes[1]] = _Pending(friction, slip, resistance, lowest, turned)
 
-    def _part(self, arbiter: pymunk.Arbiter, space: pymunk.Space, data: Any) -> None:
+    def _part(self, arbiter: pymunk.Arbiter) -> None:
         """Apply what Chipmunk does not know of, after it has solved the contact."""
         balls, surface = self._touching(arbiter)
         first, (nx, ny) = balls[0], -arbiter.normal
@@ -334,7 +305,8 @@ class PlainSimulation:
     def _touching(self, arbiter: pymunk.Arbiter) -> tuple[list[_Tracked], Surface | None]:
         """The ball or balls of a contact, and the surface, if it is with one."""
         first, second = arbiter.shapes
-        surface = self._surfaces.get(second)
+        place = self._real.surface_of.get(second)
+        surface = None if place is None else self._setup.surfaces[place]
         return [self._tracked[shape.body] for shape in ((first, second) if surface is None else (first,))], surface
 
     # ------------------------------------------------------------------ guards
@@ -353,10 +325,11 @@ class PlainSimulation:
 
     def _refuse_leap(self, tracked: _Tracked, start: tuple[float, float], end: tuple[float, float]) -> None:
         """Raise RunError if the ball's centre passed through a surface in the last step."""
-        met = self._space.segment_query_first(start, end, 0.0, pymunk.ShapeFilter(mask=_SURFACE))
+        met = self._real.space.segment_query_first(start, end, 0.0, ONLY_SURFACES)
         if met is not None:
+            surface = self._setup.surfaces[self._real.surface_of[met.shape]]
             raise RunError(
-                f"t = {self._t:.6g} s, ball {tracked.ball.name!r}: went through {self._surfaces[met.shape].name!r} "
+                f"t = {self._t:.6g} s, ball {tracked.ball.name!r}: went through {surface.name!r} "
                 f"within a step of {self._accuracy.step:.3g} s; {_REMEDY}"
             )
 
@@ -366,18 +339,3 @@ class PlainSimulation:
             f"t = {self._t:.6g} s, ball {tracked.ball.name!r}: position ({x:.6g}, {y:.6g}) m, velocity "
             f"({vx:.6g}, {vy:.6g}) m/s, spin {spin:.6g} rad/s is not finite, or outside the world; {_REMEDY}"
         )
-
-
-def fixed(body: pymunk.Body, surface: Surface) -> pymunk.Shape:
-    """A surface as a shape of pymunk's."""
-    shape = surface.shape
-    fixed: pymunk.Shape
-    if isinstance(shape, Circle):
-        fixed = pymunk.Circle(body, shape.radius, shape.center)
-    else:
-        fixed = pymunk.Segment(body, shape.a, shape.b, shape.radius)
-    fixed.collision_type = _SURFACE
-    fixed.filter = pymunk.ShapeFilter(categories=_SURFACE)
-    fixed.elasticity = surface.restitution
-    fixed.friction = surface.friction
-    return fixed

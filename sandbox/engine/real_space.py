@@ -1,0 +1,71 @@
+"""A pymunk Space of real shapes: the surfaces of a setup and the discs of its balls, with callbacks that may raise."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import pymunk
+
+from sandbox.engine.setup import Ball, Circle, Surface
+
+_BALL, _SURFACE = 1, 2
+
+#: Finds surfaces only.
+ONLY_SURFACES = pymunk.ShapeFilter(mask=_SURFACE)
+
+
+class RealSpace:
+    """The Space. All shapes are wider by ``margin`` (m), and overlaps up to ``slop`` (m) are left."""
+
+    def __init__(self, surfaces: Sequence[Surface], iterations: int, slop: float, margin: float = 0.0) -> None:
+        self.space = pymunk.Space()
+        self.space.iterations = iterations
+        self.space.collision_slop = slop
+        self.surface_of: dict[pymunk.Shape, int] = {}  # index into the surfaces
+        self._margin = margin
+        self._raised: BaseException | None = None
+        for place, surface in enumerate(surfaces):
+            shape, body = surface.shape, self.space.static_body
+            fixed: pymunk.Shape
+            if isinstance(shape, Circle):
+                fixed = pymunk.Circle(body, shape.radius + margin, shape.center)
+            else:
+                fixed = pymunk.Segment(body, shape.a, shape.b, shape.radius + margin)
+            fixed.collision_type, fixed.filter = _SURFACE, pymunk.ShapeFilter(categories=_SURFACE)
+            fixed.elasticity, fixed.friction = surface.restitution, surface.friction
+            self.surface_of[fixed] = place
+            self.space.add(fixed)
+
+    def add(self, ball: Ball) -> tuple[pymunk.Body, pymunk.Circle]:
+        """Add a ball; pymunk multiplies its elasticity and friction, 1, by the surface's."""
+        body = pymunk.Body(ball.mass, ball.inertia)
+        disc = pymunk.Circle(body, ball.radius + self._margin)
+        disc.collision_type, disc.filter = _BALL, pymunk.ShapeFilter(categories=_BALL)
+        disc.elasticity = disc.friction = 1.0
+        self.space.add(body, disc)
+        return body, disc
+
+    def on_contact(self, meet: Callable[[pymunk.Arbiter], None], part: Callable[[pymunk.Arbiter], None]) -> None:
+        """Call these before and after Chipmunk solves a contact; the first shape is always a ball's."""
+        before, after = (self.guarded(lambda arbiter, space, data, call=call: call(arbiter)) for call in (meet, part))
+        for other in (_SURFACE, _BALL):
+            self.space.on_collision(_BALL, other, pre_solve=before, post_solve=after)
+
+    def guarded(self, callback: Callable[..., None]) -> Any:
+        """The callback, storing what it raises until after the step: cffi would print and swallow it."""
+
+        def call(*arguments: Any) -> None:
+            if self._raised is None:
+                try:
+                    callback(*arguments)
+                except BaseException as error:
+                    self._raised = error
+
+        return call
+
+    def step(self, h: float) -> None:
+        """Step by h s. Raises what a callback has raised."""
+        self.space.step(h)
+        if self._raised is not None:
+            raise self._raised
