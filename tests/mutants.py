@@ -61,7 +61,11 @@ TESTS: dict[str, dict[str, str]] = {
         "impulse": "cushion engine/cloth engine/contact engine/batch",
         "": "{name} scenes/golf",
     },
-    "sandbox/sport": {"": " ".join(f"scenes/{file.stem[5:]}" for file in sorted(ROOT.glob("tests/scenes/test_*.py")))},
+    "sandbox/sport": {
+        "": " ".join(
+            ["{name}", "schemas", *(f"scenes/{file.stem[5:]}" for file in sorted(ROOT.glob("tests/scenes/test_*.py")))]
+        )
+    },
     "sandbox/scene": {"checking": "checking", "": "scene cli"},
     "sandbox/lab": {
         "maps": "maps",
