@@ -84,7 +84,7 @@ def window() -> None:
     for share in (0.4, 0.7, 1.0):
         place = round(x + share * across), round(y + share * down)
         post(app, pygame.MOUSEMOTION, pos=place, rel=(0, 0), buttons=(1, 0, 0))
-    while game.fan is None or not game.fan.complete or view.busy:
+    while view.clouds.key is None or view.clouds.key[0] is not game.shot:
         app.tick(FRAME)
     app.close()
     worker.close(abandon=True)

@@ -170,23 +170,19 @@ def energy_chart(run: Run, size: tuple[int, int] = (1280, 720)) -> pygame.Surfac
     plot = pygame.Rect(sheet.frame.left + ticks, top, sheet.frame.width - ticks - labels, tall)
     _axes(sheet, plot, run.duration, {level: plot.bottom - level * scale for level in levels})
     columns = plot.left + plot.width * energy.times / max(run.duration, 1e-9)
-    foot, spots = np.zeros(len(energy.times)), []
-    for _, values, colour in bands:
-        head = foot + values
-        edges = [plot.bottom - level * scale for level in (foot, head)]
-        outline = [*zip(columns, edges[1], strict=True), *zip(columns[::-1], edges[0][::-1], strict=True)]
-        sheet.painter.polygon(outline, colour)
-        sheet.painter.line(list(zip(columns, edges[1], strict=True)), max(1.0, 1.2 * sheet.unit), ENERGY["ground"], 0.8)
-        spots.append(np.column_stack([columns, (edges[0] + edges[1]) / 2, edges[0] - edges[1]]))
-        foot = head
-    foot = np.full(len(energy.times), energy.start)
-    for _, values, colour in given:
-        head = foot + values
-        low, high = (plot.bottom - level * scale for level in (foot, head))
-        _hatch(sheet, columns, low, high, colour)
-        sheet.painter.line(list(zip(columns, high, strict=True)), max(1.0, 1.6 * sheet.unit), colour)
-        spots.append(np.column_stack([columns, high, low - high]))
-        foot = head
+    spots = []
+    for drawn, foot in ((bands, np.zeros(len(energy.times))), (given, np.full(len(energy.times), energy.start))):
+        for _, values, colour in drawn:
+            low, high = (plot.bottom - level * scale for level in (foot, foot + values))
+            ends = np.column_stack([columns, high])
+            if drawn is given:
+                _hatch(sheet, columns, low, high, colour)
+                sheet.painter.line(ends, max(1.0, 1.6 * sheet.unit), colour)
+            else:
+                sheet.painter.polygon(np.concatenate([ends, np.column_stack([columns, low])[::-1]]), colour)
+                sheet.painter.line(ends, max(1.0, 1.2 * sheet.unit), ENERGY["ground"], 0.8)
+            spots.append(np.column_stack([columns, high if drawn is given else (low + high) / 2, low - high]))
+            foot = foot + values
     _impacts(sheet, plot, run)
     _name(sheet, plot, [*bands, *given], spots)
     if given:

@@ -11,7 +11,7 @@ import zlib
 from collections import deque
 from collections.abc import Callable, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
-from itertools import pairwise
+from itertools import chain, pairwise
 from pathlib import Path
 from typing import Protocol, TypeVar
 
@@ -180,14 +180,11 @@ def save_gif(picture: Picture, run: Run, path: Path | str, fps: float, progress:
     colours = _shared_palette(picture, times)
     durations = _durations([round(100 * t) for t in times], 10)
 
-    def encoded(item: tuple[Image.Image, Box]) -> tuple[Box, bytes]:
-        image, box = item
+    def encoded(image: Image.Image, box: Box) -> bytes:
         part = image.crop(box).quantize(palette=colours, dither=Image.Dither.NONE)
-        return box, b"".join(GifImagePlugin.getdata(part, box[:2]))
+        return b"".join(GifImagePlugin.getdata(part, box[:2]))
 
-    parts = list(
-        _in_threads(encoded, _with_changes(to_image(frame_of(picture, t)) for t in times), len(times), progress)
-    )
+    parts = _parts(picture, times, encoded, progress)
     width, height = parts[0][0][2:]
     palette = bytes(colours.getpalette("RGB") or []).ljust(3 * 256, b"\0")
     head = b"GIF89a" + struct.pack("<HHBBB", width, height, 0b11110111, 0, 0) + palette  # 256 colours for all frames
@@ -208,9 +205,7 @@ def save_webp(picture: Picture, run: Run, path: Path | str, fps: float, progress
     """
     times = frame_times(run.duration, fps)
     durations = _durations([round(1000 * t) for t in times], 1)
-    parts = list(
-        _in_threads(_webp_part, _with_changes(to_image(frame_of(picture, t)) for t in times), len(times), progress)
-    )
+    parts = _parts(picture, times, _webp_part, progress)
     frames = b"".join(_webp_frame(*part, stay) for part, stay in zip(parts, durations, strict=True))
     width, height = parts[0][0][2:]
     canvas = bytes([0b10, 0, 0, 0]) + struct.pack("<I", width - 1)[:3] + struct.pack("<I", height - 1)[:3]
@@ -219,30 +214,30 @@ def save_webp(picture: Picture, run: Run, path: Path | str, fps: float, progress
     return len(times)
 
 
+def _parts(
+    picture: Picture, times: list[float], encoded: Callable[[Image.Image, Box], bytes], progress: Progress | None
+) -> list[tuple[Box, bytes]]:
+    """Of each frame the rectangle that differs from the frame before, and what is in it, encoded."""
+    changed = _with_changes(to_image(frame_of(picture, t)) for t in times)
+    return list(_in_threads(lambda item: (item[1], encoded(*item)), changed, len(times), progress))
+
+
 def _with_changes(images: Iterator[Image.Image]) -> Iterator[tuple[Image.Image, Box]]:
     """Each image with the rectangle that differs from the one before, and BLEED px around it; left and top are even."""
     before = None
     for image in images:
         changed = (0, 0, *image.size) if before is None else ImageChops.difference(before, image).getbbox()
         left, top, right, bottom = changed or (0, 0, 2, 2)
-        yield (
-            image,
-            (
-                max(0, left - BLEED) & ~1,
-                max(0, top - BLEED) & ~1,
-                min(image.width, right + BLEED),
-                min(image.height, bottom + BLEED),
-            ),
-        )
+        far = min(right + BLEED, image.width), min(bottom + BLEED, image.height)
+        yield image, (max(0, left - BLEED) & ~1, max(0, top - BLEED) & ~1, *far)
         before = image
 
 
-def _webp_part(item: tuple[Image.Image, Box]) -> tuple[Box, bytes]:
-    """The rectangle and its picture as a WebP's chunk, without the file's header."""
-    image, box = item
+def _webp_part(image: Image.Image, box: Box) -> bytes:
+    """The rectangle's picture as a WebP's chunk, without the file's header."""
     data = io.BytesIO()
     image.crop(box).save(data, "WEBP", **WEBP)
-    return box, data.getvalue()[12:]
+    return data.getvalue()[12:]
 
 
 def _webp_frame(box: Box, data: bytes, stay: int) -> bytes:
@@ -294,19 +289,17 @@ def _in_threads(work: Callable[[T], R], items: Iterator[T], total: int, progress
     done = 0
     with ThreadPoolExecutor(workers) as pool:
         try:
-            for item in items:
-                waiting.append(pool.submit(work, item))
-                # no more pictures in memory than keep all cores at work, and of large ones fewer
-                while len(waiting) > min(2 * workers, MOST_PIXELS // _pixels(item)):
+            for item in chain(items, (None,)):
+                room = 0  # at the end
+                if item is not None:
+                    waiting.append(pool.submit(work, item))
+                    # no more pictures in memory than keep all cores at work, and of large ones fewer
+                    room = min(2 * workers, MOST_PIXELS // _pixels(item))
+                while len(waiting) > room:
                     yield waiting.popleft().result()
                     done += 1
                     if progress:
                         progress(done, total)
-            while waiting:
-                yield waiting.popleft().result()
-                done += 1
-                if progress:
-                    progress(done, total)
         finally:
             for future in waiting:
                 future.cancel()

@@ -43,8 +43,6 @@ from sandbox.sport.facts import Fact, once
 from sandbox.sport.flight import RPM, Launch, Sphere, forces_in_flight, height_on, launched_ball
 from sandbox.sport.readings import BALL_SPEED, LAUNCH_ANGLE, LAUNCH_SPIN, Moment, at, before
 
-# ----------------------------------------------------------------------------------------------------------- parameters
-
 
 class Club(Group):
     """The head that strikes the ball, if start is \"club\"."""
@@ -168,8 +166,6 @@ CONTROLS = Controls(
     fan_fact="total",
 )
 
-# ---------------------------------------------------------------------------------------------------------------- build
-
 #: Density in kg/m^3 of the air that the spin decay is given for; thinner air slows the spin less, in proportion.
 STANDARD_DENSITY = 1.204
 
@@ -221,9 +217,6 @@ def _struck(club: Club, ball: GolfBall) -> Struck:
 
 def _is_in_water(event: Event) -> bool:
     return event.partner == "water"
-
-
-# --------------------------------------------------------------------------------------------------------------- course
 
 
 def _line(parameters: Parameters) -> list[tuple[float, float]]:
@@ -297,9 +290,6 @@ def _turf(parameters: Parameters, kind: str, a: tuple[float, float], b: tuple[fl
     law = PennerTurf(turf.bounce, turf.friction, turf.give)
     slow = min(1.0, turf.bounce * penner_restitution(0.0))
     return Surface(kind, Segment(a, b), slow, turf.friction, resistance, LOWEST_BOUNCE, law)
-
-
-# ---------------------------------------------------------------------------------------------------------------- facts
 
 
 @once

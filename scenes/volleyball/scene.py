@@ -10,7 +10,7 @@ from __future__ import annotations
 from typing import Any, Literal
 
 from sandbox.engine.run import Run
-from sandbox.engine.setup import Segment, Setup, Surface, Touches
+from sandbox.engine.setup import Segment, Setup, Touches
 from sandbox.errors import RequestError
 from sandbox.parameters import Accuracy, Group, choice, either, group, quantity
 from sandbox.physics.coefficients import Coefficient
@@ -21,6 +21,7 @@ from sandbox.sport.controls import Controls, Spin, Spread
 from sandbox.sport.facts import ENDED, Fact, once
 from sandbox.sport.flight import Launch, Sphere, forces_in_flight, launched_ball
 from sandbox.sport.readings import LAUNCH, Moment, at, before, passing
+from sandbox.sport.solids import Solid
 
 
 class Hit(Launch):
@@ -46,21 +47,17 @@ class Volleyball(Sphere):
     lift: SpinRatioLift | ConstantLift | NoLift = either(..., "Magnus lift")
 
 
-class Net(Group):
+class Net(Solid):
     """The net across the middle of the court."""
 
     height: float = quantity(..., "m", 1.2, 10, "of its upper edge above the floor")
     depth: float = quantity(..., "m", 0.1, 1.2, "from its upper to its lower edge")
-    restitution: float = quantity(..., "", 0, 1, "of ball and net")
-    friction: float = quantity(..., "", 0, 10, "of ball and net")
 
 
-class Court(Group):
+class Court(Solid):
     """The court and its floor."""
 
     length: float = quantity(..., "m", 2, 200, "from end line to end line")
-    restitution: float = quantity(..., "", 0, 1, "of ball and floor")
-    friction: float = quantity(..., "", 0, 10, "of ball and floor")
 
 
 class Parameters(Group):
@@ -102,10 +99,7 @@ def build(parameters: Parameters) -> Setup:
     forces = forces_in_flight(ball, parameters.air, parameters.gravity)
     mesh = Segment((middle, max(0.0, net.height - net.depth)), (middle, net.height), 0.01)
     floor = Segment((-1e4, 0.0), (1e4, 0.0))
-    surfaces = [
-        Surface("floor", floor, court.restitution, court.friction),
-        Surface("net", mesh, net.restitution, net.friction),
-    ]
+    surfaces = [court.surface("floor", floor), net.surface("net", mesh)]
     return Setup([launched_ball(launch, ball, (launch.place, start), forces)], surfaces, 20.0, Touches("floor"))
 
 
