@@ -24,6 +24,7 @@ RUNS = {
     "billiards/three-rail-carom": None,
     "volleyball": None,
     "tennis": None,
+    "bullet": None,
     "throws": None,
     "baseball": None,
     "baseball/green-monster": None,

@@ -1,0 +1,157 @@
+"""Rifle bullets from the side: how they drop, slow down and take their time, every hundred yards.
+
+Models: gravity; drag by Mach number with the standard shapes and a ballistic coefficient; wind along the path; air by
+weather and height above the sea; sights above the barrel, and a barrel that is zeroed for a distance.
+Leaves out: everything sideways, as wind across the path and the drift of a spinning bullet; yaw; air that thins on the
+way up; the turning Earth; the ground.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import cos, radians, sin
+from typing import Literal
+
+from sandbox.engine.run import Run
+from sandbox.engine.setup import Ball, Force, Segment, Setup, Surface, Touches
+from sandbox.errors import RequestError
+from sandbox.parameters import Accuracy, Group, choice, group, quantity
+from sandbox.physics.ballistics import BulletDrag, speed_of_sound
+from sandbox.physics.forces import Gravity
+from sandbox.sport.air import Weather, wind_in
+from sandbox.sport.amounts import amount, metres
+from sandbox.sport.controls import Controls, Spread
+from sandbox.sport.facts import ENDED, Fact
+from sandbox.sport.readings import BALL_SPEED, LAUNCH_ANGLE, Moment, at, passing
+from sandbox.sport.zero import zeroed
+
+HUNDRED_YARDS = 91.44  # m
+
+
+class Muzzle(Group):
+    """The bullet as it leaves the barrel."""
+
+    speed: float = quantity(..., "m/s", 1, 1700, "muzzle speed")
+    angle: float = quantity(..., "deg", -90, 90, "direction above the line of sight, if zero.distance is 0")
+
+
+class BulletDragModel(Group):
+    """The standard shape to which the bullet is compared."""
+
+    model: Literal["G1", "G7", "GS"] = choice(..., "flat base, boat tail, sphere")
+
+
+class Bullet(Group):
+    """The bullet."""
+
+    mass: float = quantity(..., "kg", 1e-5, 100, "mass")
+    radius: float = quantity(..., "m", 0.0005, 0.2, "half the calibre")
+    coefficient: float = quantity(..., "", 0.001, 10, "ballistic coefficient in lb/in^2")
+    drag: BulletDragModel = group(..., "its standard shape")
+
+
+class Zero(Group):
+    """The distance at which the bullet crosses the line of sight on its way down."""
+
+    distance: float = quantity(..., "m", 0, 2000, "0: launch.angle counts instead")
+
+
+class Sight(Group):
+    """The sight."""
+
+    height: float = quantity(..., "m", 0, 0.5, "above the barrel")
+
+
+class Range(Group):
+    """The shooting range."""
+
+    distance: float = quantity(..., "m", 1, 5000, "from the muzzle to the target")
+
+
+class Parameters(Group):
+    """All parameters of a shot; x = 0 is the muzzle, and y = 0 the line of sight."""
+
+    launch: Muzzle = group(..., "the bullet as it leaves the barrel")
+    bullet: Bullet = group(..., "the bullet")
+    zero: Zero = group(..., "where the sights are zeroed")
+    sight: Sight = group(..., "the sight")
+    range: Range = group(..., "the shooting range")
+    gravity: float = quantity(..., "m/s^2", 0, 30, "gravity")
+    air: Weather = group(..., "the air")
+    accuracy: Accuracy = group(Accuracy(), "speed against accuracy")
+
+
+CONTROLS = Controls(
+    strongest=1000.0,
+    also={"zero.distance": 0.0},
+    sliders=("bullet.coefficient", "zero.distance", "range.distance", "air.wind", "air.elevation", "air.temperature"),
+    spread=(Spread("launch.speed", 0.005), Spread("launch.angle", least=0.02)),  # assumed
+)
+
+
+def build(parameters: Parameters) -> Setup:
+    """The bullet, and the target in which the run ends."""
+    bullet, air = parameters.bullet, parameters.air.air
+    forces: list[Force] = [Gravity(bullet.mass, parameters.gravity)]
+    if air.density > 0.0:
+        shape, sound = bullet.drag.model, speed_of_sound(parameters.air.temperature + 273.15)
+        forces.append(BulletDrag(bullet.mass, shape, bullet.coefficient, air.density, sound, wind_in(air)))
+    angle = radians(parameters.launch.angle)
+    if parameters.zero.distance > 0.0:
+        found = zeroed(lambda angle: _setup(parameters, forces, angle, parameters.zero.distance))
+        if found is None:
+            raise RequestError(f"zero.distance = {parameters.zero.distance:g} m: the bullet does not get there")
+        angle = found
+    return _setup(parameters, forces, angle, parameters.range.distance)
+
+
+def _setup(parameters: Parameters, forces: Sequence[Force], angle: float, distance: float) -> Setup:
+    bullet, speed = parameters.bullet, parameters.launch.speed
+    start, velocity = (0.0, -parameters.sight.height), (speed * cos(angle), speed * sin(angle))
+    target = Surface("target", Segment((distance + bullet.radius, -5e3), (distance + bullet.radius, 5e3)), 0.0, 0.0)
+    fired = Ball("ball", bullet.mass, bullet.radius, start, velocity, forces=forces)
+    return Setup([fired], [target], 60.0, Touches("target"))
+
+
+def at_distance(run: Run, distance: float) -> Moment | None:
+    """The bullet at a distance in m; None if it does not get there."""
+    if distance == 0.0 or (run.ended == "until" and distance >= run.state("ball", run.duration)[0]):
+        t = 0.0 if distance == 0.0 else run.duration
+        return Moment(t, *run.before("ball", t))
+    return passing(run, distance)
+
+
+def at_target(run: Run, parameters: Parameters) -> Moment | None:
+    """The bullet at the target."""
+    return at_distance(run, parameters.range.distance)
+
+
+def table(run: Run, parameters: Parameters) -> list[dict[str, float]]:
+    """Range and height over the line of sight (m), speed (m/s) and time (s), every 100 yd."""
+    rows = []
+    for i in range(int(parameters.range.distance / HUNDRED_YARDS + 1e-9) + 1):
+        bullet = at_distance(run, i * HUNDRED_YARDS)
+        if bullet is not None:
+            rows.append({"range": bullet.x, "speed": bullet.speed, "height": bullet.y, "time": bullet.t})
+    return rows
+
+
+FACTS = (
+    Fact("height", "at the target", "m", at(at_target, lambda bullet: bullet.y), settled="target"),
+    Fact("speed", "speed there", "m/s", at(at_target, lambda bullet: bullet.speed), settled="target", also="ft/s"),
+    Fact("flight_time", "flight time", "s", at(at_target, lambda bullet: bullet.t), settled="target"),
+    Fact("apex", "highest", "m", lambda run, parameters: run.highest("ball")[1][1], settled="target"),
+    BALL_SPEED,
+    LAUNCH_ANGLE,
+    Fact("table", "", "", table),
+    ENDED,
+)
+
+
+def verdict(run: Run, parameters: Parameters) -> str:
+    """What happened, in a sentence."""
+    height, distance = run.result["height"], metres(parameters.range.distance)
+    if height is None:
+        return f"Does not reach {distance}"
+    side = "above" if height > 0.0 else "below"
+    return f"{amount(abs(height), 'm')} {side} the line of sight at {distance}"

@@ -1,0 +1,59 @@
+"""Bullets: drag by Mach number, the zero of the sights, and the table of the flight."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+import pytest
+
+import sandbox
+from sandbox.errors import RequestError
+from sandbox.physics.ballistics import drag_by_mach, drag_table
+
+
+def fire(preset: str = "bullet", **changes: Any) -> dict[str, Any]:
+    scene = sandbox.load(preset, {key.replace("__", "."): value for key, value in changes.items()})
+    return sandbox.simulate(scene).result
+
+
+@pytest.mark.parametrize("shape", ["G1", "G7", "GS"])
+def test_the_drag_passes_through_the_points_of_its_table(shape: str):
+    machs, cubics = drag_table(shape)
+    assert [drag_by_mach(shape, mach) for mach in machs[:-1]] == [cubic[0] for cubic in cubics]
+    many = np.linspace(0.0, 6.0, 301)
+    assert drag_by_mach(shape, many) == pytest.approx([drag_by_mach(shape, float(mach)) for mach in many], rel=1e-12)
+    below, above = (drag_by_mach(shape, 0.95 + step) for step in (-1e-9, 1e-9))
+    assert above == pytest.approx(below, abs=1e-7)
+
+
+@pytest.mark.parametrize("distance", [50.0, 91.44, 400.0])
+def test_the_bullet_meets_the_line_of_sight_at_the_zero(distance: float):
+    result = fire(zero__distance=distance, range__distance=distance)
+    assert result["height"] == pytest.approx(0.0, abs=1e-6)
+
+
+def test_a_zero_out_of_reach_is_refused():
+    with pytest.raises(RequestError, match=r"zero\.distance = 2000 m: the bullet does not get there"):
+        fire(launch__speed=20.0, zero__distance=2000.0)
+
+
+def test_the_table_has_a_row_every_hundred_yards():
+    table = fire()["table"]
+    assert [row["range"] for row in table] == pytest.approx([91.44 * i for i in range(11)])
+    assert table[0]["height"] == pytest.approx(-0.0508)
+    assert all(before["speed"] > after["speed"] for before, after in pairwise(table))
+    assert fire(range__distance=300.0)["table"][3] == pytest.approx(table[3], rel=1e-6)
+
+
+def test_at_mach_5_the_target_is_hit_on_its_face():
+    """Without air x = v t."""
+    result = fire(launch__speed=1700.0, air__density=0.0, range__distance=3000.0, zero__distance=0.0)
+    assert result["flight_time"] == pytest.approx(3000.0 / 1700.0, rel=1e-12)
+
+
+def test_a_headwind_and_thick_air_slow_it_down():
+    calm = fire()["speed"]
+    assert fire(air__wind=[-10.0, 0.0])["speed"] < calm
+    assert fire(air__elevation=2000.0)["speed"] > calm
