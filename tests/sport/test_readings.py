@@ -1,0 +1,25 @@
+"""What is read from a run."""
+
+from __future__ import annotations
+
+from math import asinh, hypot
+
+import pytest
+
+from sandbox.engine import simulate
+from sandbox.engine.accuracy import resolve
+from sandbox.engine.setup import Ball, Setup
+from sandbox.physics.forces import Gravity
+from sandbox.sport.readings import travelled
+
+
+def test_the_length_of_a_path_is_that_of_its_parabola():
+    """The integral of sqrt(u^2 + v^2) dv / g is (v sqrt(u^2 + v^2) + u^2 asinh(v / u)) / 2 g."""
+    g, across, up, duration = 9.81, 6.0, 4.0, 1.2
+
+    def integral(v: float) -> float:
+        return 0.5 * (v * hypot(across, v) + across**2 * asinh(v / across)) / g
+
+    ball = Ball("ball", 0.1, 0.03, (0.0, 0.0), (across, up), forces=(Gravity(0.1, g),))
+    run = simulate(Setup((ball,), duration=duration), resolve(level="precise"))
+    assert travelled(run, "ball") == pytest.approx(integral(up) - integral(up - g * duration), rel=2e-4)
