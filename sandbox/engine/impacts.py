@@ -76,26 +76,37 @@ class Impacts:
         for turn in range(last + 1):
             if turn in (0, last):
                 states, hits = dict(start), []
-            before, closed = dict(states), []
-            if turn % 2 == 1 and turn < last:
-                for contact in self._with_surfaces(states, (True,)):
-                    if contact.speed > STILL:
-                        self._exchange_alone(states, contact)
-                        closed.append(contact)
+            before = dict(states)
+            if turn == last:
+                closed = self._close_at_once(states, (False, True))
             else:
-                softness = (False,) if turn < last else (False, True)
-                found = [*self._with_surfaces(states, softness), *self._with_balls(states)]
-                closed = [contact for contact in found if contact.speed > STILL]
-                if len(found) == 1 and closed:
-                    self._exchange_alone(states, found[0])
-                elif closed:
-                    self._exchange_at_once(states, found)
+                closed = self._close_soft_walls(states) if turn % 2 else self._close_at_once(states, (False,))
             if turn > 0 and not closed:
                 break
             if self._slowest_hop > 0.0:
                 self._pay_for_hops(before, states)
             hits += [Hit(t, contact.balls[0], contact.partner, contact.speed) for contact in closed]
         return Outcome(t, states, hits)
+
+    def _close_at_once(self, states: dict[int, State], softness: Sequence[bool]) -> list[Contact]:
+        """Close all contacts of balls with each other and with hard or soft walls, or both, at once; returns those that
+        were closing."""
+        found = [*self._with_surfaces(states, softness), *self._with_balls(states)]
+        closed = [contact for contact in found if contact.speed > STILL]
+        if len(found) == 1 and closed:
+            self._exchange_alone(states, found[0])
+        elif closed:
+            self._exchange_at_once(states, found)
+        return closed
+
+    def _close_soft_walls(self, states: dict[int, State]) -> list[Contact]:
+        """Close the contacts with soft walls, one after another; returns them."""
+        closed = []
+        for contact in self._with_surfaces(states, (True,)):
+            if contact.speed > STILL:
+                self._exchange_alone(states, contact)
+                closed.append(contact)
+        return closed
 
     def touching(self, t: float, seeds: Sequence[int]) -> dict[int, State]:
         """The states at t of all balls that touch those in ``seeds``, directly or through others."""
