@@ -25,7 +25,7 @@ from sandbox.window.bar import HEIGHT, Bar, Shown
 from sandbox.window.canvas import Canvas
 from sandbox.window.charts import Charts
 from sandbox.window.fan import Cloud, cloud
-from sandbox.window.game import LONG, Game
+from sandbox.window.game import Game
 from sandbox.window.measure import NEAR, Tape, draw_reading, reading, state_entries
 from sandbox.window.overlay import Overlay
 from sandbox.window.score_map import FINER, QUICK, ScoreMap, score_map
@@ -48,6 +48,8 @@ AT_REST = 0.15
 #: The panel, for its tooltips and blinking cursor, is drawn in every frame until the first time, in s, after an event;
 #: later at intervals of the second while somebody types.
 LIVELY, BLINK = 1.5, 0.25
+#: A fan that takes longer than this, in s, is taken for one that never ends once the aim has changed.
+HUNG = 10.0
 #: Largest and smallest zoom, compared with a view of the whole shot.
 NEAREST, FARTHEST = 60.0, 0.2
 
@@ -110,7 +112,7 @@ class View:
         wide = panel.rect.width if panel is not None else 0
         area = pygame.Rect(0, 0, self.canvas.get_width() - wide, self.bar.rect.top)
         if area != self.area:
-            self.area, self.chosen, self._picture = area, None, None
+            self.area, self.chosen = area, None
 
     def _follow_panel(self) -> None:
         """Build the panel if it is wanted, or outdated, and show it once it is built."""
@@ -314,10 +316,17 @@ class View:
         self.changed |= self.clouds.take()
         key = self._cloud_wanted()
         if key is not None:
-            if self.clouds.takes > LONG and self.clouds.work_for[:3] != key[:3]:
-                self.game.helper.kill()
+            if self.clouds.takes > HUNG and self.clouds.work_for[:3] != key[:3]:
+                self._end_helper()
             asked = key[0].scene, *key[1:], key[0].early, self.area.size, (CARD["good"], CARD["text"])
             self.clouds.follow(key, lambda: self.game.helper.submit(cloud, *asked))
+
+    def _end_helper(self) -> None:
+        """End the work that does not end, and what waits for it, which will be asked for again."""
+        for latest in (self.clouds, self.maps):
+            if latest.work is not None:
+                latest.give_up(None).cancel()
+        self.game.helper.kill()
 
     def _map_wanted(self) -> tuple[Any, ...] | None:
         """What a map is still to be computed of: the scene apart from the aim, which stays in its middle for as long as
@@ -388,10 +397,11 @@ class View:
             else:
                 drawn = False
         if drawn:
-            if self._picture is None:
+            if self._picture is None or self._picture.get_size() != self.area.size:
                 self._picture = pygame.Surface(self.area.size)
             self._picture.blit(sheet.surface, (0, 0))
         elif self._picture is not None:
+            sheet.surface.fill(CARD["background"])
             sheet.surface.blit(self._picture, (0, 0))
             if self.undrawable is not None or game.failure is not None or game.late:
                 _darken(sheet.surface)
@@ -485,13 +495,13 @@ class View:
             top = overlay.draw_note(sheet, [(text, CARD["accent"])], top, self.head)
         if "fan" in self.on:
             found = self._cloud_of(shot)
-            share, spread = found.said if found is not None else (_why(self.clouds, "the fan"), "")
+            share, spread = found.said if found is not None else (self._why(self.clouds, "the fan"), "")
             lines = [(share, CARD["text"]), *([(spread, CARD["quiet"])] if spread else [])]
             top = overlay.draw_note(sheet, lines, top, self.head)
         if "map" in self.on:
             known = self._map_of(shot)
             if known is None:
-                top = overlay.draw_note(sheet, [(_why(self.maps, "the map"), CARD["text"])], top, self.head)
+                top = overlay.draw_note(sheet, [(self._why(self.maps, "the map"), CARD["text"])], top, self.head)
             else:
                 self.map_at, top = draw_map(sheet, known, shot.aim, top, self.head)
         if "charts" in self.on:
@@ -509,6 +519,10 @@ class View:
                 own = read.ball == shot.ball
                 entries = stage.picture.live(read.t) if own else state_entries(shot, read.ball, read.t)
                 draw_reading(sheet, shot, read, entries)
+
+    def _why(self, latest: Latest[Any], what: str) -> str:
+        """Why there is no such value."""
+        return f"{what} ..." if latest.error is None else self.game.reason(latest.error)
 
     def aim_on_map(self, at: tuple[int, int]) -> tuple[float, float] | None:
         """The speed and the angle at a place (px) on the map; None if it is not on it."""
@@ -542,11 +556,6 @@ def _panel(game: Game, size: tuple[int, int], height: int, group: str, chosen: i
 
     wide = min(max(NARROWEST, round(WIDTH * rows_of(size) / 720)), size[0] // 2)
     return Panel(size, pygame.Rect(size[0] - wide, 0, wide, height), game, group, chosen)
-
-
-def _why(latest: Latest[Any], what: str) -> str:
-    """Why there is no such value."""
-    return f"{what} ..." if latest.error is None else str(latest.error)
 
 
 def _darken(surface: pygame.Surface) -> None:

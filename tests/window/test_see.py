@@ -6,6 +6,7 @@ import re
 from concurrent.futures import Future
 from itertools import combinations
 from math import hypot
+from time import perf_counter
 from unittest import mock
 
 import numpy as np
@@ -22,7 +23,7 @@ from sandbox.window.keys import LISTED, TABLE, of_groups
 from sandbox.window.measure import reading
 from sandbox.window.score_map import COARSE, FINER, SCORED, score_map
 from sandbox.window.session import Session
-from sandbox.window.view import AT_REST
+from sandbox.window.view import AT_REST, HUNG
 
 PUTT = "golf/putt"
 
@@ -154,19 +155,25 @@ class TestTheFan:
         assert player.game.playback is not None
         assert player.view._cloud_of(player.game.shots[0]).shots == SHOTS
 
-    def test_one_that_never_ends_is_killed_when_the_aim_changes(self, player, monkeypatch):
+    def test_one_that_never_ends_is_killed_when_the_aim_changes_and_computed_again(self, player, monkeypatch):
         player = player(PUTT)
         player.key(pygame.K_f)
         player.settle()
         killed = []
         monkeypatch.setattr(player.game.helper, "kill", lambda: killed.append(True))
-        player.view.clouds.work, player.view.clouds.began = Future(), 0.0
-        player.view.clouds.work_for = player.view.clouds.key
-        player.frames(3)
-        assert not killed
+        view = player.view
+        view.clouds.work, view.clouds.began, view.clouds.work_for = Future(), perf_counter() - 3.0, view.clouds.key
+        view.maps.work = Future()
         player.key(pygame.K_UP)
         player.frames(1)
-        assert killed
+        assert not killed  # a break takes so long
+        view.clouds.began -= HUNG
+        player.frames(1)
+        assert killed == [True]
+        assert view.maps.work is None
+        player.settle()
+        assert view.clouds.key[0] is player.game.shot
+        assert view.clouds.value.shots
 
 
 class TestTheMap:

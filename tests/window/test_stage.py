@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from concurrent.futures import Future
 
 os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
 
@@ -155,6 +156,16 @@ class TestTheCamera:
         player.key(pygame.K_0, pygame.KMOD_CTRL)
         player.settle()
         assert player.view.stage.camera == whole
+
+
+def test_the_picture_stays_until_the_stage_beside_the_panel_is_composed(player):
+    player = player("golf")
+    before = pygame.surfarray.array3d(player.screen)[:600, :600]
+    player.view.patience, player.view.stages.work = 0.0, Future()  # a stage that takes for ever
+    player.key(pygame.K_TAB)
+    while player.view.panel is None:
+        player.frames(1)
+    assert (pygame.surfarray.array3d(player.screen)[:600, :600] == before).mean() > 0.9
 
 
 def test_nothing_is_drawn_while_nothing_changes(player):
