@@ -13,6 +13,9 @@ extrapolated from these shots.
 The limit is the forces alone: numpy evaluates gravity and drag for all shots at once, as often as the flights need at
 "balanced", and nothing else; with two processes half of that. "over limit" is the time of a shot relative to it.
 
+Commands: whole commands that a player waits for, in processor time (user and system) including the start, compared with
+what is asked of them.
+
 Growth: with the number of shots, from Python (``sandbox.lab.sweep``: build, simulate, evaluate), and with the number of
 balls that fly in one setup without touching, by ``simulate``. Except for the command, times are processor times.
 """
@@ -25,7 +28,7 @@ import os
 import subprocess
 import sys
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial
 from math import cos, hypot, radians, sin
@@ -57,6 +60,16 @@ DRAWN = 6
 #: Numbers of shots of the grids, and of balls of the setups.
 GRIDS = ((10, 10), (25, 20), MAP, (100, 100))
 BALLS = (1, 4, 16, 64)
+
+#: Whole commands and the processor time asked for in s, beyond the start-up where "start" says so.
+COMMANDS = {
+    "sweep basketball, 201 x 201": (("basketball", SPEEDS, ANGLES, (201, 201)), 201 * 201 / 5_000),
+    "sweep basketball, 61 x 41": (("basketball", SPEEDS, ANGLES, MAP), 0.8),
+    "sweep golf, 61 x 41": (("golf", (50.0, 80.0), (5.0, 45.0), MAP), None),
+    "sweep soccer, 61 x 41": (("soccer", (15.0, 35.0), (5.0, 45.0), MAP), None),
+    "aim golf carry=250 yd": (("golf", "launch.angle=5:75", "carry=250 yd"), 0.15),
+    "aim basketball made=true": (("basketball", "launch.speed=6:9", "made=true"), 1.0),
+}
 
 
 def grid(shape: tuple[int, int]) -> dict[str, Any]:
@@ -99,6 +112,41 @@ def by_command(shape: tuple[int, int], processes: int) -> float:
         started = perf_counter()
         subprocess.run(command, check=True, capture_output=True)
         return perf_counter() - started
+
+
+PROGRAM = "from sandbox.cli import main; main()"
+#: What a search needs before it begins.
+START = (
+    "import scipy.optimize, sandbox.cli.program, sandbox.engine.batch, sandbox.lab.aim; sandbox.load('golf').build()"
+)
+
+
+def processor(code: str, words: Sequence[str] = ()) -> float:
+    """Processor time of a program, user and system, in s."""
+    before = os.times()
+    subprocess.run([sys.executable, "-c", code, *words], check=True, capture_output=True)
+    after = os.times()
+    return after.children_user + after.children_system - before.children_user - before.children_system
+
+
+def commands(repeats: int, quick: bool) -> list[dict[str, Any]]:
+    """A row for each command, or for one of each kind; the start-up is subtracted from the searches."""
+    start = min(processor(START) for _ in range(repeats))
+    rows = []
+    for name, (asked, limit) in list(COMMANDS.items())[:: 4 if quick else 1]:
+        with tempfile.TemporaryDirectory() as folder:
+            if len(asked) == 4:
+                scene, speeds, angles, shape = asked
+                shape = (6, 5) if quick else shape
+                axes = (("launch.speed", speeds, shape[0]), ("launch.angle", angles, shape[1]))
+                over = [word for key, (low, high), n in axes for word in ("--over", f"{key}={low:g}:{high:g}:{n}")]
+                words, beyond = ["sweep", scene, *over, "--out", str(Path(folder) / "map.csv")], 0.0
+            else:
+                scene, vary, target = asked
+                words, beyond = ["aim", scene, "--vary", vary, "--target", target], start
+            spent = min(processor(PROGRAM, words) for _ in range(repeats)) - beyond
+        rows.append({"command": name, "processor_s": spent, "asked_s": limit})
+    return rows
 
 
 def by_bare_pymunk(setup: Setup, run: Run) -> tuple[float, float, int]:
@@ -191,6 +239,10 @@ def show(results: dict[str, Any]) -> None:
     out.write(f"\n  {'shots':>8}{'time':>12}{'a shot':>12}\n")
     for row in results["shots"]:
         out.write(f"  {row['shots']:>8,}{row['time_s']:>10.2f} s{row['ms_per_shot']:>9.2f} ms\n")
+    out.write(f"\n  {'whole command':<30}{'processor':>12}{'asked':>12}\n")
+    for row in results["commands"]:
+        asked = "" if row["asked_s"] is None else f"{row['asked_s']:.2f} s"
+        out.write(f"  {row['command']:<30}{row['processor_s']:>10.2f} s{asked:>12}\n")
     out.write(f"\n  {'balls':>8}{'time':>12}{'a ball':>12}\n")
     for row in results["balls"]:
         out.write(f"  {row['balls']:>8,}{1e3 * row['time_s']:>9.2f} ms{row['ms_per_ball']:>9.2f} ms\n")
@@ -207,6 +259,7 @@ def main() -> None:
     results = {
         "map": the_map((6, 5) if quick else MAP, 1 if quick else DRAWN, repeats),
         "shots": [by_shots(shape) for shape in (((3, 2),) if quick else GRIDS)],
+        "commands": commands(repeats, quick),
         "balls": [by_balls(balls, 3 * repeats) for balls in (BALLS[:2] if quick else BALLS)],
     }
     show(results)
