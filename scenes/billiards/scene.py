@@ -133,6 +133,10 @@ MISCUE = 0.5
 #: Overlap in m that counts as rounding in the file; the balls are moved apart.
 ROUNDING = 1e-5
 
+#: With a rack the cue ball lies so many radii to the left of the head spot, if nothing else is said: a break straight
+#: ahead would be its own mirror image to the end, which no real one is.
+ASIDE = 0.35
+
 #: Rows from the foot spot on, each from right to left as seen from the head.
 RACKS = {
     "nine-ball": (("1",), ("2", "3"), ("4", "9", "5"), ("6", "7"), ("8",)),
@@ -177,8 +181,8 @@ def _nose(parameters: Parameters) -> float | None:
 
 
 def laid_out(parameters: Parameters) -> dict[str, Vector]:
-    """Where each ball lies at the start, in m: those listed, those racked, and with a rack a cue ball, to the
-    left of the head spot, from where players break.
+    """Where each ball lies at the start, in m: those listed, those racked, and with a rack a cue ball, a
+    little to the left of the head spot.
 
     Raises RequestError for a name given twice and for a struck ball that is not there.
     """
@@ -192,7 +196,7 @@ def laid_out(parameters: Parameters) -> dict[str, Vector]:
             raise RequestError(f'balls: "{name}" is in the rack already; rename it, or set rack = "none"')
         spots[name] = position
     if _rack(parameters) != "none" and "cue" not in spots:
-        spots["cue"] = (-0.25 * parameters.table.length, parameters.table.width / 6.0)
+        spots["cue"] = (-0.25 * parameters.table.length, ASIDE * parameters.ball.radius)
     if parameters.cue.ball not in spots:
         there = ", ".join(spots) or "none"
         raise RequestError(f'cue.ball = "{parameters.cue.ball}": there is no such ball on the table; there are {there}')
