@@ -27,6 +27,7 @@ RUNS = {
     "bullet": None,
     "throws": None,
     "baseball": None,
+    "baseball-pitch": None,
     "baseball/green-monster": None,
     "tennis/topspin-forehand": None,
     "tennis/table-tennis": None,

@@ -1,0 +1,52 @@
+"""A pitch from the side: mound, batter, catcher, and the strike zone over the plate."""
+
+from __future__ import annotations
+
+from functools import cached_property
+
+from sandbox.picture.camera import Box
+from sandbox.picture.figures import BATTING, CROUCHING, PITCHED_AT, PITCHING
+from sandbox.picture.palette import palette
+from sandbox.picture.places import Ground, Landscape, Person, Post, Shape, Stripes, Thing
+from sandbox.picture.side import Length, Place, SideView
+from sandbox.sport.amounts import metres
+
+from ..baseball.picture import COLOURS, FIELD
+from ..baseball.picture import Picture as FlyBall
+from .scene import MITT, Parameters
+
+DEEP, WIDE, TALL, ZONE = 0.43, 0.43, 1.88, palette("card")["accent"]  # m: home plate (Official Baseball Rules, 2.02)
+
+
+class Picture(SideView[Parameters]):
+    LOOK, TRACE, EARLIER = FlyBall.LOOK, FlyBall.TRACE, FlyBall.EARLIER
+    LENGTHS, SECOND_UNIT, FROM, ASIDE = 1, "ft", "from the hand", 0.6
+
+    @property
+    def on_dark(self) -> bool:
+        return False
+
+    @property
+    def target(self) -> Box:
+        return Box(-1.2, 0.0, self.parameters.plate.distance + MITT + 0.8, 2.6)
+
+    @cached_property
+    def place(self) -> Place:
+        plate, release = self.parameters.plate, self.parameters.release
+        front, low, high, (ahead, up) = plate.distance, plate.bottom, plate.top, PITCHED_AT
+        dirt = [[(front - 3.2, 0.0), (front + 3.0, 0.0), (front + 3.0, 3.0), (front - 3.2, 3.0)]]
+        dirt.append([(-3.0, 0.0), (2.2, 0.0), (1.6, 2.6), (-2.6, 2.6)])
+        base = [(front, 0.0), (front + DEEP, 0.0), (front + DEEP, WIDE), (front, WIDE)]
+        areas = [*((area, FIELD["infield"]) for area in dirt), (base, FIELD["line"])]
+        ground = Ground(Stripes(FIELD["grass"], 2.0), FIELD["soil"], edges=[(FIELD["edge"], 6)], areas=areas)
+        corners = [(front, low, 0.0), (front + DEEP, low, 0.0), (front + DEEP, high, 0.0), (front, high, 0.0)]
+        zone: list[Thing] = [Shape(corners, ZONE, 0.25), Post([*corners, corners[0]], 0.012, ZONE)]
+        tall = min(2.0, max(1.6, release.height / up))
+        lift = max(0.0, release.height - up * tall)
+        pitcher = Person(release.place - ahead * tall, tall, COLOURS["batter"], PITCHING, up=lift)
+        batter = Person(front + 0.1, TALL, COLOURS["visitor"], BATTING, z=0.9, facing=-1)
+        catcher = Person(front + MITT + 0.35, TALL, COLOURS["batter"], CROUCHING, facing=-1)
+        return Place(Landscape(**COLOURS["landscape"]), ground, [batter, *zone, catcher, pitcher])
+
+    def lengths(self) -> list[Length]:
+        return [Length(f"plate {metres(self.parameters.plate.distance)}", 0.0, self.parameters.plate.distance)]

@@ -1,0 +1,113 @@
+"""A pitch from the side: from the hand to the plate, through the strike zone or not.
+
+Models: gravity; drag that grows with spin and Magnus lift, as fitted to fly balls; loss of spin; the air by weather.
+Leaves out: everything sideways, with sliders; the wake of the seams; bounces before the plate. Not validated.
+"""
+
+from __future__ import annotations
+
+from sandbox.engine.run import Event, Run
+from sandbox.engine.setup import SOLID_SPHERE, Segment, Setup, Surface
+from sandbox.parameters import Accuracy, Group, group, quantity
+from sandbox.sport.air import Weather
+from sandbox.sport.amounts import roughly
+from sandbox.sport.controls import Controls, Spin
+from sandbox.sport.facts import ENDED, Fact
+from sandbox.sport.flight import Launch, Release, forces_in_flight, launched_ball, with_spin_decay
+from sandbox.sport.readings import LAUNCH, Moment, at, passing
+
+from ..baseball.ball import Baseball
+
+MITT = 1.2  # m, behind the front of the plate
+
+
+class Plate(Group):
+    """Home plate, and the strike zone over its front."""
+
+    distance: float = quantity(..., "m", 5, 30, "of its front from where the ball leaves the hand")
+    bottom: float = quantity(..., "m", 0, 1, "of the strike zone above the ground")
+    top: float = quantity(..., "m", 0.3, 2, "of the strike zone above the ground")
+
+
+class Parameters(Group):
+    """All parameters of a pitch; x = 0 is where the ball leaves the hand."""
+
+    launch: Launch = group(..., "the ball as it leaves the hand")
+    release: Release = group(..., "where that is")
+    gravity: float = quantity(..., "m/s^2", 0, 30, "gravity")
+    air: Weather = group(..., "the air")
+    ball: Baseball = group(..., "the ball")
+    plate: Plate = group(..., "the plate")
+    accuracy: Accuracy = group(Accuracy(), "speed against accuracy")
+
+
+CONTROLS = Controls(
+    strongest=45.0,
+    spins=(Spin("launch.spin", 100.0),),
+    sliders=("release.height", "plate.distance", "plate.bottom", "plate.top", "air.elevation"),
+    scores="strike",
+)
+
+
+def build(parameters: Parameters) -> Setup:
+    """The ball, the ground, and the mitt in which it ends."""
+    ball, release, air, plate = parameters.ball, parameters.release, parameters.air.air, parameters.plate
+    place = release.place, max(release.height, ball.radius)
+    forces = forces_in_flight(ball, air, parameters.gravity)
+    pitched = with_spin_decay(launched_ball(parameters.launch, ball, place, forces, SOLID_SPHERE), ball.spin_decay, air)
+    mitt = Segment((plate.distance + MITT, 0.0), (plate.distance + MITT, 9.0))
+    surfaces = [
+        Surface("ground", Segment((-1e4, 0.0), (1e4, 0.0)), 0.5, 0.5),
+        Surface("mitt", mitt, 0.0, 0.5),
+    ]
+    return Setup([pitched], surfaces, 20.0, is_over)
+
+
+def is_over(event: Event) -> bool:
+    """Whether the pitch is over: caught, or on the ground."""
+    return event.partner in ("mitt", "ground")
+
+
+def at_plate(run: Run, parameters: Parameters) -> Moment | None:
+    """The ball as it passes the front of the plate."""
+    return passing(run, parameters.plate.distance)
+
+
+def is_strike(run: Run, parameters: Parameters) -> bool:
+    """Whether any part of the ball is in the zone."""
+    passed, plate, radius = at_plate(run, parameters), parameters.plate, parameters.ball.radius
+    return passed is not None and plate.bottom - radius <= passed.y <= plate.top + radius
+
+
+def _break(run: Run, parameters: Parameters) -> float | None:
+    """How far in m the ball is over where gravity alone would have it at that time."""
+    passed, start = at_plate(run, parameters), run.setup.balls[0]
+    if passed is None:
+        return None
+    return passed.y - start.position[1] - start.velocity[1] * passed.t + 0.5 * parameters.gravity * passed.t**2
+
+
+FACTS = (
+    Fact("plate_height", "at the plate", "m", at(at_plate, lambda ball: ball.y), settled="mitt"),
+    Fact("plate_speed", "speed there", "m/s", at(at_plate, lambda ball: ball.speed), settled="mitt", also="mph"),
+    Fact("plate_angle", "falls at", "deg", at(at_plate, lambda ball: ball.descent), settled="mitt"),
+    Fact("break", "break", "m", _break, settled="mitt", also="in", sides=("down", "up")),
+    Fact("flight_time", "flight time", "s", at(at_plate, lambda ball: ball.t), settled="mitt"),
+    *LAUNCH,
+    Fact("strike", "", "", is_strike, settled="mitt"),
+    ENDED,
+)
+
+
+def verdict(run: Run, parameters: Parameters) -> str:
+    """What happened, in a sentence."""
+    height, plate = run.result["plate_height"], parameters.plate
+    if height is None:
+        return "Ball, in the dirt"
+    if run.result["strike"]:
+        return f"Strike, {roughly(height)} over the plate"
+    return (
+        f"Ball, {roughly(height - plate.top)} too high"
+        if height > plate.top
+        else f"Ball, {roughly(plate.bottom - height)} too low"
+    )
