@@ -16,8 +16,9 @@ from sandbox.window.fan import ANGLE, SPEED, within
 
 #: Half of each side, in standard deviations of what a player hits.
 REACH = 15.0
-#: Cells along speed and angle: at first, and three times as many, if the first took less than this time in s.
-COARSE, FINER, QUICK = (14, 10), 3, 0.5
+#: Cells along speed and angle: at first, and three times as many, if the first took less than this time in s. Odd, so
+#: that the shot itself is the middle of a cell.
+COARSE, FINER, QUICK = (13, 9), 3, 0.5
 #: A cell's value.
 MISSED, SCORED, FAILED = 0, 1, 2
 

@@ -183,7 +183,8 @@ class TestTheMap:
         assert found.place(session.value("launch.speed"), session.value("launch.angle")) == pytest.approx((0.5, 0.5))
         assert 0.02 < found.share < 0.6
         columns, rows = found.cells.shape
-        for column, row in ((7, 5), (0, 0), (columns - 1, 4), (8, rows - 1)):
+        assert found.cells[columns // 2, rows // 2] == SCORED  # as the shot itself does
+        for column, row in ((columns // 2, rows // 2), (0, 0), (columns - 1, 4), (8, rows - 1)):
             speed, angle = found.aim((column + 0.5) / columns, (row + 0.5) / rows)
             session.change({"launch.speed": speed, "launch.angle": angle})
             assert simulate(session.scene).result["made"] == (found.cells[column, row] == SCORED)

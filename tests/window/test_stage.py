@@ -158,7 +158,7 @@ class TestTheCamera:
         assert player.view.stage.camera == whole
 
 
-def test_the_picture_stays_until_the_stage_beside_the_panel_is_composed(player):
+def test_the_picture_stays_until_the_stage_next_to_the_panel_is_composed(player):
     player = player("golf")
     before = pygame.surfarray.array3d(player.screen)[:600, :600]
     player.view.patience, player.view.stages.work = 0.0, Future()  # a stage that takes for ever
