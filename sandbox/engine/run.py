@@ -155,8 +155,15 @@ class Run:
 
 
 def _passages(path: list[Arc], gap: Callable[[Arc], Sequence[float]]) -> Iterator[tuple[float, State]]:
-    """Each time and state at which a gap, given as a polynomial for each arc, becomes negative."""
+    """Each time and state at which a gap, given as a polynomial for each arc, becomes negative: within an arc, or where
+    one arc ends and the next begins."""
+    above = False  # where the last arc ended, or came from to end at zero
     for arc in path:
-        for u in downward_crossings(gap(arc)):
+        curve = gap(arc)
+        signs = [value > 0.0 for value in curve if value != 0.0]
+        if above and signs and not signs[0]:
+            yield arc.t0, arc.state(arc.t0)[:5]
+        for u in downward_crossings(curve):
             t = arc.t0 + u * (arc.t1 - arc.t0)
             yield t, arc.state(t)[:5]
+        above = signs[-1] if signs else above
