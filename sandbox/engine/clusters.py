@@ -34,7 +34,7 @@ _MAX_GRADED_LINKS, _GRADES = 6, (4.0**-6, *(3.0 * 4.0**-power for power in range
 _PATIENCE = 1.0, 10.0
 
 #: Most iterations of friction, and the change of a slip relative to the fastest speed at which they stop.
-_ITERATIONS, _CONVERGED = 500, 1e-10
+_ITERATIONS, _CONVERGED = 500, 1e-6
 
 #: Speed in m/s and depth in m below which a value is rounding.
 _STILL, _TOUCH = 1e-9, 1e-12
@@ -256,13 +256,15 @@ class Cluster:
         ease = np.abs(mobility) @ acting
         ease[:, ~acting] = 1.0
         impulse = np.zeros_like(slips)
+        step = 1.0 / ease
         for _ in range(_ITERATIONS):
-            wanted = impulse - slips / ease
-            size = np.sqrt((wanted * wanted).sum(axis=0))
-            change = wanted * np.minimum(1.0, limit / np.maximum(size, 1e-300)) - impulse
+            wanted = impulse - slips * step
+            size = np.sqrt(np.add.reduce(wanted * wanted))
+            np.maximum(size, 1e-300, out=size)
+            change = wanted * np.minimum(1.0, limit / size) - impulse
             impulse += change
-            slips += (mobility @ change[:, :, None])[:, :, 0]
-            if float(np.abs(change * ease).max()) <= _CONVERGED * fastest:
+            slips += np.matmul(mobility, change[:, :, None])[:, :, 0]
+            if np.abs(change * ease).max() <= _CONVERGED * fastest:
                 break
         after = state.copy()
         after[2:] += (effect @ impulse[:, :, None]).sum(axis=0).reshape(6, -1)
