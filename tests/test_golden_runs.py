@@ -23,6 +23,9 @@ RUNS = {
     "billiards/snooker-break": None,
     "billiards/three-rail-carom": None,
     "volleyball": None,
+    "collisions": None,
+    "collisions/bowl": 0.4,  # until they lie on one another
+    "collisions/beach-balls": None,
     "tennis": None,
     "bullet": None,
     "throws": None,

@@ -1,0 +1,93 @@
+"""The bench of collisions: what has to stay stays, and each preset shows what it is for."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import sandbox
+from sandbox.engine.run import Run
+from sandbox.scene import load
+
+
+def run_of(name: str = "collisions", **changes: Any) -> Run:
+    return sandbox.simulate(load(name, {key.replace("__", "."): value for key, value in changes.items()}))
+
+
+@given(
+    st.floats(0.0, 1.0),
+    st.floats(0.0, 1.0),
+    st.floats(0.05, 5.0),
+    st.floats(-0.05, 0.05),
+)
+def test_momentum_stays_and_they_part_as_restitution_says(
+    restitution: float, friction: float, mass: float, aside: float
+):
+    run = run_of(meet__restitution=restitution, meet__friction=friction, first__mass=mass, first__y=aside)
+    result, balls = run.result, run.setup.balls
+    assert result["separation"] == pytest.approx(restitution * result["approach"], abs=1e-9)
+    for axis in (2, 3):
+        start = sum(ball.mass * ball.velocity[axis - 2] for ball in balls)
+        assert sum(ball.mass * run.state(ball.name, 0.8)[axis] for ball in balls) == pytest.approx(start, abs=1e-9)
+    assert 0.0 <= result["lost"] <= 100.0
+    if restitution == 1.0 and friction == 0.0:
+        assert result["lost"] == pytest.approx(0.0, abs=1e-6)
+
+
+def test_equal_masses_exchange_their_speeds_head_on():
+    run = run_of("collisions/equal-masses")
+    assert run.state("first", 0.8)[2:] == pytest.approx((0.0, 0.0, 0.0), abs=1e-12)
+    assert run.state("second", 0.8)[2:] == pytest.approx((2.0, 0.0, 0.0), abs=1e-12)
+
+
+def test_an_inelastic_hit_loses_the_energy_of_the_approach():
+    """1/2 mu v^2 of 1/2 m v^2: half for equal masses."""
+    assert run_of("collisions/equal-masses", meet__restitution=0.0).result["lost"] == pytest.approx(50.0)
+
+
+@pytest.mark.parametrize(("preset", "out"), [("cradle-3", 1), ("cradle-5", 1), ("cradle-two-lifted", 2)])
+def test_as_many_balls_leave_a_cradle_as_come_in(preset: str, out: int):
+    run = run_of(f"collisions/{preset}")
+    t = next(event.t for event in run.events if event.kind == "impact") + 0.02
+    speeds = [run.state(ball.name, t)[2] for ball in run.setup.balls]
+    assert min(speeds[-out:]) > 0.6 * max(speeds)
+    assert max(speeds[:-out]) < 0.25 * max(speeds)
+
+
+def test_a_dropped_ball_leaps_off_another():
+    """One impact after another: the floor turns the large one round, e V; then the small one."""
+    run = run_of("collisions/ball-on-ball")
+    m, big, e, floor = 0.058, 0.6, 0.75, 0.8
+    down = (2 * 9.81 * 0.5) ** 0.5
+    small = run.before(
+        "first",
+        next(
+            event.t
+            for event in run.events
+            if event.partner == "second" or (event.ball == "second" and event.partner == "first")
+        ),
+    )[3]
+    expected = (m * small + big * floor * down + big * e * (floor * down - small)) / (m + big)
+    assert run.result["first_after"] == pytest.approx(expected, rel=0.02)
+    assert run.highest("first")[1][1] > 2 * 0.78
+
+
+def test_the_rack_stays_symmetric():
+    run = run_of("collisions/triangle")
+    for above, below in (("second", "second"), ("3", "4"), ("12", "16"), ("13", "15")):
+        x, y, *_ = run.state(above, 0.3)
+        u, v, *_ = run.state(below, 0.3)
+        assert (x, y) == pytest.approx((u, -v), abs=1e-7)
+
+
+def test_balls_in_a_bowl_come_to_rest():
+    run = run_of("collisions/bowl")
+    assert run.ended == "rest"
+    assert all(-0.3 < run.state(ball.name, run.duration)[0] < 0.3 for ball in run.setup.balls)
+
+
+def test_no_two_balls_that_meet_is_said():
+    assert run_of(first__y=0.2).scene.verdict(run_of(first__y=0.2)) == "No two balls meet"
