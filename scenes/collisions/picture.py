@@ -105,15 +105,15 @@ class Picture(AboveView[Parameters]):
     def scale(self, sheet: Sheet, camera: Camera) -> None:
         """The scale bar, and the sums that have to stay."""
         super().scale(sheet, camera)
-        met, run, top = blow(self.run, self.parameters), self.run, sheet.top_row + 40 * self.unit
+        met, run, top = blow(self.run, self.parameters), self.run, sheet.top_row + 1.2 * sheet.lettering.height("small")
         if met is None:
             return
         along, up, joule = ([what(run, states) for states in (met.before, met.after)] for what in SUMS)
         joule[1] += [max(0.0, sum(joule[0]) - sum(joule[1]))]
         least = 0.02 * max(map(abs, [*along[0], *along[1], *up[0], *up[1]]))
         for title, unit, sums in (
-            ("momentum along x", "kg m/s", along),
-            ("along y", "kg m/s", up),
+            ("momentum x", "kg m/s", along),
+            ("momentum y", "kg m/s", up),
             ("energy", "J", joule),
         ):
             if max(map(abs, [*sums[0], *sums[1]])) > least:
@@ -122,14 +122,19 @@ class Picture(AboveView[Parameters]):
     def _bars(self, sheet: Sheet, top: float, title: str, sums: Sequence[Sequence[float]]) -> float:
         """Two bars of shares in the balls' colours, negative ones to the left, with a tick at their sum; what is lost
         comes last. Returns the row below."""
-        unit, right, room, thick = self.unit, sheet.frame.right, (BARS - 0.06) * self.size[0], 17 * self.unit
+        unit, right, room, thick = (
+            self.unit,
+            sheet.frame.right,
+            (BARS - 0.06) * self.size[0],
+            0.75 * sheet.lettering.height("small"),
+        )
         most = max(sum(max(part, 0.0) for part in parts) for parts in sums)
         least = min(sum(min(part, 0.0) for part in parts) for parts in sums)
         scale, left = room / (most - least), right - room
         zero = left - least * scale
-        sheet.write(title, "small", (left, top), CARD["quiet"], "bottomleft")
+        sheet.write(title, "small", (right, top), CARD["quiet"], "bottomright")
         for parts, word in zip(sums, ("before", "after"), strict=True):
-            top += 8 * unit
+            top += 0.3 * thick
             ends = [zero, zero]
             for part, colour in zip(parts, [*map(self.colour_of, self.balls), COLOURS["lost"]], strict=False):
                 start = ends[part > 0.0]
@@ -140,4 +145,4 @@ class Picture(AboveView[Parameters]):
             sheet.painter.line([(total, top - 3 * unit), (total, top + thick + 3 * unit)], 2 * unit, CARD["accent"])
             sheet.write(word, "small", (left - 8 * unit, top + thick / 2), CARD["quiet"], "midright")
             top += thick
-        return top + 48 * unit
+        return top + 2.4 * thick

@@ -131,7 +131,7 @@ def build(parameters: Parameters) -> Setup:
         for ends in pairwise(corners)
     ]
     material = STEEL if meet.material == "steel" else PHENOLIC
-    model = ContactModel(meet.model, material.between(it.first.radius, (it.others or [it.first])[0].radius))
+    model = ContactModel(meet.model, material.between(*(body.radius for body in [*bodies, it.first][:2])))
     return Setup(
         balls, surfaces, it.duration, between_balls=Always(Bounce(meet.restitution, meet.friction)), contact=model
     )
