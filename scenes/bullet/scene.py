@@ -9,7 +9,6 @@ way up; the turning Earth; the ground.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import cos, radians, sin
 from typing import Literal
 
 from sandbox.engine.run import Run
@@ -17,11 +16,13 @@ from sandbox.engine.setup import Ball, Force, Segment, Setup, Surface, Touches
 from sandbox.errors import RequestError
 from sandbox.parameters import Accuracy, Group, choice, group, quantity
 from sandbox.physics.ballistics import BulletDrag, speed_of_sound
+from sandbox.physics.elementwise import cos, sin
 from sandbox.physics.forces import Gravity
 from sandbox.sport.air import Weather, wind_in
 from sandbox.sport.amounts import amount, metres
 from sandbox.sport.controls import Controls, Spread
 from sandbox.sport.facts import ENDED, Fact
+from sandbox.sport.flight import DEGREE
 from sandbox.sport.readings import BALL_SPEED, LAUNCH_ANGLE, Moment, at, passing
 from sandbox.sport.zero import zeroed
 
@@ -96,7 +97,7 @@ def build(parameters: Parameters) -> Setup:
     if air.density > 0.0:
         shape, sound = bullet.drag.model, speed_of_sound(parameters.air.temperature + 273.15)
         forces.append(BulletDrag(bullet.mass, shape, bullet.coefficient, air.density, sound, wind_in(air)))
-    angle = radians(parameters.launch.angle)
+    angle = parameters.launch.angle * DEGREE
     if parameters.zero.distance > 0.0:
         found = zeroed(lambda angle: _setup(parameters, forces, angle, parameters.zero.distance))
         if found is None:
