@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any, TextIO
 
 from sandbox.errors import RequestError
+from sandbox.text import shortened
 
 
 def reason(error: OSError) -> str:
@@ -60,11 +61,6 @@ def _check_name(option: str, path: Path) -> None:
     except (OSError, ValueError) as error:
         why = reason(error) if isinstance(error, OSError) else str(error)
         raise RequestError(f"{option} {shortened(str(path))}: {why}") from None
-
-
-def shortened(text: str, most: int = 80) -> str:
-    """The text cut to at most ``most`` characters, for a message."""
-    return text if len(text) <= most else text[: most - 3] + "..."
 
 
 def _check_folder(option: str, folder: Path) -> None:

@@ -35,6 +35,7 @@ from sandbox import units
 from sandbox.errors import RequestError
 from sandbox.files import reason
 from sandbox.physics.integrators import INTEGRATORS
+from sandbox.text import shortened
 
 # ---------------------------------------------------------------------------------------------------------------------
 # Declaring
@@ -665,4 +666,4 @@ def shown(value: Any) -> str:
     except (ValueError, RecursionError):
         text = str(type(value).__name__)
     text = {"NaN": "nan", "Infinity": "inf", "-Infinity": "-inf"}.get(text, text)
-    return text if len(text) <= 60 else text[:57] + "..."
+    return shortened(text, 60)

@@ -8,6 +8,7 @@ from dataclasses import replace
 from typing import Any
 
 from sandbox.files import json_ready
+from sandbox.text import shortened
 
 #: Two numbers are the same when they differ by no more than this, in s, m, m/s or rad/s, or by this share of
 #: themselves. Rounding on another processor stays below 1e-9, unless the scene is chaotic; a force that is wrong by one
@@ -222,4 +223,4 @@ def _rounded(value: Any) -> Any:
 
 def _word(value: Any) -> str:
     text = f"{value:.{DIGITS}g}" if isinstance(value, float) else json.dumps(value, ensure_ascii=False)
-    return text if len(text) <= LONGEST_WORD else f"{text[: LONGEST_WORD - 4]} ..."
+    return shortened(text, LONGEST_WORD)

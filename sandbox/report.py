@@ -14,7 +14,7 @@ from sandbox.files import json_ready, written_whole
 from sandbox.lab.tables import paragraph, table
 from sandbox.scene.checking import NUDGE
 from sandbox.sport.amounts import margin
-from sandbox.text import csv_text
+from sandbox.text import csv_text, shortened
 
 if TYPE_CHECKING:
     from sandbox.engine.event import Event
@@ -181,4 +181,4 @@ def _error(check: Check, scene: Scene, name: str) -> str:
 
 def _word(value: Any) -> str:
     text = json.dumps(json_ready(value), ensure_ascii=False, default=str)
-    return text if len(text) <= LONGEST_WORD else text[: LONGEST_WORD - 3] + "..."
+    return shortened(text, LONGEST_WORD)

@@ -22,6 +22,11 @@ def one_line(text: str) -> str:
     return printable(" ".join(text.split()) if any(mark in text for mark in "\n\r\t\v\f\x85") else text)
 
 
+def shortened(text: str, most: int = 80) -> str:
+    """The text cut to at most ``most`` characters, for a message."""
+    return text if len(text) <= most else text[: most - 3] + "..."
+
+
 def csv_text(text: str) -> str:
     """The text as a cell of a CSV file: one line, with a quote before what a spreadsheet would take for a formula."""
     line = one_line(text)

@@ -131,7 +131,7 @@ def write(outputs: Mapping[Output, Path], drawn: Drawn) -> None:
 
 def read_size(text: str) -> Size:
     """``"1280x720"``."""
-    from sandbox.files import shortened
+    from sandbox.text import shortened
 
     sides = text.lower().split("x")
     if len(sides) != 2 or not all(side.isdecimal() for side in sides):

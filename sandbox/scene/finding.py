@@ -19,7 +19,8 @@ from sandbox import parameters as declared
 from sandbox import resources
 from sandbox.errors import RequestError
 from sandbox.files import reason
-from sandbox.scene.scene import Scene, docstring, first_comment, parameters_class, shortened, shown
+from sandbox.scene.scene import Scene, docstring, first_comment, parameters_class, shown
+from sandbox.text import shortened
 
 ENTRY_POINTS = "sandbox.scenes"
 

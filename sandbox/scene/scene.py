@@ -23,6 +23,7 @@ from sandbox.errors import RequestError, RunError, no_exit
 from sandbox.scene.modules import module_in
 from sandbox.sport.controls import Controls
 from sandbox.sport.facts import FALLBACK_FACTS, Fact, Settled, fallback_verdict, mistake_in
+from sandbox.text import shortened
 
 if TYPE_CHECKING:
     from sandbox.engine.run import Run
@@ -284,7 +285,3 @@ def shown(path: Path) -> str:
         return str(path.resolve().relative_to(Path.cwd()))
     except (ValueError, OSError):
         return str(path)
-
-
-def shortened(text: str) -> str:
-    return text if len(text) <= 80 else text[:77] + "..."
