@@ -284,7 +284,10 @@ def _at_contacts(setup: Setup) -> Iterator[tuple[str, str, Setup]]:
     yield "rolling resistance", "left out", surfaces(lambda s: replace(s, rolling_resistance=0.0))
     lower = surfaces(lambda s: replace(s, lowest_bounce=0.1 * s.lowest_bounce))
     yield "loss of low bounces", "a tenth of the height", lower
+    yield "cushion nose", "at the ball's centre", surfaces(lambda s: replace(s, nose_height=None))
     if len(setup.balls) > 1:
+        rigid = replace(setup, contact=replace(setup.contact, name="rigid"))
+        yield "contact mechanics", "one impact after another", rigid
         law = setup.between_balls
         yield "friction of balls (throw)", "left out", replace(setup, between_balls=_law_without(law, "friction"))
         if law(*_FAST) != law(*_SLOW):

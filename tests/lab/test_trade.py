@@ -87,7 +87,7 @@ def test_without_air_the_reference_is_the_parabola():
 
 
 def test_a_break_is_looked_at_before_it_diverges():
-    reference = converge(load("billiards"))
+    reference = converge(load("billiards/eight-ball-break"))
     assert reference.diverges_at is not None
     assert 0.0 < reference.time < reference.diverges_at
     assert reference.error < DIVERGED
