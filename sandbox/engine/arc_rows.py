@@ -8,10 +8,9 @@ from typing import overload
 
 import numpy as np
 
-from sandbox.engine.arc import Arc
+from sandbox.engine.arc import Arc, passages_of
 from sandbox.engine.bernstein import downward_crossings
 from sandbox.engine.bernstein_many import evaluate, only_downward_crossing
-from sandbox.engine.run import passages_of
 from sandbox.physics.integrators import State
 
 #: Positions of an arc's parts in its row: times, state at the start, curves, state at the end.

@@ -61,6 +61,7 @@ class InPlane(Track):
         self._method = INTEGRATORS[accuracy.integrator]
         self._control = StepControl(accuracy)
         self._known: tuple[State, Acceleration] = ((), (0.0, 0.0, 0.0))  # the end of the last step: the next start
+        self._slips = False  # it has just lost its grip
         self.next_step = self._control.first  # s, to try
 
     # ------------------------------------------------------------------ one piece of path
@@ -174,7 +175,9 @@ class InPlane(Track):
         """Move the ball exactly onto its surface, which the arc follows only closely; make it exactly rolling, or
         exactly at rest, if that is why the arc ended."""
         if self.contact is not None:
-            self.state = self.contact._replace(mode=_BECOMES.get(reason, SLIDING)).placed(self.ball, self.state)
+            mode = _BECOMES.get(reason, self.contact.mode)
+            self.state = self.contact._replace(mode=mode).placed(self.ball, self.state)
+        self._slips = reason == "slip"
 
     def settle(self, t: float, height: float) -> None:
         """Find the contact that lasts after a touch, or None for flight.
@@ -183,6 +186,7 @@ class InPlane(Track):
         bounce is removed from the state, as is the overlap, of at most TOUCHING_GAP, at which the surface was found.
         """
         self.contact = None
+        slips, self._slips = self._slips, False
         near = self.near(*self.state[:2])
         if not near:
             return
@@ -208,15 +212,15 @@ class InPlane(Track):
             if any(vx * other.nx + vy * other.ny < -_STILL and _sine(other, first) > _FLUSH for _, other in near):
                 return
         self.state = (x, y, vx, vy, spin)
-        self._hold(kept, applied)
+        self._hold(kept, applied, slips)
 
-    def _hold(self, kept: Sequence[Near], applied: Acceleration) -> None:
-        """Choose the contact among the surfaces that the ball stays on."""
+    def _hold(self, kept: Sequence[Near], applied: Acceleration, slips: bool) -> None:
+        """Choose the contact among the surfaces that the ball stays on; a ball that ``slips`` has lost its grip."""
         ball, state = self.ball, self.state
         x, y, vx, vy, spin = state
         mx, my = (vx, vy) if vx or vy else applied[:2]  # direction in which it will move
         places = [(obstacle, obstacle.next_feature(touching, x, y, mx, my)) for obstacle, touching in kept]
-        found = [contact_on(ball, state, obstacle, touching, applied) for obstacle, touching in places]
+        found = [contact_on(ball, state, obstacle, touching, applied, slips) for obstacle, touching in places]
         held = [contact for contact in found if contact is not None]
         held.sort(key=lambda contact: contact.touching.curvature)  # the next piece's side before this one's corner
         for contact in held:

@@ -84,9 +84,10 @@ class LastingContact(NamedTuple):
 
 
 def contact_on(
-    ball: Ball, state: State, obstacle: Obstacle, touching: Touching, applied: Acceleration
+    ball: Ball, state: State, obstacle: Obstacle, touching: Touching, applied: Acceleration, slips: bool = False
 ) -> LastingContact | None:
-    """Sliding, rolling or resting on one surface; None if nothing presses the ball on."""
+    """Sliding, rolling or resting on one surface; None if nothing presses the ball on. A ball that ``slips`` has just
+    lost its grip, whatever rounding says."""
     _, _, vx, vy, spin = state
     ax, ay, turning = applied
     nx, ny = touching.nx, touching.ny
@@ -103,7 +104,7 @@ def contact_on(
     direction = 1.0 if drive > 0.0 else -1.0
     a, spare = _rolling(ball, obstacle.surface, along, turning, pressed, direction)
     needed = _friction_of_rolling(ball, along, turning)
-    if spare < 0.0 or (spare == 0.0 and needed != 0.0):
+    if slips or spare < 0.0 or (spare == 0.0 and needed != 0.0):
         return LastingContact(SLIDING, obstacle, touching, 1.0 if needed < 0.0 else -1.0)
     if not moves and direction * a <= _STILL:
         return LastingContact(RESTING, obstacle, touching)

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from bisect import bisect_left, bisect_right
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from math import dist, inf
 from typing import TYPE_CHECKING, Any
 
-from sandbox.engine.arc import Arc
-from sandbox.engine.bernstein import downward_crossings
+from sandbox.engine.arc import Arc, passages_of
 from sandbox.engine.event import Event
 from sandbox.errors import RequestError
 from sandbox.physics.integrators import State
@@ -152,18 +151,3 @@ class Run:
         """Time and state at the end of each arc of a ball's path."""
         path = self._path(ball)
         return ((arc.t1, arc.state(arc.t1)[:5]) for arc in path) if isinstance(path, list) else iter(path.ends())
-
-
-def passages_of(path: list[Arc], gap: Callable[[Arc], Sequence[float]]) -> Iterator[tuple[float, State]]:
-    """Each time and state at which a gap, given as a polynomial for each arc, becomes negative: within an arc, or where
-    one arc ends and the next begins."""
-    above = False  # where the last arc ended, or came from to end at zero
-    for arc in path:
-        curve = gap(arc)
-        signs = [value > 0.0 for value in curve if value != 0.0]
-        if above and signs and not signs[0]:
-            yield arc.t0, arc.state(arc.t0)[:5]
-        for u in downward_crossings(curve):
-            t = arc.t0 + u * (arc.t1 - arc.t0)
-            yield t, arc.state(t)[:5]
-        above = signs[-1] if signs else above

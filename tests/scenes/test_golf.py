@@ -82,6 +82,14 @@ def misfit(tour: str, **changes: Any) -> np.ndarray:
     return np.sqrt(np.mean(np.square(errors), axis=0))
 
 
+def test_a_ball_that_the_wind_pulls_out_of_its_roll_goes_on_sliding():
+    """Its path follows spin and speed only to the tolerance: the slip they differ by must not choose its direction."""
+    run = sandbox.simulate(sandbox.load("golf", {"air.wind": [-100.0, -100.0]}))
+    modes = [arc.contact.mode for arc in run.arcs["ball"] if arc.contact is not None]
+    changes = [mode for mode, before in zip(modes, ["", *modes], strict=False) if mode != before]
+    assert changes == ["sliding", "rolling", "sliding", "rolling"]
+
+
 def test_the_pga_averages_are_met():
     """The aim: at most 2.9 yd, 3.0 deg and 3.5 yd together, with one set of numbers for all clubs."""
     assert np.all(misfit("PGA") <= [2.0, 1.9, 3.3])
