@@ -1,7 +1,7 @@
-"""A pitch from the side: from the hand to the plate, through the strike zone or not.
+"""A pitch from the side: from the hand to the plate, through the strike zone or not. Not validated.
 
 Models: gravity; drag that grows with spin and Magnus lift, as fitted to fly balls; loss of spin; the air by weather.
-Leaves out: everything sideways, with sliders; the wake of the seams; bounces before the plate. Not validated.
+Leaves out: everything sideways, with sliders; the wake of the seams; bounces before the plate.
 """
 
 from __future__ import annotations

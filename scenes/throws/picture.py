@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from functools import cached_property
 
-from sandbox.picture.ball import Look, seams
+from sandbox.picture.ball import Look
 from sandbox.picture.camera import Box
 from sandbox.picture.figures import REACHING
 from sandbox.picture.palette import scene_colours
@@ -21,7 +21,7 @@ UP = 1.20  # of the hand, in heights of the athlete
 
 
 class Picture(SideView[Parameters]):
-    LOOK = Look(COLOURS["ball"]["colour"], seams(COLOURS["ball"]["mark"]))
+    LOOK = Look(COLOURS["ball"], gloss=0.45)  # smooth iron
     TRACE, EARLIER = COLOURS["trace"], COLOURS["earlier"]
     LENGTHS, SECOND_UNIT, FROM = 1, "ft", "from the board"
 
