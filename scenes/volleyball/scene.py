@@ -10,18 +10,17 @@ from __future__ import annotations
 from typing import Any, Literal
 
 from sandbox.engine.run import Run
-from sandbox.engine.setup import Segment, Setup, Touches
+from sandbox.engine.setup import Segment, Setup, Surface
 from sandbox.errors import RequestError
 from sandbox.parameters import Accuracy, Group, choice, either, group, quantity
 from sandbox.physics.coefficients import Coefficient
 from sandbox.physics.elementwise import clip, exp
 from sandbox.sport.air import Air, ConstantDrag, ConstantLift, Model, NoDrag, NoLift, SpinRatioLift
-from sandbox.sport.amounts import roughly
 from sandbox.sport.controls import Controls, Spin, Spread
-from sandbox.sport.facts import ENDED, Fact, once
+from sandbox.sport.facts import ENDED
 from sandbox.sport.flight import Launch, Sphere, forces_in_flight, launched_ball
-from sandbox.sport.readings import LAUNCH, Moment, at, before, passing
-from sandbox.sport.solids import Solid
+from sandbox.sport.net_game import Bounces, Court, Net, net_facts, net_of, sentence
+from sandbox.sport.readings import LAUNCH
 
 
 class Hit(Launch):
@@ -45,19 +44,6 @@ class Volleyball(Sphere):
 
     drag: CrisisDrag | ConstantDrag | NoDrag = either(..., "drag of the air")
     lift: SpinRatioLift | ConstantLift | NoLift = either(..., "Magnus lift")
-
-
-class Net(Solid):
-    """The net across the middle of the court."""
-
-    height: float = quantity(..., "m", 1.2, 10, "of its upper edge above the floor")
-    depth: float = quantity(..., "m", 0.1, 1.2, "from its upper to its lower edge")
-
-
-class Court(Solid):
-    """The court and its floor."""
-
-    length: float = quantity(..., "m", 2, 200, "from end line to end line")
 
 
 class Parameters(Group):
@@ -97,58 +83,14 @@ def build(parameters: Parameters) -> Setup:
     if abs(launch.place - middle) <= ball.radius + 0.01 and start - ball.radius < net.height:
         raise RequestError(f"launch.place = {launch.place:g} m puts the ball on the net, at {middle:g} m: move it away")
     forces = forces_in_flight(ball, parameters.air, parameters.gravity)
-    mesh = Segment((middle, max(0.0, net.height - net.depth)), (middle, net.height), 0.01)
-    floor = Segment((-1e4, 0.0), (1e4, 0.0))
-    surfaces = [court.surface("floor", floor), net.surface("net", mesh)]
-    return Setup([launched_ball(launch, ball, (launch.place, start), forces)], surfaces, 20.0, Touches("floor"))
+    hit = launched_ball(launch, ball, (launch.place, start), forces)
+    floor = Surface("floor", Segment((-1e4, 0.0), (1e4, 0.0)), court.restitution, court.friction)
+    return Setup([hit], [floor, net_of(parameters)], 20.0, Bounces())
 
 
-@once
-def landing(run: Run, parameters: Parameters) -> Moment | None:
-    """The ball as it lands on the floor."""
-    return next((before(run, event.t) for event in run.events if event.partner == "floor"), None)
-
-
-def clearance(run: Run, parameters: Parameters) -> float | None:
-    """Gap in m between ball and net as it passes over; negative if it passes below the upper edge."""
-    at_net = passing(run, 0.5 * parameters.court.length)
-    return None if at_net is None else at_net.y - parameters.ball.radius - parameters.net.height
-
-
-def word(run: Run, parameters: Parameters) -> str:
-    """in; out, beyond the far end line; net, into or under it; short, on the player's own side; gone, never down."""
-    landed, over = landing(run, parameters), clearance(run, parameters)
-    if landed is None:
-        return "gone"
-    if any(event.partner == "net" for event in run.events) and landed.x < 0.5 * parameters.court.length:
-        return "net"
-    if over is None:
-        return "short"
-    if over < -parameters.ball.radius:
-        return "net"
-    return "in" if landed.x <= parameters.court.length else "out"
-
-
-FACTS = (
-    Fact("in", "", "", lambda run, parameters: word(run, parameters) == "in", settled="floor"),
-    Fact("verdict", "", "", word, settled="floor"),
-    Fact("clearance", "over the net", "m", clearance, settled="floor"),
-    Fact("landing", "landing", "m", at(landing, lambda ball: ball.x), settled="floor"),
-    Fact("landing_speed", "landing speed", "m/s", at(landing, lambda ball: ball.speed), settled="floor", also="km/h"),
-    Fact("apex", "apex", "m", lambda run, parameters: run.highest("ball")[1][1], settled="floor"),
-    Fact("flight_time", "flight time", "s", at(landing, lambda ball: ball.t), settled="floor"),
-    *LAUNCH,
-    ENDED,
-)
+FACTS = (*net_facts(lambda parameters: parameters.court.length), *LAUNCH, ENDED)
 
 
 def verdict(run: Run, parameters: Parameters) -> str:
     """What happened, in a sentence."""
-    said, landing, length = run.result["verdict"], run.result["landing"], parameters.court.length
-    if said == "in":
-        return f"In, {roughly(length - landing)} before the end line"
-    if said == "out":
-        return f"Out by {roughly(landing - length)}"
-    if said == "short":
-        return f"Comes down on its own side, {roughly(abs(0.5 * length - landing))} from the net"
-    return "Into the net" if said == "net" else "Did not come down"
+    return sentence(run, parameters, parameters.court.length, "end line")

@@ -1,4 +1,4 @@
-"""Volleyball: in, out, net and short, and how the ball gets there."""
+"""Volleyball: in, long, net and short, and how the ball gets there."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ def hit(**changes: Any) -> dict[str, Any]:
     ("changes", "word"),
     [
         ({}, "in"),
-        ({"launch__spin": 0.0}, "out"),
+        ({"launch__spin": 0.0}, "long"),
         ({"launch__angle": 2.0}, "net"),
         ({"launch__speed": 8.0}, "short"),
         ({"net__depth": 0.3, "launch__angle": -8.0}, "net"),  # under it
@@ -37,7 +37,7 @@ def test_without_air_it_falls_as_a_stone():
     fall = (2.0 * (3.1 - 0.105) / 9.81) ** 0.5
     assert result["flight_time"] == pytest.approx(fall, rel=1e-9)
     assert result["landing"] == pytest.approx(20.0 * fall, rel=1e-9)
-    assert result["clearance"] == pytest.approx(3.1 - 0.5 * 9.81 * (9.0 / 20.0) ** 2 - 0.105 - 1.2, rel=1e-9)
+    assert result["net_clearance"] == pytest.approx(3.1 - 0.5 * 9.81 * (9.0 / 20.0) ** 2 - 0.105 - 1.2, rel=1e-9)
 
 
 def test_a_fast_ball_has_less_drag_than_half_the_speed_would_give():
