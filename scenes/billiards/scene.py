@@ -16,7 +16,7 @@ import random
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import combinations
-from math import cos, hypot, pi, radians, sin, sqrt
+from math import atan2, cos, degrees, hypot, pi, radians, sin, sqrt
 from typing import Any, Literal
 
 from pydantic import Field
@@ -25,6 +25,7 @@ from sandbox.engine.on_cloth import slowest_hop
 from sandbox.engine.run import Event, Run
 from sandbox.engine.setup import Always, Ball, Bounce, ContactModel, Setup, Vector
 from sandbox.engine.touch import Obstacle
+from sandbox.engine.track import PRESSED
 from sandbox.errors import RequestError
 from sandbox.parameters import Accuracy, Group, choice, either, group, groups, quantity
 from sandbox.physics.cloth import Cloth
@@ -357,6 +358,26 @@ def _positions(run: Run, parameters: Parameters) -> dict[str, list[float]]:
     return {name: list(run.state(name, run.duration)[:2]) for name in balls}
 
 
+def _leaves(run: Run, parameters: Parameters) -> dict[str, dict[str, float]]:
+    """How each ball leaves its first meeting with ball or cushion: its speed in m/s and direction in deg just after,
+    and those with which it rolls if it meets nothing before, ``v - 2/7 s`` with its slip s over the cloth."""
+    radius, leaves = parameters.ball.radius, dict[str, dict[str, float]]()
+    for event in _met(run, parameters):
+        for name in {event.ball, event.partner} & run.arcs.keys() - leaves.keys():
+            arc = next((arc for arc in run.arcs[name] if arc.t1 > event.t), run.arcs[name][-1])
+            t = arc.t1 if arc.contact == PRESSED else event.t
+            _, _, vx, vy, _ = run.state(name, t)
+            wx, wy = run.rolling_spin(name, t)
+            rolls = (5.0 * vx + 2.0 * radius * wy) / 7.0, (5.0 * vy - 2.0 * radius * wx) / 7.0
+            leaves[name] = {
+                "speed": hypot(vx, vy),
+                "direction": degrees(atan2(vy, vx)),
+                "rolling_speed": hypot(*rolls),
+                "rolling_direction": degrees(atan2(rolls[1], rolls[0])),
+            }
+    return leaves
+
+
 def _cushions(run: Run, parameters: Parameters) -> int:
     return sum(name.endswith(" cushion") for name in _touches(run, parameters))
 
@@ -389,6 +410,7 @@ FACTS = (
     Fact("point", "", "", _point),
     Fact("scored", "", "", _scored),
     Fact("positions", "", "m", _positions),
+    Fact("leaves", "", "", _leaves),
     Fact("touches", "", "", _touches),
     ENDED,
 )
