@@ -163,7 +163,7 @@ def _serve(line: Connection) -> None:
     while True:
         try:
             work, args = line.recv()
-        except EOFError:
+        except (EOFError, OSError):  # the parent process is gone
             return
         except Exception as error:  # it cannot be unpickled here
             _send(line, (False, error))
@@ -178,7 +178,8 @@ def _serve(line: Connection) -> None:
 
 
 def _send(line: Connection, reply: tuple[bool, Any]) -> None:
-    """Send a reply; an exception that cannot be pickled or unpickled is sent as its message."""
+    """Send a reply, unless nobody is left to receive it; an exception that cannot be pickled or unpickled is sent as
+    its message."""
     try:
         packed = pickle.dumps(reply)
         if not reply[0]:
@@ -186,7 +187,8 @@ def _send(line: Connection, reply: tuple[bool, Any]) -> None:
     except Exception as error:
         unsendable = reply[1] if not reply[0] else error
         packed = pickle.dumps((False, RuntimeError(f"{type(unsendable).__name__}: {unsendable}")))
-    line.send_bytes(packed)
+    with suppress(OSError):
+        line.send_bytes(packed)
 
 
 def _end_with_parent() -> None:

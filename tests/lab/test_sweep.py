@@ -581,10 +581,11 @@ def test_processes_end_with_the_one_that_began_them():
     """However that ends: they hold its output open as long as they live."""
     code = (
         "import os; from sandbox.workers import Processes; processes = Processes(1);"
-        "print(processes.submit(os.getppid).result() == os.getpid(), flush=True); os._exit(0)"
+        "print(processes.submit(os.getppid).result() == os.getpid(), flush=True); import time;"
+        "processes.submit(time.sleep, 0.1); time.sleep(0.1); os._exit(0)"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60)
-    assert done.stdout == "True\n"
+    assert (done.stdout, done.stderr) == ("True\n", "")
 
 
 def test_a_point_that_kills_its_process_is_a_row(tmp_path):
