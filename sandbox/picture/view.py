@@ -282,9 +282,7 @@ class View(Generic[P]):
 
     def notes(self, camera: Camera) -> list[str]:
         """What is not drawn as it is."""
-        notes = self.remarks(camera)
-        if camera.stretch != 1:
-            notes.insert(0, f"heights drawn {camera.stretch:g} times as large as lengths")
+        notes = [*self._stretched(camera), *self.remarks(camera)]
         if (factor := self.least / (self.radius * camera.scale)) > UNSAID:
             who, whose = ("ball", "its") if len(self.balls) == 1 else ("balls", "their")
             notes.append(f"{who} drawn {times(factor)} {whose} size")
@@ -341,7 +339,7 @@ class View(Generic[P]):
         room = self._room(sheet, camera, t)
         over = t >= self.told
         headline, *notes = (self.verdict(),) if over else self.progress(t)
-        notes += [*(f"compared with {ghost.label}" for ghost in self.ghosts), *self.aligned]
+        notes += [*(f"compared with {ghost.label}" for ghost in self.ghosts), *self.aligned, *self._stretched(camera)]
         if any(radius > UNSAID * self.radii[name] * camera.scale for name, (_, radius) in placed.items()):
             notes.append("ball drawn larger than it is" if len(self.balls) == 1 else "balls drawn larger than they are")
         sheet.headline(headline, [note for note in notes if note], room)
@@ -354,6 +352,10 @@ class View(Generic[P]):
     def aligned(self) -> list[str]:
         """To note where the other runs were moved to lie over this one."""
         return [f"aligned at {self.datum[1]}"] if any(any(ghost.shift) for ghost in self.ghosts) else []
+
+    def _stretched(self, camera: Camera) -> list[str]:
+        """To note how much larger heights are drawn than lengths."""
+        return [f"heights drawn {camera.stretch:g} times as large as lengths"] if camera.stretch != 1 else []
 
     def verdict(self) -> str:
         """What happened, in a sentence."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from sandbox import units
 
 #: Digits after the point, by unit; three figures for a unit that is not here.
-DIGITS = {"m/s": 1, "mph": 0, "km/h": 0, "deg": 1, "rpm": 0, "s": 2, "yd": 0, "ft": 1, "J": 1}
+DIGITS = {"m/s": 1, "mph": 0, "km/h": 0, "deg": 1, "moa": 1, "rpm": 0, "s": 2, "yd": 0, "ft": 1, "J": 1}
 
 #: Below this a number has one more digit: 7.47 m/s, 12.3 yd.
 FINER_BELOW = {"m/s": 10.0, "yd": 20.0}

@@ -9,6 +9,8 @@ way up; the turning Earth; the ground.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
+from math import atan2, degrees
 from typing import Literal
 
 from sandbox.engine.run import Run
@@ -27,6 +29,8 @@ from sandbox.sport.readings import BALL_SPEED, LAUNCH_ANGLE, Moment, at, passing
 from sandbox.sport.zero import zeroed
 
 HUNDRED_YARDS = 91.44  # m
+MOA = 60.0 * degrees(1.0)  # minutes of arc in 1 rad
+SIDES = ("low", "high")
 
 
 class Muzzle(Group):
@@ -137,13 +141,20 @@ def table(run: Run, parameters: Parameters) -> list[dict[str, float]]:
     return rows
 
 
+def _hold(bullet: Moment) -> float:
+    """How far above the target to aim, in minutes of arc."""
+    return MOA * atan2(-bullet.y, bullet.x)
+
+
 FACTS = (
-    Fact("height", "at the target", "m", at(at_target, lambda bullet: bullet.y), settled="target"),
+    Fact("height", "at the target", "m", at(at_target, lambda bullet: bullet.y), settled="target", sides=SIDES),
+    Fact("hold", "hold", "moa", at(at_target, _hold), settled="target", sides=("under", "over")),
     Fact("speed", "speed there", "m/s", at(at_target, lambda bullet: bullet.speed), settled="target", also="ft/s"),
     Fact("flight_time", "flight time", "s", at(at_target, lambda bullet: bullet.t), settled="target"),
-    Fact("apex", "highest", "m", lambda run, parameters: run.highest("ball")[1][1], settled="target"),
+    Fact("apex", "most over sight line", "m", lambda run, parameters: run.highest("ball")[1][1], settled="target"),
     BALL_SPEED,
-    LAUNCH_ANGLE,
+    replace(LAUNCH_ANGLE, label=""),
+    Fact("elevation", "barrel up", "moa", lambda run, parameters: 60.0 * LAUNCH_ANGLE.how(run, parameters), "start"),
     Fact("table", "", "", table),
     ENDED,
 )
@@ -154,5 +165,7 @@ def verdict(run: Run, parameters: Parameters) -> str:
     height, distance = run.result["height"], metres(parameters.range.distance)
     if height is None:
         return f"Does not reach {distance}"
-    side = "above" if height > 0.0 else "below"
-    return f"{amount(abs(height), 'm')} {side} the line of sight at {distance}"
+    if abs(height) < 0.0005:
+        return f"On the line of sight at {distance}"
+    hold = f"hold {amount(abs(run.result['hold']), 'moa')} {'under' if height > 0.0 else 'over'}"
+    return f"{amount(abs(height), 'm')} {SIDES[height > 0.0]} at {distance}: {hold}"

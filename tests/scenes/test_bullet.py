@@ -57,3 +57,31 @@ def test_a_headwind_and_thick_air_slow_it_down():
     calm = fire()["speed"]
     assert fire(air__wind=[-10.0, 0.0])["speed"] < calm
     assert fire(air__elevation=2000.0)["speed"] > calm
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({}, "21.2 m low at 914.4 m: hold 79.5 moa over"),
+        ({"range__distance": 91.44}, "On the line of sight at 91.4 m"),
+        ({"range__distance": 91.44, "zero__distance": 300.0}, "high at 91.4 m: hold"),
+        ({"launch__speed": 20.0, "zero__distance": 0.0, "launch__angle": 80.0}, "Does not reach 914.4 m"),
+    ],
+)
+def test_the_verdict_says_how_to_hold(changes: dict[str, Any], said: str):
+    run = sandbox.simulate(sandbox.load("bullet", {key.replace("__", "."): value for key, value in changes.items()}))
+    assert said in run.scene.verdict(run)
+    if run.result["hold"] is not None:
+        far, off = run.scene.parameters.range.distance, run.result["height"]
+        assert run.result["hold"] == pytest.approx(-off / far * 180.0 * 60.0 / np.pi, rel=1e-3, abs=1e-6)
+
+
+@pytest.mark.parametrize("distance", [30.0, 914.4, 2000.0])
+def test_the_poster_draws_heights_as_large_as_there_is_room(distance: float):
+    run = sandbox.simulate(sandbox.load("bullet", {"range.distance": distance, "launch.speed": 1700.0}))
+    picture = run.scene.picture(run)
+    picture.poster()
+    rows = picture.camera.pixels(picture.points)[:, 1]
+    assert np.ptp([*rows, picture.camera.pixel(0.0, 0.0)[1]]) > 0.3 * (picture.area.bottom - picture.area.top)
+    assert f"heights drawn {picture.camera.stretch:g} times" in picture.notes(picture.camera)[0]
+    assert "line of sight" in [text for text, _ in picture.sheet.written]
