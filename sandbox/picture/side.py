@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from math import floor, isinf, log10
 from typing import ClassVar, NamedTuple
 
 import numpy as np
@@ -24,8 +25,8 @@ from sandbox.sport.amounts import metres
 
 #: The picture shows at least so many radii of the ball along the ground.
 LEAST_WIDTH = 60
-#: A flight that rises at least so much, in px on 720 rows, and at most over this share of the room is drawn twice as
-#: high, where the ball is drawn at least so many times its size.
+#: A flight that rises at least so much, in px on 720 rows, and at most over this share of the room is drawn
+#: higher, where the ball is drawn at least so many times its size.
 LEAST_RISE, LOW_FLIGHT, LARGE_BALL = 24, 0.45, 3
 #: Columns, as shares of the width, between which frames keep the ball: where all is in sight, and on its way.
 AT_HOME, ON_ITS_WAY = (0.1, 0.9), (0.25, 0.45)
@@ -64,8 +65,8 @@ class SideView(View[P]):
     LENGTHS: ClassVar[int] = 2
     #: Free px on 720 rows between header and path.
     HEADROOM: ClassVar[float] = 24
-    #: Whether a low flight may be drawn higher than it is.
-    STRETCHES: ClassVar[bool] = False
+    #: A low flight may be drawn so many times as high as it is; inf draws any as high as there is room.
+    STRETCHES: ClassVar[float] = 1.0
     #: The place is left out of the poster when the path would take up less than this share of it.
     LEAST_PATH: ClassVar[float] = 0.15
     #: What a frame's headline counts, besides m.
@@ -142,9 +143,12 @@ class SideView(View[P]):
         camera = Camera.fit(self.subject, area)
         rise, room = (self.subject.top - self.subject.bottom) * camera.scale, area.bottom - area.top
         low = LEAST_RISE * self.unit < rise < LOW_FLIGHT * room
-        if self.STRETCHES and low and enlarged(self.radius, camera, self.rows) > LARGE_BALL:
-            return Camera.fit(self.subject, area, stretch=2.0)
-        return camera
+        stretch = self.STRETCHES if low and enlarged(self.radius, camera, self.rows) > LARGE_BALL else 1.0
+        if isinf(self.STRETCHES):  # in steps of half a power of ten
+            most = max(1.0, room / rise)
+            step = 0.5 * 10.0 ** floor(log10(most))
+            stretch = step * floor(most / step)
+        return Camera.fit(self.subject, area, stretch)
 
     def eye(self, camera: Camera) -> Eye:
         """Sees the place in central perspective, the plane of play as the camera shows it."""
@@ -191,7 +195,7 @@ class SideView(View[P]):
         return Chase(self.run, self.ball, self.home, self.columns, self.rows_at.top, self.ground)
 
     def view(self, t: float) -> Camera:
-        return self.chase.camera(t)
+        return self.camera if isinf(self.STRETCHES) else self.chase.camera(t)
 
     def moved(self, camera: Camera) -> float:
         """How far to the right the eye has gone from where it was at first, in px of that distance."""
@@ -210,6 +214,8 @@ class SideView(View[P]):
     def spots(self, camera: Camera, points: np.ndarray, radius: float) -> np.ndarray:
         """On the path, raised so that balls which are drawn too large along it lie on the ground and not in it."""
         spots, ground = camera.pixels(points), self.ground(points[:, 0])
+        if isinf(self.STRETCHES):  # heights are to be read
+            return spots
         rows = camera.pixels(np.column_stack([points[:, 0], ground]))[:, 1]
         raised = spots[:, 1] - max(0.0, mark_radius(self.rows) - self.radius * camera.scale)
         spots[:, 1] = np.where(points[:, 1] > ground, np.minimum(raised, rows - radius), spots[:, 1])

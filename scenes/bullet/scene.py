@@ -15,7 +15,6 @@ from typing import Literal
 
 from sandbox.engine.run import Run
 from sandbox.engine.setup import Ball, Force, Segment, Setup, Surface, Touches
-from sandbox.errors import RequestError
 from sandbox.parameters import Accuracy, Group, choice, group, quantity
 from sandbox.physics.ballistics import BulletDrag, speed_of_sound
 from sandbox.physics.elementwise import cos, sin
@@ -26,11 +25,11 @@ from sandbox.sport.controls import Controls, Spread
 from sandbox.sport.facts import ENDED, Fact
 from sandbox.sport.flight import DEGREE
 from sandbox.sport.readings import BALL_SPEED, LAUNCH_ANGLE, Moment, at, passing
-from sandbox.sport.zero import zeroed
+from sandbox.sport.zero import Sight, Zero, zeroed
 
 HUNDRED_YARDS = 91.44  # m
 MOA = 60.0 * degrees(1.0)  # minutes of arc in 1 rad
-SIDES = ("low", "high")
+SIDES, HOLDS = ("low", "high"), ("under", "over")
 
 
 class Muzzle(Group):
@@ -53,18 +52,6 @@ class Bullet(Group):
     radius: float = quantity(..., "m", 0.0005, 0.2, "half the calibre")
     coefficient: float = quantity(..., "", 0.001, 10, "ballistic coefficient in lb/in^2")
     drag: BulletDragModel = group(..., "its standard shape")
-
-
-class Zero(Group):
-    """The distance at which the bullet crosses the line of sight on its way down."""
-
-    distance: float = quantity(..., "m", 0, 2000, "0: launch.angle counts instead")
-
-
-class Sight(Group):
-    """The sight."""
-
-    height: float = quantity(..., "m", 0, 0.5, "above the barrel")
 
 
 class Range(Group):
@@ -103,10 +90,7 @@ def build(parameters: Parameters) -> Setup:
         forces.append(BulletDrag(bullet.mass, shape, bullet.coefficient, air.density, sound, wind_in(air)))
     angle = parameters.launch.angle * DEGREE
     if parameters.zero.distance > 0.0:
-        found = zeroed(lambda angle: _setup(parameters, forces, angle, parameters.zero.distance))
-        if found is None:
-            raise RequestError(f"zero.distance = {parameters.zero.distance:g} m: the bullet does not get there")
-        angle = found
+        angle = zeroed(parameters.zero, lambda angle: _setup(parameters, forces, angle, parameters.zero.distance))
     return _setup(parameters, forces, angle, parameters.range.distance)
 
 
@@ -114,8 +98,8 @@ def _setup(parameters: Parameters, forces: Sequence[Force], angle: float, distan
     bullet, speed = parameters.bullet, parameters.launch.speed
     start, velocity = (0.0, -parameters.sight.height), (speed * cos(angle), speed * sin(angle))
     target = Surface("target", Segment((distance + bullet.radius, -5e3), (distance + bullet.radius, 5e3)), 0.0, 0.0)
-    fired = Ball("ball", bullet.mass, bullet.radius, start, velocity, forces=forces)
-    return Setup([fired], [target], 60.0, Touches("target"))
+    fired = [Ball("ball", bullet.mass, bullet.radius, start, velocity, forces=forces)]
+    return Setup(fired, [target], 60.0, Touches("target"))
 
 
 def at_distance(run: Run, distance: float) -> Moment | None:
@@ -133,22 +117,14 @@ def at_target(run: Run, parameters: Parameters) -> Moment | None:
 
 def table(run: Run, parameters: Parameters) -> list[dict[str, float]]:
     """Range and height over the line of sight (m), speed (m/s) and time (s), every 100 yd."""
-    rows = []
-    for i in range(int(parameters.range.distance / HUNDRED_YARDS + 1e-9) + 1):
-        bullet = at_distance(run, i * HUNDRED_YARDS)
-        if bullet is not None:
-            rows.append({"range": bullet.x, "speed": bullet.speed, "height": bullet.y, "time": bullet.t})
-    return rows
-
-
-def _hold(bullet: Moment) -> float:
-    """How far above the target to aim, in minutes of arc."""
-    return MOA * atan2(-bullet.y, bullet.x)
+    places = range(int(parameters.range.distance / HUNDRED_YARDS + 1e-9) + 1)
+    moments = (at_distance(run, i * HUNDRED_YARDS) for i in places)
+    return [{"range": it.x, "speed": it.speed, "height": it.y, "time": it.t} for it in moments if it is not None]
 
 
 FACTS = (
     Fact("height", "at the target", "m", at(at_target, lambda bullet: bullet.y), settled="target", sides=SIDES),
-    Fact("hold", "hold", "moa", at(at_target, _hold), settled="target", sides=("under", "over")),
+    Fact("hold", "hold", "moa", at(at_target, lambda bullet: -MOA * atan2(bullet.y, bullet.x)), "target", sides=HOLDS),
     Fact("speed", "speed there", "m/s", at(at_target, lambda bullet: bullet.speed), settled="target", also="ft/s"),
     Fact("flight_time", "flight time", "s", at(at_target, lambda bullet: bullet.t), settled="target"),
     Fact("apex", "most over sight line", "m", lambda run, parameters: run.highest("ball")[1][1], settled="target"),
@@ -167,5 +143,5 @@ def verdict(run: Run, parameters: Parameters) -> str:
         return f"Does not reach {distance}"
     if abs(height) < 0.0005:
         return f"On the line of sight at {distance}"
-    hold = f"hold {amount(abs(run.result['hold']), 'moa')} {'under' if height > 0.0 else 'over'}"
+    hold = f"hold {amount(abs(run.result['hold']), 'moa')} {HOLDS[height < 0.0]}"
     return f"{amount(abs(height), 'm')} {SIDES[height > 0.0]} at {distance}: {hold}"

@@ -37,7 +37,7 @@ class Picture(SideView[Parameters]):
 
     LOOK = BALL
     HEADROOM = 40
-    STRETCHES = True
+    STRETCHES = 2.0
     LEAST_PATH = 0.2
     LEAST_IMPACT, SOFT, APART = 1.0, 0.25, 30
     TRAIL = 1.4
