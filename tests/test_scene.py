@@ -56,6 +56,7 @@ def test_a_scene_may_be_named_wherever_one_is_asked_for():
         (lambda: sandbox.simulate(DROP).trajectory(every=-1), "every = -1: must be more than 0 s"),
         (lambda: sandbox.simulate(DROP).trajectory(every=math.inf), "every = inf: must be more than 0 s, and finite"),
         (lambda: sandbox.load(5), "5 is not a scene: give its name as text"),
+        (lambda: sandbox.load("golf", ["a"]), "overrides = ['a']: must be a dictionary"),
         (lambda: sandbox.load("golf", {5: 1}), "override 5: a key is a string, such as launch.speed"),
         (lambda: sandbox.load("golf", {"ball": {5: 1}}), "override ball: 5 in it is not a key"),
         (lambda: sandbox.load("golf", {"ball": {"drag": {None: 1}}}), "override ball.drag: None in it is not a key"),

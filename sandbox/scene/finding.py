@@ -46,6 +46,10 @@ def load(source: str | Path, overrides: Mapping[str, Any] | None = None, *, over
     ``source`` is a scene (``"golf"``), a preset (``"golf/driver"``), or a path to a scene file or a scene's folder.
     Raises RequestError if it is not found, not readable or invalid; ``overrides_from`` names the overrides in messages.
     """
+    if not isinstance(overrides, Mapping | None):
+        raise RequestError(
+            f'overrides = {shortened(repr(overrides))}: must be a dictionary such as {{"air.wind": [5, 0]}}'
+        )
     found = _find(source)
     file, folder = found.file, found.folder
     where = shown(folder if file is None else file)

@@ -63,7 +63,7 @@ def test_the_reference_is_better_than_the_finest_level(rattle: Reference):
 
 
 def test_the_error_of_the_reference_counts_the_bounces_that_are_left_out(tmp_path: Path):
-    """A ball that bounces until it rolls, and is slowed as it rolls: its place hangs on the lowest bounce."""
+    """A ball that bounces until it rolls, and is slowed as it rolls: its place depends on the lowest bounce."""
     new_scene(tmp_path / "beachvolley")
     scene = tmp_path / "beachvolley" / "scene.py"
     rolling = scene.read_text("utf-8").replace(', until=Touches("floor", 4)', "")
