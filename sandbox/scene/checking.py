@@ -71,7 +71,10 @@ def check(scene: Scene | str | Path, run: Run | None = None, progress: Progress 
             spread[name] = max(difference, spread.get(name, 0.0))
         for name, (_, other) in changed.items():
             unsettled.setdefault(name, []).append(other)
-    errors = {name: max(error, spread.get(name, 0.0)) for name, error in outcome.errors.items()}
+    both = (outcome.errors, spread)
+    errors = {
+        name: max(part.get(name, 0.0) for part in both) for name in run.result if any(name in part for part in both)
+    }
     return replace(outcome, errors=errors, spread=spread, unsettled=unsettled, nudges=NUDGES)
 
 

@@ -363,7 +363,9 @@ def _leaves(run: Run, parameters: Parameters) -> dict[str, dict[str, float]]:
     and those with which it rolls if it meets nothing before, ``v - 2/7 s`` with its slip s over the cloth."""
     radius, leaves = parameters.ball.radius, dict[str, dict[str, float]]()
     for event in _met(run, parameters):
-        for name in {event.ball, event.partner} & run.arcs.keys() - leaves.keys():
+        for name in (event.ball, event.partner):
+            if name in leaves or name not in run.arcs:
+                continue
             arc = next((arc for arc in run.arcs[name] if arc.t1 > event.t), run.arcs[name][-1])
             t = arc.t1 if arc.contact == PRESSED else event.t
             _, _, vx, vy, _ = run.state(name, t)
