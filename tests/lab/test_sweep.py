@@ -503,7 +503,7 @@ def test_few_shots_that_fly_together_do_without_processes(monkeypatch: pytest.Mo
 
 @pytest.mark.parametrize("jobs", [1, 2])
 def test_ctrl_c_keeps_what_is_done_and_the_same_command_resumes(tmp_path, jobs):
-    scene = own_scene(tmp_path, "    import time\n    time.sleep(0.005)\n")
+    scene = own_scene(tmp_path, "    import time\n    time.sleep(0.015)\n")
     path = tmp_path / "rows.csv"
     command = ["sweep", scene, "--over", "launch.height=0.5:2:200", "--jobs", jobs, "--out", path]
     process = started(*command)
