@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import Any
 
 from sandbox import units
+from sandbox.engine.run import Run
 from sandbox.errors import RequestError
 from sandbox.lab.tables import paragraph, table
 from sandbox.parameters import parse_assignment
@@ -24,7 +25,7 @@ from sandbox.sport.amounts import significant
 
 PUBLISHED = Path(__file__).resolve().parent / "published"
 
-#: Results are in SI, except for these kinds.
+#: Numbers inside a table are in SI, except for these kinds.
 _OWN_UNITS = {"angle": "deg", "spin": "rpm"}
 
 
@@ -93,15 +94,15 @@ def validate(
 ) -> list[Compared]:
     """Compute the cases of one scene or preset, or all. ``changes`` override what the cases set."""
     wanted = list(cases()) if source is None else _of(source)
-    found: dict[tuple[str, str], Mapping[str, Any]] = {}
+    found: dict[tuple[str, str], Run] = {}
     compared = []
     for done, case in enumerate(wanted):
         progress(done, len(wanted))
         key = case.scene, case.set
         if key not in found:
             settings = dict(parse_assignment(text) for text in case.set.split(";") if text.strip())
-            found[key] = simulate(load(case.scene, {**settings, **(changes or {})})).result
-        compared.append(_compare(case, _inside(found[key], case.result)))
+            found[key] = simulate(load(case.scene, {**settings, **(changes or {})}))
+        compared.append(_compare(case, found[key]))
     return compared
 
 
@@ -119,14 +120,15 @@ def _inside(result: Any, key: str) -> Any:
     return result
 
 
-def _compare(case: Case, computed: Any) -> Compared:
-    difference, holds = None, False
+def _compare(case: Case, run: Run) -> Compared:
+    computed, difference, holds = _inside(run.result, case.result), None, False
     if case.tolerance is None:
         computed = str(computed).lower() if isinstance(computed, bool) else str(computed)
         holds = computed == case.value
     elif computed is not None:
-        kind = units.KIND_OF[case.unit]
-        computed = units.convert(float(computed), _OWN_UNITS.get(kind, next(iter(units.KINDS[kind]))), case.unit)
+        fact, kind = run.scene.facts.get(case.result), units.KIND_OF[case.unit]
+        own = _OWN_UNITS.get(kind, next(iter(units.KINDS[kind]))) if fact is None else fact.unit
+        computed = units.convert(float(computed), own, case.unit)
         difference = computed - float(case.value)
         holds = abs(difference) <= case.tolerance  # not where it is NaN
     return Compared(**vars(case), computed=computed, difference=difference, holds=holds)
