@@ -25,9 +25,6 @@ from sandbox.sport.amounts import significant
 
 PUBLISHED = Path(__file__).resolve().parent / "published"
 
-#: Numbers inside a table are in SI, except for these kinds.
-_OWN_UNITS = {"angle": "deg", "spin": "rpm"}
-
 
 @dataclass(frozen=True)
 class Case:
@@ -126,9 +123,9 @@ def _compare(case: Case, run: Run) -> Compared:
         computed = str(computed).lower() if isinstance(computed, bool) else str(computed)
         holds = computed == case.value
     elif computed is not None:
-        fact, kind = run.scene.facts.get(case.result), units.KIND_OF[case.unit]
-        own = _OWN_UNITS.get(kind, next(iter(units.KINDS[kind]))) if fact is None else fact.unit
-        computed = units.convert(float(computed), own, case.unit)
+        own = run.scene.facts[case.result.partition(".")[0]].unit
+        si = next(iter(units.KINDS[units.KIND_OF[case.unit]]))  # of what is in a table of several units
+        computed = units.convert(float(computed), own or si, case.unit)
         difference = computed - float(case.value)
         holds = abs(difference) <= case.tolerance  # not where it is NaN
     return Compared(**vars(case), computed=computed, difference=difference, holds=holds)

@@ -358,26 +358,29 @@ def _positions(run: Run, parameters: Parameters) -> dict[str, list[float]]:
     return {name: list(run.state(name, run.duration)[:2]) for name in balls}
 
 
-def _leaves(run: Run, parameters: Parameters) -> dict[str, dict[str, float]]:
-    """How each ball leaves its first meeting with ball or cushion: its speed in m/s and direction in deg just after,
-    and those with which it rolls if it meets nothing before, ``v - 2/7 s`` with its slip s over the cloth."""
-    radius, leaves = parameters.ball.radius, dict[str, dict[str, float]]()
+@once
+def _leaving(run: Run, parameters: Parameters) -> dict[str, tuple[Vector, Vector]]:
+    """The velocities (m/s) with which each ball leaves its first meeting with ball or cushion: just after it, and once
+    it rolls, if it meets nothing before: ``v - 2/7 s``, with its slip s over the cloth."""
+    radius, met = parameters.ball.radius, dict[str, tuple[Vector, Vector]]()
     for event in _met(run, parameters):
-        for name in (event.ball, event.partner):
-            if name in leaves or name not in run.arcs:
-                continue
+        for name in {event.ball, event.partner} & (run.arcs.keys() - met.keys()):
             arc = next((arc for arc in run.arcs[name] if arc.t1 > event.t), run.arcs[name][-1])
             t = arc.t1 if arc.contact == PRESSED else event.t
             _, _, vx, vy, _ = run.state(name, t)
             wx, wy = run.rolling_spin(name, t)
-            rolls = (5.0 * vx + 2.0 * radius * wy) / 7.0, (5.0 * vy - 2.0 * radius * wx) / 7.0
-            leaves[name] = {
-                "speed": hypot(vx, vy),
-                "direction": degrees(atan2(vy, vx)),
-                "rolling_speed": hypot(*rolls),
-                "rolling_direction": degrees(atan2(rolls[1], rolls[0])),
-            }
-    return leaves
+            met[name] = (vx, vy), ((5.0 * vx + 2.0 * radius * wy) / 7.0, (5.0 * vy - 2.0 * radius * wx) / 7.0)
+    return {ball.name: met[ball.name] for ball in run.setup.balls if ball.name in met}
+
+
+def _speeds(when: int) -> Callable[[Run, Parameters], dict[str, float]]:
+    return lambda run, parameters: {name: hypot(*ways[when]) for name, ways in _leaving(run, parameters).items()}
+
+
+def _directions(when: int) -> Callable[[Run, Parameters], dict[str, float]]:
+    return lambda run, parameters: {
+        name: degrees(atan2(*reversed(ways[when]))) for name, ways in _leaving(run, parameters).items()
+    }
 
 
 def _cushions(run: Run, parameters: Parameters) -> int:
@@ -412,7 +415,10 @@ FACTS = (
     Fact("point", "", "", _point),
     Fact("scored", "", "", _scored),
     Fact("positions", "", "m", _positions),
-    Fact("leaves", "", "", _leaves),
+    Fact("leaving_speed", "", "m/s", _speeds(0)),
+    Fact("leaving_direction", "", "deg", _directions(0)),
+    Fact("rolling_speed", "", "m/s", _speeds(1)),
+    Fact("rolling_direction", "", "deg", _directions(1)),
     Fact("touches", "", "", _touches),
     ENDED,
 )
