@@ -52,6 +52,7 @@ from sandbox.new import new_scene
 from sandbox.physics.forces import Gravity
 from sandbox.scene import listings
 from sandbox.window import replay
+from sandbox.window.history import Changes
 from sandbox.window.shot import Shot
 from sandbox.workers import Processes, WorkerLost, cores
 
@@ -308,7 +309,7 @@ def recorded() -> list[bytes]:
         path = Path(place) / f"x{replay.SUFFIX}"
         for name in ("golf/putt", "basketball", "billiards"):
             scene = sandbox.load(name)
-            replay.save(Shot(scene, sandbox.simulate(scene), {}, name), path)
+            replay.save(Shot(scene, sandbox.simulate(scene), Changes(name, {})), path)
             found.append(path.read_bytes())
     return found
 

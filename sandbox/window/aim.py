@@ -7,7 +7,8 @@ from math import atan2, cos, degrees, hypot, radians, sin
 from typing import Any
 
 from sandbox.parameters import Parameter
-from sandbox.window.session import Changes, Session
+from sandbox.window.history import Changes
+from sandbox.window.session import Session
 
 #: A full pull, as a share of the stage's height.
 FULL = 0.42

@@ -270,7 +270,7 @@ COMMANDS: dict[str, Callable[[View, float], object]] = {
     "next_preset": _other_preset,
     "panel": lambda view, by: view.open_panel(not view.panel_wanted),
     "reset": lambda view, by: view.game.reset(),
-    "undo": lambda view, by: view.game.undo(),
+    "undo": lambda view, by: view.game.undo() if by > 0 else view.game.redo(),
     "rack": lambda view, by: view.game.begin_again(),
     "sound": _sound,
     "fullscreen": lambda view, by: view.toggle_full_screen(),

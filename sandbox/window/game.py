@@ -17,6 +17,7 @@ from sandbox.errors import RunError, SandboxError
 from sandbox.window import replay
 from sandbox.window.aim import Pull, strongest
 from sandbox.window.background import PATIENCE, Latest
+from sandbox.window.history import Changes, History
 from sandbox.window.playback import Playback
 from sandbox.window.run_data import run_of
 from sandbox.window.session import Session
@@ -55,6 +56,7 @@ class Game:
         what takes longer than a path, by default the worker itself."""
         self.session, self.worker, self.patience, self.helper = session, worker, patience, helper or worker
         self.running = True
+        self.history = History(session.changes)
         self.revision = 0
         self.code = 0  # how often the scene's code was read again
         self.runs: Latest[tuple[dict[str, Any], float]] = Latest()  # of worker.computed
@@ -64,7 +66,6 @@ class Game:
         self.playback: Playback | None = None  # of that; None while aiming
         self.shots: list[Shot] = []  # the last ones, in order
         self.count = 0  # all of them
-        self.start = 0  # which positions the next shot begins from
         self.before_save: Shot | None = None  # the shot as it was before the scene file was saved
         self.pull: Pull | None = None
         self.fan_width = 1.0
@@ -89,7 +90,7 @@ class Game:
     @property
     def wanted(self) -> tuple[Any, ...]:
         """What is to be run: the key of its run, from which the shot is made."""
-        return self.session.scene, self.code, self.session.changes.values, self.session.source, self.start
+        return self.session.scene, self.code, self.session.changes
 
     @property
     def settled(self) -> bool:
@@ -120,7 +121,8 @@ class Game:
     @property
     def recent(self) -> list[Shot]:
         """The shots of this scene file that began where the next one does."""
-        return [shot for shot in self.shots if shot.source == self.session.source and shot.start == self.start]
+        start = self.session.base.folder, *self.session.changes.start
+        return [shot for shot in self.shots if shot.start == start]
 
     @property
     def notices(self) -> list[tuple[str, bool]]:
@@ -224,14 +226,14 @@ class Game:
         if not self.runs.take(patience):
             return
         self.revision += 1
-        if self.runs.key[3] != self.session.source:  # of the scene before
+        if self.runs.key[2].source != self.session.source:  # of the scene before
             self.runs.forget()
             return
         if self.runs.value is not None:
-            scene, _, changes, source, start = self.runs.key
+            scene, _, changes = self.runs.key
             record, self.cost = self.runs.value
             try:
-                self.aimed = shot = Shot(scene, run_of(scene, record), changes, source, start)
+                self.aimed = shot = Shot(scene, run_of(scene, record), changes)
             except Exception as error:
                 self.runs.error = error
         if self.runs.error is not None:
@@ -270,14 +272,13 @@ class Game:
         if not values:
             return False
         self.aim_again(from_rest=True)
-        return self._changing(lambda: self.session.change(values))
+        return self._changing(lambda: self.session.change(values), frozenset(values))
 
-    def _changing(self, action: Callable[[], object]) -> bool:
-        """Do something that changes the parameters; returns whether they are valid."""
-        changes = self.session.changes
+    def _changing(self, action: Callable[[], object], what: object = None) -> bool:
+        """Do something that changes the parameters, of a kind ``what``; returns whether they are valid."""
         if not self.trying(action):
             return False
-        self.start += changes.moved != self.session.changes.moved
+        self.history.add(self.session.changes, what)
         self.shooting = False
         return True
 
@@ -288,11 +289,35 @@ class Game:
             self.tell("all parameters as in the file; Ctrl Z to undo")
 
     def undo(self) -> None:
-        """Take back the last change."""
+        """Take back the last change, or the shot that is watched."""
+        self._go_to(self.history.undone(self.playback is not None), "nothing to undo")
+
+    def redo(self) -> None:
+        """Do again what was undone."""
+        self._go_to(self.history.redone, "nothing to redo")
+
+    def _go_to(self, place: int | None, nothing: str) -> None:
+        """Aim, or shoot, with the parameters of another step of the history."""
         self.aim_again()
-        if not self.session.undoable:
-            self.tell("nothing to undo")
-        self._changing(self.session.undo)
+        if place is None:
+            self.tell(nothing)
+            return
+        step, again = self.history.steps[place], place > self.history.now
+        if self._restore(step.changes):
+            self.history.now = place
+            shot = next((shot for shot in self.shots if shot.number == step.shot), None)
+            if again and shot is not None:
+                self.watch(shot)
+
+    def _restore(self, changes: Changes) -> bool:
+        """Aim with these parameters, maybe of another scene file; returns whether they are valid."""
+        other = changes.source != self.session.source
+        if not self.trying(lambda: self.session.restore(changes)):
+            return False
+        self.shooting = False
+        if other:
+            self._opened()
+        return True
 
     def begin_again(self) -> None:
         """Put the balls back where the first of the continued shots began."""
@@ -307,7 +332,7 @@ class Game:
 
     def begin_pull(self, at: tuple[int, int], height: float, stretch: float) -> None:
         """The mouse begins a pull at a place (px) on a stage of ``height`` px."""
-        self.session.end_change()
+        self.history.end()
         self.pull = Pull(at, self.session.changes, strongest(self.session), height, stretch)
 
     def pull_to(self, at: tuple[int, int]) -> None:
@@ -325,14 +350,15 @@ class Game:
         pull, self.pull = self.pull, None
         self.revision += 1
         if pull is not None and pull.shoots:
-            self.session.end_change()
+            self.history.end()
             self.shoot()
 
     def give_up_pull(self) -> None:
         """Aim as before the pull."""
         pull, self.pull = self.pull, None
         if pull is not None:
-            self._changing(lambda: self.session.restore(pull.before))
+            self._restore(pull.before)
+            self.history.cancel(pull.before)
 
     # Shooting and watching
 
@@ -348,7 +374,8 @@ class Game:
     def _keep(self, shot: Shot) -> None:
         """Count a shot, and watch it."""
         self.count += 1
-        self.shots.append(replace(shot, start=self.start, number=self.count))
+        self.shots.append(replace(shot, number=self.count))
+        self.history.add(self.session.changes, shot=self.count)
         del self.shots[:-MOST_SHOTS]
         self.watch(self.shots[-1])
 
@@ -374,7 +401,7 @@ class Game:
             return
         self.playback, self.still = None, 0.0
         self.revision += 1
-        ours = shot is not None and shot.source == self.session.source
+        ours = shot is not None and shot.changes.source == self.session.source
         if from_rest and playback.over and ours and self.session.controls.next_start is not None:
             assert shot is not None
             if self._changing(lambda: self.session.start_from(shot)):
@@ -386,7 +413,7 @@ class Game:
         """Play another scene or preset, or watch a replay."""
         if source.endswith(replay.SUFFIX):
             self.trying(lambda: self.open_replay(Path(source)))
-        elif self.trying(lambda: self.session.open(source)):
+        elif self._changing(lambda: self.session.open(source)):
             self._opened()
 
     def open_replay(self, path: Path, scene: str | None = None) -> None:
@@ -401,7 +428,6 @@ class Game:
         self.playback = self.pull = self.before_save = self.unreadable = None
         self.shooting = False
         self.runs.forget()
-        self.start += 1
         if self.session.source not in self.opened:
             self.opened.append(self.session.source)
         self.watch_files = Watch(self.session.files)
@@ -422,6 +448,7 @@ class Game:
         self.unreadable, self.code = None, self.code + code
         if self.session.base.folder != folder:
             self._opened()
+            self.history.add(self.session.changes)
         else:
             self.aim_again()
             self.before_save = before if not self.settled else None

@@ -71,7 +71,7 @@ TABLE = (
     Command("next_preset", ("page down", "page up"), "next, previous preset", "More"),
     Command("panel", ("tab",), "the panel of parameters", "More"),
     Command("reset", ("backspace",), "all parameters as in the file", "More"),
-    Command("undo", ("ctrl z",), "take back the last change", "More"),
+    Command("undo", ("ctrl z", "ctrl y"), "undo, redo the last of 200 changes", "More", repeats=True),
     Command("rack", ("b",), "the balls back where they began", "More"),
     Command("sound", ("u",), "sound", "More"),
     Command("cost", ("f3",), "what a frame and a run cost", "More"),

@@ -25,8 +25,8 @@ SUFFIX = ".replay.json"
 def save(shot: Shot, path: Path) -> None:
     """Write a shot."""
     body = {
-        "scene": shot.source,
-        "changes": shot.changes,
+        "scene": shot.changes.source,
+        "changes": shot.changes.values,
         "parameters": shot.scene.parameters.model_dump(mode="json"),
         "run": _through_json(data_of(shot.run)),
     }
@@ -73,7 +73,7 @@ def read(path: Path, scene: str | None = None, running: Path | None = None) -> t
         source = scene if scene is not None else _allowed(str(body["scene"]), path, running)
         session = Session(source, body["changes"])
         recorded = load(source, body["parameters"])
-        shot = Shot(recorded, run_of(recorded, body["run"]), dict(body["changes"]), source, recorded=True)
+        shot = Shot(recorded, run_of(recorded, body["run"]), session.changes, recorded=True)
     except (AttributeError, KeyError, IndexError, TypeError, ValueError, OverflowError) as error:
         raise RequestError(f"{path}: damaged: {type(error).__name__} {error}") from None
     return session, shot

@@ -1,32 +1,18 @@
-"""A scene file with the changes made in the window, and undo."""
+"""A scene file with the changes made in the window."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import replace
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 from sandbox import parameters as declared
 from sandbox.scene import Scene, load
 from sandbox.scene.modules import read_again
 from sandbox.sport.controls import Controls
+from sandbox.window.history import Changes
 from sandbox.window.shot import Shot, place_of, value_at
-
-#: Number of changes that can be undone.
-UNDOABLE = 100
-
-
-class Changes(NamedTuple):
-    """The changes from the scene file."""
-
-    values: dict[str, Any]  # by key
-    positions: frozenset[str]  # keys that were changed because a shot began where the one before it ended
-
-    @property
-    def moved(self) -> dict[str, Any]:
-        """The values at these keys."""
-        return {key: self.values.get(key) for key in self.positions}
 
 
 class Session:
@@ -41,11 +27,15 @@ class Session:
         base = load(source)
         scene = load(source, changes or {}, overrides_from="--set")
         scene.build()  # reports values that are invalid together
-        self.source, self.base, self.scene = source, base, scene
-        self.changes = Changes(dict(changes or {}), frozenset())
-        self.undoable: list[tuple[frozenset[str], Changes]] = []  # the keys of each change, and the changes before it
+        self.base, self.scene = base, scene
+        self.changes = Changes(source, dict(changes or {}))
         self._place: tuple[Scene | None, tuple[Any, ...]] = (None, ())
         self._declared.clear()
+
+    @property
+    def source(self) -> str:
+        """The scene file, as it was opened."""
+        return self.changes.source
 
     @property
     def controls(self) -> Controls:
@@ -106,55 +96,32 @@ class Session:
         )
         return replace(self.base, parameters=parameters)
 
-    def _set(self, changes: Changes, what: frozenset[str]) -> None:
-        """Apply changes; ``what`` names the keys: successive changes of the same keys are undone together."""
-        scene = self._with(changes.values)
-        same = what and self.undoable and self.undoable[-1][0] == what
-        if changes.values != self.changes.values and not same:
-            self.undoable.append((what, self.changes))
-            del self.undoable[:-UNDOABLE]
-        self.scene, self.changes = scene, changes
+    def _set(self, values: dict[str, Any], positions: frozenset[str]) -> None:
+        self.scene, self.changes = self._with(values), Changes(self.source, values, positions & values.keys())
 
     def change(self, values: Mapping[str, Any]) -> None:
         """Add these changes."""
-        self._set(Changes({**self.changes.values, **values}, self.changes.positions), frozenset(values))
-
-    def end_change(self) -> None:
-        """Later changes are undone separately, even those of the same keys."""
-        if self.undoable:
-            self.undoable[-1] = frozenset(), self.undoable[-1][1]
+        self._set({**self.changes.values, **values}, self.changes.positions)
 
     def reset(self, key: str | None = None) -> None:
         """Back to the file: one parameter, or all of them."""
-        values = {} if key is None else {k: v for k, v in self.changes.values.items() if k != key}
-        self._set(Changes(values, self.changes.positions & values.keys()), frozenset())
+        self._set({} if key is None else without(self.changes.values, {key}), self.changes.positions)
 
     def restore(self, changes: Changes) -> None:
-        """Return to these earlier changes."""
-        self.scene, self.changes = self._with(changes.values), changes
+        """Return to these changes, maybe of another scene file."""
+        if changes.source != self.source:
+            self.open(changes.source)
+        self._set(changes.values, changes.positions)
 
-    def undo(self) -> bool:
-        """Take back the last change; returns whether there was one."""
-        if not self.undoable:
-            return False
-        _, before = self.undoable[-1]
-        self.restore(before)
-        self.undoable.pop()
-        return True
-
-    def start_from(self, shot: Shot) -> bool:
-        """Begin the next shot where the balls of ``shot`` came to rest; returns whether the scene supports it."""
-        if self.controls.next_start is None:
-            return False
-        values = dict(self.controls.next_start(shot.run, shot.scene.parameters))
-        positions = self.changes.positions | values.keys()
-        self._set(Changes({**self.changes.values, **values}, positions), frozenset())
-        return True
+    def start_from(self, shot: Shot) -> None:
+        """Begin the next shot where the balls of ``shot`` came to rest, if the scene supports it."""
+        if self.controls.next_start is not None:
+            values = dict(self.controls.next_start(shot.run, shot.scene.parameters))
+            self._set({**self.changes.values, **values}, self.changes.positions | values.keys())
 
     def begin_again(self) -> None:
         """Take back what ``start_from`` changed."""
-        values = {key: value for key, value in self.changes.values.items() if key not in self.changes.positions}
-        self._set(Changes(values, frozenset()), frozenset())
+        self._set(without(self.changes.values, self.changes.positions), frozenset())
 
     def reload(self, code: bool = False) -> None:
         """Read the scene file again, and with ``code`` the scene's modules too. Changes are kept if it is still the
@@ -186,6 +153,11 @@ class Session:
         for key, value in self.changes.values.items():
             settings += ["--set", f"{key}={value if isinstance(value, str) else _toml(value)}"]
         return shlex.join(["sandbox", "run", self.source, *settings])
+
+
+def without(values: Mapping[str, Any], keys: Collection[str]) -> dict[str, Any]:
+    """The values at other keys."""
+    return {key: value for key, value in values.items() if key not in keys}
 
 
 def _toml(value: Any) -> str:

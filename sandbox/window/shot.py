@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -12,6 +12,7 @@ import numpy as np
 from sandbox.physics.forces import Gravity
 from sandbox.scene import Scene
 from sandbox.sport.amounts import amount
+from sandbox.window.history import Changes
 from sandbox.window.path import moves, points
 
 if TYPE_CHECKING:
@@ -49,11 +50,14 @@ class Shot:
 
     scene: Scene
     run: Run
-    changes: dict[str, Any] = field(default_factory=dict)  # over the scene file
-    source: str = ""  # the scene file, as it was opened
-    start: int = 0  # shots with the same number began from the same positions
+    changes: Changes = Changes("", {})
     number: int = 0  # from 1 in the order of shooting; 0 while aiming
     recorded: bool = False  # read from a replay
+
+    @cached_property
+    def start(self) -> tuple[Any, ...]:
+        """Equal for shots of one scene file that begin from the same positions."""
+        return self.scene.folder, *self.changes.start
 
     @cached_property
     def place(self) -> tuple[Any, ...]:

@@ -444,8 +444,7 @@ class View:
     def _ghosts(self, shot: Shot) -> list[Shot]:
         """The earlier shots that are drawn with this one."""
         if self.game.playback is not None:
-            alike = shot.source, shot.start
-            return [each for each in self.game.shots if each is not shot and (each.source, each.start) == alike]
+            return [each for each in self.game.shots if each is not shot and each.start == shot.start]
         before = [self.game.before_save] if self.game.before_save is not None else []
         return [*before, *self.game.recent]
 

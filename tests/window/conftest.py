@@ -95,7 +95,7 @@ class Player:
 @pytest.fixture(scope="session")
 def shot_of():
     """Gives the shot of a session as it stands."""
-    return lambda session: Shot(session.scene, simulate(session.scene), session.changes.values, session.source)
+    return lambda session: Shot(session.scene, simulate(session.scene), session.changes)
 
 
 @pytest.fixture(scope="session")

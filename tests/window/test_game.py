@@ -16,6 +16,7 @@ from sandbox.engine.accuracy import LEVELS
 from sandbox.new import new_scene
 from sandbox.window.aim import nudged
 from sandbox.window.game import LATE, LONG, MOST_SHOTS, Game
+from sandbox.window.history import DEPTH
 from sandbox.window.session import Session
 from sandbox.window.worker import computed
 from sandbox.workers import WorkerLost
@@ -214,6 +215,42 @@ class TestUndo:
         game.undo()
         assert game.session.changes.values == {}
 
+    def test_redo_does_again_what_was_undone_until_something_else_is_done(self, game):
+        for key in ("gravity", "pin.distance"):
+            game.change({key: 3.0})
+        for _ in range(3):
+            game.undo()
+        game.redo()
+        assert game.session.changes.values == {"gravity": 3.0}
+        game.change({"launch.speed": 2.0})
+        game.redo()
+        assert game.notices[-1][0] == "nothing to redo"
+        assert game.session.changes.values == {"gravity": 3.0, "launch.speed": 2.0}
+
+    def test_a_shot_and_another_scene_are_undone_and_done_again(self, game):
+        game.change({"launch.speed": 2.0})
+        game.settle()
+        game.shoot()
+        game.undo()
+        assert game.playback is None
+        assert game.session.value("launch.speed") == 2.0
+        game.redo()
+        assert game.shot is game.shots[0]
+        game.open("golf/moon")
+        game.undo()
+        assert (game.session.title, game.session.value("launch.speed")) == ("golf/putt", 2.0)
+        game.redo()
+        assert game.session.title == "golf/moon"
+
+    def test_the_last_200_are_kept(self, game):
+        for number in range(DEPTH + 50):
+            game.change({"gravity": 1.0 + 0.01 * (number // 2), "launch.angle": 0.01 * number})
+            game.history.end()
+        for _ in range(DEPTH + 50):
+            game.undo()
+        assert game.notices[-1][0] == "nothing to undo"
+        assert game.session.value("launch.angle") == pytest.approx(0.5)
+
     def test_two_pulls_are_two_changes(self, game):
         for at in ((100, 300), (50, 300)):
             game.begin_pull((300, 300), 600, 1.0)
@@ -225,6 +262,13 @@ class TestUndo:
         strong = game.session.value("launch.speed")
         game.undo()
         assert 0 < game.session.value("launch.speed") < strong
+        weak = game.session.changes
+        game.begin_pull((300, 300), 600, 1.0)
+        game.pull_to((100, 250))
+        game.give_up_pull()
+        assert game.session.changes == weak
+        game.undo()
+        assert game.session.changes.values == {}
 
 
 def test_a_full_pull_suits_the_shot():

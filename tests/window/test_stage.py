@@ -31,6 +31,7 @@ ACTIONS = {
     "turned": lambda view: commands.do(view, "turn"),
     "reset": lambda view: commands.do(view, "reset"),
     "undo": lambda view: commands.do(view, "undo"),
+    "redo": lambda view: commands.do(view, "-undo"),
     "shoot": lambda view: view.game.shoot(),
     "to the end": lambda view: view.game.playback and view.game.playback.seek(1e9),
     "Enter": lambda view: commands.do(view, "again"),
