@@ -35,7 +35,7 @@ SCRIPTS = {
     "window": "benchmarks/window.py --frames 60",
 }
 #: Packages whose versions are listed.
-PACKAGES = ("pymunk", "numpy", "scipy", "pillow", "pygame-ce", "pydantic", "typer")
+PACKAGES = ("pymunk", "numpy", "scipy", "pillow", "pygame-ce", "pydantic", "click")
 
 
 def main() -> None:

@@ -428,7 +428,7 @@ def test_one_of_a_list_may_be_set(call, monkeypatch):
             ["run", "golf", "--set", "launch.speed=150", "mph"],
             'a value with a space goes in quotes: launch.speed="150 m',
         ),
-        (["run", "golf", "--bogus"], "No such option: --bogus\nsandbox run --help shows its arguments"),
+        (["run", "golf", "--bogus"], "No such option '--bogus'.\nsandbox run --help shows its arguments"),
         (["run", "golf", "--fps"], "Option '--fps' requires an argument.\nsandbox run --help shows its arguments"),
         (["run"], "Missing argument 'SCENE'"),
         (["bogus"], "No such command 'bogus'.\nsandbox --help shows its arguments"),
@@ -781,7 +781,7 @@ def test_modules_in_the_current_folder_do_not_replace_those_of_python(tmp_path: 
     """Neither in the program nor in the processes of a sweep."""
     (tmp_path / "sandbox").write_text(f"if __name__ == '__main__':\n    {COMMAND[-1]}")
     (here := tmp_path / "here").mkdir()
-    for name in ("random", "struct", "pickle", "multiprocessing", "typer", "numpy", "scene"):
+    for name in ("random", "struct", "pickle", "multiprocessing", "click", "numpy", "scene"):
         (here / f"{name}.py").write_text("open('ran', 'w')\nraise ImportError")
     command = [
         sys.executable,
@@ -871,7 +871,7 @@ def test_other_signals_stop_as_ctrl_c_does_and_leave_no_frames(drop: Path, tmp_p
 @pytest.mark.parametrize("source", ["{}", "import contextlib; exec({!r})"])
 def test_an_interrupt_during_the_first_import_is_a_line(tmp_path: Path, source: str, by: int, code: int):
     """Before any code of ours Python itself says what it likes; from the first line of ours on, so do we."""
-    (tmp_path / "typer.py").write_text(source.format(f"import signal; signal.raise_signal({by:d})"))
+    (tmp_path / "click.py").write_text(source.format(f"import signal; signal.raise_signal({by:d})"))
     environment = os.environ | {"PYTHONPATH": str(tmp_path)}
     outcome = subprocess.run([sys.executable, "-m", "sandbox", "list"], capture_output=True, text=True, env=environment)
     assert (outcome.returncode, outcome.stdout, outcome.stderr) == (code, "", "stopped\n")

@@ -18,8 +18,8 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from click.testing import CliRunner
 from PIL import Image
-from typer.testing import CliRunner
 
 import sandbox.physics
 from sandbox.cli.program import app
@@ -156,7 +156,7 @@ COMMANDS = sorted(set(re.findall(r"(?:^    |`)sandbox ((?!COMMAND)[a-z].*?)(?:`|
 
 
 def test_the_readme_has_all_commands():
-    commands = {command.name for command in app.registered_commands}
+    commands = set(app.commands)
     assert {command.split()[0] for command in COMMANDS} == commands
 
 

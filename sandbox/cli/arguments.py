@@ -3,42 +3,55 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Annotated, Any
+from functools import wraps
+from typing import TYPE_CHECKING, Any
 
-import typer
+import click
 
 from sandbox.errors import RequestError
 
 if TYPE_CHECKING:
     from sandbox.scene import Scene
 
-SceneArgument = Annotated[
-    str,
-    typer.Argument(
-        metavar="SCENE", help="A scene (golf), a preset (golf/driver) or a scene file of your own.", show_default=False
-    ),
-]
-OptionalScene = Annotated[
-    str | None,
-    typer.Argument(metavar="[SCENE]", help="A scene, preset or scene file; all scenes if none.", show_default=False),
-]
-Settings = Annotated[
-    list[str] | None,
-    typer.Option(
-        "--set", metavar="KEY=VALUE", help='Change a parameter; repeatable. A value may have a unit: "171 mph".'
-    ),
-]
-JsonList = Annotated[bool, typer.Option("--json", help="Print one JSON list in place of the tables.")]
+Command = Callable[..., None]
 LEVELS = ("fast", "balanced", "precise")
-Level = Annotated[
-    str | None,
-    typer.Option(
+
+scene_argument = click.argument(
+    "scene", metavar="SCENE", help="A scene (golf), a preset (golf/driver) or a scene file of your own."
+)
+optional_scene = click.argument(
+    "scene", metavar="[SCENE]", required=False, help="A scene, preset or scene file; all scenes if none."
+)
+json_option = click.option("--json", "as_json", is_flag=True, help="Print one JSON value in place of the text.")
+
+
+def changes_options(command: Command) -> Command:
+    """``--set`` and ``--accuracy``, given to the command as ``changes``: values by dotted key."""
+
+    @click.option(
+        "--set",
+        "settings",
+        metavar="KEY=VALUE",
+        multiple=True,
+        help='Change a parameter; repeatable. A value may have a unit: "171 mph".',
+    )
+    @click.option(
         "--accuracy",
         metavar="|".join(LEVELS),
         help="Speed against accuracy, in place of the scene file's accuracy.level.",
-        show_default=False,
-    ),
-]
+    )
+    @wraps(command)
+    def changed(*, settings: tuple[str, ...], accuracy: str | None, **arguments: Any) -> None:
+        from sandbox.parameters import parse_assignment
+
+        changes = dict(map(parse_assignment, settings))
+        if accuracy is not None:
+            if accuracy not in LEVELS:
+                raise RequestError(f"--accuracy {accuracy}: must be {', '.join(LEVELS[:-1])} or {LEVELS[-1]}")
+            changes["accuracy.level"] = accuracy
+        command(changes=changes, **arguments)
+
+    return changed
 
 
 def whole_number(option: str, low: int, high: float = float("inf"), unit: str = "") -> Callable[[str], int]:
@@ -57,28 +70,8 @@ def whole_number(option: str, low: int, high: float = float("inf"), unit: str = 
     return read
 
 
-def load(source: str, settings: list[str] | None, accuracy: str | None) -> Scene:
+def load(source: str, changes: dict[str, Any]) -> Scene:
     """The scene with ``--set`` and ``--accuracy`` applied."""
     from sandbox import scene
 
-    return scene.load(source, changes(settings, accuracy), overrides_from="--set")
-
-
-def changes(settings: list[str] | None, accuracy: str | None) -> dict[str, Any]:
-    """``--set`` and ``--accuracy`` as values by dotted key."""
-    from sandbox.parameters import parse_assignment
-
-    changed = dict(parse_assignment(text) for text in settings or [])
-    if accuracy is not None:
-        if accuracy not in LEVELS:
-            raise RequestError(f"--accuracy {accuracy}: must be {', '.join(LEVELS[:-1])} or {LEVELS[-1]}")
-        changed["accuracy.level"] = accuracy
-    return changed
-
-
-def loaded(source: str | None, settings: list[str] | None, accuracy: str | None) -> list[Scene]:
-    """One scene, or all that come with the sandbox."""
-    from sandbox.scene import listings
-
-    sources = [source] if source is not None else [found.name for found in listings() if "/" not in found.name]
-    return [load(name, settings, accuracy) for name in sources]
+    return scene.load(source, changes, overrides_from="--set")

@@ -3,42 +3,34 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import Any
 
-import typer
+import click
 
-from sandbox.cli.arguments import (
-    JsonList,
-    Level,
-    OptionalScene,
-    SceneArgument,
-    Settings,
-    changes,
-    load,
-    loaded,
-    whole_number,
-)
+from sandbox.cli.arguments import changes_options, json_option, load, optional_scene, scene_argument, whole_number
 from sandbox.cli.outputs import writing
 from sandbox.cli.say import json_text, say
 from sandbox.errors import RequestError, RunError
 
 
+@click.command()
+@scene_argument
+@click.option(
+    "--vary", metavar="KEY=LO:HI", multiple=True, required=True, help="A number and its range; once or twice."
+)
+@click.option("--target", metavar="NAME=VALUE", multiple=True, help="A result and its target value; once or twice.")
+@click.option("--maximize", metavar="NAME", help="A number that is to be as great as possible.")
+@changes_options
+@json_option
+@click.option("--show", metavar="F.png", type=Path, help="Draw the results of all tries.")
 def aim(
-    scene: SceneArgument,
-    vary: Annotated[
-        list[str], typer.Option(metavar="KEY=LO:HI", help="A number and its range; once or twice.", show_default=False)
-    ],
-    target: Annotated[
-        list[str] | None,
-        typer.Option(metavar="NAME=VALUE", help="A result and its target value; once or twice.", show_default=False),
-    ] = None,
-    maximize: Annotated[
-        str | None, typer.Option(metavar="NAME", help="A number that is to be as great as possible.")
-    ] = None,
-    set_: Settings = None,
-    accuracy: Level = None,
-    as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object in place of the card.")] = False,
-    show: Annotated[Path | None, typer.Option(metavar="F.png", help="Draw the results of all tries.")] = None,
+    scene: str,
+    vary: tuple[str, ...],
+    target: tuple[str, ...],
+    maximize: str | None,
+    changes: dict[str, Any],
+    as_json: bool,
+    show: Path | None,
 ) -> None:
     """Find the values that give a result: all of them in the range, each with its numerical error.
 
@@ -59,9 +51,9 @@ def aim(
     from sandbox.lab.axes import parse_span
     from sandbox.progress import bar
 
-    chosen = load(scene, set_, accuracy)
+    chosen = load(scene, changes)
     spans = [parse_span(chosen, "--vary", text) for text in vary]
-    targets = [parse_target(text, chosen) for text in target or []]
+    targets = [parse_target(text, chosen) for text in target]
     if maximize is not None:
         targets.append(Target(maximize, GREATEST))
     if not targets:
@@ -84,48 +76,48 @@ def aim(
         say("\n".join([*report.as_text(found), *written]))
 
 
+@click.command()
+@scene_argument
+@click.option(
+    "--over",
+    metavar="KEY=LO:HI:N",
+    multiple=True,
+    required=True,
+    help="A parameter and its values, also as KEY=A,B,C; repeatable.",
+)
+@click.option("--out", metavar="F.csv", type=Path, required=True, help="One row for each point.")
+@changes_options
+@click.option(
+    "--samples",
+    metavar="N",
+    type=whole_number("--samples", 1),
+    help="Number of random points, within ranges and from lists.",
+)
+@click.option("--seed", metavar="N", type=whole_number("--seed", 0), help="Seed of the random points.  [default: 0]")
+@click.option("--check", is_flag=True, help="Run each point again, finer, and add its errors.")
+@click.option("--plot", metavar="F.png", type=Path, help="A map over two parameters, a curve over one.")
+@click.option("--of", metavar="NAME", help="The result that --plot shows.")
+@click.option("--parquet", metavar="F.parquet", type=Path, help="Write the rows as Parquet too; needs pyarrow.")
+@click.option(
+    "--jobs",
+    metavar="N",
+    type=whole_number("--jobs", 1, unit="processes"),
+    help="Number of processes.  [default: as many as save time]",
+)
+@click.option("--scheduler", metavar="ADDRESS", help="Run on the workers of a Dask scheduler.")
 def sweep(
-    scene: SceneArgument,
-    over: Annotated[
-        list[str],
-        typer.Option(
-            metavar="KEY=LO:HI:N", help="A parameter and its values, also as KEY=A,B,C; repeatable.", show_default=False
-        ),
-    ],
-    out: Annotated[Path, typer.Option(metavar="F.csv", help="One row for each point.", show_default=False)],
-    set_: Settings = None,
-    accuracy: Level = None,
-    samples: Annotated[
-        int | None,
-        typer.Option(
-            metavar="N",
-            parser=whole_number("--samples", 1),
-            help="Number of random points, within ranges and from lists.",
-        ),
-    ] = None,
-    seed: Annotated[
-        int | None,
-        typer.Option(metavar="N", parser=whole_number("--seed", 0), help="Seed of the random points.  [default: 0]"),
-    ] = None,
-    check: Annotated[bool, typer.Option("--check", help="Run each point again, finer, and add its errors.")] = False,
-    plot: Annotated[
-        Path | None, typer.Option(metavar="F.png", help="A map over two parameters, a curve over one.")
-    ] = None,
-    of: Annotated[str | None, typer.Option(metavar="NAME", help="The result that --plot shows.")] = None,
-    parquet: Annotated[
-        Path | None, typer.Option(metavar="F.parquet", help="Write the rows as Parquet too; needs pyarrow.")
-    ] = None,
-    jobs: Annotated[
-        int | None,
-        typer.Option(
-            metavar="N",
-            parser=whole_number("--jobs", 1, unit="processes"),
-            help="Number of processes.  [default: as many as save time]",
-        ),
-    ] = None,
-    scheduler: Annotated[
-        str | None, typer.Option(metavar="ADDRESS", help="Run on the workers of a Dask scheduler.")
-    ] = None,
+    scene: str,
+    over: tuple[str, ...],
+    out: Path,
+    changes: dict[str, Any],
+    samples: int | None,
+    seed: int | None,
+    check: bool,
+    plot: Path | None,
+    of: str | None,
+    parquet: Path | None,
+    jobs: int | None,
+    scheduler: str | None,
 ) -> None:
     """Run a scene once for each point of a grid, or for random points, and write a row for each.
 
@@ -144,7 +136,7 @@ def sweep(
     from sandbox.lab.sweep import jobs_that_pay, sweep_to_file, workers
     from sandbox.progress import bar
 
-    chosen = load(scene, set_, accuracy)
+    chosen = load(scene, changes)
     plan = Plan(chosen, tuple(parse_axis(chosen, "--over", text) for text in over), samples or 0, seed or 0, check)
     check_file("--out", out, ".csv")
     if seed is not None and samples is None:
@@ -178,15 +170,12 @@ def sweep(
         raise RunError(f"every point failed, the first with: {done.first_error}")
 
 
-def trade(
-    scene: SceneArgument,
-    set_: Settings = None,
-    accuracy: Level = None,
-    as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object in place of the tables.")] = False,
-    plot: Annotated[
-        Path | None, typer.Option(metavar="F.png", help="Draw error against speed, a curve for each method.")
-    ] = None,
-) -> None:
+@click.command()
+@scene_argument
+@changes_options
+@json_option
+@click.option("--plot", metavar="F.png", type=Path, help="Draw error against speed, a curve for each method.")
+def trade(scene: str, changes: dict[str, Any], as_json: bool, plot: Path | None) -> None:
     """Measure speed against accuracy for a scene: every method and level, and what each part of the model contributes.
 
     Takes half a minute on an idle machine.
@@ -201,7 +190,7 @@ def trade(
     from sandbox.lab import trade as lab
     from sandbox.progress import bar
 
-    chosen = load(scene, set_, accuracy)
+    chosen = load(scene, changes)
     if plot is not None:
         chart.check_chart("--plot", plot)
     with bar("trade") as progress:
@@ -212,12 +201,11 @@ def trade(
     say(json_text(lab.as_dict(found)) if as_json else "\n".join(lab.as_text(found)))
 
 
-def stress(
-    scene: OptionalScene = None,
-    set_: Settings = None,
-    accuracy: Level = None,
-    as_json: JsonList = False,
-) -> None:
+@click.command()
+@optional_scene
+@changes_options
+@json_option
+def stress(scene: str | None, changes: dict[str, Any], as_json: bool) -> None:
     """Run a scene, or all of them, at extreme values with every method, and report what happened at each.
 
     \b
@@ -228,19 +216,22 @@ def stress(
     """
     from sandbox.lab import stress as lab
     from sandbox.progress import bar
+    from sandbox.scene import listings
 
-    scenes = loaded(scene, set_, accuracy)
+    names = [listing.name for listing in listings() if "/" not in listing.name] if scene is None else [scene]
+    scenes = [load(name, changes) for name in names]
     with bar("stress") as progress:
-        outcomes = lab.stress(scenes, accuracy or "balanced", with_bare=scene is None, progress=progress)
+        outcomes = lab.stress(
+            scenes, changes.get("accuracy.level", "balanced"), with_bare=scene is None, progress=progress
+        )
     say(json_text(lab.as_dicts(outcomes)) if as_json else "\n".join(lab.as_text(outcomes)))
 
 
-def validate(
-    scene: OptionalScene = None,
-    set_: Settings = None,
-    accuracy: Level = None,
-    as_json: JsonList = False,
-) -> None:
+@click.command()
+@optional_scene
+@changes_options
+@json_option
+def validate(scene: str | None, changes: dict[str, Any], as_json: bool) -> None:
     """Compare results with published numbers and their sources, for a scene or for all of them.
 
     \b
@@ -251,7 +242,6 @@ def validate(
     from sandbox.lab import validate as lab
     from sandbox.progress import bar
 
-    changed = changes(set_, accuracy)
     with bar("validate") as progress:
-        rows = lab.validate(scene, changed, progress)
+        rows = lab.validate(scene, changes, progress)
     say(json_text(lab.as_dicts(rows)) if as_json else "\n".join(lab.as_text(rows)))

@@ -9,6 +9,8 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import click
+
 from sandbox.errors import RequestError, RunError
 
 if TYPE_CHECKING:
@@ -37,11 +39,12 @@ class Drawn:
 
 @dataclass(frozen=True)
 class Output:
-    """One kind of file: its option, its suffix ("" for a folder of files), and the function that writes it."""
+    """One kind of file: its option, its suffix ("" for a folder of files), who writes it, and the option's help."""
 
     option: str
     suffix: str
     write: Callable[[Drawn, Path], None]
+    help: str
     is_picture: bool = True
     moves: bool = False
 
@@ -90,22 +93,37 @@ def _animation(saver: str, rate: int) -> Callable[[Drawn, Path], None]:
 
 #: In the order in which they are written.
 OUTPUTS = (
-    Output("--trajectory", ".csv", _trajectory, is_picture=False),
-    Output("--poster", ".png", _poster),
-    Output("--strip", ".png", _strip),
-    Output("--energy", ".png", _energy),
-    Output("--gif", ".gif", _animation("save_gif", 25), moves=True),
-    Output("--webp", ".webp", _animation("save_webp", 25), moves=True),
-    Output("--frames", "", _animation("save_frames", 60), moves=True),
+    Output("--trajectory", ".csv", _trajectory, "Write the path of every ball: t,ball,x,y,vx,vy,spin.", False),
+    Output("--poster", ".png", _poster, "Write the whole run as one picture."),
+    Output("--strip", ".png", _strip, "Write five frames side by side."),
+    Output("--energy", ".png", _energy, "Write a chart of where the energy goes."),
+    Output("--gif", ".gif", _animation("save_gif", 25), "Write the run as an animation.", moves=True),
+    Output("--webp", ".webp", _animation("save_webp", 25), "Write it as WebP: all colours, smaller file.", moves=True),
+    Output(
+        *("--frames", "", _animation("save_frames", 60)),
+        *("Write the run as PNG frames; the folder is made if missing.", True, True),
+    ),
 )
 
 
-def requested(paths: Mapping[str, Path | None], size: str | None, rate: int | None) -> dict[Output, Path]:
-    """The requested outputs with their paths. Raises RequestError, before any work is done, for one that cannot be
-    written, and for a size or rate that no output uses."""
+def options(command: Callable[..., None]) -> Callable[..., None]:
+    """An option for each output, which gives the command its path."""
+    for output in reversed(OUTPUTS):
+        metavar = f"F{output.suffix}" if output.suffix else "DIR"
+        command = click.option(output.option, metavar=metavar, type=Path, help=output.help)(command)
+    return command
+
+
+def requested(paths: Mapping[str, Path | None], size: Size | None, rate: int | None) -> dict[Output, Path]:
+    """The requested outputs with their paths, which are given by their options' names.
+
+    Raises RequestError, before any work is done, for one that cannot be written, and for a size or rate that no output
+    uses.
+    """
     from sandbox.files import check_distinct, check_file, check_folder
 
-    chosen = {output: path for output in OUTPUTS if (path := paths[output.option]) is not None}
+    given = {f"--{name}": path for name, path in paths.items()}
+    chosen = {output: path for output in OUTPUTS if (path := given[output.option]) is not None}
     for output, path in chosen.items():
         if output.suffix:
             check_file(output.option, path, output.suffix)
@@ -114,11 +132,11 @@ def requested(paths: Mapping[str, Path | None], size: str | None, rate: int | No
 
             check_folder(output.option, path)
             check_frames_folder(output.option, path)
-    check_distinct(paths)
+    check_distinct(given)
     if rate is not None and not any(output.moves for output in chosen):
         raise RequestError(f"--fps {rate}: goes with --frames, --gif or --webp")
     if size is not None and not any(output.is_picture for output in chosen):
-        raise RequestError(f"--size {size}: goes with a picture, such as --poster F.png")
+        raise RequestError(f"--size {'x'.join(map(str, size))}: goes with a picture, such as --poster F.png")
     return chosen
 
 

@@ -3,39 +3,21 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Sequence
 from io import TextIOWrapper
 from itertools import pairwise
-from typing import Annotated
 
-import typer
+import click
 
 import sandbox
 from sandbox.cli import lab, run, scenes
-from sandbox.cli.say import say
 from sandbox.errors import SandboxError, Stopped
 from sandbox.text import printable
 
-app = typer.Typer(
-    name="sandbox",
-    add_completion=False,
-    rich_markup_mode=None,
-    pretty_exceptions_enable=False,
-    context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110},
-)
 
-
-def _show_version(wanted: bool) -> None:
-    if wanted:
-        say(f"sandbox {sandbox.__version__}")
-        raise typer.Exit
-
-
-@app.callback()
-def _program(
-    version: Annotated[
-        bool, typer.Option("--version", callback=_show_version, is_eager=True, help="Show the version and exit.")
-    ] = False,
-) -> None:
+@click.group(context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110})
+@click.version_option(sandbox.__version__, message="sandbox %(version)s")
+def app() -> None:
     """A 2D sports sandbox: pick a sport, let go, and see real physics.
 
     \b
@@ -46,34 +28,32 @@ def _program(
     """
 
 
-app.command("list")(scenes.list_scenes)
-app.command("schema")(scenes.schema)
-app.command("new")(scenes.new_scene)
-app.command("run")(run.run)
-app.command("play")(scenes.play)
-app.command("aim")(lab.aim)
-app.command("sweep")(lab.sweep)
-app.command("trade")(lab.trade)
-app.command("stress")(lab.stress)
-app.command("validate")(lab.validate)
+for command in (
+    *(scenes.list_scenes, scenes.schema, scenes.new, scenes.play),
+    *(run.run, lab.aim, lab.sweep, lab.trade, lab.stress, lab.validate),
+):
+    app.add_command(command)
 
 
-def call(args: list[str] | None) -> int:
+def call(args: Sequence[str] | None) -> int:
     """Run one command; an error becomes a line on stderr and an exit code. Ctrl-C is a KeyboardInterrupt."""
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, TextIOWrapper):
             stream.reconfigure(errors="replace")  # a terminal without "±" shows "?"
+    given = list(sys.argv[1:] if args is None else args) or ["--help"]
     try:
-        given = sys.argv[1:] if args is None else args
-        code: int = app(given or ["--help"], prog_name="sandbox", standalone_mode=False) or 0
-        if code == Stopped.exit_code:  # what typer makes of a KeyboardInterrupt
-            raise KeyboardInterrupt
-        return code
-    except typer.TyperException as error:  # unknown command, missing argument, bad option
+        with app.make_context("sandbox", [*given]) as context:
+            app.invoke(context)
+        return 0
+    except click.exceptions.Exit as done:  # after --help
+        return done.exit_code
+    except BrokenPipeError:  # nobody reads what is printed
+        return 1
+    except click.ClickException as error:  # unknown command, missing argument, bad option
         hint = _unquoted(given, error.format_message()) or f"{_command_of(error, given)} --help shows its arguments"
         return _fail(f"{error.format_message()}\n{hint}", error.exit_code)
     except Stopped as error:
-        typer.echo(printable(str(error)), err=True)
+        click.echo(printable(str(error)), err=True)
         return error.exit_code
     except SandboxError as error:
         return _fail(str(error), error.exit_code)
@@ -99,7 +79,7 @@ def _unquoted(args: list[str], message: str) -> str:
     return ""
 
 
-def _command_of(error: typer.TyperException, args: list[str]) -> str:
+def _command_of(error: click.ClickException, args: list[str]) -> str:
     """The program or the command that had the wrong arguments."""
     context = getattr(error, "ctx", None)
     if context is not None:
@@ -109,5 +89,5 @@ def _command_of(error: typer.TyperException, args: list[str]) -> str:
 
 
 def _fail(message: str, code: int) -> int:
-    typer.echo(printable(f"error: {message}".rstrip()), err=True)
+    click.echo(printable(f"error: {message}".rstrip()), err=True)
     return code

@@ -5,21 +5,21 @@ from __future__ import annotations
 import sys
 from typing import Any
 
-import typer
+import click
 
 from sandbox.errors import RunError
 from sandbox.text import printable
 
 
 def say(text: str) -> None:
-    """Print on stdout, at once. A closed pipe ends the program quietly; a full disk is reported."""
+    """Print on stdout, at once. A full disk is reported."""
     if sys.stdout is None:
         raise RunError("stdout cannot be written: it is closed")
     try:
-        typer.echo(printable(text))
+        click.echo(printable(text))
         sys.stdout.flush()
     except BrokenPipeError:
-        raise typer.Exit(1) from None
+        raise
     except OSError as error:
         from sandbox.files import reason
 

@@ -4,20 +4,18 @@ from __future__ import annotations
 
 from itertools import zip_longest
 from pathlib import Path
-from typing import Annotated
+from typing import Any
 
-import typer
+import click
 
-from sandbox.cli.arguments import Level, SceneArgument, Settings, changes
+from sandbox.cli.arguments import changes_options, load, scene_argument
 from sandbox.cli.say import say
 from sandbox.text import one_line
 
 
-def list_scenes(
-    scene: Annotated[
-        str | None, typer.Argument(metavar="[SCENE]", help="Only this scene and its presets.", show_default=False)
-    ] = None,
-) -> None:
+@click.command("list")
+@click.argument("scene", metavar="[SCENE]", required=False, help="Only this scene and its presets.")
+def list_scenes(scene: str | None) -> None:
     """List all scenes and presets, and the scenes and scene files in this folder."""
     import textwrap
 
@@ -36,7 +34,9 @@ def list_scenes(
         )
 
 
-def schema(scene: SceneArgument) -> None:
+@click.command()
+@scene_argument
+def schema(scene: str) -> None:
     """Print the JSON schema of a scene's file: every key with its unit, bounds and meaning.
 
     \b
@@ -52,10 +52,10 @@ def schema(scene: SceneArgument) -> None:
     say(json.dumps(json_schema(parameters, name), indent=2))
 
 
-def new_scene(
-    name: Annotated[Path, typer.Argument(metavar="NAME", help="The folder to make: its name is the scene's.")],
-    from_above: Annotated[bool, typer.Option("--from-above", help="Show it from above, not from the side.")] = False,
-) -> None:
+@click.command()
+@click.argument("name", metavar="NAME", type=Path, help="The folder to make: its name is the scene's.")
+@click.option("--from-above", is_flag=True, help="Show it from above, not from the side.")
+def new(name: Path, from_above: bool) -> None:
     """Create a scene of your own: one that works, for you to edit.
 
     \b
@@ -63,20 +63,17 @@ def new_scene(
       sandbox new beachvolley
       sandbox run ./beachvolley
     """
-    from sandbox import new
+    from sandbox.new import FROM_ABOVE, FROM_SIDE, new_scene, next_steps
 
-    files = new.new_scene(name, new.FROM_ABOVE if from_above else new.FROM_SIDE)
-    say("\n".join([*(f"wrote {file}" for file in files), "", *new.next_steps(name)]))
+    files = new_scene(name, FROM_ABOVE if from_above else FROM_SIDE)
+    say("\n".join([*(f"wrote {file}" for file in files), "", *next_steps(name)]))
 
 
-def play(
-    scene: SceneArgument,
-    set_: Settings = None,
-    accuracy: Level = None,
-    scene_of_replay: Annotated[
-        str | None, typer.Option("--scene", metavar="FOLDER", help="The scene of a replay file.")
-    ] = None,
-) -> None:
+@click.command()
+@scene_argument
+@changes_options
+@click.option("--scene", "scene_of_replay", metavar="FOLDER", help="The scene of a replay file.")
+def play(scene: str, changes: dict[str, Any], scene_of_replay: str | None) -> None:
     """Open the window: pull back anywhere and let go to shoot. H lists the keys.
 
     SCENE may also be a replay file, which contains no code: if its scene is not installed, --scene names the folder.
@@ -89,11 +86,9 @@ def play(
     """
     from sandbox.window.app import play as play_in_window
 
-    changed = changes(set_, accuracy)
-    if any("[" in key for key in changed):  # the window keeps changes by whole parameters
+    if any("[" in key for key in changes):  # the window keeps changes by whole parameters
         from sandbox.parameters import without_indices
-        from sandbox.scene import load
 
-        parameters = load(scene).parameters
-        changed = without_indices(type(parameters), parameters.model_dump(), scene, changed, "--set")
-    play_in_window(scene, changed, scene_of_replay)
+        parameters = load(scene, {}).parameters
+        changes = without_indices(type(parameters), parameters.model_dump(), scene, changes, "--set")
+    play_in_window(scene, changes, scene_of_replay)
