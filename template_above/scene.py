@@ -60,7 +60,7 @@ def build(parameters: Parameters) -> Setup:
     return Setup(
         [Ball("ball", MASS, RADIUS, (FROM_END - x, 0.0), (vx, vy), rolling_spin=roll)],
         [Surface(name, shape, restitution=0.75, friction=0.2) for name, shape in shapes],
-        cloth=Cloth(sliding=0.4, rolling=lane.felt, spinning=0.01),
+        plane=Cloth(sliding=0.4, rolling=lane.felt, spinning=0.01),
         catches=[Catch("cup", (x - FROM_END, 0.0), 0.054)],
     )
 

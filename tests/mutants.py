@@ -40,7 +40,7 @@ TESTS: dict[str, dict[str, str]] = {
         "lanes": "batch",
         "lasting": "contact exact run",
         "ledger": "run cloth guards",
-        "on_cloth": "cloth plain",
+        "on_plane": "cloth ice plain",
         "outlines": "batch",
         "plain": "plain run guards cloth",
         "pressed": "clusters",

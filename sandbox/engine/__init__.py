@@ -40,5 +40,5 @@ def simulate_many(setups: Sequence[Setup], accuracy: Accuracy) -> Iterator[Run |
 
 def flies_in_batches(setup: Setup, accuracy: Accuracy) -> bool:
     """Whether ``simulate_many`` is quicker for setups of this kind than ``simulate`` one by one."""
-    one_at_a_time = setup.cloth is not None or setup.catches or len(setup.balls) > 1 or not setup.surfaces
+    one_at_a_time = setup.plane is not None or setup.catches or len(setup.balls) > 1 or not setup.surfaces
     return accuracy.method == "exact" and not one_at_a_time

@@ -15,7 +15,7 @@ METHODS = ("exact", "plain")
 #: multiplies it by ten or more.
 SKIN = 2e-11
 
-#: Lowest hop in m that is simulated where the cloth presses a sliding ball against another ball or a cushion.
+#: Lowest hop in m that is simulated where a plane presses a sliding ball against another ball or a cushion.
 LOWEST_HOP = 1e-6
 
 
@@ -26,7 +26,7 @@ class Accuracy:
     ``method`` is "exact" (flight by an integrator to the exact time of impact, impulses by pymunk) or "plain" (stock
     pymunk at a fixed step). ``tolerance`` is the target error in m: an integrator with error control chooses its
     steps from it, one without uses ``step``. ``settle`` is the height in m below which a bounce counts as lasting
-    contact, ``hop`` the minimum height of a hop where the cloth presses a ball against something, and ``skin`` the
+    contact, ``hop`` the minimum height of a hop where a plane presses a ball against something, and ``skin`` the
     overlap in m at which two shapes count as touching.
     """
 

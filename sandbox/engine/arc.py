@@ -22,8 +22,8 @@ class Arc:
     The position is the quintic that matches position, velocity and acceleration at both ends (error of order h^6),
     the velocity is its derivative, and the spin is the cubic that matches spin and its rate at both ends; all stored
     as Bernstein coefficients in u = (t - t0) / (t1 - t0). ``contact`` is what the ball slides or rolls on, or None in
-    flight; ``rolling_spin`` holds the coefficients of the spin about x and about y of a ball on cloth, as its state
-    has two more components.
+    flight; ``rolling_spin`` holds the coefficients of the spin about x and about y of a ball that rolls on a plane, as
+    its state has two more components.
     """
 
     t0: float  # s

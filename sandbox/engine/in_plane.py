@@ -54,8 +54,7 @@ class InPlane(Track):
         numerics: Numerics,
     ) -> None:
         super().__init__(ball, state, obstacles, catches)
-        self._bounds = setup.bounds
-        self._patches = setup.patches
+        self._setup = setup
         self._numerics = numerics
         self._law: Law = partial(acceleration, ball)
         self._method = INTEGRATORS[accuracy.integrator]
@@ -90,7 +89,7 @@ class InPlane(Track):
             acceleration = law(t, state)
             self._numerics.force_evaluations += 1
         wanted = self.next_step
-        h = within(self._patches, min(wanted, LONGEST, until - t), state, acceleration)
+        h = within(self._setup.patches, min(wanted, LONGEST, until - t), state, acceleration)
         if contact is not None and contact.touching.feature != SIDE:
             h = min(h, _LONGEST_TURN / (contact.touching.curvature * (abs(state[2]) + abs(state[3])) + 1e-30))
         shortest = max(1e-15, 1e-15 * t)
@@ -130,7 +129,7 @@ class InPlane(Track):
     def _check(self, t: float, state: State) -> None:
         x, y, vx, vy, spin = state
         total = x + y + vx + vy + spin
-        left, bottom, right, top = self._bounds
+        left, bottom, right, top = self._setup.bounds
         if total - total == 0.0 and left <= x <= right and bottom <= y <= top:
             return
         where = f"t = {t:.6g} s, ball {self.ball.name!r}: "

@@ -58,8 +58,8 @@ def ledger(run: Run) -> Ledger:
             if arc.contact == PRESSED:
                 impacts[met.partner(ball.name, arc.t0, arc.t1) or ""] += gain
                 continue
-            if run.setup.cloth is not None:
-                contacts["cloth"] += gain
+            if run.setup.plane is not None:
+                contacts[run.setup.plane_of(ball.name).name] += gain
             elif isinstance(arc.contact, Heaped):
                 lifted = -_work_of_forces(ball, arc, arc.contact)
                 contacts["position correction"] += lifted

@@ -3,7 +3,7 @@
 Chipmunk moves bodies first, then finds contacts, updates velocities and applies impulses: so a contact is found up to
 one step late, at whatever depth that step gives, and forces are integrated to first order. Nothing here improves on
 that, but errors are reported: cffi prints and swallows what a callback raises, so it is stored and raised after the
-step, and a ball that passes through a surface within a step is an error. The cloth's friction acts in
+step, and a ball that passes through a surface within a step is an error. The friction of a plane acts in
 ``velocity_func`` too; the upward part of the friction between balls and at cushions is applied after Chipmunk's.
 """
 
@@ -32,6 +32,7 @@ from sandbox.engine.surfaces import (
     rubbed_upward,
     speeds_where_touching,
 )
+from sandbox.engine.touch import Outline
 from sandbox.errors import RunError
 from sandbox.physics.cushion import rebound
 from sandbox.physics.integrators import Acceleration, State
@@ -75,9 +76,9 @@ class _Pending(NamedTuple):
 class _Tracked:
     """A ball's body, its recorded path, and what it touched."""
 
-    def __init__(self, ball: Ball, body: pymunk.Body, on_cloth: bool) -> None:
+    def __init__(self, ball: Ball, body: pymunk.Body, rolls: bool) -> None:
         self.ball = ball
-        self.rolling_spin: tuple[float, ...] = ball.rolling_spin if on_cloth else ()  # rad/s
+        self.rolling_spin: tuple[float, ...] = ball.rolling_spin if rolls else ()  # rad/s
         self.body = body
         self.path: list[Arc] = []
         self.since = 0.0  # s, start of the current arc
@@ -129,7 +130,7 @@ class PlainSimulation:
             body, _ = self._real.add(ball)
             body.position, body.velocity, body.angular_velocity = ball.position, ball.velocity, ball.spin
             body.velocity_func = self._real.guarded(self._move)
-            self._tracked[body] = _Tracked(ball, body, setup.cloth is not None)
+            self._tracked[body] = _Tracked(ball, body, setup.plane is not None and setup.plane_of(ball.name).rolls)
 
     def run(self) -> Run:
         started = perf_counter()
@@ -186,7 +187,8 @@ class PlainSimulation:
         """Remove a ball that is in a pocket; noticed at the next recording, so up to one interval late."""
         x, y = tracked.body.position
         for catch in self._setup.catches:
-            if (x - catch.center[0]) ** 2 + (y - catch.center[1]) ** 2 <= catch.radius**2:
+            takes = not catch.only or tracked.ball.name in catch.only
+            if takes and Outline.of(catch.shape, 0.0).near(x, y).gap <= 0.0:
                 tracked.caught = True
                 self._real.space.remove(tracked.body, *tracked.body.shapes)
                 speed = tracked.body.velocity.length
@@ -196,7 +198,7 @@ class PlainSimulation:
     def _rests(self, tracked: _Tracked) -> bool:
         _, _, vx, vy, spin = tracked.state()[:5]
         slow = (vx * vx + vy * vy) ** 0.5 + tracked.ball.radius * abs(spin) < _REST_SPEED
-        held = self._setup.cloth is not None or self._steps - tracked.touched <= 1
+        held = self._setup.plane is not None or self._steps - tracked.touched <= 1
         if not (slow and held):
             tracked.still_since = None
             return False
@@ -212,9 +214,9 @@ class PlainSimulation:
     # ------------------------------------------------------------------ callbacks
 
     def _move(self, body: pymunk.Body, gravity: Any, damping: float, h: float) -> None:
-        """Apply forces, torques and the cloth to a ball for a step."""
+        """Apply forces, torques and the plane's friction to a ball for a step."""
         self._numerics.force_evaluations += 1
-        tracked, cloth = self._tracked[body], self._setup.cloth
+        tracked, setup = self._tracked[body], self._setup
         state = tracked.state()
         x, y, vx, vy, spin = state[:5]
         if h * h * (vx * vx + vy * vy) > (_LEAP * tracked.ball.radius) ** 2:
@@ -225,9 +227,10 @@ class PlainSimulation:
         tracked.last = state, acceleration
         ax, ay, alpha = acceleration
         after: State = (x, y, vx + h * ax, vy + h * ay, *state[4:])
-        if cloth is not None:
-            phase = cloth.phase(after, tracked.ball.radius)
-            after = (x, y, *cloth.after(after, phase, min(h, phase.duration))[2:])
+        if setup.plane is not None:
+            plane = setup.plane_of(tracked.ball.name)
+            phase = plane.phase(after, tracked.ball.radius)
+            after = (x, y, *plane.after(after, phase, min(h, phase.duration))[2:])
         after = (*after[:4], after[4] + h * alpha, *after[5:])
         if not isfinite(sum(after)):
             raise self._diverged(tracked, after)

@@ -76,8 +76,8 @@ class Run:
         return arcs[max(index, 0)].state(t)
 
     def rolling_spin(self, ball: str, t: float) -> tuple[float, float]:
-        """Spin about x and about y of a ball on cloth at time t, in rad/s."""
-        wx, wy = self._full_state(ball, t)[5:]
+        """Spin about x and about y of a ball that rolls on a plane, in rad/s; none of one that slides as a disc."""
+        wx, wy = self._full_state(ball, t)[5:] or (0.0, 0.0)
         return wx, wy
 
     def caught_at(self, ball: str) -> float | None:

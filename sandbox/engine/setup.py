@@ -12,8 +12,8 @@ from sandbox.physics.hertz import PHENOLIC
 
 if TYPE_CHECKING:
     from sandbox.engine.event import Event
-    from sandbox.physics.cloth import Cloth
     from sandbox.physics.integrators import State
+    from sandbox.physics.plane import Plane
 
 Vector = tuple[float, float]
 
@@ -47,7 +47,7 @@ class Ball:
     position: Vector  # m
     velocity: Vector = (0.0, 0.0)  # m/s
     spin: float = 0.0  # rad/s, about the axis that points out of the picture
-    rolling_spin: Vector = (0.0, 0.0)  # rad/s, about x and y: only for a ball on cloth, seen from above
+    rolling_spin: Vector = (0.0, 0.0)  # rad/s, about x and y: only for a ball that rolls on a plane seen from above
     inertia_factor: float = SOLID_SPHERE  # moment of inertia over m r^2
     forces: Sequence[Force] = ()
     torques: Sequence[Torque] = ()
@@ -138,7 +138,7 @@ class Surface:
     ``rolling_resistance`` c is the deceleration of a rolling ball divided by the normal force per mass: a = c N / m.
     ``lowest_bounce`` is the height in m below which the surface absorbs a bounce and the ball rolls, as on grass.
     ``law`` replaces restitution and friction at an impact by a function of the normal and the tangential speed (m/s).
-    ``nose_height`` is for balls on cloth: the height in m above the cloth at which a cushion touches them.
+    ``nose_height`` is for balls seen from above: the height in m above their plane at which a cushion touches them.
     """
 
     name: str
@@ -160,14 +160,21 @@ class Surface:
 
 @dataclass(frozen=True)
 class Catch:
-    """A place that removes a ball once its centre is closer than ``radius``: a pocket."""
+    """A place that removes a ball once its centre is closer than ``radius``: a pocket; or a gutter, from ``center`` to
+    ``end``. It removes those named in ``only``, if any are."""
 
     name: str
     center: Vector  # m
     radius: float  # m
+    end: Vector | None = None  # m
+    only: Sequence[str] = ()
 
     def __post_init__(self) -> None:
         _check_pair(f"catch {self.name!r}: center", self.center)
+
+    @property
+    def shape(self) -> Segment | Circle:
+        return Circle(self.center, self.radius) if self.end is None else Segment(self.center, self.end, self.radius)
 
 
 class Patch(NamedTuple):
@@ -273,8 +280,8 @@ class Setup:
     It is data: made of dataclasses, tuples and module functions, so it can be pickled, compared and stacked.
     ``until`` is a function of the latest event, or an ``Until`` such as ``Touches``.
     ``between_balls(normal_speed, slip_speed)`` returns the Bounce of two balls; ``pairs`` gives a law for two by name:
-    ``("ball", "keeper", law)``. With ``cloth`` the balls are seen from above, sliding and rolling on it in closed form;
-    their own forces are then ignored.
+    ``("ball", "keeper", law)``. With a ``plane`` the balls are seen from above, sliding and rolling on it by its law of
+    motion, or that in ``planes`` under a ball's name: ``("ball", law)``; their own forces are then ignored.
     """
 
     balls: Sequence[Ball]
@@ -282,12 +289,13 @@ class Setup:
     duration: float = 60.0  # s
     until: Callable[[Event], bool] | Until | None = None
     between_balls: Callable[[float, float], Bounce] = ELASTIC
-    cloth: Cloth | None = None
+    plane: Plane | None = None
     catches: Sequence[Catch] = ()
     bounds: Bounds = Bounds()
     patches: Sequence[Patch] = ()
     contact: ContactModel = ContactModel()
     pairs: Sequence[tuple[str, str, Callable[[float, float], Bounce]]] = ()
+    planes: Sequence[tuple[str, Plane]] = ()
 
     def __post_init__(self) -> None:
         names = [ball.name for ball in self.balls]
@@ -296,12 +304,19 @@ class Setup:
         for name in names:
             if names.count(name) > 1:
                 raise ValueError(f"two balls are named {name!r}: names must be unique")
+        if self.planes and self.plane is None:
+            raise ValueError("a setup with planes for some balls needs a plane for all others")
         if not 0.0 < self.duration < inf:
             raise ValueError(f"duration = {self.duration} s must be positive and finite")
 
     def between(self, one: str, other: str) -> Callable[[float, float], Bounce]:
         """The law for impacts of two balls."""
         return next((law for *pair, law in self.pairs if {*pair} == {one, other}), self.between_balls)
+
+    def plane_of(self, ball: str) -> Plane:
+        """What a ball slides and rolls on, seen from above."""
+        assert self.plane is not None
+        return dict(self.planes).get(ball, self.plane)
 
     def ends_with(self, events: Sequence[Event]) -> bool:
         """Whether the run is over with the last of these events."""

@@ -20,9 +20,9 @@ from sandbox.engine.heap import Heap, Heaped
 from sandbox.engine.impacts import Impacts, Outcome
 from sandbox.engine.in_plane import Diverged, InPlane
 from sandbox.engine.lasting import RESTING, LastingContact
-from sandbox.engine.on_cloth import OnCloth, slowest_hop
+from sandbox.engine.on_plane import OnPlane, slowest_hop
 from sandbox.engine.run import Numerics, Run
-from sandbox.engine.setup import Circle, Setup, Surface, Until
+from sandbox.engine.setup import Setup, Surface, Until
 from sandbox.engine.start import starts
 from sandbox.engine.touch import TOUCHING_GAP, Obstacle, balls_touch
 from sandbox.engine.track import Track
@@ -61,7 +61,7 @@ class Simulation:
         self._over = False
         self._until = setup.until
         self._tracks = self._make_tracks()
-        slowest = 0.0 if setup.cloth is None else slowest_hop(setup.cloth, accuracy.hop)
+        slowest = 0.0 if setup.plane is None else slowest_hop(setup, accuracy.hop)
         self._impacts = Impacts(setup, self._tracks, self._numerics, slowest)
         self._pressed: Pressed | None = None
         self._heap: Heap | None = None
@@ -69,7 +69,7 @@ class Simulation:
             # here, not above: it brings numpy, which a run of one ball does not need
             from sandbox.engine.pressed import Pressed
 
-            if setup.cloth is None:
+            if setup.plane is None:
                 self._heap = Heap(setup, self._tracks, accuracy, self._numerics)
 
             self._pressed = Pressed(setup, self._tracks, accuracy.contact_step)
@@ -78,18 +78,17 @@ class Simulation:
         setup = self._setup
         obstacles: dict[float, list[Obstacle]] = {}
         skin = self._accuracy.skin
-        catches = [Obstacle(Surface(c.name, Circle(c.center, c.radius), 0.0, 0.0), 0.0, skin) for c in setup.catches]
+        catches = [(Obstacle(Surface(c.name, c.shape, 0.0, 0.0), 0.0, skin), c.only) for c in setup.catches]
         for radius in {ball.radius for ball in setup.balls}:
             obstacles[radius] = [Obstacle(surface, radius, skin) for surface in setup.surfaces]
         tracks: list[Track] = []
         for ball, (x, y) in zip(setup.balls, starts(setup.balls, obstacles), strict=True):
             state: State = (x, y, *map(float, (*ball.velocity, ball.spin)))
-            places = obstacles[ball.radius], catches
-            if setup.cloth is None:
-                tracks.append(InPlane(ball, state, *places, setup, self._accuracy, self._numerics))
-            else:
+            if setup.plane is not None and setup.plane_of(ball.name).rolls:
                 state = (*state, *map(float, ball.rolling_spin))
-                tracks.append(OnCloth(ball, state, *places, setup.cloth, self._numerics))
+            kind = InPlane if setup.plane is None else OnPlane
+            places = obstacles[ball.radius], [catch for catch, only in catches if not only or ball.name in only]
+            tracks.append(kind(ball, state, *places, setup, self._accuracy, self._numerics))
         return tracks
 
     def run(self) -> Run:

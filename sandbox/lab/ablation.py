@@ -19,6 +19,7 @@ from sandbox.lab.verdicts import verdict
 from sandbox.physics.air import UniformWind
 from sandbox.physics.coefficients import Constant, spin_ratio_lift
 from sandbox.physics.forces import Drag, Magnus, SpinDecay
+from sandbox.physics.plane import without
 from sandbox.scene.running import simulate_at
 from sandbox.sport.amounts import significant
 
@@ -184,7 +185,7 @@ def variants(setup: Setup) -> Iterator[Variant]:
         *((name, "left out", _without(setup, name), False) for name in _terms(setup)),
         *((*in_air, False) for in_air in _in_air(setup)),
         *((*at_contacts, True) for at_contacts in _at_contacts(setup)),
-        *((*on_cloth, False) for on_cloth in _on_cloth(setup)),
+        *((*on_plane, False) for on_plane in _on_plane(setup)),
     ):
         if other != setup:
             yield Variant(part, change, other, touching)
@@ -314,7 +315,13 @@ def _law_without(law: Law, part: str) -> Law:
     return law if not getattr(law(*_FAST), part) else _Without(law, part)
 
 
-def _on_cloth(setup: Setup) -> Iterator[tuple[str, str, Setup]]:
-    for part in ("sliding", "rolling", "spinning") if setup.cloth is not None else ():
-        cloth = replace(setup.cloth, **{part: 0.0})  # type: ignore[type-var]
-        yield f"{part} friction of the cloth", "left out", replace(setup, cloth=cloth)
+def _on_plane(setup: Setup) -> Iterator[tuple[str, str, Setup]]:
+    every = [] if setup.plane is None else [setup.plane, *(plane for _, plane in setup.planes)]
+    parts = {(term, plane.name): called for plane in every for term, called in plane.TERMS.items()}
+    for (term, name), called in parts.items():
+
+        def change(plane: Any, term: str = term, name: str = name) -> Any:
+            return without(plane, term) if plane.name == name else plane
+
+        planes = [(ball, change(plane)) for ball, plane in setup.planes]
+        yield f"{called} of the {name}", "left out", replace(setup, plane=change(setup.plane), planes=planes)

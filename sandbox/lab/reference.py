@@ -98,7 +98,7 @@ def converge(scene: Scene) -> Reference:
         _size(first, time),
         growth,
         diverges_at,
-        setup.cloth is not None,
+        setup.plane is not None,
     )
 
 

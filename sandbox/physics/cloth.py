@@ -22,30 +22,12 @@ Billiards.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from math import copysign, inf, sqrt
-from typing import NamedTuple
+from typing import ClassVar
 
-#: A ball on cloth: (x, y, vx, vy, wz, wx, wy) in m, m/s, rad/s; wz about the vertical, counter-clockwise from above.
-ClothState = tuple[float, float, float, float, float, float, float]
-
-#: Speed in m/s below which sliding, rolling or spinning is rounding. A ball this slow would move 1e-24 m.
-_STILL = 1e-12
-
-
-class Phase(NamedTuple):
-    """A phase of motion with constant accelerations, lasting ``duration`` s (infinite if nothing ends it)."""
-
-    mode: str  # "sliding", "rolling", "spinning" or "resting"
-    duration: float  # s
-    ax: float  # m/s^2
-    ay: float
-    alpha_z: float  # rad/s^2
-    alpha_x: float
-    alpha_y: float
-    radius: float  # m
-    ends_motion: bool  # at its end, sliding becomes rolling, or rolling becomes rest
-    ends_spin: bool  # at its end, the spin about the vertical is zero
+from sandbox.physics.plane import STILL, Phase, PlaneState
 
 
 @dataclass(frozen=True)
@@ -61,13 +43,26 @@ class Cloth:
     rolling: float = 0.01
     spinning: float = 0.0127
     gravity: float = 9.81  # m/s^2
+    name: str = "cloth"  # what it is called in reports: cloth, lane
+
+    rolls: ClassVar[bool] = True
+    TERMS: ClassVar[Mapping[str, str]] = {
+        "sliding": "sliding friction",
+        "rolling": "rolling friction",
+        "spinning": "spinning friction",
+    }
+
+    @property
+    def strongest(self) -> float:
+        """The deceleration in m/s^2 of a sliding ball."""
+        return self.sliding * self.gravity
 
     def __post_init__(self) -> None:
         for what in ("sliding", "rolling", "spinning", "gravity"):
             if not 0.0 <= getattr(self, what) < inf:
-                raise ValueError(f"cloth: {what} = {getattr(self, what)} must not be negative")
+                raise ValueError(f"{self.name}: {what} = {getattr(self, what)} must not be negative")
 
-    def phase(self, state: ClothState, radius: float) -> Phase:
+    def phase(self, state: PlaneState, radius: float) -> Phase:
         """The phase that starts at ``state`` for a ball of ``radius`` m, until its mode changes or its spin ends.
 
         Slides for ``2 |u| / (7 mu_s g)``, rolls for ``|v| / (mu_r g)``, spins for ``2 r |wz| / (5 mu_sp g)``.
@@ -77,19 +72,19 @@ class Cloth:
         slip = sqrt(ux * ux + uy * uy)
         speed = sqrt(vx * vx + vy * vy)
         mode, time, ax, ay, alpha_x, alpha_y = "resting", inf, 0.0, 0.0, 0.0, 0.0
-        if slip > _STILL:
+        if slip > STILL:
             mode, a = "sliding", self.sliding * self.gravity
             time = slip / (3.5 * a) if a > 0.0 else inf
             ax, ay = -a * ux / slip, -a * uy / slip
             # torque of the force at the lowest point, over 2/5 m r^2
             alpha_x, alpha_y = 2.5 * ay / radius, -2.5 * ax / radius
-        elif speed > _STILL:
+        elif speed > STILL:
             mode, a = "rolling", self.rolling * self.gravity
             time = speed / a if a > 0.0 else inf
             ax, ay = -a * vx / speed, -a * vy / speed
             alpha_x, alpha_y = -ay / radius, ax / radius
         alpha_z, spin_time = 0.0, inf
-        if radius * abs(wz) > _STILL:
+        if radius * abs(wz) > STILL:
             mode = "spinning" if mode == "resting" else mode
             alpha_z = -copysign(2.5 * self.spinning * self.gravity / radius, wz)
             spin_time = wz / -alpha_z if alpha_z != 0.0 else inf
@@ -97,14 +92,14 @@ class Cloth:
         ends = duration == time < inf, duration == spin_time < inf
         return Phase(mode, duration, ax, ay, alpha_z, alpha_x, alpha_y, radius, *ends)
 
-    def after(self, state: ClothState, phase: Phase, t: float) -> ClothState:
+    def after(self, state: PlaneState, phase: Phase, t: float) -> PlaneState:
         """The state ``t`` s into ``phase``, which started at ``state``; t is limited to its duration.
 
         At the end itself (t = duration) the constraints hold to the last bit: no slip where the ball begins to roll, no
         speed where it stops, no wz where the spin ends.
         """
         x, y, vx, vy, wz, wx, wy = state
-        mode, duration, ax, ay, alpha_z, alpha_x, alpha_y, radius, ends_motion, ends_spin = phase
+        mode, duration, ax, ay, alpha_z, alpha_x, alpha_y, radius, ends_motion, ends_spin, _ = phase
         if t > duration:
             t = duration
         x += t * (vx + 0.5 * t * ax)

@@ -85,7 +85,7 @@ def course(run: Run) -> Course:
         caught = run.caught_at(ball.name)
         for i, t in enumerate(times):
             x, y, vx, vy, *spins = run.state(ball.name, float(t))
-            if run.setup.cloth is not None:
+            if run.setup.plane is not None:
                 spins += run.rolling_spin(ball.name, float(t))
             if caught is not None and t >= caught:
                 gained["pockets"][i] -= kinetic(ball, (x, y, vx, vy, *spins))

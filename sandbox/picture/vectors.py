@@ -43,13 +43,14 @@ class Vectors:
         self.arcs = run.arcs[name]
 
     def forces(self, t: float) -> dict[str, tuple[float, float]]:
-        """What acts on the ball at time t (s) by cause, in N; "contact" or "cloth" is what it lies on."""
+        """What acts on the ball at time t (s) by cause, in N; "contact" or the plane's name is what it lies on."""
         found: dict[str, tuple[float, float]] = {}
         for name, (fx, fy) in by_cause(self.ball.forces, t, self.run.state(self.name, t)):
             before = found.get(name, (0.0, 0.0))
             found[name] = before[0] + float(fx), before[1] + float(fy)
         arc = self.arcs[max(0, bisect_right(self.arcs, t, key=lambda arc: arc.t0) - 1)]
-        surface = "cloth" if self.run.setup.cloth is not None else "contact" if arc.contact is not None else None
+        plane = self.run.setup.plane and self.run.setup.plane_of(self.name)
+        surface = plane.name if plane is not None else "contact" if arc.contact is not None else None
         if surface is not None:
             others = [sum(axis) for axis in zip((0.0, 0.0), *found.values(), strict=True)]
             ax, ay = self._acceleration(arc, t)

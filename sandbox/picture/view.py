@@ -390,14 +390,14 @@ class View(Generic[P]):
         return np.eye(3)
 
     def turn(self, name: str, t: float) -> np.ndarray:
-        """The matrix by which a ball is turned at time t in s: on cloth it rolls about level axes, too."""
-        if self.run.setup.cloth is None:
+        """The matrix by which a ball is turned at time t in s: where it rolls, about level axes, too."""
+        if self.run.setup.plane is None or not self.run.setup.plane_of(name).rolls:
             return turned((0.0, 0.0, self.run.angle(name, t))) @ self.lying(name)
         return self._turnings[name].at(t)
 
     @cached_property
     def _turnings(self) -> dict[str, Turning]:
-        """Of the balls that roll on cloth."""
+        """Of the balls that roll on a plane."""
         run = self.run
 
         def turning(name: str) -> Turning:

@@ -21,7 +21,7 @@ from typing import Any, Literal
 
 from pydantic import Field
 
-from sandbox.engine.on_cloth import slowest_hop
+from sandbox.engine.on_plane import slowest_hop
 from sandbox.engine.run import Event, Run
 from sandbox.engine.setup import Always, Ball, Bounce, ContactModel, Setup, Vector
 from sandbox.engine.touch import Obstacle
@@ -162,7 +162,7 @@ def build(parameters: Parameters) -> Setup:
         surfaces,
         duration=LONGEST,
         between_balls=_between_balls(ball),
-        cloth=Cloth(cloth.sliding_friction, cloth.rolling_friction, cloth.spinning_friction, parameters.gravity),
+        plane=Cloth(cloth.sliding_friction, cloth.rolling_friction, cloth.spinning_friction, parameters.gravity),
         catches=catches(table),
         contact=ContactModel(parameters.contact.model, parameters.contact.stiffness),
     )
@@ -292,8 +292,7 @@ class SlowerThrowsMore:
 def _met(run: Run, parameters: Parameters) -> list[Event]:
     """Every meeting of two balls or of a ball with cushion, jaw or pocket. The hops of balls that are pressed together
     count as one meeting."""
-    assert run.setup.cloth is not None
-    hop = 1.001 * slowest_hop(run.setup.cloth, run.accuracy.hop)
+    hop = 1.001 * slowest_hop(run.setup, run.accuracy.hop)
     last: dict[str, str] = {}  # what each ball met last
     met = []
     for event in run.events:

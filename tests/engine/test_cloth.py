@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from sandbox.engine import simulate
 from sandbox.engine.accuracy import LEVELS, resolve
 from sandbox.engine.ledger import ledger
-from sandbox.engine.on_cloth import slowest_hop
+from sandbox.engine.on_plane import slowest_hop
 from sandbox.engine.setup import Ball, Bounce, Catch, ContactModel, Segment, Setup, Surface, kinetic
 from sandbox.physics.cloth import Cloth
 from sandbox.physics.cushion import rebound
@@ -36,7 +36,7 @@ def of(restitution, friction):
 def test_a_rolling_ball_keeps_its_roll_through_a_smooth_head_on_hit():
     """e = 1, no friction: the cue ball stops, keeps its spin and follows at 2/7 v; the object ball ends at 5/7 v."""
     balls = [rolling("cue", (-0.5, 0.0), (2.0, 0.0)), ball("1", (0.0, 0.0))]
-    run = simulate(Setup(balls, cloth=Cloth(rolling=0.0), duration=3.0, between_balls=of(1.0, 0.0)), resolve())
+    run = simulate(Setup(balls, plane=Cloth(rolling=0.0), duration=3.0, between_balls=of(1.0, 0.0)), resolve())
     assert run.state("cue", 3.0)[2] == pytest.approx(2 / 7 * 2.0, rel=1e-9)
     assert run.state("1", 3.0)[2] == pytest.approx(5 / 7 * 2.0, rel=1e-9)
 
@@ -45,7 +45,7 @@ def test_friction_between_balls_acts_against_the_whole_slip():
     """A rolling ball hits head-on with slip r w: friction mu J turns the object ball backward, and the cue ball too."""
     mu, v = 0.05, 2.0
     balls = [rolling("cue", (-2 * R - 1e-9, 0.0), (v, 0.0)), ball("1", (0.0, 0.0))]
-    run = simulate(Setup(balls, cloth=CLOTH, duration=1e-6, between_balls=of(1.0, mu)), resolve())
+    run = simulate(Setup(balls, plane=CLOTH, duration=1e-6, between_balls=of(1.0, mu)), resolve())
     turn = 2.5 * mu * v / R  # r mu J / I with J = m v
     assert run.rolling_spin("1", 1e-7)[1] == pytest.approx(-turn, rel=1e-4)
     assert run.rolling_spin("cue", 1e-7)[1] == pytest.approx(v / R - turn, rel=1e-4)
@@ -64,7 +64,7 @@ def test_an_impact_conserves_momentum_and_never_gains_energy(cut, speed, side, d
     y = cut * 2 * R
     x = -((4 * R * R - y * y) ** 0.5) - 1e-4
     balls = [ball("cue", (x, y), (speed, 0.0), side, (0.0, draw)), ball("1", (0.0, 0.0))]
-    run = simulate(Setup(balls, cloth=CLOTH, duration=1e-3, between_balls=of(restitution, friction)), resolve())
+    run = simulate(Setup(balls, plane=CLOTH, duration=1e-3, between_balls=of(restitution, friction)), resolve())
     event = next(event for event in run.events if event.kind == "impact")
     before = np.array([run.before(name, event.t)[2:4] for name in ("cue", "1")])
     after = np.array([run.state(name, event.t)[2:4] for name in ("cue", "1")])
@@ -77,13 +77,14 @@ def test_a_steady_push_is_a_run_of_even_hops_and_ends():
     wall = Surface("cushion", Segment((R, -1.0), (R, 1.0)), 0.85, 0.2)
     balls = [ball("a", (-2 * R - 1e-6, 0.0), (0.0, 0.0), 0.0, (0.0, 40.0)), ball("b", (-1e-6, 0.0))]
     for level in LEVELS:
-        run = simulate(Setup(balls, [wall], cloth=CLOTH, duration=30.0, between_balls=of(0.95, 0.05)), resolve(level))
+        setup = Setup(balls, [wall], plane=CLOTH, duration=30.0, between_balls=of(0.95, 0.05))
+        run = simulate(setup, resolve(level))
         assert run.ended == "rest"
         times = np.linspace(0.0, run.duration, 1_000)
         a, b = (np.array([run.state(name, t)[0] for t in times]) for name in ("a", "b"))
         assert b.max() <= 1e-9
         assert (b - a).min() >= 2 * R - 1e-9
-        hop = 0.5 * 0.5 * M * slowest_hop(CLOTH, resolve(level).hop) ** 2
+        hop = 0.5 * 0.5 * M * slowest_hop(setup, resolve(level).hop) ** 2
         assert sum(ledger(run).impacts.values()) <= 10 * hop
 
 
@@ -91,7 +92,7 @@ def test_two_touching_balls_that_barely_close_do_not_stall():
     two = ball("2", (0.6893302035592077, 0.07289367542804442), (-0.0009600413070669939, 0.024262999307600855), 0.0,
                (-0.8490988384112285, -0.03359724609158334))  # fmt: skip
     ten = ball("10", (0.7464355178687772, 0.07515322744563493))
-    run = simulate(Setup([two, ten], cloth=CLOTH, between_balls=of(0.95, 0.05)), resolve())
+    run = simulate(Setup([two, ten], plane=CLOTH, between_balls=of(0.95, 0.05)), resolve())
     assert run.ended == "rest"
 
 
@@ -121,7 +122,7 @@ def test_the_order_in_which_balls_are_listed_changes_nothing(order):
     law = lambda normal, slip: Bounce(0.95, 0.01 + 0.1 * exp(-slip))  # noqa: E731
     ends = []
     for names in (order, ("cue", "1", "2")):
-        run = simulate(Setup([balls[n] for n in names], cloth=CLOTH, duration=0.2, between_balls=law), resolve())
+        run = simulate(Setup([balls[n] for n in names], plane=CLOTH, duration=0.2, between_balls=law), resolve())
         ends.append([run.state(name, 0.2) for name in balls])
     assert np.allclose(ends[0], ends[1], atol=1e-7)
 
@@ -135,7 +136,7 @@ def test_a_faint_touch_beside_a_hard_one_is_no_spring(order, drift):
         "C": rolling("C", (4 * R, 0.0), (-5.0, 0.0)),
     }
     laws = {"between_balls": of(0.95, 0.05), "contact": RIGID}
-    run = simulate(Setup([balls[name] for name in order], cloth=CLOTH, duration=1.0, **laws), resolve())
+    run = simulate(Setup([balls[name] for name in order], plane=CLOTH, duration=1.0, **laws), resolve())
     assert max(abs(run.state(name, 1e-9)[2]) for name in "ABC") < 5.0
     assert run.state("C", 1e-9)[2] == pytest.approx(1.5, abs=0.01)
 
@@ -153,12 +154,12 @@ def test_a_light_ball_squeezed_between_a_wall_and_a_heavy_one_gains_no_energy(wa
 def test_a_slip_too_small_to_square_is_no_trouble():
     cloth = Cloth(sliding=2.7e-275)
     balls = [ball("cue", (-0.2, 0.0), (2.0, 0.0)), ball("1", (0.0, 0.0))]
-    run = simulate(Setup(balls, cloth=cloth, duration=0.5, between_balls=of(0.95, 0.05)), resolve())
+    run = simulate(Setup(balls, plane=cloth, duration=0.5, between_balls=of(0.95, 0.05)), resolve())
     assert run.events[0].partner in ("1", "cue")
 
 
 def test_a_pocket_takes_a_ball_and_the_run_ends_when_the_rest_are_still():
-    setup = Setup([rolling("cue", (0.0, 0.0), (1.0, 0.0))], cloth=CLOTH, catches=[Catch("pocket", (0.5, 0.0), 0.06)])
+    setup = Setup([rolling("cue", (0.0, 0.0), (1.0, 0.0))], plane=CLOTH, catches=[Catch("pocket", (0.5, 0.0), 0.06)])
     run = simulate(setup, resolve())
     (event,) = [event for event in run.events if event.kind == "caught"]
     assert (event.partner, event.x) == ("pocket", pytest.approx(0.44, abs=1e-9))
@@ -169,7 +170,7 @@ def test_a_pocket_takes_a_ball_and_the_run_ends_when_the_rest_are_still():
 def test_plain_slides_rolls_and_catches_too():
     """First order: the same within a millimetre at 10,000 steps a second."""
     balls = [ball("cue", (0.0, 0.0), (2.0, 0.0)), ball("1", (0.4, 0.01))]
-    setup = Setup(balls, cloth=CLOTH, catches=[Catch("pocket", (0.9, 0.09), 0.06)], between_balls=of(0.95, 0.0))
+    setup = Setup(balls, plane=CLOTH, catches=[Catch("pocket", (0.9, 0.09), 0.06)], between_balls=of(0.95, 0.0))
     exact = simulate(setup, resolve())
     plain = simulate(setup, resolve(method="plain", step=1e-4))
     assert [event.ball for event in plain.events if event.kind == "caught"] == ["1"]
@@ -187,7 +188,7 @@ def test_a_rack_with_even_gaps_breaks_in_mirror_image():
         for row, many in enumerate(rows)
         for k in range(many)
     ]
-    run = simulate(Setup(balls, cloth=CLOTH, duration=20.0, between_balls=of(0.95, 0.05)), resolve())
+    run = simulate(Setup(balls, plane=CLOTH, duration=20.0, between_balls=of(0.95, 0.05)), resolve())
     for row, many in enumerate(rows):
         for k in range(many):
             x, y = run.state(f"{row}{k}", 1.0)[:2]
@@ -205,7 +206,7 @@ def test_a_ball_that_creeps_to_a_cushion_gains_no_energy(speed: float, level: st
     wall = Surface("wall", Segment((0.0, -1.0), (0.0, 1.0)), 0.85, 0.2)
     for wy in (speed / R, 0.0, 20.0):  # rolls, slides, spins into the cushion
         start = Ball("ball", M, R, (-R - 1e-9, 0.0), (speed, 0.1 * speed), 0.0, (0.0, wy))
-        run = simulate(Setup([start], [wall], duration=5.0, cloth=Cloth(gravity=gravity)), resolve(level))
+        run = simulate(Setup([start], [wall], duration=5.0, plane=Cloth(gravity=gravity)), resolve(level))
         energies = [kinetic(start, run.arcs["ball"][0].start)]
         for arc in run.arcs["ball"]:
             energies += [kinetic(start, arc.start), kinetic(start, arc.state(arc.t1))]
@@ -222,7 +223,7 @@ def test_a_cushion_with_a_nose_takes_up_the_roll(method):
     turn = 45 * pi / 180
     start = rolling("cue", (0.9, 0.0), (cos(turn), sin(turn)))
     choice = resolve(method=method, step=1e-5) if method == "plain" else resolve()
-    run = simulate(Setup([start], [NOSED], cloth=CLOTH, duration=0.2), choice)
+    run = simulate(Setup([start], [NOSED], plane=CLOTH, duration=0.2), choice)
     (hit,) = [event for event in run.events if event.kind == "impact"]
     _, _, vx, vy, spin = run.before("cue", hit.t)
     wx, wy = rolling_spin_before(run, hit.t)
@@ -241,7 +242,7 @@ def test_a_ball_frozen_on_a_nose_and_cut_goes_off_as_one_with_a_gap():
     ends = []
     for gap in (0.0, 1e-7):
         balls = [ball("cue", (1.0 - R - gap - 0.2, -0.2), (1.0, 1.0)), ball("1", (1.0 - R - gap, 0.0))]
-        run = simulate(Setup(balls, [NOSED], cloth=CLOTH, duration=0.3, between_balls=of(0.95, 0.05)), resolve())
+        run = simulate(Setup(balls, [NOSED], plane=CLOTH, duration=0.3, between_balls=of(0.95, 0.05)), resolve())
         ends.append(run.state("1", 0.3)[:4])
     assert ends[0] == pytest.approx(ends[1], abs=2e-3)
     assert ends[0][2] < -0.1

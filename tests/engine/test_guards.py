@@ -300,7 +300,7 @@ def test_sizes_beyond_arithmetic_are_named_errors(mass, radius, speed, gravity, 
         shot = Ball("ball", mass, radius, (0.0, 1.0), (speed, -speed), speed, forces=[Gravity(mass, gravity)])
         post = Surface("post", Circle((size, 0.0), size), 0.5, 0.5)
         floor = Surface("floor", Segment((-size, 0.0), (size, 0.0)), 0.5, 0.5, 0.1)
-        setup = Setup([shot], [floor, post], duration=0.1, cloth=Cloth(gravity=gravity) if cloth else None)
+        setup = Setup([shot], [floor, post], duration=0.1, plane=Cloth(gravity=gravity) if cloth else None)
         run = simulate(setup, accuracy)
     except (ValueError, SandboxError):
         return  # named

@@ -30,7 +30,7 @@ def struck(english: float, follow: float) -> Setup:
     return Setup(
         [cue, Ball("1", M, R, (0.5, 0.6 * R))],
         [rail],
-        cloth=Cloth(),
+        plane=Cloth(),
         between_balls=lambda normal, slip: Bounce(0.95, 0.06),
     )
 

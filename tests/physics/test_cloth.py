@@ -9,7 +9,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from sandbox.physics.cloth import Cloth, ClothState, Phase
+from sandbox.physics.cloth import Cloth
+from sandbox.physics.plane import Phase, PlaneState
 
 R = 0.028575  # m
 G = 9.81  # m/s^2
@@ -20,7 +21,7 @@ spins = st.floats(-400.0, 400.0)
 states = st.builds(lambda vx, vy, wz, wx, wy: (0.1, -0.2, vx, vy, wz, wx, wy), speeds, speeds, spins, spins, spins)
 
 
-def advance(state: ClothState, t: float, cloth: Cloth = CLOTH) -> ClothState:
+def advance(state: PlaneState, t: float, cloth: Cloth = CLOTH) -> PlaneState:
     """The state t s later, through as many phases as it takes."""
     for _ in range(10):
         phase = cloth.phase(state, R)
@@ -31,7 +32,7 @@ def advance(state: ClothState, t: float, cloth: Cloth = CLOTH) -> ClothState:
     raise AssertionError("phases without end")
 
 
-def way(state: ClothState, cloth: Cloth = CLOTH) -> list[tuple[ClothState, Phase]]:
+def way(state: PlaneState, cloth: Cloth = CLOTH) -> list[tuple[PlaneState, Phase]]:
     """All phases to rest, each with the state at its beginning."""
     found = []
     while True:
@@ -43,12 +44,12 @@ def way(state: ClothState, cloth: Cloth = CLOTH) -> list[tuple[ClothState, Phase
         assert len(found) < 10
 
 
-def slip(state: ClothState) -> tuple[float, float]:
+def slip(state: PlaneState) -> tuple[float, float]:
     _, _, vx, vy, _, wx, wy = state
     return vx - R * wy, vy + R * wx
 
 
-def energy(state: ClothState) -> float:
+def energy(state: PlaneState) -> float:
     """Per mass, in J/kg: v^2 / 2 + (2/5) r^2 w^2 / 2."""
     _, _, vx, vy, wz, wx, wy = state
     return 0.5 * (vx * vx + vy * vy) + 0.2 * R * R * (wx * wx + wy * wy + wz * wz)
@@ -81,7 +82,7 @@ def test_a_ball_at_rest_with_full_draw_comes_back_at_two_sevenths():
 
 
 @given(states)
-def test_sliding_ends_at_five_sevenths_of_v_and_two_sevenths_of_the_spin(state: ClothState):
+def test_sliding_ends_at_five_sevenths_of_v_and_two_sevenths_of_the_spin(state: PlaneState):
     """Angular momentum about a line on the cloth is kept: v_end = (5/7) v + (2/7) r (wy, -wx)."""
     _, _, vx, vy, _, wx, wy = state
     end = next(start for start, phase in way(state) if phase.mode != "sliding")
@@ -91,7 +92,7 @@ def test_sliding_ends_at_five_sevenths_of_v_and_two_sevenths_of_the_spin(state: 
 
 
 @given(states, st.floats(0.0, 0.999))
-def test_the_direction_of_slip_is_constant_while_it_slides(state: ClothState, share: float):
+def test_the_direction_of_slip_is_constant_while_it_slides(state: PlaneState, share: float):
     phase = CLOTH.phase(state, R)
     if phase.mode != "sliding" or hypot(*slip(state)) < 1e-6:
         return
@@ -159,7 +160,7 @@ def test_spin_about_the_vertical_does_not_bend_the_path():
 
 
 @given(states)
-def test_it_comes_to_rest_through_sliding_rolling_and_spinning_in_this_order(state: ClothState):
+def test_it_comes_to_rest_through_sliding_rolling_and_spinning_in_this_order(state: PlaneState):
     modes = [phase.mode for _, phase in way(state)]
     order = ["sliding", "rolling", "spinning", "resting"]
     assert [order.index(mode) for mode in modes] == sorted(order.index(mode) for mode in modes)
@@ -171,7 +172,7 @@ def test_it_comes_to_rest_through_sliding_rolling_and_spinning_in_this_order(sta
 
 
 @given(states, st.lists(st.floats(0.0, 1.0), min_size=1, max_size=8), st.floats(0.0, 40.0))
-def test_one_step_or_many_lead_to_the_same_state(state: ClothState, cuts: list[float], total: float):
+def test_one_step_or_many_lead_to_the_same_state(state: PlaneState, cuts: list[float], total: float):
     times = [0.0, *sorted(cut * total for cut in cuts), total]
     at_once = advance(state, total)
     for a, b in pairwise(times):
@@ -181,7 +182,7 @@ def test_one_step_or_many_lead_to_the_same_state(state: ClothState, cuts: list[f
 
 
 @given(states)
-def test_the_end_of_a_phase_is_where_the_motion_leads(state: ClothState):
+def test_the_end_of_a_phase_is_where_the_motion_leads(state: PlaneState):
     for start, phase in way(state):
         if phase.duration == inf:
             break
@@ -196,7 +197,7 @@ def test_the_end_of_a_phase_is_where_the_motion_leads(state: ClothState):
 
 
 @given(states, st.floats(0.0, 20.0), st.floats(0.0, 20.0))
-def test_energy_never_grows(state: ClothState, first: float, second: float):
+def test_energy_never_grows(state: PlaneState, first: float, second: float):
     before = advance(state, first)
     after = advance(before, second)
     assert energy(after) <= energy(before) * (1.0 + 1e-14)
@@ -204,10 +205,10 @@ def test_energy_never_grows(state: ClothState, first: float, second: float):
 
 
 @given(states, st.floats(0.0, 20.0))
-def test_the_mirror_image_moves_as_the_mirror_image(state: ClothState, t: float):
+def test_the_mirror_image_moves_as_the_mirror_image(state: PlaneState, t: float):
     """Mirrored in the x axis: y, vy and, of the axial vector, wz and wx change sign; bit for bit."""
 
-    def mirrored(s: ClothState) -> ClothState:
+    def mirrored(s: PlaneState) -> PlaneState:
         x, y, vx, vy, wz, wx, wy = s
         return x, -y, vx, -vy, -wz, -wx, wy
 
@@ -218,7 +219,7 @@ def test_the_mirror_image_moves_as_the_mirror_image(state: ClothState, t: float)
 def test_no_direction_on_the_cloth_is_special(angle: float):
     c, s = cos(angle), sin(angle)
 
-    def turned(state: ClothState) -> tuple[float, ...]:
+    def turned(state: PlaneState) -> tuple[float, ...]:
         x, y, vx, vy, wz, wx, wy = state
         return c * x - s * y, s * x + c * y, c * vx - s * vy, s * vx + c * vy, wz, c * wx - s * wy, s * wx + c * wy
 

@@ -54,7 +54,7 @@ def test_the_ground_carries_a_ball_at_rest(name):
 
 def test_cloth_slows_a_sliding_ball_by_its_friction():
     draw = vectors("billiards/draw")
-    cloth = draw.run.setup.cloth
+    cloth = draw.run.setup.plane
     forces = draw.forces(0.05)
     assert list(forces) == ["cloth"]
     assert hypot(*forces["cloth"]) == pytest.approx(cloth.sliding * draw.ball.mass * cloth.gravity, rel=1e-6)

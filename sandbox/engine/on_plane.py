@@ -1,0 +1,107 @@
+"""Motion on a plane seen from above: exact arcs in closed form, one per phase, where the law has one; otherwise steps
+under error control."""
+
+from __future__ import annotations
+
+from math import hypot, isfinite
+
+from sandbox.engine.arc import Arc, still
+from sandbox.engine.bernstein import downward_crossings
+from sandbox.engine.in_plane import InPlane
+from sandbox.engine.setup import Setup
+from sandbox.errors import RunError
+from sandbox.physics.plane import Phase, Plane, strip
+
+#: Longest step as a fraction of the time in which a body would stop: none steps over its rest.
+_LONGEST = 0.5
+
+
+def slowest_hop(setup: Setup, hop: float) -> float:
+    """Minimum speed in m/s at which bodies that a plane presses together separate, for an accuracy's ``hop`` (m).
+
+    A steady push then becomes a series of equal hops instead of an endless series of smaller and smaller ones. The
+    energy of the first hop of such a series, half the reduced mass times this speed squared (2e-7 J for pool balls at
+    "balanced"), is removed from the motion of all balls.
+    """
+    return float((2.0 * max(setup.plane_of(ball.name).strongest for ball in setup.balls) * hop) ** 0.5)
+
+
+class OnPlane(InPlane):
+    """A body on a plane, where there is no lasting contact with a cushion."""
+
+    _ends_spin = False  # with its current arc
+    _on: Plane | None = None  # the law of the last arc
+
+    def advance(self, t: float, until: float) -> tuple[Arc, str]:
+        """The next arc from t, at most to ``until``: a whole phase in closed form, or a step; within one strip."""
+        state = self.state
+        plane = self._setup.plane_of(self.ball.name)
+        law, low, high = strip(plane, state)
+        if law is not self._on:
+            self._on, self._known = law, ((), (0.0, 0.0, 0.0))
+        phase = law.phase(state, self.ball.radius)
+        if phase.mode == "resting":
+            self._numerics.steps += 1
+            return still(t, until, state), ""
+        if phase.law is None:
+            h = min(phase.duration, until - t)
+            arc = self._in_closed_form(law, phase, t, h)
+            out = _leaves(arc, low, high)
+            return arc if out is None else self._in_closed_form(law, phase, t, out * h), ""
+        stops_in = hypot(*state[2:4]) / (hypot(phase.ax, phase.ay) or 1.0)
+        arc = self._integrate(t, min(until, t + _LONGEST * stops_in), phase.law)
+        if (out := _leaves(arc, low, high)) is not None:
+            arc = arc.until(arc.t0 + out * (arc.t1 - arc.t0))
+        spun = next(downward_crossings([state[4] * spin for spin in arc.spin]), None)
+        self._ends_spin = spun is not None
+        return arc if spun is None else arc.until(arc.t0 + spun * (arc.t1 - arc.t0)), ""
+
+    def _in_closed_form(self, law: Plane, phase: Phase, t: float, h: float) -> Arc:
+        """The first h s of a phase with constant accelerations."""
+        state = self.state
+        self._numerics.steps += 1
+        end = law.after(state, phase, h)
+        if not all(map(isfinite, end)):
+            raise RunError(
+                f"t = {t:.6g} s, ball {self.ball.name!r}: its motion on the {law.name} cannot be computed; "
+                f"check its radius and speed, and the friction of the {law.name}"
+            )
+        x, y, vx, vy, spin, *rolling = state
+        half = 0.5 * h
+        accelerations = (phase.alpha_x, phase.alpha_y)
+        return Arc(
+            t,
+            t + h,
+            state,
+            (x, x + half * vx, end[0]),
+            (y, y + half * vy, end[1]),
+            (vx, vx + h * phase.ax),
+            (vy, vy + h * phase.ay),
+            (spin, spin + h * phase.alpha_z),
+            None,
+            tuple((w, w + h * alpha) for w, alpha in zip(rolling, accelerations, strict=False)),
+            end,
+        )
+
+    def conclude(self, reason: str) -> None:
+        """Make the spin exactly zero where it ends."""
+        if self._ends_spin:
+            self.state = (*self.state[:4], 0.0)
+
+    def settle(self, t: float, height: float) -> None:
+        """Nothing lasts."""
+
+    def rests(self) -> bool:
+        """Whether the ball is at rest on its current arc."""
+        return self.arc.t1 > self.arc.t0 and len(self.arc.x) == len(self.arc.spin) == 1
+
+
+def _leaves(arc: Arc, low: float, high: float) -> float | None:
+    """The first u at which the path leaves a strip from ``low`` to ``high`` (m) along x, or None."""
+    left, _, right, _ = arc.box()
+    found = []
+    if right > high:
+        found.append(next(downward_crossings([high - x for x in arc.x]), None))
+    if left < low:
+        found.append(next(downward_crossings([x - low for x in arc.x]), None))
+    return min((u for u in found if u is not None), default=None)

@@ -1,0 +1,120 @@
+"""What bodies slide and roll on, seen from above: a law of motion as data, the same everywhere or by strips.
+
+A law divides a motion into phases. In one phase the accelerations are constant (a sliding ball on cloth, a puck on
+ice), which gives the path in closed form, or they depend on the motion (a curling stone), which is integrated.
+"""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from math import copysign, inf
+from typing import Any, NamedTuple, Protocol
+
+#: A body on a plane: (x, y, vx, vy, wz) in m, m/s, rad/s, wz about the vertical, counter-clockwise from above; one that
+#: rolls has (..., wx, wy), too.
+PlaneState = tuple[float, ...]
+
+#: Speed in m/s below which sliding, rolling or spinning is rounding. A body this slow would move 1e-24 m.
+STILL = 1e-12
+
+#: Distance in m from the edge of a strip within which a body that moves towards the edge is beyond it.
+_AT_EDGE = 1e-9
+
+
+class Phase(NamedTuple):
+    """A phase of motion, lasting ``duration`` s (infinite if nothing ends it).
+
+    The accelerations are constant, or those at its start if there is a ``law``: then ``law(t, state)`` gives
+    (ax, ay, alpha_z).
+    """
+
+    mode: str  # "sliding", "rolling", "spinning" or "resting"
+    duration: float  # s
+    ax: float  # m/s^2
+    ay: float
+    alpha_z: float  # rad/s^2
+    alpha_x: float = 0.0
+    alpha_y: float = 0.0
+    radius: float = 0.0  # m
+    ends_motion: bool = False  # at its end, sliding becomes rolling, or motion becomes rest
+    ends_spin: bool = False  # at its end, the spin about the vertical is zero
+    law: Callable[[float, PlaneState], tuple[Any, Any, Any]] | None = None
+
+
+class Plane(Protocol):
+    """A law of motion on a plane, the same everywhere."""
+
+    @property
+    def name(self) -> str:
+        """What it is called in reports of energy and forces."""
+
+    @property
+    def rolls(self) -> bool:
+        """Whether bodies on it roll as spheres, and their state has spins about x and y."""
+
+    @property
+    def strongest(self) -> float:
+        """The largest deceleration in m/s^2 of a sliding body."""
+
+    @property
+    def TERMS(self) -> Mapping[str, str]:  # noqa: N802  (a constant of each law)
+        """The fields that can be left out, and what they are called."""
+
+    def phase(self, state: PlaneState, radius: float) -> Phase:
+        """The phase that starts at ``state`` for a body of ``radius`` m."""
+
+    def after(self, state: PlaneState, phase: Phase, t: float) -> PlaneState:
+        """The state ``t`` s into ``phase``, which started at ``state``, with its accelerations constant; t is limited
+        to its duration."""
+
+
+def without(plane: Any, term: str) -> Any:
+    """The plane with one of its terms, such as "rolling", left out."""
+    if isinstance(plane, Strips):
+        return replace(plane, laws=[without(law, term) for law in plane.laws])
+    return replace(plane, **{term: 0.0}) if term in plane.TERMS else plane
+
+
+@dataclass(frozen=True)
+class Strips:
+    """A plane in strips across x: oil along a lane, ice that is swept. Law i ends at ``edges[i]`` (m)."""
+
+    edges: Sequence[float]
+    laws: Sequence[Plane]
+
+    def __post_init__(self) -> None:
+        if len(self.laws) != len(self.edges) + 1 or list(self.edges) != sorted(self.edges):
+            raise ValueError(f"strips: {len(self.laws)} laws need {len(self.laws) - 1} edges in order: {self.edges}")
+
+    @property
+    def name(self) -> str:
+        return self.laws[0].name
+
+    @property
+    def rolls(self) -> bool:
+        return self.laws[0].rolls
+
+    @property
+    def TERMS(self) -> Mapping[str, str]:  # noqa: N802
+        return self.laws[0].TERMS
+
+    @property
+    def strongest(self) -> float:
+        return max(law.strongest for law in self.laws)
+
+    def phase(self, state: PlaneState, radius: float) -> Phase:
+        return strip(self, state)[0].phase(state, radius)
+
+    def after(self, state: PlaneState, phase: Phase, t: float) -> PlaneState:
+        return strip(self, state)[0].after(state, phase, t)
+
+
+def strip(plane: Plane, state: PlaneState) -> tuple[Plane, float, float]:
+    """The law where a body is, and between which x in m it holds; at an edge the one that it moves towards."""
+    if not isinstance(plane, Strips):
+        return plane, -inf, inf
+    place = bisect_right(plane.edges, state[0] + copysign(_AT_EDGE, state[2]))
+    ends = -inf, *plane.edges, inf
+    return plane.laws[place], ends[place], ends[place + 1]
