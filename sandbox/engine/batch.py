@@ -20,6 +20,7 @@ from sandbox.engine.arc import through
 from sandbox.engine.arc_rows import COLUMNS, CURVES, END, ArcRows, Paths, X, Y, arc_of
 from sandbox.engine.bernstein_many import until
 from sandbox.engine.event import Event
+from sandbox.engine.impulses import lanes
 from sandbox.engine.lanes import ManyLanes
 from sandbox.engine.outlines import Outlines
 from sandbox.engine.run import Numerics, Run
@@ -28,7 +29,7 @@ from sandbox.engine.setup_errors import setup_errors_named
 from sandbox.engine.simulation import Simulation
 from sandbox.engine.stacking import FEWEST, Alike, Stack, chosen
 from sandbox.engine.step_control import LONGEST, StepControl, size, within
-from sandbox.engine.surfaces import STILL, bounce_off, leaves_at, press, tilted
+from sandbox.engine.surfaces import CLOSING, bounce_off, leaves_at, press, tilted
 from sandbox.physics.impulse import after_impulse, surface_speeds
 from sandbox.physics.integrators import INTEGRATORS, Acceleration, State
 
@@ -141,7 +142,7 @@ class Batch:
         whole = setups.whole
         self._all = FlightTerms(whole.balls[0], whole.patches, whole.bounds, whole.duration, whole.until)
         self._outlines = Outlines(setups, accuracy.skin)
-        self._lanes = ManyLanes()
+        self._lanes = lanes(ManyLanes)
         self._events: list[list[Event]] = [[] for _ in setups]
         self._left: dict[int, _Left] = {}
         nothing = (np.zeros(0, dtype=int), np.zeros((COLUMNS, 0)))
@@ -217,7 +218,7 @@ class Batch:
     def _begin(self) -> None:
         count, obstacle, near = self._outlines.near(self._shot, self._state[0], self._state[1])
         away = self._state[2] * near.nx + self._state[3] * near.ny
-        plain = (count == 0) | ((count == 1) & (near.gap >= -1e-12) & (away >= -STILL))
+        plain = (count == 0) | ((count == 1) & (near.gap >= -1e-12) & (away >= -CLOSING))
         self._touched = np.where(count == 1, obstacle, -1)  # surface that was just left, or -1
         self._normal = np.array((near.nx, near.ny, near.curvature))
         self._keep_only(plain)
@@ -301,7 +302,7 @@ class Batch:
         count, obstacle, near = self._outlines.near(shots, x, y)
         approach = -(vx * near.nx + vy * near.ny)
         along = vx * near.ny - vy * near.nx
-        plain = (count == 1) & (approach > STILL)
+        plain = (count == 1) & (approach > CLOSING)
         bounces = np.zeros((len(lanes), 4))  # as in Bounce
         for i in np.flatnonzero(plain).tolist():
             setup = self.setups[shots[i]]

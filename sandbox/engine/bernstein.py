@@ -104,18 +104,20 @@ def elevate(b: Sequence[float], degree: int) -> Sequence[float]:
 
 
 @lru_cache
-def _product_weights(m: int, n: int) -> list[list[tuple[int, float]]]:
-    """For each coefficient k of a product: which b[i] c[k - i] contribute, and with what weight."""
-    return [
-        [(i, comb(m, i) * comb(n, k - i) / comb(m + n, k)) for i in range(max(0, k - n), min(m, k) + 1)]
-        for k in range(m + n + 1)
-    ]
+def _square_weights(n: int) -> list[list[tuple[int, int, float]]]:
+    """For each coefficient k of the square of a polynomial: which b[i] b[j] contribute, and with what weight."""
+    rows: list[list[tuple[int, int, float]]] = [[] for _ in range(2 * n + 1)]
+    for i in range(n + 1):
+        for j in range(i, n + 1):
+            both = 1 if i == j else 2  # b[i] b[j] and b[j] b[i]
+            rows[i + j].append((i, j, both * comb(n, i) * comb(n, j) / comb(2 * n, i + j)))
+    return rows
 
 
-def product(b: Sequence[float], c: Sequence[float]) -> list[float]:
-    """Coefficients of f g."""
-    rows = _product_weights(len(b) - 1, len(c) - 1)
-    return [sum([weight * b[i] * c[k - i] for i, weight in row]) for k, row in enumerate(rows)]
+def squared_length(x: Sequence[float], y: Sequence[float]) -> list[float]:
+    """Coefficients of x^2 + y^2."""
+    rows = _square_weights(len(x) - 1)
+    return [sum([weight * (x[i] * x[j] + y[i] * y[j]) for i, j, weight in row]) for row in rows]
 
 
 def without_root_at_start(b: Sequence[float]) -> list[float]:

@@ -7,11 +7,11 @@ from itertools import combinations
 from math import hypot
 from typing import NamedTuple
 
-from sandbox.engine.impulses import Contact, Lanes, exchange_at_once
+from sandbox.engine.impulses import Contact, Lanes, exchange_at_once, lanes
 from sandbox.engine.run import Numerics
-from sandbox.engine.setup import Ball, Bounce, Setup, Vector, kinetic
+from sandbox.engine.setup import Ball, Bounce, Setup, kinetic
 from sandbox.engine.surfaces import (
-    STILL,
+    CLOSING,
     after_impulses,
     bounce_of_balls,
     bounce_off,
@@ -20,7 +20,7 @@ from sandbox.engine.surfaces import (
     speeds_where_touching,
     tilted,
 )
-from sandbox.engine.touch import FLUSH, TOUCHING_GAP
+from sandbox.engine.touch import TOUCHING_GAP, Touching, flush
 from sandbox.engine.track import Track
 from sandbox.physics.cushion import raised
 from sandbox.physics.integrators import State
@@ -56,7 +56,7 @@ class Impacts:
         self._setup = setup
         self._tracks = tracks
         self._numerics = numerics
-        self._lanes = Lanes()
+        self._lanes = lanes(Lanes)
         self.gap = TOUCHING_GAP  # m, up to which shapes touch; wider in a heap
         self._slowest_hop = slowest_hop  # m/s, minimum speed at which balls on cloth separate
         # Walls softer than balls push back after the balls have separated.
@@ -92,7 +92,7 @@ class Impacts:
         """Close all contacts of balls with each other and with hard or soft walls, or both, at once; returns those that
         were closing."""
         found = [*self._with_surfaces(states, softness), *self._with_balls(states)]
-        closed = [contact for contact in found if contact.speed > STILL]
+        closed = [contact for contact in found if contact.speed > CLOSING]
         if len(found) == 1 and closed:
             self._exchange_alone(states, found[0])
         elif closed:
@@ -103,7 +103,7 @@ class Impacts:
         """Close the contacts with soft walls, one after another; returns them."""
         closed = []
         for contact in self._with_surfaces(states, (True,)):
-            if contact.speed > STILL:
+            if contact.speed > CLOSING:
                 self._exchange_alone(states, contact)
                 closed.append(contact)
         return closed
@@ -132,15 +132,15 @@ class Impacts:
     def _with_surfaces(self, states: dict[int, State], softness: Sequence[bool]) -> Iterator[Contact]:
         """The contacts with hard or soft walls, or both, each from the states when it is asked for."""
         for index in states:
-            ball, met = self._tracks[index].ball, list[Vector]()
+            ball, met = self._tracks[index].ball, list[Touching]()
             x, y, *_ = states[index]
             for obstacle, touching in self._tracks[index].near(x, y, self.gap):
                 surface, nx, ny = obstacle.surface, touching.nx, touching.ny
                 if (self._all_soft or surface.nose_height is not None) not in softness:
                     continue
-                if any(nx * other[0] + ny * other[1] > FLUSH for other in met):
+                if any(flush(touching, other) for other in met):
                     continue
-                met.append((nx, ny))
+                met.append(touching)
                 _, _, vx, vy, *_ = states[index]
                 speed, along = -(vx * nx + vy * ny), vx * ny - vy * nx
                 bounce = bounce_off(surface, speed, along)
@@ -224,7 +224,7 @@ class Impacts:
     def _hopping(self, contact: Contact) -> Bounce:
         """The bounce with enough restitution to separate no slower than the slowest hop."""
         bounce, slowest = contact.bounce, self._slowest_hop
-        if contact.speed <= STILL or bounce.restitution * contact.speed >= slowest:
+        if contact.speed <= CLOSING or bounce.restitution * contact.speed >= slowest:
             return bounce
         return bounce._replace(restitution=slowest / contact.speed)
 

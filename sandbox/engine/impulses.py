@@ -7,8 +7,9 @@ of radius 1 and mass 1 on level ground. For contacts that close together the bal
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Sequence
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
 import pymunk
 
@@ -40,22 +41,28 @@ def still_space(iterations: int) -> pymunk.Space:
     return space
 
 
+L = TypeVar("L", bound="Lanes")
+
+
 class Lanes:
     """Discs of radius 1 and mass 1, each above level ground of its own."""
 
-    def __init__(self, count: int = 2) -> None:
+    COUNT = 1
+
+    def __init__(self) -> None:
         self._space = still_space(1)
         self._discs: list[pymunk.Circle] = []
         self._bodies: list[pymunk.Body] = []
         self._places: list[Vector] = []
-        self._next = 0
-        for lane in range(count):
+        self._pairs = [(1.0, 0.0, 1.0)] * self.COUNT  # restitution, friction and inertia factor now set
+        for lane in range(self.COUNT):
             x, y = _SPACING * (lane % _SIDE), _SPACING * (lane // _SIDE)
             ground = pymunk.Segment(self._space.static_body, (x - 0.1, y), (x + 0.1, y), 0.0)
             ground.elasticity = ground.friction = 1.0  # pymunk multiplies both shapes' values: the disc has the pair's
             body = pymunk.Body(1.0, 1.0)
             body.position = x, y + 1.0 + _PARKED
             disc = pymunk.Circle(body, 1.0)
+            disc.elasticity = 1.0
             self._space.add(ground, body, disc)
             self._discs.append(disc)
             self._bodies.append(body)
@@ -66,17 +73,41 @@ class Lanes:
     ) -> tuple[float, float]:
         """The impulses away from the ground and along it, of a disc that approaches at this speed and whose surface
         slips at that speed; all in m/s. ``factor`` is its moment of inertia.
-
-        Lanes take turns, so that pymunk forgets the contact of one during the step of the next.
         """
-        lane, self._next = self._next, (self._next + 1) % len(self._discs)
-        disc, body, (x, y) = self._discs[lane], self._bodies[lane], self._places[lane]
-        disc.elasticity, disc.friction, body.moment = restitution, friction, factor
-        body.position, body.velocity, body.angular_velocity = (x, y), (slip, -approach), 0.0
-        self._space.step(INSTANT)
-        along, away = body.velocity
-        body.position = x, y + _PARKED
-        return away + approach, along - slip
+        body, (x, y) = self._bodies[0], self._places[0]
+        self._prepare(0, (restitution, friction, factor))
+        try:
+            body.position, body.velocity, body.angular_velocity = (x, y), (slip, -approach), 0.0
+            self._space.step(INSTANT)
+            along, away = body.velocity
+            return away + approach, along - slip
+        finally:  # apart, so that pymunk forgets the contact
+            body.position = x, y + _PARKED
+            self._space.step(INSTANT)
+
+    def _prepare(self, lane: int, pair: tuple[float, float, float]) -> None:
+        """Set restitution, friction and inertia factor of a lane; most are those of the contact before."""
+        if self._pairs[lane] != pair:
+            disc, body = self._discs[lane], self._bodies[lane]
+            disc.elasticity, disc.friction, body.moment = self._pairs[lane] = pair
+
+
+class _Made(threading.local):
+    """What each thread has made."""
+
+    def __init__(self) -> None:
+        self.lanes: dict[type, Any] = {}
+
+
+_made = _Made()
+
+
+def lanes(kind: type[L]) -> L:
+    """The lanes of this thread, made once: a contact leaves no trace in them."""
+    if kind not in _made.lanes:
+        _made.lanes[kind] = kind()
+    found: L = _made.lanes[kind]
+    return found
 
 
 class Contact(NamedTuple):

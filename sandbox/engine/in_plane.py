@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from functools import partial
-from math import hypot, inf, isfinite
+from math import hypot, isfinite
 
 from sandbox.engine.accuracy import Accuracy
 from sandbox.engine.acting import acceleration, checked
@@ -16,9 +16,9 @@ from sandbox.engine.lasting import RESTING, ROLLING, SLIDING, LastingContact, co
 from sandbox.engine.run import Numerics
 from sandbox.engine.setup import Ball, Setup
 from sandbox.engine.step_control import LONGEST, StepControl, size, within
-from sandbox.engine.surfaces import leaves_at, press
-from sandbox.engine.touch import SIDE, Obstacle, Touching
-from sandbox.engine.track import Near, Track
+from sandbox.engine.surfaces import STILL, leaves_at, press
+from sandbox.engine.touch import SIDE, Near, Obstacle, flush
+from sandbox.engine.track import Track
 from sandbox.errors import RunError
 from sandbox.physics.integrators import INTEGRATORS, Acceleration, Law, State
 
@@ -26,11 +26,8 @@ from sandbox.physics.integrators import INTEGRATORS, Acceleration, Law, State
 #: for an eighth of a turn or less.
 _LONGEST_TURN = 0.3
 
-#: Speed in m/s and acceleration in m/s^2 into a surface below which a value is rounding.
-_STILL, _PUSH = 1e-10, 1e-9
-
-#: Normals closer than this (sine of the angle) count as one: two flush surfaces.
-_FLUSH = 1e-7
+#: Acceleration in m/s^2 into a surface below which it is rounding.
+_PUSH = 1e-9
 
 #: How a ball moves exactly at the end of an arc that ended for one of these reasons.
 _BECOMES = {"grip": ROLLING, "stop": RESTING}
@@ -200,7 +197,7 @@ class InPlane(Track):
         if not kept:
             return
         first = min(kept, key=lambda near: vx * near[1].nx + vy * near[1].ny)[1]
-        together = [(obstacle, touch) for obstacle, touch in kept if _sine(touch, first) <= _FLUSH]
+        together = [(obstacle, touch) for obstacle, touch in kept if flush(touch, first)]
         if len(together) < len(kept) and hypot(vx, vy) <= leaves_at(hardest, height):
             vx = vy = 0.0  # held in two directions
         else:  # along the surface that the ball leaves most slowly; it may leave the others, but not enter them
@@ -208,7 +205,7 @@ class InPlane(Track):
             for _, touch in kept:
                 leaving = vx * touch.nx + vy * touch.ny
                 vx, vy = vx - leaving * touch.nx, vy - leaving * touch.ny
-            if any(vx * other.nx + vy * other.ny < -_STILL and _sine(other, first) > _FLUSH for _, other in near):
+            if any(vx * other.nx + vy * other.ny < -STILL and not flush(other, first) for _, other in near):
                 return
         self.state = (x, y, vx, vy, spin)
         self._hold(kept, applied, slips)
@@ -224,13 +221,13 @@ class InPlane(Track):
         held.sort(key=lambda contact: contact.touching.curvature)  # the next piece's side before this one's corner
         for contact in held:
             (ax, ay, _), _, _ = contact.forces(ball, applied, state)
-            others = (other for _, other in kept if _sine(other, contact.touching) > _FLUSH)
+            others = (other for _, other in kept if not flush(other, contact.touching))
             if all(ax * other.nx + ay * other.ny >= -_PUSH for other in others):
                 self.state, self.contact = contact.placed(ball, state), contact
                 return
         if held:
             one = held[0].obstacle, held[0].touching
-            two = next(near for near in kept if _sine(near[1], one[1]) > _FLUSH)
+            two = next(near for near in kept if not flush(near[1], one[1]))
             self.contact = wedged(ball, spin, one, two, applied)
             for obstacle, touching in (one, two):
                 gap = obstacle.on_feature(touching.feature, x, y).gap
@@ -241,13 +238,6 @@ class InPlane(Track):
         """Acceleration from the applied forces, without the contact's; m/s^2, rad/s^2. Counts evaluations."""
         self._numerics.force_evaluations += 1
         return checked(self.ball, t, state)
-
-
-def _sine(a: Touching, b: Touching) -> float:
-    """Sine of the angle between two normals; infinite where they face each other."""
-    if a.nx * b.nx + a.ny * b.ny < 0.0:
-        return inf
-    return abs(a.nx * b.ny - a.ny * b.nx)
 
 
 def _crossing(arc: Arc, value: Callable[[float, State], float]) -> float:

@@ -17,9 +17,10 @@ _ALL = batch.BodyFields.POSITION | _MOTION
 class ManyLanes(Lanes):
     """Lanes for arrays."""
 
+    COUNT = _LANES
+
     def __init__(self) -> None:
-        super().__init__(_LANES)
-        self._set = np.zeros((_LANES, 3))  # restitution, friction and inertia factor now set
+        super().__init__()
         parked = [(*body.position, 0.0, 0.0, 0.0) for body in self._bodies]
         self._parked = np.array([*parked, (0.0, 0.0, 0.0, 0.0, 0.0)])  # x, y, vx, vy, spin; the last is the static body
         self._heights = np.array(self._places)[:, 1]
@@ -41,21 +42,19 @@ class ManyLanes(Lanes):
         self, approach: np.ndarray, slip: np.ndarray, bounces: np.ndarray
     ) -> tuple[np.ndarray, np.ndarray]:
         count = len(slip)
-        for lane in np.flatnonzero((self._set[:count] != bounces).any(axis=1)).tolist():
-            disc, body = self._discs[lane], self._bodies[lane]
-            disc.elasticity, disc.friction, body.moment = bounces[lane].tolist()
-        self._set[:count] = bounces
+        for lane, pair in enumerate(map(tuple, bounces.tolist())):
+            self._prepare(lane, pair)
         self._entered[:] = self._parked
         self._entered[:count, 1] = self._heights[:count]
         self._entered[:count, 2] = slip
         self._entered[:count, 3] = -approach
-        batch.set_space_bodies(self._space, _ALL, self._entering)
-        self._space.step(INSTANT)
-        self._leaving.clear()
-        batch.get_space_bodies(self._space, _MOTION, self._leaving)
-        along, away, _ = np.frombuffer(self._leaving.float_buf()).reshape(_LANES + 1, 3)[:count].T
-        impulses = away + approach, along - slip
-        # apart: pymunk drops the contacts, so that the next ones start fresh
-        batch.set_space_bodies(self._space, _ALL, self._parking)
-        self._space.step(INSTANT)
-        return impulses
+        try:
+            batch.set_space_bodies(self._space, _ALL, self._entering)
+            self._space.step(INSTANT)
+            self._leaving.clear()
+            batch.get_space_bodies(self._space, _MOTION, self._leaving)
+            along, away, _ = np.frombuffer(self._leaving.float_buf()).reshape(_LANES + 1, 3)[:count].T
+            return away + approach, along - slip
+        finally:  # apart, so that pymunk forgets the contacts
+            batch.set_space_bodies(self._space, _ALL, self._parking)
+            self._space.step(INSTANT)

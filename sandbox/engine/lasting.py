@@ -11,14 +11,11 @@ from math import inf
 from typing import NamedTuple
 
 from sandbox.engine.setup import Ball, Surface
-from sandbox.engine.surfaces import press
+from sandbox.engine.surfaces import STILL, press
 from sandbox.engine.touch import Obstacle, Touching
 from sandbox.physics.integrators import Acceleration, State
 
 SLIDING, ROLLING, PINNED, RESTING = "sliding", "rolling", "pinned", "resting"
-
-#: Speed in m/s and acceleration in m/s^2 below which a value is rounding.
-_STILL = 1e-10
 
 #: Fraction of the applied force below which a normal force is rounding, as when a ball has just left a round top.
 _PRESSING = 1e-9
@@ -96,17 +93,17 @@ def contact_on(
         return None
     speed = vx * ny - vy * nx
     slip = speed + ball.radius * spin
-    if abs(slip) > _STILL * (1.0 + abs(speed)):
+    if abs(slip) > STILL * (1.0 + abs(speed)):
         return LastingContact(SLIDING, obstacle, touching, 1.0 if slip > 0.0 else -1.0)
     along = ax * ny - ay * nx
-    moves = abs(speed) > _STILL
+    moves = abs(speed) > STILL
     drive = speed if moves else along - ball.inertia_factor * ball.radius * turning
     direction = 1.0 if drive > 0.0 else -1.0
     a, spare = _rolling(ball, obstacle.surface, along, turning, pressed, direction)
     needed = _friction_of_rolling(ball, along, turning)
     if slips or spare < 0.0 or (spare == 0.0 and needed != 0.0):
         return LastingContact(SLIDING, obstacle, touching, 1.0 if needed < 0.0 else -1.0)
-    if not moves and direction * a <= _STILL:
+    if not moves and direction * a <= STILL:
         return LastingContact(RESTING, obstacle, touching)
     return LastingContact(ROLLING, obstacle, touching, direction)
 
@@ -120,7 +117,7 @@ def wedged(
     determinant = a.nx * b.ny - a.ny * b.nx
     on_first = max(0.0, (-ax * b.ny + ay * b.nx) / determinant)
     on_second = max(0.0, (-ay * a.nx + ax * a.ny) / determinant)
-    if abs(spin) <= _STILL:
+    if abs(spin) <= STILL:
         return LastingContact(RESTING, obstacle, a)
     friction = obstacle.surface.friction * on_first + other.surface.friction * on_second
     rate = friction / (ball.inertia_factor * ball.radius)

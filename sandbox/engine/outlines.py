@@ -14,7 +14,7 @@ from sandbox.engine.accuracy import SKIN
 from sandbox.engine.arc import Arc
 from sandbox.engine.bernstein_many import evaluate, first_downward_crossing, squared_length, without_root_at_start
 from sandbox.engine.stacking import Stack
-from sandbox.engine.touch import FLUSH, NOISE, TOUCHING_GAP, Obstacle, Outline, Touching
+from sandbox.engine.touch import NOISE, TOUCHING_GAP, Obstacle, Outline, Touching, flush
 
 #: First crossing of each path, and a mask of the unclear ones; both of shape (paths,).
 Crossings = tuple[np.ndarray, np.ndarray]
@@ -44,11 +44,10 @@ class Outlines:
         first = np.where(touches.any(axis=0), touches.argmax(axis=0), touching.gap.argmin(axis=0))
         pick = (first, np.arange(len(shots)))
         center = touching.center[0][pick], touching.center[1][pick]
-        parts = (touching.gap, touching.nx, touching.ny, touching.curvature)
-        gap, nx, ny, curvature = (part[pick] for part in parts)
-        flush = touching.nx * nx + touching.ny * ny > FLUSH
-        count = (touches & ~flush).sum(axis=0) + touches.any(axis=0)
-        return count, first, Touching(gap, nx, ny, curvature, center, touching.feature[pick])
+        gap, nx, ny, curvature = (part[pick] for part in touching[:4])
+        picked = Touching(gap, nx, ny, curvature, center, touching.feature[pick])
+        count = (touches & ~flush(touching, picked)).sum(axis=0) + touches.any(axis=0)
+        return count, first, picked
 
     def first_touch(
         self, shots: np.ndarray, x: np.ndarray, y: np.ndarray, arc: Callable[[int], Arc]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 
 from sandbox.engine.setup import Ball
-from sandbox.engine.touch import TOUCHING_GAP, Obstacle
+from sandbox.engine.touch import TOUCHING_GAP, Obstacle, touched
 from sandbox.errors import RequestError
 
 #: Deepest overlap that is corrected, as a fraction of the radius; deeper is an error in the scene. And the most
@@ -55,6 +55,6 @@ def _overlaps(
                 yield i, j, other.name, reach, reach - distance, dx / over, dy / over
     for i, ball in enumerate(balls):
         for obstacle in obstacles[ball.radius]:
-            gap, nx, ny, *_ = obstacle.near(*places[i])
-            if gap < -_ROUNDING:
+            x, y = places[i]
+            for _, (gap, nx, ny, *_) in touched([obstacle], x, y, -_ROUNDING):
                 yield i, None, obstacle.surface.name, ball.radius, -gap, nx, ny

@@ -16,11 +16,11 @@ from sandbox.physics.elementwise import choose, cos, sin
 from sandbox.physics.impulse import after_impulse, surface_speeds
 from sandbox.physics.integrators import Acceleration, State
 
-#: Approach speed in m/s below which it is rounding and not an impact.
-STILL = 1e-9
+#: Speed of approach in m/s below which it is rounding and not an impact.
+CLOSING = 1e-9
 
-#: Speed in m/s away from a surface below which it is rounding.
-_AWAY = 1e-10
+#: Speed in m/s, away from a surface or along it, below which it is rounding.
+STILL = 1e-10
 
 
 def bounce_off(surface: Surface, approach: float, along: float) -> Bounce:
@@ -121,4 +121,4 @@ def leaves_at(press: Any, height: Any) -> Any:
 
     ``press`` in m/s^2 drives it back; if negative, its size does not matter.
     """
-    return (2.0 * choose(press > 0.0, press, 0.0) * height) ** 0.5 + _AWAY
+    return (2.0 * choose(press > 0.0, press, 0.0) * height) ** 0.5 + STILL

@@ -15,7 +15,7 @@ from typing import Any, NamedTuple
 
 from sandbox.engine.accuracy import SKIN
 from sandbox.engine.arc import Arc
-from sandbox.engine.bernstein import downward_crossings, elevate, evaluate, piece, product, without_root_at_start
+from sandbox.engine.bernstein import downward_crossings, elevate, evaluate, piece, squared_length, without_root_at_start
 from sandbox.engine.setup import Circle, Segment, Surface
 from sandbox.physics.elementwise import choose, hypot, least, most
 
@@ -23,7 +23,7 @@ from sandbox.physics.elementwise import choose, hypot, least, most
 TOUCHING_GAP = 1e-10
 
 #: Two normals with a larger cosine belong to flush surfaces, which count as one.
-FLUSH = 1.0 - 1e-12
+_FLUSH = 1.0 - 1e-12
 
 #: Distance in m along a side within which a ball counts as at the side's end.
 _SEAM = 1e-11
@@ -58,6 +58,11 @@ class Touching(NamedTuple):
         dy = y - self.center[1]
         distance = sqrt(dx * dx + dy * dy)
         return dx / distance, dy / distance, 1.0 / distance
+
+
+def flush(one: Touching, other: Touching) -> Any:
+    """Whether two features are pieces of one surface, as far as a ball can tell: their normals are the same."""
+    return one.nx * other.nx + one.ny * other.ny > _FLUSH
 
 
 class Outline(NamedTuple):
@@ -217,6 +222,16 @@ class Obstacle:
         return -margin <= self.outline.along(x, y) <= self.outline.length + margin
 
 
+Near = tuple[Obstacle, Touching]
+
+
+def touched(obstacles: Sequence[Obstacle], x: float, y: float, gap: float = TOUCHING_GAP) -> list[Near]:
+    """Those that a ball centred at (x, y) touches, up to a ``gap`` in m, each at its nearest feature."""
+    here = (x - gap, y - gap, x + gap, y + gap)
+    found = [(obstacle, obstacle.near(x, y)) for obstacle in obstacles if obstacle.may_meet(here)]
+    return [(obstacle, touching) for obstacle, touching in found if touching.gap <= gap]
+
+
 def _corner(arc: Arc, x: float, y: float, radius: float) -> float | None:
     left, bottom, right, top = arc.box()
     if x - radius > right or x + radius < left or y - radius > top or y + radius < bottom:
@@ -238,7 +253,8 @@ def _first_within(xs: Sequence[float], ys: Sequence[float], center: Point, radiu
     for mx, my in ((dx[middle], dy[middle]), (ey, -ex)):
         if min([x * mx + y * my for x, y in zip(dx, dy, strict=True)]) > radius * sqrt(mx * mx + my * my):
             return None
-    gap = [(p + q - radius * radius) / (2.0 * radius) for p, q in zip(product(dx, dx), product(dy, dy), strict=True)]
+    inner, over = radius * radius, 0.5 / radius
+    gap = [over * (square - inner) for square in squared_length(dx, dy)]
     return next(iter(_closings(gap, True)), None)
 
 

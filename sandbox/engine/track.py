@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from sandbox.engine.arc import Arc, still, through
 from sandbox.engine.lasting import LastingContact
 from sandbox.engine.setup import Ball
-from sandbox.engine.touch import TOUCHING_GAP, Obstacle, Touching
+from sandbox.engine.touch import TOUCHING_GAP, Near, Obstacle, touched
 from sandbox.physics.integrators import State
 
 #: Value of ``Arc.contact`` for a ball in a simulated contact with others.
@@ -15,8 +15,6 @@ PRESSED = "pressed"
 
 #: Difference in m/s and rad/s below which it is rounding.
 _SAME = 1e-9
-
-Near = tuple[Obstacle, Touching]
 
 
 class Track:
@@ -81,6 +79,4 @@ class Track:
 
     def near(self, x: float, y: float, gap: float = TOUCHING_GAP) -> list[Near]:
         """The surfaces that the ball touches at (x, y), up to a ``gap`` in m, each at its nearest feature."""
-        point = (x - gap, y - gap, x + gap, y + gap)
-        found = [(obstacle, obstacle.near(x, y)) for obstacle in self.obstacles if obstacle.may_meet(point)]
-        return [(obstacle, touching) for obstacle, touching in found if touching.gap <= gap]
+        return touched(self.obstacles, x, y, gap)

@@ -56,10 +56,8 @@ class _InAir:
         object.__setattr__(self, "_reynolds_per_speed", self.density * 2.0 * self.radius / self.viscosity)
 
 
-def _through_air(wind: Wind | None, t: float, position: Any, velocity: Any) -> tuple[Any, Any]:
+def _in_wind(wind: Wind, t: float, position: Any, velocity: Any) -> tuple[Any, Any]:
     """Velocity relative to the air, in m/s."""
-    if wind is None:
-        return velocity
     wx, wy = wind(t, position)
     return velocity[0] - wx, velocity[1] - wy
 
@@ -69,7 +67,7 @@ class Drag(_InAir):
     """Quadratic drag, ``F = -1/2 rho Cd A |u| u`` with ``u = v - wind``. Clift, Grace & Weber 1978, chapter 5."""
 
     def __call__(self, t: float, position: Any, velocity: Any, spin: Any) -> tuple[Any, Any]:
-        ux, uy = _through_air(self.wind, t, position, velocity)
+        ux, uy = velocity if self.wind is None else _in_wind(self.wind, t, position, velocity)
         speed = (ux * ux + uy * uy) ** 0.5
         spin_ratio = self.radius * abs(spin) / (speed + _ALMOST_ZERO)
         k = -self._half_density_area * self.coefficient(self._reynolds_per_speed * speed, spin_ratio) * speed
@@ -89,7 +87,8 @@ class Magnus(_InAir):
     along_ground: bool = False
 
     def __call__(self, t: float, position: Any, velocity: Any, spin: Any) -> tuple[Any, Any]:
-        ux, uy = _through_air(None if self.along_ground else self.wind, t, position, velocity)
+        wind = None if self.along_ground else self.wind
+        ux, uy = velocity if wind is None else _in_wind(wind, t, position, velocity)
         speed = (ux * ux + uy * uy) ** 0.5
         size = self.radius * abs(spin)
         spin_ratio = size / (speed + _ALMOST_ZERO)
@@ -115,5 +114,5 @@ class SpinDecay:
         object.__setattr__(self, "_k", self.inertia * self.rate / self.radius)
 
     def __call__(self, t: float, position: Any, velocity: Any, spin: Any) -> Any:
-        ux, uy = _through_air(self.wind, t, position, velocity)
+        ux, uy = velocity if self.wind is None else _in_wind(self.wind, t, position, velocity)
         return -self._k * (ux * ux + uy * uy) ** 0.5 * spin

@@ -11,11 +11,13 @@ from sandbox.engine.bernstein import (
     elevate,
     evaluate,
     piece,
-    product,
     split,
+    squared_length,
     without_root_at_start,
 )
+from sandbox.engine.bernstein_many import evaluate as evaluate_many
 from sandbox.engine.bernstein_many import first_downward_crossing
+from sandbox.engine.bernstein_many import squared_length as squared_lengths
 
 coefficients = st.lists(st.floats(-10, 10, allow_subnormal=False), min_size=2, max_size=8)
 inside = st.floats(0.0, 1.0)
@@ -25,7 +27,11 @@ def from_roots(*roots, scale=1.0):
     """Bernstein coefficients of scale * prod (root - u): positive before the first root."""
     b = [scale]
     for root in roots:
-        b = product(b, [root, root - 1.0])
+        n = len(b)
+        b = [
+            ((n - k) * root * here + k * (root - 1.0) * before) / n
+            for k, (here, before) in enumerate(zip([*b, 0.0], [0.0, *b], strict=True))
+        ]
     return b
 
 
@@ -46,9 +52,12 @@ def test_split_piece_and_elevation_keep_the_polynomial(b, u, v):
     assert evaluate(elevate(b, len(b) + 2), v) == pytest.approx(evaluate(b, v), abs=1e-10)
 
 
-@given(coefficients, coefficients, inside)
-def test_product_and_derivative(b, c, u):
-    assert evaluate(product(b, c), u) == pytest.approx(evaluate(b, u) * evaluate(c, u), abs=1e-9)
+@given(coefficients, inside)
+def test_squared_length_and_derivative(b, u):
+    c = b[::-1]
+    both = pytest.approx(evaluate(b, u) ** 2 + evaluate(c, u) ** 2, abs=1e-9)
+    assert evaluate(squared_length(b, c), u) == both
+    assert evaluate_many(squared_lengths(np.array(b)[:, None], np.array(c)[:, None]), np.array([u]))[0] == both
     slope = (evaluate(b, 0.5 + 1e-6) - evaluate(b, 0.5 - 1e-6)) / 2e-6
     assert evaluate(derivative(b), 0.5) == pytest.approx(slope, abs=1e-3)
 
@@ -83,7 +92,7 @@ def test_many_at_once_find_the_same(rows):
 
 def test_a_graze_without_crossing_is_no_touch_and_a_shallow_dip_is():
     """(u - 1/2)^2 + d: no root for d > 0, two for d < 0, however small."""
-    square = product([-0.5, 0.5], [-0.5, 0.5])
+    square = squared_length([-0.5, 0.5], [0.0, 0.0])
     assert list(downward_crossings([b + 1e-12 for b in square])) == []
     (found,) = downward_crossings([b - 1e-12 for b in square])
     assert found == pytest.approx(0.5 - 1e-6, abs=1e-9)
