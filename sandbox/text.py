@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 import re
+from functools import lru_cache
 
 #: Characters that a terminal interprets instead of showing: control characters (C0 except tab and newline, DEL, C1),
 #: and those that change the writing direction or break lines.
 _CONTROL = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u2028-\u202e\u2066-\u2069\ufeff]|[\ud800-\udfff]")
+
+#: What ends a line, or is not one space wide.
+_BREAK = re.compile("[\n\r\t\v\f\x85]")
 
 #: How a formula begins in a spreadsheet.
 _FORMULA = ("=", "+", "-", "@")
@@ -19,7 +23,7 @@ def printable(text: str) -> str:
 
 def one_line(text: str) -> str:
     """The text on one line, without control characters: for a name, a label, a table cell."""
-    return printable(" ".join(text.split()) if any(mark in text for mark in "\n\r\t\v\f\x85") else text)
+    return printable(" ".join(text.split()) if _BREAK.search(text) else text)
 
 
 def shortened(text: str, most: int = 80) -> str:
@@ -27,6 +31,7 @@ def shortened(text: str, most: int = 80) -> str:
     return text if len(text) <= most else text[: most - 3] + "..."
 
 
+@lru_cache(maxsize=1024)  # a sweep has the same words in all rows
 def csv_text(text: str) -> str:
     """The text as a cell of a CSV file: one line, with a quote before what a spreadsheet would take for a formula."""
     line = one_line(text)

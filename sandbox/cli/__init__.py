@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 
 from sandbox.cli.interrupts import Interrupts
@@ -16,6 +17,7 @@ def main(args: list[str] | None = None) -> int:
     Called as the program (without ``args``), it cleans up when Ctrl-C, SIGTERM or a closed terminal stops it.
     """
     interrupts = Interrupts()
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # numpy's threads take longer to start than they could save
     try:
         if args is None:
             interrupts.begin()

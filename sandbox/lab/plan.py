@@ -32,12 +32,13 @@ CHANGED = "depends_on_accuracy"
 #: Random points are drawn in blocks of this size, each with its own seed, so that any point is available directly.
 _BLOCK = 1024
 
-#: Points computed together: more are faster, fewer give even shares and earlier results. The number must not depend on
-#: the workers, as the last digits of a shot depend on how many are computed with it.
-_SMALLEST_BLOCK, _LARGEST_BLOCK, _BLOCKS = 32, 2560, 4
+#: Points computed together: more are faster, fewer give earlier results. The number must not depend on the workers, as
+#: the last digits of a shot depend on how many are computed with it.
+_SMALLEST_BLOCK, _LARGEST_BLOCK = 32, 2560
 
 #: Most evaluations of the forces in a block, about a second: a sweep that is interrupted loses what is not yet a row.
-_WORK = 600_000
+#: For shots that roll on after the flight, which are then computed one by one, an evaluation counts as several.
+_WORK, _ONE_BY_ONE = 1_200_000, 4
 
 #: One run as a row: swept parameters, results, flags, and ``error``, which is empty if the run was completed.
 Record = dict[str, Any]
@@ -99,8 +100,13 @@ class Plan:
             return 1
         run = next(runs(self.scene, self.keys, [first], asked=self.asked))
         cost = 1 if isinstance(run, Exception) else run.numerics.force_evaluations
-        block = min(_LARGEST_BLOCK, max(_SMALLEST_BLOCK, -(-self.size // _BLOCKS)), _WORK // max(cost, 1))
-        return block if block >= _SMALLEST_BLOCK else 1
+        if self.scene.settles(self.asked) is None:
+            cost *= _ONE_BY_ONE
+        most = min(_LARGEST_BLOCK, _WORK // max(cost, 1))
+        if most < _SMALLEST_BLOCK:
+            return 1
+        blocks = -(-self.size // most)
+        return max(_SMALLEST_BLOCK, -(-self.size // blocks))
 
     def points(self, start: int, stop: int) -> Iterator[tuple[Any, ...]]:
         """The swept values of the points from ``start`` up to ``stop``."""

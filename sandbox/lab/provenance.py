@@ -147,9 +147,14 @@ def _source(place: Path, name: str) -> Path | None:
 
 def _is_users(file: Path) -> bool:
     """Whether a module belongs neither to the sandbox nor to Python or an installed package."""
-    installed = {Path(sysconfig.get_path(name)) for name in ("stdlib", "purelib", "platlib")}
     return (
         file.suffix == ".py"
         and {"site-packages", "dist-packages"}.isdisjoint(file.parts)
-        and not any(file.is_relative_to(place) for place in (resources.PACKAGE, *installed))
+        and not any(file.is_relative_to(place) for place in (resources.PACKAGE, *_libraries()))
     )
+
+
+@cache
+def _libraries() -> frozenset[Path]:
+    """The folders of Python and of installed packages."""
+    return frozenset(Path(sysconfig.get_path(name)) for name in ("stdlib", "purelib", "platlib"))

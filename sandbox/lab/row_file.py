@@ -6,7 +6,6 @@ import csv
 import filecmp
 import io
 import json
-import math
 import os
 import re
 import shutil
@@ -81,8 +80,9 @@ class RowFile:
         with _writing(self.path):
             if columns != self._columns:
                 self._widen(columns)
+            lines = csv.writer(self._file, lineterminator="\n")
             for record in named:
-                self._file.write(_line([cell(record.get(name)) for name in columns]))
+                lines.writerow([cell(record.get(name)) for name in columns])
                 self.done += 1
             self._file.flush()
 
@@ -237,14 +237,14 @@ def _merged(columns: list[str], records: Iterable[Mapping[str, Any]]) -> list[st
 
 def cell(value: Any) -> str:
     """A value in CSV: empty for None and NaN, true and false, numbers in full precision, lists as JSON; one line."""
+    if type(value) is float:  # by far the most common
+        return "" if value != value else repr(value)
     if value is None:
         return ""
     if hasattr(value, "tolist"):
-        value = value.tolist()  # numpy's numbers and arrays
+        return cell(value.tolist())  # numpy's numbers and arrays
     if isinstance(value, bool):
         return "true" if value else "false"
-    if isinstance(value, float):
-        return "" if math.isnan(value) else repr(value)
     if isinstance(value, list | tuple | dict):
         value = json.dumps(json_ready(value), ensure_ascii=False, default=str)
     return csv_text(value) if isinstance(value, str) else str(value)

@@ -35,7 +35,7 @@ _QUEUED = 3
 #: Times that points are retried when their worker dies, before the points are taken to be the cause.
 _TRIES = 3
 
-#: Up to this many shots that are computed together finish before another process has started.
+#: Up to this many shots, or a single block of shots, finish about when another process would have started.
 _ONE_PROCESS = 200
 
 #: Identifies this process.
@@ -187,7 +187,7 @@ def sweep_to_file(plan: Plan, path: Path, pool: Workers, progress: Progress = _s
 
 def jobs_that_pay(plan: Plan) -> int:
     """One process per core, or a single one if shots computed together finish before another has started."""
-    return 1 if plan.block > 1 and plan.size <= _ONE_PROCESS else min(cores(), plan.size)
+    return 1 if plan.block > 1 and plan.size <= max(_ONE_PROCESS, plan.block) else min(cores(), plan.size)
 
 
 @contextmanager

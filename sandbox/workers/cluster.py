@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import asyncio
 import logging
 import socket
 from collections.abc import Callable
@@ -26,6 +25,8 @@ class Cluster:
     if all workers are lost."""
 
     def __init__(self, address: str) -> None:
+        import asyncio
+
         try:
             import distributed
         except ImportError:
@@ -105,6 +106,8 @@ class Cluster:
 
 async def _greeted(address: str) -> str:
     """The kind of the service at the address, as it reports: a Client would wait forever for another kind."""
+    import asyncio
+
     from distributed.core import rpc
 
     async with rpc(address, timeout=ANSWER) as other:
