@@ -14,7 +14,7 @@ from sandbox.engine.setup import Segment, Setup, Touches
 from sandbox.parameters import Accuracy, Group, group, quantity
 from sandbox.sport.air import Air
 from sandbox.sport.amounts import roughly
-from sandbox.sport.controls import Controls, Spin
+from sandbox.sport.controls import Controls, Handle, Spin
 from sandbox.sport.facts import ENDED, Fact, once
 from sandbox.sport.flight import FlyingBall, Launch, forces_in_flight, launched_ball
 from sandbox.sport.readings import LAUNCH, Moment, at, before
@@ -48,7 +48,7 @@ class Parameters(Group):
     accuracy: Accuracy = group(Accuracy(), "speed against accuracy")
 
 
-CONTROLS = Controls(strongest=20.0, spins=(Spin("launch.spin", 20.0),), sliders=("launch.height", "fan.push"))
+CONTROLS = Controls(strongest=20.0, spins=(Spin("launch.spin", 20.0),), handles=(Handle("fan.place"),))
 
 
 @dataclass(frozen=True)

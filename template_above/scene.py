@@ -13,7 +13,7 @@ from sandbox.engine.run import Run
 from sandbox.engine.setup import Ball, Catch, Segment, Setup, Surface
 from sandbox.parameters import Accuracy, Group, group, quantity
 from sandbox.physics.cloth import Cloth
-from sandbox.sport.controls import Controls
+from sandbox.sport.controls import Controls, Handle
 from sandbox.sport.facts import ENDED, Fact
 
 MASS, RADIUS, FROM_END = 0.0459, 0.02135, 0.4  # of a golf ball, in kg and m; of tee and cup from the ends, in m
@@ -45,7 +45,7 @@ class Parameters(Group):
     accuracy: Accuracy = group(Accuracy(), "speed against accuracy")
 
 
-CONTROLS = Controls(strongest=8.0, sliders=("launch.roll", "lane.block", "lane.felt"), scores="holed")
+CONTROLS = Controls(handles=(Handle(y="lane.block", at=lambda p: (0.0, 0.5 * p.lane.block)),), scores="holed")
 
 
 def build(parameters: Parameters) -> Setup:

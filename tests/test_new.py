@@ -357,9 +357,9 @@ def test_a_file_with_nul_bytes_is_named(call, scene: Path, file: str):
         ("scene.py", "CONTROLS = Controls(", "CONTROLS = dict(", "CONTROLS must be a sandbox.sport.controls.Controls"),
         (
             "scene.py",
-            'sliders=("launch.height"',
-            'sliders=("launch.hight"',
-            f'{NAME}/scene.py: CONTROLS sliders "launch.hight": unknown key; did you mean launch.height?',
+            'Handle("fan.place"',
+            'Handle("fan.plaice"',
+            f'{NAME}/scene.py: CONTROLS handles "fan.plaice": unknown key; did you mean fan.place?',
         ),
         ("scene.py", "strongest=20.0", 'speed="launch.sped"', 'CONTROLS speed "launch.sped": unknown key; did'),
         ("scene.py", '(Spin("launch.spin", 20.0),)', '(Spin("launch.spin", 20.0))', "CONTROLS spins = Spin("),

@@ -40,6 +40,23 @@ class Spread:
 
 
 @dataclass(frozen=True)
+class Handle:
+    """What a player drags in the picture: ``Handle("hoop.distance", "hoop.height")`` is at (distance, height) in m.
+
+    One without ``x`` or ``y`` moves only along the other. ``[*]`` in the keys, as in ``balls[*].x``, gives every entry
+    of a list a handle. The wind, ``air.wind``, has one in every scene.
+    """
+
+    x: str = ""
+    y: str = ""
+    #: Where it is (m), from the parameters, if that is not what its keys say.
+    at: Callable[[Any], tuple[float, float]] | None = None
+    where: str = ""  # the switch without which there is none
+    #: From the parameters to the changes without which the keys have no effect, such as a rack that is broken up.
+    first: Callable[[Any], Mapping[str, Any]] | None = None
+
+
+@dataclass(frozen=True)
 class Controls:
     """How a player controls a scene: most fields are keys of parameters."""
 
@@ -50,6 +67,7 @@ class Controls:
     ball: str = "ball"  # the ball that is pulled: its name, or the key that holds its name
     also: Mapping[str, Any] = field(default_factory=dict)  # what else a pull sets, such as how the shot begins
     sliders: tuple[str, ...] = ()  # shown first
+    handles: tuple[Handle, ...] = ()
     scores: str = ""  # the fact that is true, or not empty, if the shot scored
     spread: tuple[Spread, ...] = ()  # of a fan of shots; where empty, of speed and angle
     fan_fact: str = ""  # the fact whose mean and spread a fan reports
@@ -59,7 +77,7 @@ class Controls:
 
     def mistake(self, schema: type[Group], facts: Sequence[str]) -> str | None:
         """What is wrong with these controls for a scene with such parameters and facts, in a line; None if nothing."""
-        for name, kind in (("sliders", str), ("spins", Spin), ("spread", Spread)):
+        for name, kind in (("sliders", str), ("handles", Handle), ("spins", Spin), ("spread", Spread)):
             entries = getattr(self, name)
             if not isinstance(entries, tuple | list) or not all(isinstance(entry, kind) for entry in entries):
                 what = "keys" if kind is str else kind.__name__
@@ -82,4 +100,7 @@ class Controls:
         yield from (("spins", spin.key) for spin in self.spins)
         yield from (("also", key) for key in self.also)
         yield from (("sliders", key) for key in self.sliders)
+        yield from (
+            ("handles", key.partition("[")[0]) for item in self.handles for key in (item.x, item.y, item.where) if key
+        )
         yield from (("spread", spread.key) for spread in self.spread)

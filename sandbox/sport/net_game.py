@@ -14,6 +14,7 @@ from sandbox.engine.setup import Bounce, Segment, Surface, Until
 from sandbox.parameters import Group, quantity
 from sandbox.physics.court import cross_restitution
 from sandbox.sport.amounts import roughly
+from sandbox.sport.controls import Handle
 from sandbox.sport.facts import Fact, once
 from sandbox.sport.flight import RPM
 from sandbox.sport.readings import Moment, at, before, passing
@@ -53,6 +54,13 @@ class CourtBounce:
         court = self.court
         restitution = cross_restitution(normal_speed, along_speed, court.restitution, court.slope)
         return Bounce(restitution, court.friction, tangential=court.tangential)
+
+
+#: What is dragged of net and court.
+NET_HANDLES = (
+    Handle(y="net.height", at=lambda parameters: (0.5 * parameters.court.length, parameters.net.height)),
+    Handle("court.length"),
+)
 
 
 def net_of(parameters: Any) -> Surface:

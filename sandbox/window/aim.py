@@ -7,7 +7,6 @@ from math import atan2, cos, degrees, hypot, radians, sin
 from typing import Any
 
 from sandbox.parameters import Parameter
-from sandbox.window.history import Changes
 from sandbox.window.session import Session
 
 #: A full pull, as a share of the stage's height.
@@ -34,7 +33,6 @@ class Pull:
     """A pull of the mouse, which may start anywhere; its scale stays the same until it ends."""
 
     start: tuple[int, int]  # px
-    before: Changes  # what was changed until then
     strongest: float  # of a full pull
     height: float  # of the stage, px
     stretch: float  # vertical scale over horizontal scale

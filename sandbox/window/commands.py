@@ -61,6 +61,28 @@ def _go(view: View, by: float) -> None:
         view.game.playback.toggle()
 
 
+def _pick(view: View, by: float) -> None:
+    """Take hold of the next handle by key."""
+    found = [grip for grip, _ in view.spots]
+    if not found:
+        view.game.tell("nothing can be moved while a shot is watched" if view.game.playback else "nothing can be moved")
+        return
+    keys = [grip.keys for grip in found]
+    now = keys.index(view.picked) if view.picked in keys else -1 if by > 0 else 0
+    view.picked = keys[(now + int(by)) % len(keys)]
+
+
+def _move(view: View, across: float, up: float) -> bool:
+    """Move what was picked by key; returns whether there is anything."""
+    grip = next((grip for grip, _ in view.spots if grip.keys == view.picked), None)
+    if grip is None:
+        return False
+    step = view.step_of(grip, snap=True) * (abs(across) + abs(up))
+    sign = (across > 0) - (across < 0), (up > 0) - (up < 0)
+    view.game.drag_to((grip.place[0] + sign[0] * step, grip.place[1] + sign[1] * step), step, grip)
+    return True
+
+
 def _with_shot(view: View, action: Callable[[Shot], object]) -> None:
     """Do something with the shot that is watched, or the last one."""
     game = view.game
@@ -154,8 +176,11 @@ def _back(view: View, by: float) -> None:
     game = view.game
     if view.close_overlay() or (view.panel is not None and view.panel.close_lists()):
         return
-    if game.pull is not None:
+    if game.holding:
         game.give_up_pull()
+        view.free()
+    elif view.picked is not None:
+        view.picked = None
     elif view.tape is not None or "tape" in view.on:
         view.on.discard("tape")
         view.tape = None
@@ -244,8 +269,9 @@ PANEL: dict[str, Callable[[Any, float], object]] = {
 COMMANDS: dict[str, Callable[[View, float], object]] = {
     "go": _go,
     "again": lambda view, by: view.game.aim_again(from_rest=True),
-    "turn": lambda view, by: view.game.nudge(aim.nudged(view.game.session, turn=by)),
-    "push": lambda view, by: view.game.nudge(aim.nudged(view.game.session, push=by)),
+    "turn": lambda view, by: _move(view, -by, 0) or view.game.nudge(aim.nudged(view.game.session, turn=by)),
+    "push": lambda view, by: _move(view, 0, by) or view.game.nudge(aim.nudged(view.game.session, push=by)),
+    "handle": _pick,
     "spin": lambda view, by: view.game.nudge(aim.spun(view.game.session, 0, by)),
     "other_spin": lambda view, by: view.game.nudge(aim.spun(view.game.session, 1, by)),
     "restart": lambda view, by: _watching(view, "restart"),

@@ -17,6 +17,7 @@ from sandbox.errors import RunError, SandboxError
 from sandbox.window import replay
 from sandbox.window.aim import Pull, strongest
 from sandbox.window.background import PATIENCE, Latest
+from sandbox.window.handles import Grip
 from sandbox.window.history import Changes, History
 from sandbox.window.playback import Playback
 from sandbox.window.run_data import run_of
@@ -68,6 +69,8 @@ class Game:
         self.count = 0  # all of them
         self.before_save: Shot | None = None  # the shot as it was before the scene file was saved
         self.pull: Pull | None = None
+        self.grip: Grip | None = None  # what is dragged, as it was before
+        self.before = session.changes  # pull and drag
         self.fan_width = 1.0
         self.still = 0.0  # s since the shot changed
         self.cost = 0.0  # s, of the last run
@@ -107,6 +110,11 @@ class Game:
         """Whether something is being computed, or a shot is playing."""
         playing = self.playback is not None and self.playback.playing
         return playing or not self.settled or bool(self.jobs)
+
+    @property
+    def holding(self) -> bool:
+        """Whether the mouse pulls or drags."""
+        return self.pull is not None or self.grip is not None
 
     @property
     def late(self) -> bool:
@@ -332,8 +340,8 @@ class Game:
 
     def begin_pull(self, at: tuple[int, int], height: float, stretch: float) -> None:
         """The mouse begins a pull at a place (px) on a stage of ``height`` px."""
-        self.history.end()
-        self.pull = Pull(at, self.session.changes, strongest(self.session), height, stretch)
+        self._take_hold()
+        self.pull = Pull(at, strongest(self.session), height, stretch)
 
     def pull_to(self, at: tuple[int, int]) -> None:
         """The mouse pulls as far as a place (px)."""
@@ -345,26 +353,42 @@ class Game:
         if values is not None:
             self.change(values)
 
+    def begin_drag(self, grip: Grip) -> None:
+        """The mouse takes hold of something in the picture."""
+        self._take_hold()
+        self.grip = grip
+
+    def _take_hold(self) -> None:
+        self.history.end()
+        self.before = self.session.changes
+
+    def drag_to(self, place: tuple[float, float], step: float, grip: Grip | None = None) -> None:
+        """Move what is held, or ``grip``, to a place, as far as that is possible."""
+        grip = grip or self.grip
+        if grip is not None:
+            values = grip.changes(place, step)
+            self._changing(lambda: self.session.change(values, built=True), frozenset(values))
+
     def release(self) -> None:
         """The mouse lets go: a pull that is long enough is a shot."""
-        pull, self.pull = self.pull, None
+        pull, self.pull, self.grip = self.pull, None, None
+        self.history.end()
         self.revision += 1
         if pull is not None and pull.shoots:
-            self.history.end()
             self.shoot()
 
     def give_up_pull(self) -> None:
-        """Aim as before the pull."""
-        pull, self.pull = self.pull, None
-        if pull is not None:
-            self._restore(pull.before)
-            self.history.cancel(pull.before)
+        """Aim as before the pull or the drag."""
+        if self.holding:
+            self.pull = self.grip = None
+            self._restore(self.before)
+            self.history.cancel(self.before)
 
     # Shooting and watching
 
     def shoot(self) -> None:
         """Let go: the shot is watched, as soon as it is computed."""
-        self.pull, self.shooting = None, True
+        self.pull, self.grip, self.shooting = None, None, True
         self.revision += 1
         if self.settled:
             self.shooting = False
@@ -425,7 +449,7 @@ class Game:
 
     def _opened(self) -> None:
         """Start on another scene: only the shots of the one before are kept."""
-        self.playback = self.pull = self.before_save = self.unreadable = None
+        self.playback = self.pull = self.grip = self.before_save = self.unreadable = None
         self.shooting = False
         self.runs.forget()
         if self.session.source not in self.opened:

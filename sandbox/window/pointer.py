@@ -22,6 +22,7 @@ class Pointer:
         self.scrubbing = False  # the time line is dragged
         self.laying = False  # the tape is dragged
         self.panning = False  # the picture is dragged
+        self.grabbed: Place = (0, 0)  # where the button was pressed on a handle
         self.pressed: Place | None = None  # where the button was pressed on a shot that is over
 
     @property
@@ -31,7 +32,7 @@ class Pointer:
     @property
     def dragging(self) -> bool:
         """Whether a drag is in progress, which may leave the area where it began."""
-        return self.scrubbing or self.laying or self.panning or self.view.game.pull is not None
+        return self.scrubbing or self.laying or self.panning or self.view.game.holding
 
     def handle(self, event: pygame.event.Event) -> None:
         """One event of the mouse."""
@@ -83,6 +84,10 @@ class Pointer:
                 self.panning = True
             elif aimed is not None:
                 game.nudge(aim.aimed(game.session, *aimed))
+            elif (grip := view.handle_at(at)) is not None:
+                view.hold()
+                game.begin_drag(grip)
+                self.grabbed = at
             elif game.playback is None:
                 self._begin_pull(at)
             elif game.playback.over:
@@ -123,6 +128,9 @@ class Pointer:
                 self._begin_pull(self.pressed)
                 self.pressed = None
                 game.pull_to(at)
+        elif game.grip is not None:
+            snap = bool(pygame.key.get_mods() & pygame.KMOD_SHIFT)
+            game.drag_to(view.dragged(game.grip, self.grabbed, at), view.step_of(game.grip, snap))
         else:
             game.pull_to(at)
 
@@ -130,3 +138,4 @@ class Pointer:
         self.scrubbing = self.laying = self.panning = False
         self.pressed = None
         self.view.game.release()
+        self.view.free()

@@ -90,18 +90,25 @@ class Session:
 
     # Changing
 
-    def _with(self, values: Mapping[str, Any]) -> Scene:
+    def with_changes(self, values: Mapping[str, Any]) -> Scene:
+        """The scene of the file with these changes."""
         parameters = declared.validate(
             type(self.base.parameters), self.base.parameters.model_dump(), "", values, "the window's"
         )
         return replace(self.base, parameters=parameters)
 
     def _set(self, values: dict[str, Any], positions: frozenset[str]) -> None:
-        self.scene, self.changes = self._with(values), Changes(self.source, values, positions & values.keys())
+        self.scene, self.changes = self.with_changes(values), Changes(self.source, values, positions & values.keys())
 
-    def change(self, values: Mapping[str, Any]) -> None:
-        """Add these changes."""
-        self._set({**self.changes.values, **values}, self.changes.positions)
+    def change(self, values: Mapping[str, Any], built: bool = False) -> None:
+        """Add these changes; ``built`` refuses those that give no scene, such as balls that overlap."""
+        if any("[" in key for key in values):
+            now = self.scene.parameters
+            values = declared.without_indices(type(now), now.model_dump(), "", values, "the window's")
+        values = {**self.changes.values, **values}
+        if built:
+            self.with_changes(values).build()
+        self._set(values, self.changes.positions)
 
     def reset(self, key: str | None = None) -> None:
         """Back to the file: one parameter, or all of them."""
@@ -137,7 +144,7 @@ class Session:
             return
         before, self.base = self.base, base
         try:
-            scene = self._with(self.changes.values)
+            scene = self.with_changes(self.changes.values)
             scene.build()
         except BaseException:
             self.base = before

@@ -21,8 +21,11 @@ if TYPE_CHECKING:
 
 def value_at(parameters: Any, key: str) -> Any:
     """The value at a dotted key; None where there is none."""
-    for part in key.split("."):
-        parameters = getattr(parameters, part, None)
+    for part in key.replace("[", ".").replace("]", "").split("."):
+        if isinstance(parameters, list | tuple):
+            parameters = parameters[int(part)] if int(part) < len(parameters) else None
+        else:
+            parameters = getattr(parameters, part, None)
     return parameters
 
 

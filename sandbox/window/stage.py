@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import pairwise
-from math import dist, hypot
+from math import dist
 from typing import Any
 
 import numpy as np
@@ -182,30 +182,6 @@ class Stage:
         for at in marked[:MOST_CONTACTS]:
             sheet.painter.disc(at, 5.0 * sheet.unit, TRACE["rim"], 0.7)
             sheet.painter.disc(at, 3.6 * sheet.unit, CARD["accent"])
-
-    def draw_pull(self, sheet: Canvas, start: tuple[float, float], pull: tuple[float, float], text: str) -> None:
-        """The rubber band from where the pull began to the hand, and the speed and angle that it gives."""
-        hand = start[0] + pull[0], start[1] + pull[1]
-        length = hypot(*pull)
-        if length < 1:
-            return
-        across = -pull[1] / length * 6 * sheet.unit, pull[0] / length * 6 * sheet.unit
-        for side in (-1, 1):
-            foot = start[0] + side * across[0], start[1] + side * across[1]
-            pygame.draw.aaline(sheet.surface, CARD["shadow"], foot, hand, max(3, round(4.5 * sheet.unit)))
-            pygame.draw.aaline(sheet.surface, CARD["accent"], foot, hand, max(2, round(2.5 * sheet.unit)))
-        sheet.painter.disc(hand, 8.5 * sheet.unit, CARD["shadow"], 0.8)
-        sheet.painter.disc(hand, 6.5 * sheet.unit, CARD["accent"])
-        below = pull[1] >= 0
-        text = sheet.ended(text, "small", sheet.frame.width - 4 * sheet.gap)
-        rect = sheet.lettering.rect(
-            text, "small", (hand[0], hand[1] + (20 if below else -20) * sheet.unit), "midtop" if below else "midbottom"
-        )
-        room = sheet.frame.copy()
-        room.height -= sheet.card_height() + sheet.gap
-        rect = rect.inflate(4 * sheet.gap, 2 * sheet.gap).clamp(room)
-        sheet.painter.panel(rect, CARD["background"], 0.85, 6 * sheet.unit)
-        sheet.lettering.write(sheet.surface, text, "small", rect.center, CARD["text"], "center")
 
 
 def picture_of(shot: Shot, size: tuple[int, int]) -> View[Any]:

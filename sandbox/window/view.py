@@ -16,16 +16,17 @@ import pygame
 
 from sandbox.picture.camera import Camera
 from sandbox.picture.palette import palette
-from sandbox.picture.sheet import Entry, rows_of
+from sandbox.picture.sheet import Entry, nice, rows_of
 from sandbox.picture.vectors import Vectors
 from sandbox.picture.view import View as Picture
-from sandbox.window import overlay
+from sandbox.window import hand, overlay
 from sandbox.window.background import Background, Latest, Once
 from sandbox.window.bar import HEIGHT, Bar, Shown
 from sandbox.window.canvas import Canvas
 from sandbox.window.charts import Charts
 from sandbox.window.fan import Cloud, cloud
 from sandbox.window.game import Game
+from sandbox.window.handles import Grip, grips
 from sandbox.window.measure import NEAR, Tape, draw_reading, reading, state_entries
 from sandbox.window.overlay import Overlay
 from sandbox.window.score_map import FINER, QUICK, ScoreMap, score_map
@@ -76,6 +77,8 @@ class View:
         self.stage: Stage | None = None  # the last one that could be composed
         self.composed = 0.0  # s since then
         self.chosen: Camera | None = None  # by zooming; None shows all of the shot
+        self.holds = False  # the camera, while something is dragged
+        self.picked: tuple[str, str] | None = None  # the keys of the handle that was picked by key
         self.clouds: Latest[Cloud] = Latest()  # the fan
         self.maps: Latest[ScoreMap] = Latest()
         self.map_at = pygame.Rect(0, 0, 0, 0)  # where its cells are drawn
@@ -212,6 +215,52 @@ class View:
         self.chosen = camera
         self.changed = True
 
+    # ------------------------------------------------------------------------------------------------------- handles
+
+    @property
+    def spots(self) -> list[hand.Spot]:
+        """What can be dragged now, and where its handles are in px."""
+        game, stage = self.game, self.stage
+        if game.playback is not None or game.pull is not None or stage is None or stage.size != self.area.size:
+            return []
+        found: list[Grip] = self._once("grips", game.session.scene, lambda: grips(game.session))
+        return hand.spots(found, stage, self._sheet())
+
+    def _sheet(self) -> Canvas:
+        return Canvas(self.canvas.subsurface(self.area))
+
+    def handle_at(self, at: tuple[int, int]) -> Grip | None:
+        """The handle at a place in px."""
+        return hand.nearest(self.spots, at, self._sheet().unit)
+
+    def _held(self) -> Grip | None:
+        """The handle that is dragged, that the mouse is on, or that was picked by key."""
+        picked = next((grip for grip, _ in self.spots if grip.keys == self.picked), None)
+        return self.game.grip or (self.handle_at(self.at) if self.area.collidepoint(self.at) else None) or picked
+
+    def hold(self) -> None:
+        """Keep the camera as it is: what is dragged stays under the mouse."""
+        if self.chosen is None and self.stage is not None:
+            self.chosen, self.holds = self.stage.camera, True
+
+    def free(self) -> None:
+        """Let the camera go."""
+        if self.holds:
+            self.chosen, self.holds, self.changed = None, False, True
+
+    def step_of(self, grip: Grip, snap: bool) -> float:
+        """In which steps, in m or m/s, a handle is dragged."""
+        assert self.stage is not None
+        sheet = self._sheet()
+        return nice((hand.SNAPS * sheet.unit if snap else hand.FINE) / hand.camera_of(grip, self.stage, sheet).scale)
+
+    def dragged(self, grip: Grip, before: tuple[int, int], at: tuple[int, int]) -> tuple[float, float]:
+        """Where a handle is dragged to, in m or m/s, by a drag between two places in px."""
+        assert self.stage is not None
+        camera = hand.camera_of(grip, self.stage, self._sheet())
+        (x0, y0), (x, y) = camera.world(*before), camera.world(*at)
+        return grip.place[0] + x - x0, grip.place[1] + y - y0
+
     # ------------------------------------------------------------------------------------------------------- time
 
     @property
@@ -292,7 +341,7 @@ class View:
             return
         if stage is not None and game.playback is None and self._may_draw(stage, shot) and stage.chosen == self.chosen:
             moving = game.pull is not None or not game.settled or game.still < AT_REST
-            if moving and (stage.holds(shot) or self.composed < STEADY):
+            if moving and game.grip is None and (stage.holds(shot) or self.composed < STEADY):
                 return
         key = self._stage_key()
         self.stages.follow(key, lambda: self.background.submit(Stage, *key, stage))
@@ -407,6 +456,11 @@ class View:
                 _darken(sheet.surface)
         else:
             sheet.surface.fill(CARD["background"])
+        spots = self.spots if self.over is None and game.failure is None else []
+        if spots and stage is not None:
+            held = self._held()
+            mouse = self.at if self.area.collidepoint(self.at) and game.grip is None else None
+            hand.draw_handles(sheet, spots, stage, mouse, held, held.said(game.session) if held is not None else "")
         undrawable = [(self.undrawable, True)] if self.undrawable is not None else []
         overlay.draw_messages(sheet, [*undrawable, *game.notices])
 
@@ -439,7 +493,7 @@ class View:
             forces = vectors.entries(t or 0.0)
         self._draw_words(sheet, stage, shot, forces)
         if game.pull is not None and game.pull.shoots:
-            stage.draw_pull(sheet, game.pull.start, game.pull.drawn, shot.aimed)
+            hand.draw_pull(sheet, game.pull.start, game.pull.drawn, shot.aimed)
 
     def _ghosts(self, shot: Shot) -> list[Shot]:
         """The earlier shots that are drawn with this one."""
@@ -455,6 +509,8 @@ class View:
         entries: Sequence[Entry] = shot.card
         if game.pull is not None:
             notes = ["let go to shoot, Esc to cancel"]
+        elif game.grip is not None:
+            notes = ["Shift goes in steps, Esc to cancel"]
         elif playback is None:
             notes = ["pull back anywhere and let go, or press Space"]
         else:

@@ -11,7 +11,7 @@ from sandbox.engine.setup import SOLID_SPHERE, Segment, Setup, Surface
 from sandbox.parameters import Accuracy, Group, group, quantity
 from sandbox.sport.air import Weather
 from sandbox.sport.amounts import roughly
-from sandbox.sport.controls import Controls, Spin
+from sandbox.sport.controls import Controls, Handle, Spin
 from sandbox.sport.facts import ENDED, Fact
 from sandbox.sport.flight import Launch, Release, forces_in_flight, launched_ball, with_spin_decay
 from sandbox.sport.readings import LAUNCH, Moment, at, passing
@@ -45,6 +45,11 @@ CONTROLS = Controls(
     strongest=45.0,
     spins=(Spin("launch.spin", 100.0),),
     sliders=("release.height", "plate.distance", "plate.bottom", "plate.top", "air.elevation"),
+    handles=(
+        Handle("release.place", "release.height"),
+        Handle("plate.distance", "plate.top"),
+        Handle(y="plate.bottom", at=lambda parameters: (parameters.plate.distance, parameters.plate.bottom)),
+    ),
     scores="strike",
 )
 

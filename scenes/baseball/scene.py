@@ -15,7 +15,7 @@ from sandbox.engine.setup import SOLID_SPHERE, Segment, Setup, Surface, Touches
 from sandbox.parameters import Accuracy, Group, choice, group, quantity
 from sandbox.sport.air import Weather
 from sandbox.sport.amounts import roughly
-from sandbox.sport.controls import Controls, Spin
+from sandbox.sport.controls import Controls, Handle, Spin
 from sandbox.sport.facts import ENDED, Fact, once
 from sandbox.sport.flight import Launch, Release, forces_in_flight, launched_ball, with_spin_decay
 from sandbox.sport.readings import LAUNCH, Moment, at, before, passing
@@ -50,6 +50,7 @@ CONTROLS = Controls(
     spins=(Spin("launch.spin", 100.0),),
     also={"start": "launch"},
     sliders=("fence.distance", "fence.height", "air.elevation", "air.temperature", "air.wind"),
+    handles=(Handle("fence.distance", "fence.height"), Handle("release.place", "release.height")),
     scores="home_run",
 )
 

@@ -27,7 +27,7 @@ from sandbox.physics.elementwise import anywhere, clip
 from sandbox.physics.integrators import State
 from sandbox.sport.air import Air
 from sandbox.sport.amounts import roughly
-from sandbox.sport.controls import Controls, Spin, Spread
+from sandbox.sport.controls import Controls, Handle, Spin, Spread
 from sandbox.sport.facts import ENDED, Fact, once
 from sandbox.sport.flight import FlyingBall, Launch, forces_in_flight, launched_ball
 from sandbox.sport.readings import LAUNCH, Moment, at, before
@@ -85,6 +85,11 @@ CONTROLS = Controls(
     strongest=16.0,
     spins=(Spin("launch.spin", 20.0),),
     sliders=("launch.speed", "launch.angle", "launch.spin", "release.height", "hoop.distance", "air.wind", "gravity"),
+    handles=(
+        Handle("hoop.distance", "hoop.height"),
+        Handle(y="release.height"),
+        Handle("backboard.gap", "backboard.top", at=lambda parameters: board(parameters)[::3]),
+    ),
     scores="made",
     spread=(Spread("launch.speed", 0.01), Spread("launch.angle", least=1.0), Spread("launch.spin", 0.2)),  # assumed
 )

@@ -31,7 +31,7 @@ from sandbox.parameters import Accuracy, Group, choice, either, group, groups, q
 from sandbox.physics.cloth import Cloth
 from sandbox.physics.throw import friction_by_speed
 from sandbox.sport.amounts import roughly
-from sandbox.sport.controls import Controls, Spin, Spread
+from sandbox.sport.controls import Controls, Handle, Spin, Spread
 from sandbox.sport.facts import ENDED, Fact, once
 from sandbox.sport.readings import at, travelled
 from sandbox.sport.solids import Solid
@@ -120,6 +120,7 @@ CONTROLS = Controls(
     spins=(Spin("cue.follow", 0.05), Spin("cue.english", 0.05)),
     ball="cue.ball",
     sliders=("cue.speed", "cue.angle", "cue.follow", "cue.english", "rack", "cloth.rolling_friction", "ball.friction"),
+    handles=(Handle("balls[*].x", "balls[*].y", first=lambda parameters: placed(laid_out(parameters))),),
     scores="scored",
     spread=(Spread("cue.speed", 0.03), Spread("cue.angle", least=0.2)),  # assumed
     next_start=lambda run, parameters: from_rest(run, parameters),
@@ -469,6 +470,11 @@ def from_rest(run: Run, parameters: Parameters) -> dict[str, Any]:
         return {"rack": "nine-ball", "balls": []}
     if cue not in spots:
         spots[cue] = _free_spot(list(spots.values()), parameters)
+    return placed(spots)
+
+
+def placed(spots: Mapping[str, Vector]) -> dict[str, Any]:
+    """The changes that put balls at these places."""
     return {"rack": "none", "balls": [{"name": name, "x": x, "y": y} for name, (x, y) in spots.items()]}
 
 

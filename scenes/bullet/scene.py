@@ -21,7 +21,7 @@ from sandbox.physics.elementwise import cos, sin
 from sandbox.physics.forces import Gravity
 from sandbox.sport.air import Weather, wind_in
 from sandbox.sport.amounts import amount, metres
-from sandbox.sport.controls import Controls, Spread
+from sandbox.sport.controls import Controls, Handle, Spread
 from sandbox.sport.facts import ENDED, Fact
 from sandbox.sport.flight import DEGREE
 from sandbox.sport.readings import BALL_SPEED, LAUNCH_ANGLE, Moment, at, passing
@@ -77,6 +77,7 @@ CONTROLS = Controls(
     strongest=1000.0,
     also={"zero.distance": 0.0},
     sliders=("bullet.coefficient", "zero.distance", "range.distance", "air.wind", "air.elevation", "air.temperature"),
+    handles=(Handle("range.distance"), Handle("zero.distance")),
     spread=(Spread("launch.speed", 0.005), Spread("launch.angle", least=0.02)),  # assumed
 )
 

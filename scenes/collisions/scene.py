@@ -20,7 +20,7 @@ from sandbox.physics.coefficients import Constant
 from sandbox.physics.forces import Drag, Gravity
 from sandbox.physics.hertz import PHENOLIC, STEEL
 from sandbox.sport.air import Air, wind_in
-from sandbox.sport.controls import Controls
+from sandbox.sport.controls import Controls, Handle
 from sandbox.sport.facts import ENDED, Fact, once
 
 SPHERE_DRAG = 0.47  # of a smooth sphere before its drag crisis (Clift, Grace & Weber 1978)
@@ -86,6 +86,7 @@ CONTROLS = Controls(
     angle="first.angle",
     strongest=10.0,
     ball="first",
+    handles=(Handle("first.x", "first.y"), Handle("others[*].x", "others[*].y")),
     sliders=("meet.restitution", "meet.friction", "first.mass", "first.y", "floor.restitution"),
 )
 

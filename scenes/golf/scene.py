@@ -38,7 +38,7 @@ from sandbox.sport.air import (
     wind_in,
 )
 from sandbox.sport.amounts import roughly
-from sandbox.sport.controls import Controls, Spin, Spread
+from sandbox.sport.controls import Controls, Handle, Spin, Spread
 from sandbox.sport.facts import Fact, once
 from sandbox.sport.flight import RPM, Launch, Sphere, forces_in_flight, height_on, launched_ball
 from sandbox.sport.readings import BALL_SPEED, LAUNCH_ANGLE, LAUNCH_SPIN, Moment, at, before
@@ -161,6 +161,7 @@ CONTROLS = Controls(
     spins=(Spin("launch.spin", 100.0),),
     also={"start": "launch"},
     sliders=("launch.speed", "launch.angle", "launch.spin", "air.wind", "gravity", "pin.distance"),
+    handles=(Handle("pin.distance", at=lambda p: (p.pin.distance, height(p, p.pin.distance))),),
     scores="holed",
     spread=(Spread("launch.speed", 0.015), Spread("launch.angle", 0.08), Spread("launch.spin", 0.06)),  # assumed
     fan_fact="total",

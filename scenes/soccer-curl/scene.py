@@ -20,7 +20,7 @@ from sandbox.engine.setup import Always, Ball, Bounce, Circle, Segment, Setup, S
 from sandbox.parameters import Accuracy, Group, group, quantity, switch
 from sandbox.sport.air import Air
 from sandbox.sport.amounts import roughly
-from sandbox.sport.controls import Controls, Spin
+from sandbox.sport.controls import Controls, Handle, Spin
 from sandbox.sport.facts import ENDED, Fact, once
 from sandbox.sport.flight import forces_in_flight, launched_ball
 from sandbox.sport.readings import BALL_SPEED, LAUNCH_ANGLE, LAUNCH_SPIN, Moment, at, first_touch, passing
@@ -81,6 +81,11 @@ CONTROLS = Controls(
     strongest=45.0,
     spins=(Spin("launch.spin", 50.0),),
     sliders=("launch.speed", "launch.angle", "launch.spin", "launch.tilt", "goal.distance", "air.wind"),
+    handles=(
+        Handle("wall.distance", "wall.offset", where="wall.present"),
+        Handle("keeper.distance", "keeper.offset", at=lambda p: _keeper(p), where="keeper.present"),
+        Handle("goal.distance", "goal.offset"),
+    ),
     scores="goal",
     spread=SPREAD,
 )

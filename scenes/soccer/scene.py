@@ -22,7 +22,7 @@ from sandbox.parameters import Accuracy, Group, group, quantity, switch
 from sandbox.physics.integrators import State
 from sandbox.sport.air import OutdoorAir
 from sandbox.sport.amounts import roughly
-from sandbox.sport.controls import Controls, Spin
+from sandbox.sport.controls import Controls, Handle, Spin
 from sandbox.sport.facts import ENDED, Fact, once
 from sandbox.sport.flight import Launch, forces_in_flight, launched_ball
 from sandbox.sport.readings import LAUNCH, Moment, at, first_touch, passing
@@ -67,6 +67,10 @@ CONTROLS = Controls(
     strongest=45.0,
     spins=(Spin("launch.spin", 50.0),),
     sliders=("launch.speed", "launch.angle", "launch.spin", "goal.distance", "wall.present", "wall.height", "air.wind"),
+    handles=(
+        Handle("wall.distance", "wall.height", where="wall.present"),
+        Handle("goal.distance", "goal.height", where="goal.present"),
+    ),
     scores="goal",
     spread=SPREAD,
 )

@@ -15,10 +15,20 @@ from sandbox.parameters import Accuracy, Group, choice, either, group, quantity
 from sandbox.physics.coefficients import TENNIS_DRAG, TENNIS_LIFT
 from sandbox.physics.swing import RUBBER, STRINGS
 from sandbox.sport.air import Air, ConstantDrag, ConstantLift, Lift, Model, NoDrag, NoLift, SpinRatioLift
-from sandbox.sport.controls import Controls, Spin, Spread
+from sandbox.sport.controls import Controls, Handle, Spin, Spread
 from sandbox.sport.facts import ENDED
 from sandbox.sport.flight import Launch, Release, Sphere, forces_in_flight, launched_ball
-from sandbox.sport.net_game import BOUNCE_FACTS, Bounces, CourtBounce, HardCourt, Net, net_facts, net_of, sentence
+from sandbox.sport.net_game import (
+    BOUNCE_FACTS,
+    NET_HANDLES,
+    Bounces,
+    CourtBounce,
+    HardCourt,
+    Net,
+    net_facts,
+    net_of,
+    sentence,
+)
 from sandbox.sport.readings import LAUNCH
 from sandbox.sport.swing import Swing, struck_by
 
@@ -86,6 +96,7 @@ CONTROLS = Controls(
     spins=(Spin("launch.spin", 100.0),),
     also={"start": "launch"},
     sliders=("release.place", "release.height", "court.restitution", "court.friction", "net.height", "air.wind"),
+    handles=(Handle("release.place", "release.height"), *NET_HANDLES),
     scores="in",
     spread=(Spread("launch.speed", 0.03), Spread("launch.angle", least=0.8), Spread("launch.spin", 0.1)),  # assumed
 )

@@ -14,7 +14,7 @@ from sandbox.engine.setup import SOLID_SPHERE, Segment, Setup, Surface, Touches
 from sandbox.parameters import Accuracy, Group, either, group, quantity
 from sandbox.sport.air import Air, ConstantDrag, NoDrag, NoLift
 from sandbox.sport.amounts import roughly
-from sandbox.sport.controls import Controls, Spread
+from sandbox.sport.controls import Controls, Handle, Spread
 from sandbox.sport.facts import ENDED, Fact, once
 from sandbox.sport.flight import Launch, Release, Sphere, forces_in_flight, launched_ball
 from sandbox.sport.readings import BALL_SPEED, LAUNCH_ANGLE, Moment, at, before
@@ -42,6 +42,7 @@ class Parameters(Group):
 CONTROLS = Controls(
     strongest=18.0,
     sliders=("launch.speed", "launch.angle", "release.height", "record", "air.density", "gravity"),
+    handles=(Handle("release.place", "release.height"), Handle("record")),
     scores="record_beaten",
     spread=(Spread("launch.speed", 0.02), Spread("launch.angle", least=2.0)),  # assumed
 )

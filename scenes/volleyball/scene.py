@@ -16,10 +16,10 @@ from sandbox.parameters import Accuracy, Group, choice, either, group, quantity
 from sandbox.physics.coefficients import Coefficient
 from sandbox.physics.elementwise import clip, exp
 from sandbox.sport.air import Air, ConstantDrag, ConstantLift, Model, NoDrag, NoLift, SpinRatioLift
-from sandbox.sport.controls import Controls, Spin, Spread
+from sandbox.sport.controls import Controls, Handle, Spin, Spread
 from sandbox.sport.facts import ENDED
 from sandbox.sport.flight import Launch, Sphere, forces_in_flight, launched_ball
-from sandbox.sport.net_game import Bounces, Court, Net, net_facts, net_of, sentence
+from sandbox.sport.net_game import NET_HANDLES, Bounces, Court, Net, net_facts, net_of, sentence
 from sandbox.sport.readings import LAUNCH
 
 
@@ -62,6 +62,7 @@ CONTROLS = Controls(
     strongest=35.0,
     spins=(Spin("launch.spin", 30.0),),
     sliders=("launch.place", "launch.height", "net.height", "court.length", "air.wind"),
+    handles=(Handle("launch.place", "launch.height"), *NET_HANDLES),
     scores="in",
     spread=(Spread("launch.speed", 0.03), Spread("launch.angle", least=1.0), Spread("launch.spin", 0.1)),  # assumed
 )

@@ -79,7 +79,7 @@ def test_a_longer_pull_is_stronger_and_escape_leaves_it(player):
 def test_the_pull_of_a_shot_gives_that_shot(source):
     session = Session(source)
     controls = session.controls
-    pull = aim.Pull((0, 0), session.changes, aim.strongest(session), 672, 2.0)
+    pull = aim.Pull((0, 0), aim.strongest(session), 672, 2.0)
     pull.vector = pull.vector_of(session)
     again = pull.changes(session)
     assert again[controls.speed] == pytest.approx(session.value(controls.speed), abs=0.01)

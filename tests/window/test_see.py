@@ -210,6 +210,7 @@ class TestTheMap:
         player.settle()
         assert player.view.maps.value is known  # the aim is on it
         player.key(pygame.K_m)
+        player.move((5, player.view.bar.rect.bottom - 5))
         player.game.reset()
         player.settle()
         player.frames(2, dt=9.0)

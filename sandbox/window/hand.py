@@ -1,0 +1,105 @@
+"""What the hand holds: the rubber band of a pull, and the handles of what can be dragged."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import dist, hypot
+
+import pygame
+
+from sandbox.picture.camera import Camera
+from sandbox.picture.palette import palette
+from sandbox.window.canvas import Canvas
+from sandbox.window.handles import Grip
+from sandbox.window.stage import Stage
+
+CARD, FORCE = palette("card"), palette("force")
+
+#: The mouse takes hold of a handle from this distance, and sees those of a list from the second; px on 720 rows.
+NEAR, SEEN = 13.0, 70.0
+#: A handle on the ball that is played lies so far to its lower left: a pull begins on the ball. Px on 720 rows.
+ASIDE = 26.0
+#: The wind's handle is this far from its foot, in px on 720 rows per m/s; and its foot from the upper right corner.
+WIND, FOOT = 4.0, (42.0, 13.0)
+
+#: A drag that snaps goes in steps of at least so many px, and otherwise in steps of about so many.
+SNAPS, FINE = 12.0, 0.25
+
+Spot = tuple[Grip, tuple[float, float]]  # a handle, and where it is in px
+
+
+def camera_of(grip: Grip, stage: Stage, sheet: Canvas) -> Camera:
+    """The camera that shows a handle's place: the stage's, or one for the wind."""
+    if not grip.is_wind:
+        return stage.camera
+    along, down = FOOT
+    foot = sheet.frame.right - along * sheet.unit, sheet.frame.top + down * sheet.unit
+    return Camera((0.0, 0.0), foot, WIND * sheet.unit)
+
+
+def spots(grips: Sequence[Grip], stage: Stage, sheet: Canvas) -> list[Spot]:
+    """Where the handles are."""
+    ball, aside = stage.ball_at(stage.shot), ASIDE * sheet.unit
+    found = []
+    for grip in grips:
+        x, y = camera_of(grip, stage, sheet).pixel(*grip.place)
+        if dist((x, y), ball) < NEAR * sheet.unit and not grip.is_wind:
+            x, y = x - aside, y + aside
+        found.append((grip, (x, y)))
+    return found
+
+
+def nearest(found: Sequence[Spot], at: tuple[float, float], unit: float) -> Grip | None:
+    """The handle at a place in px."""
+    near = min(found, key=lambda spot: dist(spot[1], at), default=None)
+    return near[0] if near is not None and dist(near[1], at) <= NEAR * unit else None
+
+
+def draw_handles(
+    sheet: Canvas, found: Sequence[Spot], stage: Stage, mouse: tuple[float, float] | None, held: Grip | None, text: str
+) -> None:
+    """The handles, those in a list only near the mouse, if it is there; the one that is held, or that the mouse is on,
+    with its numbers."""
+    unit = sheet.unit
+    for grip, (x, y) in found:
+        seen = mouse is not None and (not grip.in_list or dist((x, y), mouse) < SEEN * unit)
+        if seen and (held is None or grip.keys != held.keys):
+            sheet.painter.ring((x, y), 6 * unit, 4 * unit, CARD["background"], 0.8)
+            sheet.painter.ring((x, y), 5 * unit, 2.2 * unit, CARD["text"])
+    for grip, (x, y) in found:
+        if held is not None and grip.keys == held.keys:
+            foot = camera_of(grip, stage, sheet).anchor
+            if grip.is_wind and dist(foot, (x, y)) > 2:
+                sheet.painter.arrow(foot, (x, y), 3.6 * unit, FORCE["wind"])
+            sheet.painter.ring((x, y), 9 * unit, 5 * unit, CARD["background"], 0.8)
+            sheet.painter.ring((x, y), 8 * unit, 2.2 * unit, CARD["accent"])
+            label(sheet, text, (x, y), below=False)
+
+
+def label(sheet: Canvas, text: str, at: tuple[float, float], below: bool) -> None:
+    """A text on a card above or below a place in px."""
+    text = sheet.ended(text, "small", sheet.frame.width - 4 * sheet.gap)
+    rect = sheet.lettering.rect(
+        text, "small", (at[0], at[1] + (20 if below else -20) * sheet.unit), "midtop" if below else "midbottom"
+    )
+    room = sheet.frame.copy()
+    room.height -= sheet.card_height() + sheet.gap
+    rect = rect.inflate(4 * sheet.gap, 2 * sheet.gap).clamp(room)
+    sheet.painter.panel(rect, CARD["background"], 0.85, 6 * sheet.unit)
+    sheet.lettering.write(sheet.surface, text, "small", rect.center, CARD["text"], "center")
+
+
+def draw_pull(sheet: Canvas, start: tuple[float, float], pull: tuple[float, float], text: str) -> None:
+    """The rubber band from where the pull began to the hand, and the speed and angle that it gives."""
+    hand = start[0] + pull[0], start[1] + pull[1]
+    length = hypot(*pull)
+    if length < 1:
+        return
+    across = -pull[1] / length * 6 * sheet.unit, pull[0] / length * 6 * sheet.unit
+    for side in (-1, 1):
+        foot = start[0] + side * across[0], start[1] + side * across[1]
+        pygame.draw.aaline(sheet.surface, CARD["shadow"], foot, hand, max(3, round(4.5 * sheet.unit)))
+        pygame.draw.aaline(sheet.surface, CARD["accent"], foot, hand, max(2, round(2.5 * sheet.unit)))
+    sheet.painter.disc(hand, 8.5 * sheet.unit, CARD["shadow"], 0.8)
+    sheet.painter.disc(hand, 6.5 * sheet.unit, CARD["accent"])
+    label(sheet, text, hand, below=pull[1] >= 0)
