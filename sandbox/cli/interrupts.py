@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import _thread
 import os
 import signal
 import sys
@@ -57,7 +58,10 @@ class Interrupts:
         if error.exc_type is not KeyboardInterrupt:
             sys.__unraisablehook__(error)
             return
-        from threading import Timer
-
         self._last = -_ONE
-        Timer(_AGAIN, os.kill, (os.getpid(), self.code - 128)).start()
+        # threading.Thread.start waits until its thread runs: long enough to lose the interrupt in here once more
+        _thread.start_new_thread(self._again, ())
+
+    def _again(self) -> None:
+        time.sleep(_AGAIN)
+        os.kill(os.getpid(), self.code - 128)

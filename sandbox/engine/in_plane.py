@@ -208,10 +208,15 @@ class InPlane(Track):
             if any(vx * other.nx + vy * other.ny < -STILL and not flush(other, first) for _, other in near):
                 return
         self.state = (x, y, vx, vy, spin)
-        self._hold(kept, applied, slips)
+        self._hold(kept, near, applied, slips, height)
 
-    def _hold(self, kept: Sequence[Near], applied: Acceleration, slips: bool) -> None:
-        """Choose the contact among the surfaces that the ball stays on; a ball that ``slips`` has lost its grip."""
+    def _hold(
+        self, kept: Sequence[Near], near: Sequence[Near], applied: Acceleration, slips: bool, height: float
+    ) -> None:
+        """Choose the contact among the surfaces that the ball stays on; a ball that ``slips`` has lost its grip.
+
+        Friction on one may press the ball on another that is ``near``: then it is wedged between the two.
+        """
         ball, state = self.ball, self.state
         x, y, vx, vy, spin = state
         mx, my = (vx, vy) if vx or vy else applied[:2]  # direction in which it will move
@@ -219,15 +224,22 @@ class InPlane(Track):
         found = [contact_on(ball, state, obstacle, touching, applied, slips) for obstacle, touching in places]
         held = [contact for contact in found if contact is not None]
         held.sort(key=lambda contact: contact.touching.curvature)  # the next piece's side before this one's corner
+        two = None
         for contact in held:
             (ax, ay, _), _, _ = contact.forces(ball, applied, state)
-            others = (other for _, other in kept if not flush(other, contact.touching))
-            if all(ax * other.nx + ay * other.ny >= -_PUSH for other in others):
+            against = [
+                (obstacle, other)
+                for obstacle, other in near
+                if not flush(other, contact.touching)
+                and (by := -(ax * other.nx + ay * other.ny)) > _PUSH
+                and vx * other.nx + vy * other.ny <= leaves_at(by, max(height, obstacle.surface.lowest_bounce))
+            ]
+            if not against:
                 self.state, self.contact = contact.placed(ball, state), contact
                 return
-        if held:
+            two = two or against[0]
+        if two:
             one = held[0].obstacle, held[0].touching
-            two = next(near for near in kept if not flush(near[1], one[1]))
             self.contact = wedged(ball, spin, one, two, applied)
             for obstacle, touching in (one, two):
                 gap = obstacle.on_feature(touching.feature, x, y).gap

@@ -25,6 +25,7 @@ from sandbox import resources
 from sandbox.cli import main
 from sandbox.engine.run import Run
 from sandbox.errors import RequestError, RunError
+from sandbox.lab import provenance as provenances
 from sandbox.lab.axes import Span, Values, as_axis, parse_axis
 from sandbox.lab.plan import CHANGED, Plan, records
 from sandbox.lab.provenance import provenance
@@ -417,6 +418,8 @@ def test_all_that_rows_depend_on_makes_another_sweep(tmp_path, monkeypatch):
     (folder / "itself").symlink_to(folder)
     package = tmp_path / "package"
     shutil.copytree(resources.PACKAGE / "physics", package / "physics")
+    its_place = frozenset({*provenances._libraries(), resources.PACKAGE})  # the program that runs has not moved
+    monkeypatch.setattr(provenances, "_libraries", lambda: its_place)
     monkeypatch.setattr(resources, "PACKAGE", package)
 
     def found() -> str:

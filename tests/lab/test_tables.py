@@ -4,11 +4,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from sandbox.lab import trade, validate
+from sandbox.lab import validate
 from sandbox.lab.stress import FAILED, HELD, Outcome
 from sandbox.lab.stress import as_text as stress_text
 from sandbox.lab.tables import paragraph, table
-from sandbox.scene import load
 
 WORD = st.text("abcdefg-.", min_size=1, max_size=30)
 NUMBER = st.text("0123456789", max_size=7)
@@ -60,6 +59,5 @@ def test_reports_fit_80_columns():
         for method in ("semi-implicit-euler", "plain")
         for word in (HELD, FAILED)
     ]
-    traded = trade.as_text(trade.trade(load("golf", {"air.density": 0.0, "accuracy.level": "fast"})))
-    for lines in (validate.as_text(validate.validate("billiards")), stress_text(outcomes), traded):
+    for lines in (validate.as_text(validate.validate("billiards")), stress_text(outcomes)):
         assert max(map(len, lines)) <= 80

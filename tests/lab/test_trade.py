@@ -115,6 +115,7 @@ def test_every_method_has_its_points_and_finer_ones_are_better(basketball: lab.T
     fast, balanced, precise = (basketball.levels[name].error_m for name in ("fast", "balanced", "precise"))
     assert fast > balanced > precise
     assert set(basketball.levels) == set(LEVELS)
+    assert max(map(len, lab.as_text(basketball))) <= 80
 
 
 def test_the_best_is_the_cheapest_that_is_good_enough(basketball: lab.Trade):

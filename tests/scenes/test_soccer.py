@@ -212,3 +212,11 @@ def test_the_card_speaks_to_players():
     assert (card["ball speed"], card["launch"], card["spin"]) == ("27.0 m/s", "20.0°", "300 rpm topspin")
     assert card["over the wall"] == "0.36 m"
     assert run.scene.verdict(run) == "Goal, 1.1 m under the bar"
+
+
+def test_a_ball_that_friction_drives_into_the_net_comes_to_rest_soon():
+    """It spins in the corner between ground and net; each faint impact on the net used to be followed by the next."""
+    far = {"goal__height": 33.772926162821314, "goal__depth": 1.9101895905816813}
+    run = kick(air__density=0.0, goal__net_friction=0.0, **far)
+    assert run.ended == "rest"
+    assert len(run.events) < 100
