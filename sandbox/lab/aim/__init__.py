@@ -1,9 +1,9 @@
 """The inverse problem: which launch, or any other number of a scene, gives a wanted result.
 
-The range is scanned finely enough to see every branch, more finely where results jump; then scipy's solvers continue:
-``brentq`` in each bracket for one number, ``root`` (Powell's hybrid method) from several starts for two. A yes-or-no
-target (``made = true``) has intervals, whose ends are bisected, or regions of two parameters. Finer runs estimate how
-far numerical errors move a solution.
+The range is scanned finely enough to see every branch, more finely where results jump; then solvers continue:
+Chandrupatla's method in each bracket for one number, scipy's ``root`` (Powell's hybrid method) from several starts for
+two. A yes-or-no target (``made = true``) has intervals, whose ends are bisected, or regions of two parameters. Finer
+runs estimate how far numerical errors move a solution.
 """
 
 from __future__ import annotations

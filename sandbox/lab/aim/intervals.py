@@ -12,7 +12,7 @@ from sandbox.lab.aim.question import Interval, Solution
 from sandbox.lab.aim.shots import Shots, scan
 
 #: Runs between the known points in the first refinement of an end, where there may be several, and in later ones.
-_FIRST, _LATER = 9, 3
+_FIRST, _LATER = 5, 3
 
 #: The accuracy of ends, and the distance within which finer runs look for an end that they do not see within this
 #: accuracy, both as fractions of the range.
@@ -29,8 +29,10 @@ def intervals(shots: Shots) -> list[Solution]:
     changes = [(low, high, met) for (low, met), (high, after) in pairwise(seen) if met != after]
     ends = _refined(shots, changes, finer=False)
     finer = _seen_finer(shots, changes, ends)
+    least = _END * (span.high - span.low)
     borders: list[tuple[float, float | None, bool]] = [
-        (end, None if other is None else abs(end - other), False) for end, other in zip(ends, finer, strict=True)
+        (end, None if other is None else max(abs(end - other), least), False)
+        for end, other in zip(ends, finer, strict=True)
     ]
     if seen[0][1]:
         borders.insert(0, (span.low, 0.0, True))
@@ -67,12 +69,13 @@ def _seen_finer(shots: Shots, changes: Sequence[_Change], ends: Sequence[float])
 def _refined(shots: Shots, changes: Sequence[_Change], finer: bool) -> list[float]:
     """The position at which the target starts or stops being met, for each change."""
     brackets = list(changes)
-    least = _END * (shots.spans[0].high - shots.spans[0].low)
+    widest = 2.1 * _END * (shots.spans[0].high - shots.spans[0].low)
     between = _FIRST
-    while any(high - low > 2.0 * least for low, high, _ in brackets):
-        inner = [np.linspace(low, high, between + 2).tolist()[1:-1] for low, high, _ in brackets]
+    while wide := [number for number, (low, high, _) in enumerate(brackets) if high - low > widest]:
+        inner = [np.linspace(*brackets[number][:2], between + 2).tolist()[1:-1] for number in wide]
         found = iter(shots.meets([(place,) for places in inner for place in places], "solve", finer))
-        for number, ((low, high, before), places) in enumerate(zip(brackets, inner, strict=True)):
+        for number, places in zip(wide, inner, strict=True):
+            low, high, before = brackets[number]
             known = [low, *places, high]
             met = [before, *(next(found) for _ in places), not before]
             ends_here = [index for index in range(len(places) + 1) if met[index] != met[index + 1]]

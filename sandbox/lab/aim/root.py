@@ -1,7 +1,8 @@
-"""Checks of a root: whether it is one, and its numerical error."""
+"""Roots: how one is found, whether it is one, and its numerical error."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from math import inf, isfinite, sqrt
 
 import numpy as np
@@ -15,6 +16,33 @@ STEP, SAME = 1e-5, 1e-6
 #: A target is met if the miss is below this fraction of the result's variation, or below its numerical error if that
 #: is below the second fraction: at a jump a finer run differs by the jump itself.
 _MET, _NOISE = 1e-6, 1e-3
+
+
+def bracketed(miss: Callable[[float], float], a: float, b: float, fine: float) -> float:
+    """The place between a and b at which ``miss`` changes sign, within ``fine``.
+
+    Inverse quadratic interpolation where that is safe, else bisection (Chandrupatla 1997). scipy's brentq would do as
+    well, but takes longer to import than the whole search.
+    """
+    at_a, at_b = miss(a), miss(b)
+    share = at_a / (at_a - at_b)
+    while True:
+        x = a + share * (b - a)
+        at_x = miss(x)
+        if (at_x > 0.0) == (at_a > 0.0):
+            c, at_c = a, at_a
+        else:
+            c, at_c, b, at_b = b, at_b, a, at_a
+        a, at_a = x, at_x
+        least = (0.5 * fine + 2.0 * np.finfo(float).eps * abs(a)) / abs(b - c)
+        if at_a == 0.0 or least > 0.5:
+            return a if abs(at_a) < abs(at_b) else b
+        xi, phi = (a - b) / (c - b), (at_a - at_b) / (at_c - at_b)
+        share = 0.5
+        if phi * phi < xi and (1.0 - phi) ** 2 < 1.0 - xi:
+            share = at_a / (at_b - at_a) * at_c / (at_b - at_c)
+            share += (c - a) / (b - a) * at_a / (at_c - at_a) * at_b / (at_c - at_b)
+        share = min(max(share, least), 1.0 - least)
 
 
 def is_met(shots: Shots, point: tuple[float, ...]) -> bool:

@@ -9,7 +9,7 @@ from math import inf, isfinite
 import numpy as np
 
 from sandbox.lab.aim.question import Solution, Try
-from sandbox.lab.aim.root import SAME, is_met, solution
+from sandbox.lab.aim.root import SAME, bracketed, is_met, solution
 from sandbox.lab.aim.shots import Shots, scan
 
 #: Roots are found to this fraction of the range.
@@ -92,7 +92,6 @@ def _come_nearer(shots: Shots, seen: Sequence[tuple[float, float]]) -> None:
 
 def _roots(shots: Shots, low: float, high: float, phase: str, depth: int) -> Iterator[float]:
     """The root in a bracket; with gaps in the result, the roots in the brackets between them."""
-    from scipy.optimize import brentq
 
     def missed(place: float) -> float:
         miss = float(shots.numbers((float(place),), phase)[0])
@@ -102,7 +101,7 @@ def _roots(shots: Shots, low: float, high: float, phase: str, depth: int) -> Ite
 
     span = shots.spans[0]
     try:
-        yield float(brentq(missed, low, high, xtol=_FINE * (span.high - span.low), rtol=4 * np.finfo(float).eps))
+        yield bracketed(missed, low, high, _FINE * (span.high - span.low))
     except _Gap:
         if depth < _DEEPEST:
             places = np.linspace(low, high, _PARTS + 1).tolist()

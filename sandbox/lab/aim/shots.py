@@ -24,8 +24,9 @@ _SCAN = 129
 #: Refinements of an interval with a jump, the parts of each, and the most runs for all of them.
 _REFINEMENTS, _PARTS, _MOST_RUNS = 3, 4, 2000
 
-#: A result is not smooth if it differs from the line between its neighbours by more than this fraction of their spread.
-_BEND = 0.25
+#: A result is not smooth if it differs from the cubic through its four neighbours by more than this fraction of their
+#: spread.
+_BEND = 0.2
 
 Progress = Callable[[int, int], None]
 
@@ -176,7 +177,7 @@ def scan(shots: Shots) -> list[tuple[float, dict[str, Any] | None]]:
         seen = list(zip(places, results, strict=True))
         rough = {index for index, (one, other) in enumerate(pairwise(results)) if _signature(one) != _signature(other)}
         if target.is_number:
-            rough |= _bends([shots.missed(result)[0] for result in results])
+            rough |= _bends(np.array(places), np.array([shots.missed(result)[0] for result in results]))
         if not rough or len(shots.tries) + (_PARTS - 1) * len(rough) > _MOST_RUNS:
             break
         finer: list[float] = []
@@ -186,13 +187,16 @@ def scan(shots: Shots) -> list[tuple[float, dict[str, Any] | None]]:
     return seen
 
 
-def _bends(values: Sequence[float]) -> set[int]:
-    """Intervals next to a value that is not smooth between its neighbours."""
-    found: set[int] = set()
-    y = np.array(values)
-    middle = 0.5 * (y[:-2] + y[2:])
-    spread = np.abs(y[2:] - y[:-2]) + 1e-9 * (np.nanmax(np.abs(y)) if np.isfinite(y).any() else 1.0)
-    with np.errstate(invalid="ignore"):
-        for index in np.flatnonzero(np.abs(y[1:-1] - middle) > _BEND * spread):
-            found |= {int(index), int(index) + 1}
-    return found
+def _bends(x: np.ndarray, y: np.ndarray) -> set[int]:
+    """Intervals next to a value that is not smooth among its neighbours, or has none on one side."""
+    here = np.arange(len(x))
+    window = np.clip(here - 2, 0, len(x) - 5)[:, None] + np.arange(5)
+    others = window[window != here[:, None]].reshape(-1, 4)
+    u, v = x[others] - x[:, None], y[others]
+    apart = u[:, None, :] - u[:, :, None]
+    weights = np.where(apart == 0.0, 1.0, u[:, None, :] / np.where(apart == 0.0, 1.0, apart)).prod(axis=2)  # Lagrange's
+    known = np.isfinite(y)
+    rounding = 1e-9 * np.ptp(y[known]) if known.any() else 0.0
+    smooth = np.abs((weights * v).sum(axis=1) - y) <= _BEND * np.ptp(v, axis=1) + rounding
+    rough = np.flatnonzero(known & ~smooth)
+    return {*rough.tolist(), *(rough - 1).tolist()} & set(range(len(x) - 1))
