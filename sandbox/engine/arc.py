@@ -65,6 +65,11 @@ class Arc:
         u = min(1.0, max(0.0, (t - self.t0) / h))
         return evaluate(self.x, u), evaluate(self.y, u)
 
+    @property
+    def rests(self) -> bool:
+        """Whether the ball neither moves nor spins, for some time."""
+        return len(self.x) == len(self.spin) == 1 and self.t1 > self.t0
+
     def box(self) -> tuple[float, float, float, float]:
         """Left, bottom, right, top (m) of a rectangle that holds the whole path."""
         if self._box is None:

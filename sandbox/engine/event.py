@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 
-@dataclass(frozen=True, slots=True)
-class Event:
+class Event(NamedTuple):
     """Something that happened to a ball at one instant.
 
     ``kind`` is ``"impact"`` (``speed`` is the normal approach speed in m/s), ``"contact"`` (it starts to slide or

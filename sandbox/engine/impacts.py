@@ -144,7 +144,8 @@ class Impacts:
                 _, _, vx, vy, *_ = states[index]
                 speed, along = -(vx * nx + vy * ny), vx * ny - vy * nx
                 bounce = bounce_off(surface, speed, along)
-                nx, ny = tilted(nx, ny, bounce.tilt, along)
+                if bounce.tilt != 0.0:
+                    nx, ny = tilted(nx, ny, bounce.tilt, along)
                 height = surface.nose_height
                 sine = 0.0 if height is None else raised(ball.radius, height)
                 speeds = speeds_where_touching([ball], [states[index]], nx, ny, sine)
@@ -166,8 +167,8 @@ class Impacts:
     def _exchange_alone(self, states: dict[int, State], contact: Contact) -> None:
         """A single contact, in units of the reduced mass; friction acts against the whole slip."""
         balls = self._balls(contact)
-        mobility = sum(1.0 / ball.mass for ball in balls)  # 1/kg
-        turning = sum(1.0 / (ball.mass * ball.inertia_factor) for ball in balls)
+        mobility = sum([1.0 / ball.mass for ball in balls])  # 1/kg
+        turning = sum([1.0 / (ball.mass * ball.inertia_factor) for ball in balls])
         approach, along, upward = contact.speeds
         slip = hypot(along, upward)
         restitution, friction, _, tangential = contact.bounce

@@ -75,10 +75,6 @@ class InPlane(Track):
         arc = self._integrate(t, until, lambda at, state: contact.forces(ball, checked(ball, at, state), state)[0])
         return self._cut_where_contact_changes(arc, contact)
 
-    def rests(self) -> bool:
-        """Whether the ball is at rest on its current arc."""
-        return self.contact is not None and self.contact.mode == RESTING
-
     def _integrate(self, t: float, until: float, law: Law) -> Arc:
         state, contact = self.state, self.contact
         known, acceleration = self._known
@@ -195,6 +191,7 @@ class InPlane(Track):
                 kept.append((obstacle, touch))
                 hardest = max(hardest, by)
         if not kept:
+            self._known = self.state, applied
             return
         first = min(kept, key=lambda near: vx * near[1].nx + vy * near[1].ny)[1]
         together = [(obstacle, touch) for obstacle, touch in kept if flush(touch, first)]

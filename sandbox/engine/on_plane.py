@@ -91,10 +91,6 @@ class OnPlane(InPlane):
     def settle(self, t: float, height: float) -> None:
         """Nothing lasts."""
 
-    def rests(self) -> bool:
-        """Whether the ball is at rest on its current arc."""
-        return self.arc.t1 > self.arc.t0 and len(self.arc.x) == len(self.arc.spin) == 1
-
 
 def _leaves(arc: Arc, low: float, high: float) -> float | None:
     """The first u at which the path leaves a strip from ``low`` to ``high`` (m) along x, or None."""

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 from sandbox.engine.accuracy import Accuracy
 from sandbox.engine.arc import Arc, still
 from sandbox.engine.event import Event
-from sandbox.engine.heap import Heap, Heaped
+from sandbox.engine.heap import Heap
 from sandbox.engine.impacts import Impacts, Outcome
 from sandbox.engine.in_plane import Diverged, InPlane
 from sandbox.engine.lasting import RESTING, LastingContact
@@ -199,8 +199,9 @@ class Simulation:
             self._tracks[index].keep(t)
         for hit in outcome.hits:
             self._numerics.impacts += 1
-            ball = self._tracks[hit.ball]
-            self._note(Event(hit.t, "impact", ball.ball.name, hit.partner, hit.speed, *ball.arc.state(t)[:2]))
+            track = self._tracks[hit.ball]
+            x, y = touching[hit.ball][:2] if hit.ball in touching else track.arc.position(t)
+            self._note(Event(hit.t, "impact", track.ball.name, hit.partner, hit.speed, x, y))
         if outcome.t > t:
             self._part(t, touching, outcome)
             return
@@ -271,7 +272,6 @@ class Simulation:
         self._note_contact(track, t, before)
         if self._over:
             track.arc = still(t, t, track.state, track.contact)  # nothing left to plan
-            self._note_rest(track, t)
         else:
             self._plan(index, t)
 
@@ -286,8 +286,7 @@ class Simulation:
             self._note(Event(t, "contact", track.ball.name, now, 0.0, x, y))
 
     def _note_rest(self, track: Track, t: float) -> None:
-        heaped = isinstance(track.arc.contact, Heaped)
-        rested, track.at_rest = track.at_rest, len(track.arc.x) == 1 if heaped else track.rests()
+        rested, track.at_rest = track.at_rest, track.arc.rests
         if track.at_rest and not rested and (t > 0.0 or track.contact is not None):
             on = "" if track.contact is None else track.contact.obstacle.surface.name
             self._note(Event(t, "rest", track.ball.name, on, 0.0, *track.state[:2]))

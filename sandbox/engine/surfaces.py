@@ -89,8 +89,8 @@ def after_impulses(
     """The states of one or two balls after impulses (N s) along the normal, along the surface and upward."""
     after = []
     for ball, state, side in zip(balls, states, (1.0, -1.0), strict=False):
-        push, along, upward = (part / ball.mass for part in impulse)
-        impulses = push, along, side * upward
+        push, along, upward = impulse
+        impulses = push / ball.mass, along / ball.mass, side * upward / ball.mass
         motion = after_impulse(state[2:], side * nx, side * ny, ball.radius, ball.inertia_factor, impulses, sine)
         after.append((*state[:2], *motion))
     return after

@@ -44,10 +44,6 @@ class Track:
     def settle(self, t: float, height: float) -> None:
         """Find the contact that lasts after a touch: of a ball that would not bounce higher than ``height`` (m)."""
 
-    def rests(self) -> bool:
-        """Whether the ball is at rest on its current arc."""
-        raise NotImplementedError
-
     # ------------------------------------------------------------------ its path
 
     def keep(self, t: float) -> None:
