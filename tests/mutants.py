@@ -42,6 +42,7 @@ TESTS: dict[str, dict[str, str]] = {
         "ledger": "run cloth guards",
         "on_plane": "cloth ice plain",
         "outlines": "batch",
+        "path": "run batch cloth",
         "plain": "plain run guards cloth",
         "pressed": "clusters",
         "run": "run batch cloth",

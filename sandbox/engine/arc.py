@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from math import hypot
 from typing import Any
 
-from sandbox.engine.bernstein import downward_crossings, evaluate, until
+from sandbox.engine.bernstein import evaluate, until
 from sandbox.physics.elementwise import choose
 from sandbox.physics.integrators import Acceleration, State
 
@@ -146,18 +146,3 @@ def still(t: float, until: float, state: State, contact: object = None) -> Arc:
     x, y, _, _, spin, *rolling_spin = state
     rolling = tuple((component,) for component in rolling_spin)
     return Arc(t, until, state, (x,), (y,), (0.0,), (0.0,), (spin,), contact, rolling)
-
-
-def passages_of(path: list[Arc], gap: Callable[[Arc], Sequence[float]]) -> Iterator[tuple[float, State]]:
-    """Each time and state at which a gap, given as a polynomial for each arc, becomes negative: within an arc, or where
-    one arc ends and the next begins."""
-    above = False  # where the last arc ended, or came from to end at zero
-    for arc in path:
-        curve = gap(arc)
-        signs = [value > 0.0 for value in curve if value != 0.0]
-        if above and signs and not signs[0]:
-            yield arc.t0, arc.state(arc.t0)[:5]
-        for u in downward_crossings(curve):
-            t = arc.t0 + u * (arc.t1 - arc.t0)
-            yield t, arc.state(t)[:5]
-        above = signs[-1] if signs else above

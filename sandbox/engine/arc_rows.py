@@ -3,15 +3,15 @@ all shots ask of their paths is computed once for all."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
-from typing import overload
+from collections.abc import Iterator, Sequence
+from functools import cached_property
+from typing import Any, overload
 
 import numpy as np
 
-from sandbox.engine.arc import Arc, passages_of
-from sandbox.engine.bernstein import downward_crossings
-from sandbox.engine.bernstein_many import evaluate, only_downward_crossing
-from sandbox.physics.integrators import State
+from sandbox.engine.arc import Arc
+from sandbox.engine.bernstein_many import evaluate, first_downward_crossing
+from sandbox.engine.path import Curve, Passage, Path
 
 #: Positions of an arc's parts in its row: times, state at the start, curves, state at the end.
 T0, T1 = 0, 1
@@ -21,13 +21,6 @@ CURVES = {"x": X, "y": Y, "vx": VX, "vy": VY, "spin": SPIN}
 END = slice(33, 38)
 COLUMNS = END.stop
 
-#: A line through (px, py) with the normal (nx, ny), in m; for ``UPWARDS`` it is the velocity that passes zero.
-Line = tuple[float, float, float, float]
-UPWARDS = (0.0, 0.0, 0.0, 0.0)
-
-#: Time and state.
-Passage = tuple[float, State]
-
 
 class Paths:
     """The paths of many balls in flight, one after another. ``rows`` has shape (arcs, 38): t0, t1, start, coefficients,
@@ -36,63 +29,53 @@ class Paths:
     def __init__(self, rows: np.ndarray, ends: Sequence[int]) -> None:
         self.rows = rows
         self._bounds = [0, *ends]
-        self._asked: dict[Line, int] = {}
-        self._passages: dict[Line, list[list[Passage]]] = {}
+        self._asked: dict[Curve, int] = {}
+        self._passages: dict[Curve, list[list[Passage]]] = {}
 
     def __getitem__(self, number: int) -> ArcRows:
         return ArcRows(self, number, *self._bounds[number : number + 2])
 
-    def passages(self, path: ArcRows, line: Line) -> list[Passage]:
-        """Each time and state at which a path passes the line against its normal, or turns downwards. All paths are
-        computed together as soon as a second one is asked for the same line."""
-        if line not in self._passages and self._asked.setdefault(line, path.number) == path.number:
-            return [passage for _, passage in self._passing(path.first, path.last, line)]
-        if line not in self._passages:
+    def passages(self, path: ArcRows, curve: Curve) -> list[Passage]:
+        """Each time and state at which a curve becomes negative along a path. All paths are computed together as soon
+        as a second one is asked for the same curve."""
+        if curve not in self._passages and self._asked.setdefault(curve, path.number) == path.number:
+            return [passage for _, passage in self._passing(path.first, path.last, curve)]
+        if curve not in self._passages:
             found: list[list[Passage]] = [[] for _ in self._bounds]
-            for number, passage in self._passing(0, len(self.rows), line):
+            for number, passage in self._passing(0, len(self.rows), curve):
                 found[number].append(passage)
-            self._passages[line] = found
-        return self._passages[line][path.number]
+            self._passages[curve] = found
+        return self._passages[curve][path.number]
 
-    def _passing(self, first: int, last: int, line: Line) -> Iterator[tuple[int, Passage]]:
-        """The number of the path, and the passage, for the arcs in these rows, in order."""
+    def _passing(self, first: int, last: int, curve: Curve) -> Iterator[tuple[int, Passage]]:
+        """The number of the path, and the passage, for the arcs in these rows; of each path in order."""
         rows = self.rows[first:last]
-        px, py, nx, ny = line
-        gap = (rows[:, VY] if line == UPWARDS else (rows[:, X] - px) * nx + (rows[:, Y] - py) * ny).T
-        at_ends = first + np.flatnonzero(gap[-1] == 0.0)  # a passage may be just where one arc ends and the next begins
-        special = set((np.searchsorted(self._bounds, at_ends, side="right") - 1).tolist())
-        for number in special:
-            for passage in passages_of(list(self[number]), _gap_of(line)):
+        values = np.array(curve(arc_of(rows.T)))
+        whole = set(self._numbers(first + np.flatnonzero(values[-1] == 0.0)))  # it may pass just where an arc ends
+        for number in whole:
+            for passage in Path(self[number]).passages(curve):
                 yield number, passage
-        some = np.flatnonzero((gap.min(axis=0) <= 0.0) & (gap.max(axis=0) > 0.0))
-        gap, rows = gap[:, some], rows[some]
-        paths = (np.searchsorted(self._bounds, first + some, side="right") - 1).tolist()
-        u, unclear = only_downward_crossing(gap)
-        passing = np.isfinite(u)
-        u = np.where(passing, u, 0.0)
-        t = (rows[:, T0] + u * (rows[:, T1] - rows[:, T0])).tolist()
-        states = np.array([evaluate(rows[:, curve].T, u) for curve in CURVES.values()]).T.tolist()
-        for place in np.flatnonzero(passing | unclear).tolist():
-            if paths[place] in special:
+        some = np.flatnonzero((values.min(axis=0) <= 0.0) & (values.max(axis=0) > 0.0))
+        u, unclear = first_downward_crossing(values[:, some], halvings=0)
+        rows, numbers = rows[some], self._numbers(first + some)
+        at = np.where(np.isfinite(u), u, 0.0)
+        t = (rows[:, T0] + at * (rows[:, T1] - rows[:, T0])).tolist()
+        states = np.array([evaluate(rows[:, part].T, at) for part in CURVES.values()]).T.tolist()
+        for place in np.flatnonzero(np.isfinite(u) | unclear).tolist():
+            if numbers[place] in whole:
                 continue
-            if not unclear[place]:
-                yield paths[place], (t[place], tuple(states[place]))
-                continue
-            arc = arc_of(rows[place].tolist())
-            for root in downward_crossings(gap[:, place].tolist()):
-                at = arc.t0 + root * (arc.t1 - arc.t0)
-                yield paths[place], (at, arc.state(at))
+            clear = [(t[place], tuple(states[place]))]
+            found = Path([arc_of(rows[place].tolist())]).passages(curve) if unclear[place] else clear
+            for passage in found:
+                yield numbers[place], passage
+
+    def _numbers(self, rows: np.ndarray) -> list[int]:
+        """The path of each of these rows."""
+        numbers: list[int] = (np.searchsorted(self._bounds, rows, side="right") - 1).tolist()
+        return numbers
 
 
-def _gap_of(line: Line) -> Callable[[Arc], Sequence[float]]:
-    """The gap of an arc to the line, as a polynomial; or its upward velocity."""
-    px, py, nx, ny = line
-    if line == UPWARDS:
-        return lambda arc: arc.vy
-    return lambda arc: [(x - px) * nx + (y - py) * ny for x, y in zip(arc.x, arc.y, strict=True)]
-
-
-class ArcRows(Sequence[Arc]):
+class ArcRows(Path):
     """The arcs of one ball in flight: some rows of ``paths``."""
 
     def __init__(self, paths: Paths, number: int, first: int, last: int) -> None:
@@ -117,33 +100,28 @@ class ArcRows(Sequence[Arc]):
     def _rows(self) -> np.ndarray:
         return self.paths.rows[self.first : self.last]
 
-    @property
-    def starts(self) -> list[float]:
+    @cached_property
+    def starts(self) -> Sequence[float]:
         """When each arc begins, in s."""
         times: list[float] = self._rows[:, T0].tolist()
         return times
 
-    @property
-    def stops(self) -> list[float]:
+    @cached_property
+    def stops(self) -> Sequence[float]:
         """When each arc ends, in s."""
         times: list[float] = self._rows[:, T1].tolist()
         return times
 
-    def passages(self, line: Line) -> list[Passage]:
-        """Each time and state at which the ball passes the line against its normal."""
-        return self.paths.passages(self, line)
-
-    def tops(self) -> list[Passage]:
-        """Each time and state at which the ball begins to fall."""
-        return self.paths.passages(self, UPWARDS)
-
     def ends(self) -> list[Passage]:
         """Time and state at the end of each arc."""
-        rows = self._rows
-        return list(zip(rows[:, T1].tolist(), map(tuple, rows[:, END].tolist()), strict=True))
+        return list(zip(self.stops, map(tuple, self._rows[:, END].tolist()), strict=True))
+
+    def passages(self, curve: Curve) -> list[Passage]:
+        """Each time and state at which a curve becomes negative."""
+        return self.paths.passages(self, curve)
 
 
-def arc_of(row: list[float]) -> Arc:
-    """The arc of one row."""
+def arc_of(row: Any) -> Arc:
+    """The arc of one row; of many rows as columns, one with arrays."""
     start, end = tuple(row[START]), tuple(row[END])
-    return Arc(row[0], row[1], start, row[X], row[Y], row[VX], row[VY], row[SPIN], end=end)
+    return Arc(row[T0], row[T1], start, row[X], row[Y], row[VX], row[VY], row[SPIN], end=end)

@@ -96,19 +96,6 @@ def first_downward_crossing(b: np.ndarray, halvings: int = 4) -> tuple[np.ndarra
     return u, unclear
 
 
-def only_downward_crossing(b: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """The u in [0, 1] where each f goes from positive to negative, inf where none does; and a mask of those that may do
-    so more than once, which are left out. ``b`` has shape (degree + 1, paths); both arrays have shape (paths,)."""
-    u = np.full(b.shape[1], np.inf)
-    signs = np.sign(b)
-    changes = (signs[1:] != signs[:-1]).sum(axis=0)
-    unclear = (changes > 1) | (signs == 0.0).any(axis=0)
-    falling = np.flatnonzero((changes == 1) & (signs[0] > 0.0) & ~unclear)
-    if len(falling):
-        u[falling] = _single_root(b[:, falling])
-    return u, unclear
-
-
 def _halves(b: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Coefficients on [0, 1/2] and on [1/2, 1]."""
     left, right = np.empty_like(b), np.empty_like(b)

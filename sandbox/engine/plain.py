@@ -21,6 +21,7 @@ from sandbox.engine.acting import checked
 from sandbox.engine.arc import Arc
 from sandbox.engine.event import Event
 from sandbox.engine.in_plane import Diverged
+from sandbox.engine.path import Path
 from sandbox.engine.real_space import ONLY_SURFACES, RealSpace
 from sandbox.engine.run import Numerics, Run
 from sandbox.engine.setup import Ball, Setup, Surface
@@ -139,7 +140,7 @@ class PlainSimulation:
             if not tracked.caught:
                 tracked.record(self._t)
         self._numerics.wall_s = perf_counter() - started
-        arcs = {tracked.ball.name: tracked.path for tracked in self._tracked.values()}
+        arcs = {tracked.ball.name: Path(tracked.path) for tracked in self._tracked.values()}
         return Run(self._setup, self._accuracy, arcs, self._events, self._numerics, self._t, ended)
 
     def _loop(self) -> str:

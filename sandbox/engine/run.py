@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from bisect import bisect_left, bisect_right
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from math import dist, inf
 from typing import TYPE_CHECKING, Any
 
-from sandbox.engine.arc import Arc, passages_of
 from sandbox.engine.event import Event
+from sandbox.engine.path import Above, Path, climb
 from sandbox.errors import RequestError
 from sandbox.physics.integrators import State
 
@@ -17,7 +16,6 @@ if TYPE_CHECKING:
     import numpy as np
 
     from sandbox.engine.accuracy import Accuracy
-    from sandbox.engine.arc_rows import ArcRows
     from sandbox.engine.setup import Setup, Vector
 
 
@@ -41,7 +39,7 @@ class Run:
 
     setup: Setup
     accuracy: Accuracy
-    arcs: Mapping[str, list[Arc] | ArcRows]  # by ball, in order of time, without gaps; at least one
+    arcs: Mapping[str, Path]  # by ball
     events: list[Event]
     numerics: Numerics
     duration: float  # s
@@ -58,26 +56,18 @@ class Run:
 
         At an impact it is the state just after.
         """
-        return self._full_state(ball, t)[:5]
+        return self._path(ball).at(t).state(t)[:5]
 
-    def _path(self, ball: str) -> list[Arc] | ArcRows:
+    def _path(self, ball: str) -> Path:
         """The arcs of a ball. Raises RequestError if there is no such ball."""
         try:
             return self.arcs[ball]
         except (KeyError, TypeError):
             raise RequestError(f"there is no ball {ball!r}; there are {', '.join(map(repr, self.arcs))}") from None
 
-    def _full_state(self, ball: str, t: float) -> State:
-        arcs = self._path(ball)
-        if isinstance(arcs, list):
-            index = bisect_right(arcs, t, key=lambda arc: arc.t0) - 1
-        else:
-            index = bisect_right(arcs.starts, t) - 1
-        return arcs[max(index, 0)].state(t)
-
     def rolling_spin(self, ball: str, t: float) -> tuple[float, float]:
         """Spin about x and about y of a ball that rolls on a plane, in rad/s; none of one that slides as a disc."""
-        wx, wy = self._full_state(ball, t)[5:] or (0.0, 0.0)
+        wx, wy = self._path(ball).at(t).state(t)[5:] or (0.0, 0.0)
         return wx, wy
 
     def caught_at(self, ball: str) -> float | None:
@@ -86,9 +76,7 @@ class Run:
 
     def before(self, ball: str, t: float) -> State:
         """The state of a ball just before time t; differs from ``state`` if there is an impact at t."""
-        arcs = self._path(ball)
-        index = bisect_left(arcs, t, key=lambda arc: arc.t1) if isinstance(arcs, list) else bisect_left(arcs.stops, t)
-        return (arcs[index].state(t) if index < len(arcs) and arcs[index].t1 == t else self._full_state(ball, t))[:5]
+        return self._path(ball).before(t).state(t)[:5]
 
     def closing_speed(self, event: Event) -> float:
         """Speed in m/s at which the two of an impact came together, along the surface included.
@@ -125,7 +113,7 @@ class Run:
         count = int(self.duration / every * (1.0 + 1e-12)) + 1
         times = {min(i * every, self.duration) for i in range(count)}
         if ends:
-            times |= {0.0, self.duration, *(arc.t0 for arc in path)}
+            times |= {0.0, self.duration, *path.starts}
         return np.array([(t, *self.state(ball, t)) for t in sorted(times)])
 
     def crossings(self, ball: str, point: Vector, normal: Vector) -> Iterator[tuple[float, State]]:
@@ -133,21 +121,14 @@ class Run:
 
         As exact as the path itself, for any step: roots of its polynomials.
         """
-        path = self._path(ball)
-        if not isinstance(path, list):
-            return iter(path.passages((*point, *normal)))
-        px, py = point
-        nx, ny = normal
-        return passages_of(path, lambda arc: [(x - px) * nx + (y - py) * ny for x, y in zip(arc.x, arc.y, strict=True)])
+        return iter(self._path(ball).passages(Above(*point, *normal)))
 
     def highest(self, ball: str, until: float = inf) -> tuple[float, State]:
         """Time and state at which a ball's centre is highest, up to a time at which it is not."""
         path = self._path(ball)
-        tops = passages_of(path, lambda arc: arc.vy) if isinstance(path, list) else path.tops()
-        turns = [(0.0, self.state(ball, 0.0)), *tops, *self.ends(ball)]
+        turns = [(0.0, self.state(ball, 0.0)), *path.passages(climb), *path.ends()]
         return max((turn for turn in turns if turn[0] <= until), key=lambda turn: turn[1][1])
 
     def ends(self, ball: str) -> Iterator[tuple[float, State]]:
         """Time and state at the end of each arc of a ball's path."""
-        path = self._path(ball)
-        return ((arc.t1, arc.state(arc.t1)[:5]) for arc in path) if isinstance(path, list) else iter(path.ends())
+        return iter(self._path(ball).ends())

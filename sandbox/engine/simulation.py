@@ -21,6 +21,7 @@ from sandbox.engine.impacts import Impacts, Outcome
 from sandbox.engine.in_plane import Diverged, InPlane
 from sandbox.engine.lasting import RESTING, LastingContact
 from sandbox.engine.on_plane import OnPlane, slowest_hop
+from sandbox.engine.path import Path
 from sandbox.engine.run import Numerics, Run
 from sandbox.engine.setup import Setup, Surface, Until
 from sandbox.engine.start import starts
@@ -107,7 +108,7 @@ class Simulation:
                 track.finish(t)
         self._numerics.wall_s += perf_counter() - started
         self._events.sort(key=lambda event: event.t)  # a contact with a duration is noted at its start
-        arcs = {track.ball.name: track.path for track in self._tracks}
+        arcs = {track.ball.name: Path(track.path) for track in self._tracks}
         return Run(self._setup, self._accuracy, arcs, self._events, self._numerics, t, ended)
 
     def take_over(self, t: float, state: State, arcs: list[Arc], events: list[Event], step: float, how: str) -> Run:

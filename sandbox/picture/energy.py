@@ -14,6 +14,7 @@ import pygame
 from sandbox.engine.arc import Arc
 from sandbox.engine.bernstein import piece
 from sandbox.engine.ledger import Ledger, ledger
+from sandbox.engine.path import Path
 from sandbox.engine.run import Run
 from sandbox.engine.setup import kinetic
 from sandbox.picture.palette import Colour, mix, palette
@@ -127,7 +128,7 @@ def _names(run: Run) -> Callable[[str], str]:
 def _piece_of(run: Run, a: float, b: float) -> Ledger:
     """The ledger of what happened after a and until b, in s."""
     arcs = {
-        name: [_cut(arc, a, b) for arc in path if arc.t0 <= b and (arc.t1 > a or arc is path[-1])]
+        name: Path([_cut(arc, a, b) for arc in path if arc.t0 <= b and (arc.t1 > a or arc is path[-1])])
         for name, path in run.arcs.items()
     }
     return ledger(replace(run, arcs=arcs))

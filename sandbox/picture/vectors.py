@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from bisect import bisect_right
 from functools import cached_property
 from math import hypot
 
@@ -48,7 +47,7 @@ class Vectors:
         for name, (fx, fy) in by_cause(self.ball.forces, t, self.run.state(self.name, t)):
             before = found.get(name, (0.0, 0.0))
             found[name] = before[0] + float(fx), before[1] + float(fy)
-        arc = self.arcs[max(0, bisect_right(self.arcs, t, key=lambda arc: arc.t0) - 1)]
+        arc = self.arcs.at(t)
         plane = self.run.setup.plane and self.run.setup.plane_of(self.name)
         surface = plane.name if plane is not None else "contact" if arc.contact is not None else None
         if surface is not None:

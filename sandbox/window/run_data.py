@@ -9,6 +9,7 @@ from typing import Any
 from sandbox.engine.accuracy import Accuracy
 from sandbox.engine.arc import Arc
 from sandbox.engine.lasting import LastingContact
+from sandbox.engine.path import Path
 from sandbox.engine.run import Event, Numerics, Run
 from sandbox.engine.setup import Ball, Setup
 from sandbox.engine.touch import Obstacle, Touching
@@ -35,7 +36,7 @@ def run_of(scene: Scene, record: dict[str, Any]) -> Run:
     balls = {ball.name: ball for ball in setup.balls}
     if record["arcs"].keys() != balls.keys() or not all(record["arcs"].values()) or not _is_time(record["duration"]):
         raise ValueError("not all balls have a path")
-    arcs = {name: [_arc(item, setup, balls[name]) for item in items] for name, items in record["arcs"].items()}
+    arcs = {name: Path([_arc(item, setup, balls[name]) for item in items]) for name, items in record["arcs"].items()}
     return Run(
         setup,
         Accuracy(**record["accuracy"]),

@@ -18,11 +18,12 @@ import sandbox
 from sandbox.engine import batch, simulate, simulate_many
 from sandbox.engine.accuracy import resolve
 from sandbox.engine.arc import Arc, through
-from sandbox.engine.arc_rows import Paths
+from sandbox.engine.arc_rows import ArcRows, Paths
 from sandbox.engine.event import Event
 from sandbox.engine.impulses import Contact, Lanes, exchange_at_once
 from sandbox.engine.lanes import ManyLanes
 from sandbox.engine.outlines import Outlines
+from sandbox.engine.path import Above, Path, climb
 from sandbox.engine.run import Run
 from sandbox.engine.setup import Ball, Bounce, Bounds, Circle, Patch, Segment, Setup, Surface
 from sandbox.engine.stacking import Alike, Stack, chosen, stacked
@@ -300,7 +301,7 @@ def test_a_batch_without_end_goes_on_one_at_a_time(monkeypatch: pytest.MonkeyPat
     monkeypatch.setattr(batch, "MOST_PIECES", 100)
     for setup, run in zip(setups, simulate_many(setups, resolve()), strict=True):
         assert_same(run, simulate(setup, resolve()))
-        assert isinstance(run.arcs["ball"], list)
+        assert not isinstance(run.arcs["ball"], ArcRows)
 
 
 def test_the_plain_method_runs_one_at_a_time(flown: list[int]):
@@ -546,12 +547,11 @@ def test_setups_of_all_scenes_are_data(name: str):
 def test_rows_are_the_arcs_they_were_made_from():
     run = simulate(thrown(), resolve())
     arcs = run.arcs["ball"]
-    assert isinstance(arcs, list)
     flights = [arc for arc in arcs if len(arc.x) == 6]
     numbers = [[a.t0, a.t1, *a.start, *a.x, *a.y, *a.vx, *a.vy, *a.spin, *a.state(a.t1)] for a in flights]
     count = len(flights)
     paths = Paths(np.array([*numbers, *numbers]), [count, 2 * count])
-    rows, _ = paths[0], paths[1].tops()
+    rows, _ = paths[0], paths[1].passages(climb)
     assert len(rows) == len(flights) > 5
     for kept, arc in zip([*rows, *rows[1:3], rows[-1]], [*flights, *flights[1:3], flights[-1]], strict=True):
         assert isinstance(kept, Arc)
@@ -559,12 +559,12 @@ def test_rows_are_the_arcs_they_were_made_from():
         assert kept.state(middle) == arc.state(middle)
         assert kept.state(arc.t1) == arc.state(arc.t1)
     by_rows = Run(run.setup, run.accuracy, {"ball": rows}, run.events, run.numerics, run.duration, run.ended)
-    by_list = Run(run.setup, run.accuracy, {"ball": flights}, run.events, run.numerics, run.duration, run.ended)
+    by_list = Run(run.setup, run.accuracy, {"ball": Path(flights)}, run.events, run.numerics, run.duration, run.ended)
     for point, normal in (((0.0, 0.5), (0.0, 1.0)), ((1.5, 0.0), (-0.6, 0.8)), ((0.0, 0.5), (0.0, -1.0))):
         crossings = list(by_list.crossings("ball", point, normal))
         assert crossings
         for path in (rows, paths[1], rows):  # the second one that is asked computes them all
-            for (t, state), (at, there) in zip(path.passages((*point, *normal)), crossings, strict=True):
+            for (t, state), (at, there) in zip(path.passages(Above(*point, *normal)), crossings, strict=True):
                 assert t == pytest.approx(at, abs=1e-13)
                 assert state == pytest.approx(there, abs=1e-11)
     for moment in (0.5, 2.0, math.inf):
