@@ -45,6 +45,7 @@ TESTS: dict[str, dict[str, str]] = {
         "path": "run batch cloth",
         "plain": "plain run guards cloth",
         "pressed": "clusters",
+        "rubbing": "clusters",
         "run": "run batch cloth",
         "setup": "guards contact run batch",
         "setup_errors": "guards",

@@ -19,7 +19,7 @@ RUNS = {
     "soccer-curl/roberto-carlos-1997": None,
     "billiards": 0.3,  # into the rack, where in the end a bit decides who goes left
     "billiards/bank": None,
-    "billiards/nine-ball-break": 3.2,
+    "billiards/nine-ball-break": 2.1,
     "billiards/snooker-break": None,
     "billiards/three-rail-carom": None,
     "volleyball": None,

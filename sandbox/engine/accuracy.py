@@ -41,9 +41,9 @@ class Accuracy:
 
     @property
     def contact_step(self) -> float:
-        """The step through a contact of several balls, as a fraction of the shortest possible contact: 0.07, 0.035 and
-        0.0175 at the three levels."""
-        return float(0.035 * (self.tolerance / 1e-3) ** 0.15)
+        """The step through a contact of several balls, as a fraction of the shortest possible contact: 0.14, 0.07 and
+        0.035 at the three levels."""
+        return float(0.07 * (self.tolerance / 1e-3) ** 0.15)
 
     @property
     def steps(self) -> str:

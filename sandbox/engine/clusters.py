@@ -2,8 +2,8 @@
 
 An impulse is right for an isolated pair. If two bodies reach a third while they are in contact, the outcome depends on
 how the contacts overlap in the fraction of a millisecond they last. So the contact is simulated: positions and
-velocities under the forces of Hertz's law (``physics/hertz.py``) by Dormand and Prince's pair, and in each step
-friction impulses that reduce every slip towards zero, limited by the normal impulses (Coulomb).
+velocities under the forces of Hertz's law (``physics/hertz.py``) by Dormand and Prince's pair, and friction impulses
+at the ends of its steps (``rubbing.py``).
 
 All contacts are treated at once, as rows of arrays, so that the outcome does not depend on the order of the bodies.
 """
@@ -16,6 +16,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from sandbox.engine.rubbing import Rubbing
 from sandbox.errors import RunError
 from sandbox.physics.hertz import contact_time, damping
 from sandbox.physics.integrators import DORMAND_PRINCE, DORMAND_PRINCE_ERROR
@@ -32,9 +33,6 @@ _MAX_GRADED_LINKS, _GRADES = 6, (4.0**-6, *(3.0 * 4.0**-power for power in range
 #: Longest contact times, for each body and in addition, after which bodies that press on one another will not separate
 #: by themselves; a chain of n equal balls takes 1 + (n - 1) / 2.
 _PATIENCE = 1.0, 10.0
-
-#: Most iterations of friction, and the change of a slip relative to the fastest speed at which they stop.
-_ITERATIONS, _CONVERGED = 500, 1e-6
 
 #: Speed in m/s and depth in m below which a value is rounding.
 _STILL, _TOUCH = 1e-9, 1e-12
@@ -84,8 +82,7 @@ class ClusterOutcome:
 class Cluster:
     """Bodies and the links between them. The cost grows with all of them: leave out what cannot be reached."""
 
-    def __init__(self, bodies: Sequence[Body], links: Sequence[Link], on_cloth: bool = False) -> None:
-        """``on_cloth``: friction acts out of the plane too, and turns the balls about x and y."""
+    def __init__(self, bodies: Sequence[Body], links: Sequence[Link]) -> None:
         count = len(bodies)
         self._count, self._links = count, links
         self._bodies = bodies
@@ -94,9 +91,7 @@ class Cluster:
         radius = np.array([*(body.radius for body in bodies), 0.0])
         inverse_mass = np.array([*(1.0 / body.mass for body in bodies), 0.0])
         inverse_inertia = np.array([*(1.0 / body.inertia for body in bodies), 0.0])
-        self._loose = np.concatenate([inverse_mass] * 3 + [inverse_inertia] * 3)
         self._inertia = np.repeat([1.0 / inverse_mass[:-1], 1.0 / inverse_inertia[:-1]], 3, axis=0)  # kg, kg m^2
-        self._rubs = any(link.friction(0.0) > 0.0 or link.friction(1.0) > 0.0 for link in links)
         self._reach = radius[self._first] + radius[self._second]
         self._stiffness = np.array([link.stiffness for link in links])
         self._mass = 1.0 / (inverse_mass[self._first] + inverse_mass[self._second])  # kg, reduced
@@ -105,10 +100,10 @@ class Cluster:
         self._incidence = np.zeros((count + 1, len(links)))
         self._incidence[self._first, every] = 1.0
         self._incidence[self._second, every] = -1.0
-        self._arms = np.abs(self._incidence) * radius[:, None]  # m
+        laws = [link.friction for link in links]
+        self._rubbing = Rubbing(self._incidence, radius, inverse_mass, inverse_inertia, laws)
         self._pushed = np.ascontiguousarray((self._incidence * inverse_mass[:, None]).T)  # force to acceleration
         self._walls = [(place, link.wall, link.first) for place, link in enumerate(links) if link.wall is not None]
-        self._on_cloth = on_cloth
 
     def pass_through(self, share: float) -> ClusterOutcome:
         """Simulate the contact until nothing touches, in steps of this fraction of the shortest possible contact.
@@ -134,7 +129,7 @@ class Cluster:
         before = self._energy(state)
         surface = np.abs(state[5:8, :count]).max(axis=0) * [body.radius for body in self._bodies]
         fastest = max(2.0 * float(np.hypot(*state[2:4]).max()), _STILL)
-        rubbing = max(fastest, float(surface.max()))
+        quickest = max(fastest, float(surface.max()))
         times = [contact_time(m, k, fastest) for m, k in zip(self._mass, self._stiffness, strict=True)]
         shortest, longest = min(times), max(times)
         scale = np.repeat([fastest * shortest, fastest], 2 * count + 2)
@@ -148,14 +143,15 @@ class Cluster:
         self._motion(state[:4])
         self._overlap = np.minimum(self._gap, 0.0)
         rates[0], depth, closing, normal, force = self._motion(state[:4])
-        gain, gap = rates[0, 2:].flatten(), self._gap  # m/s^2, m
+        gain, gap = rates[0, 2:].copy(), self._gap  # m/s^2, m
         approach[:] = np.where(self._gap < _TOUCH, np.maximum(closing, 0.0), 0.0)
-        plan = _finer_at_start(whole) if lands else [whole]
+        plan, back = _finer_at_start(whole) if lands else [whole], 0.0
         while True:
             h = plan[0]
             # Friction of the previous and next half step: second order, and mu times the impulse in total.
             reached = np.maximum(impulse + 0.5 * h * force, rubbed)
-            start = self._rub(state, normal, reached - rubbed, 0.5 * h * gain, rubbing)
+            start = state.copy()
+            start[2:] = self._rubbing.after(state[2:], normal, reached - rubbed, gain, back, 0.5 * h, quickest)
             rates[0], *_, forces[0] = self._motion(start[:4])
             for stage, weights in enumerate(_STAGES, 1):
                 moved = start[:4] + (h * weights @ flat[:stage]).reshape(4, -1)
@@ -165,9 +161,9 @@ class Cluster:
                 if kink is not None:
                     plan = [*_finer_at_end(kink), *_finer_at_start(h - kink)]
                     continue
-            worst = max(worst, float(np.abs(_ERROR @ flat / scale).max()) * h)
+            worst, back = max(worst, float(np.abs(_ERROR @ flat / scale).max()) * h), 0.5 * h
             plan, gap = plan[1:] or [whole], self._gap
-            state, rubbed, force, gain = start, reached, forces[6].copy(), rates[6, 2:].flatten()
+            state, rubbed, force, gain = start, reached, forces[6].copy(), rates[6, 2:].copy()
             state[:4] = moved
             impulse += h * (_STAGES[-1] @ forces[:6])
             first = (depth > 0.0) & (approach == 0.0)
@@ -175,7 +171,8 @@ class Cluster:
             closing = closing_then
             t, steps = t + h, steps + 1
             if not ((depth > _TOUCH) | ((self._gap < _TOUCH) & (closing > _STILL))).any():
-                state = self._rub(state, normal, np.maximum(impulse - rubbed, 0.0), 0.0 * gain, rubbing)
+                rest = np.maximum(impulse - rubbed, 0.0)
+                state[2:] = self._rubbing.after(state[2:], normal, rest, gain, back, 0.0, quickest)
                 break
             if t > (_PATIENCE[0] * count + _PATIENCE[1]) * longest:
                 raise StaysPressed(f"bodies do not separate within {t:.3g} s")
@@ -188,7 +185,7 @@ class Cluster:
     def _motion(self, moving: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
         """The derivative of (x, y, vx, vy), and for each link the depth (m), closing speed (m/s), normal, force (N)."""
         apart = moving @ self._incidence
-        distance = np.sqrt(apart[0] * apart[0] + apart[1] * apart[1])
+        distance = np.hypot(apart[0], apart[1])
         normal = apart[:2] / distance
         gap = distance - self._reach
         for place, wall, body in self._walls:
@@ -220,55 +217,6 @@ class Cluster:
         if excess > 0.0:
             share = np.sqrt(max(0.0, (before - kept) / (before - kept + excess)))
             state[2:, :-1] = common + share * (state[2:, :-1] - common)
-
-    def _grip(self, normal: np.ndarray) -> np.ndarray:
-        """Matrix from the velocities and spins of all bodies to the slips of all links: shape (directions, links,
-        ...)."""
-        nx, ny = normal
-        none = np.zeros_like(self._arms)
-        ways = [[self._incidence * ny, -self._incidence * nx, none, none, none, self._arms]]  # along it, in the plane
-        if self._on_cloth:
-            ways.append([none, none, self._incidence, -self._arms * ny, self._arms * nx, none])  # upward
-        return np.stack([np.concatenate(way).T for way in ways])
-
-    def _rub(
-        self, state: np.ndarray, normal: np.ndarray, pressed: np.ndarray, coming: np.ndarray, fastest: float
-    ) -> np.ndarray:
-        """The state after friction impulses, limited by the normal impulses (N s), that leave the least slip.
-
-        Slips are those after a change of the velocities by ``coming`` (m/s). The impulses minimise the energy of the
-        slips; they are found by projected gradient steps for all links at once, with step lengths bounded by the row
-        sums of the matrix.
-        """
-        acting = pressed > 0.0
-        if not (self._rubs and acting.any()):
-            return state.copy()
-        later = state[2:].flatten()
-        later[: coming.size] += coming
-        grip = self._grip(normal)
-        effect = self._loose[:, None] * grip.transpose(0, 2, 1)
-        mobility = grip @ effect
-        slips = grip @ later
-        speeds = np.sqrt((slips * slips).sum(axis=0))
-        limit = np.zeros_like(pressed)
-        for link in np.flatnonzero(acting).tolist():
-            limit[link] = pressed[link] * self._links[link].friction(float(speeds[link]))
-        ease = np.abs(mobility) @ acting
-        ease[:, ~acting] = 1.0
-        impulse = np.zeros_like(slips)
-        step = 1.0 / ease
-        for _ in range(_ITERATIONS):
-            wanted = impulse - slips * step
-            size = np.sqrt(np.add.reduce(wanted * wanted))
-            np.maximum(size, 1e-300, out=size)
-            change = wanted * np.minimum(1.0, limit / size) - impulse
-            impulse += change
-            slips += np.matmul(mobility, change[:, :, None])[:, :, 0]
-            if np.abs(change * ease).max() <= _CONVERGED * fastest:
-                break
-        after = state.copy()
-        after[2:] += (effect @ impulse[:, :, None]).sum(axis=0).reshape(6, -1)
-        return after
 
 
 def _finer_at_start(h: float) -> list[float]:

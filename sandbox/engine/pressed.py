@@ -159,7 +159,7 @@ class Pressed:
         links += [self._wall_link(place[index], members[index], obstacle) for index, obstacle in walls]
         linked: list[tuple[int, ...]] = [*pairs, *((index,) for index, _ in walls)]  # the balls of each link
         names = [self._tracks[j].ball.name for _, j in pairs] + [obstacle.surface.name for _, obstacle in walls]
-        outcome = Cluster(bodies, links, any(len(state) > 5 for state in members.values())).pass_through(self._step)
+        outcome = Cluster(bodies, links).pass_through(self._step)
         touched = np.flatnonzero(outcome.impulse > 0.0).tolist()
         hits = [
             Hit(t + float(outcome.closed[link]), linked[link][0], names[link], float(outcome.approach[link]))
