@@ -7,7 +7,7 @@ once, an invalid state) are handed to simulation.py, which continues the shot fr
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from time import perf_counter
 from typing import Any, NamedTuple
 
@@ -27,7 +27,7 @@ from sandbox.engine.run import Numerics, Run
 from sandbox.engine.setup import Ball, Bounds, Patch, Setup, Until
 from sandbox.engine.setup_errors import setup_errors_named
 from sandbox.engine.simulation import Simulation
-from sandbox.engine.stacking import FEWEST, Alike, Stack, chosen
+from sandbox.engine.stacking import FEWEST, Stack, chosen
 from sandbox.engine.step_control import LONGEST, StepControl, size, within
 from sandbox.engine.surfaces import CLOSING, bounce_off, leaves_at, press, tilted
 from sandbox.physics.impulse import after_impulse, surface_speeds
@@ -51,19 +51,22 @@ _ROUNDING = 1e-9
 def simulate_many(setups: Sequence[Setup], accuracy: Accuracy) -> Iterator[Run | Exception]:
     """A run of each setup, in order, or the exception it ended with.
 
-    The results agree with ``simulate`` to rounding; similar setups run much faster. Forces are called with arrays of
-    shape (n,) for time, position, velocity and spin; the shots of a force that cannot take arrays run one at a time.
+    Setups that differ only in numbers fly together, with the results of ``simulate`` to rounding; forces are then
+    called with arrays of shape (n,) for time, position, velocity and spin. If there are others among them, or forces
+    that cannot take arrays, all run one at a time.
     """
-    batch_of: dict[int, Iterator[Run | Exception]] = {}
-    for members, stack in _groups(setups, accuracy):
+    stack = _stack(setups, accuracy)
+    if stack is not None:
         batch = Batch(stack, accuracy)
         try:
             batch.fly()
         except _OnlyFloats:
-            continue  # one at a time they run, or raise an error of their own
-        batch_of |= dict.fromkeys(members, batch.runs())
-    for number, setup in enumerate(setups):
-        yield next(batch_of[number]) if number in batch_of else _run_or_error(setup, accuracy)
+            pass  # one at a time they run, or raise an error of their own
+        else:
+            yield from batch.runs()
+            return
+    for setup in setups:
+        yield _run_or_error(setup, accuracy)
 
 
 def _run_or_error(setup: Setup, accuracy: Accuracy) -> Run | Exception:
@@ -73,23 +76,16 @@ def _run_or_error(setup: Setup, accuracy: Accuracy) -> Run | Exception:
         return error
 
 
-def _groups(setups: Sequence[Setup], accuracy: Accuracy) -> Iterator[tuple[Sequence[int], Stack]]:
-    """The places of setups that can fly together, and the setups stacked."""
+def _stack(setups: Sequence[Setup], accuracy: Accuracy) -> Stack | None:
+    """The setups as one, if they can fly together."""
     if isinstance(setups, Stack):
-        if flies_in_batches(setups.whole, accuracy):
-            yield range(len(setups)), setups
-        return
-    groups: dict[tuple[Hashable, ...], list[int]] = {}
-    alike = Alike()
-    for number, setup in enumerate(setups):
-        if flies_in_batches(setup, accuracy):
-            until = setup.until if isinstance(setup.until, Until) else None
-            kind = tuple(map(alike.key, (setup.balls[0], setup.surfaces, setup.patches, until)))
-            groups.setdefault(kind, []).append(number)
-    for kind, members in groups.items():
-        if len(members) >= FEWEST:
-            names = FLIGHT if kind[-1] is None else (*FLIGHT, "until")
-            yield members, Stack.of([setups[member] for member in members], names)
+        return setups if flies_in_batches(setups.whole, accuracy) else None
+    if len(setups) < FEWEST or not all(flies_in_batches(setup, accuracy) for setup in setups):
+        return None
+    try:
+        return Stack.of(setups, (*FLIGHT, "until") if isinstance(setups[0].until, Until) else FLIGHT)
+    except Exception:  # Unlike, or what a class of the scene raises when it is compared
+        return None
 
 
 def _ending(setup: Setup, events: Sequence[Event]) -> str:

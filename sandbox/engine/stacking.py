@@ -6,7 +6,7 @@ and everything else (names, functions, objects of other classes) must be equal.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import fields, is_dataclass
 from functools import cache
 from math import isclose
@@ -28,50 +28,27 @@ def _fields(kind: type) -> tuple[str, ...]:
     return tuple(field.name for field in fields(kind)) if is_dataclass(kind) else ()
 
 
-class Alike:
-    """Tells which things can be stacked: those with the same key."""
-
-    def __init__(self) -> None:
-        self._known: dict[
-            int, tuple[Any, Hashable]
-        ] = {}  # by id; the thing is stored too, so that its id is not reused
-
-    def key(self, thing: Any) -> Hashable:
-        """A key that is equal for two things that differ only in numbers."""
-        kind: Any = type(thing)
-        if kind in _NUMBERS:
-            return float
-        if thing is None or kind is str or kind is bool:
-            return thing
-        if id(thing) in self._known:
-            return self._known[id(thing)][1]
-        key: Hashable
-        if isinstance(thing, tuple | list):
-            key = kind, *map(self.key, thing)
-        elif names := _fields(kind):
-            key = kind, *[self.key(getattr(thing, name)) for name in names]
-        elif kind.__hash__ is None:
-            key = kind, id(thing)
-        else:
-            key = thing
-        self._known[id(thing)] = thing, key
-        return key
+class Unlike(ValueError):
+    """Things that differ in more than numbers."""
 
 
 def stacked(things: Sequence[Any]) -> Any:
-    """One thing that combines all of these, which must have the same key."""
+    """One thing that combines all of these. Raises Unlike if they differ in more than numbers."""
     first = things[0]
     if all(thing is first for thing in things):
         return first
     kind: Any = type(first)
-    if kind in _NUMBERS:
+    kinds = {type(thing) for thing in things}
+    if kinds.issubset(_NUMBERS):
         numbers = np.array(things, dtype=float)
         return numbers if (numbers != numbers[0]).any() else first
-    if isinstance(first, tuple | list):
+    if len(kinds) == 1 and isinstance(first, tuple | list) and len({len(thing) for thing in things}) == 1:
         return _tuple(kind, [stacked(column) for column in zip(*things, strict=True)])
-    if names := _fields(kind):
+    if len(kinds) == 1 and (names := _fields(kind)):
         return _changed(first, {name: stacked([getattr(thing, name) for thing in things]) for name in names})
-    return first
+    if all(thing == first for thing in things):
+        return first
+    raise Unlike
 
 
 def chosen(stack: Any, places: np.ndarray) -> Any:
@@ -98,7 +75,7 @@ class Stack(Sequence[Any]):
 
     @classmethod
     def of(cls, things: Sequence[Any], names: Sequence[str]) -> Stack:
-        """A stack of dataclass instances, which combines the fields with these names."""
+        """A stack of dataclass instances, which combines the fields with these names. Raises Unlike."""
         combined = {name: stacked([getattr(thing, name) for thing in things]) for name in names}
         return cls(_changed(things[0], combined), things)
 

@@ -33,10 +33,10 @@ def runs(
     """
     build, read, varied = _builder(scene, asked), scene.reader(asked), Varied(scene, keys)
     parameters = [_or_error(varied.parameters, values) for values in points]
-    alone: dict[Accuracy, dict[int, Setup]] = {}
+    alone: dict[tuple[int, Accuracy], dict[int, Setup]] = {}  # by group and accuracy
     found: dict[int, Iterator[Run | Exception]] = {}
     errors: dict[int, Exception] = {}
-    for places, many in varied.together(points):
+    for group, (places, many) in enumerate(varied.together(points)):
         stack = _stack(build, many, [parameters[place] for place in places])
         if stack is not None:
             accuracy = _accuracy(many, finer)
@@ -47,10 +47,10 @@ def runs(
             try:
                 if isinstance(made, Exception):
                     raise made
-                alone.setdefault(_accuracy(made, finer), {})[place] = build(made)
+                alone.setdefault((group, _accuracy(made, finer)), {})[place] = build(made)
             except Exception as error:
                 errors[place] = error
-    for accuracy, setups in alone.items():
+    for (_, accuracy), setups in alone.items():
         found |= dict.fromkeys(setups, simulate_many([setups[place] for place in sorted(setups)], accuracy))
     for place, made in enumerate(parameters):
         run = errors[place] if place in errors else next(found[place])
