@@ -29,6 +29,8 @@ RUNS = {
     "tennis": None,
     "bullet": None,
     "throws": None,
+    "curling": None,
+    "curling/double": None,
     "baseball": None,
     "baseball-pitch": None,
     "baseball/green-monster": None,

@@ -69,6 +69,8 @@ class View(Generic[P]):
     #: Of impacts that are nearer to each other than this, in px on 720 rows, the first alone is marked.
     APART: ClassVar[float] = 0.0
 
+    #: What is stretched where a camera stretches one.
+    STRETCHED: ClassVar[str] = "heights"
     #: Whether all runs stand on the same ground, so that one cannot be moved up or down to lie over another.
     ONE_GROUND: ClassVar[bool] = False
 
@@ -355,7 +357,7 @@ class View(Generic[P]):
 
     def _stretched(self, camera: Camera) -> list[str]:
         """To note how much larger heights are drawn than lengths."""
-        return [f"heights drawn {camera.stretch:g} times as large as lengths"] if camera.stretch != 1 else []
+        return [f"{self.STRETCHED} drawn {camera.stretch:g} times as large as lengths"] if camera.stretch != 1 else []
 
     def verdict(self) -> str:
         """What happened, in a sentence."""

@@ -1,0 +1,164 @@
+"""A long place from above: all of it as a strip, and under that the part that matters from near by.
+
+A lane or a sheet of ice is so long that what happens at its end would be too small to see.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import cached_property
+from math import hypot
+from typing import ClassVar
+
+import numpy as np
+import pygame
+
+from sandbox.picture.above import AboveView
+from sandbox.picture.camera import Box, Camera
+from sandbox.picture.painter import Painter
+from sandbox.picture.palette import Colour, palette
+from sandbox.picture.path import Mark, mark_impacts
+from sandbox.picture.places.plan import drawn
+from sandbox.picture.sheet import Sheet
+from sandbox.picture.view import P
+from sandbox.sport.amounts import metres, times
+
+CARD = palette("card")
+
+#: The strip takes this share of the room between headline and card, at most; gaps in px on 720 rows.
+STRIP, GAP, ROW = 0.42, 8.0, 24.0
+#: A ball that goes no further than this, in m, has no path.
+LEAST_WAY = 1e-6
+
+
+class LongView(AboveView[P]):
+    """One run in a long place; a scene says what is ``whole`` and what is ``near``, both in m."""
+
+    #: The colour around the strip.
+    ROOM: ClassVar[Colour] = (22, 30, 38)
+    #: Widths are drawn so many times as large as lengths in the strip.
+    WIDER: ClassVar[float] = 1.0
+    STRETCHED = "widths"
+
+    @property
+    def whole(self) -> Box:
+        """What the strip shows."""
+        raise NotImplementedError
+
+    @property
+    def near(self) -> Box:
+        """What must be seen from near by."""
+        raise NotImplementedError
+
+    @property
+    def lines(self) -> Mapping[str, float]:
+        """Lines across the place by their names, at x in m."""
+        return {}
+
+    @property
+    def moment(self) -> float:
+        return self.told
+
+    @cached_property
+    def camera(self) -> Camera:
+        """Of the strip."""
+        (_, top), (_, bottom) = self._area
+        left, right = self.sheet.frame.left, self.sheet.frame.right
+        box, most = self.whole, STRIP * (bottom - top)
+        scale = min((right - left) / (box.right - box.left), most / (box.top - box.bottom) / self.WIDER)
+        tall = scale * self.WIDER * (box.top - box.bottom)
+        middle = (box.left + box.right) / 2, (box.bottom + box.top) / 2
+        return Camera(middle, ((left + right) / 2, top + tall / 2), scale, self.WIDER)
+
+    def backdrop(self, painter: Painter, camera: Camera) -> None:
+        """The strip in a dark room."""
+        painter.surface.fill(self.ROOM)
+        (left, top), (right, bottom) = (camera.pixel(*corner) for corner in (self.whole[::3], self.whole[2:0:-1]))
+        painter.surface.set_clip(pygame.Rect(round(left), round(top), round(right - left), round(bottom - top)))
+        painter.surface.blit(drawn(self.plan, camera, self.size), (0, 0))
+        painter.surface.set_clip(None)
+
+    def landmarks(self, sheet: Sheet, camera: Camera) -> None:
+        """What the lines across the strip are called, under it."""
+        row = camera.pixel(0.0, self.whole.bottom)[1] + 0.5 * ROW * self.unit
+        for name, x in self.lines.items():
+            sheet.write(name, "small", (camera.pixel(x, 0.0)[0], row), sheet.quiet_ink, "center")
+
+    @cached_property
+    def lens(self) -> pygame.Rect:
+        """Where in the picture the near part is."""
+        low = self.camera.pixel(0.0, self.whole.bottom)[1] + (ROW + GAP) * self.unit
+        frame = self.sheet.frame
+        return pygame.Rect(frame.left, round(low), frame.width, round(self.card_row - GAP * self.unit - low))
+
+    @cached_property
+    def near_camera(self) -> Camera:
+        """Of the near part; it shows more along the place where there is room, on the side that the balls come from."""
+        box, lens = self.near, self.lens
+        scale = min(lens.width / (box.right - box.left), lens.height / (box.top - box.bottom))
+        across = (box.bottom + box.top) / 2
+        return Camera((box.right, across), (lens.right, lens.centery), scale)
+
+    def before(self, painter: Painter, camera: Camera, t: float) -> None:
+        """The near part, with the paths up to time t in s; and where in the strip it is."""
+        lens, near = self.lens, self.near_camera
+        left, right = (near.world(x, 0.0)[0] for x in (lens.left, lens.right))
+        (x, top), (end, bottom) = camera.pixel(left, self.whole.top), camera.pixel(right, self.whole.bottom)
+        part = pygame.Rect(round(x), round(top), round(end - x), round(bottom - top))
+        pygame.draw.rect(painter.surface, CARD["quiet"], part, max(1, round(self.unit)))
+        around = pygame.Rect(lens).inflate(2, 2)
+        for a, b in ((part.bottomleft, around.topleft), (part.bottomright, around.topright)):
+            painter.line([a, b], max(1.0, self.unit), CARD["quiet"], 0.5)
+        surface = painter.surface.subsurface(lens)
+        local = Camera(near.at, (near.anchor[0] - lens.left, near.anchor[1] - lens.top), near.scale)
+        surface.blit(drawn(self.plan, local, lens.size), (0, 0))
+        inside = Painter(surface)
+        self.behind(inside, local, t)
+        for ball in self.run.setup.balls:
+            if ball.name != self.ball:  # where it lay
+                at = local.pixel(*ball.position)
+                inside.ring(at, ball.radius * local.scale, 1.5 * self.unit, self.colour_of(ball.name), 0.8)
+        for name, path in self.paths.items():
+            some = path.points[path.samples[:, 0] <= t]
+            if len(some) and np.ptp(some, axis=0).max() > LEAST_WAY:
+                points = local.pixels(np.vstack([some, self.run.state(name, t)[:2]]))
+                inside.line(points, (3.4 if name == self.ball else 2.2) * self.unit, self.colour_of(name), 0.8)
+        for ghost in self.ghosts:
+            inside.line(local.pixels(ghost.points), 2.4 * self.unit, ghost.colour, 0.8)
+        placed = self._placed(local, t, 1.0)
+        self._shadows(inside, local, placed, t)
+        for name, (at, radius) in placed.items():
+            self.draw_ball(inside, local, name, t, at, radius)
+        pygame.draw.rect(painter.surface, CARD["quiet"], around, max(1, round(self.unit)))
+
+    def dimensions(self, sheet: Sheet, camera: Camera) -> None:
+        """None; but no label goes on the strip or on a ball in the near part."""
+        sheet.labels.take(pygame.Rect(0, 0, self.size[0], round(self.lens.top - (ROW + GAP) * self.unit)))
+        sheet.labels.take(pygame.Rect(0, round(self.card_row), *self.size))
+        for (x, y), half in self._placed(self.near_camera, self.told, 1.0).values():
+            sheet.labels.take(pygame.Rect(round(x - half), round(y - half), round(2 * half), round(2 * half)))
+
+    def progress(self, t: float) -> tuple[str, str]:
+        (x, y), what = self.datum
+        at = self.run.state(self.ball, t)
+        return f"{hypot(*at[2:4]):.2f} m/s", f"{metres(hypot(at[0] - x, at[1] - y))} from {what}"
+
+    def impacts(self, camera: Camera) -> list[Mark]:
+        """In the near part."""
+        return [] if camera == self.camera else super().impacts(camera)
+
+    def annotate(self, sheet: Sheet, camera: Camera) -> None:
+        """Impacts that are in the near part, with their speeds."""
+        near = self.near_camera
+        marks = [mark for mark in self.impacts(near) if self.lens.collidepoint(near.pixel(*mark.at))]
+        mark_impacts(sheet, near, marks, last=self._placed(near, self.told, 1.0).get(self.ball))
+
+    def scale(self, sheet: Sheet, camera: Camera) -> None:
+        """A scale bar under the strip."""
+        low = self.camera.pixel(0.0, self.whole.bottom)[1] + (ROW - 2.0) * self.unit
+        sheet.scale_bar(camera, sheet.frame.left + 2 * sheet.gap, low, 0.3 * sheet.frame.width)
+
+    def notes(self, camera: Camera) -> list[str]:
+        """Of the near part; in the strip balls are only marks."""
+        factor = self.near_camera.scale / camera.scale
+        return [*self._stretched(camera), *self.remarks(camera), f"below, {times(factor)} as large"]

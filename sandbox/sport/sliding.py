@@ -1,0 +1,101 @@
+"""Bodies that slide or roll on a plane seen from above: how one is launched, where they lie in the end, what took them
+off."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import cos, dist, sin
+from typing import TYPE_CHECKING, Any
+
+from sandbox.engine.setup import DISC, Ball, Catch, Vector
+from sandbox.parameters import Group, quantity
+from sandbox.sport.facts import Fact
+from sandbox.sport.flight import DEGREE, RPM
+from sandbox.sport.solids import Solid
+
+if TYPE_CHECKING:
+    from sandbox.engine.run import Run
+
+
+#: How far beyond a line bodies are taken, in m.
+_REACH = 2.0
+
+
+class Slide(Group):
+    """How a body is sent on its way."""
+
+    speed: float = quantity(..., "m/s", 0, 80, "speed")
+    angle: float = quantity(..., "deg", -180, 180, "direction, to the left of straight ahead")
+    spin: float = quantity(..., "rpm", -5000, 5000, "about the vertical, counter-clockwise positive")
+    aside: float = quantity(..., "m", -50, 50, "where it starts, to the left of the middle")
+
+
+class Body(Solid):
+    """A body that slides."""
+
+    mass: float = quantity(..., "kg", 0.001, 100, "mass")
+    radius: float = quantity(..., "m", 0.002, 0.5, "radius")
+
+    def at(self, name: str, place: Vector, launch: Slide | None = None) -> Ball:
+        """A disc at a place in m, at rest or launched."""
+        if launch is None:
+            return Ball(name, self.mass, self.radius, place, inertia_factor=DISC)
+        return Ball(name, self.mass, self.radius, place, velocity_of(launch), launch.spin * RPM, inertia_factor=DISC)
+
+
+def velocity_of(launch: Slide) -> Vector:
+    """In m/s."""
+    return launch.speed * cos(launch.angle * DEGREE), launch.speed * sin(launch.angle * DEGREE)
+
+
+def beyond(name: str, a: Vector, b: Vector, gap: float = 0.0, only: Sequence[str] = ()) -> Catch:
+    """Takes a body whose centre is more than ``gap`` m beyond a line, to the right on the way from a to b."""
+    length = dist(a, b)
+    nx, ny = (b[1] - a[1]) / length, (a[0] - b[0]) / length
+    out = gap + _REACH
+    return Catch(name, (a[0] + out * nx, a[1] + out * ny), _REACH, (b[0] + out * nx, b[1] + out * ny), only)
+
+
+def beside(name: str, side: float, near: float, far: float, gap: float = 0.0, only: Sequence[str] = ()) -> list[Catch]:
+    """Takes a body more than ``gap`` m beyond a line on either side, at y = +-side, from x = near to far (m)."""
+    return [
+        beyond(name, (far, side), (near, side), gap, only),
+        beyond(name, (near, -side), (far, -side), gap, only),
+    ]
+
+
+def taken(run: Run) -> dict[str, str]:
+    """What took bodies off, by their names, in order."""
+    return {event.ball: event.partner for event in run.events if event.kind == "caught"}
+
+
+def end_of(run: Run, name: str) -> Vector:
+    """Where a body lies in the end, or was taken off, in m."""
+    t = run.caught_at(name)
+    x, y = run.state(name, run.duration if t is None else t)[:2]
+    return x, y
+
+
+def left(run: Run) -> dict[str, Vector]:
+    """Where each body lies that was not taken off, in m."""
+    off = taken(run)
+    return {ball.name: end_of(run, ball.name) for ball in run.setup.balls if ball.name not in off}
+
+
+def aside(run: Run, name: str, launch: Slide) -> float:
+    """How far a body ends to the left of the line on which it was launched, in m."""
+    (x, y), (x0, y0) = end_of(run, name), run.state(name, 0.0)[:2]
+    way = launch.angle * DEGREE
+    return (y - y0) * cos(way) - (x - x0) * sin(way)
+
+
+def passes(run: Run, name: str, x: float) -> float | None:
+    """When a body first passes x (m) on its way ahead, in s."""
+    return next((t for t, _ in run.crossings(name, (x, 0.0), (-1.0, 0.0))), None)
+
+
+def _rest_time(run: Run, parameters: Any) -> float | None:
+    return run.duration if run.ended == "rest" else None
+
+
+REST_TIME = Fact("rest_time", "at rest after", "s", _rest_time)
