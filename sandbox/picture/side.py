@@ -157,7 +157,8 @@ class SideView(View[P]):
 
     def backdrop(self, painter: Painter, camera: Camera) -> None:
         eye, place = self.eye(camera), self.place
-        place.scenery.draw(painter.surface, place.ground.foot(eye), self.moved(camera))
+        foot = min(place.ground.foot(eye), self.size[1])
+        place.scenery.draw(painter.surface, foot, self.moved(camera))
         place.ground.draw(painter, eye)
         for thing in place.things:
             thing.draw(painter, eye, near=False)

@@ -17,7 +17,7 @@ from sandbox.window.game import WIDEST
 from sandbox.window.keys import GROUPS, LISTED, of_groups
 from sandbox.window.overlay import Board, Chart, Row
 from sandbox.window.shot import Shot
-from sandbox.window.view import View
+from sandbox.window.view import AHEAD, View
 from sandbox.window.worker import cost_and_errors
 
 #: What can be shown or hidden: the command of the same name switches it.
@@ -106,7 +106,8 @@ def _open(view: View, name: str, make: Callable[[], Board | Chart]) -> None:
 
 def _rows(view: View, groups: tuple[str, ...], headings: bool) -> list[list[Row]]:
     """The commands of groups, each with its key."""
-    meanings = {"accuracy": f"accuracy: {view.game.session.value('accuracy.level')}, and the next"}
+    meanings = {"accuracy": f"accuracy: {view.game.session.value('accuracy.level')}, and the next",
+                "predict": f"path while aiming: {view.ahead}, and the next"}  # fmt: skip
     return [
         [Row("", group, heading=True)] * headings
         + [Row(command.name, meanings.get(command.name, command.meaning), command.shown) for command in commands]
@@ -159,6 +160,12 @@ def _wider(view: View, by: float) -> None:
 
 def _zoom(view: View, by: float) -> None:
     view.zoom(ZOOM**by, view.at if view.area.collidepoint(view.at) else view.area.center)
+
+
+def _predict(view: View, by: float) -> None:
+    """Show more or less of the path while aiming."""
+    view.ahead = AHEAD[(AHEAD.index(view.ahead) + 1) % len(AHEAD)]
+    view.game.tell(f"path while aiming: {view.ahead}")
 
 
 def _accuracy(view: View, by: float) -> None:
@@ -280,6 +287,7 @@ COMMANDS: dict[str, Callable[[View, float], object]] = {
     "next_shot": lambda view, by: view.game.watch_other(int(by)),
     "wider": _wider,
     "energy": _energy,
+    "predict": _predict,
     "accuracy": lambda view, by: view.game.trying(lambda: _accuracy(view, by)),
     "zoom": _zoom,
     "pan_across": lambda view, by: view.pan(PAN * by, 0),

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from math import dist
+
+import numpy as np
 import pygame
 
 from sandbox.window import aim, commands
@@ -22,6 +25,7 @@ class Pointer:
         self.scrubbing = False  # the time line is dragged
         self.laying = False  # the tape is dragged
         self.panning = False  # the picture is dragged
+        self.fingers: dict[int, tuple[float, float]] = {}  # on a touch screen, px
         self.grabbed: Place = (0, 0)  # where the button was pressed on a handle
         self.pressed: Place | None = None  # where the button was pressed on a shot that is over
 
@@ -35,7 +39,12 @@ class Pointer:
         return self.scrubbing or self.laying or self.panning or self.view.game.holding
 
     def handle(self, event: pygame.event.Event) -> None:
-        """One event of the mouse."""
+        """One event of the mouse, or of fingers on a screen: one is a mouse, two zoom and move the picture."""
+        if event.type in (pygame.FINGERDOWN, pygame.FINGERMOTION, pygame.FINGERUP):
+            self._touched(event)
+            return
+        if len(self.fingers) > 1 and getattr(event, "touch", False):
+            return
         match event.type:
             case pygame.MOUSEMOTION:
                 self._moved(self.view.at, event.pos)
@@ -53,11 +62,28 @@ class Pointer:
             case pygame.MOUSEWHEEL:
                 self._turned(event)
 
+    def _touched(self, event: pygame.event.Event) -> None:
+        """Fingers on a touch screen."""
+        before = list(self.fingers.values())
+        width, height = self.view.canvas.get_size()
+        if event.type == pygame.FINGERUP:
+            self.fingers.pop(event.finger_id, None)
+        else:
+            self.fingers[event.finger_id] = event.x * width, event.y * height
+        now = list(self.fingers.values())
+        if len(now) == 2 and event.type == pygame.FINGERDOWN:  # the first finger did not mean to pull
+            self.view.game.give_up_pull()
+            self._released()
+        elif len(now) == len(before) == 2:
+            (x0, y0), (x, y) = (np.mean(points, axis=0) for points in (before, now))
+            self.view.pan(x - x0, y - y0)
+            self.view.zoom(dist(*now) / max(dist(*before), 1.0), (x, y))
+
     def _turned(self, event: pygame.event.Event) -> None:
-        """The wheel: with Ctrl the size of the picture, else spin."""
+        """The wheel, or a trackpad: the size of the picture with Ctrl, or while a shot is watched; else spin."""
         held = pygame.key.get_mods()
-        if held & pygame.KMOD_CTRL:
-            self.view.zoom(NOTCH**event.y, self.at)
+        if held & pygame.KMOD_CTRL or self.view.game.playback is not None:
+            self.view.zoom(NOTCH ** getattr(event, "precise_y", event.y), self.at)
         else:
             other = bool(held & pygame.KMOD_SHIFT) or event.x != 0
             session = self.view.game.session
@@ -93,6 +119,7 @@ class Pointer:
             elif game.playback.over:
                 self.pressed = at
             else:
+                self.panning = True
                 game.tell("Enter to aim again, Space to pause")
 
     def _begin_pull(self, at: Place) -> None:

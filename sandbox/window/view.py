@@ -12,6 +12,7 @@ from functools import partial
 from threading import Thread
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
 import pygame
 
 from sandbox.picture.camera import Camera
@@ -53,6 +54,12 @@ LIVELY, BLINK = 1.5, 0.25
 HUNG = 10.0
 #: Largest and smallest zoom, compared with a view of the whole shot.
 NEAREST, FARTHEST = 60.0, 0.2
+#: How much of the path is shown while aiming.
+AHEAD = ("all", "to the first contact", "the first metre", "nothing")
+#: A view that follows the ball can be so many times nearer or farther.
+NEARER = 8.0
+#: The ground is never higher than this, as a share of the picture's height.
+HIGHEST = 0.3
 
 
 class View:
@@ -67,6 +74,7 @@ class View:
         self.on = {"ghosts"}  # which of commands.SWITCHES
         self.at = (-1, -1)  # px, the mouse
         self.over: Overlay | None = None
+        self.ahead = AHEAD[0]
         self.tape: Tape | None = None
         self.panel: Panel | None = None
         self.panel_wanted = False
@@ -77,6 +85,7 @@ class View:
         self.stage: Stage | None = None  # the last one that could be composed
         self.composed = 0.0  # s since then
         self.chosen: Camera | None = None  # by zooming; None shows all of the shot
+        self.nearer = 1.0  # where the view follows the ball
         self.holds = False  # the camera, while something is dragged
         self.picked: tuple[str, str] | None = None  # the keys of the handle that was picked by key
         self.clouds: Latest[Cloud] = Latest()  # the fan
@@ -182,38 +191,40 @@ class View:
         return self.near(shot).view(playback.t)
 
     def near(self, shot: Shot) -> Picture[Any]:
-        """The picture of a shot that follows its ball."""
-        if self.stage is not None and self.stage.shot.run is shot.run and self.stage.chosen is None:
-            return self.stage.picture
-        found: Picture[Any] = self._once("near", shot, lambda: picture_of(shot, self.area.size))
+        """The picture of a shot that follows its ball, as near as the player has zoomed."""
+        found: Picture[Any] = self._once("near", (shot, self.area.size), lambda: picture_of(shot, self.area.size))
+        vars(found)["view"] = lambda t: _zoomed(type(found).view(found, t), self.nearer, shot.run.state(shot.ball, t))
         return found
 
     def zoom(self, factor: float, at: tuple[float, float]) -> None:
-        """Zoom by ``factor`` around a place (px); in a view from the side the ground stays where it is."""
-        stage, shot = self.stage, self.game.shot
-        if stage is None or shot is None:
-            return
-        camera = self.chosen or stage.camera
-        scale = min(max(camera.scale * factor, FARTHEST * stage.whole.scale), NEAREST * stage.whole.scale)
-        x, y = camera.world(*at)
-        anchor = (at[0], camera.pixel(x, camera.at[1])[1]) if shot.upright else at
-        self.look(replace(camera, at=(x, camera.at[1] if shot.upright else y), anchor=anchor, scale=scale))
+        """Zoom by ``factor`` around a place (px), or around the ball that the view follows."""
+        stage = self.stage
+        if self.follows:
+            self.nearer = min(max(self.nearer * factor, 1 / NEARER), NEARER)
+            self.changed = True
+        elif stage is not None:
+            camera = self.chosen or stage.camera
+            scale = min(max(camera.scale * factor, FARTHEST * stage.whole.scale), NEAREST * stage.whole.scale)
+            across, down = ((to + (px - to) * scale / camera.scale) for to, px in zip(at, camera.anchor, strict=True))
+            self.look(replace(camera, anchor=(across, down), scale=scale))
 
     def pan(self, across: float, down: float) -> None:
         """Move the picture by so many px."""
-        stage, shot = self.stage, self.game.shot
-        if stage is not None and shot is not None:
-            camera = self.chosen or stage.camera
+        if self.stage is not None:
+            camera = self.chosen or self.stage.camera
             right, foot = camera.anchor
-            self.look(replace(camera, anchor=(right + across, foot if shot.upright else foot + down)))
+            self.look(replace(camera, anchor=(right + across, foot + down)))
 
     def look(self, camera: Camera | None) -> None:
-        """Use another camera; None shows all of the shot."""
-        if self.follows:
+        """Use another camera; None shows all of the shot. From the side the ground stays in the lower part."""
+        if self.follows and camera is not None:
             self.game.tell("the view follows the ball; V for the whole view")
             return
-        self.chosen = camera
-        self.changed = True
+        shot = self.game.shot
+        if camera is not None and shot is not None and shot.upright:
+            across, down = camera.anchor
+            camera = replace(camera, anchor=(across, max(down, HIGHEST * self.area.height)))
+        self.chosen, self.nearer, self.holds, self.changed = camera, 1.0, False, True
 
     # ------------------------------------------------------------------------------------------------------- handles
 
@@ -484,7 +495,7 @@ class View:
         if "ghosts" in self.on:
             stage.draw_ghosts(sheet, self._ghosts(shot), shot if game.pull is None else None)
         self._draw_cloud(sheet, stage, shot)
-        stage.draw_path(sheet, shot, t)
+        stage.draw_path(sheet, shot, self.until(shot))
         stage.draw_balls(sheet, t or 0.0)
         forces = []
         if "arrows" in self.on:
@@ -494,6 +505,23 @@ class View:
         self._draw_words(sheet, stage, shot, forces)
         if game.pull is not None and game.pull.shoots:
             hand.draw_pull(sheet, game.pull.start, game.pull.drawn, shot.aimed)
+
+    @property
+    def hidden(self) -> bool:
+        """Whether the player has to predict what happens."""
+        return self.game.playback is None and self.ahead != AHEAD[0]
+
+    def until(self, shot: Shot) -> float | None:
+        """Until when the path is shown, in s; None for all of it."""
+        if self.game.playback is not None:
+            return self.game.playback.t
+        if self.ahead == "to the first contact":
+            return next((e.t for e in shot.run.events if e.kind == "impact" and e.ball == shot.ball and e.t > 0), None)
+        if self.ahead == "the first metre":
+            track = shot.track(shot.ball)
+            way = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(track[:, 1:], axis=0).T))])
+            return float(np.interp(1.0, way, track[:, 0]))
+        return 0.0 if self.ahead == "nothing" else None
 
     def _ghosts(self, shot: Shot) -> list[Shot]:
         """The earlier shots that are drawn with this one."""
@@ -507,6 +535,8 @@ class View:
         game, playback = self.game, self.game.playback
         text, colour = shot.verdict, CARD["good"] if shot.scored else CARD["text"]
         entries: Sequence[Entry] = shot.card
+        if self.hidden:
+            text, colour, entries = "Where will it go?", CARD["text"], [("aimed", shot.aimed)]
         if game.pull is not None:
             notes = ["let go to shoot, Esc to cancel"]
         elif game.grip is not None:
@@ -534,7 +564,7 @@ class View:
         return self.maps.value if there else None
 
     def _draw_cloud(self, sheet: Canvas, stage: Stage, shot: Shot) -> None:
-        found = self._cloud_of(shot) if "fan" in self.on else None
+        found = self._cloud_of(shot) if "fan" in self.on and not self.hidden else None
         if found is not None and found.pixels and self.clouds.key[2] == stage.camera:
             image = self._once("cloud", found, lambda: pygame.image.frombuffer(found.pixels, found.size, "RGBA"))
             sheet.surface.blit(image, found.at)
@@ -548,6 +578,8 @@ class View:
             level = game.session.value("accuracy.level")
             text = f"frame {1e3 * self.frame_cost:.1f} ms; run {1e3 * game.cost:.1f} ms, {level}"
             top = overlay.draw_note(sheet, [(text, CARD["accent"])], top, self.head)
+        if self.hidden:
+            return
         if "fan" in self.on:
             found = self._cloud_of(shot)
             share, spread = found.said if found is not None else (self._why(self.clouds, "the fan"), "")
@@ -568,8 +600,7 @@ class View:
         if camera is None or self.follows or self.over is not None or game.pull is not None:
             return
         if self.area.collidepoint(self.at) and not pygame.mouse.get_pressed()[2]:
-            until = game.playback.t if game.playback is not None else None
-            read = reading(shot, camera, self.at, NEAR * sheet.unit, until)
+            read = reading(shot, camera, self.at, NEAR * sheet.unit, self.until(shot))
             if read is not None:
                 own = read.ball == shot.ball
                 entries = stage.picture.live(read.t) if own else state_entries(shot, read.ball, read.t)
@@ -582,14 +613,14 @@ class View:
     def aim_on_map(self, at: tuple[int, int]) -> tuple[float, float] | None:
         """The speed and the angle at a place (px) on the map; None if it is not on it."""
         shot, rect = self.game.shot, self.map_at
-        known = self._map_of(shot) if "map" in self.on and shot is not None else None
+        known = self._map_of(shot) if "map" in self.on and shot is not None and not self.hidden else None
         if known is None or not rect.collidepoint(at):
             return None
         return known.aim((at[0] - rect.left) / rect.width, (rect.bottom - at[1]) / rect.height)
 
     def _bar_shown(self) -> Shown:
         """The contents of the bar."""
-        game, playback, shot = self.game, self.game.playback, self.game.shot
+        game, playback, shot = self.game, self.game.playback, self.game.shot if not self.hidden else None
         opened = {"panel"} if self.panel is not None else set()
         if self.over is not None:
             opened.add(self.over.name)
@@ -597,7 +628,7 @@ class View:
             title=game.session.title + (" *" if game.session.changes.values else ""),
             playing=playback is not None and playback.playing,
             t=playback.t if playback is not None else None,
-            duration=playback.duration if playback is not None else shot.run.duration if shot else 0.0,
+            duration=shot.run.duration if shot else 0.0,
             ticks=tuple(e.t for e in shot.run.events if e.kind == "impact")[:200] if shot else (),
             rate=playback.rate if playback is not None else 1.0,
             texts=("see", "keep", "more", "panel", "help"),
@@ -611,6 +642,14 @@ def _panel(game: Game, size: tuple[int, int], height: int, group: str, chosen: i
 
     wide = min(max(NARROWEST, round(WIDTH * rows_of(size) / 720)), size[0] // 2)
     return Panel(size, pygame.Rect(size[0] - wide, 0, wide, height), game, group, chosen)
+
+
+def _zoomed(camera: Camera, factor: float, ball: Sequence[float]) -> Camera:
+    """A camera that is nearer by a factor, with the ball in the same place."""
+    x, y = camera.pixel(*ball[:2])
+    across, down = camera.anchor
+    return replace(camera, anchor=(round(x + (across - x) * factor), round(y + (down - y) * factor)),
+                   scale=camera.scale * factor)  # fmt: skip
 
 
 def _darken(surface: pygame.Surface) -> None:

@@ -68,7 +68,7 @@ class Course:
         outline = camera.pixels(self.between(low, high))
         deepest = min(height, max(round(eye.base), round(outline[:, 1].max())))
         field, thick = self._field(eye, stripe), max(3, round(TURF * eye.unit))
-        Landscape(**self.colours["landscape"]).draw(painter.surface, field.foot(eye), moved)
+        Landscape(**self.colours["landscape"]).draw(painter.surface, min(field.foot(eye), height), moved)
         field.draw(painter, eye, deepest)
         if outline[:, 1].min() < deepest - 1:
             under = np.add(outline, (0, thick / 2))  # so that its rough edge is hidden

@@ -14,6 +14,7 @@ import pygame
 import pytest
 
 from sandbox.picture.camera import Camera
+from sandbox.picture.lettering import Lettering
 from sandbox.scene import simulate
 from sandbox.window import commands
 from sandbox.window.canvas import Canvas
@@ -23,7 +24,7 @@ from sandbox.window.keys import LISTED, TABLE, of_groups
 from sandbox.window.measure import reading
 from sandbox.window.score_map import COARSE, FINER, SCORED, score_map
 from sandbox.window.session import Session
-from sandbox.window.view import AT_REST, HUNG
+from sandbox.window.view import AHEAD, AT_REST, HUNG
 
 PUTT = "golf/putt"
 
@@ -35,6 +36,21 @@ def picture(player) -> np.ndarray:
 def differ(a: np.ndarray, b: np.ndarray) -> float:
     """The share of pixels that differ."""
     return float((a != b).any(axis=2).mean())
+
+
+def said(player) -> set[str]:
+    """All that is written in the window."""
+    written = set()
+    write = Lettering.write
+
+    def noted(self, surface, text, *arguments, **named):
+        written.add(text)
+        return write(self, surface, text, *arguments, **named)
+
+    with mock.patch.object(Lettering, "write", noted):
+        player.settle()
+        player.view.draw()
+    return written
 
 
 class TestTheFan:
@@ -249,6 +265,31 @@ class TestReading:
         x, y, *_ = run.state(ball, run.duration)
         at = view.stage.camera.pixel(x, y)
         assert reading(game.shot, view.stage.camera, (round(at[0]), round(at[1])), 12.0, None).ball == ball
+
+
+def test_the_player_may_have_to_predict_what_happens(player):
+    player = player("basketball", (640, 400))
+    view, shot = player.view, player.game.shot
+    (card,) = [text for label, text in shot.card if label == "entry angle"]
+    contact = next(event.t for event in shot.run.events if event.kind == "impact")
+    untils = []
+    player.key(pygame.K_f)
+    for _ in AHEAD:
+        untils.append(view.until(shot))
+        player.frames(1)
+        written = said(player)
+        assert (card in written) == (shot.verdict in written) == (view.ahead == "all")
+        assert any("score" in text for text in written) == (view.ahead == "all")
+        player.key(pygame.K_y)
+    everything, to_contact, metre, nothing = untils
+    assert (everything, to_contact, nothing) == (None, contact, 0.0)
+    x, y = np.subtract(shot.run.state("ball", metre)[:2], shot.run.state("ball", 0.0)[:2])
+    assert hypot(x, y) == pytest.approx(1.0, rel=0.02)
+    player.key(pygame.K_y)
+    player.key(pygame.K_SPACE)
+    player.game.playback.seek(1e9)
+    player.frames(1)
+    assert shot.verdict in said(player)  # watched, it is shown
 
 
 class TestTheTape:

@@ -15,6 +15,7 @@ from hypothesis import strategies as st
 from sandbox.window import commands
 from sandbox.window.app import App
 from sandbox.window.game import Game
+from sandbox.window.pointer import NOTCH
 from sandbox.window.session import Session
 from sandbox.window.view import View
 
@@ -144,19 +145,81 @@ class TestTheCamera:
         player.settle()
         near = player.view.stage.camera
         assert near.scale > 1.4 * whole.scale
-        assert near.world(640, 300)[0] == pytest.approx(whole.world(640, 300)[0])
-        assert near.pixel(0.0, 0.0)[1] == pytest.approx(whole.pixel(0.0, 0.0)[1])
+        assert near.world(640, 300) == pytest.approx(whole.world(640, 300))
         assert player.game.session.changes.values == {}
         player.press((640, 300))
-        player.move((700, 300))
-        player.release((700, 300))
+        player.move((700, 280))
+        player.release((700, 280))
         player.settle()
-        assert player.view.stage.camera.world(700, 300)[0] == pytest.approx(near.world(640, 300)[0])
+        assert player.view.stage.camera.world(700, 280) == pytest.approx(near.world(640, 300))
         player.key(pygame.K_EQUALS, pygame.KMOD_CTRL)
         player.key(pygame.K_RIGHT, pygame.KMOD_ALT)
         player.key(pygame.K_0, pygame.KMOD_CTRL)
         player.settle()
         assert player.view.stage.camera == whole
+
+    def test_it_stays_in_play_pause_and_replay_where_the_wheel_zooms_and_a_drag_moves(self, player):
+        player = player("basketball", (640, 400))
+        player.view.zoom(3.0, (200, 150))
+        player.settle()
+        near = player.view.stage.camera
+        for keys in ([pygame.K_SPACE], [pygame.K_SPACE], [pygame.K_RETURN, pygame.K_p]):
+            for key in keys:
+                player.key(key)
+            player.settle()
+            assert player.view.stage.camera == player.view.camera == near
+        player.move((200, 150))
+        player.send(pygame.MOUSEWHEEL, x=0, y=1, precise_x=0.0, precise_y=0.5, flipped=False)
+        player.settle()
+        assert player.view.camera.scale == pytest.approx(NOTCH**0.5 * near.scale)
+        assert player.view.camera.world(200, 150) == pytest.approx(near.world(200, 150))
+        player.game.playback.playing = False
+        place = player.view.camera.world(300, 200)
+        player.press((300, 200))
+        player.move((330, 190))
+        player.release((330, 190))
+        player.settle()
+        assert player.view.camera.world(330, 190) == pytest.approx(place)
+        assert player.game.playback is not None
+
+    @pytest.mark.parametrize("source", ["golf", "billiards"])
+    def test_it_follows_the_ball_as_near_as_one_likes(self, player, source):
+        player = player(source, (640, 400))
+        for key in (pygame.K_SPACE, pygame.K_v):
+            player.key(key)
+        player.settle()
+        player.game.playback.playing = False
+        ball = player.game.shot.run.state(player.game.shot.ball, player.game.playback.t)[:2]
+        far = player.view.camera
+        player.view.zoom(2.0, (5, 5))
+        player.frames(2)
+        assert player.view.camera.scale == pytest.approx(2 * far.scale)
+        assert player.view.camera.pixel(*ball) == pytest.approx(far.pixel(*ball), abs=0.6)
+        player.key(pygame.K_0, pygame.KMOD_CTRL)
+        assert player.view.camera == far
+
+    def test_two_fingers_zoom_and_move_it_and_one_pulls(self, player):
+        player = player("golf", (640, 400))
+
+        def finger(kind: int, number: int, at: tuple[float, float]) -> None:
+            player.send(kind, finger_id=number, touch_id=1, x=at[0] / 640, y=at[1] / 400, dx=0.0, dy=0.0, pressure=1.0)
+
+        whole = player.view.stage.camera
+        finger(pygame.FINGERDOWN, 1, (200, 150))
+        player.send(pygame.MOUSEBUTTONDOWN, pos=(200, 150), button=1, touch=True)
+        assert player.game.pull is not None
+        finger(pygame.FINGERDOWN, 2, (300, 150))
+        assert player.game.pull is None
+        finger(pygame.FINGERMOTION, 2, (400, 150))
+        player.send(pygame.MOUSEMOTION, pos=(210, 150), rel=(0, 0), buttons=(1, 0, 0), touch=True)
+        for number in (1, 2):
+            finger(pygame.FINGERUP, number, (400, 150))
+        player.send(pygame.MOUSEBUTTONUP, pos=(210, 150), button=1, touch=True)
+        player.settle()
+        assert player.view.stage.camera.scale == pytest.approx(2 * whole.scale)
+        assert player.view.stage.camera.world(300, 150) == pytest.approx(whole.world(250, 150))
+        assert not player.game.shots
+        assert player.game.session.changes.values == {}
 
 
 def test_the_picture_stays_until_the_stage_next_to_the_panel_is_composed(player):

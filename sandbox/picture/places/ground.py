@@ -102,8 +102,10 @@ class Ground:
     def draw(self, painter: Painter, eye: Eye, deepest: int | None = None) -> None:
         """Down to the row ``deepest`` (px), or to the plane of play; below it the cut."""
         (width, height), foot = painter.surface.get_size(), self.foot(eye)
+        if foot >= height:  # the camera looks over it
+            return
         deepest = round(eye.base) if deepest is None else deepest
-        drawn = _canvas((width * OVERSAMPLING, (height - foot) * OVERSAMPLING))
+        drawn = _canvas((width * OVERSAMPLING, (max(height, deepest) - foot) * OVERSAMPLING))
         drawn = drawn.subsurface((0, 0, width * OVERSAMPLING, (deepest - foot) * OVERSAMPLING))
         begin = 0
         if self.beyond is not None:
@@ -124,7 +126,7 @@ class Ground:
         if self.haze is not None:
             part.blit(_haze(part.get_size(), self.haze), (0, 0))
         painter.surface.blit(pygame.transform.smoothscale(drawn, (width, deepest - foot)), (0, foot))
-        painter.surface.blit(soil((width, height - deepest), self.soil), (0, deepest))
+        painter.surface.blit(soil((width, max(0, height - deepest)), self.soil), (0, deepest))
         for colour, deep in reversed(self.edges):
             painter.surface.fill(colour, (0, deepest, width, max(1, round(deep * eye.unit))))
 
