@@ -803,12 +803,7 @@ def test_modules_in_the_current_folder_do_not_replace_those_of_python(tmp_path: 
 def stopped(by: int, sign: Path, *args: object) -> Outcome:
     """Run the program in a process, and send it a signal once ``sign`` is there."""
     process = subprocess.Popen(
-        [*COMMAND, *map(str, args)],
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-        start_new_session=True,
-        preexec_fn=lambda: signal.signal(by, signal.SIG_DFL),  # also where the tests run in the background
+        [*COMMAND, *map(str, args)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True
     )
     while not sign.exists() and process.poll() is None:
         time.sleep(0.01)
