@@ -13,11 +13,26 @@ from sandbox.physics.integrators import Acceleration, State
 CALLED = {"magnus": "lift"}
 
 
+class Turned(tuple[Any, Any]):
+    """The position of a body, (x, y) in m, which also says how far it is turned."""
+
+    angle: float  # rad
+
+
+def _arguments(state: State) -> tuple[Any, tuple[Any, Any], Any]:
+    """Position, velocity and spin, as forces take them."""
+    if len(state) == 5:
+        x, y, vx, vy, spin = state
+        return (x, y), (vx, vy), spin
+    position = Turned(state[:2])
+    position.angle = state[5]
+    return position, state[2:4], state[4]
+
+
 def acceleration(ball: Ball, t: Any, state: State) -> Acceleration:
     """Acceleration of a ball in flight from its forces and torques, in m/s^2 and rad/s^2. Raises RunError if one of
     them returns anything but numbers."""
-    x, y, vx, vy, spin = state
-    position, velocity = (x, y), (vx, vy)
+    position, velocity, spin = _arguments(state)
     fx = fy = torque = 0.0
     term: Any = None
     try:
@@ -44,9 +59,9 @@ def checked(ball: Ball, t: float, state: State) -> Acceleration:
 
 def by_cause(terms: Sequence[Any], t: float, state: State) -> Iterator[tuple[str, Any]]:
     """The name and value of each force or torque: (fx, fy) in N, or N m."""
-    x, y, vx, vy, spin = state
+    arguments = _arguments(state)
     for term in terms:
-        yield cause(term), term(t, (x, y), (vx, vy), spin)
+        yield cause(term), term(t, *arguments)
 
 
 def cause(term: object) -> str:
@@ -58,9 +73,9 @@ def cause(term: object) -> str:
 def _not_real(ball: Ball, t: float, state: State) -> RunError:
     """The error for forces and torques on a ball that do not add up to real numbers."""
     where = f"t = {t:.6g} s, ball {ball.name!r}: "
-    x, y, vx, vy, spin = state
+    arguments = _arguments(state)
     for term in (*ball.forces, *ball.torques):
-        found = term(t, (x, y), (vx, vy), spin)
+        found = term(t, *arguments)
         parts = found if isinstance(found, tuple | list) else (found,)
         if not all(isinstance(part, int | float) for part in parts):
             returned = " ".join(repr(found).split())

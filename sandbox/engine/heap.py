@@ -112,16 +112,36 @@ class Heap:
         """Whether balls that touch at t belong in the heap: some are in it, or two part too slowly to stay apart for
         two steps."""
         found = not self._members.keys().isdisjoint(states)
+        for i, state in states.items():
+            if isinstance(self._tracks[i].ball, Body) and self._lies(i, t, state):
+                found = True
+                self._pressed[frozenset((i,))] = self._steps
         for (i, a), (j, b) in combinations(states.items(), 2):
-            dx, dy = b[0] - a[0], b[1] - a[1]
-            distance = hypot(dx, dy)
-            if distance <= self._tracks[i].ball.radius + self._tracks[j].ball.radius + self.margin:
-                parting = ((b[2] - a[2]) * dx + (b[3] - a[3]) * dy) / distance
+            gap, parting = self._parting(i, j, a, b)
+            if gap <= self.margin:
                 forced = max(hypot(*self._applied(i, t, a)[:2]), hypot(*self._applied(j, t, b)[:2]))
-                if parting < forced * self._longest:
+                if parting < max(forced * self._longest, STILL):
                     found = True
                     self._pressed[frozenset((i, j))] = self._steps
         return found
+
+    def _parting(self, i: int, j: int, a: State, b: State) -> tuple[float, float]:
+        """Gap of two balls or bodies in m, and the speed at which it opens in m/s, where it does so slowest."""
+        one, other = self._tracks[i].ball, self._tracks[j].ball
+        if discs(one, other):
+            dx, dy = b[0] - a[0], b[1] - a[1]
+            distance = hypot(dx, dy)
+            return distance - one.radius - other.radius, ((b[2] - a[2]) * dx + (b[3] - a[3]) * dy) / distance
+        if hypot(b[0] - a[0], b[1] - a[1]) > one.radius + other.radius + self.margin:
+            return inf, 0.0
+        found = touching_bodies((one, other), (a, b), inf)
+        return found.gap, found.parting
+
+    def _lies(self, index: int, t: float, state: State) -> bool:
+        """Whether a body touches a surface, and leaves it too slowly to stay away for two steps."""
+        forced = hypot(*self._applied(index, t, state)[:2])
+        met = touching_surfaces(self._tracks[index], state, self.margin)
+        return any(touching.parting < max(forced * self._longest, STILL) for _, touching in met)
 
     def step(self, t: float, until: float, states: Mapping[int, State]) -> dict[int, Arc]:
         """Step these balls from t; returns the arcs of those that press on others or did just before.

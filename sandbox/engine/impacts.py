@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from itertools import combinations
-from math import hypot
+from math import dist, hypot
 from typing import NamedTuple
 
 from sandbox.engine.impulses import Contact, Lanes, exchange_at_once, lanes
 from sandbox.engine.run import Numerics
-from sandbox.engine.setup import Ball, Bounce, Setup, kinetic
+from sandbox.engine.setup import Ball, Body, Bounce, Setup, kinetic
 from sandbox.engine.surfaces import (
     CLOSING,
     after_impulses,
@@ -22,6 +22,7 @@ from sandbox.engine.surfaces import (
 )
 from sandbox.engine.touch import TOUCHING_GAP, Touching, flush
 from sandbox.engine.track import Track
+from sandbox.engine.turning import discs, separation, speeds_at, touching_bodies, touching_surfaces
 from sandbox.physics.cushion import raised
 from sandbox.physics.integrators import State
 
@@ -72,7 +73,8 @@ class Impacts:
         until nothing closes. If that takes too many turns, or in a heap, all exchange impulses at once instead.
         """
         start, hits = states, list[Hit]()
-        last = _TURNS if self._some_soft and self.gap == TOUCHING_GAP else 0
+        turning = any(isinstance(self._tracks[index].ball, Body) for index in states)
+        last = _TURNS if self._some_soft and self.gap == TOUCHING_GAP and not turning else 0
         for turn in range(last + 1):
             if turn in (0, last):
                 states, hits = dict(start), []
@@ -85,7 +87,7 @@ class Impacts:
                 break
             if self._slowest_hop > 0.0:
                 self._pay_for_hops(before, states)
-            hits += [Hit(t, contact.balls[0], contact.partner, contact.speed) for contact in closed]
+            hits += _hits(t, closed)
         return Outcome(t, states, hits)
 
     def _close_at_once(self, states: dict[int, State], softness: Sequence[bool]) -> list[Contact]:
@@ -93,7 +95,7 @@ class Impacts:
         were closing."""
         found = [*self._with_surfaces(states, softness), *self._with_balls(states)]
         closed = [contact for contact in found if contact.speed > CLOSING]
-        if len(found) == 1 and closed:
+        if len(found) == 1 and closed and not any(isinstance(ball, Body) for ball in self._balls(found[0])):
             self._exchange_alone(states, found[0])
         elif closed:
             self._exchange_at_once(states, found)
@@ -123,7 +125,10 @@ class Impacts:
                     continue
                 reach = track.ball.radius + neighbour.ball.radius + self.gap
                 x, y = neighbour.arc.position(t)
-                if (x - state[0]) ** 2 + (y - state[1]) ** 2 <= reach * reach:
+                if (x - state[0]) ** 2 + (y - state[1]) ** 2 <= reach * reach and (
+                    discs(track.ball, neighbour.ball)
+                    or separation(track.ball, state, neighbour.ball, neighbour.arc.state(t)).gap <= self.gap
+                ):
                     waiting.append(other)
         return states
 
@@ -134,6 +139,9 @@ class Impacts:
         for index in states:
             ball, met = self._tracks[index].ball, list[Touching]()
             x, y, *_ = states[index]
+            if isinstance(ball, Body):
+                yield from self._of_body_with_surfaces(index, states[index])
+                continue
             for obstacle, touching in self._tracks[index].near(x, y, self.gap):
                 surface, nx, ny = obstacle.surface, touching.nx, touching.ny
                 if (self._all_soft or surface.nose_height is not None) not in softness:
@@ -149,18 +157,42 @@ class Impacts:
                 height = surface.nose_height
                 sine = 0.0 if height is None else raised(ball.radius, height)
                 speeds = speeds_where_touching([ball], [states[index]], nx, ny, sine)
-                yield Contact((index,), surface.name, nx, ny, sine, bounce, speed, speeds)
+                point = x - ball.radius * nx, y - ball.radius * ny
+                yield Contact((index,), surface.name, nx, ny, sine, bounce, speed, speeds, point)
+
+    def _of_body_with_surfaces(self, index: int, state: State) -> Iterator[Contact]:
+        """One or two for each surface; where surfaces join, a point of both counts once."""
+        ball, met = self._tracks[index].ball, list[tuple[float, ...]]()
+        for obstacle, normal, points in touching_surfaces(self._tracks[index], state, self.gap):
+            surface = obstacle.surface
+            for point in points:
+                place = *point, *(ball.radius * part for part in normal)
+                if any(dist(place, other) <= 10.0 * TOUCHING_GAP for other in met):
+                    continue
+                met.append(place)
+                speeds = speeds_at([ball], [state], point, normal)
+                bounce = bounce_off(surface, *speeds[:2])
+                yield Contact((index,), surface.name, *normal, 0.0, bounce, speeds[0], speeds, point)
 
     def _with_balls(self, states: dict[int, State]) -> Iterator[Contact]:
         for i, j in combinations(states, 2):
             a, b = self._tracks[i].ball, self._tracks[j].ball
+            if not discs(a, b):
+                pair = [a, b], [states[i], states[j]]
+                normal, points = touching_bodies(*pair, self.gap)
+                for point in points:
+                    speeds = speeds_at(*pair, point, normal)
+                    bounce = bounce_of_balls(self._setup, speeds[0], abs(speeds[1]), a.name, b.name)
+                    yield Contact((i, j), b.name, *normal, 0.0, bounce, speeds[0], speeds, point)
+                continue
             dx, dy = states[i][0] - states[j][0], states[i][1] - states[j][1]
             distance = (dx**2 + dy**2) ** 0.5
             if distance <= a.radius + b.radius + self.gap:
                 nx, ny = dx / distance, dy / distance
                 speeds = speeds_where_touching([a, b], [states[i], states[j]], nx, ny)
                 bounce = bounce_of_balls(self._setup, speeds[0], hypot(*speeds[1:]), a.name, b.name)
-                yield Contact((i, j), b.name, nx, ny, 0.0, bounce, speeds[0], speeds)
+                point = states[i][0] - a.radius * nx, states[i][1] - a.radius * ny
+                yield Contact((i, j), b.name, nx, ny, 0.0, bounce, speeds[0], speeds, point)
 
     # ------------------------------------------------------------------ impulses
 
@@ -240,3 +272,13 @@ class Impacts:
     def _energy(self, states: dict[int, State]) -> float:
         """Kinetic energy in J, including rotation."""
         return sum(kinetic(self._tracks[index].ball, state) for index, state in states.items())
+
+
+def _hits(t: float, closed: Sequence[Contact]) -> list[Hit]:
+    """Of two points of one contact the one that closed faster."""
+    fastest: dict[tuple[tuple[int, ...], str], Hit] = {}
+    for contact in closed:
+        pair = contact.balls, contact.partner
+        if pair not in fastest or contact.speed > fastest[pair].speed:
+            fastest[pair] = Hit(t, contact.balls[0], contact.partner, contact.speed)
+    return list(fastest.values())

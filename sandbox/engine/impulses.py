@@ -13,20 +13,20 @@ from typing import Any, NamedTuple, TypeVar
 
 import pymunk
 
-from sandbox.engine.setup import Ball, Bounce, Vector
+from sandbox.engine.setup import Ball, Body, Bounce, Vector
 from sandbox.physics.integrators import State
 
 #: Length in s of the step in which impulses are exchanged: at 340 m/s a ball moves 3e-13 m in it. No contact in it is
 #: deep enough for Chipmunk to correct positions.
 INSTANT = 1e-15
 
-#: Balls overlap by this fraction of their distances during the exchange, so that Chipmunk sees the contact. The
-#: impulse of round shapes depends only on the directions of their contacts, which scaling does not change.
-OVERLAP = 1e-6
+#: A disc and its ground overlap by this fraction of the radius during the exchange, so that Chipmunk sees the contact;
+#: where several contacts close together by much less, as the arm of the friction is off by as much.
+_OVERLAP, _CLOSE = 1e-6, 1e-11
 
 #: Solver iterations for contacts that close together: a cluster of 16 balls needs 50 for 1e-7 m/s. One is exact for a
-#: single contact.
-_ITERATIONS = 200
+#: single contact of a ball. Two contacts of a slim body help each other: a rod of 1 x 30 on end needs 1,000.
+_ITERATIONS, _ITERATIONS_TURNING = 200, 2_000
 
 #: Distance between lanes, how many lie side by side, and the height of a disc that is not in use.
 _SPACING, _SIDE, _PARKED = 4.0, 8, 1.5
@@ -66,7 +66,7 @@ class Lanes:
             self._space.add(ground, body, disc)
             self._discs.append(disc)
             self._bodies.append(body)
-            self._places.append((x, y + 1.0 - OVERLAP))
+            self._places.append((x, y + 1.0 - _OVERLAP))
 
     def exchange(
         self, approach: float, slip: float, factor: float, restitution: float, friction: float
@@ -121,42 +121,43 @@ class Contact(NamedTuple):
     bounce: Bounce
     speed: float  # m/s, at which the centres approach, positive when closing
     speeds: tuple[float, float, float]  # m/s, where they touch: of approach, and of the slip along and upward
+    point: Vector  # m, where they touch
 
 
 def exchange_at_once(
     balls: Sequence[Ball], states: dict[int, State], contacts: Sequence[Contact], bounces: Sequence[Bounce]
 ) -> tuple[dict[int, State], list[float]]:
-    """The states of balls, by their index, after contacts that close together with these bounces, and the normal
-    impulse in N s of each.
+    """The states of balls and bodies, by their index, after contacts that close together with these bounces, and the
+    normal impulse in N s of each.
 
-    A fixed shape is a short piece of its tangent plane, which is equivalent for contact with a ball.
+    In place of the shapes, which pymunk would examine again, each contact has a small disc on the first body and a
+    piece of its tangent plane on the second, or on what is fixed; they overlap where the contact is and in its direction.
     """
-    space = still_space(_ITERATIONS)
+    turning = any(isinstance(balls[index], Body) for index in states)
+    space = still_space(_ITERATIONS_TURNING if turning else _ITERATIONS)
     bodies: dict[int, pymunk.Body] = {}
-    discs: dict[int, pymunk.Circle] = {}
     left, bottom, *_ = next(iter(states.values()))
     for index, (x, y, vx, vy, spin, *_) in states.items():
         body = bodies[index] = pymunk.Body(balls[index].mass, balls[index].inertia)
-        body.position = (1.0 - OVERLAP) * (x - left), (1.0 - OVERLAP) * (y - bottom)
-        body.velocity, body.angular_velocity = (vx, vy), spin
-        discs[index] = pymunk.Circle(body, balls[index].radius)
-        space.add(body, discs[index])
+        body.position, body.velocity, body.angular_velocity = (x - left, y - bottom), (vx, vy), spin
+        space.add(body)
     pairs: dict[frozenset[pymunk.Shape], int] = {}
     for number, contact in enumerate(contacts):
-        touching: list[pymunk.Shape] = [discs[index] for index in contact.balls]
-        if len(touching) == 1:
-            index, normal = contact.balls[0], pymunk.Vec2d(contact.nx, contact.ny)
-            foot = bodies[index].position - balls[index].radius * (1.0 - OVERLAP) * normal
-            half = 0.1 * balls[index].radius * normal.perpendicular()
-            plane = pymunk.Segment(space.static_body, foot - half, foot + half, 0.0)
-            space.add(plane)
-            touching.append(plane)
-        pairs[frozenset(touching)] = number
+        normal = pymunk.Vec2d(contact.nx, contact.ny)
+        point = pymunk.Vec2d(contact.point[0] - left, contact.point[1] - bottom)
+        first, *others = (bodies[index] for index in contact.balls)
+        second = others[0] if others else space.static_body
+        size = balls[contact.balls[0]].radius
+        disc = pymunk.Circle(first, size, point + size * normal - first.position)
+        foot, along = point + _CLOSE * size * normal - second.position, size * normal.perpendicular()
+        plane = pymunk.Segment(second, foot - along, foot + along, 0.0)
+        space.add(disc, plane)
+        pairs[frozenset((disc, plane))] = number
     impulses = [0.0] * len(contacts)
 
     def bounce(arbiter: pymunk.Arbiter, space: pymunk.Space, data: Any) -> None:
         number = pairs.get(frozenset(arbiter.shapes))
-        if number is None:  # close enough to overlap here, but not in contact
+        if number is None:  # of another contact
             arbiter.process_collision = False
         else:
             arbiter.restitution, arbiter.friction, *_ = bounces[number]
@@ -167,6 +168,6 @@ def exchange_at_once(
     space.on_collision(pre_solve=bounce, post_solve=read)
     space.step(INSTANT)
     after = {}
-    for index, (x, y, _, _, _, *rolling) in states.items():
-        after[index] = (x, y, *bodies[index].velocity, bodies[index].angular_velocity, *rolling)
+    for index, (x, y, _, _, _, *more) in states.items():
+        after[index] = (x, y, *bodies[index].velocity, bodies[index].angular_velocity, *more)
     return after, impulses

@@ -127,7 +127,7 @@ def _book(ball: Ball, arc: Arc, work: dict[str, float], contacts: dict[str, floa
     for node, weight in zip(_NODES, _WEIGHTS, strict=True):
         t = arc.t0 + node * h
         state = arc.state(t)
-        _, _, vx, vy, spin = state
+        _, _, vx, vy, spin = state[:5]
         applied = 0.0
         powers = [(name, fx * vx + fy * vy) for name, (fx, fy) in by_cause(ball.forces, t, state)]
         powers += [(name, torque * spin) for name, torque in by_cause(ball.torques, t, state)]

@@ -7,7 +7,7 @@ from typing import Any
 
 import pymunk
 
-from sandbox.engine.setup import Ball, Circle, Surface
+from sandbox.engine.setup import Ball, Circle, Surface, outline_of
 
 _BALL, _SURFACE = 1, 2
 
@@ -37,14 +37,22 @@ class RealSpace:
             self.surface_of[fixed] = place
             self.space.add(fixed)
 
-    def add(self, ball: Ball) -> tuple[pymunk.Body, pymunk.Circle]:
-        """Add a ball; pymunk multiplies its elasticity and friction, 1, by the surface's."""
+    def add(self, ball: Ball) -> tuple[pymunk.Body, pymunk.Shape]:
+        """Add a ball or body; pymunk multiplies its elasticity and friction, 1, by the surface's."""
         body = pymunk.Body(ball.mass, ball.inertia)
-        disc = pymunk.Circle(body, ball.radius + self._margin)
-        disc.collision_type, disc.filter = _BALL, pymunk.ShapeFilter(categories=_BALL)
-        disc.elasticity = disc.friction = 1.0
-        self.space.add(body, disc)
-        return body, disc
+        outline = outline_of(ball).as_polygon()
+        corners, radius = outline.corners, outline.radius + self._margin
+        shape: pymunk.Shape
+        if len(corners) > 2:
+            shape = pymunk.Poly(body, corners, radius=radius)
+        elif len(corners) == 2:
+            shape = pymunk.Segment(body, *corners, radius)
+        else:
+            shape = pymunk.Circle(body, radius, corners[0])
+        shape.collision_type, shape.filter = _BALL, pymunk.ShapeFilter(categories=_BALL)
+        shape.elasticity = shape.friction = 1.0
+        self.space.add(body, shape)
+        return body, shape
 
     def on_contact(self, meet: Callable[[pymunk.Arbiter], None], part: Callable[[pymunk.Arbiter], None]) -> None:
         """Call these before and after Chipmunk solves a contact; the first shape is always a ball's."""

@@ -7,6 +7,8 @@ from dataclasses import dataclass, field
 from math import hypot, inf
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Protocol
 
+from sandbox.engine.nearest import Pose, nearest
+from sandbox.engine.shapes import Shape, Vector, disc
 from sandbox.physics.elementwise import anywhere, everywhere, finite, least, most
 from sandbox.physics.hertz import PHENOLIC
 
@@ -15,7 +17,7 @@ if TYPE_CHECKING:
     from sandbox.physics.integrators import State
     from sandbox.physics.plane import Plane
 
-Vector = tuple[float, float]
+_ORIGIN = Pose(0.0, 0.0, 0.0)
 
 #: Moment of inertia over m r^2.
 SOLID_SPHERE = 2 / 5
@@ -73,9 +75,54 @@ class Ball:
         object.__setattr__(self, "inertia", self.inertia_factor * self.mass * self.radius * self.radius)
 
 
+@dataclass(frozen=True, kw_only=True)
+class Body(Ball):
+    """Anything convex that moves and turns: ``Body("crate", position=(0.0, 1.0), shape=box(0.4, 0.3), mass=2.0)``.
+
+    Mass and moment of inertia follow from the outline and its ``density``, mass per area, or are given; ``center`` is
+    the centre of mass where it is not that of the outline. ``position`` is that of the centre of mass, ``angle`` how far
+    the outline is turned at the start. A force on it may read ``position.angle``.
+    """
+
+    shape: Shape
+    mass: float = 0.0  # kg
+    density: float = 0.0  # kg/m^2, in place of the mass
+    moment: float | None = None  # kg m^2, about the centre of mass; default: that of a plate of even thickness
+    center: Vector | None = None  # m, in the outline's coordinates
+    angle: float = 0.0  # rad, counter-clockwise
+    outline: Shape = field(init=False, repr=False)  # about the centre of mass
+    radius: float = field(init=False, repr=False)  # m, from the centre of mass to the farthest point
+    inertia_factor: float = field(init=False, repr=False)
+
+    def __post_init__(self) -> None:
+        area, center, moment = self.shape.mass_properties()
+        if area <= 0.0:
+            raise ValueError(f"body {self.name!r}: {self.shape} has no area: give it a radius")
+        if (self.mass > 0.0) == (self.density > 0.0):
+            raise ValueError(f"body {self.name!r}: give either mass or density, and more than 0")
+        mass = self.mass or self.density * area
+        x, y = center if self.center is None else self.center
+        outline = self.shape.moved(-x, -y)
+        if self.center is not None and nearest(disc(1e-9 * outline.reach), _ORIGIN, outline, _ORIGIN).gap > 0.0:
+            raise ValueError(f"body {self.name!r}: center = {self.center} m must be inside its shape")
+        if not finite(self.angle):
+            raise ValueError(f"body {self.name!r}: angle = {self.angle} must be finite")
+        about = mass * (moment / area + (center[0] - x) ** 2 + (center[1] - y) ** 2)
+        about = about if self.moment is None else self.moment
+        given = {"mass": mass, "density": 0.0, "outline": outline, "radius": outline.reach}
+        for name, value in {**given, "inertia_factor": about / (mass * outline.reach**2)}.items():
+            object.__setattr__(self, name, value)
+        super().__post_init__()
+
+
+def outline_of(ball: Ball) -> Shape:
+    """The outline of a ball or body about its centre."""
+    return ball.outline if isinstance(ball, Body) else disc(ball.radius)
+
+
 def kinetic(ball: Ball, state: State) -> float:
     """Kinetic energy of a ball in J, including rotation."""
-    _, _, vx, vy, *spins = state
+    _, _, vx, vy, *spins = state[:5] if isinstance(ball, Body) else state
     return 0.5 * ball.mass * (vx * vx + vy * vy) + 0.5 * ball.inertia * sum(spin * spin for spin in spins)
 
 
@@ -306,6 +353,8 @@ class Setup:
                 raise ValueError(f"two balls are named {name!r}: names must be unique")
         if self.planes and self.plane is None:
             raise ValueError("a setup with planes for some balls needs a plane for all others")
+        if self.plane is not None and any(isinstance(ball, Body) for ball in self.balls):
+            raise ValueError("bodies cannot move on a plane seen from above: only balls can")
         if not 0.0 < self.duration < inf:
             raise ValueError(f"duration = {self.duration} s must be positive and finite")
 

@@ -23,10 +23,11 @@ from sandbox.engine.lasting import RESTING, LastingContact
 from sandbox.engine.on_plane import OnPlane, slowest_hop
 from sandbox.engine.path import Path
 from sandbox.engine.run import Numerics, Run
-from sandbox.engine.setup import Setup, Surface, Until
+from sandbox.engine.setup import Body, Setup, Surface, Until
 from sandbox.engine.start import starts
-from sandbox.engine.touch import TOUCHING_GAP, Obstacle, balls_touch
+from sandbox.engine.touch import TOUCHING_GAP, Obstacle
 from sandbox.engine.track import Track
+from sandbox.engine.turning import Turning, discs, pair_touches
 from sandbox.errors import RunError
 from sandbox.physics.integrators import State
 
@@ -65,6 +66,7 @@ class Simulation:
         slowest = 0.0 if setup.plane is None else slowest_hop(setup, accuracy.hop)
         self._impacts = Impacts(setup, self._tracks, self._numerics, slowest)
         self._pressed: Pressed | None = None
+        self._all_round = discs(*setup.balls)
         self._heap: Heap | None = None
         if len(setup.balls) > 1:
             # here, not above: it brings numpy, which a run of one ball does not need
@@ -87,7 +89,9 @@ class Simulation:
             state: State = (x, y, *map(float, (*ball.velocity, ball.spin)))
             if setup.plane is not None and setup.plane_of(ball.name).rolls:
                 state = (*state, *map(float, ball.rolling_spin))
-            kind = InPlane if setup.plane is None else OnPlane
+            elif isinstance(ball, Body):
+                state = (*state, float(ball.angle))
+            kind = OnPlane if setup.plane is not None else Turning if isinstance(ball, Body) else InPlane
             places = obstacles[ball.radius], [catch for catch, only in catches if not only or ball.name in only]
             tracks.append(kind(ball, state, *places, setup, self._accuracy, self._numerics))
         return tracks
@@ -192,7 +196,7 @@ class Simulation:
             self._impacts.gap = self._heap.margin if self._heap.members else TOUCHING_GAP
         touching = self._impacts.touching(t, seeds)
         outcome = None
-        if self._pressed is not None and len(touching) > 1 and not (self._heap and self._heap.members):
+        if self._pressed is not None and self._all_round and len(touching) > 1 and not (self._heap and self._heap.members):
             outcome = self._pressed.through(t, touching)
         if outcome is None:
             outcome = self._impacts.exchange(t, touching)
@@ -318,8 +322,8 @@ class Simulation:
                 if left > east or right < west or bottom > north or top < south or in_contact(obstacle):
                     continue
                 self._numerics.queries += 1
-                u = obstacle.first_touch(arc)
-                if u is not None and (touch := arc.t0 + u * (arc.t1 - arc.t0)) <= at:
+                touch = track.first_touch(obstacle)
+                if touch is not None and touch <= at:
                     at, kind = touch, what
         self._push(at, kind, index)
         for other, neighbour in enumerate(self._tracks):
@@ -332,7 +336,7 @@ class Simulation:
                 if dx * dx + dy * dy > reach * reach or in_contact(other):
                     continue
                 self._numerics.queries += 1
-                pair_at = balls_touch(arc, neighbour.arc, reach, max(t, neighbour.arc.t0), self._accuracy.skin)
+                pair_at = pair_touches(track, neighbour, max(t, neighbour.arc.t0), self._accuracy.skin)
                 if pair_at is not None and pair_at <= at:
                     self._push(pair_at, "touch", index, other)
 

@@ -46,6 +46,11 @@ class Track:
 
     # ------------------------------------------------------------------ its path
 
+    def first_touch(self, obstacle: Obstacle) -> float | None:
+        """The time in s at which it starts to touch on its current arc, or None."""
+        u = obstacle.first_touch(self.arc)
+        return None if u is None else self.arc.t0 + u * (self.arc.t1 - self.arc.t0)
+
     def keep(self, t: float) -> None:
         """Add the arc up to t to the path."""
         if t < self.arc.t0:
