@@ -24,10 +24,11 @@ import pymunk
 from sandbox.engine.accuracy import Accuracy
 from sandbox.engine.acting import checked
 from sandbox.engine.arc import Arc, still
-from sandbox.engine.real_space import RealSpace
+from sandbox.engine.meeting import discs, meeting, surface_met, surfaces_met
+from sandbox.engine.real_space import RealSpace, speeds_at
 from sandbox.engine.run import Numerics
 from sandbox.engine.setup import Ball, Setup, Surface
-from sandbox.engine.surfaces import bounce_of_balls, bounce_off, press
+from sandbox.engine.surfaces import STILL, bounce_of_balls, bounce_off, press
 from sandbox.engine.touch import Obstacle
 from sandbox.engine.track import Track
 from sandbox.physics.integrators import Acceleration, State
@@ -113,35 +114,39 @@ class Heap:
         two steps."""
         found = not self._members.keys().isdisjoint(states)
         for i, state in states.items():
-            if isinstance(self._tracks[i].ball, Body) and self._lies(i, t, state):
+            if self._lies(i, t, state):
                 found = True
                 self._pressed[frozenset((i,))] = self._steps
         for (i, a), (j, b) in combinations(states.items(), 2):
-            gap, parting = self._parting(i, j, a, b)
-            if gap <= self.margin:
-                forced = max(hypot(*self._applied(i, t, a)[:2]), hypot(*self._applied(j, t, b)[:2]))
-                if parting < max(forced * self._longest, STILL):
-                    found = True
-                    self._pressed[frozenset((i, j))] = self._steps
+            parting = self._parting(i, a, j, b)
+            if parting < max(self._forced_in_a_step(i, t, a), self._forced_in_a_step(j, t, b)):
+                found = True
+                self._pressed[frozenset((i, j))] = self._steps
         return found
 
-    def _parting(self, i: int, j: int, a: State, b: State) -> tuple[float, float]:
-        """Gap of two balls or bodies in m, and the speed at which it opens in m/s, where it does so slowest."""
+    def _forced_in_a_step(self, index: int, t: float, state: State) -> float:
+        """The speed in m/s that forces give in a step, for a body at least what is rounding."""
+        least = 0.0 if discs(self._tracks[index].ball) else STILL
+        return max(hypot(*self._applied(index, t, state)[:2]) * self._longest, least)
+
+    def _parting(self, i: int, a: State, j: int, b: State) -> float:
+        """The speed in m/s at which two balls or bodies part; infinite if they do not touch."""
         one, other = self._tracks[i].ball, self._tracks[j].ball
         if discs(one, other):
             dx, dy = b[0] - a[0], b[1] - a[1]
             distance = hypot(dx, dy)
-            return distance - one.radius - other.radius, ((b[2] - a[2]) * dx + (b[3] - a[3]) * dy) / distance
-        if hypot(b[0] - a[0], b[1] - a[1]) > one.radius + other.radius + self.margin:
-            return inf, 0.0
-        found = touching_bodies((one, other), (a, b), inf)
-        return found.gap, found.parting
+            near = distance <= one.radius + other.radius + self.margin
+            return ((b[2] - a[2]) * dx + (b[3] - a[3]) * dy) / distance if near else inf
+        found = meeting(one, a, other, b, self.margin)
+        return -found.closing if found.gap <= self.margin else inf
 
     def _lies(self, index: int, t: float, state: State) -> bool:
-        """Whether a body touches a surface, and leaves it too slowly to stay away for two steps."""
-        forced = hypot(*self._applied(index, t, state)[:2])
-        met = touching_surfaces(self._tracks[index], state, self.margin)
-        return any(touching.parting < max(forced * self._longest, STILL) for _, touching in met)
+        """Whether a body leaves a surface that it touches too slowly to stay away for two steps."""
+        track = self._tracks[index]
+        if discs(track.ball):
+            return False
+        slow = self._forced_in_a_step(index, t, state)
+        return any(-met.closing < slow for _, met in surfaces_met(track.ball, track.obstacles, state, self.margin))
 
     def step(self, t: float, until: float, states: Mapping[int, State]) -> dict[int, Arc]:
         """Step these balls from t; returns the arcs of those that press on others or did just before.
@@ -153,19 +158,21 @@ class Heap:
         self._take(states)
         self._steps += 1
         applied = {}
-        for index, (x, y, vx, vy, spin) in states.items():
-            middle = (x + 0.5 * h * vx, y + 0.5 * h * vy, vx, vy, spin)
+        for index, (x, y, vx, vy, spin, *angle) in states.items():
+            turned = [angle[0] + 0.5 * h * spin] if angle else []
+            middle = (x + 0.5 * h * vx, y + 0.5 * h * vy, vx, vy, spin, *turned)
             applied[index] = self._applied(index, t + 0.5 * h, middle)
-            if index in fresh:
+            if index in fresh and not angle:
                 for obstacle, touching in self._tracks[index].near(x, y, self.margin):
                     pushed = press(states[index], applied[index], touching.nx, touching.ny, touching.curvature)
                     self._members[index].resist(obstacle.surface, self._tracks[index].ball.mass * max(0.0, pushed))
         self._forced = max(hypot(ax, ay) for ax, ay, _ in applied.values())
         self._fastest = _SLOW * self._forced * self._longest
-        for index, (x, y, vx, vy, spin) in states.items():
+        for index, (x, y, vx, vy, spin, *angle) in states.items():
             member, (ax, ay, turning) = self._members[index], applied[index]
             body, ball = member.body, member.ball
             body.position = (x - 0.5 * h * vx, y - 0.5 * h * vy)  # from which Chipmunk moves it to the middle
+            body.angle = angle[0] - 0.5 * h * spin if angle else 0.0
             body.velocity, body.angular_velocity = (vx, vy), spin
             body.force, body.torque = (ball.mass * ax, ball.mass * ay), ball.inertia * turning
             member.start = states[index]
@@ -175,11 +182,17 @@ class Heap:
         self._numerics.pymunk_steps += 1
         held = self._held()
         self._take({index: states[index] for index in held})
-        fastest = max((hypot(*states[index][2:4]) for index in held), default=inf)
+        fastest = max((self._speed(index, states[index]) for index in held), default=inf)
         self._slow_for = self._slow_for + h if fastest * fastest <= 2.0 * self._forced * self._settle else 0.0
         if self._slow_for >= _REST_TIME:
-            return {index: still(t, until, (*states[index][:2], 0.0, 0.0, 0.0), Heaped()) for index in sorted(held)}
+            at_rest = {index: (*states[index][:2], 0.0, 0.0, 0.0, *states[index][5:]) for index in sorted(held)}
+            return {index: still(t, until, state, Heaped()) for index, state in at_rest.items()}
         return {index: self._arc(t, self._members[index]) for index in sorted(held)}
+
+    def _speed(self, index: int, state: State) -> float:
+        """The speed in m/s of a ball's centre, or of a body's fastest point."""
+        turning = 0.0 if len(state) == 5 else self._tracks[index].ball.radius * state[4]
+        return hypot(*state[2:4], turning)
 
     def _applied(self, index: int, t: float, state: State) -> Acceleration:
         self._numerics.force_evaluations += 1
@@ -199,8 +212,7 @@ class Heap:
         """The balls of the pairs that pressed on each other in the last steps."""
         held: set[int] = set()
         for pair, last in list(self._pressed.items()):
-            i, j = pair
-            if self._steps - last <= _PATIENCE and i in self._members and j in self._members:
+            if self._steps - last <= _PATIENCE and pair <= self._members.keys():
                 held |= pair
             else:
                 del self._pressed[pair]
@@ -209,10 +221,12 @@ class Heap:
     def _arc(self, t: float, member: _Member) -> Arc:
         """The path of a step in which the velocity changes evenly, moved by position correction."""
         h, body = self._h, member.body
-        x, y, ux, uy, turned = member.start
+        x, y, ux, uy, spun, *angle = member.start
         (px, py), (vx, vy), spin = body.position, body.velocity, body.angular_velocity
         dx, dy = px - x - 0.5 * h * ux, py - y - 0.5 * h * uy
-        end = (px + 0.5 * h * vx, py + 0.5 * h * vy, vx, vy, spin)
+        turn = body.angle
+        turned = tuple((at, 0.5 * (at + turn) + 0.25 * h * spun, turn + 0.5 * h * spin) for at in angle)
+        end = (px + 0.5 * h * vx, py + 0.5 * h * vy, vx, vy, spin, *(curve[-1] for curve in turned))
         return Arc(
             t,
             t + h,
@@ -221,9 +235,10 @@ class Heap:
             (y, y + 0.5 * (h * uy + dy), end[1]),
             (ux + dx / h, vx + dx / h),
             (uy + dy / h, vy + dy / h),
-            (turned, spin),
+            (spun, spin),
             Heaped(dx, dy),
-            end=end,
+            turned,
+            end,
         )
 
     def keeps_apart(self, index: int, other: Obstacle | int) -> bool:
@@ -232,27 +247,36 @@ class Heap:
         member = self._members[index]
         if other in member.touching:
             return True
-        x, y, vx, vy, _ = member.start
-        if isinstance(other, Obstacle):
-            _, nx, ny, *_ = other.near(x, y)
-        elif other not in self._members:
+        if not isinstance(other, Obstacle) and other not in self._members:
             return False
+        return self._approach(index, other) <= self._fastest
+
+    def _approach(self, index: int, other: Obstacle | int) -> float:
+        """The speed in m/s at which a member comes nearer to an obstacle or another member."""
+        ball, state = self._members[index].ball, self._members[index].start
+        x, y, vx, vy, *_ = state
+        if isinstance(other, Obstacle):
+            if not discs(ball):
+                return surface_met(ball, state, other).closing
+            _, nx, ny, *_ = other.near(x, y)
         else:
-            u, v, wx, wy, _ = self._members[other].start
+            neighbour = self._members[other]
+            if not discs(ball, neighbour.ball):
+                return meeting(ball, state, neighbour.ball, neighbour.start).closing
+            u, v, wx, wy, _ = neighbour.start
             distance = hypot(x - u, y - v)
             nx, ny, vx, vy = (x - u) / distance, (y - v) / distance, vx - wx, vy - wy
-        return -(vx * nx + vy * ny) <= self._fastest
+        return -(vx * nx + vy * ny)
 
     # ------------------------------------------------------------------ callbacks
 
     def _meet(self, arbiter: pymunk.Arbiter) -> None:
         """Leave out what meets too fast for lasting contact: it has an impact of its own, at its exact time."""
         first, second = arbiter.shapes
-        i, (nx, ny) = self._of_disc[first], arbiter.normal
+        i = self._of_disc[first]
         here, there = self._members[i], self._members.get(self._of_disc.get(second, -1))
-        (vx, vy), (ux, uy) = here.body.velocity, (0.0, 0.0) if there is None else there.body.velocity
         other = self._tracks[i].obstacles[self._real.surface_of[second]] if there is None else self._of_disc[second]
-        approach, along = (vx - ux) * nx + (vy - uy) * ny, (vy - uy) * nx - (vx - ux) * ny
+        approach, along, slip = _speeds(arbiter, here, there)
         arbiter.process_collision = other in here.before or approach <= self._fastest  # it is remembered
         if not arbiter.process_collision:
             return
@@ -260,9 +284,6 @@ class Heap:
         bounces = approach > self._forced * self._h
         if there is not None:
             there.touching.add(i)
-            slip = (
-                along + here.ball.radius * here.body.angular_velocity + there.ball.radius * there.body.angular_velocity
-            )
             bounce = bounce_of_balls(self._setup, approach, abs(slip), here.ball.name, there.ball.name)
         elif bounces:
             bounce = bounce_off(self._setup.surfaces[self._real.surface_of[second]], approach, along)
@@ -277,7 +298,21 @@ class Heap:
         i = self._of_disc[first]
         here = self._members[i]
         push = abs(arbiter.total_impulse.dot(arbiter.normal))
-        if second in self._real.surface_of:
+        on_surface = second in self._real.surface_of
+        if on_surface and discs(here.ball):
             here.resist(self._setup.surfaces[self._real.surface_of[second]], push / self._h)
         elif push > _PRESSURE * here.ball.mass * self._forced * self._h:
-            self._pressed[frozenset((i, self._of_disc[second]))] = self._steps
+            self._pressed[frozenset((i,) if on_surface else (i, self._of_disc[second]))] = self._steps
+
+
+def _speeds(arbiter: pymunk.Arbiter, here: _Member, there: _Member | None) -> tuple[float, float, float]:
+    """Speed of approach in m/s where two shapes meet, and speeds along, of the centres and of the surfaces."""
+    if not discs(here.ball, *([] if there is None else [there.ball])):
+        approach, slip = speeds_at(arbiter)
+        return approach, slip, slip
+    nx, ny = arbiter.normal
+    (vx, vy), (ux, uy) = here.body.velocity, (0.0, 0.0) if there is None else there.body.velocity
+    along = slip = (vy - uy) * nx - (vx - ux) * ny
+    for member in (here, there):
+        slip += 0.0 if member is None else member.ball.radius * member.body.angular_velocity
+    return (vx - ux) * nx + (vy - uy) * ny, along, slip

@@ -8,6 +8,7 @@ from math import dist, hypot
 from typing import NamedTuple
 
 from sandbox.engine.impulses import Contact, Lanes, exchange_at_once, lanes
+from sandbox.engine.meeting import discs, meeting, surfaces_met
 from sandbox.engine.run import Numerics
 from sandbox.engine.setup import Ball, Body, Bounce, Setup, kinetic
 from sandbox.engine.surfaces import (
@@ -22,7 +23,6 @@ from sandbox.engine.surfaces import (
 )
 from sandbox.engine.touch import TOUCHING_GAP, Touching, flush
 from sandbox.engine.track import Track
-from sandbox.engine.turning import discs, separation, speeds_at, touching_bodies, touching_surfaces
 from sandbox.physics.cushion import raised
 from sandbox.physics.integrators import State
 
@@ -31,6 +31,10 @@ _GAIN = 1e-7
 
 #: Alternations between balls and soft walls at one instant, after which all exchange impulses at once.
 _TURNS = 9
+
+
+#: Distance in m of two points of contact that are one, where two surfaces join.
+_SAME_POINT = 1e-9
 
 
 class Hit(NamedTuple):
@@ -127,7 +131,7 @@ class Impacts:
                 x, y = neighbour.arc.position(t)
                 if (x - state[0]) ** 2 + (y - state[1]) ** 2 <= reach * reach and (
                     discs(track.ball, neighbour.ball)
-                    or separation(track.ball, state, neighbour.ball, neighbour.arc.state(t)).gap <= self.gap
+                    or meeting(track.ball, state, neighbour.ball, neighbour.arc.state(t)).gap <= self.gap
                 ):
                     waiting.append(other)
         return states
@@ -163,27 +167,24 @@ class Impacts:
     def _of_body_with_surfaces(self, index: int, state: State) -> Iterator[Contact]:
         """One or two for each surface; where surfaces join, a point of both counts once."""
         ball, met = self._tracks[index].ball, list[tuple[float, ...]]()
-        for obstacle, normal, points in touching_surfaces(self._tracks[index], state, self.gap):
-            surface = obstacle.surface
-            for point in points:
+        for obstacle, found in surfaces_met(ball, self._tracks[index].obstacles, state, self.gap):
+            surface, normal = obstacle.surface, found.normal
+            for point, speeds in zip(found.points, found.speeds, strict=True):
                 place = *point, *(ball.radius * part for part in normal)
-                if any(dist(place, other) <= 10.0 * TOUCHING_GAP for other in met):
-                    continue
-                met.append(place)
-                speeds = speeds_at([ball], [state], point, normal)
-                bounce = bounce_off(surface, *speeds[:2])
-                yield Contact((index,), surface.name, *normal, 0.0, bounce, speeds[0], speeds, point)
+                if all(dist(place, other) > _SAME_POINT for other in met):
+                    met.append(place)
+                    bounce = _once(bounce_off(surface, *speeds[:2]), speeds[0])
+                    yield Contact((index,), surface.name, *normal, 0.0, bounce, speeds[0], speeds, point)
 
     def _with_balls(self, states: dict[int, State]) -> Iterator[Contact]:
         for i, j in combinations(states, 2):
             a, b = self._tracks[i].ball, self._tracks[j].ball
             if not discs(a, b):
-                pair = [a, b], [states[i], states[j]]
-                normal, points = touching_bodies(*pair, self.gap)
-                for point in points:
-                    speeds = speeds_at(*pair, point, normal)
+                found = meeting(a, states[i], b, states[j], self.gap)
+                for point, speeds in zip(found.points, found.speeds, strict=True) if found.gap <= self.gap else ():
                     bounce = bounce_of_balls(self._setup, speeds[0], abs(speeds[1]), a.name, b.name)
-                    yield Contact((i, j), b.name, *normal, 0.0, bounce, speeds[0], speeds, point)
+                    bounce = _once(bounce, speeds[0])
+                    yield Contact((i, j), b.name, *found.normal, 0.0, bounce, speeds[0], speeds, point)
                 continue
             dx, dy = states[i][0] - states[j][0], states[i][1] - states[j][1]
             distance = (dx**2 + dy**2) ** 0.5
@@ -272,6 +273,11 @@ class Impacts:
     def _energy(self, states: dict[int, State]) -> float:
         """Kinetic energy in J, including rotation."""
         return sum(kinetic(self._tracks[index].ball, state) for index, state in states.items())
+
+
+def _once(bounce: Bounce, approach: float) -> Bounce:
+    """Without restitution where a point of contact does not close: it may be pressed on, not pulled along."""
+    return bounce if approach > CLOSING else bounce._replace(restitution=0.0)
 
 
 def _hits(t: float, closed: Sequence[Contact]) -> list[Hit]:

@@ -130,8 +130,8 @@ def exchange_at_once(
     """The states of balls and bodies, by their index, after contacts that close together with these bounces, and the
     normal impulse in N s of each.
 
-    In place of the shapes, which pymunk would examine again, each contact has a small disc on the first body and a
-    piece of its tangent plane on the second, or on what is fixed; they overlap where the contact is and in its direction.
+    In place of the shapes, which pymunk would examine again, each contact has a disc on the first body and a piece of
+    its tangent plane on the second, or on what is fixed; they overlap at its point, and have its normal.
     """
     turning = any(isinstance(balls[index], Body) for index in states)
     space = still_space(_ITERATIONS_TURNING if turning else _ITERATIONS)

@@ -20,6 +20,9 @@ from sandbox.engine.shapes import Shape, Vector
 #: Most pieces to walk over and most Newton steps; each of them needs two or three.
 _MOST = 200
 
+#: Difference of two gaps in m that is rounding.
+_FLAT = 1e-10
+
 #: After a Newton step shorter than this (rad) the error is rounding.
 _CONVERGED = 1e-8
 
@@ -108,11 +111,9 @@ def _climbed(one: Shape, here: Pose, other: Shape, there: Pose, at: float) -> Ne
     return Nearest(apart - one.radius - other.radius, nx, ny, at)
 
 
-def meeting_points(
-    one: Shape, here: Pose, other: Shape, there: Pose, normal: Vector, within: float
-) -> list[tuple[Vector, float]]:
-    """One or two points where outlines touch, or nearly: halfway between the two, and the gap there, in m. Sides that
-    are parallel, up to a gap of ``within`` (m), touch at both ends of the length that they share."""
+def meeting_points(one: Shape, here: Pose, other: Shape, there: Pose, normal: Vector, slack: float) -> list[Vector]:
+    """One or two points where outlines touch, or are nearest: halfway between the two, in m. Sides that are parallel,
+    so that no end is farther by more than ``slack`` (m), touch at both ends of the length that they share."""
     nx, ny = normal
     ends = []
     for shape, (x, y, angle), way in ((one, here, -1.0), (other, there, 1.0)):
@@ -123,7 +124,7 @@ def meeting_points(
             px, py = x + c * px - s * py, y + s * px + c * py
             ways.append((px * ny - py * nx, px * nx + py * ny + way * shape.radius))  # along, and across the normal
         far = max(way * across for _, across in ways)
-        near = sorted(place for place in ways if way * place[1] >= far - within)
+        near = sorted(place for place in ways if way * place[1] >= far - slack - _FLAT)
         ends.append((near[0], near[-1]))
     first, second = ends
     start, end = max(first[0][0], second[0][0]), min(first[1][0], second[1][0])
@@ -132,8 +133,9 @@ def meeting_points(
     for along in (0.5 * (start + end),) if sharp else (start, end):
         across, below = (_across(*pair, along) for pair in ends)
         middle = 0.5 * (across + below)
-        found.append(((middle * nx + along * ny, middle * ny - along * nx), across - below))
-    return [place for place in found if place[1] <= within] or found[:1]
+        found.append((across - below, (middle * nx + along * ny, middle * ny - along * nx)))
+    least = min(found)[0]
+    return [point for gap, point in found if gap <= least + slack + _FLAT]
 
 
 def _across(start: Vector, end: Vector, along: float) -> float:

@@ -22,9 +22,9 @@ from sandbox.engine.arc import Arc
 from sandbox.engine.event import Event
 from sandbox.engine.in_plane import Diverged
 from sandbox.engine.path import Path
-from sandbox.engine.real_space import ONLY_SURFACES, RealSpace
+from sandbox.engine.real_space import ONLY_SURFACES, RealSpace, speeds_at
 from sandbox.engine.run import Numerics, Run
-from sandbox.engine.setup import Ball, Setup, Surface
+from sandbox.engine.setup import Ball, Body, Setup, Surface
 from sandbox.engine.step_control import JUMP, stiff
 from sandbox.engine.surfaces import (
     bounce_of_balls,
@@ -80,10 +80,11 @@ class _Tracked:
     def __init__(self, ball: Ball, body: pymunk.Body, rolls: bool) -> None:
         self.ball = ball
         self.rolling_spin: tuple[float, ...] = ball.rolling_spin if rolls else ()  # rad/s
+        self.turns = isinstance(ball, Body)
         self.body = body
         self.path: list[Arc] = []
         self.since = 0.0  # s, start of the current arc
-        self.start: State = (*ball.position, *ball.velocity, ball.spin, *self.rolling_spin)
+        self.start: State = self.state()
         self.last: tuple[State, Acceleration] | None = None  # before the forces of the last step
         self.touched = -2  # number of the last step in which it touched something
         self.pending: dict[Any, _Pending] = {}  # by the other's shape
@@ -92,11 +93,13 @@ class _Tracked:
 
     def state(self) -> State:
         body = self.body
-        return (*body.position, *body.velocity, body.angular_velocity, *self.rolling_spin)
+        more = (body.angle,) if self.turns else self.rolling_spin
+        return (*body.position, *body.velocity, body.angular_velocity, *more)
 
     def take(self, state: State) -> None:
         """Set the velocities and spins to those of this state."""
-        self.body.velocity, self.body.angular_velocity, self.rolling_spin = state[2:4], state[4], state[5:]
+        self.body.velocity, self.body.angular_velocity = state[2:4], state[4]
+        self.rolling_spin = () if self.turns else state[5:]
 
     def record(self, t: float) -> None:
         if t > self.since or not self.path:
@@ -130,6 +133,8 @@ class PlainSimulation:
         for ball in setup.balls:
             body, _ = self._real.add(ball)
             body.position, body.velocity, body.angular_velocity = ball.position, ball.velocity, ball.spin
+            if isinstance(ball, Body):
+                body.angle = ball.angle
             body.velocity_func = self._real.guarded(self._move)
             self._tracked[body] = _Tracked(ball, body, setup.plane is not None and setup.plane_of(ball.name).rolls)
 
@@ -222,7 +227,7 @@ class PlainSimulation:
         x, y, vx, vy, spin = state[:5]
         if h * h * (vx * vx + vy * vy) > (_LEAP * tracked.ball.radius) ** 2:
             self._refuse_leap(tracked, (x - h * vx, y - h * vy), (x, y))
-        acceleration = checked(tracked.ball, self._t, state[:5])
+        acceleration = checked(tracked.ball, self._t, state if tracked.turns else state[:5])
         if tracked.last is not None and tracked.touched != self._steps:
             self._refuse_reversal(tracked, *tracked.last, state, acceleration, h)
         tracked.last = state, acceleration
@@ -242,7 +247,10 @@ class PlainSimulation:
         balls, surface = self._touching(arbiter)
         first, states = balls[0], [tracked.state() for tracked in balls]
         nx, ny = -arbiter.normal
-        approach, *slips = speeds_where_touching([tracked.ball for tracked in balls], states, nx, ny)
+        if any(tracked.turns for tracked in balls):
+            approach, *slips = *speeds_at(arbiter), 0.0
+        else:
+            approach, *slips = speeds_where_touching([tracked.ball for tracked in balls], states, nx, ny)
         slip = slips[0], slips[1]
         for tracked in balls:
             tracked.touched = self._steps
@@ -258,7 +266,7 @@ class PlainSimulation:
             arbiter.restitution, arbiter.friction = bounce.restitution, friction_in_plane(bounce.friction, *slip)
             first.pending[arbiter.shapes[1]] = _Pending(bounce.friction, slip)
             return
-        along = states[0][2] * ny - states[0][3] * nx
+        along = slip[0] if first.turns else states[0][2] * ny - states[0][3] * nx
         acceleration = (0.0, 0.0) if first.last is None else first.last[1]
         press = max(0.0, -acceleration[0] * nx - acceleration[1] * ny)  # m/s^2
         lasts = abs(approach) <= 2.0 * press * self._accuracy.step  # the speed that weight alone adds in a step or two
@@ -271,6 +279,8 @@ class PlainSimulation:
         elif approach > 0.0 or lasts:
             restitution, friction, tilt, tangential = bounce_off(surface, approach, along)
             arbiter.restitution, arbiter.friction = 0.0 if lasts else restitution, friction_in_plane(friction, *slip)
+            if first.turns:
+                return
             back = 0.0 if lasts else tangential * slip[0]
             arbiter.surface_velocity = -back * ny, back * nx
             # a tilted surface is equivalent to a level one that meets a velocity rotated the other way; it is rotated

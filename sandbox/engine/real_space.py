@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import Any
+from typing import Any, cast
 
 import pymunk
 
@@ -46,7 +46,7 @@ class RealSpace:
         if len(corners) > 2:
             shape = pymunk.Poly(body, corners, radius=radius)
         elif len(corners) == 2:
-            shape = pymunk.Segment(body, *corners, radius)
+            shape = pymunk.Segment(body, corners[0], corners[1], radius)
         else:
             shape = pymunk.Circle(body, radius, corners[0])
         shape.collision_type, shape.filter = _BALL, pymunk.ShapeFilter(categories=_BALL)
@@ -77,3 +77,14 @@ class RealSpace:
         self.space.step(h)
         if self._raised is not None:
             raise self._raised
+
+
+def speeds_at(arbiter: pymunk.Arbiter) -> tuple[float, float]:
+    """Speed of approach in m/s where two shapes meet, of two points the faster, and the speed along there."""
+    one, other = (cast(pymunk.Body, shape.body) for shape in arbiter.shapes)
+    nx, ny = arbiter.normal
+    found = []
+    for contact in arbiter.contact_point_set.points:
+        vx, vy = one.velocity_at_world_point(contact.point_a) - other.velocity_at_world_point(contact.point_b)
+        found.append((vx * nx + vy * ny, vy * nx - vx * ny))
+    return max(found)

@@ -80,8 +80,8 @@ class Body(Ball):
     """Anything convex that moves and turns: ``Body("crate", position=(0.0, 1.0), shape=box(0.4, 0.3), mass=2.0)``.
 
     Mass and moment of inertia follow from the outline and its ``density``, mass per area, or are given; ``center`` is
-    the centre of mass where it is not that of the outline. ``position`` is that of the centre of mass, ``angle`` how far
-    the outline is turned at the start. A force on it may read ``position.angle``.
+    the centre of mass where it is not that of the outline. ``position`` is that of the centre of mass, ``angle`` says
+    how far the outline is turned at the start. A force on a body may read ``position.angle``.
     """
 
     shape: Shape

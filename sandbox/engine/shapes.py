@@ -11,6 +11,7 @@ from __future__ import annotations
 from bisect import bisect_right
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
+from itertools import pairwise
 from math import atan2, cos, hypot, inf, isfinite, pi, sin, sqrt
 from typing import NamedTuple
 
@@ -53,7 +54,9 @@ class Polygon:
         for (ax, ay), (bx, by) in _sides(corners):
             normal = atan2(ax - bx, by - ay)
             normals.append(normal if not normals else normals[-1] + (normal - normals[-1]) % (2.0 * pi))
-        turns = [(after - before) % (2.0 * pi) for before, after in zip(normals, normals[1:] + normals[:1], strict=True)]
+        turns = [
+            (after - before) % (2.0 * pi) for before, after in zip(normals, normals[1:] + normals[:1], strict=True)
+        ]
         if len(corners) > 1 and (
             len({*corners}) < len(corners)
             or abs(sum(turns) - 2.0 * pi) > 1e-6
@@ -72,7 +75,7 @@ class Polygon:
         """The sum of the polygon, a rectangle along each side, and a sector of a disc at each corner."""
         r, parts = self.radius, list[MassProperties]()
         (ox, oy), corners = self.corners[0], self.corners
-        for (ax, ay), (bx, by) in zip(corners[1:-1], corners[2:], strict=True) if len(corners) > 2 else ():
+        for (ax, ay), (bx, by) in pairwise(corners[1:]):
             ax, ay, bx, by = ax - ox, ay - oy, bx - ox, by - oy  # a triangle at the first corner
             area, x, y = 0.5 * (ax * by - ay * bx), (ax + bx) / 3.0, (ay + by) / 3.0
             about_corner = area * (ax * (ax + bx) + bx * bx + ay * (ay + by) + by * by) / 6.0
@@ -91,8 +94,12 @@ class Polygon:
         if len(corners) == 1:
             parts.append(MassProperties(pi * r * r, (ox, oy), 0.5 * pi * r**4))
         area = sum(part.area for part in parts)
+        if area == 0.0:
+            return MassProperties(0.0, self.corners[0], 0.0)
         x, y = (sum(part.area * part.center[axis] for part in parts) / area for axis in (0, 1))
-        moment = sum(part.moment + part.area * ((part.center[0] - x) ** 2 + (part.center[1] - y) ** 2) for part in parts)
+        moment = sum(
+            part.moment + part.area * ((part.center[0] - x) ** 2 + (part.center[1] - y) ** 2) for part in parts
+        )
         return MassProperties(area, (x, y), moment)
 
     def corner_towards(self, angle: float) -> int:

@@ -20,6 +20,7 @@ from sandbox.engine.heap import Heap
 from sandbox.engine.impacts import Impacts, Outcome
 from sandbox.engine.in_plane import Diverged, InPlane
 from sandbox.engine.lasting import RESTING, LastingContact
+from sandbox.engine.meeting import discs, pair_touches
 from sandbox.engine.on_plane import OnPlane, slowest_hop
 from sandbox.engine.path import Path
 from sandbox.engine.run import Numerics, Run
@@ -27,7 +28,7 @@ from sandbox.engine.setup import Body, Setup, Surface, Until
 from sandbox.engine.start import starts
 from sandbox.engine.touch import TOUCHING_GAP, Obstacle
 from sandbox.engine.track import Track
-from sandbox.engine.turning import Turning, discs, pair_touches
+from sandbox.engine.turning import Turning
 from sandbox.errors import RunError
 from sandbox.physics.integrators import State
 
@@ -68,7 +69,9 @@ class Simulation:
         self._pressed: Pressed | None = None
         self._all_round = discs(*setup.balls)
         self._heap: Heap | None = None
-        if len(setup.balls) > 1:
+        if not self._all_round:
+            self._heap = Heap(setup, self._tracks, accuracy, self._numerics)
+        elif len(setup.balls) > 1:
             # here, not above: it brings numpy, which a run of one ball does not need
             from sandbox.engine.pressed import Pressed
 
@@ -196,7 +199,7 @@ class Simulation:
             self._impacts.gap = self._heap.margin if self._heap.members else TOUCHING_GAP
         touching = self._impacts.touching(t, seeds)
         outcome = None
-        if self._pressed is not None and self._all_round and len(touching) > 1 and not (self._heap and self._heap.members):
+        if self._pressed is not None and len(touching) > 1 and not (self._heap and self._heap.members):
             outcome = self._pressed.through(t, touching)
         if outcome is None:
             outcome = self._impacts.exchange(t, touching)

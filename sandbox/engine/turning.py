@@ -6,24 +6,20 @@ predicts, and made again with that of the spin it found, until both agree within
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from functools import lru_cache
+from collections.abc import Sequence
 from itertools import accumulate
-from math import hypot
 
 from sandbox.engine.accuracy import Accuracy
 from sandbox.engine.acting import checked
 from sandbox.engine.arc import Arc
 from sandbox.engine.bernstein import evaluate
 from sandbox.engine.in_plane import InPlane
-from sandbox.engine.nearest import Nearest, Pose, meeting_points, nearest
+from sandbox.engine.meeting import standing
 from sandbox.engine.run import Numerics
-from sandbox.engine.setup import Ball, Body, Circle, Segment, Setup, Vector, outline_of
-from sandbox.engine.shapes import Polygon
+from sandbox.engine.setup import Ball, Setup, outline_of
 from sandbox.engine.step_control import LOCAL_SHARE
-from sandbox.engine.touch import Obstacle, balls_touch
-from sandbox.engine.track import Track
-from sandbox.engine.turning_touch import Mover, first_touch, fixed, pose_of
+from sandbox.engine.touch import Obstacle
+from sandbox.engine.turning_touch import Mover, first_touch
 from sandbox.physics.integrators import Acceleration, State
 
 #: Repetitions of a step until its angle agrees with its spin, after which it is halved.
@@ -33,11 +29,9 @@ _PATIENCE = 5
 class Turning(InPlane):
     """A body: its path, and when it touches what stands still."""
 
-    ball: Body
-
     def __init__(
         self,
-        body: Body,
+        body: Ball,
         state: State,
         obstacles: Sequence[Obstacle],
         catches: Sequence[Obstacle],
@@ -46,7 +40,7 @@ class Turning(InPlane):
         numerics: Numerics,
     ) -> None:
         super().__init__(body, state, obstacles, catches, setup, accuracy, numerics)
-        self.outline = body.outline
+        self.outline = outline_of(body)
         self._skin = accuracy.skin
         self._angle_error = LOCAL_SHARE * accuracy.tolerance / body.radius  # rad
 
@@ -93,75 +87,3 @@ class Turning(InPlane):
                 return None
             start += u * (arc.t1 - arc.t0)
         return first_touch(Mover(self.outline, arc), standing(obstacle.surface.shape), start, arc.t1, self._skin)
-
-
-def pair_touches(one: Track, other: Track, t: float, skin: float) -> float | None:
-    """The first time from t on, while both arcs last, at which two balls or bodies overlap by ``skin``, or None."""
-    reach = one.ball.radius + other.ball.radius
-    (x, y), (u, v) = one.arc.position(t), other.arc.position(t)
-    round_ones = discs(one.ball, other.ball)
-    if round_ones or hypot(x - u, y - v) > reach:
-        start = balls_touch(one.arc, other.arc, reach, t, skin)
-        if round_ones or start is None:
-            return start
-        t = start
-    until = min(one.arc.t1, other.arc.t1)
-    if until <= t:
-        return None
-    movers = (Mover(outline_of(track.ball), track.arc) for track in (one, other))
-    return first_touch(*movers, t, until, skin)
-
-
-@lru_cache(maxsize=4096)
-def standing(shape: Segment | Circle) -> Mover:
-    """A fixed shape as an outline that stays in place."""
-    points = (shape.center,) if isinstance(shape, Circle) else (shape.a, shape.b)
-    return fixed(Polygon(tuple(dict.fromkeys(points)), shape.radius))
-
-
-def discs(*balls: Ball) -> bool:
-    """Whether these are all balls, whose distance is that of their centres."""
-    return not any(isinstance(ball, Body) for ball in balls)
-
-
-def separation(one: Ball, state: State, other: Ball, other_state: State) -> Nearest:
-    """What separates two balls or bodies; the normal points to the first."""
-    return nearest(outline_of(one), pose_of(state), outline_of(other), pose_of(other_state))
-
-
-def touching_bodies(balls: Sequence[Ball], states: Sequence[State], gap: float) -> tuple[Vector, list[Vector]]:
-    """The normal to the first of two bodies, and the points where they touch, up to a gap in m; none if they do not."""
-    found = separation(balls[0], states[0], balls[1], states[1])
-    normal = found.nx, found.ny
-    if found.gap > gap:
-        return normal, []
-    (one, other), (here, there) = map(outline_of, balls), map(pose_of, states)
-    return normal, [point for point, _ in meeting_points(one, here, other, there, normal, gap)]
-
-
-def touching_surfaces(track: Track, state: State, gap: float) -> Iterator[tuple[Obstacle, Vector, list[Vector]]]:
-    """The surfaces that a body touches, up to a gap in m: normal, and points of contact."""
-    outline, here = outline_of(track.ball), pose_of(state)
-    for obstacle, _ in track.near(here.x, here.y, gap):
-        fixed_one, there = standing(obstacle.surface.shape).shape, Pose(0.0, 0.0, 0.0)
-        found = nearest(outline, here, fixed_one, there)
-        if found.gap <= gap:
-            normal = found.nx, found.ny
-            yield (
-                obstacle,
-                normal,
-                [point for point, _ in meeting_points(outline, here, fixed_one, there, normal, max(gap, found.gap))],
-            )
-
-
-def speeds_at(
-    balls: Sequence[Ball], states: Sequence[State], point: Vector, normal: Vector
-) -> tuple[float, float, float]:
-    """Speed of approach, slip along the tangent (ny, -nx), and none upward, in m/s, where one body touches a surface or
-    two touch each other."""
-    ux = uy = 0.0
-    for (x, y, vx, vy, spin, *_), way in zip(states, (1.0, -1.0), strict=False):
-        ux += way * (vx - spin * (point[1] - y))
-        uy += way * (vy + spin * (point[0] - x))
-    nx, ny = normal
-    return -(ux * nx + uy * ny), ux * ny - uy * nx, 0.0

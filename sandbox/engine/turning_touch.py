@@ -1,19 +1,22 @@
 """When outlines that move and turn first touch: conservative advancement.
 
-Two outlines are apart as long as one strip of fixed direction n lies between them. Its width is a sum of paths of
-points,
+Two outlines are apart as long as one strip lies between them. Let the strip be fixed to one of the two, at right angles
+to their nearest points, and turn with it. Seen from there each point p_i of the other's core comes nearer on a path of
+its own: with its distance s_i, its speed s_i' now and a bound K on s_i'' for the rest of the arc,
 
-    s(t) = n . (c1 - c2) + min_i n . R1 p_i - max_j n . R2 q_j - r1 - r2,
+    s_i(t + h) >= s_i + s_i' h - K h^2 / 2.
 
-with the points p_i and q_j of the two cores, each of which has, from its speed now and a bound K on its acceleration
-for the rest of the arc, the bound ``s_ij(t + h) >= s_ij + s_ij' h - K h^2 / 2``. The first zero of the least of them is
-a time up to which nothing touches, whatever turns; there n is chosen anew. It converges quadratically, and misses
-nothing: no grazing touch, no fast spin. Mirtich 1996 (conservative advancement), Catto 2013 (``b2TimeOfImpact``); the
-bound is second order here, in place of one by speed alone.
+The first zero of the least of these is a time up to which nothing touches, whatever turns; there the strip is chosen
+anew. It converges quadratically, and misses nothing: no grazing touch, no fast spin. Of the two outlines that which
+allows the longer step carries the strip: where a long side turns away from a small body, it has to be the side.
+
+Mirtich 1996 (conservative advancement), Catto 2013 (``b2TimeOfImpact``). The bound here is of second order, in place
+of one by speed alone.
 """
 
 from __future__ import annotations
 
+from itertools import pairwise
 from math import atan2, cos, hypot, inf, sin, sqrt
 from typing import NamedTuple
 
@@ -29,17 +32,14 @@ _NOISE, _STILL = 1e-13, 1e-9
 #: Depth in m by which outlines that touch and do not approach may overlap before that is noticed.
 _UNSEEN = 1e-12
 
-#: Most advances. A touch needs five to ten; outlines that stay within rounding of each other need many.
-_MOST = 20_000
-
-
-#: A time in s that no run reaches.
-_EVER = 1e300
-
 #: Distance in m within which two points of an outline are equally near.
 _SAME = 1e-10
 
-Points = list[tuple[float, float]]
+#: Most advances. A touch needs five to ten; outlines that stay within rounding of each other need many.
+_MOST = 20_000
+
+#: A time in s that no run reaches.
+_EVER = 1e300
 
 
 class Mover(NamedTuple):
@@ -48,28 +48,26 @@ class Mover(NamedTuple):
     shape: Shape
     arc: Arc
 
-    def at(self, t: float) -> tuple[Pose, State]:
-        """Where it is at t, and how it moves."""
-        state = self.arc.state(t)
-        return pose_of(state), state
-
-    def hurry(self) -> float:
-        """A bound in m/s^2 on the acceleration of any of its points, seen from a fixed direction."""
+    def bounds(self) -> _Bounds:
+        """What is not exceeded on the arc."""
         arc = self.arc
-        h, shape = arc.t1 - arc.t0, self.shape
+        h = arc.t1 - arc.t0
         if h <= 0.0:
-            return 0.0
+            return _Bounds(0.0, 0.0, 0.0, 0.0)
         ax, ay, turning = (
-            max((abs(b - a) for a, b in zip(curve, curve[1:], strict=False)), default=0.0) * (len(curve) - 1) / h
+            max((abs(b - a) for a, b in pairwise(curve)), default=0.0) * (len(curve) - 1) / h
             for curve in (arc.vx, arc.vy, arc.spin)
         )
-        spin = max(map(abs, arc.spin))
-        return hypot(ax, ay) + spin * spin * max(shape.reach, shape.straightest) + turning * shape.reach
+        return _Bounds(arc.fastest(), hypot(ax, ay), max(map(abs, arc.spin)), turning)
 
 
-def pose_of(state: State) -> Pose:
-    """Where a ball or body is; balls do not say how far they are turned."""
-    return Pose(state[0], state[1], state[5] if len(state) == 6 else 0.0)
+class _Bounds(NamedTuple):
+    """Of how a body moves."""
+
+    speed: float  # m/s
+    acceleration: float  # m/s^2
+    spin: float  # rad/s
+    turning: float  # rad/s^2
 
 
 def fixed(shape: Shape) -> Mover:
@@ -77,28 +75,33 @@ def fixed(shape: Shape) -> Mover:
     return Mover(shape, still(_EVER, _EVER, (0.0, 0.0, 0.0, 0.0, 0.0)))
 
 
+def pose_of(state: State) -> Pose:
+    """Where a ball or body is; balls do not say how far they are turned."""
+    return Pose(state[0], state[1], state[5] if len(state) == 6 else 0.0)
+
+
 def first_touch(one: Mover, other: Mover, t: float, until: float, skin: float = SKIN) -> float | None:
     """The first time from t on at which two outlines overlap by ``skin`` (m), or None. Where they overlap by more at
     t, it is when they come to overlap by more than then."""
-    hurry = one.hurry() + other.hurry()
-    least = sqrt(2.0 * _UNSEEN / hurry) if hurry > 0.0 else inf
-    found: Nearest | None = None
+    bounds, found = (one.bounds(), other.bounds()), None
     for _ in range(_MOST):
-        (here, motion), (there, other_motion) = one.at(t), other.at(t)
+        motion, way = one.arc.state(t), other.arc.state(t)
+        here, there = pose_of(motion), pose_of(way)
         noise = _NOISE * (1.0 + 0.1 * (abs(here.x) + abs(here.y)))
         if found is None:
             found = nearest(one.shape, here, other.shape, there)
             skin = max(skin, noise - found.gap)
         else:
             found = nearest(one.shape, here, other.shape, there, found.direction)
-        normal = found.nx, found.ny
-        gap = found.gap + skin
-        sides = _points(one.shape, here, motion, normal, -1.0), _points(other.shape, there, other_motion, normal, 1.0)
-        step, approach = _apart_for(gap, *sides, hurry, until - t)
+        gap, rest = found.gap + skin, until - t
+        step, approach, hurry = _apart_for(one.shape, motion, way, found, -1.0, gap, bounds, rest)
+        if step < rest:
+            seen = _apart_for(other.shape, way, motion, found, 1.0, gap, bounds[::-1], rest)
+            step, approach, hurry = max(step, seen[0]), min(approach, seen[1]), min(hurry, seen[2])
         if gap <= 2.0 * noise:
             if approach > _STILL:
                 return t
-            step = max(step, least)
+            step = max(step, sqrt(2.0 * _UNSEEN / hurry)) if hurry > 0.0 else inf
         if t + step >= until:
             return None
         if t + step == t:
@@ -107,36 +110,43 @@ def first_touch(one: Mover, other: Mover, t: float, until: float, skin: float = 
     return t
 
 
-def _points(shape: Shape, at: Pose, motion: State, normal: tuple[float, float], way: float) -> Points:
-    """Of each point of a core that may be the nearest: how far it is behind the nearest, in m, and the speed in m/s at
-    which it moves towards the other outline, which lies ``way`` along the normal."""
-    c, s = way * cos(at.angle), way * sin(at.angle)
-    nx, ny = c * normal[0] + s * normal[1], c * normal[1] - s * normal[0]
-    forward = way * (motion[2] * normal[0] + motion[3] * normal[1])
-    spin = motion[4]
-    points = [(x * nx + y * ny, forward + spin * (x * ny - y * nx)) for x, y in shape.candidates(atan2(ny, nx))]
-    front = max(ahead for ahead, _ in points)
-    return [(front - ahead, speed) for ahead, speed in points]
-
-
 def _apart_for(
-    gap: float, ones: Points, others: Points, hurry: float, until: float
-) -> tuple[float, float]:
-    """For how long, up to ``until`` s, the strip stays open; and the speed at which it closes now.
+    shape: Shape,
+    motion: State,
+    frame: State,
+    found: Nearest,
+    way: float,
+    gap: float,
+    bounds: tuple[_Bounds, ...],
+    until: float,
+) -> tuple[float, float, float]:
+    """For how long, up to ``until`` s, nothing of an outline reaches the strip that another carries, which lies ``way``
+    along the normal; the speed at which the nearest points come; and the bound K."""
+    x, y, vx, vy, spin, *turned = motion
+    u, v, ux, uy, frame_spin, *_ = frame
+    c, s = (cos(turned[0]), sin(turned[0])) if turned else (1.0, 0.0)
+    nx, ny = way * found.nx, way * found.ny
+    bx, by = c * nx + s * ny, c * ny - s * nx  # the normal, seen from the body
+    # of the body's centre, as seen from the frame
+    forward = (vx - ux) * nx + (vy - uy) * ny + frame_spin * ((y - v) * nx - (x - u) * ny)
+    turns = spin - frame_spin
+    ahead = [(px * bx + py * by, px * by - py * bx) for px, py in shape.candidates(atan2(by, bx))]
+    front = max(distance for distance, _ in ahead)
 
-    The bound is concave in time, so the zeros of its parts, each at the time of the last, come down to its first.
-    """
-    approach = max(v for behind, v in ones if behind <= _SAME) + max(v for behind, v in others if behind <= _SAME)
-    h = until
-    for _ in range(len(ones) + len(others) + 2):
-        behind, speed = min(ones, key=lambda point: point[0] - point[1] * h)
-        behind_too, speed_too = min(others, key=lambda point: point[0] - point[1] * h)
-        room, closing = max(gap + behind + behind_too, 0.0), speed + speed_too
-        if room - closing * h - 0.5 * hurry * h * h >= 0.0:
-            break
-        root = sqrt(closing * closing + 2.0 * hurry * room)
-        closer = 2.0 * room / (root + closing) if closing > 0.0 else (root - closing) / hurry
-        if closer >= h:
-            break
-        h = closer
-    return h, approach
+    own, others = bounds
+    size = max(shape.reach, shape.straightest)
+    apart = hypot(x - u, y - v) + until * (own.speed + others.speed)
+    hurry = own.acceleration + others.acceleration + size * (own.spin**2 + own.turning)
+    hurry += 2.0 * others.spin * (own.speed + others.speed + size * own.spin)
+    hurry += (others.spin**2 + others.turning) * (apart + size)
+
+    step, approach = until, -inf
+    for distance, across in ahead:
+        behind, speed = front - distance, forward + turns * across
+        if behind <= _SAME:
+            approach = max(approach, speed)
+        room = max(gap + behind, 0.0)
+        if room - speed * step - 0.5 * hurry * step * step < 0.0:
+            root = sqrt(speed * speed + 2.0 * hurry * room)
+            step = min(step, 2.0 * room / (root + speed) if speed > 0.0 else (root - speed) / hurry)
+    return step, approach, hurry

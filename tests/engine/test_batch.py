@@ -401,7 +401,17 @@ def test_an_impact_is_the_same_in_a_lane_in_many_lanes_and_as_it_is_placed(motio
         nx, ny = math.cos(i), math.sin(i)
         before = (5.0, 3.0, away[i] * nx + along[i] * ny, away[i] * ny - along[i] * nx, spin[i])
         bounce = Bounce(restitution, friction)
-        contact = Contact((0,), "floor", nx, ny, 0.0, bounce, -away[i], (-away[i], slips[i], 0.0), (5.0 - ball.radius * nx, 3.0 - ball.radius * ny))
+        contact = Contact(
+            (0,),
+            "floor",
+            nx,
+            ny,
+            0.0,
+            bounce,
+            -away[i],
+            (-away[i], slips[i], 0.0),
+            (5.0 - ball.radius * nx, 3.0 - ball.radius * ny),
+        )
         placed, (impulse,) = exchange_at_once([ball], {0: before}, [contact], [bounce])
         alone = after_impulse(before[2:], nx, ny, radius, factor, (push, rub, 0.0))
         assert (*alone[:2], radius * alone[2]) == pytest.approx(

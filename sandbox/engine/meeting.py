@@ -1,0 +1,103 @@
+"""Where bodies touch each other and what stands still, and how fast they move there; when two first do."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from functools import lru_cache
+from math import hypot
+from typing import NamedTuple
+
+from sandbox.engine.nearest import Pose, meeting_points, nearest
+from sandbox.engine.setup import Ball, Body, Circle, Segment, Vector, outline_of
+from sandbox.engine.shapes import Polygon, Shape
+from sandbox.engine.touch import Obstacle, balls_touch, touched
+from sandbox.engine.track import Track
+from sandbox.engine.turning_touch import Mover, first_touch, fixed, pose_of
+from sandbox.physics.integrators import State
+
+Speeds = tuple[float, float, float]
+
+_IN_PLACE = Pose(0.0, 0.0, 0.0)
+
+
+class Meeting(NamedTuple):
+    """What is between two bodies, or a body and a surface, that touch or nearly do."""
+
+    gap: float  # m
+    normal: Vector  # unit vector to the first
+    points: list[Vector]  # one or two, m, halfway between the two
+    speeds: list[Speeds]  # m/s, at each: of approach, of the slip along (ny, -nx), and none upward
+
+    @property
+    def closing(self) -> float:
+        """The fastest approach in m/s."""
+        return max(approach for approach, _, _ in self.speeds)
+
+
+def discs(*balls: Ball) -> bool:
+    """Whether these are all balls, whose distance is that of their centres."""
+    return not any(isinstance(ball, Body) for ball in balls)
+
+
+def meeting(one: Ball, state: State, other: Ball, other_state: State, within: float = 0.0) -> Meeting:
+    """How two bodies, or a body and a ball, meet: at points where they are no farther apart than ``within`` (m), or
+    else where they are nearest."""
+    return _meeting((outline_of(one), outline_of(other)), (state, other_state), within)
+
+
+def surface_met(body: Ball, state: State, obstacle: Obstacle, within: float = 0.0) -> Meeting:
+    """How a body meets a surface."""
+    return _meeting((outline_of(body), standing(obstacle.surface.shape).shape), (state,), within)
+
+
+def surfaces_met(
+    body: Ball, obstacles: Sequence[Obstacle], state: State, within: float
+) -> Iterator[tuple[Obstacle, Meeting]]:
+    """How a body meets those of these surfaces that are not farther than ``within`` (m); they are prepared for a ball
+    around it."""
+    for obstacle, _ in touched(obstacles, state[0], state[1], within):
+        found = surface_met(body, state, obstacle, within)
+        if found.gap <= within:
+            yield obstacle, found
+
+
+def _meeting(shapes: tuple[Shape, Shape], states: Sequence[State], within: float) -> Meeting:
+    (one, other), (here, there) = shapes, [*map(pose_of, states), _IN_PLACE][:2]
+    found = nearest(one, here, other, there)
+    normal = found.nx, found.ny
+    points = meeting_points(one, here, other, there, normal, max(0.0, within - found.gap))
+    return Meeting(found.gap, normal, points, [_speeds(states, point, normal) for point in points])
+
+
+def _speeds(states: Sequence[State], point: Vector, normal: Vector) -> Speeds:
+    """Of the first relative to the second, or to what stands still, where they touch."""
+    ux = uy = 0.0
+    for (x, y, vx, vy, spin, *_), way in zip(states, (1.0, -1.0), strict=False):
+        ux += way * (vx - spin * (point[1] - y))
+        uy += way * (vy + spin * (point[0] - x))
+    nx, ny = normal
+    return -(ux * nx + uy * ny), ux * ny - uy * nx, 0.0
+
+
+def pair_touches(one: Track, other: Track, t: float, skin: float) -> float | None:
+    """The first time from t on, while both arcs last, at which two balls or bodies overlap by ``skin``, or None."""
+    reach = one.ball.radius + other.ball.radius
+    (x, y), (u, v) = one.arc.position(t), other.arc.position(t)
+    only_balls = discs(one.ball, other.ball)
+    if only_balls or hypot(x - u, y - v) > reach:
+        start = balls_touch(one.arc, other.arc, reach, t, skin)
+        if only_balls or start is None:
+            return start
+        t = start
+    until = min(one.arc.t1, other.arc.t1)
+    if until <= t:
+        return None
+    first, second = (Mover(outline_of(track.ball), track.arc) for track in (one, other))
+    return first_touch(first, second, t, until, skin)
+
+
+@lru_cache(maxsize=4096)
+def standing(shape: Segment | Circle) -> Mover:
+    """A fixed shape as an outline that stays in place."""
+    points = (shape.center,) if isinstance(shape, Circle) else (shape.a, shape.b)
+    return fixed(Polygon(tuple(dict.fromkeys(points)), shape.radius))

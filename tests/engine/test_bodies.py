@@ -1,0 +1,298 @@
+"""Bodies of any convex outline: their mass, distances, times of impact and impacts, against closed forms."""
+
+from __future__ import annotations
+
+import math
+import random
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from sandbox.engine import simulate
+from sandbox.engine.accuracy import LEVELS
+from sandbox.engine.arc import Arc, through
+from sandbox.engine.nearest import Pose, nearest
+from sandbox.engine.run import Run
+from sandbox.engine.setup import Always, Ball, Body, Bounce, Segment, Setup, Surface, kinetic
+from sandbox.engine.shapes import Ellipse, Polygon, Shape, box, capsule, disc, regular
+from sandbox.engine.turning_touch import Mover, first_touch, pose_of
+from sandbox.physics.forces import Gravity
+
+G = 9.81  # m/s^2
+OUTLINES = {
+    "box": box(0.4, 0.3),
+    "rounded box": box(0.4, 0.3, 0.05),
+    "triangle": Polygon(((0.0, 0.0), (0.3, 0.0), (0.1, 0.25))),
+    "rounded triangle": Polygon(((0.0, 0.0), (0.3, 0.0), (0.1, 0.25)), 0.06),
+    "capsule": capsule(0.5, 0.08),
+    "disc": disc(0.2),
+    "ellipse": Ellipse(0.3, 0.12),
+    "heptagon": regular(7, 0.25, 0.02),
+}
+
+
+def random_outline(rng: random.Random) -> Shape:
+    size = rng.uniform(0.2, 1.0)
+    kind = rng.randrange(4)
+    if kind == 0:
+        return Ellipse(size, rng.uniform(0.1, 1.0) * size)
+    if kind == 1:
+        return box(2.0 * size, rng.uniform(0.2, 2.0) * size, rng.choice((0.0, 0.05 * size)))
+    if kind == 2:
+        return capsule(2.0 * size, rng.uniform(0.1, 0.9) * size)
+    turns = [2.0 * math.pi * (k + rng.uniform(0.0, 0.8)) / 6 for k in range(6)]
+    return Polygon([(size * math.cos(turn), size * math.sin(turn)) for turn in turns], rng.choice((0.0, 0.1)))
+
+
+def floor(restitution: float, friction: float) -> list[Surface]:
+    return [Surface("floor", Segment((-50.0, 0.0), (50.0, 0.0)), restitution, friction)]
+
+
+def thrown(shape: Shape, *, mass: float = 2.0, **start: Any) -> Body:
+    return Body("body", shape=shape, mass=mass, forces=(Gravity(mass, G),), **start)
+
+
+def run_of(balls: Sequence[Ball], duration: float, surfaces: Sequence[Surface] = (), **more: Any) -> Run:
+    return simulate(Setup(balls, surfaces, duration, **more), LEVELS["balanced"])
+
+
+# ------------------------------------------------------------------------------------------------ outlines
+
+
+@pytest.mark.parametrize("name", OUTLINES)
+def test_mass_properties_are_those_of_a_fine_polygon(name: str):
+    area, center, moment = OUTLINES[name].mass_properties()
+    fine = Polygon(OUTLINES[name].rim(1e-6)).mass_properties()
+    assert (area, *center, moment) == pytest.approx((fine.area, *fine.center, fine.moment), rel=3e-5, abs=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("shape", "factor"),
+    [
+        (box(0.4, 0.3), (0.16 + 0.09) / 12),
+        (disc(0.2), 0.04 / 2),
+        (Ellipse(0.3, 0.12), (0.09 + 0.0144) / 4),
+        (regular(3, 0.3), 0.09 / 4),
+    ],
+)
+def test_moments_of_inertia_are_those_of_the_textbook(shape: Shape, factor: float):
+    assert Body("body", position=(0.0, 0.0), shape=shape, mass=3.0).inertia == pytest.approx(3.0 * factor, rel=1e-14)
+
+
+def test_mass_follows_from_density_and_center_and_moment_may_be_given():
+    given = Body("body", position=(0.0, 0.0), shape=box(0.4, 0.3), density=5.0, center=(0.1, 0.0))
+    assert given.mass == pytest.approx(0.6)
+    assert given.inertia == pytest.approx(0.6 * (0.25 / 12 + 0.01))
+    assert replace(given, angle=1.0).outline == given.outline
+    assert Body("body", position=(0.0, 0.0), shape=box(0.4, 0.3), mass=1.0, moment=0.7).inertia == pytest.approx(0.7)
+
+
+@pytest.mark.parametrize(
+    ("wrong", "said"),
+    [
+        ({"shape": box(1.0, 1.0)}, "either mass or density"),
+        ({"shape": box(1.0, 1.0), "mass": 1.0, "density": 1.0}, "either mass or density"),
+        ({"shape": Polygon(((0.0, 0.0), (1.0, 0.0))), "mass": 1.0}, "no area"),
+        ({"shape": box(1.0, 1.0), "mass": 1.0, "center": (0.6, 0.0)}, "inside"),
+        ({"shape": box(1.0, 1.0), "mass": 1.0, "angle": math.nan}, "finite"),
+        ({"shape": box(1.0, 1.0), "mass": 1.0, "moment": -1.0}, "positive"),
+    ],
+)
+def test_a_wrong_body_is_refused_with_its_reason(wrong: dict[str, Any], said: str):
+    with pytest.raises(ValueError, match=said):
+        Body("body", position=(0.0, 0.0), **wrong)
+
+
+@pytest.mark.parametrize(
+    "corners",
+    [(), ((0.0, 0.0), (1.0, 0.0), (2.0, 0.0)), ((0, 0), (2, 0), (1, 0.1), (0, 2)), ((0, 0), (1, 1), (1, 0), (0, 1))],
+)
+def test_what_is_not_convex_is_refused(corners: tuple[tuple[float, float], ...]):
+    with pytest.raises(ValueError, match=r"convex|corners"):
+        Polygon(corners)
+
+
+# ------------------------------------------------------------------------------------------------ distances
+
+
+def height(shape: Shape, at: Pose, turns: np.ndarray) -> np.ndarray:
+    """How far an outline reaches in each direction: the widest of its points."""
+    c, s = np.cos(at.angle), np.sin(at.angle)
+    points = np.array(shape.rim(1e-7) if not isinstance(shape, Polygon) else shape.corners)
+    x, y = at.x + c * points[:, 0] - s * points[:, 1], at.y + s * points[:, 0] + c * points[:, 1]
+    reach: np.ndarray = np.max(np.outer(np.cos(turns), x) + np.outer(np.sin(turns), y), axis=1)
+    return reach + shape.radius
+
+
+def test_distances_are_the_widest_strip_between():
+    rng = random.Random(3)
+    for _ in range(40):
+        one, other = random_outline(rng), random_outline(rng)
+        here, there = (Pose(rng.uniform(-2, 2), rng.uniform(-2, 2), rng.uniform(-7, 7)) for _ in range(2))
+        found = nearest(one, here, other, there)
+        coarse = np.linspace(0.0, 2.0 * np.pi, 720)
+        at = coarse[np.argmax(-height(one, here, coarse + np.pi) - height(other, there, coarse))]
+        for width in (1e-2, 1e-4, 1e-6):
+            turns = np.linspace(at - width, at + width, 201)
+            strips = -height(one, here, turns + np.pi) - height(other, there, turns)
+            at = turns[np.argmax(strips)]
+        if strips.max() > 0.0:
+            assert found.gap == pytest.approx(strips.max(), abs=3e-7)
+            assert math.remainder(found.direction - at, 2.0 * math.pi) == pytest.approx(0.0, abs=1e-3)
+        else:
+            assert found.gap <= 0.0
+
+
+def swinging(rng: random.Random, way: float, h: float) -> Arc:
+    """A fast path towards the other that starts ``way`` of the middle."""
+    x, y, angle = way * rng.uniform(2.0, 3.0), rng.uniform(-1.0, 1.0), rng.uniform(-3.0, 3.0)
+    vx, vy, spin = -way * rng.uniform(0.0, 12.0), rng.uniform(-2.0, 2.0), rng.uniform(-40.0, 40.0)
+    ax, ay, turning = rng.uniform(-5.0, 5.0), rng.uniform(-10.0, 10.0), rng.uniform(-30.0, 30.0)
+    end = (x + h * vx + h * h * ax / 2, y + h * vy + h * h * ay / 2, vx + h * ax, vy + h * ay, spin + h * turning)
+    arc = through(0.0, h, (x, y, vx, vy, spin), (ax, ay, turning), end, (ax, ay, turning))
+    turned = angle, *(angle + h * sum(arc.spin[:k]) / len(arc.spin) for k in range(1, len(arc.spin) + 1))
+    arc.start, arc.end, arc.rolling_spin = (*arc.start, angle), (*end, turned[-1]), (turned,)
+    return arc
+
+
+def test_no_touch_of_spinning_outlines_is_missed():
+    """Between the start and the time found, sampled finely, they are apart; then they overlap by the skin."""
+    rng, hits = random.Random(8), 0
+    for _ in range(60):
+        one, other = (Mover(random_outline(rng), swinging(rng, way, 0.6)) for way in (-1.0, 1.0))
+        t = first_touch(one, other, 0.0, 0.6)
+        gaps = [
+            nearest(one.shape, pose_of(one.arc.state(at)), other.shape, pose_of(other.arc.state(at))).gap
+            for at in np.linspace(0.0, 0.6 if t is None else t, 60, endpoint=t is not None)
+        ]
+        assert min(gaps) > -2.1e-11
+        if t is not None:
+            hits += 1
+            assert gaps[-1] == pytest.approx(-2e-11, abs=1e-12)
+    assert hits > 15
+
+
+# ------------------------------------------------------------------------------------------------ impacts
+
+
+@pytest.mark.parametrize("restitution", [0.0, 0.4, 1.0])
+def test_a_rod_struck_off_its_centre(restitution: float):
+    """J = (1 + e) v / (1/M + 1/m + d^2/I); the rod gets J/m and J d/I, the ball loses J/M."""
+    mass, rod_mass, length, d, v = 0.3, 1.2, 1.0, 0.35, 4.0
+    rod = Body("rod", position=(0.0, 0.0), shape=box(0.02, length), mass=rod_mass)
+    ball = Ball("ball", mass, 0.05, (-1.0, d), (v, 0.0))
+    law = Always(Bounce(restitution, 0.0))
+    run = run_of([ball, rod], 0.3, between_balls=law)
+    push = (1.0 + restitution) * v / (1.0 / mass + 1.0 / rod_mass + d * d / rod.inertia)
+    assert run.events[0].t == pytest.approx((1.0 - 0.05 - 0.01) / v, abs=1e-10)
+    state = run.state("rod", 0.3) if restitution else run.state("rod", run.events[0].t)
+    assert state[2:] == pytest.approx((push / rod_mass, 0.0, -push * d / rod.inertia), abs=1e-9)
+
+
+@pytest.mark.parametrize("friction", [0.0, 0.05, 5.0])
+def test_a_box_on_its_corner(friction: float):
+    """The impulse J = K^-1 dv at the corner, with friction up to mu times its normal part, in closed form."""
+    angle, spin, vx, restitution = 0.6, 3.0, 1.5, 0.5
+    body = thrown(box(0.4, 0.3), position=(0.0, 1.0), velocity=(vx, 0.0), spin=spin, angle=angle)
+    run = run_of([body], 0.4, floor(restitution, friction))
+    t = run.events[0].t
+    x, y, ux, uy, spin = run.before("body", t)
+    turned = run.angle("body", t)
+    corners = [complex(*corner) * np.exp(1j * turned) for corner in box(0.4, 0.3).corners]  # type: ignore[arg-type]
+    lowest = min(corners, key=lambda corner: corner.imag)
+    assert y + lowest.imag == pytest.approx(0.0, abs=1e-10)
+    rx, ry = lowest.real, lowest.imag
+    slip, closing = ux - spin * ry, uy + spin * rx
+    m, inertia = body.mass, body.inertia
+    k = np.array([[1 / m + ry * ry / inertia, -rx * ry / inertia], [-rx * ry / inertia, 1 / m + rx * rx / inertia]])
+    along, up = np.linalg.solve(k, (-slip, -(1.0 + restitution) * closing))
+    if abs(along) > friction * up:
+        way = math.copysign(friction, along)
+        up = -(1.0 + restitution) * closing / (k[1, 1] + k[1, 0] * way)
+        along = way * up
+    after = ux + along / m, uy + up / m, spin + (rx * up - ry * along) / inertia
+    assert run.state("body", t)[2:] == pytest.approx(after, abs=1e-9)
+
+
+def test_frictionless_elastic_impacts_conserve_everything():
+    """Momentum, angular momentum and energy to 1e-10 of what there is, through dozens of impacts."""
+    rng = random.Random(4)
+    bodies = [
+        Body(
+            str(number),
+            position=(1.3 * math.cos(number), 1.3 * math.sin(number)),
+            velocity=(-2.0 * math.cos(number) + rng.uniform(-0.4, 0.4), -2.0 * math.sin(number)),
+            spin=rng.uniform(-9.0, 9.0),
+            shape=shape,
+            mass=rng.uniform(0.5, 3.0),
+        )
+        for number, shape in enumerate(list(OUTLINES.values())[:6])
+    ]
+    run = run_of(bodies, 1.5)
+    assert len(run.events) >= 6
+
+    def sums(t: float) -> list[float]:
+        states = [(body, run.state(body.name, t)) for body in bodies]
+        return [
+            sum(kinetic(body, state) for body, state in states),
+            *(sum(body.mass * state[axis] for body, state in states) for axis in (2, 3)),
+            sum(b.mass * (s[0] * s[3] - s[1] * s[2]) + b.inertia * s[4] for b, s in states),
+        ]
+
+    assert sums(1.5) == pytest.approx(sums(0.0), abs=1e-10 * sums(0.0)[0])
+
+
+@pytest.mark.parametrize("friction", [0.0, 0.15, 0.9])
+def test_a_disc_as_body_is_a_ball(friction: float):
+    start: dict[str, Any] = {"position": (0.0, 1.2), "velocity": (1.0, 0.5), "spin": -7.0}
+    ball = Ball("body", 2.0, 0.2, inertia_factor=0.5, forces=(Gravity(2.0, G),), **start)
+    runs = [run_of([one], 1.6, floor(0.8, friction)) for one in (ball, thrown(disc(0.2), **start))]
+    assert len(runs[0].events) == len(runs[1].events) >= 2
+    assert runs[1].state("body", 1.6) == pytest.approx(runs[0].state("body", 1.6), abs=1e-9)
+
+
+def test_a_64_gon_converges_to_its_ellipse():
+    """The first bounce of polygons around the ellipse comes nearer with the square of their corners."""
+    start: dict[str, Any] = {"position": (0.0, 1.0), "spin": 3.0, "angle": 0.4}
+    inertia = 2.0 * (0.09 + 0.0144) / 4
+    exact = run_of([thrown(Ellipse(0.3, 0.12), moment=inertia, **start)], 0.5, floor(0.6, 0.2)).events[0].t
+    for count in (64, 256):
+        turns = [2.0 * math.pi * k / count for k in range(count)]
+        shape = Polygon([(0.3 * math.cos(turn), 0.12 * math.sin(turn)) for turn in turns])
+        found = run_of([thrown(shape, moment=inertia, **start)], 0.5, floor(0.6, 0.2)).events[0].t
+        assert 0.0 <= found - exact < 0.5 / count**2
+
+
+@pytest.mark.parametrize("shape", ["box", "rounded triangle", "capsule"])
+def test_pymunks_own_stepping_converges_to_the_exact_run(shape: str):
+    body = thrown(OUTLINES[shape], position=(0.0, 0.7), velocity=(1.0, 0.0), spin=5.0, angle=0.3)
+    setup = Setup([body], floor(0.6, 0.3), 0.6)
+    exact = simulate(setup, LEVELS["balanced"])
+    assert len(exact.events) >= 1
+    plain = [simulate(setup, replace(LEVELS["balanced"], method="plain", step=step)) for step in (2e-3, 1e-4)]
+    off = [np.abs(np.subtract(run.state("body", 0.6), exact.state("body", 0.6))).max() for run in plain]
+    assert off[1] < 0.02
+    assert off[1] < 0.3 * off[0]
+
+
+def test_a_box_that_falls_on_its_corner_tumbles_and_comes_to_rest():
+    run = run_of([thrown(box(0.4, 0.3), position=(0.0, 1.0), spin=4.0, angle=0.5)], 4.0, floor(0.5, 0.3))
+    assert run.ended == "rest"
+    assert run.events[-1].kind == "rest"
+    _, y, *motion = run.state("body", run.duration)
+    assert motion == pytest.approx([0.0, 0.0, 0.0], abs=1e-12)
+    assert min(abs(y - 0.15), abs(y - 0.2)) < 5e-4
+    assert math.remainder(run.angle("body", run.duration), math.pi / 2) == pytest.approx(0.0, abs=2e-3)
+
+
+def test_a_box_slides_down_a_slope_as_the_textbook_says():
+    """a = g (sin - mu cos)."""
+    slope, friction = 0.5, 0.2
+    c, s = math.cos(slope), math.sin(slope)
+    surface = Surface("slope", Segment((-20.0 * c, 20.0 * s), (20.0 * c, -20.0 * s)), 0.3, friction)
+    start = 0.151 * s, 0.151 * c
+    run = run_of([thrown(box(0.4, 0.3), position=start, angle=-slope)], 2.0, [surface])
+    assert math.hypot(*run.state("body", 2.0)[2:4]) == pytest.approx(G * (s - friction * c) * 2.0, rel=5e-3)
