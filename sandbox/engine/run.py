@@ -91,9 +91,9 @@ class Run:
 
     def angle(self, ball: str, t: float) -> float:
         """Angle in rad that a ball has turned since the start, or at which a body is, counter-clockwise."""
-        first = self._path(ball)[0].start
-        if self.setup.plane is None and len(first) == 6:
-            return float(self._full_state(ball, t)[5])
+        state = self._path(ball).at(t).state(t)
+        if len(state) == 6:
+            return float(state[5])
         turned = 0.0
         for arc in self._path(ball):
             if arc.t0 >= t:
