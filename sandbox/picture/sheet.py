@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from contextvars import ContextVar
 from math import ceil, floor, hypot, log10
 from typing import NamedTuple
 
@@ -32,10 +33,14 @@ SQUAREST = 4 / 3
 ROWS_FOR_YARDS, ROWS_FOR_LENGTHS = 480, 240
 
 
+#: How many times as large letters and lines are drawn: more for a small screen with many px.
+DENSITY: ContextVar[float] = ContextVar("density", default=1.0)
+
+
 def rows_of(size: tuple[int, int]) -> int:
     """The rows in px that letters and lines of a picture are made for: its own, or fewer where it is narrow."""
     width, height = size
-    return min(height, round(width / SQUAREST))
+    return round(DENSITY.get() * min(height, width / SQUAREST))
 
 
 class SideRows(NamedTuple):

@@ -7,10 +7,10 @@ section "What a scene may say"; everything else is the same for all.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 from math import atan2, degrees, dist, floor, hypot, inf, log2, pi
-from typing import ClassVar, Generic, TypeVar
+from typing import ClassVar, Generic, NamedTuple, TypeVar
 
 import numpy as np
 import pygame
@@ -42,7 +42,18 @@ UNSAID = 1.05
 #: Radius of a bead on the path: at most so much of that of the balls there, and so many px on 720 rows.
 BEAD, LARGEST_BEAD = 0.5, 3.0
 
+#: The path of a ball besides the one that is played is so much as thick.
+OTHERS = 0.6
+
 P = TypeVar("P", bound=Group)
+
+
+class Heading(NamedTuple):
+    """What stands over a poster: a headline, notes on what is drawn, and how wide they may be, in px."""
+
+    text: str
+    notes: list[str]
+    room: float
 
 
 class View(Generic[P]):
@@ -292,20 +303,35 @@ class View(Generic[P]):
 
     def poster(self) -> pygame.Surface:
         """The whole run in one picture."""
+        for _ in self.layers():
+            pass
+        sheet, (text, notes, room) = self.sheet, self.heading
+        sheet.headline(text, notes, room)
+        sheet.columns(self.card_row, self.numbers(), [ghost.row for ghost in self.ghosts])
+        for ghost in self.ghosts:
+            label_ghost(sheet, ghost, self.traced(self.camera, ghost.points), self.trace)
+        return sheet.surface
+
+    def layers(self) -> Iterator[pygame.Surface]:
+        """The poster without its text and other runs' names, as it is after each layer: the place, the paths, the balls
+        along them, the balls, and what stands before them. Then ``heading`` is known."""
         sheet = self.sheet = Sheet(self.size, self.on_dark)
         camera, painter = self.camera, sheet.painter
         self.backdrop(painter, camera)
         self.behind(painter, camera, self.moment)
+        yield sheet.surface
         traces = {name: self.traced(camera, path.points) for name, path in self.paths.items()}
         self.trace = traces.pop(self.ball)
-        others = [(ghost, self.traced(camera, ghost.points)) for ghost in self.ghosts]
-        for ghost, points in others:
-            draw_ghost(sheet, ghost, points)
+        for ghost in self.ghosts:
+            draw_ghost(sheet, ghost, self.traced(camera, ghost.points))
         for name, points in traces.items():
-            draw_trace(sheet, points, self.colour_of(name), 0.6)
+            draw_trace(sheet, points, self.colour_of(name), OTHERS)
         draw_trace(sheet, self.trace, self.colour_of(self.ball))
+        yield sheet.surface
         every = self.strobe(sheet, camera)
+        yield sheet.surface
         self._balls(painter, camera, self.told)
+        yield sheet.surface
         self.before(painter, camera, self.moment)
         self.dimensions(sheet, camera)
         self.measure(sheet, camera)
@@ -313,11 +339,8 @@ class View(Generic[P]):
         mark_impacts(sheet, camera, self.impacts(camera), last=self._placed(camera, self.told, 1.0).get(self.ball))
         room = self._room(sheet, camera, None)
         notes = [*(ghost.note for ghost in self.ghosts), *self.aligned, *every[:1], *self.notes(camera), *every[1:]]
-        sheet.headline(self.verdict(), notes, room)
-        sheet.columns(self.card_row, self.numbers(), [ghost.row for ghost in self.ghosts])
-        for ghost, points in others:
-            label_ghost(sheet, ghost, points, self.trace)
-        return sheet.surface
+        self.heading = Heading(self.verdict(), notes, room)
+        yield sheet.surface
 
     def frame(self, t: float) -> pygame.Surface:
         """The scene at time t in s."""

@@ -2,30 +2,110 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from contextvars import ContextVar
+from typing import NamedTuple
+
 from sandbox import units
-
-#: Digits after the point, by unit; three figures for a unit that is not here.
-DIGITS = {"m/s": 1, "mph": 0, "km/h": 0, "deg": 1, "moa": 1, "rpm": 0, "s": 2, "yd": 0, "ft": 1, "J": 1}
-
-#: Below this a number has one more digit: 7.47 m/s, 12.3 yd.
-FINER_BELOW = {"m/s": 10.0, "yd": 20.0}
+from sandbox.errors import RequestError
 
 
-def amount(value: float, unit: str = "") -> str:
-    """A number with its unit. A length shorter than 10 cm is written in cm, one from 10 km on in km."""
-    if isinstance(value, int):
+class Step(NamedTuple):
+    """From ``least`` on, in the unit of its ladder, numbers are written in ``unit`` with so many ``digits`` after the
+    point."""
+
+    least: float
+    unit: str
+    digits: int
+
+
+Ladder = Sequence[Step]
+
+#: How people write numbers of a unit, the largest first; one that is not here has three figures.
+LADDERS: dict[str, Ladder] = {
+    "m": (Step(10_000, "km", 1), Step(10, "m", 1), Step(0.0995, "m", 2), Step(0.0005, "cm", 1), Step(0, "m", 2)),
+    "m/s": (Step(10, "m/s", 1), Step(0, "m/s", 2)),
+    "yd": (Step(20, "yd", 0), Step(0, "yd", 1)),
+    **{unit: (Step(0, unit, 0),) for unit in ("mph", "km/h", "rpm")},
+    **{unit: (Step(0, unit, 1),) for unit in ("deg", "moa", "ft", "J", "in", "cm")},
+    "s": (Step(0, "s", 2),),
+}
+
+#: What takes the place of those, by kind of unit; the ladders are in the kind's SI unit.
+SYSTEMS: dict[str, Mapping[str, Ladder]] = {
+    "si": {},
+    "us": {
+        "length": (Step(91.44, "yd", 0), Step(0.3, "ft", 1), Step(0.001, "in", 1), Step(0, "ft", 1)),
+        "speed": (Step(8.94, "mph", 0), Step(0, "mph", 1)),
+        "mass": (Step(0.4536, "lb", 2), Step(0, "oz", 2)),
+        "force": (Step(0, "lbf", 2),),
+    },
+}
+_chosen: ContextVar[Mapping[str, Ladder]] = ContextVar("units", default=SYSTEMS["si"])
+
+
+def system_of(text: str) -> Mapping[str, Ladder]:
+    """The ladders by kind that ``us``, ``si``, or a list of units such as ``ft,mph`` asks for. Raises RequestError."""
+    if text in SYSTEMS:
+        return SYSTEMS[text]
+    names = [units.suggestion(name.strip()) for name in text.split(",")]
+    for name, given in zip(names, text.split(","), strict=True):
+        if name not in units.KIND_OF or not name:
+            raise RequestError(f"--units {given.strip()}: is neither us nor si nor a known unit, as in --units ft,mph")
+    return {units.KIND_OF[name]: LADDERS.get(name, (Step(0, name, 2),)) for name in names}
+
+
+@contextmanager
+def shown_in(text: str | None) -> Iterator[None]:
+    """Inside, numbers for people are in these units; None changes nothing. What is stored is not affected."""
+    token = None if text is None else _chosen.set(system_of(text))
+    try:
+        yield
+    finally:
+        if token is not None:
+            _chosen.reset(token)
+
+
+def ladder(unit: str) -> Ladder:
+    """How numbers of a unit are written now, with ``least`` in that unit; empty for one with three figures."""
+    own = _chosen.get().get(units.KIND_OF.get(unit, ""))
+    if own is None:
+        return LADDERS.get(unit, ())
+    first = next(iter(units.KINDS[units.KIND_OF[unit]])) if len(own) > 1 else unit
+    return [Step(units.convert(step.least, first, unit), *step[1:]) for step in own]
+
+
+def written(value: float, unit: str, steps: Ladder, digits: int | None = None) -> str:
+    """A number of ``unit`` on a ladder; ``digits`` in place of the ladder's."""
+    step = next((step for step in steps if abs(value) >= step.least), steps[-1])
+    number = units.convert(value, unit, step.unit) if step.unit != unit else value
+    text = signed(f"{number:.{step.digits if digits is None else digits}f}")
+    return f"{text}°" if step.unit == "deg" else f"{text} {step.unit}"
+
+
+def amount(value: float, unit: str = "", digits: int | None = None) -> str:
+    """A number with its unit, in the units that were chosen; ``digits`` after the point where it is given."""
+    if isinstance(value, int) and not _chosen.get():
         return f"{value} {unit}".rstrip()
-    if unit == "m":
-        return f"{signed(f'{100 * value:.1f}')} cm" if 0.0005 <= abs(value) < 0.0995 else metres(value)
-    if unit not in DIGITS:
-        return f"{signed(f'{value:.3g}')} {unit}".rstrip()
-    number = signed(f"{value:.{DIGITS[unit] + (abs(value) < FINER_BELOW.get(unit, 0.0))}f}")
-    return f"{number}°" if unit == "deg" else f"{number} {unit}"
+    steps = ladder(unit)
+    return written(value, unit, steps, digits) if steps else f"{signed(f'{value:.3g}')} {unit}".rstrip()
 
 
 def converted(value: float, unit: str, other: str) -> str:
-    """A number of ``unit`` written in the unit ``other``."""
-    return amount(units.convert(value, unit, other), other)
+    """A number of ``unit`` written in the unit ``other``, whatever was chosen."""
+    return written(units.convert(value, unit, other), other, LADDERS.get(other, (Step(0, other, 2),)))
+
+
+def in_both(value: float, unit: str, other: str) -> tuple[str, str]:
+    """A number of ``unit`` as it is written, and for those who count in ``other``: which comes first where another
+    system of units was chosen."""
+    second = converted(value, unit, other)
+    own = _chosen.get().get(units.KIND_OF[unit])
+    if own is None:
+        return amount(value, unit), second
+    first = second if any(step.unit == other for step in own) else amount(value, unit)
+    return first, written(value, unit, LADDERS[unit]) if unit in LADDERS else f"{value:.3g} {unit}"
 
 
 def margin(error: float, unit: str, count: bool = False) -> str:
@@ -54,17 +134,18 @@ def signed(number: str) -> str:
 
 
 def metres(value: float, digits: int | None = None) -> str:
-    """A length as people write it: 0.42 m, 8.31 m, 251.4 m, 12.3 km; or with ``digits`` after the point."""
-    if abs(value) >= 10_000:
-        return signed(f"{value / 1000:.1f}") + " km"
-    if digits is None:
-        digits = 2 if abs(value) < 10 else 1
-    return signed(f"{value:.{digits}f}") + " m"
+    """A length in m as people write it on a scale, without cm: 0.42 m, 8.31 m, 251.4 m, 12.3 km; or with ``digits``
+    after the point. It is in the units that were chosen."""
+    steps = [step for step in ladder("m") if step.unit != "cm" or _chosen.get()]
+    return written(value, "m", steps, None if digits is not None and abs(value) >= steps[0].least else digits)
 
 
 def roughly(value: float) -> str:
-    """A length of 0 or more, rounded for a sentence: 0.14 m, 2.9 m, 252 m."""
-    return metres(value, 0 if value >= 9.95 else 1 if value >= 0.995 else 2)
+    """A length in m of 0 or more, rounded for a sentence: 0.14 m, 2.9 m, 252 m."""
+    steps = [step for step in ladder("m") if step.unit != "cm" or _chosen.get()]
+    step = next((step for step in steps if value >= step.least), steps[-1])
+    number = units.convert(value, "m", step.unit)
+    return written(value, "m", steps, 0 if number >= 9.95 and step.unit != "km" else 1 if number >= 0.995 else 2)
 
 
 def times(factor: float) -> str:

@@ -1,0 +1,655 @@
+"use strict";
+// Plays one run. Its paths are the polynomials that the run was computed with, so any instant is exact; lengths are in
+// m, times in s, spins in rad/s, and on the picture in px of the layer that is shown.
+
+const SLOWEST = -4, FASTEST = 3; // powers of two
+const STEP = 1 / 60; // s
+const NEAR = 28; // px around the pointer in which a path is found
+
+const $ = (id) => document.getElementById(id);
+
+// ------------------------------------------------------------------------------------------------ what Python sent
+
+async function unpacked(text) {
+  const packed = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
+  return new Response(new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate")));
+}
+
+async function image(url) {
+  const found = new Image();
+  found.src = url;
+  await found.decode();
+  return found;
+}
+
+/** Pixels of an image, as bytes of red, green, blue and opacity. */
+function pixels(picture) {
+  const canvas = new OffscreenCanvas(picture.width, picture.height);
+  const context = canvas.getContext("2d");
+  context.drawImage(picture, 0, 0);
+  return context.getImageData(0, 0, picture.width, picture.height).data;
+}
+
+// ------------------------------------------------------------------------------------------------ paths
+
+const BINOMIALS = [[1], [1, 1], [1, 2, 1], [1, 3, 3, 1], [1, 4, 6, 4, 1], [1, 5, 10, 10, 5, 1], [1, 6, 15, 20, 15, 6, 1]];
+
+/** A polynomial in Bernstein form at u from 0 to 1. */
+function evaluate(curve, u) {
+  const n = curve.length - 1, back = u > 0.5, r = back ? (1 - u) / u : u / (1 - u);
+  let value = 0;
+  for (let k = n; k >= 0; k--) value = value * r + BINOMIALS[n][k] * curve[back ? n - k : k];
+  return value * (back ? u : 1 - u) ** n;
+}
+
+const derivative = (curve) =>
+  curve.length > 1 ? curve.slice(1).map((value, k) => (curve.length - 1) * (value - curve[k])) : [0];
+
+/** The integral from 0 to u. */
+function integral(curve, u) {
+  let sum = 0;
+  const sums = [0, ...curve.map((value) => (sum += value / curve.length))];
+  return evaluate(sums, u);
+}
+
+/** The path of one ball: arcs [t0, t1, x, y, spin, velocity if t1 = t0, spins about x and y]. */
+class Path {
+  constructor(arcs) {
+    this.arcs = arcs;
+    let turned = 0;
+    this.turned = arcs.map((arc) => {
+      const before = turned;
+      turned += (arc[1] - arc[0]) * integral(arc[4], 1);
+      return before;
+    });
+  }
+
+  /** The last arc that has begun at time t, and the share of it that is over. */
+  find(t) {
+    let low = 0, high = this.arcs.length - 1;
+    while (low < high) {
+      const middle = (low + high + 1) >> 1;
+      if (this.arcs[middle][0] <= t) low = middle;
+      else high = middle - 1;
+    }
+    const [t0, t1] = this.arcs[low];
+    return [low, t1 > t0 ? Math.min(1, Math.max(0, (t - t0) / (t1 - t0))) : 0];
+  }
+
+  /** [x, y, vx, vy, spin] at time t, after an impact at t. */
+  state(t) {
+    const [i, u] = this.find(t), [t0, t1, x, y, spin, velocity] = this.arcs[i], h = t1 - t0;
+    const speeds = velocity || [evaluate(derivative(x), u) / h, evaluate(derivative(y), u) / h];
+    return [evaluate(x, u), evaluate(y, u), ...speeds, evaluate(spin, u)];
+  }
+
+  /** Angle in rad that it has turned about the axis out of the picture. */
+  angle(t) {
+    const [i, u] = this.find(t), [t0, t1, , , spin] = this.arcs[i];
+    return this.turned[i] + (t1 - t0) * integral(spin, u);
+  }
+
+  /** Spins about x, y and out of the picture of a ball on cloth. */
+  spins(t) {
+    const [i, u] = this.find(t), [, , , , spin, , across] = this.arcs[i];
+    return [...(across || [[0], [0]]), spin].map((curve) => evaluate(curve, u));
+  }
+}
+
+// ------------------------------------------------------------------------------------------------ how balls are turned
+
+const times = (a, b) => a.map((row) => b[0].map((_, j) => row.reduce((sum, value, k) => sum + value * b[k][j], 0)));
+
+/** The matrix that turns by the length of the vector, in rad, about its direction. */
+function turnedBy(vector) {
+  const angle = Math.hypot(...vector);
+  const [x, y, z] = angle ? vector.map((part) => part / angle) : [0, 0, 1];
+  const c = Math.cos(angle), s = Math.sin(angle), d = 1 - c;
+  return [
+    [c + d * x * x, d * x * y - s * z, d * x * z + s * y],
+    [d * x * y + s * z, c + d * y * y, d * y * z - s * x],
+    [d * x * z - s * y, d * y * z + s * x, c + d * z * z],
+  ];
+}
+
+/** How a ball on cloth is turned: followed in short steps where its axis turns. */
+class Turning {
+  constructor(path, start) {
+    this.path = path;
+    this.steps = [];
+    let matrix = start;
+    for (const [t0, t1] of path.arcs) {
+      const a = path.spins(t0 + (t1 - t0) / 3), b = path.spins(t1 - (t1 - t0) / 3);
+      const across = Math.hypot(a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]);
+      const pieces = across <= 1e-9 * Math.hypot(...a) * Math.hypot(...b) ? 1 : Math.ceil((t1 - t0) / STEP);
+      for (let i = 0; i < pieces; i++) {
+        const from = t0 + ((t1 - t0) * i) / pieces;
+        this.steps.push([from, matrix]);
+        matrix = this.after(matrix, from, t0 + ((t1 - t0) * (i + 1)) / pieces);
+      }
+    }
+  }
+
+  after(matrix, from, until) {
+    if (until <= from) return matrix;
+    return times(turnedBy(this.path.spins((from + until) / 2).map((rate) => rate * (until - from))), matrix);
+  }
+
+  at(t) {
+    let low = 0, high = this.steps.length - 1;
+    while (low < high) {
+      const middle = (low + high + 1) >> 1;
+      if (this.steps[middle][0] <= t) low = middle;
+      else high = middle - 1;
+    }
+    return this.after(this.steps[low][1], this.steps[low][0], t);
+  }
+}
+
+// ------------------------------------------------------------------------------------------------ balls
+
+/** Draws a ball by looking up its skin, lit from over the left shoulder; the last sprite is kept. */
+class Sprite {
+  constructor(look, light) {
+    this.look = look;
+    this.light = light;
+    this.key = "";
+  }
+
+  draw(context, x, y, radius, turn) {
+    const scale = context.getTransform().a, side = 2 * Math.ceil(radius * scale + 1), key = `${side} ${turn.flat().map((v) => v.toFixed(3))}`;
+    if (key !== this.key) {
+      this.key = key;
+      this.canvas = this.painted(side, radius * scale, turn);
+    }
+    context.drawImage(this.canvas, x - side / scale / 2, y - side / scale / 2, side / scale, side / scale);
+  }
+
+  painted(side, radius, turn) {
+    const finer = radius < 40 ? 2 : 1, wide = side * finer, canvas = new OffscreenCanvas(wide, wide);
+    const context = canvas.getContext("2d"), drawn = context.createImageData(wide, wide), out = drawn.data;
+    const { skin, face, gloss } = this.look, { towards, dark, edge } = this.light;
+    const halfway = [towards[0], towards[1], towards[2] + 1], far = Math.hypot(...halfway);
+    for (let row = 0; row < wide; row++) {
+      for (let column = 0; column < wide; column++) {
+        let x = (column + 0.5 - wide / 2) / finer / radius, y = (wide / 2 - row - 0.5) / finer / radius;
+        const away = Math.hypot(x, y), cover = Math.min(1, Math.max(0, (1 - away) * radius * finer + 0.5));
+        if (!cover) continue;
+        if (away > 1) [x, y] = [x / away, y / away];
+        const z = Math.sqrt(Math.max(0, 1 - x * x - y * y));
+        const own = [0, 1, 2].map((j) => x * turn[0][j] + y * turn[1][j] + z * turn[2][j]);
+        const place = (value) => Math.min(face - 1, Math.floor(((value + 1) / 2) * face));
+        const from = 4 * (place(own[1]) * 2 * face + place(own[0]) + (own[2] < 0 ? face : 0));
+        const lit = Math.max(0, x * towards[0] + y * towards[1] + z * towards[2]);
+        const bright = (dark + (1.16 - dark) * lit) * (edge + (1 - edge) * Math.sqrt(z));
+        const shine = gloss * 255 * Math.max(0, (x * halfway[0] + y * halfway[1] + z * halfway[2]) / far) ** 60;
+        const to = 4 * (row * wide + column);
+        for (let i = 0; i < 3; i++) out[to + i] = skin[from + i] * bright + shine;
+        out[to + 3] = 255 * cover;
+      }
+    }
+    context.putImageData(drawn, 0, 0);
+    return canvas;
+  }
+}
+
+// ------------------------------------------------------------------------------------------------ numbers for people
+
+let ladders = {};
+
+/** A number of a unit, on the ladder that Python uses. */
+function amount(value, unit) {
+  const steps = ladders[unit], step = steps.find(([least]) => Math.abs(value) >= least) || steps[steps.length - 1];
+  const [, factor, name, digits] = step, text = (value * factor).toFixed(digits);
+  const number = Number(text) === 0 ? text.replace("-", "") : text.replace("-", "−");
+  return name === "deg" ? `${number}°` : `${number} ${name}`;
+}
+
+// ------------------------------------------------------------------------------------------------ the page
+
+class Player {
+  constructor(data) {
+    this.data = data;
+    ladders = data.ladders;
+    this.main = data.balls.find((ball) => ball.name === data.ball);
+    for (const ball of [...data.balls, ...data.ghosts]) ball.path = new Path(ball.arcs);
+    for (const ball of data.balls) {
+      ball.sprite = new Sprite(data.looks[ball.look], data.light);
+      if (data.on_cloth) ball.turning = new Turning(ball.path, ball.lying);
+    }
+    this.canvas = $("picture");
+    this.context = this.canvas.getContext("2d");
+    this.t = data.told;
+    this.whole = true; // the poster, until it is played
+    this.playing = false;
+    this.power = 0; // of two: the speed
+    this.hint = document.createElement("div");
+    this.hint.id = "hint";
+    this.hint.hidden = true;
+    this.canvas.after(this.hint);
+    this.controls();
+    this.keys();
+    this.pointer();
+    new ResizeObserver(() => this.resized()).observe(this.canvas);
+    this.resized();
+  }
+
+  // -------------------------------------------------------------------------------------------- the picture
+
+  resized() {
+    const wide = this.canvas.clientWidth, views = this.data.views;
+    this.view = views[wide < 700 ? views.length - 1 : 0];
+    const [width, height] = this.view.size, density = Math.max(1, window.devicePixelRatio || 1);
+    this.canvas.style.aspectRatio = `${width} / ${height}`;
+    this.shown = wide / width; // CSS px for one of the view
+    this.canvas.width = Math.round(wide * density);
+    this.canvas.height = Math.round((wide * density * height) / width);
+    for (const ball of [...this.data.balls, ...this.data.ghosts]) ball.line = this.line(ball);
+    this.heading(wide);
+    this.draw();
+  }
+
+  /** The headline is as large as fits on one line. */
+  heading(wide) {
+    const title = document.querySelector("h1"), room = this.view.room * this.shown;
+    title.parentElement.style.maxWidth = `${room}px`;
+    title.className = "";
+    if (wide >= 700 && title.offsetHeight > 1.5 * parseFloat(getComputedStyle(title).lineHeight)) title.className = "medium";
+  }
+
+  ground(x) {
+    const { from, step, heights } = this.data.ground, place = Math.min(Math.max((x - from) / step, 0), heights.length - 1);
+    const i = Math.min(Math.floor(place), heights.length - 2);
+    return heights[i] + (place - i) * (heights[i + 1] - heights[i]);
+  }
+
+  pixel(x, y) {
+    const { at, anchor, scale, stretch } = this.view;
+    return [anchor[0] + (x - at[0]) * scale, anchor[1] - (y - at[1]) * scale * stretch];
+  }
+
+  /** Where a ball of a radius in px is drawn: one that is drawn too large lies on the ground and not in it. */
+  spot(x, y, radius = 0) {
+    const [px, py] = this.pixel(x, y);
+    if (!this.data.ground || this.view.lift === null) return [px, py];
+    const ground = this.ground(x);
+    return [px, y > ground ? Math.min(py - this.view.lift, this.pixel(x, ground)[1] - radius) : py];
+  }
+
+  /** Points [x, y, t] of a path until its end is told, close enough together to look smooth. */
+  line(ball) {
+    const [dx, dy] = ball.shift || [0, 0], points = [], { scale, stretch } = this.view;
+    for (const [t0, t1, x, y] of ball.path.arcs) {
+      if (t0 > this.data.told) break;
+      let long = 0;
+      for (let k = 1; k < x.length; k++) long += Math.hypot(x[k] - x[k - 1], (y[k] - y[k - 1]) * stretch) * scale;
+      const pieces = Math.max(1, Math.min(200, Math.ceil(long / 4)));
+      for (let i = 0; i <= pieces; i++) {
+        const t = Math.min(this.data.told, t0 + ((t1 - t0) * i) / pieces), u = t1 > t0 ? (t - t0) / (t1 - t0) : 0;
+        points.push([...this.spot(evaluate(x, u) + dx, evaluate(y, u) + dy), t]);
+      }
+    }
+    return points;
+  }
+
+  trace(points, from, until, width, colour, opacity, rim) {
+    const { context } = this;
+    context.beginPath();
+    for (const [x, y, t] of points) if (t >= from && t <= until) context.lineTo(x, y);
+    context.lineJoin = context.lineCap = "round";
+    context.globalAlpha = opacity;
+    for (const [wide, ink] of rim ? [[width + rim, this.data.rim], [width, colour]] : [[width, colour]]) {
+      context.lineWidth = wide;
+      context.strokeStyle = ink;
+      context.stroke();
+    }
+    context.globalAlpha = 1;
+  }
+
+  draw() {
+    const { context, view, data, whole } = this, unit = view.unit;
+    const t = this.t, faint = whole || t >= data.told ? 1 : 0.3;
+    const density = this.canvas.width / view.size[0];
+    context.setTransform(density, 0, 0, density, 0, 0);
+    context.drawImage(view.place, 0, 0, ...view.size);
+    for (const [ball, x, y] of data.links) {
+      const path = data.balls[ball].path.state(t);
+      context.beginPath();
+      context.moveTo(...this.pixel(x, y));
+      context.lineTo(...this.pixel(path[0], path[1]));
+      context.lineWidth = 1.5 * unit;
+      context.strokeStyle = data.link;
+      context.stroke();
+    }
+    for (const ghost of data.ghosts) this.trace(ghost.line, 0, Infinity, 4.5 * unit, ghost.colour, data.earlier);
+    const balls = [...data.balls.filter((ball) => ball !== this.main), this.main];
+    for (const ball of balls) {
+      const width = (ball === this.main ? 1 : data.others) * Math.max(2.5, 4.5 * unit), rim = 2 * Math.max(0.75, unit);
+      const here = [...this.spot(...ball.path.state(t)), t];
+      if (faint < 1) this.trace(ball.line, 0, Infinity, width, ball.colour, faint);
+      this.trace(faint < 1 ? [...ball.line.filter((point) => point[2] < t), here] : ball.line, 0, Infinity, width, ball.colour, 1, rim);
+    }
+    context.globalAlpha = whole ? 1 : 0.55;
+    context.drawImage(view.along, 0, 0, ...view.size);
+    context.globalAlpha = 1;
+    for (const ghost of data.ghosts) this.ghost(ghost, t);
+    if (!whole && $("arrows").checked) this.vectors(t);
+    for (const ball of balls) this.ball(ball, t);
+    context.drawImage(view.over, 0, 0, ...view.size);
+    if (this.pointed) this.point();
+    this.now();
+  }
+
+  ball(ball, t) {
+    if (ball.caught !== null && t >= ball.caught) return;
+    const { context, view, data } = this, [x, y] = ball.path.state(t);
+    const radius = Math.max(ball.radius * view.scale, view.least), [px, py] = this.spot(x, y, radius);
+    if (ball.outline) return this.outline(ball, t);
+    this.shadow(ball, x, y, px, py, radius);
+    context.globalAlpha = 0.65;
+    this.disc(px, py, radius + Math.max(0.7, 0.8 * view.unit), data.rim);
+    context.globalAlpha = 1;
+    const turn = ball.turning ? ball.turning.at(t) : times(turnedBy([0, 0, ball.path.angle(t)]), ball.lying);
+    ball.sprite.draw(context, px, py, radius, turn);
+    if (data.balls.length === 1 && radius > data.unsaid * ball.radius * view.scale) {
+      context.beginPath();
+      context.arc(px, py, radius + 4.5 * view.unit, 0, 2 * Math.PI);
+      context.lineWidth = Math.max(1.2, 1.7 * view.unit);
+      context.strokeStyle = data.accent;
+      context.stroke();
+    }
+  }
+
+  /** A body with corners, turned as it is. */
+  outline(ball, t) {
+    const { context, view } = this, [x, y] = ball.path.state(t), angle = ball.path.angle(t);
+    const c = Math.cos(angle), s = Math.sin(angle);
+    context.beginPath();
+    for (const [a, b] of ball.outline) context.lineTo(...this.pixel(x + c * a - s * b, y + s * a + c * b));
+    context.closePath();
+    context.fillStyle = ball.colour;
+    context.strokeStyle = this.data.rim;
+    context.lineWidth = Math.max(1, view.unit);
+    context.fill();
+    context.stroke();
+  }
+
+  shadow(ball, x, y, px, py, radius) {
+    const { context, view, data } = this;
+    let at = [px + 0.4 * radius, py + 0.5 * radius], size = [1.05 * radius, 0.95 * radius], dark = 0.55;
+    if (data.ground) {
+      const ground = this.ground(x), height = y - ball.radius - ground;
+      if (height < -0.5 * ball.radius) return;
+      const near = 1 / (1 + (Math.max(0, height) * view.scale * view.stretch) / (80 * view.unit));
+      at = [px, this.pixel(x, ground)[1] + view.unit];
+      size = [radius * (2.2 - near), 0.35 * radius];
+      dark = 0.15 + 0.45 * near;
+    } else if (!data.shadows) return;
+    context.save();
+    context.translate(...at);
+    context.scale(...size);
+    const fading = context.createRadialGradient(0, 0, 0.4, 0, 0, 1.4);
+    fading.addColorStop(0, data.shadow);
+    fading.addColorStop(1, `${data.shadow}00`);
+    context.fillStyle = fading;
+    context.globalAlpha = dark;
+    context.fillRect(-1.5, -1.5, 3, 3);
+    context.restore();
+  }
+
+  disc(x, y, radius, colour) {
+    this.context.beginPath();
+    this.context.arc(x, y, radius, 0, 2 * Math.PI);
+    this.context.fillStyle = colour;
+    this.context.fill();
+  }
+
+  /** Another run's ball, with its name beside it. */
+  ghost(ghost, t) {
+    const { context, view } = this, { arcs } = ghost.path, until = Math.min(t, arcs[arcs.length - 1][1]);
+    const [x, y] = ghost.path.state(until), radius = Math.max(3, 6 * view.unit);
+    const [px, py] = this.spot(x + ghost.shift[0], y + ghost.shift[1], radius);
+    this.disc(px, py, radius, ghost.light);
+    context.font = `700 ${Math.max(11, 14.5 * view.unit)}px "Sandbox Sans", "Noto Sans", sans-serif`;
+    const wide = context.measureText(ghost.label).width + 12 * view.unit, tall = 22 * view.unit;
+    const left = Math.min(px - wide / 2, view.size[0] - wide - 4), top = py - radius - tall - 5 * view.unit;
+    context.fillStyle = this.data.card;
+    context.beginPath();
+    context.roundRect(Math.max(4, left), top, wide, tall, tall / 2);
+    context.fill();
+    context.fillStyle = ghost.light;
+    context.textBaseline = "middle";
+    context.fillText(ghost.label, Math.max(4, left) + 6 * view.unit, top + tall / 2);
+  }
+
+  // -------------------------------------------------------------------------------------------- arrows
+
+  /** Name and colour of each force, and its components in N at time t. */
+  forces(t) {
+    const { times: at, causes } = this.data.forces;
+    let i = at.findIndex((other) => other > t);
+    i = i < 0 ? at.length - 2 : Math.max(0, i - 1);
+    const u = at[i + 1] > at[i] ? Math.min(1, (t - at[i]) / (at[i + 1] - at[i])) : 1;
+    return causes.map(({ name, colour, x, y }) => {
+      const both = [x, y].map((values) => (values[i] === null || values[i + 1] === null ? null : values[i] + u * (values[i + 1] - values[i])));
+      return { name, colour, force: both.includes(null) ? null : both };
+    });
+  }
+
+  vectors(t) {
+    const { view, main, data } = this, [x, y, vx, vy] = main.path.state(t);
+    if (main.caught !== null && t >= main.caught) return;
+    const radius = Math.max(main.radius * view.scale, view.least), at = this.spot(x, y, radius);
+    const arrow = (vector, longest, length, width, colour) => {
+      const size = Math.hypot(...vector), shown = longest > 0 ? Math.min(1.5, size / longest) * length * view.unit : 0;
+      if (shown < data.arrows.shortest * view.unit) return;
+      const along = vector[0] / size, down = -vector[1] / size;
+      const tail = [at[0] + along * radius, at[1] + down * radius];
+      this.arrow(tail, along, down, shown, Math.min(width, shown / view.unit / 4.2) * view.unit, colour);
+    };
+    arrow([vx, vy], data.arrows.fastest, data.arrows.velocity, 3.4, data.arrows.colour);
+    for (const { force, colour } of this.forces(t)) if (force) arrow(force, data.arrows.strongest, data.arrows.force, 4.2, colour);
+  }
+
+  arrow([x, y], along, down, length, width, colour) {
+    const { context } = this, head = Math.min(3.5 * width, length), half = 0.62 * head, neck = length - head;
+    const corners = [[0, -width / 2], [neck, -width / 2], [neck, -half], [length, 0], [neck, half], [neck, width / 2], [0, width / 2]];
+    context.beginPath();
+    for (const [a, b] of corners) context.lineTo(x + a * along - b * down, y + a * down + b * along);
+    context.closePath();
+    context.lineJoin = "round";
+    context.lineWidth = 2 * Math.max(0.7, this.view.unit);
+    context.strokeStyle = this.data.shadow;
+    context.stroke();
+    context.fillStyle = colour;
+    context.fill();
+  }
+
+  // -------------------------------------------------------------------------------------------- what is said
+
+  /** Label and text of what a ball does at time t, as on the card of a frame. */
+  entries(ball, t) {
+    const [x, y, vx, vy, spin] = ball.path.state(t), rpm = (spin * 30) / Math.PI, speed = Math.hypot(vx, vy);
+    const place = this.data.ground
+      ? [["height", amount(Math.max(0, y - ball.radius - this.ground(x)), "m")]]
+      : [["x", amount(x, "m")], ["y", amount(y, "m")]];
+    return [
+      ["time", amount(t, "s")],
+      ["speed", amount(speed, "m/s")],
+      ...place,
+      ["direction", speed > 0.01 ? amount((Math.atan2(vy, vx) * 180) / Math.PI, "deg") : "–"],
+      ["spin", Math.abs(rpm) < 0.5 ? "none" : `${amount(Math.abs(rpm), "rpm")} ${this.data.spins[rpm > 0 ? 1 : 0]}`],
+    ];
+  }
+
+  now() {
+    const { data, main, t } = this, entries = this.entries(main, t).map((entry) => [...entry, ""]);
+    if (!(main.caught !== null && t >= main.caught)) {
+      for (const { name, force, colour } of this.forces(t)) if (force) entries.push([name, amount(Math.hypot(...force), "N"), colour]);
+    }
+    const list = $("now");
+    while (list.children.length > entries.length) list.lastChild.remove();
+    entries.forEach(([label, text, colour], i) => {
+      const item = list.children[i] || list.appendChild(document.createElement("div"));
+      if (!item.children.length) item.append(document.createElement("dt"), document.createElement("dd"));
+      const [term, value] = item.children;
+      if (term.textContent !== label) {
+        term.textContent = label;
+        if (colour) {
+          const dot = document.createElement("i");
+          dot.style.background = colour;
+          term.prepend(dot);
+        }
+      }
+      value.textContent = text;
+    });
+    const slider = $("time");
+    slider.value = t;
+    slider.setAttribute("aria-valuetext", entries.slice(0, data.ground ? 3 : 2).map(([label, text]) => `${label} ${text}`).join(", "));
+    $("clock").textContent = `${amount(t, "s")} of ${amount(data.duration, "s")}`;
+    $("play").textContent = this.playing ? "Pause" : "Play";
+    document.querySelectorAll("#events li").forEach((item, i) => item.classList.toggle("past", !this.whole && data.events[i] <= t));
+  }
+
+  // -------------------------------------------------------------------------------------------- time
+
+  seek(t) {
+    this.whole = false;
+    this.t = Math.min(Math.max(t, 0), this.data.duration);
+    this.draw();
+  }
+
+  play() {
+    this.playing = !this.playing;
+    if (this.playing && (this.whole || this.t >= this.data.duration)) this.seek(0);
+    this.last = performance.now();
+    if (this.playing) requestAnimationFrame((now) => this.tick(now));
+    this.now();
+  }
+
+  tick(now) {
+    if (!this.playing) return;
+    const passed = Math.max(0, Math.min((now - this.last) / 1000, 0.1));
+    this.last = now;
+    if (this.t + passed * 2 ** this.power >= this.data.duration) this.playing = false;
+    this.seek(this.t + passed * 2 ** this.power);
+    if (this.playing) requestAnimationFrame((next) => this.tick(next));
+  }
+
+  step(by) {
+    this.playing = false;
+    this.seek((this.whole ? 0 : this.t) + by * STEP);
+  }
+
+  faster(by) {
+    this.power = Math.min(Math.max(this.power + by, SLOWEST), FASTEST);
+    $("rate").value = this.power;
+  }
+
+  controls() {
+    const { data } = this, slider = $("time"), rate = $("rate");
+    slider.max = data.duration;
+    slider.addEventListener("input", () => {
+      this.playing = false;
+      this.seek(Number(slider.value));
+    });
+    for (let power = SLOWEST; power <= FASTEST; power++) rate.add(new Option(power < 0 ? `1/${2 ** -power}` : `${2 ** power}×`, power));
+    rate.value = 0;
+    rate.addEventListener("change", () => (this.power = Number(rate.value)));
+    $("play").addEventListener("click", () => this.play());
+    $("back").addEventListener("click", () => this.step(-1));
+    $("on").addEventListener("click", () => this.step(1));
+    $("arrows").addEventListener("change", () => this.draw());
+    for (const t of new Set(data.events)) {
+      const mark = document.createElement("i");
+      mark.style.left = `${(100 * t) / data.duration}%`;
+      $("marks").append(mark);
+    }
+    document.querySelectorAll("#events button").forEach((button, i) =>
+      button.addEventListener("click", () => {
+        this.playing = false;
+        this.seek(data.events[i]);
+      }));
+  }
+
+  keys() {
+    const commands = {
+      " ": () => this.play(), r: () => { this.seek(0); if (!this.playing) this.play(); }, ",": () => this.step(-1), ".": () => this.step(1),
+      "+": () => this.faster(1), "=": () => this.faster(1), "-": () => this.faster(-1), o: () => $("arrows").click(),
+      ArrowLeft: () => this.step(-1), ArrowRight: () => this.step(1),
+      Home: () => this.seek(0), End: () => this.seek(this.data.duration),
+    };
+    document.addEventListener("keydown", (event) => {
+      const command = commands[event.key], on = event.target.closest("button, select, summary, input[type=checkbox]");
+      if (!command || event.ctrlKey || event.altKey || event.metaKey || (on && (event.key === " " || on.tagName === "SELECT"))) return;
+      event.preventDefault();
+      command();
+    });
+  }
+
+  // -------------------------------------------------------------------------------------------- pointing
+
+  pointer() {
+    const { canvas } = this;
+    const follow = (event) => {
+      const box = canvas.getBoundingClientRect();
+      this.pointed = this.nearest((event.clientX - box.left) / this.shown, (event.clientY - box.top) / this.shown);
+      this.hint.hidden = !this.pointed;
+      canvas.style.cursor = this.pointed ? "pointer" : "";
+      this.draw();
+    };
+    canvas.addEventListener("pointermove", follow);
+    canvas.addEventListener("pointerdown", follow);
+    canvas.addEventListener("pointerleave", (event) => {
+      if (event.pointerType === "mouse") [this.pointed, this.hint.hidden] = [null, true];
+      this.draw();
+    });
+    canvas.addEventListener("click", () => {
+      if (!this.pointed) return;
+      this.playing = false;
+      this.seek(this.pointed.t);
+    });
+  }
+
+  /** The ball and the time whose place on the picture is nearest to a point in px, if one is near. */
+  nearest(px, py) {
+    let least = NEAR / this.shown, found = null;
+    for (const ball of [...this.data.ghosts, ...this.data.balls]) {
+      for (let i = 1; i < ball.line.length; i++) {
+        const [ax, ay, at] = ball.line[i - 1], [bx, by, bt] = ball.line[i], long = (bx - ax) ** 2 + (by - ay) ** 2;
+        const share = long ? Math.min(1, Math.max(0, ((px - ax) * (bx - ax) + (py - ay) * (by - ay)) / long)) : 0;
+        const far = Math.hypot(ax + share * (bx - ax) - px, ay + share * (by - ay) - py);
+        if (far < least) [least, found] = [far, { ball, t: at + share * (bt - at) }];
+      }
+    }
+    return found;
+  }
+
+  point() {
+    const { ball, t } = this.pointed, { view, data } = this, [x, y] = ball.path.state(t), [dx, dy] = ball.shift || [0, 0];
+    const [px, py] = this.spot(x + dx, y + dy);
+    this.disc(px, py, 6 * view.unit, data.rim);
+    this.disc(px, py, 4.5 * view.unit, data.accent);
+    const name = ball.label || (data.balls.length > 1 ? ball.name : "");
+    this.hint.replaceChildren();
+    if (name) this.hint.append(Object.assign(document.createElement("b"), { textContent: name }));
+    for (const [label, text] of this.entries(ball, t)) this.hint.append(Object.assign(document.createElement("div"), { textContent: `${label} ${text}` }));
+    const left = px * this.shown, top = py * this.shown, wide = this.hint.offsetWidth, tall = this.hint.offsetHeight;
+    this.hint.style.left = `${Math.min(Math.max(4, left + 16), this.canvas.clientWidth - wide - 4)}px`;
+    this.hint.style.top = `${top - tall - 12 > 0 ? top - tall - 12 : top + 16}px`;
+  }
+}
+
+async function begin() {
+  const data = await (await unpacked($("data").textContent)).json();
+  const fonts = Object.entries(data.fonts).map(async ([weight, packed]) =>
+    document.fonts.add(await new FontFace("Sandbox Sans", await (await unpacked(packed)).arrayBuffer(), { weight }).load()));
+  const layers = data.views.map(async (view) => {
+    for (const name of ["place", "along", "over"]) view[name] = await image(view[name]);
+  });
+  const skins = data.looks.map(async (look) => (look.skin = pixels(await image(look.skin))));
+  await Promise.all([...fonts, ...layers, ...skins]);
+  window.player = new Player(data);
+}
+
+window.ready = begin();
