@@ -14,6 +14,7 @@ from sandbox.files import json_ready, written_whole
 from sandbox.lab.tables import paragraph, table
 from sandbox.scene.checking import NUDGE
 from sandbox.sport.amounts import margin
+from sandbox.sport.readings import words_of
 from sandbox.text import csv_text, shortened
 
 if TYPE_CHECKING:
@@ -123,19 +124,14 @@ def _compared(rows: list[tuple[str, str]], verdict: str, other: Run) -> list[tup
 
 
 def _events(run: Run) -> list[str]:
+    several = len(run.setup.balls) > 1
     shown = list(run.events if len(run.events) <= EVENTS_SHOWN else run.events[: EVENTS_SHOWN - 1])
-    rows = [_event_row(run, event) for event in shown]
+    rows = [words_of(run, event, several) for event in shown]
     if len(shown) < len(run.events):
-        rows.append(("", "", f"... {len(run.events) - len(shown) - 1} more", "", ""))
-        rows.append(_event_row(run, run.events[-1]))
-    if len(run.setup.balls) > 1:
-        return table(("",) * 5, rows, "rllll")
-    return table(("",) * 4, [(t, *rest) for t, _, *rest in rows], "rlll")
-
-
-def _event_row(run: Run, event: Event) -> tuple[str, ...]:
-    speed = f"at {run.closing_speed(event):.1f} m/s" if event.kind == "impact" else ""
-    return f"{event.t:8.2f} s", event.ball, event.kind, event.partner, speed
+        more = f"... {len(run.events) - len(shown) - 1} more"
+        rows += [("", *([""] if several else []), more, "", ""), words_of(run, run.events[-1], several)]
+    columns = 5 if several else 4
+    return table(("",) * columns, [(f"{t:>10}", *words) for t, *words in rows], "rllll"[:columns])
 
 
 def _numerics(run: Run) -> str:

@@ -61,6 +61,13 @@ def _poster(drawn: Drawn, path: Path) -> None:
     save_poster(drawn.picture, path)
 
 
+def _html(drawn: Drawn, path: Path) -> None:
+    from sandbox.page.parts import save
+    from sandbox.page.replay import page_of
+
+    save(page_of(drawn.run, drawn.ghosts), path)
+
+
 def _strip(drawn: Drawn, path: Path) -> None:
     from sandbox.picture.frames import save_png
     from sandbox.picture.strip import film_strip
@@ -95,6 +102,7 @@ def _animation(saver: str, rate: int) -> Callable[[Drawn, Path], None]:
 OUTPUTS = (
     Output("--trajectory", ".csv", _trajectory, "Write the path of every ball: t,ball,x,y,vx,vy,spin.", False),
     Output("--poster", ".png", _poster, "Write the whole run as one picture."),
+    Output("--html", ".html", _html, "Write a page for any browser that plays the run; it needs no network.", False),
     Output("--strip", ".png", _strip, "Write five frames side by side."),
     Output("--energy", ".png", _energy, "Write a chart of where the energy goes."),
     Output("--gif", ".gif", _animation("save_gif", 25), "Write the run as an animation.", moves=True),

@@ -52,10 +52,12 @@ function integral(curve, u) {
   return evaluate(sums, u);
 }
 
-/** The path of one ball: arcs [t0, t1, x, y, spin, velocity if t1 = t0, spins about x and y]. */
+/** The path of one ball: arcs [t0, t1, x, y, spin, vx and vy if they are not derivatives, spins about x
+ * and y], one after the other. */
 class Path {
-  constructor(arcs) {
-    this.arcs = arcs;
+  constructor({ arcs, until }) {
+    const ends = [...arcs.slice(1).map(([next]) => (Array.isArray(next) ? next[0] : next)), until];
+    this.arcs = arcs = arcs.map(([t0, ...rest], i) => [...(Array.isArray(t0) ? t0 : [t0, ends[i]]), ...rest]);
     let turned = 0;
     this.turned = arcs.map((arc) => {
       const before = turned;
@@ -78,9 +80,9 @@ class Path {
 
   /** [x, y, vx, vy, spin] at time t, after an impact at t. */
   state(t) {
-    const [i, u] = this.find(t), [t0, t1, x, y, spin, velocity] = this.arcs[i], h = t1 - t0;
-    const speeds = velocity || [evaluate(derivative(x), u) / h, evaluate(derivative(y), u) / h];
-    return [evaluate(x, u), evaluate(y, u), ...speeds, evaluate(spin, u)];
+    const [i, u] = this.find(t), [t0, t1, x, y, spin, within] = this.arcs[i];
+    const speeds = within || [x, y].map((curve) => derivative(curve).map((value) => value / (t1 - t0)));
+    return [x, y, ...speeds, spin].map((curve) => evaluate(curve, u));
   }
 
   /** Angle in rad that it has turned about the axis out of the picture. */
@@ -212,10 +214,10 @@ class Player {
     this.data = data;
     ladders = data.ladders;
     this.main = data.balls.find((ball) => ball.name === data.ball);
-    for (const ball of [...data.balls, ...data.ghosts]) ball.path = new Path(ball.arcs);
+    for (const ball of [...data.balls, ...data.ghosts]) ball.path = new Path(ball.path);
     for (const ball of data.balls) {
       ball.sprite = new Sprite(data.looks[ball.look], data.light);
-      if (data.on_cloth) ball.turning = new Turning(ball.path, ball.lying);
+      if (ball.rolls) ball.turning = new Turning(ball.path, ball.lying);
     }
     this.canvas = $("picture");
     this.context = this.canvas.getContext("2d");
@@ -311,14 +313,14 @@ class Player {
     const t = this.t, faint = whole || t >= data.told ? 1 : 0.3;
     const density = this.canvas.width / view.size[0];
     context.setTransform(density, 0, 0, density, 0, 0);
-    context.drawImage(view.place, 0, 0, ...view.size);
-    for (const [ball, x, y] of data.links) {
+    context.drawImage(view.place, 0, 0);
+    for (const [ball, x, y] of data.strings) {
       const path = data.balls[ball].path.state(t);
       context.beginPath();
       context.moveTo(...this.pixel(x, y));
       context.lineTo(...this.pixel(path[0], path[1]));
       context.lineWidth = 1.5 * unit;
-      context.strokeStyle = data.link;
+      context.strokeStyle = data.string;
       context.stroke();
     }
     for (const ghost of data.ghosts) this.trace(ghost.line, 0, Infinity, 4.5 * unit, ghost.colour, data.earlier);
@@ -329,13 +331,11 @@ class Player {
       if (faint < 1) this.trace(ball.line, 0, Infinity, width, ball.colour, faint);
       this.trace(faint < 1 ? [...ball.line.filter((point) => point[2] < t), here] : ball.line, 0, Infinity, width, ball.colour, 1, rim);
     }
-    context.globalAlpha = whole ? 1 : 0.55;
-    context.drawImage(view.along, 0, 0, ...view.size);
-    context.globalAlpha = 1;
+    if (faint === 1) context.drawImage(view.along, 0, 0);
     for (const ghost of data.ghosts) this.ghost(ghost, t);
     if (!whole && $("arrows").checked) this.vectors(t);
     for (const ball of balls) this.ball(ball, t);
-    context.drawImage(view.over, 0, 0, ...view.size);
+    context.drawImage(view.over, 0, 0);
     if (this.pointed) this.point();
     this.now();
   }

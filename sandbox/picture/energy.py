@@ -18,7 +18,7 @@ from sandbox.engine.path import Path
 from sandbox.engine.run import Run
 from sandbox.engine.setup import kinetic
 from sandbox.picture.palette import Colour, mix, palette
-from sandbox.picture.path import chip
+from sandbox.picture.path import chip, instants
 from sandbox.picture.sheet import CARD, Entry, Sheet, nice
 from sandbox.picture.vectors import colour_of
 
@@ -32,10 +32,6 @@ LEAST_SHARE, MOST_CAUSES = 0.004, 6
 LEAST_ENERGY = 1e-3
 #: As many impacts are marked at most, those at less than this share of the hardest are not.
 HITS, HARD = 12, 0.15
-#: At so many impacts, the hardest, energy is taken just before and after: what they cost is seen as a step.
-SAMPLED = 200
-#: s before an impact at which the energy is taken, so that the loss is seen at once.
-BEFORE = 1e-9
 #: How dark what is lost is drawn.
 LOST = 0.42
 #: What was put in is hatched with lines this far apart, px on 720 rows.
@@ -72,9 +68,7 @@ class Course:
 
 def course(run: Run) -> Course:
     """The energy of a run over time; height counts from the lowest that the balls come to."""
-    called, hits = _names(run), [t for t in _hits(run)[:SAMPLED] if t > BEFORE]
-    even = np.linspace(0.0, run.duration, PIECES + 1)
-    times = np.union1d(even, [*hits, *(t - BEFORE for t in hits)])
+    called, times = _names(run), instants(run, PIECES)
     gained: dict[str, np.ndarray] = defaultdict(lambda: np.zeros(len(times)))
     for i, (a, b) in enumerate(pairwise([-inf, *times[1:]])):
         part = _piece_of(run, a, float(b))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator
 from dataclasses import dataclass
 from math import ceil, cos, dist, floor, hypot, pi, sin
 
@@ -27,6 +27,22 @@ BALLS = 14
 
 #: A label this far from its mark, in px on 720 rows, has a line that leads to it.
 FARTHER = (25, 36, 50)
+
+
+#: s before an impact at which what jumps there is taken.
+BEFORE = 1e-9
+
+
+def instants(run: Run, pieces: int, names: Collection[str] = (), most: int = 200) -> np.ndarray:
+    """Times in s at which to sample a run: evenly spread over so many pieces and, so that what jumps at an impact does,
+    just before and at the hardest impacts, of the balls with these ``names`` or of all."""
+    hits = sorted(
+        (-event.speed, event.t)
+        for event in run.events
+        if event.kind == "impact" and event.t > BEFORE and (not names or {event.ball, event.partner} & set(names))
+    )
+    jumps = [t for _, hit in hits[:most] for t in (hit - BEFORE, hit)]
+    return np.union1d(np.linspace(0.0, run.duration, pieces + 1), jumps)
 
 
 @dataclass(frozen=True)

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
+from sandbox.engine.run import Run
 from sandbox.engine.setup import Circle
 from sandbox.parameters import Group
 from sandbox.picture.ball import Look, seams
@@ -61,6 +64,12 @@ class Picture(View[Group]):
 
     def scale(self, sheet: Sheet, camera: Camera) -> None:
         sheet.scale_bar(camera, sheet.frame.left, self.card_row - 28 * self.unit, 0.2 * self.size[0])
+
+
+def view_of(run: Run, size: tuple[int, int], ghosts: Mapping[str, Run] | None = None) -> View[Any]:
+    """The scene's picture of a run; a plain one where its own draws posters and frames only."""
+    picture = run.scene.picture(run, size, ghosts)
+    return picture if isinstance(picture, View) else Picture(run, run.scene.parameters, size, ghosts)
 
 
 def _clipped(

@@ -12,11 +12,12 @@ from sandbox.engine.arc import Arc
 from sandbox.engine.run import Run
 from sandbox.picture.palette import Colour, palette
 from sandbox.picture.sheet import CARD, Entry, Sheet
+from sandbox.sport.amounts import amount
 
 FORCE = palette("force")
 
 #: Length of the longest arrow of a run, px on 720 rows: of a force, of the velocity; and the shortest that is drawn.
-LONGEST_FORCE, LONGEST_VELOCITY, SHORTEST = 64.0, 100.0, 5.0
+FORCE_LENGTH, VELOCITY_LENGTH, SHORTEST = 64.0, 100.0, 5.0
 #: Widths of the arrows, px on 720 rows.
 FORCE_WIDTH, VELOCITY_WIDTH = 4.2, 3.4
 #: The longest arrows are found at so many times.
@@ -68,7 +69,7 @@ class Vectors:
         return (bx - ax) / (end - start), (by - ay) / (end - start)
 
     @cached_property
-    def _longest(self) -> tuple[float, float]:
+    def longest(self) -> tuple[float, float]:
         """The largest speed in m/s and the largest force in N of the run; those of surfaces set no scale."""
         speed = force = 0.0
         for t in np.linspace(0.0, self.run.duration, SAMPLES):
@@ -80,7 +81,7 @@ class Vectors:
     def draw(self, sheet: Sheet, at: tuple[float, float], radius: float, t: float) -> None:
         """The arrows at time t, from the edge of a ball of ``radius`` px; what is too short to see is left out."""
         unit = sheet.unit
-        speed, force = self._longest
+        speed, force = self.longest
 
         def arrow(vector: tuple[float, float], longest: float, length: float, width: float, colour: Colour) -> None:
             size = hypot(*vector)
@@ -92,17 +93,10 @@ class Vectors:
                 tip = tail[0] + along * shown, tail[1] + down * shown
                 sheet.painter.arrow(tail, tip, width * unit, colour, rim=(CARD["shadow"], max(0.7, unit)))
 
-        arrow(self.run.state(self.name, t)[2:4], speed, LONGEST_VELOCITY, VELOCITY_WIDTH, CARD["text"])
+        arrow(self.run.state(self.name, t)[2:4], speed, VELOCITY_LENGTH, VELOCITY_WIDTH, CARD["text"])
         for name, vector in self.forces(t).items():
-            arrow(vector, force, LONGEST_FORCE, FORCE_WIDTH, colour_of(name))
+            arrow(vector, force, FORCE_LENGTH, FORCE_WIDTH, colour_of(name))
 
     def entries(self, t: float) -> list[Entry]:
         """For the card: each force in N, in the colour of its arrow."""
-        return [(name, newtons(hypot(*vector)), colour_of(name)) for name, vector in self.forces(t).items()]
-
-
-def newtons(force: float) -> str:
-    """A force as people write it: 0.45 N, 12.3 N, 4.2 kN; and 12 mN."""
-    if force < 0.0995:
-        return f"{1000 * force:.0f} mN"
-    return f"{force:.2f} N" if force < 9.995 else f"{force:.1f} N" if force < 9995 else f"{force / 1000:.1f} kN"
+        return [(name, amount(hypot(*vector), "N"), colour_of(name)) for name, vector in self.forces(t).items()]

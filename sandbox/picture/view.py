@@ -29,6 +29,7 @@ from sandbox.picture.sheet import Entry, Sheet
 from sandbox.picture.vectors import Vectors
 from sandbox.sport.amounts import metres, signed, times
 
+CARD = palette("card")
 TRACES, RIM = palette("trace")["colours"], palette("trace")["rim"]
 
 #: Surfaces are around a path that reach no farther beyond it than it is long, or than so many radii of the ball.
@@ -42,6 +43,8 @@ UNSAID = 1.05
 #: Radius of a bead on the path: at most so much of that of the balls there, and so many px on 720 rows.
 BEAD, LARGEST_BEAD = 0.5, 3.0
 
+#: Width of a string, px on 720 rows.
+STRING = 1.5
 #: The path of a ball besides the one that is played is so much as thick.
 OTHERS = 0.6
 
@@ -82,6 +85,8 @@ class View(Generic[P]):
 
     #: What is stretched where a camera stretches one.
     STRETCHED: ClassVar[str] = "heights"
+    #: The colour of strings.
+    STRING: ClassVar[Colour] = CARD["quiet"]
     #: Whether all runs stand on the same ground, so that one cannot be moved up or down to lie over another.
     ONE_GROUND: ClassVar[bool] = False
 
@@ -159,6 +164,11 @@ class View(Generic[P]):
 
     def backdrop(self, painter: Painter, camera: Camera) -> None:
         """What stands still, all of it behind the ball."""
+
+    @property
+    def strings(self) -> Sequence[tuple[str, tuple[float, float]]]:
+        """The balls that hang on a string, each with the point in m where that is tied."""
+        return ()
 
     def behind(self, painter: Painter, camera: Camera, t: float) -> None:
         """What moves behind the ball, at time t in s."""
@@ -285,6 +295,7 @@ class View(Generic[P]):
     def draw_balls(self, painter: Painter, camera: Camera, t: float) -> None:
         """All that moves, at time t in s, on the stage that the camera sees."""
         self.behind(painter, camera, t)
+        self._strings(painter, camera, t)
         self._balls(painter, camera, t)
         self.before(painter, camera, t)
 
@@ -320,6 +331,7 @@ class View(Generic[P]):
         self.backdrop(painter, camera)
         self.behind(painter, camera, self.moment)
         yield sheet.surface
+        self._strings(painter, camera, self.told)
         traces = {name: self.traced(camera, path.points) for name, path in self.paths.items()}
         self.trace = traces.pop(self.ball)
         for ghost in self.ghosts:
@@ -349,6 +361,7 @@ class View(Generic[P]):
         camera, painter = self.view(t), sheet.painter
         sheet.surface.blit(self._still(camera), (0, 0))
         self.behind(painter, camera, t)
+        self._strings(painter, camera, t)
         placed = self._placed(camera, t, LARGER if len(self.balls) == 1 else 1.0)
         self._shadows(painter, camera, placed, t)
         for ghost in self.ghosts:
@@ -414,9 +427,14 @@ class View(Generic[P]):
         """The matrix by which a ball is turned at the start."""
         return np.eye(3)
 
+    def rolls(self, name: str) -> bool:
+        """Whether a ball turns about level axes, too."""
+        setup = self.run.setup
+        return setup.plane is not None and bool(setup.plane_of(name).rolls)
+
     def turn(self, name: str, t: float) -> np.ndarray:
         """The matrix by which a ball is turned at time t in s: where it rolls, about level axes, too."""
-        if self.run.setup.plane is None or not self.run.setup.plane_of(name).rolls:
+        if not self.rolls(name):
             return turned((0.0, 0.0, self.run.angle(name, t))) @ self.lying(name)
         return self._turnings[name].at(t)
 
@@ -468,6 +486,12 @@ class View(Generic[P]):
         self._shadows(painter, camera, placed, t)
         for name, (at, radius) in placed.items():
             self.draw_ball(painter, camera, name, t, at, radius)
+
+    def _strings(self, painter: Painter, camera: Camera, t: float) -> None:
+        """Of the balls that hang."""
+        for name, (x, y) in self.strings:
+            ends = [camera.pixel(x, y), camera.pixel(*self.run.state(name, t)[:2])]
+            painter.line(ends, STRING * self.unit, self.STRING)
 
     def trails(self, sheet: Sheet, camera: Camera, t: float) -> None:
         """Where the balls have been: a thin line, and a thick one of late; kept out of the header."""

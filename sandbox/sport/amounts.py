@@ -30,6 +30,7 @@ LADDERS: dict[str, Ladder] = {
     **{unit: (Step(0, unit, 0),) for unit in ("mph", "km/h", "rpm")},
     **{unit: (Step(0, unit, 1),) for unit in ("deg", "moa", "ft", "J", "in", "cm")},
     "s": (Step(0, "s", 2),),
+    "N": (Step(9995, "kN", 1), Step(9.995, "N", 1), Step(0.0995, "N", 2), Step(0, "mN", 0)),
 }
 
 #: What takes the place of those, by kind of unit; the ladders are in the kind's SI unit.

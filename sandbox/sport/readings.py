@@ -6,6 +6,7 @@ from collections.abc import Callable
 from math import atan2, degrees, hypot
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
+from sandbox.sport.amounts import amount
 from sandbox.sport.facts import Fact
 from sandbox.sport.flight import RPM
 
@@ -34,6 +35,12 @@ class Moment(NamedTuple):
     def descent(self) -> float:
         """Angle below the horizontal in deg, in whichever direction the ball flies."""
         return degrees(atan2(0.0 - self.vy, abs(self.vx)))
+
+
+def words_of(run: Run, event: Event, several: bool = True) -> tuple[str, ...]:
+    """An event for people: when, which ball if there are ``several``, what, with what, and how fast the two met."""
+    speed = f"at {amount(run.closing_speed(event), 'm/s', 1)}" if event.kind == "impact" else ""
+    return amount(event.t, "s"), *([event.ball] if several else []), event.kind, event.partner, speed
 
 
 def at(moment: Callable[[Run, Any], Value | None], what: Callable[[Value], Any]) -> Callable[[Run, Any], Any]:

@@ -28,6 +28,7 @@ BARS, LONGEST = 0.27, 90.0  # share of the width that bars take; px on 720 rows 
 
 class Picture(AboveView[Parameters]):
     LEAST_IMPACT = np.inf  # marks would hide the arrows
+    STRING = COLOURS["string"]
 
     @property
     def _area(self) -> tuple[tuple[float, float], tuple[float, float]]:
@@ -68,14 +69,11 @@ class Picture(AboveView[Parameters]):
             ]
         )
 
-    def behind(self, painter: Painter, camera: Camera, t: float) -> None:
-        """The strings of a cradle."""
-        if self.parameters.strings:
-            for name, x in zip(self.balls, hangs(self.parameters), strict=True):
-                at = self.run.state(name, t)[:2]
-                painter.line(
-                    [camera.pixel(x, self.parameters.strings), camera.pixel(*at)], 1.5 * self.unit, COLOURS["string"]
-                )
+    @property
+    def strings(self) -> Sequence[tuple[str, tuple[float, float]]]:
+        """Of a cradle."""
+        up = self.parameters.strings
+        return [(name, (x, up)) for name, x in zip(self.balls, hangs(self.parameters), strict=True)] if up else ()
 
     @property
     def moment(self) -> float:

@@ -8,7 +8,8 @@ import pytest
 import sandbox
 from sandbox.engine.acting import cause
 from sandbox.picture.sheet import Sheet
-from sandbox.picture.vectors import Vectors, colour_of, newtons
+from sandbox.picture.vectors import Vectors, colour_of
+from sandbox.sport.amounts import amount
 
 
 @cache
@@ -79,7 +80,7 @@ def test_causes_have_names_and_colours():
     [(0.0, "0 mN"), (0.0123, "12 mN"), (0.0999, "0.10 N"), (0.45, "0.45 N"), (12.34, "12.3 N"), (43210.0, "43.2 kN")],
 )
 def test_newtons(force, text):
-    assert newtons(force) == text
+    assert amount(force, "N") == text
 
 
 def test_arrows_are_drawn_where_they_should():

@@ -1,0 +1,106 @@
+"""What all pages are made of: templates that are filled in, packed data, images."""
+
+from __future__ import annotations
+
+import base64
+import io
+import json
+import zlib
+from collections.abc import Iterable, Mapping
+from functools import cache
+from html import escape
+from pathlib import Path
+from string import Template
+from typing import Any
+
+import numpy as np
+from PIL import Image
+
+from sandbox.files import json_ready, written_whole
+from sandbox.picture.palette import ASSETS, Colour
+from sandbox.text import one_line
+
+FOLDER = Path(__file__).parent
+WEIGHTS = {"400": "Regular", "700": "Bold"}
+
+
+@cache
+def source(name: str) -> str:
+    """The text of one of the files here."""
+    return (FOLDER / name).read_text("utf-8")
+
+
+def filled(name: str, **parts: str) -> str:
+    """A template with its parts, which are HTML already."""
+    return Template(source(name)).substitute(style=source("page.css"), **parts)
+
+
+def save(page: str, path: Path | str) -> None:
+    """Write a page completely or not at all. Raises OSError where it cannot be written."""
+    with written_whole(Path(path)) as file:
+        file.write(page)
+
+
+def html(text: str) -> str:
+    """Text as HTML, on one line."""
+    return escape(one_line(text))
+
+
+def css(colour: Colour) -> str:
+    """A colour as browsers write it."""
+    return "#{:02x}{:02x}{:02x}".format(*colour)
+
+
+def packed(data: Any) -> str:
+    """Data as JSON, with all digits of its numbers, deflated and in letters."""
+    return _letters(json.dumps(json_ready(data), allow_nan=False, ensure_ascii=False).encode())
+
+
+def _letters(data: bytes) -> str:
+    return base64.b64encode(zlib.compress(data, 9)).decode()
+
+
+@cache
+def fonts() -> dict[str, str]:
+    """The letters of pictures by weight, packed."""
+    return {
+        weight: _letters((ASSETS / "fonts" / f"NotoSans-{name}.ttf").read_bytes()) for weight, name in WEIGHTS.items()
+    }
+
+
+def picture(image: Image.Image, exact: bool = False) -> str:
+    """An image as an address that contains it; ``exact`` keeps every pixel."""
+    out = io.BytesIO()
+    image.save(out, "WEBP", quality=82, method=4, lossless=exact)
+    return f"data:image/webp;base64,{base64.b64encode(out.getvalue()).decode()}"
+
+
+def what_changed(before: np.ndarray, after: np.ndarray) -> Image.Image:
+    """The pixels of the second that differ from the first, everything else see-through; shape (height, width, 3)."""
+    changed = np.any(before != after, axis=2)
+    return Image.fromarray(np.dstack([after * changed[..., None], changed * np.uint8(255)]))
+
+
+def rows(cells: Iterable[Iterable[str]]) -> str:
+    """Rows of a table, the first cell of each its heading; texts."""
+    return "\n".join(
+        f'<tr role="row"><th scope="row" role="rowheader">{html(label)}</th>'
+        + "".join(f'<td role="cell">{html(text)}</td>' for text in texts)
+        + "</tr>"
+        for label, *texts in cells
+    )
+
+
+def table(cells: Iterable[Iterable[str]], caption: str, kind: str, heads: Mapping[str, str] | None = None) -> str:
+    """A table for people and screen readers; ``heads`` are the names of its columns of values, each with a colour."""
+    head = ""
+    if heads:
+        columns = "".join(
+            f'<th scope="col" role="columnheader" style="color: {colour}">{html(name)}</th>'
+            for name, colour in heads.items()
+        )
+        head = f'<thead><tr role="row"><th scope="col" role="columnheader">{html(caption)}</th>{columns}</tr></thead>'
+    return (
+        f'<table class="{kind}" role="table"><caption class="hidden">{html(caption)}</caption>{head}\n'
+        f'<tbody role="rowgroup">\n{rows(cells)}\n</tbody></table>'
+    )

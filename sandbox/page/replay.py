@@ -1,0 +1,283 @@
+"""One run as a page: its poster, which can be played."""
+
+from __future__ import annotations
+
+import json
+import shlex
+from collections.abc import Iterator, Mapping, Sequence
+from math import isinf
+from typing import Any
+
+import numpy as np
+from PIL import Image
+
+from sandbox.engine.arc import Arc
+from sandbox.engine.run import Run
+from sandbox.engine.track import PRESSED
+from sandbox.errors import RequestError
+from sandbox.page.parts import css, filled, fonts, html, packed, picture, rows, source, table, what_changed
+from sandbox.parameters import walk
+from sandbox.picture import ball as balls
+from sandbox.picture.above import AboveView
+from sandbox.picture.frames import to_image
+from sandbox.picture.palette import palette
+from sandbox.picture.path import instants
+from sandbox.picture.plain import view_of
+from sandbox.picture.sheet import CARD, DENSITY
+from sandbox.picture.side import SideView
+from sandbox.picture.vectors import FORCE_LENGTH, SHORTEST, VELOCITY_LENGTH, Vectors, colour_of
+from sandbox.picture.view import OTHERS, UNSAID, View
+from sandbox.scene import Scene, load
+from sandbox.sport.amounts import LADDERS, ladder
+from sandbox.sport.readings import words_of
+from sandbox.units import convert
+
+#: The picture on a wide screen and on a phone: size in px, and how many times as large letters are drawn on it.
+LAYOUTS = (((1600, 900), 1.0), ((801, 1001), 1.78))
+#: The forces are sampled at so many even times, and at each impact.
+SAMPLES = 240
+#: The ground's height is sampled at so many places.
+GROUND = 400
+#: Units of the numbers that the page itself writes.
+UNITS = ("m", "m/s", "deg", "rpm", "s", "N")
+#: Most impacts and other events that are listed.
+MOST_EVENTS = 400
+
+
+def page_of(run: Run, ghosts: Mapping[str, Run] | None = None) -> str:
+    """The page of a run, with other runs by name drawn pale behind it."""
+    if run.scene is None:
+        raise RequestError("only a run of a scene has a page: give what sandbox.simulate(scene) returns")
+    scene, verdict = run.scene, run.scene.verdict(run)
+    views = list(_views(run, ghosts))
+    view, heading = views[0][0], views[0][0].heading
+    events = run.events[:MOST_EVENTS]
+    others = {ghost.label: css(ghost.light) for ghost in view.ghosts}
+    labelled = [dict(scene.rows(run)), *(dict(ghost.path.run.scene.rows(ghost.path.run)) for ghost in view.ghosts)]
+    card = [(label, *(texts.get(label, "–") for texts in labelled)) for label in labelled[0]]
+    several = len(run.setup.balls) > 1
+    listed = (
+        f'<li><button type="button"><b>{html(t)}</b> <span>{html(" ".join(filter(None, words)))}</span></button></li>'
+        for t, *words in (words_of(run, event, several) for event in events)
+    )
+    data = {
+        **_static(view, run),
+        "views": [layout for _, layout in views],
+        "events": [event.t for event in events],
+        "duration": run.duration,
+        "told": view.told,
+        "fonts": fonts(),
+    }
+    return filled(
+        "run.html",
+        title=html(scene.title),
+        verdict=html(verdict),
+        notes=html("   ·   ".join(heading.notes)),
+        ground="dark" if view.on_dark else "light",
+        picture=html(f"{scene.title}: {verdict}. The path of the {view.ball}; the numbers are in the table below."),
+        card=table(card, scene.title, "card", {scene.title: css(CARD["accent"]), **others} if others else None),
+        events="\n".join(listed),
+        events_open="open" if len(events) <= 8 else "",
+        parameters=rows((key, _shown(value, unit)) for key, value, unit, *_ in walk(scene.parameters)),
+        about=html(scene.about),
+        command=html(command(scene)),
+        data=packed(data),
+        script=source("run.js"),
+    )
+
+
+def command(scene: Scene) -> str:
+    """The command line that runs a scene with these parameters."""
+    try:
+        usual = {parameter.key: parameter.value for parameter in walk(load(scene.title).parameters)}
+    except RequestError:  # a scene of the user's own, somewhere else
+        return shlex.join(["sandbox", "run", str(scene.folder)])
+    changed = (
+        f"{parameter.key}={json.dumps(parameter.value)}"
+        for parameter in walk(scene.parameters)
+        if usual.get(parameter.key) != parameter.value and _is_plain(parameter.value)
+    )
+    return shlex.join(["sandbox", "run", scene.title, *(part for text in changed for part in ("--set", text))])
+
+
+def _is_plain(value: Any) -> bool:
+    """Whether TOML writes a value as JSON does."""
+    if isinstance(value, list | tuple):
+        return all(map(_is_plain, value))
+    return isinstance(value, bool | int | float | str)
+
+
+def _shown(value: Any, unit: str | None) -> str:
+    text = value if isinstance(value, str) else json.dumps(value, default=lambda group: group.model_dump(mode="json"))
+    return f"{text} {unit}" if unit else str(text)
+
+
+# ------------------------------------------------------------------------------------------------------------- layers
+
+
+def _views(run: Run, ghosts: Mapping[str, Run] | None) -> Iterator[tuple[View[Any], dict[str, Any]]]:
+    """The picture in each layout, and what the page needs of it."""
+    for size, density in LAYOUTS:
+        token = DENSITY.set(density)
+        try:
+            view = view_of(run, size, ghosts)
+            yield view, _layout(view)
+        finally:
+            DENSITY.reset(token)
+
+
+def _layout(view: View[Any]) -> dict[str, Any]:
+    layers = [np.array(to_image(layer)) for layer in view.layers()]
+    tall = round(view.card_row - 2 * view.sheet.gap)  # the card is below
+    place, paths, along, drawn, over = (layer[:tall] for layer in layers)
+    camera = view.camera
+    too_large = max(0.0, balls.mark_radius(view.rows) - view.radius * camera.scale)
+    return {
+        "size": (view.size[0], tall),
+        "at": camera.at,
+        "anchor": camera.anchor,
+        "scale": camera.scale,
+        "stretch": camera.stretch,
+        "unit": view.unit,
+        "least": view.least,
+        "lift": too_large if isinstance(view, SideView) and not isinf(view.STRETCHES) else None,
+        "room": view.heading.room,
+        "place": picture(Image.fromarray(place)),
+        "along": picture(what_changed(paths, along), exact=True),
+        "over": picture(what_changed(drawn, over), exact=True),
+    }
+
+
+# --------------------------------------------------------------------------------------------------------------- data
+
+
+def _static(view: View[Any], run: Run) -> dict[str, Any]:
+    """What does not depend on the layout."""
+    names = view.balls
+    looks = {id(look): look for look in map(view.look_of, names)}
+    numbers = {key: i for i, key in enumerate(looks)}
+    return {
+        "ball": view.ball,
+        "balls": [
+            {
+                "name": name,
+                "radius": view.radii[name],
+                "colour": css(view.colour_of(name)),
+                "look": numbers[id(view.look_of(name))],
+                "lying": view.lying(name).tolist(),
+                "rolls": view.rolls(name),
+                "caught": run.caught_at(name),
+                "path": _path(run.arcs[name]),
+            }
+            for name in names
+        ],
+        "looks": [_look(look, view) for look in looks.values()],
+        "light": {
+            "towards": (balls.LIGHT / np.linalg.norm(balls.LIGHT)).tolist(),
+            "dark": balls.DARK,
+            "edge": balls.EDGE,
+        },
+        "ghosts": [
+            {
+                "label": ghost.label,
+                "radius": ghost.path.radius,
+                "colour": css(ghost.colour if not view.on_dark else ghost.light),
+                "light": css(ghost.light),
+                "shift": ghost.shift,
+                "path": _path(ghost.path.run.arcs[ghost.path.name]),
+            }
+            for ghost in view.ghosts
+        ],
+        "strings": [[names.index(name), *at] for name, at in view.strings],
+        "string": css(view.STRING),
+        "ground": _ground(view),
+        "forces": _forces(view, run),
+        "arrows": _arrows(view.vectors),
+        "shadows": isinstance(view, AboveView),
+        "spins": view.SPINS,
+        "ladders": {unit: _ladder(unit) for unit in UNITS},
+        "others": OTHERS,
+        "unsaid": UNSAID,
+        "earlier": palette("trace")["earlier"],
+        "rim": css(palette("trace")["rim"]),
+        **{name: css(CARD[name]) for name in ("accent", "shadow")},
+        "card": css(CARD["background"]),
+    }
+
+
+def _path(arcs: Sequence[Arc]) -> dict[str, Any]:
+    """The arcs of a ball, each until the next begins where it does not say otherwise."""
+    ends = [*(arc.t0 for arc in arcs[1:]), arcs[-1].t1]
+    rows = [_arc(arc) for arc in arcs]
+    for arc, row, end in zip(arcs, rows, ends, strict=True):
+        if arc.t1 != end:
+            row[0] = [arc.t0, arc.t1]
+    return {"arcs": rows, "until": arcs[-1].t1}
+
+
+def _arc(arc: Arc) -> list[Any]:
+    """An arc's polynomials; of the velocity only where it is not their derivative: within an impact, and at its end."""
+    within: Any = 0
+    if arc.t1 <= arc.t0:
+        within = [[arc.start[2]], [arc.start[3]]]
+    elif arc.contact == PRESSED:
+        within = [list(arc.vx), list(arc.vy)]
+    curves = [arc.t0, list(arc.x), list(arc.y), list(arc.spin), within]
+    return [*curves, [list(curve) for curve in arc.rolling_spin]] if arc.rolling_spin else curves
+
+
+def _look(look: balls.Look, view: View[Any]) -> dict[str, Any]:
+    """The two halves of a ball's skin next to each other, as large as the page needs them."""
+    radius = max(view.least, view.radius * view.camera.scale)
+    halves = look.skin(sum(radius >= mark.least for mark in look.marks))  # by half, column, row
+    skin = np.concatenate(list(halves), axis=0).transpose(1, 0, 2)
+    return {"skin": picture(Image.fromarray(np.ascontiguousarray(skin)), exact=True), "face": balls.FACE,
+            "gloss": look.gloss}  # fmt: skip
+
+
+def _ground(view: View[Any]) -> dict[str, Any] | None:
+    """Heights in m at even places; None in a view from above."""
+    if not isinstance(view, SideView):
+        return None
+    margin = 0.1 * float(np.ptp(view.points[:, 0])) + view.radius
+    places = np.linspace(view.points[:, 0].min() - margin, view.points[:, 0].max() + margin, GROUND)
+    heights = view.ground(places)
+    if np.ptp(heights) == 0.0:
+        places, heights = places[[0, -1]], heights[[0, -1]]
+    return {"from": places[0], "step": places[1] - places[0], "heights": heights.tolist()}
+
+
+def _forces(view: View[Any], run: Run) -> dict[str, Any]:
+    """The components of each force in N at some times in s, None where it does not act."""
+    until = min(run.duration, run.caught_at(view.ball) or run.duration)
+    times = [float(t) for t in instants(run, SAMPLES, [view.ball]) if t <= until]
+    found = [view.vectors.forces(t) for t in times]
+    names = dict.fromkeys(name for forces in found for name in forces)
+
+    def along(name: str, axis: int) -> list[float | None]:
+        return [float(f"{forces[name][axis]:.6g}") if name in forces else None for forces in found]
+
+    return {
+        "times": times,
+        "causes": [
+            {"name": name, "colour": css(colour_of(name)), "x": along(name, 0), "y": along(name, 1)} for name in names
+        ],
+    }
+
+
+def _arrows(vectors: Vectors) -> dict[str, Any]:
+    fastest, strongest = vectors.longest
+    return {
+        "fastest": fastest,
+        "strongest": strongest,
+        "velocity": VELOCITY_LENGTH,
+        "force": FORCE_LENGTH,
+        "shortest": SHORTEST,
+        "colour": css(CARD["text"]),
+    }
+
+
+def _ladder(unit: str) -> list[list[Any]]:
+    """How numbers of a unit are written: from which size on, the factor, unit and digits."""
+    steps = ladder(unit) or LADDERS["m"][-1:]
+    return [[step.least, convert(1.0, unit, step.unit), step.unit, step.digits] for step in steps]

@@ -1,0 +1,167 @@
+"""The page of a run, in a real browser: what it shows and plays is what Python computed."""
+
+from __future__ import annotations
+
+from functools import cache
+from math import hypot
+from pathlib import Path
+
+import numpy as np
+import pytest
+from selenium.webdriver.common.action_chains import ActionChains
+from selenium.webdriver.common.by import By
+from selenium.webdriver.support.wait import WebDriverWait
+
+import sandbox
+from sandbox.engine.heap import Heaped
+from sandbox.page.parts import save
+from sandbox.page.replay import LAYOUTS, command, page_of
+from sandbox.picture.plain import view_of
+from sandbox.sport.amounts import amount, shown_in
+
+#: A flight with rolling, balls that turn about all axes, a heap, a view from above with air.
+RUNS = ("golf", "billiards", "collisions/bowl", "soccer-curl")
+
+
+@cache
+def run_of(name: str) -> sandbox.engine.run.Run:
+    return sandbox.simulate(name)
+
+
+@pytest.fixture(scope="module")
+def pages(tmp_path_factory: pytest.TempPathFactory):
+    """The file of a run's page, written once."""
+    folder = tmp_path_factory.mktemp("pages")
+
+    def page(name: str, *others: str) -> Path:
+        file = folder / f"{'-'.join([name, *others]).replace('/', '-')}.html"
+        if not file.exists():
+            save(page_of(run_of(name), {other: run_of(other) for other in others}), file)
+        return file
+
+    return page
+
+
+@pytest.mark.parametrize("name", RUNS)
+def test_every_instant_is_that_of_python(browser, pages, name: str):
+    """Positions to 1e-12 m, velocities, spins, and how balls are turned, at 100 times; and where they are drawn."""
+    page, run = pages(name), run_of(name)
+    assert page.stat().st_size < 500_000
+    browser.open(page)
+    times = [*np.linspace(0.0, run.duration, 97), *(event.t for event in run.events[:3])]
+    view = view_of(run, LAYOUTS[0][0])
+    states = browser.run("arguments[0].map((t) => player.data.balls.map((ball) => ball.path.state(t)))", times)
+    matrices = browser.run(
+        "arguments[0].map((t) => player.data.balls.map((ball) => ball.turning ? ball.turning.at(t) : null))", times
+    )
+    angles = browser.run("arguments[0].map((t) => player.data.balls.map((ball) => ball.path.angle(t)))", times)
+    begins = {ball: {arc.t0 for arc in arcs if isinstance(arc.contact, Heaped)} for ball, arcs in run.arcs.items()}
+    for t, found, matrix, angle in zip(times, states, matrices, angles, strict=True):
+        for i, ball in enumerate(view.balls):
+            expected = run.state(ball, t)
+            assert found[i][:2] == pytest.approx(expected[:2], rel=1e-14, abs=1e-12)
+            if t not in begins[ball]:  # of an arc in a heap: there it has a velocity of its own
+                assert found[i][2:] == pytest.approx(expected[2:], rel=1e-9, abs=1e-7)
+            if view.rolls(ball):
+                np.testing.assert_allclose(matrix[i], view.turn(ball, t), atol=1e-6)
+            else:
+                assert angle[i] == pytest.approx(run.angle(ball, t), abs=1e-9)
+    radius, places = view.least, [balls[0][:2] for balls in states]
+    spots = browser.run("arguments[0].map(([x, y]) => player.spot(x, y, arguments[1]))", places, radius)
+    first = np.array([run.state(view.balls[0], t)[:2] for t in times])
+    np.testing.assert_allclose(spots, view.spots(view.camera, first, radius), atol=0.5)
+    assert browser.complaints() == []
+
+
+def test_it_plays_by_mouse_keyboard_and_touch(browser, pages):
+    run, driver = run_of("golf"), browser.driver
+    browser.open(pages("golf", "golf/headwind"))
+    assert browser.text("h1") == [run.scene.verdict(run)]
+    rows = dict(run.scene.rows(run))
+    assert browser.text(".card tbody th") == list(rows)
+    assert browser.text(".card tbody td:nth-of-type(1)") == list(rows.values())
+    assert browser.text(".card thead th")[1:] == ["golf", "golf/headwind"]
+    assert not browser.run("player.playing")
+    # play, and go on to the end by dragging; step, events, speed
+    driver.find_element(By.ID, "play").click()
+    WebDriverWait(driver, 10).until(lambda _: browser.run("player.t") > 0.2)
+    driver.find_element(By.ID, "play").click()
+    stopped = browser.run("player.t")
+    assert 0.2 < stopped < run.duration
+    assert not browser.run("player.playing")
+    body = ActionChains(driver)
+    browser.run("document.activeElement.blur()")
+    body.send_keys(".", ".", ",", "-", "-").perform()
+    assert browser.run("player.t") == pytest.approx(stopped + 1 / 60)
+    assert browser.run("2 ** player.power") == 0.25
+    assert browser.run("document.getElementById('rate').selectedOptions[0].text") == "1/4"
+    browser.run("document.querySelector('details').open = true")
+    driver.find_elements(By.CSS_SELECTOR, "#events button")[0].click()
+    landing = run.events[0].t
+    assert browser.run("player.t") == landing
+    assert amount(landing, "s") in browser.text("#events li.past")[0]
+    # a path is read by pointing at it, and a click goes there
+    t, (x, y, *_) = 3.0, run.state("ball", 3.0)
+    px, py = browser.run(f"player.spot({x}, {y}).map((value) => value * player.shown)")
+    canvas = driver.find_element(By.ID, "picture")
+    box = canvas.rect
+    ActionChains(driver).move_to_element_with_offset(
+        canvas, round(px - box["width"] / 2), round(py - box["height"] / 2)
+    ).perform()
+    hint = browser.run("document.getElementById('hint').innerText").splitlines()
+    pointed = browser.run("player.pointed.t")
+    assert pointed == pytest.approx(t, abs=0.05)
+    state = run.state("ball", pointed)
+    assert f"time {amount(pointed, 's')}" in hint
+    assert f"speed {amount(hypot(*state[2:4]), 'm/s')}" in hint
+    assert any(line.startswith("height ") for line in hint)
+    assert any(line.startswith("spin ") and line.endswith("rpm backspin") for line in hint)
+    ActionChains(driver).click().perform()
+    assert browser.run("player.t") == pytest.approx(pointed)
+    assert browser.run("document.getElementById('time').getAttribute('aria-valuetext')").startswith("time ")
+    # on a phone, in the dark, by touch
+    browser.open(pages("golf", "golf/headwind"), 390, 844, dark=True)
+    assert browser.run("document.documentElement.scrollWidth") <= 390
+    assert browser.run("player.view === player.data.views[1]")
+    x, y, *_ = run.state("ball", 2.0)
+    at = browser.run(
+        f"""(() => {{ const box = player.canvas.getBoundingClientRect(), [px, py] = player.spot({x}, {y});
+        return [box.left + px * player.shown, box.top + py * player.shown]; }})()"""
+    )
+    point = {"x": at[0], "y": at[1]}
+    driver.execute_cdp_cmd("Input.dispatchTouchEvent", {"type": "touchStart", "touchPoints": [point]})
+    driver.execute_cdp_cmd("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
+    assert browser.run("player.pointed.t") == pytest.approx(2.0, abs=0.1)
+    assert browser.complaints() == []
+
+
+def test_numbers_are_written_as_python_writes_them(browser, pages, tmp_path: Path):
+    """In the units that were chosen."""
+    values = [0.0, 0.0004, -0.0123, 0.0996, 5.0, -8.314, 9.99, 10.0, 123.4, 12345.6]
+    with shown_in("us"):
+        save(page_of(run_of("golf")), tmp_path / "us.html")
+    for page, units in ((pages("golf"), None), (tmp_path / "us.html", "us")):
+        browser.open(page)
+        for unit in ("m", "m/s", "deg", "rpm", "s", "N"):
+            with shown_in(units):
+                expected = [amount(value, unit) for value in values]
+            assert browser.run("arguments[0].map((value) => amount(value, arguments[1]))", values, unit) == expected
+    assert any("yd" in text for text in browser.text(".card td"))
+
+
+def test_a_page_says_how_to_run_it_again():
+    scene = sandbox.load("golf/driver", {"launch.speed": 70.0, "air.wind": [-3.0, 0.0], "ball.drag.model": "usga"})
+    words = command(scene).split()
+    assert words[:3] == ["sandbox", "run", "golf/driver"]
+    assert "launch.speed=70.0" in words
+    assert sandbox.load("golf").title in command(sandbox.load("golf"))
+
+
+def test_text_of_others_is_text(tmp_path: Path):
+    """A title or name with HTML in it stays text."""
+    file = tmp_path / "shot.toml"
+    file.write_text('# <script>alert(1)</script> & more\nscene = "golf"\n', "utf-8")
+    page = page_of(sandbox.simulate(str(file)), {"</script><b>": run_of("golf/headwind")})
+    assert "<script>alert" not in page
+    assert "</script><b>" not in page
+    assert "&lt;script&gt;alert(1)&lt;/script&gt; &amp; more" in page
