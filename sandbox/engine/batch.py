@@ -28,10 +28,10 @@ from sandbox.engine.setup import Ball, Bounds, Patch, Setup, Until
 from sandbox.engine.setup_errors import setup_errors_named
 from sandbox.engine.simulation import Simulation
 from sandbox.engine.stacking import FEWEST, Stack, chosen
-from sandbox.engine.step_control import LONGEST, StepControl, size, within
+from sandbox.engine.step_control import LONGEST, StepControl, within
 from sandbox.engine.surfaces import CLOSING, bounce_off, leaves_at, press, tilted
 from sandbox.physics.impulse import after_impulse, surface_speeds
-from sandbox.physics.integrators import INTEGRATORS, Acceleration, State
+from sandbox.physics.integrators import Acceleration, State
 
 #: What setups need for flights together; how they end is asked of each.
 FLIGHT = ("balls", "surfaces", "patches", "bounds", "duration")
@@ -134,7 +134,6 @@ class Batch:
         self.setups = setups
         self._accuracy = accuracy
         self._control = StepControl(accuracy)
-        self._method = INTEGRATORS[accuracy.integrator]
         whole = setups.whole
         self._all = FlightTerms(whole.balls[0], whole.patches, whole.bounds, whole.duration, whole.until)
         self._outlines = Outlines(setups, accuracy.skin)
@@ -232,15 +231,14 @@ class Batch:
         before = tuple(self._state)
         h = np.minimum(np.minimum(self._wanted, LONGEST), self._now.duration - self._t)
         h = np.where(self._again, self._wanted, within(self._now.patches, h, before, tuple(known)))
-        after, last, error = self._method.step(self._acceleration, self._t, before, tuple(known), h)
-        last = self._acceleration(self._t + h, after) if last is None else last
-        off = None if error is None else size(error, self._now.ball.radius)
-        fits, following = self._control.judge(h, self._wanted, before, after, (tuple(known), last), off)
+        fits, following, after, last = self._control.attempt(
+            self._acceleration, self._t, before, tuple(known), h, self._wanted, self._now.ball.radius
+        )
         self._again = ~fits
         self._counts[STEPS, self._shot] += 1
         self._counts[REFINED, self._shot] += ~fits
         ends = np.array(after), np.array(last)
-        accepted = np.flatnonzero(fits & self._makes_sense(ends[0]))
+        accepted = np.flatnonzero(fits & self._now.bounds.hold(after))
         staying = ~fits & (following >= np.maximum(1e-15, 1e-15 * self._t))
         staying[accepted] = True
         self._wanted = np.where(staying, following, h)
@@ -250,11 +248,6 @@ class Batch:
             staying[accepted[self._travel(accepted, h, known, *ends)]] = False
         if not staying.all():
             self._keep_only(staying)
-
-    def _makes_sense(self, state: np.ndarray) -> np.ndarray:
-        left, bottom, right, top = self._now.bounds
-        x, y = state[:2]
-        return np.isfinite(state).all(axis=0) & (left <= x) & (x <= right) & (bottom <= y) & (y <= top)
 
     # ------------------------------------------------------------------ travelling
 
@@ -376,7 +369,7 @@ class Batch:
             return _run_or_error(setup, self._accuracy)
         steps, refined, impacts, queries = self._counts[:, number].tolist()
         seconds = self._seconds / len(self.setups)
-        numerics = Numerics((self._method.evaluations + 1) * steps, steps, refined, impacts, impacts, queries, seconds)
+        numerics = Numerics((self._control.evaluations + 1) * steps, steps, refined, impacts, impacts, queries, seconds)
         left, events = self._left[number], self._events[number]
         if left.how in ("until", "duration"):
             arcs = {setup.balls[0].name: path}

@@ -15,12 +15,12 @@ from sandbox.engine.arc import Arc, still, through
 from sandbox.engine.lasting import RESTING, ROLLING, SLIDING, LastingContact, contact_on, wedged
 from sandbox.engine.run import Numerics
 from sandbox.engine.setup import Ball, Setup
-from sandbox.engine.step_control import LONGEST, StepControl, size, within
+from sandbox.engine.step_control import LONGEST, StepControl, within
 from sandbox.engine.surfaces import STILL, leaves_at, press
 from sandbox.engine.touch import SIDE, Near, Obstacle, flush
 from sandbox.engine.track import Track
 from sandbox.errors import RunError
-from sandbox.physics.integrators import INTEGRATORS, Acceleration, Law, State
+from sandbox.physics.integrators import Acceleration, Law, State
 
 #: Largest angle in rad that one arc covers around a round feature: a quintic follows a circle to 1e-9 of its radius
 #: for an eighth of a turn or less.
@@ -54,7 +54,6 @@ class InPlane(Track):
         self._setup = setup
         self._numerics = numerics
         self._law: Law = partial(acceleration, ball)
-        self._method = INTEGRATORS[accuracy.integrator]
         self._control = StepControl(accuracy)
         self._known: tuple[State, Acceleration] = ((), (0.0, 0.0, 0.0))  # the end of the last step: the next start
         self._slips = False  # it has just lost its grip
@@ -85,28 +84,24 @@ class InPlane(Track):
         h = within(self._setup.patches, min(wanted, LONGEST, until - t), state, acceleration)
         if contact is not None and contact.touching.feature != SIDE:
             h = min(h, _LONGEST_TURN / (contact.touching.curvature * (abs(state[2]) + abs(state[3])) + 1e-30))
-        shortest = max(1e-15, 1e-15 * t)
+        ball, control, shortest = self.ball, self._control, max(1e-15, 1e-15 * t)
         while True:
-            after, last, error = self._method.step(law, t, state, acceleration, h)
-            end_acceleration = law(t + h, after) if last is None else last
+            fits, following, end, last = control.attempt(law, t, state, acceleration, h, wanted, ball.radius)
             self._numerics.steps += 1
-            self._numerics.force_evaluations += self._method.evaluations
-            if not isinstance(acceleration[0] + end_acceleration[0] + end_acceleration[1] + end_acceleration[2], float):
-                self._method.step(
-                    partial(checked, self.ball), t, state, checked(self.ball, t, state), h
-                )  # raises the error, with its cause
-            off = None if error is None else size(error, self.ball.radius)
-            fits, following = self._control.judge(h, wanted, state, after, (acceleration, end_acceleration), off)
+            self._numerics.force_evaluations += control.evaluations
+            if not isinstance(acceleration[0] + last[0] + last[1] + last[2], float):
+                exact = partial(checked, ball)  # raises the error, with its cause
+                control.attempt(exact, t, state, exact(t, state), h, wanted, ball.radius)
             if fits:
                 break
             if following < shortest:
-                raise self._too_short(t, h, after, end_acceleration)
+                raise self._too_short(t, h, end, last)
             self._numerics.refined_steps += 1
             h = wanted = following
         self.next_step = following
-        self._check(t + h, after)
-        self._known = (after, end_acceleration)
-        return through(t, h, state, acceleration, after, end_acceleration, contact)
+        self._check(t + h, end)
+        self._known = (end, last)
+        return through(t, h, state, acceleration, end, last, contact)
 
     def _too_short(self, t: float, h: float, after: State, acceleration: Acceleration) -> Diverged:
         self._check(t + h, after)
@@ -120,10 +115,7 @@ class InPlane(Track):
         )
 
     def _check(self, t: float, state: State) -> None:
-        x, y, vx, vy, spin = state
-        total = x + y + vx + vy + spin
-        left, bottom, right, top = self._setup.bounds
-        if total - total == 0.0 and left <= x <= right and bottom <= y <= top:
+        if self._setup.bounds.hold(state):
             return
         where = f"t = {t:.6g} s, ball {self.ball.name!r}: "
         names, units = ("x", "y", "vx", "vy", "spin"), ("m", "m", "m/s", "m/s", "rad/s")
@@ -133,6 +125,8 @@ class InPlane(Track):
                     f"{where}{quantity} is {value} {unit}; "
                     "check the forces, or lower accuracy.step or accuracy.tolerance"
                 )
+        x, y = state[:2]
+        left, bottom, right, top = self._setup.bounds
         quantity, value, low, high = ("x", x, left, right) if not left <= x <= right else ("y", y, bottom, top)
         raise Diverged(
             f"{where}{quantity} = {value:.6g} m is outside the world ({low:g} to {high:g} m); shorten the duration, or "

@@ -262,6 +262,13 @@ class Bounds(NamedTuple):
     right: float = 1e5
     top: float = 1e5
 
+    def hold(self, state: State) -> Any:
+        """Whether a ball in this state is inside, and all its numbers are finite."""
+        x, y, vx, vy, spin = state
+        total = x + y + vx + vy + spin
+        inside = (self.left <= x) & (x <= self.right) & (self.bottom <= y) & (y <= self.top)
+        return inside & (total - total == 0.0)
+
 
 @dataclass(frozen=True)
 class ContactModel:

@@ -5,12 +5,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from math import inf
-from typing import Any
+from typing import Any, NamedTuple
 
 from sandbox.engine.accuracy import Accuracy
 from sandbox.engine.setup import Patch
 from sandbox.physics.elementwise import anywhere, choose, clip, most
-from sandbox.physics.integrators import INTEGRATORS, Acceleration, State
+from sandbox.physics.integrators import INTEGRATORS, Acceleration, Law, State
 
 #: Local error of a step relative to the tolerance at the end. Each impact on a round shape multiplies an error by ten
 #: or more, so the flight must be much more accurate; this value is enough for shots with several rim contacts.
@@ -40,32 +40,42 @@ JUMP = 0.01
 _NO_ERROR = 1e-300
 
 
+class Attempt(NamedTuple):
+    """A step that was tried."""
+
+    fits: Any  # whether it is accepted
+    following: Any  # s, the step to try next, after it or in its place
+    state: State  # at its end
+    acceleration: Acceleration
+
+
 class StepControl:
-    """Step control of one method at one accuracy, from its order and its error estimate, if any."""
+    """The steps of one method at one accuracy, controlled by its order and its error estimate, if any."""
 
     def __init__(self, accuracy: Accuracy) -> None:
         self._method = INTEGRATORS[accuracy.integrator]
         self._exponent = 1.0 / self._method.order
         self._local_error = accuracy.tolerance * LOCAL_SHARE  # m
         self._step = accuracy.step  # s
+        self.evaluations = self._method.evaluations  # of the forces in each step
         self.first = FIRST_STEP if self._method.controls_error else accuracy.step  # s
 
-    def judge(
-        self, h: Any, wanted: Any, start: State, end: State, accelerations: tuple[Acceleration, Acceleration], off: Any
-    ) -> tuple[Any, Any]:
-        """Whether a step of ``h`` s is accepted, and the next step to try, after it or in its place.
-
-        ``wanted`` is the intended step, of which ``h`` may be a part. ``accelerations`` are those at both ends,
-        ``off`` is the estimated error in m, or None.
-        """
-        if off is None:
-            too_long = stiff(start, end, *accelerations, h)
+    def attempt(
+        self, law: Law, t: Any, state: State, acceleration: Acceleration, h: Any, wanted: Any, radius: Any
+    ) -> Attempt:
+        """A step of ``h`` s, which may be a part of the ``wanted`` step, from a state with this acceleration."""
+        end, last, error = self._method.step(law, t, state, acceleration, h)
+        if last is None:
+            last = law(t + h, end)
+        if error is None:
+            too_long = stiff(state, end, acceleration, last, h)
             longer = choose(h >= wanted, clip(2.0 * h, 0.0, self._step), wanted)
-            return too_long ^ True, choose(too_long, 0.5 * h, longer)
+            return Attempt(too_long ^ True, choose(too_long, 0.5 * h, longer), end, last)
+        off = size(error, radius)
         fits = off <= self._local_error
         change = clip(SAFETY * (self._local_error / (off + _NO_ERROR)) ** self._exponent, SHORTER, LONGER)
         following = h * choose(off < inf, change, LOST)
-        return fits, most(following, wanted * (fits & (h < wanted)))
+        return Attempt(fits, most(following, wanted * (fits & (h < wanted))), end, last)
 
 
 def size(error: State, radius: Any) -> Any:
