@@ -1,9 +1,9 @@
 """Seeded mutants of the program, each against its related tests: which go unnoticed?
 
-Run ``python tests/mutants.py [--room FOLDER] [--number N] [--seed S] [--part I/N] [--timeout SECONDS]``; not a part of
+Run ``python tests/mutants.py [--room FOLDER ...] [--number N] [--seed S] [--part I/N] [--timeout SECONDS]``; not a part of
 ``make test``. Each mutant changes one place: a number, an operator, a comparison, a condition, a statement that is
-left out, two arguments that are swapped. A copy of the tree is mutated, never the tree itself. Survivors are listed
-with their lines; whether one is equivalent is for people to judge.
+left out, two arguments that are swapped. The tree is copied first; only the copy is read and mutated. Survivors are
+listed with their lines; whether one is equivalent is for people to judge.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -32,8 +32,9 @@ TESTS: dict[str, dict[str, str]] = {
         "arc_rows": "batch",
         "batch": "batch methods",
         "bernstein": "bernstein contact exact",
-        "bernstein_many": "batch",
+        "bernstein_many": "bernstein batch",
         "clusters": "clusters",
+        "heap": "heap",
         "impacts": "contact cloth clusters",
         "impulses": "contact cloth batch",
         "in_plane": "guards contact exact run",
@@ -44,7 +45,8 @@ TESTS: dict[str, dict[str, str]] = {
         "outlines": "batch",
         "path": "run batch cloth",
         "plain": "plain run guards cloth",
-        "pressed": "clusters",
+        "pressed": "clusters pressed",
+        "real_space": "heap plain",
         "rubbing": "clusters",
         "run": "run batch cloth",
         "setup": "guards contact run batch",
@@ -60,6 +62,8 @@ TESTS: dict[str, dict[str, str]] = {
     "sandbox/physics": {
         "elementwise": "coefficients forces air engine/batch",
         "hertz": "hertz engine/clusters",
+        "ice": "engine/ice",
+        "plane": "engine/ice cloth",
         "impulse": "cushion engine/cloth engine/contact engine/batch",
         "": "{name} scenes/golf",
     },
@@ -171,63 +175,64 @@ def changed(node: Any, how: str) -> None:
         node.__class__, node.value = ast.Expr, ast.Constant(None)
 
 
-def drawn(room: str, number: int, seed: int) -> list[tuple[Path, int]]:
-    """Modules and the places in them to change, each once; ``room`` is a folder, or a module in it."""
-    files = [file for folder in TESTS for file in sorted((ROOT / folder).glob("*.py"))]
+def drawn(tree: Path, rooms: Sequence[str], number: int, seed: int) -> list[tuple[str, int]]:
+    """Modules and the places in them to change, each once; a room is a folder, or a module in it."""
+    files = [file for folder in TESTS for file in sorted((tree / folder).glob("*.py"))]
     every = [
-        (file, place)
+        (name, place)
         for file in files
-        if file.stem not in LEFT_OUT and file.relative_to(ROOT).as_posix().startswith(room)
+        if file.stem not in LEFT_OUT and (name := file.relative_to(tree).as_posix()).startswith(tuple(rooms))
         for place in range(len(list(places(ast.parse(file.read_text("utf-8"))))))
     ]
     return random.Random(seed).sample(every, min(number, len(every)))
 
 
-def mutant(file: Path, place: int) -> tuple[str, str]:
+def mutant(source: str, place: int) -> tuple[str, str]:
     """The source with the change, and what it is."""
-    tree = ast.parse(file.read_text("utf-8"))
+    tree = ast.parse(source)
     node: Any
     node, how = list(places(tree))[place]
     shown = node.test if how == "condition" else node
     before = ast.unparse(shown)
     changed(node, how)
     after = "left out" if how == "statement" else ast.unparse(node.test if how == "condition" else node)
-    return ast.unparse(
-        ast.fix_missing_locations(tree)
-    ), f"{file.relative_to(ROOT)}:{node.lineno}  {before}  ->  {after}"
+    return ast.unparse(ast.fix_missing_locations(tree)), f"{node.lineno}  {before}  ->  {after}"
 
 
-def tests_of(file: Path) -> list[str]:
-    """The files of the module's tests."""
-    room = file.parent.relative_to(ROOT).as_posix()
-    names = TESTS[room].get(file.stem, TESTS[room].get("", "")).format(name=file.stem).split()
+def tests_of(tree: Path, module: str) -> list[str]:
+    """The files of a module's tests."""
+    room, _, file = module.rpartition("/")
+    stem = file.removesuffix(".py")
+    names = TESTS[room].get(stem, TESTS[room].get("", "")).format(name=stem).split()
     own = room.removeprefix("sandbox").strip("/")
     found = []
     for name in names:
         folder, _, last = name.rpartition("/")
         places = (f"tests/{folder or own}/test_{last}.py", f"tests/test_{last}.py")
-        found += [path for path in places if (ROOT / path).is_file()][:1]
+        found += [path for path in places if (tree / path).is_file()][:1]
     return found
 
 
-def noticed(copied: Path, file: Path, source: str, timeout: float) -> bool:
-    """Whether a test fails, or none ends in time."""
-    place = copied / file.relative_to(ROOT)
-    original = place.read_text("utf-8")
-    place.write_text(source, "utf-8")
-    command = [sys.executable, "-m", "pytest", "-x", "-q", "-n", "0", "-p", "no:cacheprovider", *tests_of(file)]
+def noticed(tree: Path, module: str, source: str, timeout: float) -> bool:
+    """Whether a test fails, or none ends in time, when the module has this source."""
+    original = (tree / module).read_text("utf-8")
+    (tree / module).write_text(source, "utf-8")
+    tests = tests_of(tree, module)
+    command = [sys.executable, "-m", "pytest", "-x", "-q", "-n", "0", "-p", "no:cacheprovider", *tests]
     variables = {**os.environ, "PYTHONDONTWRITEBYTECODE": "1", "SDL_VIDEODRIVER": "dummy"}
     try:
-        return subprocess.run(command, cwd=copied, env=variables, capture_output=True, timeout=timeout).returncode != 0
+        return subprocess.run(command, cwd=tree, env=variables, capture_output=True, timeout=timeout).returncode != 0
     except subprocess.TimeoutExpired:
         return True
     finally:
-        place.write_text(original, "utf-8")
+        (tree / module).write_text(original, "utf-8")
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--room", default="", help="a folder such as scenes/golf, or a module; all if not given")
+    parser.add_argument(
+        "--room", nargs="*", default=[""], help="folders such as scenes/golf, or modules; all if not given"
+    )
     parser.add_argument("--number", type=int, default=300)
     parser.add_argument("--seed", type=int, default=18)
     parser.add_argument("--part", default="1/1", help="every N-th mutant from the I-th on: I/N")
@@ -236,14 +241,14 @@ def main() -> None:
     part, parts = map(int, arguments.part.split("/"))
     survivors = tried = 0
     with tempfile.TemporaryDirectory() as folder:
-        copied = Path(folder) / "tree"
-        shutil.copytree(ROOT, copied, ignore=shutil.ignore_patterns(".git", ".venv", "__pycache__", "dist"))
-        for file, place in drawn(arguments.room, arguments.number, arguments.seed)[part - 1 :: parts]:
-            source, what = mutant(file, place)
+        tree = Path(folder) / "tree"
+        shutil.copytree(ROOT, tree, ignore=shutil.ignore_patterns(".git", ".venv", "__pycache__", "dist"))
+        for module, place in drawn(tree, arguments.room, arguments.number, arguments.seed)[part - 1 :: parts]:
+            source, what = mutant((tree / module).read_text("utf-8"), place)
             tried += 1
-            if not noticed(copied, file, source, arguments.timeout):
+            if not noticed(tree, module, source, arguments.timeout):
                 survivors += 1
-                sys.stdout.write(f"survived ({survivors} of {tried})  {what}\n")
+                sys.stdout.write(f"survived ({survivors} of {tried})  {module}:{what}\n")
                 sys.stdout.flush()
     sys.stdout.write(f"{survivors} of {tried} mutants survived\n")
 
