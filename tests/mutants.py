@@ -1,7 +1,7 @@
 """Seeded mutants of the program, each against its related tests: which go unnoticed?
 
-Run ``python tests/mutants.py [--room FOLDER ...] [--number N] [--seed S] [--part I/N] [--timeout SECONDS]``; not a part of
-``make test``. Each mutant changes one place: a number, an operator, a comparison, a condition, a statement that is
+Run ``python tests/mutants.py [--room FOLDER ...] [--number N] [--seed S] [--part I/N] [--timeout SECONDS]``; not a part
+of ``make test``. Each mutant changes one place: a number, an operator, a comparison, a condition, a statement that is
 left out, two arguments that are swapped. The tree is copied first; only the copy is read and mutated. Survivors are
 listed with their lines; whether one is equivalent is for people to judge.
 """
