@@ -194,10 +194,14 @@ class Varied:
         """The scene's parameters with ``values`` at the keys, in their order. Raises RequestError."""
         slow = {key: value for key, value, quick in zip(self._keys, values, self._quick, strict=True) if not quick}
         parameters = self._base(slow) if slow else self._scene.parameters
+        changes: dict[str | int, Any] = {}
         for path, value, quick in zip(self._paths, values, self._quick, strict=True):
             if quick:
-                parameters = _put(parameters, path, value)
-        return parameters
+                node = changes
+                for step in path[:-1]:
+                    node = node.setdefault(step, {})
+                node[path[-1]] = value
+        return _changed(parameters, changes)
 
     def together(self, points: Sequence[Sequence[Any]]) -> Iterator[tuple[list[int], Any]]:
         """The places of points that differ only in numbers, and their parameters in one, with arrays for the numbers
@@ -246,10 +250,10 @@ def _can_set_unchecked(parameters: Any, path: Path) -> bool:
     return isinstance(quantity, Quantity) and (isinstance(node, float) or node is None)
 
 
-def _put(node: Any, path: Path, value: Any) -> Any:
-    if not path:
-        return value
-    head, rest = path[0], path[1:]
-    if isinstance(head, int):
-        return type(node)((*node[:head], _put(node[head], rest, value), *node[head + 1 :]))
-    return node.model_copy(update={head: _put(getattr(node, head), rest, value)})
+def _changed(node: Any, changes: Any) -> Any:
+    """A group, list or tuple with nested changes applied."""
+    if not isinstance(changes, dict):
+        return changes
+    if isinstance(node, Group):
+        return node.model_copy(update={key: _changed(getattr(node, key), inner) for key, inner in changes.items()})
+    return type(node)(_changed(item, changes.get(place, item)) for place, item in enumerate(node))

@@ -10,6 +10,7 @@ import re
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
+from functools import cache
 from pathlib import Path
 from types import ModuleType
 
@@ -22,10 +23,12 @@ NAMESPACE = "sandbox_scenes"
 
 def module_in(folder: Path, name: str) -> ModuleType:
     """``folder/name.py``, imported as part of a package, so that relative imports and pickling work in it."""
-    _package(NAMESPACE, resources.folder("scenes"))
     package = _package_of(folder)
+    if f"{package}.{name}" in sys.modules:
+        return importlib.import_module(f"{package}.{name}")
     try:
         with no_exit():
+            _package(NAMESPACE, resources.folder("scenes"))
             _package(package, folder)
             return importlib.import_module(f"{package}.{name}")
     except (SyntaxError, ValueError):  # for NUL bytes Python names no file, and not always a SyntaxError
@@ -58,6 +61,7 @@ def read_again(folder: Path) -> Iterator[None]:
         raise
 
 
+@cache
 def _package_of(folder: Path) -> str:
     """Name of the package that a scene's folder is imported as."""
     package = f"{NAMESPACE}.{re.sub(r'[^0-9A-Za-z_]', '_', folder.name)}"

@@ -158,14 +158,17 @@ def test_a_word_is_aimed_at():
 
 
 def test_targets_have_units():
-    assert parse_target("carry=200") == Target("carry", 200.0)
-    assert parse_target("carry = '200 m'") == Target("carry", 200.0)
-    assert parse_target("carry=100 yd") == Target("carry", 91.44)
-    assert parse_target("landing_angle=0.5 rad") == Target("landing_angle", pytest.approx(degrees(0.5)))
-    assert parse_target("landing_spin=2 rev/s") == Target("landing_spin", 120.0)
-    assert parse_target("landing_speed=36 km/h") == Target("landing_speed", 10.0)
-    assert parse_target("made=true") == as_target("made", True) == Target("made", True)
-    assert parse_target("verdict=swish") == Target("verdict", "swish")
+    golf, basketball = load("golf"), load("basketball")
+    assert parse_target("carry=200", golf) == Target("carry", 200.0)
+    assert parse_target("carry = '200 m'", golf) == Target("carry", 200.0)
+    assert parse_target("carry=100 yd", golf) == Target("carry", 91.44)
+    assert parse_target("landing_angle=0.5 rad", golf) == Target("landing_angle", pytest.approx(degrees(0.5)))
+    assert parse_target("landing_spin=2 rev/s", golf) == Target("landing_spin", 120.0)
+    assert parse_target("landing_speed=36 km/h", golf) == Target("landing_speed", 10.0)
+    assert parse_target("made=true", basketball) == as_target("made", True, basketball) == Target("made", True)
+    assert parse_target("verdict=swish", basketball) == Target("verdict", "swish")
+    with pytest.raises(RequestError, match="--target carry=far: is not a number with a unit; use m,"):
+        parse_target("carry=far", golf)
     with pytest.raises(RequestError, match="s is a unit of time; use m,"):
         aim("golf", {"launch.speed": (40, 80)}, {"carry": "20 s"})
 
@@ -192,7 +195,7 @@ def test_requests_that_make_no_sense_are_told(vary, target, told):
 
 def test_what_is_named_twice_is_told():
     scene = load(DROP)
-    height, bounces = parse_span(scene, "--vary", "launch.height=1:2"), parse_target("bounces=2")
+    height, bounces = parse_span(scene, "--vary", "launch.height=1:2"), parse_target("bounces=2", scene)
     for spans, targets, told in (
         ([height, height], [bounces, bounces], "--vary launch.height: given twice"),
         ([height], [bounces, bounces], "--target bounces: given twice"),

@@ -48,7 +48,7 @@ def aim(
         if not isinstance(axis, Span):
             raise RequestError(f"vary {key}: only numbers have a range, (low, high), but this is {given!r}")
         spans.append(axis)
-    targets = [as_target(name, value, scene=chosen) for name, value in (target or {}).items()]
+    targets = [as_target(name, value, chosen) for name, value in (target or {}).items()]
     return search(chosen, spans, [*targets, *([] if maximize is None else [Target(maximize, GREATEST)])], progress)
 
 

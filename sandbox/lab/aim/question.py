@@ -111,48 +111,30 @@ class Aim:
         }
 
 
-def parse_target(text: str, scene: Scene | None = None) -> Target:
+def parse_target(text: str, scene: Scene) -> Target:
     """``carry=200``, ``carry="219 yd"``, ``made=true`` or ``verdict=swish``. Raises RequestError."""
     name, equals, value = (part.strip() for part in text.partition("="))
     if not name or not equals or not value:
         raise RequestError(f"--target {text}: write it as NAME=VALUE, for example --target carry=200")
-    return as_target(name, value, "--target", scene)
+    return as_target(name, value, scene, "--target")
 
 
-def as_target(name: str, value: Any, option: str = "target", scene: Scene | None = None) -> Target:
-    """A target from Python. A number may have a unit: that of the scene's result, or of its kind; if the scene states
-    none, results are in SI, except angles in deg and spins in rpm."""
+def as_target(name: str, value: Any, scene: Scene, option: str = "target") -> Target:
+    """A target from Python. A number is in the unit of the scene's fact, or has a unit of its own."""
     if isinstance(value, bool | np.bool_):
         return Target(name, bool(value))
-    if isinstance(value, int | float | np.number):
-        if not isfinite(value):
-            raise RequestError(f"{option} {name}: {value} cannot be aimed at")
-        return Target(name, float(value))
-    if not isinstance(value, str):
-        raise RequestError(f"{option} {name}: {value!r} is not a number, true, false or a word")
-    text = value.strip().strip("\"'")
-    if text in ("true", "false"):
-        return Target(name, text == "true")
-    try:
-        return as_target(name, float(text), option)
-    except ValueError:
-        pass
-    declared = "" if scene is None else scene.units.get(name, "")
-    for unit in _RESULT_UNITS:
+    if isinstance(value, str):
+        text, unit = value.strip().strip("\"'"), scene.units.get(name, "")
+        if text in ("true", "false"):
+            return Target(name, text == "true")
         try:
-            number = units.parse(text, unit)
-        except ValueError:
-            continue
-        if declared in units.KIND_OF and declared:
-            try:
-                number = units.parse(text, declared)
-            except ValueError as error:
-                raise RequestError(f"{option} {name}={text}: {error}") from None
-        return as_target(name, number, option)
-    return Target(name, text)
-
-
-#: Units of results: SI, except angles in deg and spins in rpm.
-_RESULT_UNITS = [
-    {"rad": "deg", "rad/s": "rpm"}.get(unit, unit) for unit in (next(iter(kind)) for kind in units.KINDS.values())
-]
+            value = units.parse(text, unit)
+        except ValueError as error:
+            if not unit:
+                return Target(name, text)
+            raise RequestError(f"{option} {name}={text}: {error}") from None
+    if not isinstance(value, int | float | np.number):
+        raise RequestError(f"{option} {name}: {value!r} is not a number, true, false or a word")
+    if not isfinite(value):
+        raise RequestError(f"{option} {name}: {value} cannot be aimed at")
+    return Target(name, float(value))
