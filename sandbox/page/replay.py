@@ -12,6 +12,7 @@ import numpy as np
 from PIL import Image
 
 from sandbox.engine.arc import Arc
+from sandbox.engine.heap import Heaped
 from sandbox.engine.run import Run
 from sandbox.engine.track import PRESSED
 from sandbox.errors import RequestError
@@ -40,6 +41,8 @@ SAMPLES = 240
 GROUND = 400
 #: Units of the numbers that the page itself writes.
 UNITS = ("m", "m/s", "deg", "rpm", "s", "N")
+#: Digits after the point of what balls in a heap do, in m and rad/s.
+HEAPED = 12
 #: Most impacts and other events that are listed.
 MOST_EVENTS = 400
 
@@ -222,7 +225,10 @@ def _arc(arc: Arc) -> list[Any]:
         within = [[arc.start[2]], [arc.start[3]]]
     elif arc.contact == PRESSED:
         within = [list(arc.vx), list(arc.vy)]
-    curves = [arc.t0, list(arc.x), list(arc.y), list(arc.spin), within]
+    curves: list[Any] = [list(arc.x), list(arc.y), list(arc.spin), within]
+    if isinstance(arc.contact, Heaped):  # thousands of short steps, whose digits are not those of the physics
+        curves[:3] = ([round(value, HEAPED) for value in curve] for curve in curves[:3])
+    curves = [arc.t0, *curves]
     return [*curves, [list(curve) for curve in arc.rolling_spin]] if arc.rolling_spin else curves
 
 
