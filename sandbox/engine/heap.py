@@ -15,6 +15,7 @@ rigid lump.
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
+from functools import cached_property
 from itertools import combinations
 from math import hypot, inf
 from typing import NamedTuple
@@ -99,10 +100,15 @@ class Heap:
         self._fastest = 0.0  # m/s, approach in the heap that is no impact of its own
         self._h = 0.0  # s, the length of this step
         self.margin = _MARGIN * min(ball.radius for ball in setup.balls)  # m, gap up to which shapes touch
+
+    @cached_property
+    def _real(self) -> RealSpace:
+        """The Space, made when there is something to step."""
         # at rest shapes stay in touch: their margins overlap
-        self._real = RealSpace(setup.surfaces, _ITERATIONS, self.margin, 0.5 * self.margin)
-        self._real.space.collision_bias = _LEFT ** (1.0 / self._longest)
-        self._real.on_contact(self._meet, self._press)
+        real = RealSpace(self._setup.surfaces, _ITERATIONS, self.margin, 0.5 * self.margin)
+        real.space.collision_bias = _LEFT ** (1.0 / self._longest)
+        real.on_contact(self._meet, self._press)
+        return real
 
     @property
     def members(self) -> Collection[int]:
