@@ -245,8 +245,8 @@ class Painter:
         seen = box.clip(self.surface.get_rect())
         if seen.width == 0 or seen.height == 0:
             return
-        drawn = (array - seen.topleft) * larger
-        key = draw, drawn.round(6).tobytes(), seen.size, colour, how
+        drawn = ((array - seen.topleft) * larger).round(6)  # or a shape would depend on which like it came first
+        key = draw, drawn.tobytes(), seen.size, colour, how
         sprite = _sprites.get(key)
         if sprite is None:
             mask = scratch((seen.width * larger, seen.height * larger), colour)

@@ -4,7 +4,7 @@ import numpy as np
 import pygame
 import pytest
 
-from sandbox.picture.painter import Painter, blank, from_colours
+from sandbox.picture.painter import Painter, _sprites, blank, from_colours
 from sandbox.picture.palette import mix, palette
 
 WHITE = (255, 255, 255)
@@ -104,3 +104,13 @@ def test_a_thread_is_of_whole_pixels_and_at_least_one(width, rows):
 @pytest.mark.parametrize("width", [1, 3])
 def test_a_thread_of_one_point_is_nothing(width):
     assert not drawn(lambda p: p.thread([(4, 4)], width, WHITE)).any()
+
+
+def test_shapes_that_differ_by_rounding_alone_look_the_same():
+    """Either may be kept for the other; an edge just below a whole px used to be drawn one subpixel short."""
+    square = np.array([(20.0, 20.0), (60.0, 20.0), (60.0, 40.0), (20.0, 40.0)])
+    looks = []
+    for points in (square, square - 1e-9):
+        _sprites.clear()
+        looks.append(drawn(lambda p, points=points: p.polygon(points + 0.5, WHITE)))
+    assert np.array_equal(*looks)
