@@ -41,6 +41,7 @@ KINDS: dict[str, dict[str, tuple[float, float]]] = {
     "viscosity": {"Pa s": (1.0, 0.0)},
     "inertia": {"kg m^2": (1.0, 0.0)},
     "force": {"N": (1.0, 0.0), "mN": (1e-3, 0.0), "kN": (1e3, 0.0), "lbf": (4.4482216152605, 0.0)},
+    "impulse": {"N s": (1.0, 0.0)},
     "torque": {"N m": (1.0, 0.0)},
     "energy": {"J": (1.0, 0.0), "kJ": (1e3, 0.0)},
     "power": {"W": (1.0, 0.0), "kW": (1e3, 0.0)},

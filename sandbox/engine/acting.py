@@ -46,7 +46,11 @@ def acceleration(ball: Ball, t: Any, state: State) -> Acceleration:
         if error.__traceback__ is not None and error.__traceback__.tb_next is not None:
             raise  # from inside the term
         raise RunError(f"{_rule(term)}: {error}") from None
-    return fx / ball.mass, fy / ball.mass, torque / ball.inertia
+    mass, inertia = ball.mass, ball.inertia
+    if ball.loss is not None:
+        left = ball.left(t)
+        mass, inertia = mass * left, inertia * left
+    return fx / mass, fy / mass, torque / inertia
 
 
 def checked(ball: Ball, t: float, state: State) -> Acceleration:

@@ -28,13 +28,13 @@ from sandbox.engine.setup import Ball, Bounds, Patch, Setup, Until
 from sandbox.engine.setup_errors import setup_errors_named
 from sandbox.engine.simulation import Simulation
 from sandbox.engine.stacking import FEWEST, Stack, chosen
-from sandbox.engine.step_control import LONGEST, StepControl, within
+from sandbox.engine.step_control import LONGEST, StepControl, before_break, within
 from sandbox.engine.surfaces import CLOSING, bounce_off, leaves_at, press, tilted
 from sandbox.physics.impulse import after_impulse, surface_speeds
 from sandbox.physics.integrators import Acceleration, State
 
 #: What setups need for flights together; how they end is asked of each.
-FLIGHT = ("balls", "surfaces", "patches", "bounds", "duration")
+FLIGHT = ("balls", "surfaces", "patches", "bounds", "duration", "breaks")
 
 #: Rows of the counters.
 STEPS, REFINED, IMPACTS, QUERIES = range(4)
@@ -116,6 +116,7 @@ class FlightTerms(NamedTuple):
     bounds: Bounds
     duration: float  # s
     until: Any
+    breaks: Sequence[Any]  # s
 
 
 class _Left(NamedTuple):
@@ -135,7 +136,7 @@ class Batch:
         self._accuracy = accuracy
         self._control = StepControl(accuracy)
         whole = setups.whole
-        self._all = FlightTerms(whole.balls[0], whole.patches, whole.bounds, whole.duration, whole.until)
+        self._all = FlightTerms(whole.balls[0], whole.patches, whole.bounds, whole.duration, whole.until, whole.breaks)
         self._outlines = Outlines(setups, accuracy.skin)
         self._lanes = lanes(ManyLanes)
         self._events: list[list[Event]] = [[] for _ in setups]
@@ -230,6 +231,7 @@ class Batch:
         self._touched = np.full(len(self._shot), -1)
         before = tuple(self._state)
         h = np.minimum(np.minimum(self._wanted, LONGEST), self._now.duration - self._t)
+        h = before_break(self._now.breaks, self._t, h)
         h = np.where(self._again, self._wanted, within(self._now.patches, h, before, tuple(known)))
         fits, following, after, last = self._control.attempt(
             self._acceleration, self._t, before, tuple(known), h, self._wanted, self._now.ball.radius

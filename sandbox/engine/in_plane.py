@@ -15,7 +15,7 @@ from sandbox.engine.arc import Arc, still, through
 from sandbox.engine.lasting import RESTING, ROLLING, SLIDING, LastingContact, contact_on, wedged
 from sandbox.engine.run import Numerics
 from sandbox.engine.setup import Ball, Setup
-from sandbox.engine.step_control import LONGEST, StepControl, within
+from sandbox.engine.step_control import LONGEST, StepControl, before_break, within
 from sandbox.engine.surfaces import STILL, leaves_at, press
 from sandbox.engine.touch import SIDE, Near, Obstacle, flush
 from sandbox.engine.track import Track
@@ -81,7 +81,8 @@ class InPlane(Track):
             acceleration = law(t, state)
             self._numerics.force_evaluations += 1
         wanted = self.next_step
-        h = within(self._setup.patches, min(wanted, LONGEST, until - t), state, acceleration)
+        h = before_break(self._setup.breaks, t, min(wanted, LONGEST, until - t))
+        h = within(self._setup.patches, h, state, acceleration)
         if contact is not None and contact.touching.feature != SIDE:
             h = min(h, _LONGEST_TURN / (contact.touching.curvature * (abs(state[2]) + abs(state[3])) + 1e-30))
         ball, control, shortest = self.ball, self._control, max(1e-15, 1e-15 * t)

@@ -34,7 +34,7 @@ class Ledger:
 
     start: float  # kinetic, of all balls, including rotation
     end: float
-    work: dict[str, float]  # by force or torque
+    work: dict[str, float]  # by force or torque; by "lost mass", what that takes away
     impacts: dict[str, float]  # by the partner; an impact of two balls under both names
     #: By the surface slid or rolled on, including bounces too low to simulate; by "heap" where balls press on one
     #: another, and "position correction", what moving them apart there adds.
@@ -52,9 +52,9 @@ def ledger(run: Run) -> Ledger:
     for ball in run.setup.balls:
         arcs = run.arcs[ball.name]
         start += kinetic(ball, arcs[0].start)
-        end += kinetic(ball, arcs[-1].state(arcs[-1].t1))
+        end += kinetic(ball, arcs[-1].state(arcs[-1].t1), arcs[-1].t1)
         for arc in arcs:
-            gain = kinetic(ball, arc.state(arc.t1)) - kinetic(ball, arc.start)
+            gain = kinetic(ball, arc.state(arc.t1), arc.t1) - kinetic(ball, arc.start, arc.t0)
             if arc.contact == PRESSED:
                 impacts[met.partner(ball.name, arc.t0, arc.t1) or ""] += gain
                 continue
@@ -67,7 +67,7 @@ def ledger(run: Run) -> Ledger:
             else:
                 residue += gain - _book(ball, arc, work, contacts)
         for before, after in pairwise(arcs):
-            jump = kinetic(ball, after.start) - kinetic(ball, before.state(before.t1))
+            jump = kinetic(ball, after.start, after.t0) - kinetic(ball, before.state(before.t1), after.t0)
             hit = met.partner(ball.name, after.t0, after.t0)
             lasting = after.contact or before.contact
             if hit is not None:
@@ -131,12 +131,15 @@ def _book(ball: Ball, arc: Arc, work: dict[str, float], contacts: dict[str, floa
         applied = 0.0
         powers = [(name, fx * vx + fy * vy) for name, (fx, fy) in by_cause(ball.forces, t, state)]
         powers += [(name, torque * spin) for name, torque in by_cause(ball.torques, t, state)]
+        if ball.loss is not None:
+            powers.append(("lost mass", -kinetic(ball, state) * ball.loss.rate(t) / ball.mass))
         for name, power in powers:
             work[name] += weight * h * power
             applied += power
         if isinstance(contact, LastingContact):
             (ax, ay, alpha), _, _ = contact.forces(ball, acceleration(ball, t, state), state)
-            total = ball.mass * (ax * vx + ay * vy) + ball.inertia * alpha * spin
+            lost = powers[-1][1] if ball.loss is not None else 0.0
+            total = ball.left(t) * (ball.mass * (ax * vx + ay * vy) + ball.inertia * alpha * spin) + lost
             contacts[contact.obstacle.surface.name] += weight * h * (total - applied)
             applied = total
         booked += weight * h * applied

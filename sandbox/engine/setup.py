@@ -39,6 +39,14 @@ class Torque(Protocol):
     def __call__(self, t: Any, position: Any, velocity: Any, spin: Any) -> Any: ...
 
 
+class MassLoss(Protocol):
+    """How much of its mass a ball has lost by a time t (s), in kg, and how fast it loses it, in kg/s. What it loses
+    keeps its velocity and spin: the push that it gives is a force like any other."""
+
+    def lost(self, t: Any) -> Any: ...
+    def rate(self, t: Any) -> Any: ...
+
+
 @dataclass(frozen=True)
 class Ball:
     """A ball, its state at the start, and the forces on it. Lengths in m, kg, s, rad; spin counter-clockwise."""
@@ -53,7 +61,12 @@ class Ball:
     inertia_factor: float = SOLID_SPHERE  # moment of inertia over m r^2
     forces: Sequence[Force] = ()
     torques: Sequence[Torque] = ()
-    inertia: float = field(init=False, repr=False)  # kg m^2
+    loss: MassLoss | None = None  # ``mass`` is that at the start
+    inertia: float = field(init=False, repr=False)  # kg m^2, at the start
+
+    def left(self, t: Any) -> Any:
+        """Share of its mass that it still has at time t in s."""
+        return 1.0 if self.loss is None else 1.0 - self.loss.lost(t) / self.mass
 
     def __post_init__(self) -> None:
         for what, value in (("mass", self.mass), ("radius", self.radius), ("inertia_factor", self.inertia_factor)):
@@ -120,10 +133,11 @@ def outline_of(ball: Ball) -> Shape:
     return ball.outline if isinstance(ball, Body) else disc(ball.radius)
 
 
-def kinetic(ball: Ball, state: State) -> float:
-    """Kinetic energy of a ball in J, including rotation."""
+def kinetic(ball: Ball, state: State, t: float = 0.0) -> float:
+    """Kinetic energy in J, including rotation, of a ball in this state at time t in s."""
     _, _, vx, vy, *spins = state[:5] if isinstance(ball, Body) else state
-    return 0.5 * ball.mass * (vx * vx + vy * vy) + 0.5 * ball.inertia * sum(spin * spin for spin in spins)
+    energy = 0.5 * ball.mass * (vx * vx + vy * vy) + 0.5 * ball.inertia * sum(spin * spin for spin in spins)
+    return energy * float(ball.left(t))
 
 
 def _check_pair(what: str, pair: Vector) -> None:
@@ -350,6 +364,7 @@ class Setup:
     contact: ContactModel = ContactModel()
     pairs: Sequence[tuple[str, str, Callable[[float, float], Bounce]]] = ()
     planes: Sequence[tuple[str, Plane]] = ()
+    breaks: Sequence[float] = ()  # s, growing: when forces may jump or bend; no step goes across
 
     def __post_init__(self) -> None:
         names = [ball.name for ball in self.balls]
@@ -362,6 +377,8 @@ class Setup:
             raise ValueError("a setup with planes for some balls needs a plane for all others")
         if self.plane is not None and any(isinstance(ball, Body) for ball in self.balls):
             raise ValueError("bodies cannot move on a plane seen from above: only balls can")
+        if len(names) > 1 and (losing := next((ball.name for ball in self.balls if ball.loss is not None), None)):
+            raise ValueError(f"ball {losing!r} loses mass, so it must be the only ball")
         if not 0.0 < self.duration < inf:
             raise ValueError(f"duration = {self.duration} s must be positive and finite")
 

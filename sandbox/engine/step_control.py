@@ -36,6 +36,9 @@ STIFFEST = 0.5
 #: Changes of velocity below this fraction of the speed do not show stiffness: a force may jump.
 JUMP = 0.01
 
+#: A step that ends this near a break (s) has reached it.
+_AT_BREAK = 1e-12
+
 #: Avoids division by an error of zero (m).
 _NO_ERROR = 1e-300
 
@@ -82,6 +85,14 @@ def size(error: State, radius: Any) -> Any:
     """Local error in m: that of the position, plus that of the velocity over a second."""
     ex, ey, evx, evy, spin = error
     return abs(ex) + abs(ey) + abs(evx) + abs(evy) + SPIN_WEIGHT * radius * abs(spin)
+
+
+def before_break(breaks: Iterable[Any], t: Any, h: Any) -> Any:
+    """A step from t (s) that ends at the first of the ``breaks`` in it."""
+    for at in breaks:
+        room = at - t
+        h = choose((room > _AT_BREAK) & (room < h), room, h)
+    return h
 
 
 def within(patches: Iterable[Patch], h: Any, state: State, acceleration: Acceleration) -> Any:

@@ -210,7 +210,9 @@ def _without(setup: Setup, name: str) -> Setup:
 
 def _in_air(setup: Setup) -> Iterator[tuple[str, str, Setup]]:
     """Coefficients as at the start; wind, lift and spin decay."""
-    forces = [force for ball in setup.balls for force in ball.forces if isinstance(force, Drag | Magnus)]
+    if any(ball.loss is not None for ball in setup.balls):
+        yield "loss of mass", "left out", _on_balls(setup, lambda ball: replace(ball, loss=None))
+    forces = [force for ball in setup.balls for force in ball.forces if hasattr(force, "wind")]
     for kind, part in ((Drag, "drag coefficient"), (Magnus, "lift coefficient")):
         for ball in setup.balls[:1]:
             start = [_at_start(ball, force) for force in ball.forces if isinstance(force, kind) and _varies(force)]
@@ -250,10 +252,10 @@ def _steady(ball: Ball, kind: type[Drag | Magnus]) -> Ball:
 
 
 def _in_wind(ball: Ball, wind: UniformWind | None) -> Ball:
-    forces, torques = (
-        [replace(term, wind=wind) if isinstance(term, Drag | Magnus | SpinDecay) else term for term in terms]
-        for terms in (ball.forces, ball.torques)
-    )
+    def blown(term: Any) -> Any:
+        return replace(term, wind=wind) if hasattr(term, "wind") else term
+
+    forces, torques = ([blown(term) for term in terms] for terms in (ball.forces, ball.torques))
     return replace(ball, forces=forces, torques=torques)
 
 

@@ -11,30 +11,41 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from math import pi
-from typing import Any
+from typing import Any, Protocol
 
 from sandbox.physics.air import VISCOSITY
 from sandbox.physics.coefficients import Coefficient
+from sandbox.physics.elementwise import clip
 
 Wind = Callable[[float, Any], tuple[Any, Any]]
+Force = Callable[[float, Any, Any, Any], tuple[Any, Any]]
 
 #: Avoids division by a speed of zero; negligible compared with any other speed (m/s).
 _ALMOST_ZERO = 1e-30
 
 
+class _Loss(Protocol):
+    """Mass in kg that is lost by a time in s."""
+
+    def lost(self, t: Any) -> Any: ...
+
+
 @dataclass(frozen=True)
 class Gravity:
-    """Weight, ``F = (0, -m g)``."""
+    """Weight, ``F = (0, -m g)``, of a mass m that may become less."""
 
-    mass: float  # kg
+    mass: float  # kg, at the start
     gravity: float  # m/s^2
+    loss: _Loss | None = None
     _force: tuple[float, float] = field(init=False, repr=False)  # N
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "_force", (0.0, -self.mass * self.gravity))
 
     def __call__(self, t: float, position: Any, velocity: Any, spin: Any) -> tuple[Any, Any]:
-        return self._force
+        if self.loss is None:
+            return self._force
+        return 0.0, (self.loss.lost(t) - self.mass) * self.gravity
 
 
 @dataclass(frozen=True)
@@ -95,6 +106,31 @@ class Magnus(_InAir):
         k = self._half_density_area * self.coefficient(self._reynolds_per_speed * speed, spin_ratio) * speed
         k = k * (self.radius * spin / (size + _ALMOST_ZERO))  # sign of the spin, 0 without spin
         return -k * uy, k * ux
+
+
+@dataclass(frozen=True)
+class Inside:
+    """A force that acts inside a medium that ends at a line, such as the drag of water: times the share of a sphere's
+    diameter that lies beyond the line.
+
+    ``normal`` is the unit vector out of the medium. What a splash does is left out.
+    """
+
+    force: Force
+    point: tuple[float, float]  # m, on the line
+    normal: tuple[float, float]
+    radius: float  # m, of the ball
+    name: str  # where forces are listed
+
+    @property
+    def __name__(self) -> str:
+        return self.name
+
+    def __call__(self, t: float, position: Any, velocity: Any, spin: Any) -> tuple[Any, Any]:
+        (x, y), (px, py), (nx, ny) = position, self.point, self.normal
+        share = clip(0.5 - ((x - px) * nx + (y - py) * ny) / (2.0 * self.radius), 0.0, 1.0)
+        fx, fy = self.force(t, position, velocity, spin)
+        return share * fx, share * fy
 
 
 @dataclass(frozen=True)

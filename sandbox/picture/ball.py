@@ -94,6 +94,23 @@ class Look:
         return colours.astype(np.uint8)
 
 
+class Silhouette(Look):
+    """Not a ball but something flat that points where it is turned: shapes of a colour, with corners in radii."""
+
+    def __init__(self, colour: Colour, *shapes: tuple[Sequence[Point], Colour]):
+        super().__init__(colour)
+        self.shapes = shapes
+
+    def draw(
+        self, painter: Painter, centre: Point, radius: float, turn: np.ndarray, unit: float, enlarged: bool = False
+    ) -> None:
+        for corners, colour in self.shapes:
+            painter.polygon(np.asarray(centre) + radius * (np.asarray(corners) @ turn[:2, :2].T) * (1.0, -1.0), colour)
+        if enlarged:
+            reach = max(hypot(*corner) for corners, _ in self.shapes for corner in corners)
+            painter.ring(centre, reach * radius + 2.0 * unit, max(1.2, 1.7 * unit), CARD["accent"])
+
+
 def near(points: np.ndarray, angle: float) -> Callable[[np.ndarray], np.ndarray]:
     """Discs around points (unit vectors, shape (n, 3)), within ``angle`` (rad) as seen from the ball's middle."""
     return lambda at: ((at @ points.T).max(axis=-1) > cos(angle)).astype(float)

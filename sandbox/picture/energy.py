@@ -85,8 +85,8 @@ def course(run: Run) -> Course:
             if caught is not None and t >= caught:
                 gained["pockets"][i] -= kinetic(ball, (x, y, vx, vy, *spins))
                 break
-            has["speed"][i] += 0.5 * ball.mass * (vx * vx + vy * vy)
-            has["spin"][i] += kinetic(ball, (x, y, 0.0, 0.0, *spins))
+            has["speed"][i] += kinetic(ball, (x, y, vx, vy, 0.0), t)
+            has["spin"][i] += kinetic(ball, (x, y, 0.0, 0.0, *spins), t)
     sums = {name: np.cumsum(energy) for name, energy in gained.items()}
     fallen = sums.pop("gravity", np.zeros(len(times)))
     has["height"] = fallen.max() - fallen

@@ -17,7 +17,7 @@ from sandbox.picture.chase import Chase
 from sandbox.picture.depth import Eye
 from sandbox.picture.painter import Painter
 from sandbox.picture.palette import Colour
-from sandbox.picture.path import chip
+from sandbox.picture.path import chip, draw_mark, label_mark
 from sandbox.picture.places import Ground, Scenery, Thing
 from sandbox.picture.sheet import CARD, Entry, Sheet, SideRows
 from sandbox.picture.view import P, View
@@ -256,6 +256,12 @@ class SideView(View[P]):
                     pygame.Rect(round(min(start, end)), round(row) - tall // 2, round(abs(end - start)), tall)
                 )
         sheet.labels.take(pygame.Rect(0, round(self.rows_at.ruler - sheet.ruler_heights()[0]), *self.size))
+
+    def point_out(self, sheet: Sheet, camera: Camera, place: tuple[float, float], text: str) -> None:
+        """Mark a place on the path, in m, and what it is."""
+        at = camera.pixel(*place)
+        draw_mark(sheet, at)
+        label_mark(sheet, at, (0.0, 1.0), text)
 
     def gap(self, sheet: Sheet, camera: Camera, x: float, low: float, high: float, text: str) -> None:
         """A stroke from one height to another at x, all in m, and how long it is, off the path."""

@@ -54,7 +54,8 @@ class Vectors:
         if surface is not None:
             others = [sum(axis) for axis in zip((0.0, 0.0), *found.values(), strict=True)]
             ax, ay = self._acceleration(arc, t)
-            found[surface] = self.ball.mass * ax - others[0], self.ball.mass * ay - others[1]
+            mass = self.ball.mass * float(self.ball.left(t))
+            found[surface] = mass * ax - others[0], mass * ay - others[1]
         return found
 
     def _acceleration(self, arc: Arc, t: float) -> tuple[float, float]:

@@ -38,6 +38,8 @@ NEAR = 12.0
 LARGER = 1.3
 #: The balls along the path are spread over at least this share of it.
 LEAST_SPAN = 0.25
+#: A run that is shorter, in s, is told in ms.
+INSTANT = 0.1
 #: A ball that is larger by less than this factor is not said to be.
 UNSAID = 1.05
 #: Radius of a bead on the path: at most so much of that of the balls there, and so many px on 720 rows.
@@ -67,8 +69,9 @@ class View(Generic[P]):
 
     # What a scene may say
 
-    #: How the ball looks.
+    #: How the ball looks, and what it is called.
     LOOK: ClassVar[Look]
+    THING: ClassVar[str] = "ball"
     #: Colours of the path, of the thin line of it that stays behind in frames (None: the same), and of other runs.
     TRACE: ClassVar[Colour] = TRACES[0]
     FAINT: ClassVar[Colour | None] = None
@@ -87,13 +90,15 @@ class View(Generic[P]):
     STRETCHED: ClassVar[str] = "heights"
     #: The colour of strings.
     STRING: ClassVar[Colour] = CARD["quiet"]
+    #: Whether text stands on dark ground, where the scene does not decide by the shot.
+    ON_DARK: ClassVar[bool] = True
     #: Whether all runs stand on the same ground, so that one cannot be moved up or down to lie over another.
     ONE_GROUND: ClassVar[bool] = False
 
     @property
     def on_dark(self) -> bool:
         """Whether text stands on dark ground."""
-        return True
+        return self.ON_DARK
 
     @property
     def ball(self) -> str:
@@ -133,14 +138,18 @@ class View(Generic[P]):
 
     def progress(self, t: float) -> tuple[str, str]:
         """Headline and note of a frame at time t in s, before the verdict is in."""
-        return f"{t:.2f} s", ""
+        return self.clock(t), ""
+
+    def clock(self, t: float) -> str:
+        """A time in s, in ms where all is over in an instant."""
+        return f"{1e3 * t:.2f} ms" if self.run.duration < INSTANT else f"{t:.2f} s"
 
     def live(self, t: float) -> list[Entry]:
         """What a frame's card says at time t in s."""
         _, _, vx, vy, spin = self.run.state(self.ball, t)
         speed = hypot(vx, vy)
         return [
-            ("time", f"{t:.2f} s"),
+            ("time", self.clock(t)),
             *self.position(t),
             ("speed", f"{speed:.1f} m/s"),
             ("direction", signed(f"{degrees(atan2(vy, vx)):.0f}") + "°" if speed > 0.01 else "–"),
@@ -308,7 +317,7 @@ class View(Generic[P]):
         """What is not drawn as it is."""
         notes = [*self._stretched(camera), *self.remarks(camera)]
         if (factor := self.least / (self.radius * camera.scale)) > UNSAID:
-            who, whose = ("ball", "its") if len(self.balls) == 1 else ("balls", "their")
+            who, whose = (self.THING, "its") if len(self.balls) == 1 else (f"{self.THING}s", "their")
             notes.append(f"{who} drawn {times(factor)} {whose} size")
         return notes
 
@@ -379,7 +388,10 @@ class View(Generic[P]):
         headline, *notes = (self.verdict(),) if over else self.progress(t)
         notes += [*(f"compared with {ghost.label}" for ghost in self.ghosts), *self.aligned, *self._stretched(camera)]
         if any(radius > UNSAID * self.radii[name] * camera.scale for name, (_, radius) in placed.items()):
-            notes.append("ball drawn larger than it is" if len(self.balls) == 1 else "balls drawn larger than they are")
+            one = len(self.balls) == 1
+            notes.append(
+                f"{self.THING} drawn larger than it is" if one else f"{self.THING}s drawn larger than they are"
+            )
         sheet.headline(headline, [note for note in notes if note], room)
         sheet.columns(self.card_row, self.live(t), [ghost.live(t) for ghost in self.ghosts])
         return sheet.surface
@@ -478,7 +490,10 @@ class View(Generic[P]):
             else:
                 look.draw(painter, at, radius, self.turn(self.ball, t), self.unit)
                 last = at
-        return [f"a ball every {every:g} s", *(["a bead where balls would overlap"] if crowded else [])]
+        return [
+            f"a {self.THING} every {every:g} s",
+            *([f"a bead where {self.THING}s would overlap"] if crowded else []),
+        ]
 
     def _balls(self, painter: Painter, camera: Camera, t: float) -> None:
         """All that are there at time t in s, over their shadows."""

@@ -20,11 +20,8 @@ DEEP, WIDE, TALL, ZONE = 0.43, 0.43, 1.88, palette("card")["accent"]  # m: home 
 
 class Picture(SideView[Parameters]):
     LOOK, TRACE, EARLIER = FlyBall.LOOK, FlyBall.TRACE, FlyBall.EARLIER
+    ON_DARK = False
     LENGTHS, SECOND_UNIT, FROM, ASIDE = 1, "ft", "from the hand", 0.6
-
-    @property
-    def on_dark(self) -> bool:
-        return False
 
     @property
     def target(self) -> Box:

@@ -22,12 +22,8 @@ INFIELD, TRACK, DEEP, POLE = 44.0, 4.6, 60.0, 9.0  # m: dirt, warning track, len
 
 class Picture(SideView[Parameters]):
     LOOK = Look(COLOURS["ball"]["colour"], seams(COLOURS["ball"]["seam"]))
-    TRACE, EARLIER = COLOURS["trace"], COLOURS["earlier"]
+    TRACE, EARLIER, ON_DARK = COLOURS["trace"], COLOURS["earlier"], False
     LENGTHS, SECOND_UNIT, FROM, LEVEL, ASIDE = 1, "ft", "from the plate", 90, 0.4
-
-    @property
-    def on_dark(self) -> bool:
-        return False
 
     @cached_property
     def told(self) -> float:

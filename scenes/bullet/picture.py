@@ -23,13 +23,9 @@ GRASS, DASH = 0.25, 0.012  # room below, as a share of the heights that are seen
 
 
 class Picture(SideView[Parameters]):
-    LOOK = Look(COLOURS["ball"], gloss=0.45)
-    TRACE, EARLIER = COLOURS["trace"], COLOURS["earlier"]
+    LOOK, THING = Look(COLOURS["ball"], gloss=0.45), "bullet"
+    TRACE, EARLIER, ON_DARK = COLOURS["trace"], COLOURS["earlier"], False
     LENGTHS, HEADROOM, FROM, LEVEL, LEAST_PATH, STRETCHES = 0, 92, "from the muzzle", 60, 0.0, inf
-
-    @property
-    def on_dark(self) -> bool:
-        return False
 
     @cached_property
     def target(self) -> Box:

@@ -9,9 +9,10 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
+from sandbox.engine.acting import cause
 from sandbox.physics.air import LogWind, UniformWind
 from sandbox.physics.coefficients import Constant, spin_ratio_lift, tour_fit_drag, tour_fit_lift
-from sandbox.physics.forces import Drag, Gravity, Magnus, SpinDecay
+from sandbox.physics.forces import Drag, Gravity, Inside, Magnus, SpinDecay
 
 RADIUS, DENSITY = 0.021335, 1.2
 DRAG = Drag(RADIUS, DENSITY, tour_fit_drag)
@@ -132,3 +133,14 @@ def test_floats_and_arrays_agree(shots, wx: float):
     together = decay(0.0, (np.zeros_like(y), y), (vx, vy), spin)
     one_by_one = [decay(0.0, (0.0, sy), (sx, sv), sw) for sx, sv, sw, sy in shots]
     assert together == pytest.approx(np.array(one_by_one), rel=1e-14)
+
+
+def test_a_force_inside_a_medium_grows_with_the_share_of_the_ball_that_is_in_it():
+    force = Inside(Gravity(1.0, 10.0), (0.0, 2.0), (0.0, 1.0), 0.5, "drag of water")
+    heights = np.array([3.0, 2.5, 2.25, 2.0, 1.75, 1.5, 0.0])
+    shares = [0.0, 0.0, 0.25, 0.5, 0.75, 1.0, 1.0]
+    together = force(0.0, (np.zeros(7), heights), (0.0, 0.0), 0.0)[1]
+    alone = [force(0.0, (0.0, y), (0.0, 0.0), 0.0)[1] for y in heights.tolist()]
+    assert together == pytest.approx(np.multiply(shares, -10.0))
+    assert alone == pytest.approx(together)
+    assert cause(force) == "drag of water"

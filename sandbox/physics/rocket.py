@@ -1,0 +1,84 @@
+"""Rockets: a motor's thrust by time, the mass that it burns, and the push along the way that the rocket points."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from itertools import pairwise
+from typing import Any
+
+from sandbox.physics.elementwise import choose, clip
+from sandbox.physics.forces import Wind
+
+
+@dataclass(frozen=True)
+class Motor:
+    """A solid motor: its thrust F(t) on straight lines between measured points, none before the first and after the
+    last.
+
+    It burns its propellant in proportion to the impulse, ``dm/dt = -m_p F / J`` with the total impulse J: what leaves
+    it has one speed ``c = J / m_p``. Without other forces the rocket gains ``c ln(m_start / m_end)`` (Tsiolkovsky
+    1903). Source of curves and of that rule: static tests as the RASP format has them.
+    """
+
+    times: Sequence[Any]  # s, growing
+    thrusts: Sequence[Any]  # N
+    propellant: Any  # kg
+    impulse: Any = field(init=False, repr=False)  # N s
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "impulse", self._impulse(self.times[-1]))
+
+    @property
+    def _pieces(self) -> Any:
+        points = zip(self.times, self.thrusts, strict=True)
+        return ((start, end, before, after) for (start, before), (end, after) in pairwise(points))
+
+    def _impulse(self, t: Any) -> Any:
+        """Up to time t, in N s."""
+        total = 0.0
+        for start, end, before, after in self._pieces:
+            burning = clip(t, start, end) - start
+            total = total + burning * (before + 0.5 * (after - before) * burning / (end - start))
+        return total
+
+    def thrust(self, t: Any) -> Any:
+        """In N at time t in s."""
+        force = 0.0
+        for start, end, before, after in self._pieces:
+            share = (t - start) / (end - start)
+            force = choose((start <= t) & (t < end), before + (after - before) * share, force)
+        return force
+
+    def lost(self, t: Any) -> Any:
+        """Propellant burnt up to time t in s, in kg."""
+        return self.propellant * self._impulse(t) / self.impulse
+
+    def rate(self, t: Any) -> Any:
+        """At which it burns at time t in s, in kg/s."""
+        return self.propellant * self.thrust(t) / self.impulse
+
+
+@dataclass(frozen=True)
+class Thrust:
+    """A motor's thrust on a rocket that points into the flow, ``F = F(t) u / |u|`` with ``u = v - wind``, and along its
+    rail for the first ``rail`` m.
+
+    A rocket with fins does so at once here; in truth it swings about that direction, and loses some height.
+    """
+
+    motor: Motor
+    start: tuple[Any, Any]  # m
+    along: tuple[Any, Any]  # unit vector of the rail
+    rail: Any  # m
+    wind: Wind | None = None
+
+    def __call__(self, t: Any, position: Any, velocity: Any, spin: Any) -> tuple[Any, Any]:
+        (x, y), (ux, uy), (ex, ey) = position, velocity, self.along
+        if self.wind is not None:
+            wx, wy = self.wind(t, position)
+            ux, uy = ux - wx, uy - wy
+        guided = (x - self.start[0]) * ex + (y - self.start[1]) * ey < self.rail
+        ux, uy = choose(guided, ex, ux), choose(guided, ey, uy)
+        force = self.motor.thrust(t) / ((ux * ux + uy * uy) ** 0.5 + 1e-30)
+        return force * ux, force * uy

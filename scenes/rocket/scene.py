@@ -1,0 +1,134 @@
+"""Rockets from the side: up from a rail, or out of a tube at a target; how high, how far, how fast.
+
+Models: thrust by a measured curve; mass that falls as propellant burns; gravity; drag with one coefficient; wind, into
+which the nose turns; a rail that holds the rocket at first, without friction.
+Leaves out: swinging about the direction of flight and what it costs; drag near the speed of sound, so it holds below
+Mach 0.8 or so; less drag while the motor burns; air that thins on the way up (3 % in 300 m); parachutes.
+"""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+from sandbox.engine.run import Run
+from sandbox.engine.setup import Ball, Force, Segment, Setup, Surface, Touches
+from sandbox.errors import RequestError
+from sandbox.parameters import Accuracy, Group, either, group, quantity, vectors
+from sandbox.physics.elementwise import anywhere, choose, cos, sin
+from sandbox.physics.forces import Gravity
+from sandbox.physics.rocket import Motor, Thrust
+from sandbox.sport.air import Air, ConstantDrag, NoDrag, NoLift, wind_in
+from sandbox.sport.amounts import roughly
+from sandbox.sport.controls import Controls, Spread
+from sandbox.sport.facts import ENDED, Fact, once
+from sandbox.sport.flight import DEGREE, Sphere, forces_in_flight
+from sandbox.sport.readings import Moment, at
+
+SLACK = 0.05  # m of rail behind the rocket, into which it slides until its thrust exceeds its weight
+
+
+class Start(Group):
+    """The rocket on its rail, or as it leaves a tube."""
+
+    speed: float = quantity(..., "m/s", 0, 270, "speed at the start")
+    angle: float = quantity(..., "deg", 0, 180, "of rail or tube above the horizontal")
+    height: float = quantity(..., "m", 0.1, 100, "of the rocket above the ground")
+    rail: float = quantity(..., "m", 0.01, 20, "length of the rail")
+
+
+class Solid(Group):
+    """A solid motor."""
+
+    curve: list[tuple[float, float]] = vectors(..., 2, "", 0, 1e6, "time in s and thrust in N, point by point")
+    propellant: float = quantity(..., "kg", 1e-9, 100, "what burns")
+
+
+class Rocket(Sphere):
+    """The rocket."""
+
+    mass: float = quantity(..., "kg", 0.001, 1000, "mass at the start, propellant included")
+    drag: ConstantDrag | NoDrag = either(..., "drag of the air")
+    lift: NoLift = group(NoLift(), "none")
+
+
+class Parameters(Group):
+    """All parameters of a flight; x = 0 is the start."""
+
+    launch: Start = group(..., "rail or tube")
+    motor: Solid = group(..., "the motor")
+    ball: Rocket = group(..., "the rocket")
+    duration: float = quantity(..., "s", 0.01, 300, "longest flight: until ejection or self-destruction")
+    gravity: float = quantity(..., "m/s^2", 0, 30, "gravity")
+    air: Air = group(..., "the air")
+    accuracy: Accuracy = group(Accuracy(), "speed against accuracy")
+
+
+CONTROLS = Controls(
+    strongest=150.0,
+    sliders=("motor.propellant", "ball.mass", "ball.drag.coefficient", "launch.rail", "air.wind", "gravity"),
+    spread=(Spread("launch.angle", least=2.0), Spread("ball.mass", 0.02)),  # assumed
+)
+
+
+def motor_of(parameters: Parameters) -> Motor:
+    """Raises RequestError for a curve that is none."""
+    curve, propellant = parameters.motor.curve, parameters.motor.propellant
+    times, thrusts = zip(*curve, strict=True) if curve else ((), ())
+    if not any(thrusts) or any(before >= after for before, after in pairwise(times)) or len(times) < 2:
+        raise RequestError("motor.curve: needs two points or more, each later than the last, and some thrust")
+    if anywhere(propellant >= parameters.ball.mass):
+        raise RequestError("motor.propellant: must be less than ball.mass, of which it is a part")
+    return Motor(times, thrusts, propellant)
+
+
+def build(parameters: Parameters) -> Setup:
+    """The rocket on its rail, over level ground."""
+    launch, rocket, motor = parameters.launch, parameters.ball, motor_of(parameters)
+    start, angle = (0.0, launch.height), launch.angle * DEGREE
+    ex, ey = cos(angle), sin(angle)
+    thrust = Thrust(motor, start, (ex, ey), launch.rail, wind_in(parameters.air))
+    weight = Gravity(rocket.mass, parameters.gravity, motor)
+    forces: list[Force] = [weight, *forces_in_flight(rocket, parameters.air), thrust]
+    velocity = launch.speed * ex, launch.speed * ey
+    flying = Ball("rocket", rocket.mass, rocket.radius, start, velocity, forces=forces, loss=motor)
+    side = choose(launch.angle <= 90.0, rocket.radius, -rocket.radius)
+    under, long = (side * ey, launch.height - side * ex), (-SLACK, launch.rail)
+    foot, tip = ((under[0] + along * ex, under[1] + along * ey) for along in long)
+    rail = Surface("rail", Segment(foot, tip), 0.0, 0.0)
+    ground = Surface("ground", Segment((-2e4, 0.0), (2e4, 0.0)), 0.0, 0.5)
+    return Setup([flying], [ground, rail], parameters.duration, Touches("ground"), breaks=motor.times)
+
+
+@once
+def fastest(run: Run, parameters: Parameters) -> Moment:
+    """The rocket when it is fastest."""
+    return max((Moment(*row) for row in run.trajectory("rocket", 1 / 200, ends=True).tolist()), key=lambda it: it.speed)
+
+
+def burnout(run: Run, parameters: Parameters) -> Moment | None:
+    """The rocket when its motor has burnt out; None if the flight is over before."""
+    t = parameters.motor.curve[-1][0]
+    return Moment(t, *run.state("rocket", t)) if t <= run.duration else None
+
+
+FACTS = (
+    Fact("apex", "apex", "m", lambda run, parameters: run.highest("rocket")[1][1], settled="ground", also="ft"),
+    Fact("apex_time", "apex after", "s", lambda run, parameters: run.highest("rocket")[0], settled="ground"),
+    Fact("top_speed", "top speed", "m/s", at(fastest, lambda it: it.speed), settled="ground", also="mph"),
+    Fact("distance", "distance", "m", lambda run, parameters: run.before("rocket", run.duration)[0]),
+    Fact("flight_time", "flight time", "s", lambda run, parameters: run.duration),
+    Fact("end_speed", "speed at the end", "m/s", lambda run, _: Moment(0.0, *run.before("rocket", run.duration)).speed),
+    Fact("burnout_speed", "at burnout", "m/s", at(burnout, lambda it: it.speed)),
+    Fact("burnout_height", "", "m", at(burnout, lambda it: it.y)),
+    Fact("impulse", "impulse", "N s", lambda run, parameters: motor_of(parameters).impulse, settled="start"),
+    ENDED,
+)
+
+
+def verdict(run: Run, parameters: Parameters) -> str:
+    """What happened, in a sentence."""
+    result = run.result
+    high, far = f"{roughly(result['apex'])} high", roughly(abs(result["distance"]))
+    if any(event.kind == "impact" and event.partner == "ground" for event in run.events):
+        return f"{high}, down {far} away after {run.duration:.1f} s"
+    return f"{high}, {far} away after {run.duration:.1f} s"

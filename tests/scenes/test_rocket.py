@@ -1,0 +1,57 @@
+"""Rockets: rail, wind, fuse, and what is refused."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+import sandbox
+from sandbox.errors import RequestError
+
+
+def fly(preset: str = "rocket", **changes: Any) -> sandbox.Run:
+    scene = sandbox.load(preset, {key.replace("__", "."): value for key, value in changes.items()})
+    return sandbox.simulate(scene)
+
+
+def test_a_lighter_rocket_with_the_same_motor_is_faster():
+    assert fly(ball__mass=0.1).result["top_speed"] > fly().result["top_speed"]
+
+
+def test_the_rail_guides_until_its_end():
+    run = fly(launch__angle=60.0)
+    left = next(event for event in run.events if event.kind == "leave")
+    x, y, vx, vy, _ = run.state("rocket", left.t)
+    assert (x**2 + (y - 0.2) ** 2) ** 0.5 == pytest.approx(1.0, abs=1e-6)
+    assert vy / vx == pytest.approx(3.0**0.5, rel=1e-6)
+
+
+def test_left_and_right_are_alike():
+    right, left = fly(launch__angle=70.0), fly(launch__angle=110.0)
+    assert left.result["distance"] == pytest.approx(-right.result["distance"], rel=1e-6)
+    assert left.result["apex"] == pytest.approx(right.result["apex"], rel=1e-9)
+
+
+def test_its_nose_turns_into_the_wind_while_the_motor_burns():
+    assert fly(launch__angle=90.0, air__wind=[-4.0, 0.0]).result["distance"] > 50.0
+
+
+def test_a_grenade_ends_itself():
+    assert fly("rocket/grenade").result["flight_time"] == 4.5
+    assert "away after 4.5 s" in fly("rocket/grenade").scene.verdict(fly("rocket/grenade"))
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({"motor__curve": [[0.0, 5.0]]}, "motor.curve: needs two points"),
+        ({"motor__curve": [[0.0, 5.0], [0.0, 5.0]]}, "each later than the last"),
+        ({"motor__curve": [[0.0, 0.0], [1.0, 0.0]]}, "and some thrust"),
+        ({"motor__curve": []}, "needs two points"),
+        ({"motor__propellant": 0.2}, "must be less than ball.mass"),
+    ],
+)
+def test_a_motor_that_cannot_be_is_refused(changes: dict[str, Any], said: str):
+    with pytest.raises(RequestError, match=said):
+        fly(**changes)
