@@ -14,7 +14,6 @@ from sandbox.window import commands, replay
 from sandbox.window.background import steady
 from sandbox.window.game import Game
 from sandbox.window.keys import pressed
-from sandbox.window.overlay import Board
 from sandbox.window.pointer import Pointer
 from sandbox.window.session import Session
 from sandbox.window.sound import Sound
@@ -24,10 +23,6 @@ from sandbox.workers import Processes
 if TYPE_CHECKING:
     from sandbox.window.panel import Panel
 
-#: The step of each in columns and rows.
-ARROWS = {pygame.K_LEFT: (-1, 0), pygame.K_RIGHT: (1, 0), pygame.K_UP: (0, -1), pygame.K_DOWN: (0, 1)}
-
-CHOOSING = (*ARROWS, pygame.K_RETURN)
 MODIFIED = pygame.KMOD_CTRL | pygame.KMOD_ALT
 
 FRAMES = 60  # per second
@@ -132,9 +127,10 @@ class App:
             case pygame.DROPFILE:
                 self.game.open(event.file)
             case pygame.KEYDOWN:
-                found = pressed(event.key, event.mod)
-                if isinstance(view.over, Board) and event.key in CHOOSING and not event.mod & MODIFIED:
-                    self._choose(view.over, event.key)
+                found, over = pressed(event.key, event.mod), view.over
+                stays = over.key(event.key) if over is not None and not event.mod & MODIFIED else None
+                if stays is not None:
+                    view.over, view.changed = view.over if stays or view.over is not over else None, True
                 elif found is not None:
                     commands.do(view, found[0].name, found[1])
             case _:
@@ -155,15 +151,6 @@ class App:
             return False
         self._repeated.add(event.key)
         return True
-
-    def _choose(self, board: Board, key: int) -> None:
-        """A key while there are rows to choose from."""
-        self.view.changed = True
-        if key in ARROWS:
-            board.move(*ARROWS[key])
-        elif board.chosen:
-            self.view.over = board if board.stays else None
-            board.choose(board.chosen)
 
     def _for_panel(self, panel: Panel, event: pygame.event.Event) -> bool:
         """Pass an event to the panel; returns whether it is for the panel alone."""

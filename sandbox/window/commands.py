@@ -15,8 +15,10 @@ from sandbox.scene import listings
 from sandbox.window import aim, export, replay
 from sandbox.window.game import WIDEST
 from sandbox.window.keys import GROUPS, LISTED, of_groups
-from sandbox.window.overlay import Board, Chart, Row
+from sandbox.window.overlay import Board, Chart, Overlay, Row
 from sandbox.window.shot import Shot
+from sandbox.window.shots import Played
+from sandbox.window.table import Table
 from sandbox.window.view import AHEAD, View
 from sandbox.window.worker import cost_and_errors
 
@@ -96,7 +98,7 @@ def _with_shot(view: View, action: Callable[[Shot], object]) -> None:
 # See
 
 
-def _open(view: View, name: str, make: Callable[[], Board | Chart]) -> None:
+def _open(view: View, name: str, make: Callable[[], Overlay]) -> None:
     """Open an overlay, or close it if it is open."""
     again = view.over is not None and view.over.name == name
     view.over = None if again else make()
@@ -124,6 +126,33 @@ def _list(view: View, by: float, group: str) -> None:
     name = group.lower()
     rows, button = _rows(view, (group,), headings=False), view.bar.places[name]
     _open(view, name, lambda: Board("", rows, partial(do, view), button, stays=group == "See"))
+
+
+def _shots(view: View, by: float) -> None:
+    """The table of the shots of this scene."""
+    game, stage = view.game, view.stage
+
+    def rows() -> list[Played]:
+        return [row for row in game.table.rows if row.start[:2] == (game.session.base.folder, game.session.source)]
+
+    if not rows():
+        game.tell(NO_SHOTS)
+    elif stage is not None:
+        _open(view, "shots", lambda: Table(rows, partial(_with_row, view, rows), stage.colour_of))
+
+
+def _with_row(view: View, rows: Callable[[], list[Played]], action: str, row: Played) -> None:
+    """An action of the table of shots."""
+    game = view.game
+    match action:
+        case "aim as it":
+            game.aim_as(row)
+        case "pin":
+            game.pin(row)
+        case "delete":
+            game.table.rows.remove(row)
+        case "csv":
+            _export(view, lambda: export.shots(rows(), game.session.title))
 
 
 def _menu(view: View, by: float) -> None:
@@ -287,6 +316,7 @@ COMMANDS: dict[str, Callable[[View, float], object]] = {
     "next_shot": lambda view, by: view.game.watch_other(int(by)),
     "wider": _wider,
     "energy": _energy,
+    "shots": _shots,
     "predict": _predict,
     "accuracy": lambda view, by: view.game.trying(lambda: _accuracy(view, by)),
     "zoom": _zoom,

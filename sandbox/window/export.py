@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +15,7 @@ from sandbox.picture.frames import save_gif, save_png
 from sandbox.scene import reference
 from sandbox.window.session import Session
 from sandbox.window.shot import Shot
+from sandbox.window.shots import Played, save_csv
 
 FOLDER = Path("out")
 FPS = 25
@@ -51,6 +52,13 @@ def animation(shot: Shot, stem: str) -> Path:
         save_gif(shot.scene.picture(shot.run, GIF_SIZE), shot.run, path, FPS)
     except OSError as error:
         raise RunError(f"{path}: cannot be written: {reason(error)}") from None
+    return path
+
+
+def shots(rows: Sequence[Played], stem: str) -> Path:
+    """The table of shots, as a CSV file."""
+    path = free(f"{stem}-shots", ".csv")
+    save_csv(rows, path)
     return path
 
 

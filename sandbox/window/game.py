@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from concurrent.futures import Future
-from dataclasses import replace
 from pathlib import Path
 from time import sleep
 from typing import Any, NamedTuple
@@ -23,6 +22,7 @@ from sandbox.window.playback import Playback
 from sandbox.window.run_data import run_of
 from sandbox.window.session import Session
 from sandbox.window.shot import Shot
+from sandbox.window.shots import Played, Shots
 from sandbox.window.watch import Watch
 from sandbox.window.worker import computed, described, reread, warm_up
 from sandbox.workers import Processes, WorkerLost
@@ -35,8 +35,8 @@ LONG = 2.0
 LATE = 0.5
 #: The fan can be made this many times wider or narrower.
 WIDEST = 16.0
-#: Number of shots that can be watched again.
-MOST_SHOTS = 50
+#: So many earlier shots are drawn, apart from those that are pinned.
+SHOWN = 5
 
 
 class Message(NamedTuple):
@@ -65,8 +65,7 @@ class Game:
         self.shooting = False  # the shot is watched as soon as it is computed
         self.watched: Shot | None = None
         self.playback: Playback | None = None  # of that; None while aiming
-        self.shots: list[Shot] = []  # the last ones, in order
-        self.count = 0  # all of them
+        self.table = Shots()  # all shots
         self.before_save: Shot | None = None  # the shot as it was before the scene file was saved
         self.pull: Pull | None = None
         self.grip: Grip | None = None  # what is dragged, as it was before
@@ -128,9 +127,19 @@ class Game:
 
     @property
     def recent(self) -> list[Shot]:
-        """The shots of this scene file that began where the next one does."""
-        start = self.session.base.folder, *self.session.changes.start
-        return [shot for shot in self.shots if shot.start == start]
+        """The shots that are drawn with the one that is aimed."""
+        return self.earlier((self.session.base.folder, *self.session.changes.start))
+
+    @property
+    def shots(self) -> list[Shot]:
+        """Those whose paths are kept, in order."""
+        return self.table.paths
+
+    def earlier(self, start: tuple[Any, ...], but: Shot | None = None) -> list[Shot]:
+        """The last shots of a scene file that began from the same place, and those that are pinned."""
+        alike = [shot for shot in self.shots if shot.start[:2] == start[:2] and shot is not but]
+        pinned = [shot for shot in alike if self.table.pinned(shot)]
+        return pinned + [shot for shot in alike if shot.start == start and shot not in pinned][-SHOWN:]
 
     @property
     def notices(self) -> list[tuple[str, bool]]:
@@ -397,11 +406,9 @@ class Game:
 
     def _keep(self, shot: Shot) -> None:
         """Count a shot, and watch it."""
-        self.count += 1
-        self.shots.append(replace(shot, number=self.count))
-        self.history.add(self.session.changes, shot=self.count)
-        del self.shots[:-MOST_SHOTS]
-        self.watch(self.shots[-1])
+        shot = self.table.add(shot, self.session.title)
+        self.history.add(self.session.changes, shot=shot.number)
+        self.watch(shot)
 
     def watch(self, shot: Shot) -> None:
         """Play one of the shots so far from its start."""
@@ -417,6 +424,24 @@ class Game:
             return
         now = self.shots.index(self.shot) if self.shot in self.shots else len(self.shots)
         self.watch(self.shots[min(max(now + by, 0), len(self.shots) - 1)])
+
+    def aim_as(self, row: Played) -> None:
+        """Aim with the parameters of an earlier shot."""
+        self.aim_again()
+        if self._restore(row.changes):
+            self.history.add(self.session.changes)
+            self.tell(f"aimed as shot {row.number}: {row.verdict}")
+
+    def pin(self, row: Played) -> None:
+        """Keep the path of a shot, or keep it no longer."""
+        self.table.pin(row, self._compute_again)
+        self.revision += 1
+
+    def _compute_again(self, row: Played) -> None:
+        def then(result: tuple[dict[str, Any], float]) -> None:
+            row.shot = Shot(row.scene, run_of(row.scene, result[0]), row.changes, row.number)
+
+        self.ask(self.helper.submit(computed, row.scene), then)
 
     def aim_again(self, from_rest: bool = False) -> None:
         """Stop watching a shot; with ``from_rest``, if it is over, the next begins where the balls came to rest."""

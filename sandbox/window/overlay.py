@@ -14,6 +14,10 @@ from sandbox.picture.sheet import Sheet
 CARD = palette("card")
 
 
+#: The step of each in columns and rows.
+ARROWS = {pygame.K_LEFT: (-1, 0), pygame.K_RIGHT: (1, 0), pygame.K_UP: (0, -1), pygame.K_DOWN: (0, 1)}
+
+
 class Row(NamedTuple):
     """A row of a board: what it does, its words, and the key at its right end; ``about`` is shown at the top."""
 
@@ -42,6 +46,14 @@ class Overlay(Protocol):
         """Do what a click does; returns whether the overlay stays."""
         ...
 
+    def key(self, key: int) -> bool | None:
+        """Do what a key does; returns whether the overlay stays, or None if the key does nothing here."""
+        ...
+
+    def scroll(self, by: int) -> None:
+        """Show other rows, if there are more."""
+        ...
+
 
 class Chart:
     """A picture that is made in the background."""
@@ -62,6 +74,12 @@ class Chart:
 
     def pressed(self, at: tuple[int, int]) -> bool:
         return False
+
+    def key(self, key: int) -> bool | None:
+        return None
+
+    def scroll(self, by: int) -> None:
+        pass
 
 
 class Board:
@@ -94,6 +112,19 @@ class Board:
         if action is not None:
             self.choose(action)
         return action is not None and self.stays
+
+    def key(self, key: int) -> bool | None:
+        if key in ARROWS:
+            self.move(*ARROWS[key])
+        elif key != pygame.K_RETURN:
+            return None
+        elif self.chosen:
+            self.choose(self.chosen)
+            return self.stays
+        return True
+
+    def scroll(self, by: int) -> None:
+        self.move(0, by)
 
     def move(self, across: int, down: int) -> None:
         """Choose by key: so many columns and rows on."""

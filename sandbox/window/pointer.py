@@ -82,7 +82,9 @@ class Pointer:
     def _turned(self, event: pygame.event.Event) -> None:
         """The wheel, or a trackpad: the size of the picture with Ctrl, or while a shot is watched; else spin."""
         held = pygame.key.get_mods()
-        if held & pygame.KMOD_CTRL or self.view.game.playback is not None:
+        if self.view.over is not None:
+            self.view.over.scroll(-event.y)
+        elif held & pygame.KMOD_CTRL or self.view.game.playback is not None:
             self.view.zoom(NOTCH ** getattr(event, "precise_y", event.y), self.at)
         else:
             other = bool(held & pygame.KMOD_SHIFT) or event.x != 0

@@ -38,9 +38,9 @@ NARROW = 3.0
 OVERLAP = 0.35
 #: The camera zooms in once the shot could be shown this many times larger.
 NEARER = 1.35
-#: Number of earlier shots shown, their opacity (of 255), how much lighter a label is than its line, and how many places
+#: Opacity of earlier shots (of 255), how much lighter a label is than its line, and how many places
 #: on its line are tried for a label.
-SHOWN, EARLIER, LIGHTER, PLACES = 5, 215, 0.45, 9
+EARLIER, LIGHTER, PLACES = 215, 0.45, 9
 #: Size of the map's cells together, in px on 720 rows.
 MAP = (210, 150)
 #: Contacts closer together than this, in px, are marked once; and the largest number of marks.
@@ -105,8 +105,8 @@ class Stage:
         return self.camera.pixel(*shot.run.state(shot.ball, t)[:2])
 
     def draw_ghosts(self, sheet: Canvas, ghosts: Sequence[Shot], around: Shot | None) -> None:
-        """Earlier shots, the last five; with their numbers and results around the path of ``around``, if given."""
-        shown = tuple(ghosts[-SHOWN:])
+        """Earlier shots; with their numbers and results around the path of ``around``, if given."""
+        shown = tuple(ghosts)
         if not shown:
             return
         sheet.surface.blit(self._once("ghosts", shown, lambda: self._ghost_lines(shown)), (0, 0))
@@ -140,9 +140,12 @@ class Stage:
         return labels.surface
 
     def _colour_of(self, shot: Shot) -> Colour:
+        return self.colour_of(shot.number)
+
+    def colour_of(self, number: int) -> Colour:
         """The colour of an earlier shot, which stays the same."""
         colours = colours_beside(type(self.picture))
-        return colours[(shot.number - 1) % len(colours)]
+        return colours[(number - 1) % len(colours)]
 
     def draw_path(self, sheet: Canvas, shot: Shot, until: float | None = None) -> None:
         """The path of every ball that moves, that of the played one last and strongest, and where they touch."""

@@ -526,7 +526,7 @@ class View:
     def _ghosts(self, shot: Shot) -> list[Shot]:
         """The earlier shots that are drawn with this one."""
         if self.game.playback is not None:
-            return [each for each in self.game.shots if each is not shot and each.start == shot.start]
+            return self.game.earlier(shot.start, but=shot)
         before = [self.game.before_save] if self.game.before_save is not None else []
         return [*before, *self.game.recent]
 

@@ -15,9 +15,10 @@ import sandbox.window
 from sandbox.engine.accuracy import LEVELS
 from sandbox.new import new_scene
 from sandbox.window.aim import nudged
-from sandbox.window.game import LATE, LONG, MOST_SHOTS, Game
+from sandbox.window.game import LATE, LONG, Game
 from sandbox.window.history import DEPTH
 from sandbox.window.session import Session
+from sandbox.window.shots import PATHS
 from sandbox.window.worker import computed
 from sandbox.workers import WorkerLost
 
@@ -101,13 +102,15 @@ def test_nudges_leave_a_shot_that_is_watched_alone(game):
 
 
 def test_only_the_last_shots_are_kept(game):
-    for _ in range(MOST_SHOTS + 5):
+    for _ in range(PATHS + 5):
         game.shoot()
         game.aim_again()
         game.settle()
-    assert [shot.number for shot in game.shots] == list(range(6, MOST_SHOTS + 6))
+        game.pin(game.table.rows[0]) if len(game.table.rows) == 1 else None
+    assert [shot.number for shot in game.shots] == [1, *range(6, PATHS + 6)]
+    assert [row.number for row in game.table.rows] == list(range(1, PATHS + 6))
     game.watch_other(-1)
-    assert game.shot.number == MOST_SHOTS + 5
+    assert game.shot.number == PATHS + 5
 
 
 class TestAFailure:
