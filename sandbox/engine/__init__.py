@@ -32,13 +32,27 @@ def simulate(setup: Setup, accuracy: Accuracy, progress: Callable[[float, float]
 
 
 def simulate_many(setups: Sequence[Setup], accuracy: Accuracy) -> Iterator[Run | Exception]:
-    """A run of each setup, in order, or the exception it ended with; similar setups are computed together."""
-    from sandbox.engine.batch import simulate_many as together
+    """A run of each setup, in order, or the exception it ended with.
 
-    return together(setups, accuracy)
+    Setups of one flight that differ only in numbers are computed together, with the results of ``simulate`` to
+    rounding; their forces are then called with arrays of shape (n,) for time, position, velocity and spin. If there are
+    others among them, or forces that cannot take arrays, all run one at a time.
+    """
+    from sandbox.engine.batch import together
+
+    runs = together(setups, accuracy) if accuracy.method == "exact" else None
+    if runs is not None:
+        yield from runs
+        return
+    for setup in setups:
+        run: Run | Exception
+        try:
+            run = simulate(setup, accuracy)
+        except Exception as error:
+            run = error
+        yield run
 
 
 def flies_in_batches(setup: Setup, accuracy: Accuracy) -> bool:
     """Whether ``simulate_many`` is quicker for setups of this kind than ``simulate`` one by one."""
-    one_at_a_time = setup.plane is not None or setup.catches or len(setup.balls) > 1 or not setup.surfaces
-    return accuracy.method == "exact" and not one_at_a_time
+    return accuracy.method == "exact" and setup.is_flight

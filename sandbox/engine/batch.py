@@ -13,7 +13,6 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from sandbox.engine import flies_in_batches, simulate
 from sandbox.engine.accuracy import Accuracy
 from sandbox.engine.acting import acceleration, by_cause
 from sandbox.engine.arc import through
@@ -48,39 +47,24 @@ MOST_PIECES = 500_000
 _ROUNDING = 1e-9
 
 
-def simulate_many(setups: Sequence[Setup], accuracy: Accuracy) -> Iterator[Run | Exception]:
-    """A run of each setup, in order, or the exception it ended with.
-
-    Setups that differ only in numbers fly together, with the results of ``simulate`` to rounding; forces are then
-    called with arrays of shape (n,) for time, position, velocity and spin. If there are others among them, or forces
-    that cannot take arrays, all run one at a time.
-    """
-    stack = _stack(setups, accuracy)
-    if stack is not None:
-        batch = Batch(stack, accuracy)
-        try:
-            batch.fly()
-        except _OnlyFloats:
-            pass  # one at a time they run, or raise an error of their own
-        else:
-            yield from batch.runs()
-            return
-    for setup in setups:
-        yield _run_or_error(setup, accuracy)
-
-
-def _run_or_error(setup: Setup, accuracy: Accuracy) -> Run | Exception:
+def together(setups: Sequence[Setup], accuracy: Accuracy) -> Iterator[Run | Exception] | None:
+    """A run of each setup, in order, or the exception it ended with; None if they cannot fly together."""
+    stack = _stack(setups)
+    if stack is None:
+        return None
+    batch = Batch(stack, accuracy)
     try:
-        return simulate(setup, accuracy)
-    except Exception as error:
-        return error
+        batch.fly()
+    except _OnlyFloats:
+        return None  # one at a time they run, or raise an error of their own
+    return batch.runs()
 
 
-def _stack(setups: Sequence[Setup], accuracy: Accuracy) -> Stack | None:
+def _stack(setups: Sequence[Setup]) -> Stack | None:
     """The setups as one, if they can fly together."""
     if isinstance(setups, Stack):
-        return setups if flies_in_batches(setups.whole, accuracy) else None
-    if len(setups) < FEWEST or not all(flies_in_batches(setup, accuracy) for setup in setups):
+        return setups if setups.whole.is_flight else None
+    if len(setups) < FEWEST or not all(setup.is_flight for setup in setups):
         return None
     try:
         return Stack.of(setups, (*FLIGHT, "until") if isinstance(setups[0].until, Until) else FLIGHT)
@@ -366,19 +350,18 @@ class Batch:
         self._left[int(self._shot[lane])] = _Left(float(self._t[lane]), how, state, float(self._wanted[lane]))
 
     def _run(self, number: int, path: ArcRows) -> Run | Exception:
-        setup = self.setups[number]
-        if number not in self._left:  # not started
-            return _run_or_error(setup, self._accuracy)
+        setup, left, events = self.setups[number], self._left.get(number), self._events[number]
         steps, refined, impacts, queries = self._counts[:, number].tolist()
         seconds = self._seconds / len(self.setups)
         numerics = Numerics((self._control.evaluations + 1) * steps, steps, refined, impacts, impacts, queries, seconds)
-        left, events = self._left[number], self._events[number]
-        if left.how in ("until", "duration"):
+        if left is not None and left.how in ("until", "duration"):
             arcs = {setup.balls[0].name: path}
             return Run(setup, self._accuracy, arcs, events, numerics, left.t, left.how)
         try:
             with setup_errors_named(setup):
                 simulation = Simulation(setup, self._accuracy, numerics)
+                if left is None:  # it touches something at the start
+                    return simulation.run()
                 return simulation.take_over(left.t, left.state, list(path), events, left.wanted, left.how)
         except Exception as error:
             return error

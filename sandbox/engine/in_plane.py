@@ -33,10 +33,6 @@ _PUSH = 1e-9
 _BECOMES = {"grip": ROLLING, "stop": RESTING}
 
 
-class Diverged(RunError):
-    """A ball's state became invalid: not finite, or outside the world."""
-
-
 class InPlane(Track):
     """A ball that flies in the plane of the picture, and slides, rolls and rests on the surfaces there."""
 
@@ -64,7 +60,7 @@ class InPlane(Track):
     def advance(self, t: float, until: float) -> tuple[Arc, str]:
         """The next arc from t, at most to ``until``, and why it ends: "" if only because of its length.
 
-        Raises Diverged with the time, the ball and the quantity if the state is not finite or out of bounds.
+        Raises RunError with the time, the ball and the quantity if the state is not finite or out of bounds.
         """
         contact, ball = self.contact, self.ball
         if contact is None:
@@ -104,13 +100,13 @@ class InPlane(Track):
         self._known = (end, last)
         return through(t, h, state, acceleration, end, last, contact)
 
-    def _too_short(self, t: float, h: float, after: State, acceleration: Acceleration) -> Diverged:
+    def _too_short(self, t: float, h: float, after: State, acceleration: Acceleration) -> RunError:
         self._check(t + h, after)
         if not all(map(isfinite, acceleration)):
-            return Diverged(
+            return RunError(
                 f"t = {t + h:.6g} s, ball {self.ball.name!r}: a force or torque is not finite; check the scene's forces"
             )
-        return Diverged(
+        return RunError(
             f"t = {t:.6g} s, ball {self.ball.name!r}: the velocity changes too fast for any step "
             f"(down to {h:.1e} s); look for a force that is not smooth, or raise accuracy.tolerance"
         )
@@ -122,14 +118,14 @@ class InPlane(Track):
         names, units = ("x", "y", "vx", "vy", "spin"), ("m", "m", "m/s", "m/s", "rad/s")
         for quantity, unit, value in zip(names, units, state, strict=True):
             if not isfinite(value):
-                raise Diverged(
+                raise RunError(
                     f"{where}{quantity} is {value} {unit}; "
                     "check the forces, or lower accuracy.step or accuracy.tolerance"
                 )
         x, y = state[:2]
         left, bottom, right, top = self._setup.bounds
         quantity, value, low, high = ("x", x, left, right) if not left <= x <= right else ("y", y, bottom, top)
-        raise Diverged(
+        raise RunError(
             f"{where}{quantity} = {value:.6g} m is outside the world ({low:g} to {high:g} m); shorten the duration, or "
             "widen the scene's bounds"
         )

@@ -20,7 +20,6 @@ from sandbox.engine.accuracy import Accuracy
 from sandbox.engine.acting import checked
 from sandbox.engine.arc import Arc
 from sandbox.engine.event import Event
-from sandbox.engine.in_plane import Diverged
 from sandbox.engine.path import Path
 from sandbox.engine.real_space import ONLY_SURFACES, RealSpace, speeds_at
 from sandbox.engine.run import Numerics, Run
@@ -328,11 +327,11 @@ class PlainSimulation:
     def _refuse_reversal(
         self, tracked: _Tracked, before: State, known: Acceleration, state: State, acceleration: Acceleration, h: float
     ) -> None:
-        """Raise Diverged if a force grows faster with the velocity than a step can follow."""
+        """Raise RunError if a force grows faster with the velocity than a step can follow."""
         gain = abs(state[2] - before[2]) + abs(state[3] - before[3])
         gains = gain > JUMP * (abs(state[2]) + abs(state[3]))
         if gains and before[2:4] != (0.0, 0.0) and stiff(before, state, known, acceleration, h, _REVERSAL):
-            raise Diverged(
+            raise RunError(
                 f"t = {self._t:.6g} s, ball {tracked.ball.name!r}: drag would reverse its velocity within a step of "
                 f"{h:.3g} s; {_REMEDY}"
             )
@@ -347,9 +346,9 @@ class PlainSimulation:
                 f"within a step of {self._accuracy.step:.3g} s; {_REMEDY}"
             )
 
-    def _diverged(self, tracked: _Tracked, state: State) -> Diverged:
+    def _diverged(self, tracked: _Tracked, state: State) -> RunError:
         x, y, vx, vy, spin = state[:5]
-        return Diverged(
+        return RunError(
             f"t = {self._t:.6g} s, ball {tracked.ball.name!r}: position ({x:.6g}, {y:.6g}) m, velocity "
             f"({vx:.6g}, {vy:.6g}) m/s, spin {spin:.6g} rad/s is not finite, or outside the world; {_REMEDY}"
         )

@@ -382,6 +382,12 @@ class Setup:
         if not 0.0 < self.duration < inf:
             raise ValueError(f"duration = {self.duration} s must be positive and finite")
 
+    @property
+    def is_flight(self) -> bool:
+        """Whether it is of one ball among surfaces, and no more: many of these can be computed together."""
+        alone = len(self.balls) == 1 and not isinstance(self.balls[0], Body)
+        return alone and len(self.surfaces) > 0 and self.plane is None and not self.catches
+
     def between(self, one: str, other: str) -> Callable[[float, float], Bounce]:
         """The law for impacts of two balls."""
         return next((law for *pair, law in self.pairs if {*pair} == {one, other}), self.between_balls)

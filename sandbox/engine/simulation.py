@@ -18,7 +18,7 @@ from sandbox.engine.arc import Arc, still
 from sandbox.engine.event import Event
 from sandbox.engine.heap import Heap
 from sandbox.engine.impacts import Impacts, Outcome
-from sandbox.engine.in_plane import Diverged, InPlane
+from sandbox.engine.in_plane import InPlane
 from sandbox.engine.lasting import RESTING, LastingContact
 from sandbox.engine.meeting import discs, pair_touches
 from sandbox.engine.on_plane import OnPlane, slowest_hop
@@ -44,10 +44,6 @@ _MOST_IMPACTS = 200_000
 
 #: Most steps in one run, beyond which its forces are too stiff: about 5 s of computing.
 _MOST_STEPS = 100_000
-
-
-class Stalled(RunError):
-    """Endless events at one place."""
 
 
 class Simulation:
@@ -156,7 +152,7 @@ class Simulation:
             if at_once > _MOST_AT_ONCE or self._numerics.impacts > _MOST_IMPACTS:
                 raise self._stalled(t, i)
             if self._numerics.steps > _MOST_STEPS:
-                raise Diverged(
+                raise RunError(
                     f"t = {t:.6g} s, ball {track.ball.name!r}: {_MOST_STEPS:,} steps without an end; its forces "
                     "are very stiff: raise accuracy.tolerance, or shorten the duration"
                 )
@@ -354,6 +350,6 @@ class Simulation:
         name = track.ball.name
         last = next((event for event in reversed(self._events) if name in (event.ball, event.partner)), None)
         if last is None or last.t < t - _STANDSTILL:
-            return Diverged(f"{where}: the velocity changes too fast for any step; look for a force that is not smooth")
+            return RunError(f"{where}: the velocity changes too fast for any step; look for a force that is not smooth")
         other = last.partner if last.ball == name else last.ball
-        return Stalled(f"{where}: endless events, the last with {other!r}")
+        return RunError(f"{where}: endless events, the last with {other!r}")

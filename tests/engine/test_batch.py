@@ -25,7 +25,8 @@ from sandbox.engine.lanes import ManyLanes
 from sandbox.engine.outlines import Outlines
 from sandbox.engine.path import Above, Path, climb
 from sandbox.engine.run import Run
-from sandbox.engine.setup import Ball, Bounce, Bounds, Circle, Patch, Segment, Setup, Surface
+from sandbox.engine.setup import Ball, Body, Bounce, Bounds, Circle, Patch, Segment, Setup, Surface
+from sandbox.engine.shapes import box
 from sandbox.engine.stacking import Stack, Unlike, chosen, stacked
 from sandbox.engine.touch import TOUCHING_GAP, Obstacle
 from sandbox.errors import RunError
@@ -536,6 +537,18 @@ def test_what_is_built_otherwise_is_not_alike():
     with pytest.raises(Unlike):
         stacked([(True, "a"), (False, "a")])
     assert [part.tolist() for part in stacked([(1, 2.0), (2, 3)])] == [[1.0, 2.0], [2.0, 3.0]]  # whole ones are numbers
+
+
+def test_bodies_fly_one_at_a_time(flown: list[int]):
+    crates = [
+        Body("crate", position=(0.0, 1.0 + 0.01 * i), velocity=(0.0, -9.0), shape=box(0.4, 0.3), mass=2.0)
+        for i in range(30)
+    ]
+    setups = [Setup([crate], [FLOOR], duration=0.2) for crate in crates]
+    for setup, run in zip(setups, simulate_many(setups, resolve()), strict=True):
+        assert isinstance(run, Run)
+        assert run.state("crate", 0.2) == simulate(setup, resolve()).state("crate", 0.2)
+    assert flown == []
 
 
 def test_setups_whose_parts_cannot_be_compared_run_one_at_a_time(flown: list[int]):
