@@ -938,3 +938,24 @@ def test_a_strip_of_the_smallest_size_has_frames_that_can_be_drawn(tmp_path):
     assert main(["run", "golf", "--strip", str(tmp_path / "s.png"), "--size", "320x180"]) == 0
     with Image.open(tmp_path / "s.png") as strip:
         assert strip.height >= 180
+
+
+def test_units_are_for_people(call, tmp_path: Path):
+    """Cards and pages follow; JSON and CSV stay as they are."""
+    path = tmp_path / "path.csv"
+    plain = json.loads(call("run", DROP, "--json", "--trajectory", path).out)
+    rows = path.read_bytes()
+    chosen = json.loads(call("run", DROP, "--json", "--units", "us", "--trajectory", path).out)
+    assert chosen["result"] == plain["result"]
+    assert path.read_bytes() == rows
+    assert " ft" in call("run", DROP, "--units", "us").out
+    assert " km/h" in call("run", DROP, "--units", "km/h").out
+    refused = call("run", DROP, "--units", "furlong")
+    assert (refused.code, len(refused.err.splitlines())) == (2, 1)
+
+
+def test_a_page_is_written_whole(call, drop: Path, tmp_path: Path):
+    page = tmp_path / "shot.html"
+    assert f"wrote {page}" in call("run", drop, "--html", page).out
+    assert page.read_text("utf-8").rstrip().endswith("</html>")
+    assert call("run", drop, "--html", tmp_path / "shot.png").code == 2

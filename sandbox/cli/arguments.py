@@ -54,6 +54,24 @@ def changes_options(command: Command) -> Command:
     return changed
 
 
+def units_option(command: Command) -> Command:
+    """``--units``: inside the command, numbers for people are in these units."""
+
+    @click.option(
+        "--units",
+        metavar="us|UNIT,...",
+        help="Numbers on cards, pictures and pages in US units, or in these: ft,mph. JSON and CSV stay in SI.",
+    )
+    @wraps(command)
+    def in_units(*, units: str | None, **arguments: Any) -> None:
+        from sandbox.sport.amounts import shown_in
+
+        with shown_in(units):
+            command(**arguments)
+
+    return in_units
+
+
 def whole_number(option: str, low: int, high: float = float("inf"), unit: str = "") -> Callable[[str], int]:
     """A parser for the whole number of an option; its bounds are in ``unit``."""
     bounds = f"of {low} or more" if high == float("inf") else f"from {low} to {high}"

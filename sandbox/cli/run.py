@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from sandbox.cli import outputs
-from sandbox.cli.arguments import changes_options, json_option, load, scene_argument, whole_number
+from sandbox.cli.arguments import changes_options, json_option, load, scene_argument, units_option, whole_number
 from sandbox.cli.say import say
 from sandbox.errors import RequestError
 
@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     is_flag=True,
     help="Run again, finer and from starts 1 nm away: each number's error, and what is chaotic.",
 )
+@units_option
 @outputs.options
 @click.option(
     "--compare", metavar="SCENE", help="Another preset or scene file: its numbers and its path next to this one's."

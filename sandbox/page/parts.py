@@ -9,6 +9,7 @@ import zlib
 from collections.abc import Iterable, Mapping
 from functools import cache
 from html import escape
+from itertools import zip_longest
 from pathlib import Path
 from string import Template
 from typing import Any
@@ -81,11 +82,14 @@ def what_changed(before: np.ndarray, after: np.ndarray) -> Image.Image:
     return Image.fromarray(np.dstack([after * changed[..., None], changed * np.uint8(255)]))
 
 
-def rows(cells: Iterable[Iterable[str]]) -> str:
-    """Rows of a table, the first cell of each its heading; texts."""
+def rows(cells: Iterable[Iterable[str]], colours: Iterable[str] = ()) -> str:
+    """Rows of a table, the first cell of each its heading; texts, the columns of values in ``colours``."""
+    styles = [f' style="color: {colour}"' for colour in colours]
     return "\n".join(
         f'<tr role="row"><th scope="row" role="rowheader">{html(label)}</th>'
-        + "".join(f'<td role="cell">{html(text)}</td>' for text in texts)
+        + "".join(
+            f'<td role="cell"{style}>{html(text)}</td>' for text, style in zip_longest(texts, styles, fillvalue="")
+        )
         + "</tr>"
         for label, *texts in cells
     )
@@ -99,8 +103,8 @@ def table(cells: Iterable[Iterable[str]], caption: str, kind: str, heads: Mappin
             f'<th scope="col" role="columnheader" style="color: {colour}">{html(name)}</th>'
             for name, colour in heads.items()
         )
-        head = f'<thead><tr role="row"><th scope="col" role="columnheader">{html(caption)}</th>{columns}</tr></thead>'
+        head = f'<thead><tr role="row"><td role="cell"></td>{columns}</tr></thead>'
     return (
         f'<table class="{kind}" role="table"><caption class="hidden">{html(caption)}</caption>{head}\n'
-        f'<tbody role="rowgroup">\n{rows(cells)}\n</tbody></table>'
+        f'<tbody role="rowgroup">\n{rows(cells, ["inherit", *list((heads or {}).values())[1:]])}\n</tbody></table>'
     )

@@ -14,6 +14,7 @@ from sandbox.engine.run import Run
 from sandbox.picture.camera import Camera
 from sandbox.picture.palette import Colour, palette
 from sandbox.picture.sheet import Sheet, nice
+from sandbox.sport.amounts import listed
 
 CARD, TRACE = palette("card"), palette("trace")
 
@@ -173,7 +174,7 @@ def mark_impacts(
     for at, _ in places:
         sheet.labels.take_path([at], 4 * sheet.unit)
     for at, found in places:
-        label_mark(sheet, at, found[0].towards, ", ".join(f"{mark.speed:.1f}" for mark in found) + " m/s")
+        label_mark(sheet, at, found[0].towards, listed([mark.speed for mark in found], "m/s", 1))
 
 
 def label_mark(sheet: Sheet, at: tuple[float, float], towards: tuple[float, float], text: str) -> None:

@@ -14,7 +14,7 @@ from sandbox.picture.camera import Camera
 from sandbox.picture.lettering import Labels, Lettering
 from sandbox.picture.painter import Painter, blank
 from sandbox.picture.palette import Colour, palette
-from sandbox.sport.amounts import signed
+from sandbox.sport.amounts import amount, scale_unit, signed
 
 CARD = palette("card")
 
@@ -243,7 +243,7 @@ class Sheet:
     def wind(self, along: float, up: float, right: float, top: float) -> pygame.Rect:
         """An arrow with the wind's speed below it (m/s), its top right corner at the given point in px."""
         speed = hypot(along, up)
-        text = f"wind {speed:.1f} m/s"
+        text = f"wind {amount(speed, 'm/s', 1)}"
         size = max(self.lettering.width(text, "small", bold=True), round(84 * self.unit))
         tall = round(26 * self.unit)
         rect = pygame.Rect(round(right) - size, round(top), size, tall + self.lettering.height("small"))
@@ -260,13 +260,15 @@ class Sheet:
 
     def scale_bar(self, camera: Camera, left: float, bottom: float, room: float) -> None:
         """A bar of a round length, which stands over it, from a point in px to the right, at most ``room`` px long."""
-        length = nice(0.35 * room / camera.scale)
+        unit, metre = scale_unit(0.35 * room / camera.scale)
+        number = nice(0.35 * room / camera.scale / metre)
+        length = number * metre
         wide, thin, tall = round(length * camera.scale), max(1, round(1.5 * self.unit)), round(7 * self.unit)
         row, start = round(bottom) - tall // 2 - 1, round(left)
         self.surface.fill(self.quiet_ink, (start, row, wide, thin))
         for x in (start, start + wide - thin):
             self.surface.fill(self.quiet_ink, (x, row - tall // 2, thin, tall + thin - 1))
-        text = f"{length:g} m" if length >= 0.995 else f"{100 * length:g} cm"
+        text = f"{number:g} {unit}"
         middle = start + max(wide, self.lettering.width(text, "small")) / 2
         self.write(text, "small", (middle, row - tall / 2), self.quiet_ink, "midbottom")
 

@@ -27,7 +27,7 @@ from sandbox.picture.palette import Colour, palette
 from sandbox.picture.path import FINEST, Mark, Path, apart, draw_trace, mark_impacts
 from sandbox.picture.sheet import Entry, Sheet
 from sandbox.picture.vectors import Vectors
-from sandbox.sport.amounts import metres, signed, times
+from sandbox.sport.amounts import amount, metres, signed, times
 
 CARD = palette("card")
 TRACES, RIM = palette("trace")["colours"], palette("trace")["rim"]
@@ -151,7 +151,7 @@ class View(Generic[P]):
         return [
             ("time", self.clock(t)),
             *self.position(t),
-            ("speed", f"{speed:.1f} m/s"),
+            ("speed", amount(speed, "m/s", 1)),
             ("direction", signed(f"{degrees(atan2(vy, vx)):.0f}") + "°" if speed > 0.01 else "–"),
             *self.vectors.entries(t),
             ("spin", self.spin_text(spin)),

@@ -28,7 +28,8 @@ LADDERS: dict[str, Ladder] = {
     "m/s": (Step(10, "m/s", 1), Step(0, "m/s", 2)),
     "yd": (Step(20, "yd", 0), Step(0, "yd", 1)),
     **{unit: (Step(0, unit, 0),) for unit in ("mph", "km/h", "rpm")},
-    **{unit: (Step(0, unit, 1),) for unit in ("deg", "moa", "ft", "J", "in", "cm")},
+    "ft": (Step(100, "ft", 0), Step(0, "ft", 1)),
+    **{unit: (Step(0, unit, 1),) for unit in ("deg", "moa", "J", "in", "cm")},
     "s": (Step(0, "s", 2),),
     "N": (Step(9995, "kN", 1), Step(9.995, "N", 1), Step(0.0995, "N", 2), Step(0, "mN", 0)),
 }
@@ -37,7 +38,10 @@ LADDERS: dict[str, Ladder] = {
 SYSTEMS: dict[str, Mapping[str, Ladder]] = {
     "si": {},
     "us": {
-        "length": (Step(91.44, "yd", 0), Step(0.3, "ft", 1), Step(0.001, "in", 1), Step(0, "ft", 1)),
+        "length": (
+            *(Step(160, "yd", 0), Step(30, "ft", 0), Step(0.3, "ft", 1)),
+            *(Step(0.001, "in", 1), Step(0, "ft", 1)),
+        ),
         "speed": (Step(8.94, "mph", 0), Step(0, "mph", 1)),
         "mass": (Step(0.4536, "lb", 2), Step(0, "oz", 2)),
         "force": (Step(0, "lbf", 2),),
@@ -87,7 +91,7 @@ def written(value: float, unit: str, steps: Ladder, digits: int | None = None) -
 
 def amount(value: float, unit: str = "", digits: int | None = None) -> str:
     """A number with its unit, in the units that were chosen; ``digits`` after the point where it is given."""
-    if isinstance(value, int) and not _chosen.get():
+    if isinstance(value, int) and units.KIND_OF.get(unit) not in _chosen.get():
         return f"{value} {unit}".rstrip()
     steps = ladder(unit)
     return written(value, unit, steps, digits) if steps else f"{signed(f'{value:.3g}')} {unit}".rstrip()
@@ -113,7 +117,12 @@ def margin(error: float, unit: str, count: bool = False) -> str:
     """An estimated error: ``± 0.4 mm``; "" for a count that stays the same."""
     if count and error == int(error):
         return f"± {error:.0f}" if error else ""
-    if unit == "m" and error < 0.1:
+    if units.KIND_OF.get(unit) in _chosen.get():
+        steps = ladder(unit)
+        smallest = min((step.unit for step in steps), key=lambda name: units.convert(1.0, name, unit))
+        named = next((step.unit for step in steps[:-1] if error >= step.least), smallest)
+        error, unit = units.convert(error, unit, named), named
+    elif unit == "m" and error < 0.1:
         error, unit = error * 1e3, "mm"
     written = f"± {significant(error, 1)}" if error >= 1e-3 else "± less than 0.001"
     return f"{written}°" if unit == "deg" else f"{written} {unit}".rstrip()
@@ -134,6 +143,25 @@ def signed(number: str) -> str:
     return number.replace("-", "−") if float(number) else number.lstrip("-")
 
 
+def twice(length: float, other: str) -> str:
+    """A length in m on a picture, in two units: ``252.3 m   276 yd``."""
+    return "   ".join(in_both(length, "m", other))
+
+
+def scale_unit(length: float) -> tuple[str, float]:
+    """The unit in which a scale of at least so many m is given, and that unit in m."""
+    found = [(step.unit, units.convert(1.0, step.unit, "m")) for step in ladder("m") if step.unit != "km"]
+    return next(((unit, metre) for unit, metre in found if 1.998 * length >= metre), min(found, key=lambda one: one[1]))
+
+
+def listed(values: Sequence[float], unit: str, digits: int | None = None) -> str:
+    """Numbers with the unit after the last: ``26.8, 12.1 m/s``; each in that of the largest."""
+    largest = max(values, key=abs)
+    name = amount(largest, unit, digits).rpartition(" ")[2]
+    steps = [step for step in ladder(unit) if step.unit == name][:1]
+    return ", ".join(written(value, unit, steps, digits).removesuffix(f" {name}") for value in values) + f" {name}"
+
+
 def metres(value: float, digits: int | None = None) -> str:
     """A length in m as people write it on a scale, without cm: 0.42 m, 8.31 m, 251.4 m, 12.3 km; or with ``digits``
     after the point. It is in the units that were chosen."""
@@ -152,8 +180,3 @@ def roughly(value: float) -> str:
 def times(factor: float) -> str:
     """How many times as large: 1.4 times, 86 times."""
     return f"{factor:.{0 if factor >= 9.95 else 1}f} times"
-
-
-def yards(value: float) -> str:
-    """A length in m as people write it in yards."""
-    return converted(value, "m", "yd")

@@ -24,7 +24,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 from weakref import ref
 
 from sandbox import units
-from sandbox.sport.amounts import amount, converted, margin, metres
+from sandbox.sport.amounts import amount, in_both, margin, metres
 
 if TYPE_CHECKING:
     from sandbox.engine.run import Run
@@ -72,13 +72,14 @@ class Fact:
 
     def _number(self, value: float, error: float | None, also: bool) -> str:
         size = abs(value) if self.sides else value
-        words = [amount(size, self.unit)]
+        first, second = in_both(size, self.unit, self.also) if self.also else (amount(size, self.unit), "")
+        words = [first]
         if error is not None and self.settled != "start":
             words.append(margin(error, self.unit, isinstance(value, int)))
         if self.sides and value:
             words.append(self.sides[value > 0.0])
-        if self.also and also:
-            words.append(f"({converted(size, self.unit, self.also)})")
+        if second and also:
+            words.append(f"({second})")
         return " ".join(filter(None, words))
 
 

@@ -10,7 +10,7 @@ from sandbox.picture.figures import BATTING
 from sandbox.picture.palette import scene_colours
 from sandbox.picture.places import Ground, Group, Landscape, Person, Post, Shape, Stripes
 from sandbox.picture.side import Length, Place, SideView
-from sandbox.sport.amounts import metres
+from sandbox.sport.amounts import twice
 from sandbox.sport.readings import passing
 
 from .scene import Parameters
@@ -56,4 +56,4 @@ class Picture(SideView[Parameters]):
 
     def lengths(self) -> list[Length]:
         far = self.parameters.fence.distance
-        return [Length(f"fence {metres(far)}   {far / 0.3048:.0f} ft", 0.0, far)]
+        return [Length(f"fence {twice(far, 'ft')}", 0.0, far)]

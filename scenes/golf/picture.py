@@ -13,7 +13,7 @@ from sandbox.picture.palette import palette
 from sandbox.picture.path import FINEST, apart, chip
 from sandbox.picture.sheet import Sheet, SideRows, nice
 from sandbox.picture.side import Length, SideView
-from sandbox.sport.amounts import metres, signed, yards
+from sandbox.sport.amounts import metres, twice
 
 from .course import BALL, COLOURS, Course
 from .scene import Parameters
@@ -102,8 +102,14 @@ class Picture(SideView[Parameters]):
         if flag.colliderect(sheet.surface.get_rect()):
             sheet.labels.take(flag.inflate(0, 2 * sheet.gap))
             spots = [(flag.centerx, flag.top - lift * self.unit, "midbottom") for lift in (8, 14)]
-            distance = signed(f"{self.parameters.pin.distance:g}")
-            sheet.label(f"pin {distance} m", "small", spots, sheet.ink, bold=True)
+            distance = self.parameters.pin.distance
+            sheet.label(
+                f"pin {metres(distance, 0 if distance == int(distance) else None)}",
+                "small",
+                spots,
+                sheet.ink,
+                bold=True,
+            )
 
     # The poster
 
@@ -131,8 +137,8 @@ class Picture(SideView[Parameters]):
         why = "   at launch height" if self._ends_high else ""
         total, carry = self.run.result["total"], self.run.result["carry"] or 0.0
         lengths = [
-            Length(f"total {metres(total)}   {yards(total)}", 0.0, total),
-            Length(f"carry {metres(carry)}   {yards(carry)}{why}", 0.0, carry, CARD["accent"]),
+            Length(f"total {twice(total, 'yd')}", 0.0, total),
+            Length(f"carry {twice(carry, 'yd')}{why}", 0.0, carry, CARD["accent"]),
         ]
         return [length for length in lengths if length.end]
 

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from sandbox.picture.lettering import Labels, Lettering, _font
 from sandbox.picture.painter import blank
 from sandbox.picture.sheet import Sheet, nice
-from sandbox.sport.amounts import metres, signed, yards
+from sandbox.sport.amounts import converted, metres, signed
 from tests.picture.legible import assert_legible
 
 HEIGHTS = (360, 720, 1080)
@@ -112,8 +112,8 @@ def test_lengths_as_people_write_them(value, text):
 
 
 def test_yards_and_signs():
-    assert yards(9.144) == "10.0 yd"
-    assert yards(-228.6) == "−250 yd"
+    assert converted(9.144, "m", "yd") == "10.0 yd"
+    assert converted(-228.6, "m", "yd") == "−250 yd"
     assert signed("-0") == "0"
 
 

@@ -6,7 +6,20 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from sandbox.sport.amounts import amount, converted, margin, metres, roughly, significant, times, yards
+from sandbox.errors import RequestError
+from sandbox.sport.amounts import (
+    amount,
+    converted,
+    listed,
+    margin,
+    metres,
+    roughly,
+    scale_unit,
+    shown_in,
+    significant,
+    times,
+    twice,
+)
 
 
 @given(st.floats(1e-9, 1e12), st.sampled_from([-1.0, 1.0]), st.integers(1, 5))
@@ -50,7 +63,30 @@ def test_others():
         "0.14 m", "0.99 m", "2.9 m", "9.9 m", "10 m", "252 m",
     ]  # fmt: skip
     assert [times(x) for x in (1.44, 9.94, 9.96, 86.4)] == ["1.4 times", "9.9 times", "10 times", "86 times"]
-    assert yards(91.44).startswith("100")
+    assert listed([26.81, 9.04], "m/s", 1) == "26.8, 9.0 m/s"
+    assert twice(91.44, "yd") == "91.4 m   100 yd"
+
+
+def test_chosen_units():
+    """Everything that is written for people follows, a scale included; what stands in a second unit swaps its place."""
+    with shown_in("us"):
+        lengths, speeds = (0.0123, 0.5, 8.3, 84.0, 252.3), (3.2, 76.4)
+        assert [amount(x, "m") for x in lengths] == ["0.5 in", "1.6 ft", "27.2 ft", "276 ft", "276 yd"]
+        assert [amount(x, "m/s") for x in speeds] == ["7.2 mph", "171 mph"]
+        assert [amount(45.2, "deg"), amount(1234, "")] == ["45.2°", "1234"]
+        assert [roughly(252.3), roughly(0.2), metres(2.0, 2)] == ["276 yd", "7.9 in", "6.56 ft"]
+        assert twice(129.0, "ft") == "423 ft   129.0 m"
+        assert margin(0.0004, "m") == "± 0.02 in"
+        assert scale_unit(0.4) == ("ft", 0.3048)
+        assert listed([26.81, 4.0], "m/s", 1) == "60.0, 8.9 mph"
+    with shown_in("ft, km/h"):
+        assert [amount(252.3, "m"), amount(10.0, "m/s"), amount(1.0, "N")] == ["828 ft", "36 km/h", "1.00 N"]
+    assert amount(8.3, "m") == "8.30 m"
+    with (
+        pytest.raises(RequestError, match="--units furlong: is neither us nor si"),
+        shown_in("furlong"),
+    ):
+        pass
 
 
 @pytest.mark.parametrize(
