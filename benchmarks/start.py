@@ -1,11 +1,11 @@
-"""Start-up time of ``sandbox --help``, a run and the window's first frame, and the imports that cause it.
+"""Start-up time of help, list, a run and the window's first frame, and the imports that cause it.
 
 Run ``python benchmarks/start.py [--json F] [--repeats N] [--quick]``. Each is a new process, from its start to its end,
 the median of interleaved repeats; the window ends with its first frame, drawn in memory (SDL's dummy driver). Files
 are cached and compiled, as from the second start on.
 
-Each has a limit, a process that does only what is unavoidable: Python alone for the help; Python and ``import pymunk``
-for a run; these, pygame and an empty window of the same size for the first frame.
+Each has a limit, a process that does only what is unavoidable: Python alone for help and list; Python and ``import
+pymunk`` for a run; these, pygame and an empty window of the same size for the first frame.
 
 "clock" is wall time, "processor" the processor time of all threads; "over limit" is the ratio of processor times, which
 are repeatable on a busy machine too. Imports are from ``python -X importtime``: each package's own time, without the
@@ -27,6 +27,7 @@ from time import perf_counter
 from typing import Any
 
 HELP = "from sandbox.cli import main; main(['--help'])"
+LIST = "from sandbox.cli import main; main(['list'])"
 RUN = "from sandbox.cli import main; main(['run', 'golf', '--json'])"
 WINDOW = """
 import os, pygame
@@ -48,6 +49,7 @@ pygame.display.flip()
 #: The measured programs and their limits: name and code of each.
 STARTS = {
     "sandbox --help": (HELP, "python", "pass"),
+    "sandbox list": (LIST, "python", "pass"),
     "sandbox run golf --json": (RUN, "python, pymunk", "import pymunk"),
     "window's first frame": (WINDOW, "python, pymunk, empty window", EMPTY),
 }

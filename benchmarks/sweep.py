@@ -16,6 +16,8 @@ The limit is the forces alone: numpy evaluates gravity and drag for all shots at
 Commands: whole commands that a player waits for, in processor time (user and system) including the start, compared with
 what is asked of them.
 
+Where it goes: the processor time of a shot of the map in each step of a sweep.
+
 Growth: with the number of shots, from Python (``sandbox.lab.sweep``: build, simulate, evaluate), and with the number of
 balls that fly in one setup without touching, by ``simulate``. Except for the command, times are processor times.
 """
@@ -38,6 +40,7 @@ from statistics import mean, median
 from time import perf_counter, thread_time
 from timeit import timeit
 from typing import Any
+from unittest.mock import patch
 
 import by_pymunk
 import numpy as np
@@ -49,7 +52,12 @@ from sandbox.engine import simulate, simulate_many
 from sandbox.engine.accuracy import resolve
 from sandbox.engine.run import Run
 from sandbox.engine.setup import Setup
+from sandbox.lab.axes import Values, Varied
+from sandbox.lab.plan import Plan
+from sandbox.lab.row_file import RowFile
+from sandbox.lab.runs import runs
 from sandbox.lab.sweep import sweep
+from sandbox.scene import Scene
 
 SPEEDS, ANGLES = (6.0, 9.0), (35.0, 75.0)  # m/s, deg
 MAP = (61, 41)
@@ -116,9 +124,7 @@ def by_command(shape: tuple[int, int], processes: int) -> float:
 
 PROGRAM = "from sandbox.cli import main; main()"
 #: What a search needs before it begins.
-START = (
-    "import scipy.optimize, sandbox.cli.program, sandbox.engine.batch, sandbox.lab.aim; sandbox.load('golf').build()"
-)
+START = "import sandbox.cli.program, sandbox.engine.batch, sandbox.lab.aim; sandbox.load('golf').build()"
 
 
 def processor(code: str, words: Sequence[str] = ()) -> float:
@@ -147,6 +153,27 @@ def commands(repeats: int, quick: bool) -> list[dict[str, Any]]:
             spent = min(processor(PROGRAM, words) for _ in range(repeats)) - beyond
         rows.append({"command": name, "processor_s": spent, "asked_s": limit})
     return rows
+
+
+def steps(shape: tuple[int, int]) -> dict[str, float]:
+    """Seconds of processor time of a shot in each step of a sweep."""
+    scene = sandbox.load("basketball")
+    plan = Plan(scene, tuple(Values(key, tuple(values.tolist())) for key, values in grid(shape).items()))
+    points, varied = list(plan.points(0, plan.size)), Varied(scene, plan.keys)
+    read = scene.reader(plan.asked)
+    with patch.object(Scene, "reader", lambda self, asked: lambda run, parameters: {}):
+        together_s, found = timed(lambda: list(runs(scene, plan.keys, points, asked=plan.asked)), 1)
+    parameters_s, parameters = timed(lambda: [varied.parameters(values) for values in points], 1)
+    facts_s, rows = timed(lambda: [read(*each) for each in zip(found, parameters, strict=True)], 1)
+    with tempfile.TemporaryDirectory() as folder, RowFile(Path(folder) / "map.csv", plan) as file:
+        rows_s, _ = timed(lambda: file.append([{**row, "error": ""} for row in rows]), 1)
+    spent = {
+        "parameters": parameters_s,
+        "flight": together_s - parameters_s,
+        "facts": facts_s,
+        "rows as CSV": rows_s,
+    }
+    return {step: seconds / plan.size for step, seconds in spent.items()}
 
 
 def by_bare_pymunk(setup: Setup, run: Run) -> tuple[float, float, int]:
@@ -236,6 +263,8 @@ def show(results: dict[str, Any]) -> None:
     reached = sum(one["error_m"] <= TARGET for one in drawn)
     rates = ", ".join(f"{one['steps_per_s']:,}" for one in drawn)
     out.write(f"  bare pymunk: {len(drawn)} shots drawn, {reached} within {100 * TARGET:g} cm, at {rates} steps/s\n")
+    parts = ", ".join(f"{step} {1e6 * spent:.0f} us" for step, spent in results["steps"].items())
+    out.write(f"  a shot of a sweep: {parts}\n")
     out.write(f"\n  {'shots':>8}{'time':>12}{'a shot':>12}\n")
     for row in results["shots"]:
         out.write(f"  {row['shots']:>8,}{row['time_s']:>10.2f} s{row['ms_per_shot']:>9.2f} ms\n")
@@ -258,6 +287,7 @@ def main() -> None:
     repeats = 1 if quick else arguments.repeats
     results = {
         "map": the_map((6, 5) if quick else MAP, 1 if quick else DRAWN, repeats),
+        "steps": steps((6, 6) if quick else MAP),
         "shots": [by_shots(shape) for shape in (((3, 2),) if quick else GRIDS)],
         "commands": commands(repeats, quick),
         "balls": [by_balls(balls, 3 * repeats) for balls in (BALLS[:2] if quick else BALLS)],
