@@ -9,8 +9,8 @@ from sandbox.engine.setup import Ball
 from sandbox.errors import RunError
 from sandbox.physics.integrators import Acceleration, State
 
-#: Everyday names of causes whose class is named after a physicist.
-CALLED = {"magnus": "lift"}
+#: Everyday names of causes.
+CALLED = {"magnus": "lift", "bullet drag": "drag"}
 
 
 class Turned(tuple[Any, Any]):

@@ -92,6 +92,11 @@ SERVING, SERVED_AT = (*_racket((0.165, 1.20), (0.225, 1.38), 0.062), *REACHING),
 STROKING, STROKED_AT = (*_racket((0.19, 0.60), (0.40, 0.58), 0.066), *_STROKE), (0.40, 0.58)
 _BAT = Stroke("racket", [(0.19, 0.60), (0.24, 0.592)], 0.022), Stroke("racket", [(0.265, 0.575), (0.275, 0.605)], 0.05)
 LOOPING, LOOPED_AT = (*_BAT, *_STROKE), (0.295, 0.59)
+_ARM = Stroke("body", [(0.03, 0.78), (0.13, 0.79), (0.235, 0.81)], 0.048)
+_RAISED = (Stroke(part, [(x + 0.045, y + 0.21) for x, y in points], width) for part, points, width in _BAT)
+SMASHING, SMASHED_AT = (*_RAISED, *_STROKE[:-1], _ARM), (0.34, 0.80)
+#: On a court and on a table, the usual one first.
+STROKES = (((STROKING, STROKED_AT), (SERVING, SERVED_AT)), ((LOOPING, LOOPED_AT), (SMASHING, SMASHED_AT)))
 
 BATTING = (
     Stroke("racket", [(0.10, 0.66), (0.30, 0.62), (0.46, 0.585)], 0.030),

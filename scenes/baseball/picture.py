@@ -5,10 +5,11 @@ from __future__ import annotations
 from functools import cached_property
 
 from sandbox.picture.ball import Look, seams
-from sandbox.picture.camera import Box
+from sandbox.picture.camera import Box, Camera
 from sandbox.picture.figures import BATTING
 from sandbox.picture.palette import scene_colours
 from sandbox.picture.places import Ground, Group, Landscape, Person, Post, Shape, Stripes
+from sandbox.picture.sheet import Sheet
 from sandbox.picture.side import Length, Place, SideView
 from sandbox.sport.amounts import twice
 from sandbox.sport.readings import passing
@@ -53,6 +54,11 @@ class Picture(SideView[Parameters]):
         return Place(
             Landscape(**COLOURS["landscape"]), ground, [Shape(corners, COLOURS["fence"]["wall"]), pole, batter]
         )
+
+    def annotate(self, sheet: Sheet, camera: Camera) -> None:
+        fence, over = self.parameters.fence, self.run.result["over_fence"]
+        if over is not None and over > 0.0:
+            self.gap(sheet, camera, fence.distance, fence.height, fence.height + over, "over the fence")
 
     def lengths(self) -> list[Length]:
         far = self.parameters.fence.distance

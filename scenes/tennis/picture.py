@@ -10,20 +10,13 @@ import numpy as np
 from sandbox.picture.ball import Look, seams
 from sandbox.picture.camera import Box, Camera
 from sandbox.picture.depth import Eye
-from sandbox.picture.figures import LOOPED_AT, LOOPING, SERVED_AT, SERVING, STROKED_AT, STROKING
+from sandbox.picture.figures import STROKES
+from sandbox.picture.net_game import NetView
 from sandbox.picture.palette import scene_colours
-from sandbox.picture.places import (
-    COURT_WIDTH,
-    Ground,
-    Hall,
-    Person,
-    Planks,
-    Stands,
-    net_across,
-    standing_table,
-    tennis_court,
-)
-from sandbox.picture.side import Place, SideView
+from sandbox.picture.places import COURT_WIDTH, Ground, Hall, Person, Planks, Stands
+from sandbox.picture.places.ground import tennis_court
+from sandbox.picture.places.things import net_across, standing_table
+from sandbox.picture.side import Place
 from sandbox.sport.net_game import taken
 
 from .scene import Parameters
@@ -34,7 +27,7 @@ TABLE_WIDTH, TALL = 1.525, 1.85  # m: the table (ITTF law 2.1), and people
 LOOKS = [Look(ball["colour"], seams(ball["seam"])) for ball in (COURT["ball"], TABLE["ball"])]
 
 
-class Picture(SideView[Parameters]):
+class Picture(NetView[Parameters]):
     TRACE, EARLIER = COLOURS["trace"], COLOURS["earlier"]
     LENGTHS, SECOND_UNIT, FROM = 0, "ft", "from the racket"
 
@@ -61,11 +54,11 @@ class Picture(SideView[Parameters]):
     def place(self) -> Place:
         court, net, release = self.parameters.court, self.parameters.net, self.parameters.release
         end, high, on_table = court.length, release.height + court.table, court.table > 0.0
-        stroke, struck_at = (LOOPING, LOOPED_AT) if on_table else (STROKING, STROKED_AT)
-        pose, (ahead, up) = (SERVING, SERVED_AT) if high > 1.8 else (stroke, struck_at)
+        strokes = STROKES[on_table]
+        pose, (ahead, up) = min(strokes, key=lambda stroke: abs(high - stroke[1][1] * TALL))
         tall = min(TALL, max(1.6, high / up))
         player = Person(release.place - ahead * tall, tall, COLOURS["player"], pose, up=max(0.0, high - up * tall))
-        other = Person(1.1 * end + 0.5, TALL, COLOURS["opponent"], stroke, z=0.5 * TABLE_WIDTH, facing=-1)
+        other = Person(1.1 * end + 0.5, TALL, COLOURS["opponent"], strokes[0][0], z=0.5 * TABLE_WIDTH, facing=-1)
         hung = 0.5 * end, net.height - net.depth, net.height
         if on_table:
             ground = Ground(Planks(TABLE["wood"]), TABLE["soil"], edges=[(TABLE["edge"], 4)], far=0.5)
@@ -73,5 +66,5 @@ class Picture(SideView[Parameters]):
             top = standing_table(end, TABLE_WIDTH, court.table, **TABLE["top"])
             return Place(Hall(**TABLE["hall"]), ground, [other, *top, *across, player])
         across = net_across(*hung, COURT_WIDTH, 0.06, **COURT["net"])
-        ground = tennis_court(end, court.service, **COURT["ground"])
+        ground = tennis_court(end, court.service, **COURT["ground"], **COURT[court.surface])
         return Place(Stands(**COURT["stands"]), ground, [other, *across, player])

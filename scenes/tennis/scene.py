@@ -14,21 +14,11 @@ from sandbox.engine.setup import Segment, Setup, Surface
 from sandbox.parameters import Accuracy, Group, choice, either, group, quantity
 from sandbox.physics.coefficients import TENNIS_DRAG, TENNIS_LIFT
 from sandbox.physics.swing import RUBBER, STRINGS
+from sandbox.sport import net_game
 from sandbox.sport.air import Air, ConstantDrag, ConstantLift, Lift, Model, NoDrag, NoLift, SpinRatioLift
 from sandbox.sport.controls import Controls, Handle, Spin, Spread
 from sandbox.sport.facts import ENDED
 from sandbox.sport.flight import Launch, Release, Sphere, forces_in_flight, launched_ball
-from sandbox.sport.net_game import (
-    BOUNCE_FACTS,
-    NET_HANDLES,
-    Bounces,
-    CourtBounce,
-    HardCourt,
-    Net,
-    net_facts,
-    net_of,
-    sentence,
-)
 from sandbox.sport.readings import LAUNCH
 from sandbox.sport.swing import Swing, struck_by
 
@@ -61,9 +51,10 @@ class Racket(Swing):
     face_of: Literal["strings", "rubber"] = choice(..., "strings of tennis, rubber of table tennis")
 
 
-class TennisCourt(HardCourt):
+class TennisCourt(net_game.HardCourt):
     """The court, or the table."""
 
+    surface: Literal["hard", "clay", "grass"] = choice(..., "what it looks like; how it plays is said by the numbers")
     service: float = quantity(..., "m", 0, 50, "from the net to the line before which a serve must land; 0 for none")
     table: float = quantity(..., "m", 0, 2, "height of the table above the floor; 0 for a court")
 
@@ -79,7 +70,7 @@ class Parameters(Group):
     gravity: float = quantity(..., "m/s^2", 0, 30, "gravity")
     air: Air = group(..., "the air")
     ball: TennisBall = group(..., "the ball")
-    net: Net = group(..., "the net")
+    net: net_game.Net = group(..., "the net")
     court: TennisCourt = group(..., "the court")
     accuracy: Accuracy = group(Accuracy(), "speed against accuracy")
 
@@ -96,7 +87,7 @@ CONTROLS = Controls(
     spins=(Spin("launch.spin", 100.0),),
     also={"start": "launch"},
     sliders=("release.place", "release.height", "court.restitution", "court.friction", "net.height", "air.wind"),
-    handles=(Handle("release.place", "release.height"), *NET_HANDLES),
+    handles=(Handle("release.place", "release.height"), *net_game.NET_HANDLES),
     scores="in",
     spread=(Spread("launch.speed", 0.03), Spread("launch.angle", least=0.8), Spread("launch.spin", 0.1)),  # assumed
 )
@@ -111,18 +102,21 @@ def build(parameters: Parameters) -> Setup:
     if parameters.start == "racket":
         face = RUBBER if parameters.racket.face_of == "rubber" else STRINGS
         played = struck_by(parameters.racket, "racket", face, played)
-    bounce, ends = CourtBounce(court), (0.0, court.length) if court.table > 0.0 else (-1e4, 1e4)
+    bounce, ends = net_game.CourtBounce(court), (0.0, court.length) if court.table > 0.0 else (-1e4, 1e4)
     top = Segment((ends[0], 0.0), (ends[1], 0.0))
-    surfaces = [Surface("court", top, bounce(1.0, 0.0).restitution, court.friction, law=bounce), net_of(parameters)]
+    surfaces = [
+        Surface("court", top, bounce(1.0, 0.0).restitution, court.friction, law=bounce),
+        net_game.net_of(parameters),
+    ]
     if court.table > 0.0:
         surfaces.append(Surface("floor", Segment((-1e4, -court.table), (1e4, -court.table)), 0.7, court.friction))
-    return Setup([played], surfaces, 20.0, Bounces(2))
+    return Setup([played], surfaces, 20.0, net_game.Bounces(2))
 
 
-FACTS = (*net_facts(lambda parameters: parameters.limit[0]), *BOUNCE_FACTS, *LAUNCH, ENDED)
+FACTS = (*net_game.net_facts(lambda parameters: parameters.limit[0]), *net_game.BOUNCE_FACTS, *LAUNCH, ENDED)
 
 
 def verdict(run: Run, parameters: Parameters) -> str:
     """What happened, in a sentence."""
-    said = sentence(run, parameters, *parameters.limit)
+    said = net_game.sentence(run, parameters, *parameters.limit)
     return f"Fault: {said[0].lower()}{said[1:]}" if parameters.shot == "serve" and not run.result["in"] else said

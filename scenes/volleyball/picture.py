@@ -7,9 +7,10 @@ from functools import cached_property
 from sandbox.picture.ball import Look, seams
 from sandbox.picture.camera import Box
 from sandbox.picture.figures import REACHING
+from sandbox.picture.net_game import NetView
 from sandbox.picture.palette import scene_colours
 from sandbox.picture.places import Ground, Hall, Net, Person, Planks, Post, Shape
-from sandbox.picture.side import Place, SideView
+from sandbox.picture.side import Place
 
 from .scene import Parameters
 
@@ -19,7 +20,7 @@ WIDE, ATTACK = 9.0, 3.0  # m: the court's width, and the attack line from the ne
 PLAYERS = ((4.2, 2.0), (6.0, 4.5), (4.2, 7.0))  # m, beyond the net and behind the plane of play
 
 
-class Picture(SideView[Parameters]):
+class Picture(NetView[Parameters]):
     LOOK = Look(COLOURS["ball"]["colour"], seams(COLOURS["ball"]["seam"]))
     TRACE, FAINT, EARLIER = COLOURS["trace"], COLOURS["trace"], COLOURS["earlier"]
     LENGTHS, SECOND_UNIT = 0, "ft"
