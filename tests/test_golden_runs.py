@@ -32,6 +32,8 @@ RUNS = {
     "rocket": None,
     "rocket/grenade": None,
     "throws": None,
+    "bowling": None,
+    "bowling/straight": None,
     "curling": None,
     "curling/double": None,
     "baseball": None,

@@ -13,7 +13,9 @@ The direction of u is constant, hence so are all accelerations: the path is a pa
 the ball **rolls**: u stays 0, and the ball decelerates by ``mu_r g`` on a straight path. Spin about the vertical decays
 independently, ``dwz/dt = -+ 5 mu_sp g / 2 r``, in every phase, at last with the ball spinning **in place**.
 
-Valid for a solid sphere that never leaves level, dry cloth, with friction that does not depend on speed. Left out: the
+With another moment of inertia ``k m r^2`` than the 2/5 of a solid sphere, 5/2 becomes 1/k and 7/2 becomes 1 + 1/k.
+
+Valid for a sphere that never leaves level, dry cloth, with friction that does not depend on speed. Left out: the
 nap, the ball's sinking into the cloth, and the effect of spin about the vertical on the path of a rolling ball.
 Sources: Marlow 1995, The Physics of Pocket Billiards; Leckie & Greenspan 2006, An Event-Based Pool Physics Simulator,
 Lecture Notes in Computer Science 4250, 247; Alciatore, technical proof TP A.4 to The Illustrated Principles of Pool and
@@ -43,6 +45,7 @@ class Cloth:
     rolling: float = 0.01
     spinning: float = 0.0127
     gravity: float = 9.81  # m/s^2
+    inertia: float = 0.4  # moment of inertia over m r^2 of what rolls on it
     name: str = "cloth"  # what it is called in reports: cloth, lane
 
     rolls: ClassVar[bool] = True
@@ -61,12 +64,15 @@ class Cloth:
         for what in ("sliding", "rolling", "spinning", "gravity"):
             if not 0.0 <= getattr(self, what) < inf:
                 raise ValueError(f"{self.name}: {what} = {getattr(self, what)} must not be negative")
+        if not 0.0 < self.inertia <= 1.0:
+            raise ValueError(f"{self.name}: inertia = {self.inertia} must be above 0, and at most 1")
 
     def phase(self, state: PlaneState, radius: float) -> Phase:
         """The phase that starts at ``state`` for a ball of ``radius`` m, until its mode changes or its spin ends.
 
         Slides for ``2 |u| / (7 mu_s g)``, rolls for ``|v| / (mu_r g)``, spins for ``2 r |wz| / (5 mu_sp g)``.
         """
+        turn = 1.0 / self.inertia
         _, _, vx, vy, wz, wx, wy = state
         ux, uy = vx - radius * wy, vy + radius * wx
         slip = sqrt(ux * ux + uy * uy)
@@ -74,10 +80,10 @@ class Cloth:
         mode, time, ax, ay, alpha_x, alpha_y = "resting", inf, 0.0, 0.0, 0.0, 0.0
         if slip > STILL:
             mode, a = "sliding", self.sliding * self.gravity
-            time = slip / (3.5 * a) if a > 0.0 else inf
+            time = slip / ((1.0 + turn) * a) if a > 0.0 else inf
             ax, ay = -a * ux / slip, -a * uy / slip
-            # torque of the force at the lowest point, over 2/5 m r^2
-            alpha_x, alpha_y = 2.5 * ay / radius, -2.5 * ax / radius
+            # torque of the force at the lowest point, over the moment of inertia
+            alpha_x, alpha_y = turn * ay / radius, -turn * ax / radius
         elif speed > STILL:
             mode, a = "rolling", self.rolling * self.gravity
             time = speed / a if a > 0.0 else inf
@@ -86,7 +92,7 @@ class Cloth:
         alpha_z, spin_time = 0.0, inf
         if radius * abs(wz) > STILL:
             mode = "spinning" if mode == "resting" else mode
-            alpha_z = -copysign(2.5 * self.spinning * self.gravity / radius, wz)
+            alpha_z = -copysign(turn * self.spinning * self.gravity / radius, wz)
             spin_time = wz / -alpha_z if alpha_z != 0.0 else inf
         duration = min(time, spin_time)
         ends = duration == time < inf, duration == spin_time < inf

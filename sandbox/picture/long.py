@@ -156,7 +156,7 @@ class LongView(AboveView[P]):
     def scale(self, sheet: Sheet, camera: Camera) -> None:
         """A scale bar under the strip."""
         low = self.camera.pixel(0.0, self.whole.bottom)[1] + (ROW - 2.0) * self.unit
-        sheet.scale_bar(camera, sheet.frame.left + 2 * sheet.gap, low, 0.3 * sheet.frame.width)
+        sheet.scale_bar(camera, sheet.frame.left + 2 * sheet.gap, low, 0.12 * sheet.frame.width)
 
     def notes(self, camera: Camera) -> list[str]:
         """Of the near part; in the strip balls are only marks."""

@@ -26,7 +26,7 @@ class Slide(Group):
 
     speed: float = quantity(..., "m/s", 0, 80, "speed")
     angle: float = quantity(..., "deg", -180, 180, "direction, to the left of straight ahead")
-    spin: float = quantity(..., "rpm", -5000, 5000, "about the vertical, counter-clockwise positive")
+    spin: float = quantity(..., "rpm", -5000, 5000, "counter-clockwise positive, as seen from above")
     aside: float = quantity(..., "m", -50, 50, "where it starts, to the left of the middle")
 
 

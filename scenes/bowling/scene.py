@@ -1,0 +1,156 @@
+"""Bowling from above: a ball slides on the oil, hooks where it ends, and meets ten pins.
+
+Models: sliding and rolling of the ball in closed form, with friction by strips of the lane; its own moment of inertia;
+impacts of ball and pins, and of pins and the kickbacks, as discs that slide; gutters and pit.
+Leaves out: the fall of the pins, which roll and fly where here they slide upright: one is down once it is pushed so
+far that it would tip; the weight block, and with it the flare; the axis's tilt. Not validated: what the pins do.
+"""
+
+from __future__ import annotations
+
+from math import atan2, cos, degrees, dist, sin
+
+from pydantic import Field
+
+from sandbox.engine.run import Run
+from sandbox.engine.setup import Always, Ball, Bounce, Segment, Setup, Surface
+from sandbox.errors import RequestError
+from sandbox.parameters import Accuracy, Group, group, groups, quantity
+from sandbox.physics.cloth import Cloth
+from sandbox.physics.ice import Glide
+from sandbox.physics.plane import Strips
+from sandbox.sport.controls import Controls, Spin, Spread
+from sandbox.sport.facts import ENDED, Fact
+from sandbox.sport.flight import DEGREE, RPM
+from sandbox.sport.readings import Moment, at, before
+from sandbox.sport.sliding import Body, Slide, beside, beyond, end_of, taken, velocity_of
+
+#: USBC: from the foul line to the head pin, between pins and between their rows; from the head pin to the pit; half the
+#: widths of lane and lane with gutters; in m.
+HEAD, PITCH, ROW, PIT, LANE, KICKBACK = 18.288, 0.3048, 0.26396, 0.868, 0.52705, 0.7620
+SPOTS = {
+    str(i): (HEAD + row * ROW, PITCH * (0.5 * row - place))
+    for i, (row, place) in enumerate(((row, place) for row in range(4) for place in range(row + 1)), 1)
+}
+ALL, ASIDE = " ".join(SPOTS), ("right", "left")
+
+
+class Launch(Slide):
+    """The ball as it leaves the hand, at the foul line."""
+
+    spin: float = quantity(..., "rpm", -1000, 1000, "revolutions; a positive number rolls ahead")
+    axis: float = quantity(..., "deg", -90, 90, "its axis: 0 rolls straight ahead, 90 turns sideways, to the left")
+
+
+class Oil(Group):
+    """A strip of the lane that is oiled."""
+
+    end: float = quantity(..., "m", 0, 20, "where it ends, from the foul line")
+    friction: float = quantity(..., "", 0, 1, "of ball and lane")
+
+
+class BowlingBall(Group):
+    """The ball."""
+
+    mass: float = quantity(..., "kg", 0.5, 20, "mass")
+    radius: float = quantity(..., "m", 0.08, 0.3, "radius")
+    gyration: float = quantity(..., "m", 0.01, 0.08, "radius of gyration")
+
+
+class Pins(Body):
+    """The pins, all alike."""
+
+    standing: str = Field(description="the numbers of those that stand")
+    sliding: float = quantity(..., "", 0, 2, "friction of pin and deck")
+    tips: float = quantity(..., "m", 0, 0.1, "a pin that is pushed further than this falls")
+
+
+class Parameters(Group):
+    """All parameters of a shot."""
+
+    launch: Launch = group(..., "the ball as it leaves the hand")
+    oil: list[Oil] = groups(..., "the oiled strips")
+    dry: float = quantity(..., "", 0, 1, "friction of ball and lane beyond the oil")
+    ball: BowlingBall = group(..., "the ball")
+    pin: Pins = group(..., "the pins")
+    gravity: float = quantity(..., "m/s^2", 0.1, 30, "gravity")
+    accuracy: Accuracy = group(Accuracy(), "speed against accuracy")
+
+
+CONTROLS = Controls(
+    strongest=14.0,
+    spins=(Spin("launch.spin", 20.0), Spin("launch.axis", 5.0)),
+    sliders=("launch.speed", "launch.angle", "launch.aside", "launch.spin", "launch.axis", "dry"),
+    scores="strike",
+    spread=(Spread("launch.speed", 0.015), Spread("launch.angle", least=0.25), Spread("launch.spin", 0.05)),  # assumed
+    next_start=lambda run, it: {"pin.standing": " ".join(run.result["leaves"]) or ALL},
+)
+
+
+def build(parameters: Parameters) -> Setup:
+    """Ball and pins, the lane in strips, the kickbacks, gutters and pit."""
+    it, ball, pin, launch = parameters, parameters.ball, parameters.pin, parameters.launch
+    if unknown := set(pin.standing.split()) - set(SPOTS):
+        raise RequestError(f"pin.standing: there is no pin {', '.join(sorted(unknown))}; there are {ALL}")
+    turn, axis = launch.spin * RPM, (launch.angle + launch.axis) * DEGREE  # about a level axis
+    roll = -turn * sin(axis), turn * cos(axis)
+    inertia = (ball.gyration / ball.radius) ** 2
+    thrown = Ball("ball", ball.mass, ball.radius, (0.0, launch.aside), velocity_of(launch), 0.0, roll, inertia)
+    oiled = sorted((oil.end, oil.friction) for oil in it.oil)
+    lane = [Cloth(mu, 0.0, 0.0, it.gravity, inertia, "lane") for mu in (*(mu for _, mu in oiled), it.dry)]
+    sides = [Segment((HEAD - 0.5, y), (HEAD + PIT + 0.5, y)) for y in (KICKBACK, -KICKBACK)]
+    pit = beyond("pit", (HEAD + PIT, -2.0), (HEAD + PIT, 2.0), ball.radius)
+    return Setup(
+        [thrown, *(pin.at(name, SPOTS[name]) for name in SPOTS if name in pin.standing.split())],
+        [Surface("kickback", side, pin.restitution, pin.friction) for side in sides],
+        duration=20.0,
+        between_balls=Always(Bounce(pin.restitution, pin.friction)),
+        plane=Glide(pin.sliding, pin.sliding, it.gravity, "deck"),
+        planes=[("ball", Strips([end for end, _ in oiled], lane))],
+        catches=[*beside("gutter", LANE, -1.0, HEAD + PIT, only=["ball"]), pit],
+    )
+
+
+def _leaves(run: Run, parameters: Parameters) -> list[str]:
+    """The pins that stand in the end."""
+    off, pins = taken(run), [ball.name for ball in run.setup.balls[1:]]
+    return [name for name in pins if name not in off and dist(end_of(run, name), SPOTS[name]) <= parameters.pin.tips]
+
+
+def _met(run: Run, parameters: Parameters) -> dict[str, Moment]:
+    """The pins that the ball meets itself, in order, and the ball just before."""
+    met: dict[str, Moment] = {}
+    for event in run.events:
+        pin = event.partner if event.ball == "ball" else event.ball if event.partner == "ball" else ""
+        if event.kind == "impact" and pin in SPOTS:
+            met.setdefault(pin, before(run, event.t))
+    return met
+
+
+def _entry(run: Run, parameters: Parameters) -> Moment | None:
+    """The ball as it meets the first pin."""
+    return next(iter(_met(run, parameters).values()), None)
+
+
+FACTS = (
+    Fact("pins", "pins", "", lambda run, it: len(run.setup.balls) - 1 - len(_leaves(run, it))),
+    Fact("leaves", "leaves", "", _leaves),
+    Fact("entry_angle", "entry", "deg", at(_entry, lambda ball: degrees(atan2(ball.vy, ball.vx))), sides=ASIDE),
+    Fact("offset", "off the centre", "m", at(_entry, lambda ball: ball.y), sides=ASIDE),
+    Fact("entry_speed", "at the pins", "m/s", at(_entry, lambda ball: ball.speed), also="mph"),
+    Fact("time", "to the pins", "s", at(_entry, lambda ball: ball.t)),
+    Fact("release", "release", "m/s", lambda run, it: it.launch.speed, "start", also="mph"),
+    Fact("met", "", "", lambda run, it: list(_met(run, it))),
+    Fact("strike", "", "", lambda run, it: len(run.setup.balls) > 10 and not _leaves(run, it)),
+    ENDED,
+)
+
+
+def verdict(run: Run, parameters: Parameters) -> str:
+    """What happened, in a sentence."""
+    leaves, pins = run.result["leaves"], run.result["pins"]
+    if not pins:
+        return "Gutter ball" if "ball" in taken(run) and taken(run)["ball"] == "gutter" else "No pin falls"
+    if not leaves:
+        return "Strike" if run.result["strike"] else "Spare"
+    return f"{pins} down, leaves the {', '.join(leaves)}"
