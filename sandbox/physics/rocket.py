@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from bisect import bisect_right
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise
@@ -25,29 +26,40 @@ class Motor:
     thrusts: Sequence[Any]  # N
     propellant: Any  # kg
     impulse: Any = field(init=False, repr=False)  # N s
+    _pieces: Any = field(init=False, repr=False)  # start and end, thrust and slope, impulse so far
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "impulse", self._impulse(self.times[-1]))
-
-    @property
-    def _pieces(self) -> Any:
+        pieces, total = [], 0.0
         points = zip(self.times, self.thrusts, strict=True)
-        return ((start, end, before, after) for (start, before), (end, after) in pairwise(points))
+        for (start, before), (end, after) in pairwise(points):
+            pieces.append((start, end, before, (after - before) / (end - start), total))
+            total = total + 0.5 * (before + after) * (end - start)
+        object.__setattr__(self, "_pieces", tuple(pieces))
+        object.__setattr__(self, "impulse", total)
+
+    def _piece(self, t: float) -> Any:
+        """The piece of the curve at time t, or the one nearest to it."""
+        return self._pieces[max(0, min(bisect_right(self.times, t), len(self._pieces)) - 1)]
 
     def _impulse(self, t: Any) -> Any:
         """Up to time t, in N s."""
-        total = 0.0
-        for start, end, before, after in self._pieces:
+        total, pieces = 0.0, self._pieces
+        if isinstance(t, float):
+            pieces = (self._piece(t),)
+            total = pieces[0][-1]
+        for start, end, before, slope, _ in pieces:
             burning = clip(t, start, end) - start
-            total = total + burning * (before + 0.5 * (after - before) * burning / (end - start))
+            total = total + burning * (before + 0.5 * slope * burning)
         return total
 
     def thrust(self, t: Any) -> Any:
         """In N at time t in s."""
+        if isinstance(t, float):
+            start, end, before, slope, _ = self._piece(t)
+            return before + slope * (t - start) if start <= t < end else 0.0
         force = 0.0
-        for start, end, before, after in self._pieces:
-            share = (t - start) / (end - start)
-            force = choose((start <= t) & (t < end), before + (after - before) * share, force)
+        for start, end, before, slope, _ in self._pieces:
+            force = choose((start <= t) & (t < end), before + slope * (t - start), force)
         return force
 
     def lost(self, t: Any) -> Any:

@@ -9,6 +9,7 @@ Mach 0.8 or so; less drag while the motor burns; air that thins on the way up (3
 from __future__ import annotations
 
 from itertools import pairwise
+from math import hypot
 
 from sandbox.engine.run import Run
 from sandbox.engine.setup import Ball, Force, Segment, Setup, Surface, Touches
@@ -20,7 +21,7 @@ from sandbox.physics.rocket import Motor, Thrust
 from sandbox.sport.air import Air, ConstantDrag, NoDrag, NoLift, wind_in
 from sandbox.sport.amounts import roughly
 from sandbox.sport.controls import Controls, Spread
-from sandbox.sport.facts import ENDED, Fact, once
+from sandbox.sport.facts import ENDED, Fact
 from sandbox.sport.flight import DEGREE, Sphere, forces_in_flight
 from sandbox.sport.readings import Moment, at
 
@@ -64,6 +65,7 @@ class Parameters(Group):
 
 
 CONTROLS = Controls(
+    ball="rocket",
     strongest=150.0,
     sliders=("motor.propellant", "ball.mass", "ball.drag.coefficient", "launch.rail", "air.wind", "gravity"),
     spread=(Spread("launch.angle", least=2.0), Spread("ball.mass", 0.02)),  # assumed
@@ -99,10 +101,9 @@ def build(parameters: Parameters) -> Setup:
     return Setup([flying], [ground, rail], parameters.duration, Touches("ground"), breaks=motor.times)
 
 
-@once
-def fastest(run: Run, parameters: Parameters) -> Moment:
-    """The rocket when it is fastest."""
-    return max((Moment(*row) for row in run.trajectory("rocket", 1 / 200, ends=True).tolist()), key=lambda it: it.speed)
+def top_speed(run: Run, parameters: Parameters) -> float:
+    """In m/s; it is reached where a step ends, as the thrust gives way."""
+    return max(hypot(*state[2:4]) for _, state in run.ends("rocket"))
 
 
 def burnout(run: Run, parameters: Parameters) -> Moment | None:
@@ -114,7 +115,7 @@ def burnout(run: Run, parameters: Parameters) -> Moment | None:
 FACTS = (
     Fact("apex", "apex", "m", lambda run, parameters: run.highest("rocket")[1][1], settled="ground", also="ft"),
     Fact("apex_time", "apex after", "s", lambda run, parameters: run.highest("rocket")[0], settled="ground"),
-    Fact("top_speed", "top speed", "m/s", at(fastest, lambda it: it.speed), settled="ground", also="mph"),
+    Fact("top_speed", "top speed", "m/s", top_speed, settled="ground", also="mph"),
     Fact("distance", "distance", "m", lambda run, parameters: run.before("rocket", run.duration)[0]),
     Fact("flight_time", "flight time", "s", lambda run, parameters: run.duration),
     Fact("end_speed", "speed at the end", "m/s", lambda run, _: Moment(0.0, *run.before("rocket", run.duration)).speed),
@@ -127,8 +128,6 @@ FACTS = (
 
 def verdict(run: Run, parameters: Parameters) -> str:
     """What happened, in a sentence."""
-    result = run.result
-    high, far = f"{roughly(result['apex'])} high", roughly(abs(result["distance"]))
-    if any(event.kind == "impact" and event.partner == "ground" for event in run.events):
-        return f"{high}, down {far} away after {run.duration:.1f} s"
-    return f"{high}, {far} away after {run.duration:.1f} s"
+    down = "down " if any(event.kind == "impact" and event.partner == "ground" for event in run.events) else ""
+    far = roughly(abs(run.result["distance"]))
+    return f"{roughly(run.result['apex'])} high, {down}{far} away after {run.duration:.1f} s"

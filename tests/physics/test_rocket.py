@@ -8,9 +8,8 @@ from math import cosh, log, sqrt, tanh
 import numpy as np
 import pytest
 
-from sandbox.engine import simulate
+from sandbox.engine import simulate, simulate_many
 from sandbox.engine.accuracy import LEVELS
-from sandbox.engine.batch import simulate_many
 from sandbox.engine.ledger import ledger
 from sandbox.engine.setup import Ball, Setup
 from sandbox.physics.coefficients import Constant
