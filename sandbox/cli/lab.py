@@ -96,7 +96,10 @@ def aim(
 @click.option("--seed", metavar="N", type=whole_number("--seed", 0), help="Seed of the random points.  [default: 0]")
 @click.option("--check", is_flag=True, help="Run each point again, finer, and add its errors.")
 @click.option("--plot", metavar="F.png", type=Path, help="A map over two parameters, a curve over one.")
-@click.option("--of", metavar="NAME", help="The result that --plot shows.")
+@click.option(
+    "--html", metavar="F.html", type=Path, help="A page with the map, and the path of the point under the cursor."
+)
+@click.option("--of", metavar="NAME", help="The result that --plot and --html show.")
 @click.option("--parquet", metavar="F.parquet", type=Path, help="Write the rows as Parquet too; needs pyarrow.")
 @click.option(
     "--jobs",
@@ -114,6 +117,7 @@ def sweep(
     seed: int | None,
     check: bool,
     plot: Path | None,
+    html: Path | None,
     of: str | None,
     parquet: Path | None,
     jobs: int | None,
@@ -141,12 +145,19 @@ def sweep(
     check_file("--out", out, ".csv")
     if seed is not None and samples is None:
         raise RequestError(f"--seed {seed}: goes with --samples")
-    if of is not None and plot is None:
-        raise RequestError(f"--of {of}: goes with --plot")
+    if of is not None and plot is None and html is None:
+        raise RequestError(f"--of {of}: goes with --plot or --html")
     if plot is not None:
         from sandbox.lab.maps import check_plot
 
         check_plot(plan, plot, of)
+    if html is not None:
+        from sandbox.lab.chart import check_installed
+        from sandbox.page import sweep as page
+
+        check_file("--html", html, ".html")
+        check_installed("--html", "matplotlib")
+        page.check_page(plan)
     if parquet is not None:
         from sandbox.lab.chart import check_installed
         from sandbox.lab.parquet import write_parquet
@@ -160,11 +171,16 @@ def sweep(
 
         with writing("--plot", plot):
             draw_sweep(plan, out, plot, of)
+    if html is not None:
+        from sandbox.page.parts import save
+
+        with writing("--html", html):
+            save(page.page_of(plan, out, of), html)
     if parquet is not None:
         with writing("--parquet", parquet):
             write_parquet(plan, out, parquet)
     if str(out) != "/dev/stdout":
-        written = [f"wrote {path}" for path in (out, plot, parquet) if path is not None]
+        written = [f"wrote {path}" for path in (out, plot, html, parquet) if path is not None]
         say("\n".join([done.as_text(), *written]))
     if done.failures == done.points - done.resumed > 0:
         raise RunError(f"every point failed, the first with: {done.first_error}")

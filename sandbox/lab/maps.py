@@ -91,12 +91,12 @@ def draw_sweep(plan: Plan, file: Path, path: Path, of: str | None = None) -> Non
         for place, side in zip(shown, ("x", "y"), strict=False):
             axis = plan.axes[place]
             axes.set(**{f"{side}label": label(plan.scene, axis.key)})
-            if isinstance(axis, Values) and not _has_numbers(axis):
+            if isinstance(axis, Values) and not has_numbers(axis):
                 axes.set(**{f"{side}ticks": range(len(axis.values))})
                 axes.set(**{f"{side}ticklabels": [cell(value) for value in axis.values]})
         if len(shown) == 1:
             axes.set_ylabel(found.label if not found.words else "")
-        own = _own(plan)
+        own = own_place(plan)
         if own is not None:
             _mark_own(axes, [own[place] for place in shown], found, found.axes[shown[0]], colours["card"]["ink"])
 
@@ -150,14 +150,14 @@ def _word(text: str, in_order: bool) -> str:
 
 
 def _column(axis: Axis, texts: Sequence[str]) -> np.ndarray:
-    if _has_numbers(axis):
+    if has_numbers(axis):
         return np.array([float(text) for text in texts])
     assert isinstance(axis, Values)  # a span has numbers
     order = {cell(value): place for place, value in enumerate(axis.values)}
     return np.array([float(order[text]) for text in texts])
 
 
-def _has_numbers(axis: Axis) -> bool:
+def has_numbers(axis: Axis) -> bool:
     return not isinstance(axis, Values) or all(isinstance(value, float) for value in axis.values)
 
 
@@ -171,12 +171,12 @@ def _numbers(texts: Sequence[str]) -> np.ndarray | None:
         return None
 
 
-def _own(plan: Plan) -> list[float] | None:
+def own_place(plan: Plan) -> list[float] | None:
     """Positions of the scene's own values along the axes, if they lie on them."""
     own: list[float] = []
     for axis in plan.axes:
         value = at(plan.scene.parameters, path_of("over", axis.key))
-        if isinstance(axis, Values) and not _has_numbers(axis):
+        if isinstance(axis, Values) and not has_numbers(axis):
             if value not in axis.values:
                 return None
             own.append(float(axis.values.index(value)))
@@ -196,7 +196,7 @@ def _own(plan: Plan) -> list[float] | None:
 def _curves(axes: Any, plan: Plan, found: Found) -> list[int] | None:
     """A number over one axis, with a curve for each word of the other, if there is one. Returns the place of the axis
     that runs along, or None if this is not such a chart."""
-    words = [axis for axis in plan.axes if not _has_numbers(axis)]
+    words = [axis for axis in plan.axes if not has_numbers(axis)]
     along, names = 0, [""]
     if len(plan.axes) == 2:
         if plan.samples or len(words) != 1 or not isinstance(words[0], Values) or len(words[0].values) > _MOST_CURVES:
@@ -206,7 +206,7 @@ def _curves(axes: Any, plan: Plan, found: Found) -> list[int] | None:
     for place, name in enumerate(names):
         here = found.axes[1 - along] == place if len(plan.axes) == 2 else np.full(len(found.numbers), True)
         order = np.argsort(found.axes[along][here])
-        style = "-" if _has_numbers(plan.axes[along]) else ""
+        style = "-" if has_numbers(plan.axes[along]) else ""
         dots = "o" if len(order) <= _MOST_DOTS else ""
         x, y = found.axes[along][here][order], found.numbers[here][order]
         axes.plot(x, y, linestyle=style, marker=dots, markersize=3.5, label=name)
@@ -233,7 +233,7 @@ def _map(axes: Any, plan: Plan, found: Found, colours: Mapping[str, Any]) -> Non
         return np.repeat(cells, len(up) // len(cells), axis=0)
 
     if found.words:
-        chosen, codes = _coded(found, colours)
+        chosen, codes = coded(found, colours)
         cells = grid(codes)
         colour_map = ListedColormap(list(chosen.values()))
         mesh = axes.pcolormesh(across, up, cells, shading="nearest", cmap=colour_map, vmin=-0.5, vmax=len(chosen) - 0.5)
@@ -278,7 +278,7 @@ def _cloud(axes: Any, plan: Plan, found: Found, colours: Mapping[str, Any]) -> N
     if found.numbers is not None:
         _key(axes, axes.scatter(*found.axes, c=found.numbers, s=size, cmap=_HEIGHTS), found, colours)
         return
-    chosen, codes = _coded(found, colours)
+    chosen, codes = coded(found, colours)
     for code, colour in reversed(list(enumerate(chosen.values()))):  # success on top
         axes.scatter(*(axis[codes == code] for axis in found.axes), s=size, color=colour)
     _legend(axes, found, chosen, colours)
@@ -308,7 +308,7 @@ def _is_high(found: Found, places: np.ndarray, own: float) -> bool:
     return bool(height > 0.5 * (np.nanmin(found.numbers) + np.nanmax(found.numbers)))
 
 
-def _coded(found: Found, colours: Mapping[str, Any]) -> tuple[dict[str, str], np.ndarray]:
+def coded(found: Found, colours: Mapping[str, Any]) -> tuple[dict[str, str], np.ndarray]:
     """A colour for each word, success vivid and the most common first, and the index of each point's colour."""
     counts = Counter(found.words)
     failures = counts.pop(FAILED, 0)

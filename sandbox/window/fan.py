@@ -12,10 +12,10 @@ import numpy as np
 from sandbox import parameters as declared
 from sandbox.lab.runs import runs
 from sandbox.picture.camera import Camera
+from sandbox.picture.lines import points
 from sandbox.picture.palette import Colour
 from sandbox.scene import Scene
 from sandbox.sport.controls import Spread
-from sandbox.window.path import points
 from sandbox.window.shot import Shot
 
 SHOTS = 100

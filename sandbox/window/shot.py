@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from sandbox.physics.forces import Gravity
+from sandbox.picture.lines import moves, points
 from sandbox.scene import Scene
 from sandbox.sport.amounts import amount
 from sandbox.window.history import Changes
-from sandbox.window.path import moves, points
 
 if TYPE_CHECKING:
     from sandbox.engine.run import Run

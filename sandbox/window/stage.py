@@ -13,6 +13,7 @@ import pygame
 from sandbox.picture import plain
 from sandbox.picture.camera import Camera
 from sandbox.picture.ghosts import colours_beside
+from sandbox.picture.lines import simplify
 from sandbox.picture.painter import blank
 from sandbox.picture.palette import Colour, mix, palette
 from sandbox.picture.path import chip
@@ -20,7 +21,6 @@ from sandbox.picture.sheet import Sheet
 from sandbox.picture.view import View
 from sandbox.window.background import Once
 from sandbox.window.canvas import Canvas
-from sandbox.window.path import simplify
 from sandbox.window.score_map import ScoreMap
 from sandbox.window.shot import Shot
 

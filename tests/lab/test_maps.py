@@ -33,7 +33,7 @@ def plan_of(source: str, *over: str) -> Plan:
     ],
 )
 def test_where_the_scene_files_own_shot_is(over, place):
-    assert maps._own(plan_of("golf", *over)) == place
+    assert maps.own_place(plan_of("golf", *over)) == place
 
 
 def test_a_picture_of_one_word_keeps_clear_of_the_edges(tmp_path: Path):

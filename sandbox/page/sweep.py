@@ -1,0 +1,199 @@
+"""A sweep as a page: its map or curves, and the path of the point under the cursor."""
+
+from __future__ import annotations
+
+import shlex
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from itertools import accumulate
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from sandbox.engine.run import Run
+from sandbox.engine.setup import Circle, Segment
+from sandbox.errors import RequestError
+from sandbox.lab.axes import Values, label
+from sandbox.lab.maps import Found, coded, has_numbers, own_place, read
+from sandbox.lab.plan import Plan
+from sandbox.lab.row_file import cell
+from sandbox.lab.runs import runs
+from sandbox.page.parts import filled, fonts, html, packed, source
+from sandbox.picture.lines import points, simplify
+from sandbox.picture.palette import palette
+from sandbox.sport.amounts import amount, significant
+
+#: A page holds so many paths at most, drawn for a picture of so many px.
+MOST_POINTS, PIXELS = 6000, 420
+#: Shades of a number's colours.
+SHADES = 64
+
+
+def check_page(plan: Plan) -> None:
+    """Raise RequestError, before any work is done, if a sweep is too large for a page, or has too many parameters."""
+    if len(plan.axes) > 2:
+        raise RequestError(f"--html shows one or two parameters, not {len(plan.axes)}: {', '.join(plan.keys)}")
+    if plan.size > MOST_POINTS:
+        raise RequestError(f"--html: {plan.size:,} points are too many for a page; the limit is {MOST_POINTS:,}")
+
+
+def page_of(plan: Plan, file: Path, of: str | None = None) -> str:
+    """The page of the rows in ``file``; ``of`` names the column, by default the verdict or the first result."""
+    found = read(plan, file, of)
+    scene, swept = plan.scene, list(plan.points(0, plan.size))
+    done = list(runs(scene, plan.keys, swept, asked=plan.asked))
+    palette_, codes, legend = _coloured(found)
+    title = f"{scene.title}: {found.label.partition(' (')[0]}"
+    is_curve = found.numbers is not None and len(plan.axes) == 1
+    upright = found.numbers if is_curve else found.axes[1] if len(plan.axes) == 2 else np.zeros(plan.size)
+    assert upright is not None
+    axes = [_axis(plan, 0), _axis(plan, 1) if len(plan.axes) == 2 else _range(found.label if is_curve else "", upright)]
+    data = {
+        "kind": "curves" if is_curve else "dots" if plan.samples else "cells",
+        "axes": axes,
+        "places": [np.nan_to_num(found.axes[0]), np.nan_to_num(upright)],
+        "colours": codes,
+        "palette": palette_,
+        "curves": [{"colour": palette("trace")["colours"][0], "points": _in_order(found)}] if is_curve else [],
+        "own": _own(plan, found),
+        "said": _said(plan, done, swept),
+        **_paths(done),
+        "surfaces": _surfaces(done),
+        "radius": next((run.setup.balls[0].radius for run in done if isinstance(run, Run)), 0.0),
+        "fonts": fonts(),
+    }
+    over = (f"{axis.key}={_values(axis)}" for axis in plan.axes)
+    command = ["sandbox", "sweep", scene.title, *(word for text in over for word in ("--over", text))]
+    return filled(
+        "sweep.html",
+        title=html(title),
+        about=html(f"{plan.size:,} shots; all other parameters as in the scene file"),
+        legend=legend,
+        command=html(shlex.join([*command, *(["--samples", str(plan.samples)] if plan.samples else [])])),
+        data=packed(data),
+        script=source("sweep.js"),
+    )
+
+
+def _axis(plan: Plan, number: int) -> dict[str, Any]:
+    axis = plan.axes[number]
+    values: Sequence[Any] = axis.values if isinstance(axis, Values) else (axis.low, axis.high)
+    if not has_numbers(axis):
+        words = [cell(value) for value in values]
+        return {"label": axis.key, "low": -0.5, "high": len(words) - 0.5, "step": 1.0, "words": words}
+    step = float(np.ptp(values)) / max(1, len(values) - 1) if isinstance(axis, Values) else 0.0
+    edge = step / 2 or 0.02 * float(np.ptp(values))
+    low, high = float(min(values)) - edge, float(max(values)) + edge
+    return {"label": label(plan.scene, axis.key), "low": low, "high": high, "step": step, "words": None}
+
+
+def _range(name: str, values: np.ndarray) -> dict[str, Any]:
+    """The axis of what is shown; without a ``name`` it is a strip."""
+    known = values[np.isfinite(values)]
+    low, high = (float(known.min()), float(known.max())) if known.size else (0.0, 1.0)
+    edge = 0.05 * (high - low) or 0.5
+    return {"label": name, "low": low - edge, "high": high + edge, "step": 2 * edge, "words": None}
+
+
+def _values(axis: Any) -> str:
+    if not isinstance(axis, Values):
+        return f"{axis.low:g}:{axis.high:g}"
+    steps = np.diff(axis.values) if has_numbers(axis) else np.array([])
+    if len(steps) > 1 and np.allclose(steps, steps[0]):
+        return f"{axis.values[0]:g}:{axis.values[-1]:g}:{len(axis.values)}"
+    return ",".join(cell(value) for value in axis.values)
+
+
+def _coloured(found: Found) -> tuple[list[str], list[int], str]:
+    """The colours, the number of each point's, and a legend."""
+    if found.words:
+        chosen, codes = coded(found, _hexadecimal(palette("sweep")))
+        counts = Counter(codes.tolist())
+        entries = (
+            f'<li><i style="background: {colour}"></i>{html(word)} {100 * counts[i] / len(codes):.1f} %</li>'
+            for i, (word, colour) in enumerate(chosen.items())
+        )
+        return list(chosen.values()), codes.tolist(), f'<ul class="legend">{"".join(entries)}</ul>'
+    import matplotlib
+
+    assert found.numbers is not None
+    shades = [matplotlib.colors.to_hex(matplotlib.colormaps["viridis"](i / (SHADES - 1))) for i in range(SHADES)]
+    low, high = float(np.nanmin(found.numbers)), float(np.nanmax(found.numbers))
+    share = (found.numbers - low) / (high - low or 1.0)
+    codes = np.where(np.isfinite(share), np.nan_to_num(share) * (SHADES - 1), SHADES).round().astype(int)
+    scale = f'<li class="scale" style="background: linear-gradient(90deg, {", ".join(shades[::9])})"></li>'
+    name = html(found.label)
+    ends = f"<li>{name} {significant(low, 3)}</li>{scale}<li>{significant(high, 3)}</li>"
+    return [*shades, "#888888"], codes.tolist(), f'<ul class="legend">{ends}</ul>'
+
+
+def _hexadecimal(colours: Mapping[str, Any]) -> dict[str, Any]:
+    """A section of the palette as browsers write it, under the name that charts expect."""
+    from sandbox.page.parts import css
+
+    return {"sweep": {key: [css(c) for c in value] if key in ("good", "other") else css(value)
+                      for key, value in colours.items()}}  # fmt: skip
+
+
+def _own(plan: Plan, found: Found) -> int | None:
+    """The point nearest to the scene file's own values, if these lie on the axes."""
+    own = own_place(plan)
+    if own is None:
+        return None
+    away = sum(((axis - value) / (np.ptp(axis) or 1.0)) ** 2 for axis, value in zip(found.axes, own, strict=True))
+    return int(np.argmin(away))
+
+
+def _in_order(found: Found) -> list[int]:
+    """The points that have a number, along the axis."""
+    assert found.numbers is not None
+    order = np.argsort(found.axes[0])
+    return [int(i) for i in order if np.isfinite(found.numbers[i])]
+
+
+def _said(plan: Plan, done: Sequence[Run | Exception], swept: Sequence[Sequence[Any]]) -> list[dict[str, Any]]:
+    """What is said of each point: its parameters, and the facts of its run, or why it failed."""
+    columns = [
+        {"label": axis.key, "texts": [_shown(point[i], label(plan.scene, axis.key)) for point in swept]}
+        for i, axis in enumerate(plan.axes)
+    ]
+    for key, fact in plan.scene.facts.items():
+        if fact.label or key == "verdict":
+            texts = [fact.text(run.result.get(key)) if isinstance(run, Run) else "" for run in done]
+            columns.append({"label": fact.label or key, "texts": texts})
+    errors = ["" if isinstance(run, Run) else str(run) for run in done]
+    return [*columns, {"label": "failed", "texts": errors}]
+
+
+def _shown(value: Any, name: str) -> str:
+    unit = name.rpartition(" (")[2].rstrip(")") if name.endswith(")") else ""
+    return amount(value, unit) if isinstance(value, float) else cell(value)
+
+
+def _paths(done: Sequence[Run | Exception]) -> dict[str, Any]:
+    """Points of all paths one after another, in px from the lower left; where each begins; and what holds them in m."""
+    good = [(i, run) for i, run in enumerate(done) if isinstance(run, Run)]
+    lines = points([(run, run.setup.balls[0].name) for _, run in good]) if good else []
+    flat = np.concatenate([line[:, 1:] for line in lines]) if lines else np.zeros((1, 2))
+    low, high = np.percentile(flat, 0.5, axis=0), np.percentile(flat, 99.5, axis=0)
+    scale = PIXELS / max(float((high - low).max()), 1e-6)
+    drawn = dict.fromkeys(range(len(done)), np.zeros((0, 2)))
+    for (i, _), line in zip(good, lines, strict=True):
+        drawn[i] = simplify((line[:, 1:] - low) * scale).round()
+    together = np.concatenate(list(drawn.values()))
+    return {
+        "starts": [0, *accumulate(len(line) for line in drawn.values())],
+        "x": together[:, 0].astype(int),
+        "y": together[:, 1].astype(int),
+        "scale": scale,
+        "box": [*low, *np.maximum(high, low + 1e-3)],
+    }
+
+
+def _surfaces(done: Sequence[Run | Exception]) -> list[list[float]]:
+    """Ends in m and half thickness of the straight surfaces, a circle being one without length; of the first run."""
+    setup = next((run.setup for run in done if isinstance(run, Run)), None)
+    shapes = [surface.shape for surface in setup.surfaces] if setup is not None else []
+    lines = [[*shape.a, *shape.b, shape.radius] for shape in shapes if isinstance(shape, Segment)]
+    return lines + [[*shape.center, *shape.center, shape.radius] for shape in shapes if isinstance(shape, Circle)]
