@@ -26,11 +26,12 @@ from sandbox.engine.accuracy import Accuracy
 from sandbox.engine.acting import checked
 from sandbox.engine.arc import Arc, still
 from sandbox.engine.meeting import discs, meeting, surface_met, surfaces_met
+from sandbox.engine.one_point import one_point
 from sandbox.engine.real_space import RealSpace, speeds_at
 from sandbox.engine.run import Numerics
 from sandbox.engine.setup import Ball, Setup, Surface
-from sandbox.engine.surfaces import STILL, bounce_of_balls, bounce_off, press
-from sandbox.engine.touch import Obstacle
+from sandbox.engine.surfaces import STILL, bounce_of_balls, bounce_off, leaves_at, press
+from sandbox.engine.touch import TOUCHING_GAP, Obstacle
 from sandbox.engine.track import Track
 from sandbox.physics.integrators import Acceleration, State
 
@@ -147,12 +148,22 @@ class Heap:
         return -found.closing if found.gap <= self.margin else inf
 
     def _lies(self, index: int, t: float, state: State) -> bool:
-        """Whether a body leaves a surface that it touches too slowly to stay away for two steps."""
+        """Whether a body leaves surfaces too slowly for a bounce that counts: at two points or more, or at one that its
+        own path cannot follow."""
         track = self._tracks[index]
         if discs(track.ball):
             return False
-        slow = self._forced_in_a_step(index, t, state)
-        return any(-met.closing < slow for _, met in surfaces_met(track.ball, track.obstacles, state, self.margin))
+        applied = self._applied(index, t, state)
+        slow = leaves_at(hypot(*applied[:2]), self._settle)
+        within = self.margin if index in self._members else TOUCHING_GAP
+        found = [
+            (obstacle, met, point)
+            for obstacle, met in surfaces_met(track.ball, track.obstacles, state, within)
+            for point, (approach, *_) in zip(met.points, met.speeds, strict=True)
+            if -approach < slow
+        ]
+        alone = len(found) == 1 and one_point(track.ball, state, *found[0], applied) is not None
+        return bool(found) and not alone
 
     def step(self, t: float, until: float, states: Mapping[int, State]) -> dict[int, Arc]:
         """Step these balls from t; returns the arcs of those that press on others or did just before.

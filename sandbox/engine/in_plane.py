@@ -142,17 +142,22 @@ class InPlane(Track):
         ends: list[tuple[float, str]] = []
         last = arc.state(arc.t1)
         if progress(arc.t1, last) < 0.0:
-            ends.append((_crossing(arc, progress), "grip" if contact.mode == SLIDING else "stop"))
+            ends.append((crossing(arc, progress), "grip" if contact.mode == SLIDING else "stop"))
         _, normal, spare = held(arc.t1, last)
         if normal < 0.0:
-            ends.append((_crossing(arc, lambda t, state: held(t, state)[1]), "leave"))
+            ends.append((crossing(arc, lambda t, state: held(t, state)[1]), "leave"))
         elif spare < 0.0:
-            ends.append((_crossing(arc, lambda t, state: held(t, state)[2]), "slip"))
-        edge = contact.obstacle.edge(contact.touching.feature, arc)
+            ends.append((crossing(arc, lambda t, state: held(t, state)[2]), "slip"))
+        edge = self._reaches_edge(arc, contact)
         if edge is not None:
-            ends.append((arc.t0 + edge * (arc.t1 - arc.t0), "edge"))
+            ends.append((edge, "edge"))
         t, reason = min(ends, default=(arc.t1, ""))
         return arc.until(t), reason
+
+    def _reaches_edge(self, arc: Arc, contact: LastingContact) -> float | None:
+        """The time in s at which the ball reaches the end of what it is on, or None."""
+        u = contact.obstacle.edge(contact.touching.feature, arc)
+        return None if u is None else arc.t0 + u * (arc.t1 - arc.t0)
 
     def conclude(self, reason: str) -> None:
         """Move the ball exactly onto its surface, which the arc follows only closely; make it exactly rolling, or
@@ -240,7 +245,7 @@ class InPlane(Track):
         return checked(self.ball, t, state)
 
 
-def _crossing(arc: Arc, value: Callable[[float, State], float]) -> float:
+def crossing(arc: Arc, value: Callable[[float, State], float]) -> float:
     """The time at which ``value``, negative at the end of the arc, falls to zero; the start if it is never
     positive."""
     low, high = arc.t0, arc.t1

@@ -8,22 +8,32 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import accumulate
+from math import hypot
 
 from sandbox.engine.accuracy import Accuracy
 from sandbox.engine.acting import checked
-from sandbox.engine.arc import Arc
+from sandbox.engine.arc import Arc, still
 from sandbox.engine.bernstein import evaluate
-from sandbox.engine.in_plane import InPlane
-from sandbox.engine.meeting import standing
+from sandbox.engine.in_plane import InPlane, crossing
+from sandbox.engine.lasting import RESTING, LastingContact
+from sandbox.engine.meeting import standing, surfaces_met
+from sandbox.engine.one_point import OnePoint, one_point
 from sandbox.engine.run import Numerics
 from sandbox.engine.setup import Ball, Setup, outline_of
 from sandbox.engine.step_control import LOCAL_SHARE
-from sandbox.engine.touch import Obstacle
+from sandbox.engine.surfaces import leaves_at
+from sandbox.engine.touch import TOUCHING_GAP, Obstacle
 from sandbox.engine.turning_touch import Mover, first_touch
 from sandbox.physics.integrators import Acceleration, State
 
 #: Repetitions of a step until its angle agrees with its spin, after which it is halved.
 _PATIENCE = 5
+
+#: Most repetitions.
+_MOST = 1_000
+
+#: Largest turn in rad in one arc of a body in contact, and the spin in rad/s at which it counts as turning.
+_LONGEST_TURN, _SLOW = 0.35, 0.7
 
 
 class Turning(InPlane):
@@ -45,16 +55,22 @@ class Turning(InPlane):
         self._angle_error = LOCAL_SHARE * accuracy.tolerance / body.radius  # rad
 
     def advance(self, t: float, until: float) -> tuple[Arc, str]:
-        """The next arc from t, at most to ``until``; it ends only because of its length."""
-        start, known = self.state, self._known[0]
-        flat, angle = known if known == start[:5] else start[:5], start[5]
+        """The next arc from t, at most to ``until``, and why it ends: "" if only because of its length."""
+        contact, start, known, angle = self.contact, self.state, self._known[0], self.state[5]
+        if contact is not None:
+            if contact.mode == RESTING:
+                return still(t, until, start, contact), ""
+            until = min(until, t + _LONGEST_TURN / (abs(start[4]) + _SLOW))
+        flat = known if known == start[:5] else start[:5]
         curve: Sequence[float] = (angle, angle + (until - t) * start[4])
         t1 = until
 
         def law(at: float, state: State) -> Acceleration:
-            return checked(self.ball, at, (*state, evaluate(curve, (at - t) / (t1 - t))))
+            now = (*state, evaluate(curve, (at - t) / (t1 - t)))
+            applied = checked(self.ball, at, now)
+            return applied if contact is None else contact.forces(self.ball, applied, now)[0]
 
-        for count in range(1, 1000):
+        for count in range(1, _MOST):
             self.state = flat
             arc = self._integrate(t, until, law)
             h = arc.t1 - t
@@ -66,11 +82,34 @@ class Turning(InPlane):
             until = t + 0.5 * h if count % _PATIENCE == 0 else arc.t1
         self.state, arc.start, arc.rolling_spin = start, start, (curve,)
         arc.end = (*(arc.end or arc.state(arc.t1))[:5], curve[-1])
-        return arc, ""
+        if contact is None:
+            return arc, ""
+        return self._cut_where_contact_changes(arc, contact)
 
     def settle(self, t: float, height: float) -> None:
-        """It never stays on a surface by itself."""
+        """Find the contact that lasts after a touch: at one point of a straight side, left no faster than for a bounce
+        of ``height`` (m). What is touched at more points, or elsewhere, is left to the heap."""
         self.contact = None
+        slips, self._slips = self._slips, False
+        applied = self._applied(t, self.state)
+        forced = hypot(applied[0], applied[1])
+        found = [
+            (obstacle, met, point)
+            for obstacle, met in surfaces_met(self.ball, self.obstacles, self.state, TOUCHING_GAP)
+            for point, (approach, *_) in zip(met.points, met.speeds, strict=True)
+            if -approach <= leaves_at(forced, max(height, obstacle.surface.lowest_bounce))
+        ]
+        if len(found) == 1:
+            self.contact = one_point(self.ball, self.state, *found[0], applied, slips)
+        if self.contact is not None:
+            self.state = self.contact.placed(self.ball, self.state)
+
+    def _reaches_edge(self, arc: Arc, contact: LastingContact) -> float | None:
+        """The time in s at which the point of contact changes, or None."""
+        assert isinstance(contact, OnePoint)
+        if contact.room(self.ball, arc.state(arc.t1)) >= 0.0:
+            return None
+        return crossing(arc, lambda t, state: contact.room(self.ball, state))
 
     def first_touch(self, obstacle: Obstacle) -> float | None:
         """The time in s at which the body starts to touch on its current arc, or None.

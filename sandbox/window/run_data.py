@@ -9,9 +9,10 @@ from typing import Any
 from sandbox.engine.accuracy import Accuracy
 from sandbox.engine.arc import Arc
 from sandbox.engine.lasting import LastingContact
+from sandbox.engine.one_point import OnePoint
 from sandbox.engine.path import Path
 from sandbox.engine.run import Event, Numerics, Run
-from sandbox.engine.setup import Ball, Setup
+from sandbox.engine.setup import Ball, Body, Setup
 from sandbox.engine.touch import Obstacle, Touching
 from sandbox.scene import Scene
 
@@ -67,7 +68,8 @@ def _arc(item: Any, setup: Setup, ball: Ball) -> Arc:
     if contact is not None:
         mode, place, (gap, nx, ny, curvature, center, feature), direction, spin_rate = contact
         touching = Touching(gap, nx, ny, curvature, tuple(center), feature)
-        contact = LastingContact(mode, Obstacle(setup.surfaces[place], ball.radius), touching, direction, spin_rate)
+        kind = OnePoint if isinstance(ball, Body) else LastingContact
+        contact = kind(mode, Obstacle(setup.surfaces[place], ball.radius), touching, direction, spin_rate)
     last = None if end is None else tuple(end)
     turning = tuple(map(tuple, rolling))
     return Arc(t0, t1, tuple(start), tuple(x), tuple(y), tuple(vx), tuple(vy), tuple(spin), contact, turning, last)

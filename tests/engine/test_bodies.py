@@ -296,3 +296,71 @@ def test_a_box_slides_down_a_slope_as_the_textbook_says():
     start = 0.151 * s, 0.151 * c
     run = run_of([thrown(box(0.4, 0.3), position=start, angle=-slope)], 2.0, [surface])
     assert math.hypot(*run.state("body", 2.0)[2:4]) == pytest.approx(G * (s - friction * c) * 2.0, rel=5e-3)
+
+
+# ------------------------------------------------------------------------------------------------ lasting contact
+
+
+def test_an_ellipse_rolls_to_and_fro_with_the_period_of_its_energy():
+    """(I + m (h^2 + h'^2)) w^2 / 2 + m g h = const with h^2 = a^2 sin^2 + b^2 cos^2; the period is a quadrature."""
+    a, b, mass, widest = 0.3, 0.2, 2.0, 0.4
+    inertia = mass * (a * a + b * b) / 4
+
+    def height(turn: Any) -> Any:
+        return np.sqrt((a * np.sin(turn)) ** 2 + (b * np.cos(turn)) ** 2)
+
+    share = (np.arange(2000) + 0.5) / 2000 * np.pi / 2
+    turn = widest * np.sin(share)
+    h, slope = height(turn), (a * a - b * b) * np.sin(turn) * np.cos(turn) / height(turn)
+    pace = np.sqrt((inertia / mass + h * h + slope * slope) / (2.0 * G * (height(widest) - h)))
+    period = 4.0 * float(np.mean(pace * widest * np.cos(share)) * np.pi / 2)
+    body = thrown(Ellipse(a, b), position=(0.0, float(height(widest))), angle=widest)
+    run = run_of([body], 3.2 * period, floor(0.0, 2.0))
+    for count in (1, 2, 3):
+        assert run.angle("body", count * period) == pytest.approx(widest, abs=2e-4)
+        assert run.angle("body", (count - 0.5) * period) == pytest.approx(-widest, abs=2e-4)
+    lost = kinetic(body, run.state("body", 2.25 * period)) - mass * G * float(height(widest) - height(0.0))
+    assert lost == pytest.approx(0.0, abs=1e-3 * mass * G * float(height(widest) - height(0.0)))
+
+
+def test_a_domino_tips_and_strikes_its_neighbour():
+    """About its edge, w^2 = w0^2 + 2 m g (h0 - h) / I; then the corner meets the face of the next."""
+    width, tall, gap, mass, spin = 0.008, 0.045, 0.02, 0.01, -4.0
+    rocking = mass * (width**2 + tall**2) / 3.0  # about the edge
+    first, second = (
+        Body(
+            name,
+            position=(x + width / 2, tall / 2),
+            shape=box(width, tall),
+            mass=mass,
+            forces=(Gravity(mass, G),),
+            **({"velocity": (-spin * tall / 2, -spin * width / 2), "spin": spin} if name == "first" else {}),
+        )
+        for name, x in (("first", 0.0), ("second", width + gap))
+    )
+    run = run_of([first, second], 0.2, floor(0.0, 1.0), between_balls=Always(Bounce(0.3, 0.0)))
+    hit = next(event for event in run.events if {event.ball, event.partner} == {"first", "second"})
+    tilt = math.asin(gap / tall)
+    drop = tall / 2 - (math.hypot(width, tall) / 2) * math.cos(tilt + math.atan2(-width, tall))
+    expected = math.sqrt(spin**2 + 2.0 * mass * G * drop / rocking)
+    assert run.angle("first", hit.t) == pytest.approx(-tilt, abs=1e-5)
+    assert -run.before("first", hit.t)[4] == pytest.approx(expected, rel=1e-3)
+    assert hit.speed == pytest.approx(expected * tall * math.cos(tilt), rel=1e-3)
+
+
+def test_a_rod_tips_over_its_end_as_the_pendulum_says():
+    """From 1.2 rad off the vertical, on a floor that holds: the time to fall is an integral."""
+    length, start, mass = 1.0, 1.2, 1.0
+    body = thrown(box(1e-3, length), position=(0.0, length / 2 * math.cos(start)), angle=start, mass=mass)
+    low = 5e-4 * math.sin(start)
+    body = replace(body, position=(0.0, length / 2 * math.cos(start) + low))
+    rocking = body.inertia + mass * (length**2 + 1e-6) / 4
+    run = run_of([body], 3.0, floor(0.0, 5.0))
+    lands = next(event.t for event in run.events if event.kind == "impact")
+    share = (np.arange(4000) + 0.5) / 4000
+    turn = start + (np.pi / 2 - start) * share**2
+    away = math.hypot(length, 1e-3) / 2
+    off = math.atan2(1e-3, length)
+    fell = away * (np.cos(start - off) - np.cos(turn - off))
+    pace = 1.0 / np.sqrt(2.0 * mass * G * fell / rocking)
+    assert lands == pytest.approx(float(np.mean(pace * 2.0 * share * (np.pi / 2 - start))), rel=2e-4)

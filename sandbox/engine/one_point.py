@@ -1,0 +1,175 @@
+"""A body that stays on a straight side at one point: it rolls on a curved side or about a corner, or slides.
+
+With n the side's normal, t = (ny, -nx) along it, and the point of contact at ``l t - h n`` from the centre, the body
+does not enter the side and, if it rolls, does not slip:
+
+    vn + w l = 0,        vt + w h = 0,        l' = w (h - r),        h' = -w l
+
+where r is the radius of curvature at the point. The accelerations of both, with the normal force N and the friction F
+as unknowns, are two linear equations:
+
+    An + N/m + l (A + (l N + h F) / I) + w^2 (h - r) = 0,        At + F/m + h (A + (l N + h F) / I) - w^2 l = 0
+
+with A the acceleration by other forces. Sliding has ``F = -mu N`` against the slip in place of the second. So a body
+tips over, rocks and rolls as accurately as it flies. Left out: resistance to rolling.
+"""
+
+from __future__ import annotations
+
+from math import atan2, cos, inf, remainder, sin
+from typing import NamedTuple
+
+from sandbox.engine.lasting import RESTING, ROLLING, SLIDING, LastingContact
+from sandbox.engine.meeting import Meeting
+from sandbox.engine.setup import Ball, Vector, outline_of
+from sandbox.engine.shapes import Polygon
+from sandbox.engine.surfaces import STILL
+from sandbox.engine.touch import SIDE, Obstacle, Touching
+from sandbox.physics.integrators import Acceleration, State
+
+#: Share of the inertia against the normal force that friction may take away from a sliding body. Where it takes all of
+#: it (Painleve's paradox: a slim rod on a rough floor) no force keeps the body from entering.
+_JAMS = 0.9
+
+#: Acceleration in m/s^2, and rad/s^2 times the radius, below which a body at rest stays there.
+_PUSH = 1e-9
+
+#: A body that needs all the available grip still rolls.
+_WITHIN_ROUNDING = 1.0 + 1e-9
+
+
+class _Arm(NamedTuple):
+    """The point of contact, seen from the centre."""
+
+    along: float  # l, m
+    height: float  # h, m
+    bend: float  # r, m
+
+
+class OnePoint(LastingContact):
+    """The contact; ``touching.center`` is the corner of the body's core that is at the point, as the body sees it."""
+
+    __slots__ = ()
+
+    def arm(self, ball: Ball, state: State) -> _Arm:
+        """Where the body is touched."""
+        outline, (nx, ny), angle = outline_of(ball), self.touching[1:3], state[5]
+        down = atan2(-ny, -nx) - angle
+        px, py = self.touching.center if isinstance(outline, Polygon) else outline.support(0, down)
+        c, s = cos(angle), sin(angle)
+        x, y = c * px - s * py, s * px + c * py
+        return _Arm(x * ny - y * nx, outline.radius - x * nx - y * ny, outline.radius + outline.bend(down))
+
+    def progress(self, ball: Ball, state: State) -> float:
+        """What ends this motion when it falls to zero: the slip in m/s."""
+        sticks = self.mode == SLIDING and self.obstacle.surface.friction > 0.0
+        return self.direction * self.slip(ball, state) if sticks else inf
+
+    def slip(self, ball: Ball, state: State) -> float:
+        """Speed in m/s of the body along the side where it touches."""
+        return float(
+            state[2] * self.touching.ny - state[3] * self.touching.nx + state[4] * self.arm(ball, state).height
+        )
+
+    def forces(self, ball: Ball, applied: Acceleration, state: State) -> tuple[Acceleration, float, float]:
+        """Acceleration in contact; the normal force and the remaining grip, both divided by the mass, in m/s^2."""
+        if self.mode == RESTING:
+            return (0.0, 0.0, 0.0), inf, inf
+        nx, ny = self.touching.nx, self.touching.ny
+        (ax, ay, turning), (along, height, bend) = applied, self.arm(ball, state)
+        spin2, inertia, friction = state[4] * state[4], ball.inertia / ball.mass, self.obstacle.surface.friction
+        into = -(ax * nx + ay * ny + along * turning + spin2 * (height - bend))
+        across, lever = 1.0 + along * along / inertia, along * height / inertia
+        if self.mode == SLIDING:
+            normal = into / (across - self.direction * friction * lever)
+            rub, spare = -self.direction * friction * normal, 0.0
+        else:
+            against = -(ax * ny - ay * nx + height * turning - spin2 * along)
+            level = 1.0 + height * height / inertia
+            determinant = across * level - lever * lever
+            normal = (into * level - against * lever) / determinant
+            rub = (against * across - into * lever) / determinant
+            spare = friction * normal * _WITHIN_ROUNDING - abs(rub)
+        turning += (along * normal + height * rub) / inertia
+        return (ax + normal * nx + rub * ny, ay + normal * ny - rub * nx, turning), normal, spare
+
+    def room(self, ball: Ball, state: State) -> float:
+        """What ends the contact at this point when it falls to zero: the turn in rad until the next corner lies on the
+        side, or the way in m to the side's end."""
+        outline, reach = outline_of(ball), self.obstacle.outline
+        at = reach.along(state[0], state[1]) + self.arm(ball, state).along * self._way()
+        room = float(min(at, reach.length - at))
+        if isinstance(outline, Polygon) and len(outline.corners) > 1:
+            down = atan2(-self.touching.ny, -self.touching.nx) - state[5]
+            corner = outline.corners.index(self.touching.center)
+            for side, way in ((corner, 1.0), (corner - 1, -1.0)):
+                room = min(room, way * remainder(outline.normals[side] - down, 6.283185307179586))
+        return room
+
+    def _way(self) -> float:
+        """1 if the side runs along t, -1 if against it."""
+        outline = self.obstacle.outline
+        return 1.0 if outline.tx * self.touching.ny - outline.ty * self.touching.nx > 0.0 else -1.0
+
+    def placed(self, ball: Ball, state: State) -> State:
+        """The state exactly on the side, without speed away from it; without slip if it rolls."""
+        x, y, vx, vy, spin, angle = state
+        nx, ny = self.touching.nx, self.touching.ny
+        along, height, _ = self.arm(ball, state)
+        outline = self.obstacle.outline
+        gap = abs(outline.across(x, y)) - (outline.reach - ball.radius) - height
+        x, y = x - gap * nx, y - gap * ny
+        if self.mode == RESTING:
+            return x, y, 0.0, 0.0, 0.0, angle
+        leaving = vx * nx + vy * ny + spin * along
+        slip = vx * ny - vy * nx + spin * height if self.mode == ROLLING else 0.0
+        return x, y, vx - leaving * nx - slip * ny, vy - leaving * ny + slip * nx, spin, angle
+
+
+def one_point(
+    ball: Ball,
+    state: State,
+    obstacle: Obstacle,
+    met: Meeting,
+    point: Vector,
+    applied: Acceleration,
+    slips: bool = False,
+) -> OnePoint | None:
+    """How a body stays on a surface that it touches at one point: None if that is no straight side, or if nothing
+    presses it on. One that ``slips`` has just lost its grip, whatever rounding says."""
+    nx, ny = met.normal
+    outline, shape = obstacle.outline, outline_of(ball)
+    if abs(outline.tx * nx + outline.ty * ny) > 1e-9 or outline.length == 0.0:
+        return None
+    down = atan2(-ny, -nx) - state[5]
+    core = min(shape.candidates(down), key=lambda place: _off(place, state, point, shape.radius, met.normal))
+    touching = Touching(met.gap, nx, ny, 0.0, core, SIDE)
+    rolling = OnePoint(ROLLING, obstacle, touching)
+    (ax, ay, turning), normal, spare = rolling.forces(ball, applied, state)
+    arm = rolling.arm(ball, state)
+    if applied[0] * nx + applied[1] * ny + arm.along * applied[2] + state[4] ** 2 * (arm.height - arm.bend) >= -_PUSH:
+        return None
+    slip, speed = rolling.slip(ball, state), abs(state[2] * ny - state[3] * nx) + ball.radius * abs(state[4])
+    if abs(slip) > STILL * (1.0 + speed):
+        return _sliding(rolling, ball, arm, 1.0 if slip > 0.0 else -1.0)
+    if slips or spare < 0.0 or obstacle.surface.friction == 0.0:
+        rub = (ax - applied[0]) * ny - (ay - applied[1]) * nx  # against the way in which it starts to slip
+        return _sliding(rolling, ball, arm, -1.0 if rub > 0.0 else 1.0)
+    if speed <= STILL and abs(ax) + abs(ay) + ball.radius * abs(turning) <= _PUSH:
+        return OnePoint(RESTING, obstacle, touching)
+    return rolling
+
+
+def _sliding(rolling: OnePoint, ball: Ball, arm: _Arm, direction: float) -> OnePoint | None:
+    """The same contact, sliding; None if it would jam."""
+    inertia, lever = ball.inertia / ball.mass, rolling.obstacle.surface.friction * arm.along * arm.height
+    if direction * lever > _JAMS * (inertia + arm.along**2):
+        return None
+    return rolling._replace(mode=SLIDING, direction=direction)
+
+
+def _off(core: Vector, state: State, point: Vector, radius: float, normal: Vector) -> float:
+    """How far a point of the core is from where the body is touched, in m^2."""
+    c, s = cos(state[5]), sin(state[5])
+    x, y = state[0] + c * core[0] - s * core[1], state[1] + s * core[0] + c * core[1]
+    return float((x - radius * normal[0] - point[0]) ** 2 + (y - radius * normal[1] - point[1]) ** 2)
