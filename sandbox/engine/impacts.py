@@ -37,6 +37,10 @@ _TURNS = 9
 _SAME_POINT = 1e-9
 
 
+#: Share of the fastest approach in an impact below which another is rounding: of a body that has been lying.
+_FAINT = 1e-4
+
+
 class Hit(NamedTuple):
     """One contact that closed."""
 
@@ -281,10 +285,11 @@ def _once(bounce: Bounce, approach: float) -> Bounce:
 
 
 def _hits(t: float, closed: Sequence[Contact]) -> list[Hit]:
-    """Of two points of one contact the one that closed faster."""
+    """Of two points of one contact the one that closed faster; without what is rounding where bodies lie."""
     fastest: dict[tuple[tuple[int, ...], str], Hit] = {}
+    least = _FAINT * max((contact.speed for contact in closed), default=0.0)
     for contact in closed:
         pair = contact.balls, contact.partner
-        if pair not in fastest or contact.speed > fastest[pair].speed:
+        if contact.speed >= least and (pair not in fastest or contact.speed > fastest[pair].speed):
             fastest[pair] = Hit(t, contact.balls[0], contact.partner, contact.speed)
     return list(fastest.values())
