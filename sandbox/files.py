@@ -9,7 +9,7 @@ from math import isfinite
 from pathlib import Path
 from typing import Any, TextIO
 
-from sandbox.errors import RequestError
+from sandbox.errors import RequestError, RunError
 from sandbox.text import shortened
 
 
@@ -100,6 +100,19 @@ def written_whole(path: Path) -> Iterator[TextIO]:
         part.replace(target)
     finally:
         part.unlink(missing_ok=True)
+
+
+@contextmanager
+def writing(option: str, path: Path) -> Iterator[None]:
+    """Report a full disk, or a folder that was removed, in one line."""
+    from sandbox.tracebacks import of_user_code
+
+    try:
+        yield
+    except OSError as error:
+        if of_user_code(error) is not None:
+            raise
+        raise RunError(f"{option} {path}: cannot be written: {reason(error)}") from None
 
 
 @contextmanager

@@ -72,15 +72,7 @@ def _outcome(scene: Scene, run: Run) -> dict[str, Any]:
 
 
 def _event(event: Event) -> dict[str, Any]:
-    return {
-        "t": event.t,
-        "kind": event.kind,
-        "ball": event.ball,
-        "with": event.partner,
-        "speed": event.speed,
-        "x": event.x,
-        "y": event.y,
-    }
+    return dict(zip(("t", "kind", "ball", "with", "speed", "x", "y"), event, strict=True))
 
 
 def write_trajectory(run: Run, path: Path) -> None:

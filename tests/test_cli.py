@@ -637,7 +637,7 @@ def test_exit_in_a_sweep_fails_its_points(call, drop: Path, tmp_path: Path, jobs
         (
             "FACTS = (",
             "loop = []\nloop.append(loop)\nFACTS = (Fact('loop', '', '', lambda run, parameters: loop),",
-            "the fact loop must return a value that does not contain itself",
+            "the fact loop must return a number, a text, true or false, or a list of those, but returned [[...]]",
         ),
         (
             "FACTS = (",

@@ -8,9 +8,9 @@ from typing import Any
 import click
 
 from sandbox.cli.arguments import changes_options, json_option, load, optional_scene, scene_argument, whole_number
-from sandbox.cli.outputs import writing
 from sandbox.cli.say import json_text, say
 from sandbox.errors import RequestError, RunError
+from sandbox.files import writing
 
 
 @click.command()

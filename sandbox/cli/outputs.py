@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -11,7 +10,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from sandbox.errors import RequestError, RunError
+from sandbox.errors import RequestError
+from sandbox.files import writing
 
 if TYPE_CHECKING:
     from sandbox.engine.run import Run
@@ -167,17 +167,3 @@ def read_size(text: str) -> Size:
         bounds = " and ".join(f"{across}x{up}" for across, up in (SMALLEST, LARGEST))
         raise RequestError(f"--size {shortened(text)}: must be between {bounds} px")
     return width, height
-
-
-@contextmanager
-def writing(option: str, path: Path) -> Iterator[None]:
-    """Report a full disk, or a folder that was removed, in one line."""
-    from sandbox.files import reason
-    from sandbox.tracebacks import of_user_code
-
-    try:
-        yield
-    except OSError as error:
-        if of_user_code(error) is not None:
-            raise
-        raise RunError(f"{option} {path}: cannot be written: {reason(error)}") from None

@@ -10,12 +10,12 @@ import os
 import re
 import shutil
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from contextlib import ExitStack, contextmanager, suppress
+from contextlib import ExitStack, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TextIO
 
 from sandbox.errors import RequestError, RunError
-from sandbox.files import json_ready, reason, written_whole
+from sandbox.files import json_ready, writing, written_whole
 from sandbox.text import csv_text
 
 if TYPE_CHECKING:
@@ -51,7 +51,7 @@ class RowFile:
         self._open = ExitStack()
 
     def __enter__(self) -> RowFile:
-        with _writing(self.path), self._open:
+        with writing("--out", self.path), self._open:
             if not self._is_device:
                 self._begin(self._open.enter_context(self._locked()))
             self._file = self._file_path.open("w" if self._is_device else "a", encoding="utf-8", newline="")
@@ -77,7 +77,7 @@ class RowFile:
         """
         named = [{csv_text(name): value for name, value in record.items()} for record in records]
         columns = _merged(self._columns, named)
-        with _writing(self.path):
+        with writing("--out", self.path):
             if columns != self._columns:
                 self._widen(columns)
             lines = csv.writer(self._file, lineterminator="\n")
@@ -215,14 +215,6 @@ def is_of_a_sweep(path: Path) -> bool:
     except OSError:
         return False
     return first.endswith(f",{_LAST}".encode()) or first in (_TRAJECTORY, b"")
-
-
-@contextmanager
-def _writing(path: Path) -> Iterator[None]:
-    try:
-        yield
-    except OSError as error:
-        raise RunError(f"--out {path}: cannot be written: {reason(error)}") from None
 
 
 def _merged(columns: list[str], records: Iterable[Mapping[str, Any]]) -> list[str]:

@@ -131,11 +131,7 @@ class Scene:
             with no_exit():
                 result = {key: how(run, parameters) for key, how in hows}
             for key, value in result.items():
-                if type(value) in _PLAIN:
-                    continue
-                if _is_circular(value):
-                    raise self._wrong(f"the fact {key}", "a value that does not contain itself", value)
-                if not _is_reportable(value):
+                if type(value) not in _PLAIN and not _is_reportable(value):
                     raise self._wrong(f"the fact {key}", "a number, a text, true or false, or a list of those", value)
             return result
 
@@ -192,18 +188,11 @@ class Scene:
         return _revived, (self.name, self.preset, self.folder, self.parameters.model_dump())
 
 
-def _is_circular(value: Any, around: tuple[int, ...] = ()) -> bool:
-    """Whether a list, tuple or dict contains itself."""
-    if not isinstance(value, Mapping | list | tuple):
-        return False
-    inside = value.values() if isinstance(value, Mapping) else value
-    return id(value) in around or any(_is_circular(item, (*around, id(value))) for item in inside)
-
-
-def _is_reportable(value: Any) -> bool:
-    """Whether cards, JSON and tables can show a value."""
+def _is_reportable(value: Any, deepest: int = 9) -> bool:
+    """Whether cards, JSON and tables can show a value; one that contains itself has no end."""
     if isinstance(value, Mapping | list | tuple):
-        return all(map(_is_reportable, value.values() if isinstance(value, Mapping) else value))
+        inside = value.values() if isinstance(value, Mapping) else value
+        return deepest > 0 and all(_is_reportable(item, deepest - 1) for item in inside)
     if isinstance(value, int) and not isinstance(value, bool):
         return value.bit_length() < 1000  # a float holds it
     return value is None or isinstance(value, bool | float | str) or hasattr(value, "tolist")  # numpy's
