@@ -19,20 +19,19 @@ class Turned(tuple[Any, Any]):
     angle: float  # rad
 
 
-def _arguments(state: State) -> tuple[Any, tuple[Any, Any], Any]:
-    """Position, velocity and spin, as forces take them."""
+def _place(state: State) -> tuple[Any, ...]:
+    """The position, as forces take it."""
     if len(state) == 5:
-        x, y, vx, vy, spin = state
-        return (x, y), (vx, vy), spin
+        return state[:2]
     position = Turned(state[:2])
     position.angle = state[5]
-    return position, state[2:4], state[4]
+    return position
 
 
 def acceleration(ball: Ball, t: Any, state: State) -> Acceleration:
     """Acceleration of a ball in flight from its forces and torques, in m/s^2 and rad/s^2. Raises RunError if one of
     them returns anything but numbers."""
-    position, velocity, spin = _arguments(state)
+    position, velocity, spin = state[:2] if len(state) == 5 else _place(state), state[2:4], state[4]
     fx = fy = torque = 0.0
     term: Any = None
     try:
@@ -63,7 +62,7 @@ def checked(ball: Ball, t: float, state: State) -> Acceleration:
 
 def by_cause(terms: Sequence[Any], t: float, state: State) -> Iterator[tuple[str, Any]]:
     """The name and value of each force or torque: (fx, fy) in N, or N m."""
-    arguments = _arguments(state)
+    arguments = _place(state), state[2:4], state[4]
     for term in terms:
         yield cause(term), term(t, *arguments)
 
@@ -77,7 +76,7 @@ def cause(term: object) -> str:
 def _not_real(ball: Ball, t: float, state: State) -> RunError:
     """The error for forces and torques on a ball that do not add up to real numbers."""
     where = f"t = {t:.6g} s, ball {ball.name!r}: "
-    arguments = _arguments(state)
+    arguments = _place(state), state[2:4], state[4]
     for term in (*ball.forces, *ball.torques):
         found = term(t, *arguments)
         parts = found if isinstance(found, tuple | list) else (found,)
