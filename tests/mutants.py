@@ -69,8 +69,8 @@ TESTS: dict[str, dict[str, str]] = {
         "coefficients": "coefficients soccer_ball air scenes/golf",
         "ballistics": "scenes/bullet",
         "court": "scenes/tennis scenes/volleyball",
-        "swing": "scenes/tennis scenes/baseball",
-        "throw": "scenes/throws",
+        "swing": "scenes/tennis",
+        "throw": "scenes/billiards",
         "": "{name} scenes/golf",
     },
     "sandbox/sport": {

@@ -17,7 +17,7 @@ from sandbox.engine.accuracy import Accuracy
 from sandbox.engine.acting import acceleration, by_cause
 from sandbox.engine.arc import through
 from sandbox.engine.arc_rows import COLUMNS, CURVES, END, ArcRows, Paths, X, Y, arc_of
-from sandbox.engine.bernstein_many import until
+from sandbox.engine.bernstein import until
 from sandbox.engine.event import Event
 from sandbox.engine.impulses import lanes
 from sandbox.engine.lanes import ManyLanes
@@ -253,7 +253,7 @@ class Batch:
         t1[hits] = t0[hits] + u[hits] * h[hits]
         rows[1, hits] = t1[hits]
         for number, curve in enumerate(CURVES.values()):
-            rows[curve, hits] = until(rows[curve, hits], u[hits])
+            rows[curve, hits] = until(list(rows[curve, hits]), u[hits])
             rows[END.start + number, hits] = rows[curve.stop - 1, hits]
         self._paths.append((shots, rows))
         self._t[lanes], self._state[:, lanes] = t1, rows[END]

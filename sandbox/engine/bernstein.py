@@ -14,6 +14,7 @@ from collections.abc import Iterator, Sequence
 from functools import lru_cache
 from itertools import pairwise
 from math import comb
+from typing import Any
 
 #: After a Newton step shorter than this, the error is its square times a moderate factor, which is rounding.
 CONVERGED = 1e-12
@@ -69,8 +70,8 @@ def split(b: Sequence[float], u: float) -> tuple[list[float], list[float]]:
     return left, right
 
 
-def until(b: Sequence[float], u: float) -> list[float]:
-    """Coefficients on [0, u]."""
+def until(b: Sequence[Any], u: Any) -> list[Any]:
+    """Coefficients on [0, u]; of one polynomial, or of many with arrays as coefficients."""
     w = 1.0 - u
     row, left = b, [b[0]]
     for _ in range(len(b) - 1):
@@ -120,8 +121,8 @@ def squared_length(x: Sequence[float], y: Sequence[float]) -> list[float]:
     return [sum([weight * (x[i] * x[j] + y[i] * y[j]) for i, j, weight in row]) for row in rows]
 
 
-def without_root_at_start(b: Sequence[float]) -> list[float]:
-    """Coefficients of f(u) / u, where f(0) is taken as exactly zero."""
+def without_root_at_start(b: Sequence[Any]) -> list[Any]:
+    """Coefficients of f(u) / u, where f(0) is taken as exactly zero; of one polynomial or of many."""
     n = len(b) - 1
     return [b[k + 1] * n / (k + 1) for k in range(n)]
 

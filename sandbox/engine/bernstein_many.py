@@ -5,6 +5,8 @@ Coefficients are along the first axis, paths along the last: shape (degree + 1, 
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 
 from sandbox.engine.bernstein import CONVERGED, binomials
@@ -40,22 +42,6 @@ def _summed(scaled: np.ndarray, powers: np.ndarray, backwards: np.ndarray) -> np
     return found
 
 
-def until(b: np.ndarray, u: np.ndarray) -> np.ndarray:
-    """Coefficients on [0, u], in the shape of ``b``, by de Casteljau."""
-    left = np.empty_like(b)
-    left[0] = b[0]
-    for k in range(1, len(b)):
-        b = (1.0 - u) * b[:-1] + u * b[1:]
-        left[k] = b[0]
-    return left
-
-
-def without_root_at_start(b: np.ndarray) -> np.ndarray:
-    """Coefficients of f(u) / u, where f(0) is taken as exactly zero."""
-    n = len(b) - 1
-    return b[1:] * (n / np.arange(1, n + 1)).reshape(-1, *[1] * (b.ndim - 1))
-
-
 def squared_length(x: np.ndarray, y: np.ndarray) -> np.ndarray:
     """Coefficients of x^2 + y^2, shape (2 degree + 1, paths)."""
     m = len(x)
@@ -63,6 +49,7 @@ def squared_length(x: np.ndarray, y: np.ndarray) -> np.ndarray:
     return _product_weights(m - 1) @ products.reshape(m * m, -1)
 
 
+@lru_cache
 def _product_weights(n: int) -> np.ndarray:
     c, d = binomials(n), binomials(2 * n)
     weights = np.zeros((2 * n + 1, n + 1, n + 1))

@@ -12,7 +12,8 @@ import numpy as np
 
 from sandbox.engine.accuracy import SKIN
 from sandbox.engine.arc import Arc
-from sandbox.engine.bernstein_many import evaluate, first_downward_crossing, squared_length, without_root_at_start
+from sandbox.engine.bernstein import without_root_at_start
+from sandbox.engine.bernstein_many import evaluate, first_downward_crossing, squared_length
 from sandbox.engine.stacking import Stack
 from sandbox.engine.touch import NOISE, TOUCHING_GAP, Obstacle, Outline, Touching, flush
 
@@ -135,7 +136,7 @@ def _closing(gap: np.ndarray, starts_touching: np.ndarray) -> Crossings:
     starts_closed = starts_touching & (gap[0] <= NOISE)
     u, unclear = first_downward_crossing(gap)
     if starts_closed.any():
-        opening = without_root_at_start(gap[:, starts_closed] - gap[0, starts_closed])
+        opening = np.array(without_root_at_start(gap[:, starts_closed] - gap[0, starts_closed]))
         u[starts_closed], doubtful = first_downward_crossing(opening + NOISE)
         unclear[starts_closed] = doubtful | (opening[0] < -NOISE)
     return u, unclear
