@@ -25,8 +25,6 @@ from sandbox.sport.facts import ENDED, Fact
 from sandbox.sport.flight import DEGREE, Sphere, forces_in_flight
 from sandbox.sport.readings import Moment, at
 
-SLACK = 0.05  # m of rail behind the rocket, into which it slides until its thrust exceeds its weight
-
 
 class Start(Group):
     """The rocket on its rail, or as it leaves a tube."""
@@ -42,6 +40,7 @@ class Solid(Group):
 
     curve: list[tuple[float, float]] = vectors(..., 2, "", 0, 1e6, "time in s and thrust in N, point by point")
     propellant: float = quantity(..., "kg", 1e-9, 100, "what burns")
+    strength: float = quantity(..., "", 0.01, 10, "of so many such motors")
 
 
 class Rocket(Sphere):
@@ -66,7 +65,8 @@ class Parameters(Group):
 
 CONTROLS = Controls(
     ball="rocket",
-    strongest=150.0,
+    speed="motor.strength",
+    strongest=2.0,
     sliders=("motor.propellant", "ball.mass", "ball.drag.coefficient", "launch.rail", "air.wind", "gravity"),
     spread=(Spread("launch.angle", least=2.0), Spread("ball.mass", 0.02)),  # assumed
 )
@@ -74,13 +74,14 @@ CONTROLS = Controls(
 
 def motor_of(parameters: Parameters) -> Motor:
     """Raises RequestError for a curve that is none."""
-    curve, propellant = parameters.motor.curve, parameters.motor.propellant
+    curve, strength = parameters.motor.curve, parameters.motor.strength
+    propellant = strength * parameters.motor.propellant
     times, thrusts = zip(*curve, strict=True) if curve else ((), ())
     if not any(thrusts) or any(before >= after for before, after in pairwise(times)) or len(times) < 2:
         raise RequestError("motor.curve: needs two points or more, each later than the last, and some thrust")
     if anywhere(propellant >= parameters.ball.mass):
         raise RequestError("motor.propellant: must be less than ball.mass, of which it is a part")
-    return Motor(times, thrusts, propellant)
+    return Motor(times, [strength * thrust for thrust in thrusts], propellant)
 
 
 def build(parameters: Parameters) -> Setup:
@@ -94,8 +95,8 @@ def build(parameters: Parameters) -> Setup:
     velocity = launch.speed * ex, launch.speed * ey
     flying = Ball("rocket", rocket.mass, rocket.radius, start, velocity, forces=forces, loss=motor)
     side = choose(launch.angle <= 90.0, rocket.radius, -rocket.radius)
-    under, long = (side * ey, launch.height - side * ex), (-SLACK, launch.rail)
-    foot, tip = ((under[0] + along * ex, under[1] + along * ey) for along in long)
+    reach = -0.05, launch.rail  # m; it slides back until its thrust exceeds its weight
+    foot, tip = ((side * ey + along * ex, launch.height - side * ex + along * ey) for along in reach)
     rail = Surface("rail", Segment(foot, tip), 0.0, 0.0)
     ground = Surface("ground", Segment((-2e4, 0.0), (2e4, 0.0)), 0.0, 0.5)
     return Setup([flying], [ground, rail], parameters.duration, Touches("ground"), breaks=motor.times)
@@ -128,6 +129,5 @@ FACTS = (
 
 def verdict(run: Run, parameters: Parameters) -> str:
     """What happened, in a sentence."""
-    down = "down " if any(event.kind == "impact" and event.partner == "ground" for event in run.events) else ""
-    far = roughly(abs(run.result["distance"]))
-    return f"{roughly(run.result['apex'])} high, {down}{far} away after {run.duration:.1f} s"
+    high, far = roughly(run.result["apex"]), roughly(abs(run.result["distance"]))
+    return f"{high} high, {'down ' * (run.ended == 'until')}{far} away after {run.duration:.1f} s"
