@@ -60,7 +60,7 @@ def build(parameters: Parameters) -> Setup:
     place = release.place, max(release.height, ball.radius)
     forces = forces_in_flight(ball, air, parameters.gravity)
     pitched = with_spin_decay(launched_ball(parameters.launch, ball, place, forces, SOLID_SPHERE), ball.spin_decay, air)
-    mitt = Segment((plate.distance + MITT, 0.0), (plate.distance + MITT, 9.0))
+    mitt = Segment((plate.distance + MITT, 0.0), (plate.distance + MITT, 1e3))  # wild pitches end there, too
     surfaces = [
         Surface("ground", Segment((-1e4, 0.0), (1e4, 0.0)), 0.5, 0.5),
         Surface("mitt", mitt, 0.0, 0.5),
