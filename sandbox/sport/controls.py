@@ -52,8 +52,23 @@ class Handle:
     #: Where it is (m), from the parameters, if that is not what its keys say.
     at: Callable[[Any], tuple[float, float]] | None = None
     where: str = ""  # the switch without which there is none
+    goal: bool = False  # whether a shot that gets there scores
     #: From the parameters to the changes without which the keys have no effect, such as a rack that is broken up.
     first: Callable[[Any], Mapping[str, Any]] | None = None
+
+
+@dataclass(frozen=True)
+class Goal:
+    """What a shot can be found for: the facts that are ``wanted``, and where the player clicks for it (m).
+
+    ``vary`` has the ranges of the parameters that are tried, by default of speed and angle. Goals of the same name are
+    several ways to the same.
+    """
+
+    name: str
+    wanted: Mapping[str, Any]
+    at: tuple[float, float] | None = None
+    vary: Mapping[str, tuple[float, float]] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -68,6 +83,8 @@ class Controls:
     also: Mapping[str, Any] = field(default_factory=dict)  # what else a pull sets, such as how the shot begins
     sliders: tuple[str, ...] = ()  # shown first
     handles: tuple[Handle, ...] = ()
+    #: From the parameters to what a shot can be found for, besides the handles that are goals.
+    goals: Callable[[Any], Sequence[Goal]] | None = None
     scores: str = ""  # the fact that is true, or not empty, if the shot scored
     spread: tuple[Spread, ...] = ()  # of a fan of shots; where empty, of speed and angle
     fan_fact: str = ""  # the fact whose mean and spread a fan reports

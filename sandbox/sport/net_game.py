@@ -59,7 +59,7 @@ class CourtBounce:
 #: What is dragged of net and court.
 NET_HANDLES = (
     Handle(y="net.height", at=lambda parameters: (0.5 * parameters.court.length, parameters.net.height)),
-    Handle("court.length"),
+    Handle("court.length", goal=True),
 )
 
 

@@ -8,20 +8,26 @@ from pathlib import Path
 from threading import Thread
 from typing import Any
 
+import numpy as np
 import pygame
 
 from sandbox.engine.accuracy import LEVELS
+from sandbox.picture.palette import palette
 from sandbox.scene import listings
 from sandbox.window import aim, export, replay
+from sandbox.window.choice import Choice, Mark
+from sandbox.window.find import Found, Question, find, questions
 from sandbox.window.game import WIDEST
 from sandbox.window.keys import GROUPS, LISTED, of_groups
 from sandbox.window.overlay import Board, Chart, Overlay, Row
+from sandbox.window.run_data import run_of
 from sandbox.window.shot import Shot
 from sandbox.window.shots import Played
 from sandbox.window.table import Table
 from sandbox.window.view import AHEAD, View
 from sandbox.window.worker import cost_and_errors
 
+CARD = palette("card")
 #: What can be shown or hidden: the command of the same name switches it.
 SWITCHES = ("view", "ghosts", "arrows", "charts", "cost", "tape", "fan", "map")
 #: One step enlarges the picture by this factor, or moves it by this many px.
@@ -155,6 +161,59 @@ def _with_row(view: View, rows: Callable[[], list[Played]], action: str, row: Pl
             _export(view, lambda: export.shots(rows(), game.session.title))
 
 
+def _find(view: View, by: float) -> None:
+    """Find shots: at what, if there is a choice, and then which."""
+    game, shot = view.game, view.game.shot
+    game.aim_again()
+    asked = questions(game.session, shot is None or shot.upright)
+    if not asked:
+        game.tell("this scene says of no shot that it scores")
+    elif len(asked) == 1:
+        _find_one(view, asked[0])
+    else:
+        names = {question.name: question for question in asked}
+
+        def marks() -> list[Mark]:
+            places = [(q.name, q.at) for q in asked if q.at is not None and view.stage is not None]
+            return [Mark(name, np.array([view.stage.camera.pixel(*at)]), "", CARD["text"]) for name, at in places]  # type: ignore[union-attr]
+
+        rows = [Row(name, name) for name in names]
+        foot = view.bar.places["see"]
+        _open(view, "find", lambda: Choice("at what?", rows, lambda name: _find_one(view, names[name]), foot, marks))
+
+
+def _find_one(view: View, question: Question) -> None:
+    """Look for shots at something, and offer them."""
+    game, changes = view.game, view.game.session.changes
+
+    def then(found: list[Found]) -> None:
+        if changes.source != game.session.source:
+            return
+        if not found:
+            game.tell(f"no shot at {question.name} was found by changing speed and angle")
+            return
+        shots = [Shot(each.scene, run_of(each.scene, each.data), number=i) for i, each in enumerate(found, 1)]
+
+        def marks() -> list[Mark]:
+            stage = view.stage
+            return [] if stage is None else [
+                Mark(str(shot.number), stage.line_of(shot), str(shot.number), stage.colour_of(shot.number))
+                for shot in shots]  # fmt: skip
+
+        def choose(number: str) -> None:
+            game.change(found[int(number) - 1].values)
+
+        rows = [Row(str(i), f"{i}   {each.said}") for i, each in enumerate(found, 1)]
+        foot, title = view.bar.places["see"], f"shots at {question.name}, the most forgiving first"
+        if game.session.controls.scores:
+            view.on.add("map")
+        view.over = None
+        _open(view, "found", lambda: Choice(title, rows, choose, foot, marks))
+
+    work = game.helper.submit(find, game.session.scene, question.goals)
+    game.ask(work, then, f"looking for shots at {question.name} ...; Esc stops it")
+
+
 def _menu(view: View, by: float) -> None:
     """All scenes, each with its presets; the user's own files come first."""
     scenes: dict[str, list[Row]] = {}
@@ -220,6 +279,9 @@ def _back(view: View, by: float) -> None:
     elif view.tape is not None or "tape" in view.on:
         view.on.discard("tape")
         view.tape = None
+    elif any(said for _, _, said in game.jobs):
+        game.jobs.clear()
+        view.end_helper()
     elif not game.stop():
         game.aim_again()
 
@@ -317,6 +379,7 @@ COMMANDS: dict[str, Callable[[View, float], object]] = {
     "wider": _wider,
     "energy": _energy,
     "shots": _shots,
+    "find": _find,
     "predict": _predict,
     "accuracy": lambda view, by: view.game.trying(lambda: _accuracy(view, by)),
     "zoom": _zoom,

@@ -78,7 +78,7 @@ class Game:
         self.opened: list[str] = [session.source]  # all scene files so far
         self.dropped: list[Future[Any]] = []  # work that the worker still has to abandon
         self._waited = 0  # s that were reported last
-        self.jobs: list[tuple[Future[Any], Callable[[Any], object]]] = []
+        self.jobs: list[tuple[Future[Any], Callable[[Any], object], str]] = []  # and what they are
         self.watch_files = Watch(session.files)
         self._everywhere(warm_up, session.source)
 
@@ -145,6 +145,7 @@ class Game:
     def notices(self) -> list[tuple[str, bool]]:
         """The current messages for the player: each text, and whether it is bad. An error stays while it is true."""
         found = [(text, True) for text in (self.failure, self.unreadable) if text is not None]
+        found += [(said, False) for _, _, said in self.jobs if said]
         if self.playback is None and self.runs.takes >= LONG:
             found.append((f"still computing after {self.runs.takes:.0f} s; Esc stops it", False))
         if self.message is not None and self.message.text not in (self.failure, self.unreadable):
@@ -215,14 +216,15 @@ class Game:
         for processes in {self.worker, self.helper}:
             processes.submit(work, *args)
 
-    def ask(self, result: Future[Any], then: Callable[[Any], object]) -> None:
-        """Do something with a result once it is there."""
-        self.jobs.append((result, then))
+    def ask(self, result: Future[Any], then: Callable[[Any], object], said: str = "") -> None:
+        """Do something with a result once it is there; until then the player is told what is being done."""
+        self.jobs.append((result, then, said))
+        self.revision += 1
 
     def _finish_jobs(self) -> None:
         for job in [job for job in self.jobs if job[0].done()]:
             self.jobs.remove(job)
-            result, then = job
+            result, then, _ = job
             if not result.cancelled():
                 self.trying(lambda result=result, then=then: then(result.result()))  # type: ignore[misc]
 

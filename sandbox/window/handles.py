@@ -116,5 +116,5 @@ def _name(parameters: Group, key: str) -> str:
     group = key.rpartition(".")[0]
     name, bracket, number = group.partition("[")
     if not bracket:
-        return key.partition("[")[0].replace("air.", "") if "[" in key else group.replace(".", " ")
+        return key.partition("[")[0].replace("air.", "") if "[" in key else (group or key).replace(".", " ")
     return value_at(parameters, f"{group}.name") or f"{name} {int(number.rstrip(']')) + 1}"

@@ -48,6 +48,7 @@ TABLE = (
     Command("faster", ("+", "-"), "faster to 8, slower to 1/16", "Watch"),
     Command("next_shot", ("n", "p"), "next, previous shot", "Watch"),
     Command("shots", ("q",), "table of shots: sort, pin, delete, CSV, statistics", "See"),
+    Command("find", ("/",), "find me a shot: at the ring, a pocket, the pin ...", "See"),
     Command("view", ("v",), "follow the ball", "See"),
     Command("predict", ("y",), "path while aiming: all, to the first contact, a metre, nothing", "See"),
     Command("ghosts", ("g",), "earlier shots", "See"),

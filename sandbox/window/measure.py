@@ -39,17 +39,22 @@ def reading(shot: Shot, camera: Camera, mouse: tuple[int, int], near: float, unt
             track = track[track[:, 0] <= until]
         if len(track) < 2:
             continue
-        pixels = camera.pixels(track[:, 1:])
-        along = np.diff(pixels, axis=0)
-        from_start = np.asarray(mouse) - pixels[:-1]
-        squares = np.maximum((along**2).sum(axis=1), 1e-12)
-        share = np.clip((from_start * along).sum(axis=1) / squares, 0.0, 1.0)
-        away = np.hypot(*(from_start - share[:, None] * along).T)
-        i = int(away.argmin())
-        if away[i] <= near:
-            t = float(track[i, 0] + share[i] * (track[i + 1, 0] - track[i, 0]))
-            near, best = float(away[i]), Reading(ball, t, camera.pixel(*shot.run.state(ball, t)[:2]))
+        away, i, share = away_from(camera.pixels(track[:, 1:]), mouse)
+        if away <= near:
+            t = float(track[i, 0] + share * (track[i + 1, 0] - track[i, 0]))
+            near, best = away, Reading(ball, t, camera.pixel(*shot.run.state(ball, t)[:2]))
     return best
+
+
+def away_from(line: np.ndarray, at: tuple[float, float]) -> tuple[float, int, float]:
+    """How far a place is from a line or a point (px, shape (n, 2)); the nearest piece, and the share along that."""
+    along = np.diff(line, axis=0) if len(line) > 1 else np.zeros((1, 2))
+    from_start = np.asarray(at) - line[: len(along)]
+    squares = np.maximum((along**2).sum(axis=1), 1e-12)
+    share = np.clip((from_start * along).sum(axis=1) / squares, 0.0, 1.0)
+    away = np.hypot(*(from_start - share[:, None] * along).T)
+    i = int(away.argmin())
+    return float(away[i]), i, float(share[i])
 
 
 def state_entries(shot: Shot, ball: str, t: float) -> list[tuple[str, str]]:

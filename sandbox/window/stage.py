@@ -158,6 +158,10 @@ class Stage:
         draw_line(sheet.surface, line, width, colour_of(shot.ball))
         self._contacts(sheet, shot, until)
 
+    def line_of(self, shot: Shot) -> np.ndarray:
+        """The path of the played ball in px, shape (n, 2)."""
+        return self._drawn(shot.track(shot.ball))
+
     def draw_balls(self, sheet: Canvas, t: float) -> None:
         """The balls of the composed shot at time t in s."""
         self.picture.draw_balls(sheet.painter, self.camera, t)

@@ -377,11 +377,11 @@ class View:
         key = self._cloud_wanted()
         if key is not None:
             if self.clouds.takes > HUNG and self.clouds.work_for[:3] != key[:3]:
-                self._end_helper()
+                self.end_helper()
             asked = key[0].scene, *key[1:], key[0].early, self.area.size, (CARD["good"], CARD["text"])
             self.clouds.follow(key, lambda: self.game.helper.submit(cloud, *asked))
 
-    def _end_helper(self) -> None:
+    def end_helper(self) -> None:
         """End the work that does not end, and what waits for it, which will be asked for again."""
         for latest in (self.clouds, self.maps):
             if latest.work is not None:

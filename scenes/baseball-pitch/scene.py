@@ -47,7 +47,7 @@ CONTROLS = Controls(
     sliders=("release.height", "plate.distance", "plate.bottom", "plate.top", "air.elevation"),
     handles=(
         Handle("release.place", "release.height"),
-        Handle("plate.distance", "plate.top"),
+        Handle("plate.distance", "plate.top", goal=True),
         Handle(y="plate.bottom", at=lambda parameters: (parameters.plate.distance, parameters.plate.bottom)),
     ),
     scores="strike",

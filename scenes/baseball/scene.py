@@ -50,7 +50,7 @@ CONTROLS = Controls(
     spins=(Spin("launch.spin", 100.0),),
     also={"start": "launch"},
     sliders=("fence.distance", "fence.height", "air.elevation", "air.temperature", "air.wind"),
-    handles=(Handle("fence.distance", "fence.height"), Handle("release.place", "release.height")),
+    handles=(Handle("fence.distance", "fence.height", goal=True), Handle("release.place", "release.height")),
     scores="home_run",
 )
 

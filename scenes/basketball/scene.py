@@ -86,7 +86,7 @@ CONTROLS = Controls(
     spins=(Spin("launch.spin", 20.0),),
     sliders=("launch.speed", "launch.angle", "launch.spin", "release.height", "hoop.distance", "air.wind", "gravity"),
     handles=(
-        Handle("hoop.distance", "hoop.height"),
+        Handle("hoop.distance", "hoop.height", goal=True),
         Handle(y="release.height"),
         Handle("backboard.gap", "backboard.top", at=lambda parameters: board(parameters)[::3]),
     ),

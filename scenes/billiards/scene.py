@@ -16,7 +16,7 @@ import random
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import combinations
-from math import atan2, cos, degrees, hypot, pi, radians, sin, sqrt
+from math import asin, atan2, cos, degrees, dist, hypot, pi, radians, sin, sqrt
 from typing import Any, Literal
 
 from pydantic import Field
@@ -31,7 +31,7 @@ from sandbox.parameters import Accuracy, Group, choice, either, group, groups, q
 from sandbox.physics.cloth import Cloth
 from sandbox.physics.throw import friction_by_speed
 from sandbox.sport.amounts import roughly
-from sandbox.sport.controls import Controls, Handle, Spin, Spread
+from sandbox.sport.controls import Controls, Goal, Handle, Spin, Spread
 from sandbox.sport.facts import ENDED, Fact, once
 from sandbox.sport.readings import at, travelled
 from sandbox.sport.solids import Solid
@@ -121,6 +121,7 @@ CONTROLS = Controls(
     ball="cue.ball",
     sliders=("cue.speed", "cue.angle", "cue.follow", "cue.english", "rack", "cloth.rolling_friction", "ball.friction"),
     handles=(Handle("balls[*].x", "balls[*].y", first=lambda parameters: placed(laid_out(parameters))),),
+    goals=lambda parameters: _goals(parameters),
     scores="scored",
     spread=(Spread("cue.speed", 0.03), Spread("cue.angle", least=0.2)),  # assumed
     next_start=lambda run, parameters: from_rest(run, parameters),
@@ -128,6 +129,9 @@ CONTROLS = Controls(
 
 #: A shot still moving after this time in s is ended.
 LONGEST = 300.0
+
+#: So many of the balls nearest to a pocket are tried when a shot into it is looked for.
+TRIED = 3
 
 #: Distance of the tip from the ball's centre, in radii, beyond which a chalked tip slips off: a miscue (Alciatore).
 MISCUE = 0.5
@@ -167,6 +171,22 @@ def build(parameters: Parameters) -> Setup:
         catches=catches(table),
         contact=ContactModel(parameters.contact.model, parameters.contact.stiffness),
     )
+
+
+def _goals(parameters: Parameters) -> list[Goal]:
+    """Each ball, to be potted; and each pocket, by the balls that are nearest to it."""
+    spots, table, cue = laid_out(parameters), parameters.table, parameters.cue.ball
+    x0, y0 = spots.pop(cue)
+    ranges = {}
+    for name, (x, y) in spots.items():
+        way, seen = degrees(atan2(y - y0, x - x0)), 2.0 * parameters.ball.radius / hypot(x - x0, y - y0)
+        half = degrees(asin(min(1.0, seen)))  # as far to either side as the ball is touched
+        ranges[name] = {"cue.angle": (way - half, way + half)}
+    goals = [Goal(f"ball {name}", {"pockets": name}, spots[name], ranges[name]) for name in spots]
+    for hole in catches(table):
+        near = sorted(spots, key=lambda name: dist(spots[name], hole.center))[:TRIED]
+        goals += [Goal(hole.name, {"pockets": hole.name}, hole.center, ranges[name]) for name in near]
+    return goals
 
 
 def _nose(parameters: Parameters) -> float | None:

@@ -38,7 +38,7 @@ from sandbox.sport.air import (
     wind_in,
 )
 from sandbox.sport.amounts import roughly
-from sandbox.sport.controls import Controls, Handle, Spin, Spread
+from sandbox.sport.controls import Controls, Goal, Handle, Spin, Spread
 from sandbox.sport.facts import Fact, once
 from sandbox.sport.flight import RPM, Launch, Sphere, forces_in_flight, height_on, launched_ball
 from sandbox.sport.readings import BALL_SPEED, LAUNCH_ANGLE, LAUNCH_SPIN, Moment, at, before
@@ -162,6 +162,7 @@ CONTROLS = Controls(
     also={"start": "launch"},
     sliders=("launch.speed", "launch.angle", "launch.spin", "air.wind", "gravity", "pin.distance"),
     handles=(Handle("pin.distance", at=lambda p: (p.pin.distance, height(p, p.pin.distance))),),
+    goals=lambda parameters: _goals(parameters),
     scores="holed",
     spread=(Spread("launch.speed", 0.015), Spread("launch.angle", 0.08), Spread("launch.spin", 0.06)),  # assumed
     fan_fact="total",
@@ -204,6 +205,16 @@ def build(parameters: Parameters) -> Setup:
         rate = ball.spin_decay * air.density / STANDARD_DENSITY
         teed = replace(teed, torques=[SpinDecay(teed.inertia, ball.radius, rate, wind_in(air))])
     return Setup([teed], course, duration=LONGEST, until=_is_in_water, bounds=Bounds(-FAR, -FAR, FAR, FAR))
+
+
+def _goals(parameters: Parameters) -> list[Goal]:
+    """The cup for a putt, which may be hit at several speeds; else where the ball lands, by speed or by angle."""
+    pin, speed = parameters.pin.distance, parameters.launch.speed
+    at = pin, height(parameters, pin)
+    if parameters.launch.angle < 3.0:
+        return [Goal("the cup", {"holed": True}, at, {"launch.speed": (0.2 * speed, 3.0 * speed)})]
+    ways = {"launch.speed": (0.2 * speed, min(2.0 * speed, CONTROLS.strongest)), "launch.angle": (5.0, 80.0)}
+    return [Goal("a landing at the pin", {"carry": pin}, at, {key: ends}) for key, ends in ways.items()]
 
 
 def _struck(club: Club, ball: GolfBall) -> Struck:

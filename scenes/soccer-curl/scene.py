@@ -84,7 +84,7 @@ CONTROLS = Controls(
     handles=(
         Handle("wall.distance", "wall.offset", where="wall.present"),
         Handle("keeper.distance", "keeper.offset", at=lambda p: _keeper(p), where="keeper.present"),
-        Handle("goal.distance", "goal.offset"),
+        Handle("goal.distance", "goal.offset", goal=True),
     ),
     scores="goal",
     spread=SPREAD,

@@ -69,7 +69,7 @@ CONTROLS = Controls(
     sliders=("launch.speed", "launch.angle", "launch.spin", "goal.distance", "wall.present", "wall.height", "air.wind"),
     handles=(
         Handle("wall.distance", "wall.height", where="wall.present"),
-        Handle("goal.distance", "goal.height", where="goal.present"),
+        Handle("goal.distance", "goal.height", where="goal.present", goal=True),
     ),
     scores="goal",
     spread=SPREAD,

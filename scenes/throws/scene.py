@@ -42,7 +42,7 @@ class Parameters(Group):
 CONTROLS = Controls(
     strongest=18.0,
     sliders=("launch.speed", "launch.angle", "release.height", "record", "air.density", "gravity"),
-    handles=(Handle("release.place", "release.height"), Handle("record")),
+    handles=(Handle("release.place", "release.height"), Handle("record", goal=True)),
     scores="record_beaten",
     spread=(Spread("launch.speed", 0.02), Spread("launch.angle", least=2.0)),  # assumed
 )

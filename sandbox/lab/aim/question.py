@@ -32,7 +32,9 @@ class Target:
         return f"greatest {self.name}" if self.value is GREATEST else f"{self.name} = {self.value}"
 
     def met(self, value: Any) -> bool:
-        """Whether a run's value is the wanted one; for targets that are not numbers."""
+        """Whether a run's value is the wanted one, or holds it; for targets that are not numbers."""
+        if isinstance(value, list | dict):
+            return self.value in value or (isinstance(value, dict) and self.value in value.values())
         return bool(value == self.value and isinstance(value, bool) == isinstance(self.value, bool))
 
 

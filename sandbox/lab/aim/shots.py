@@ -144,8 +144,8 @@ class Shots:
                     raise RequestError(f"--maximize {target.name}: is not a number")
             elif isinstance(value, int | float) and not isinstance(value, bool) and not target.is_number:
                 raise RequestError(f"--target {target.name}: is a number, such as {target.name}={value:.4g}")
-            if isinstance(value, list | tuple | dict):
-                raise RequestError(f"--target {target.name}: is a list and cannot be a target")
+            if isinstance(value, list | dict) and not isinstance(target.value, str):
+                raise RequestError(f"--target {target.name}: is a list; a target is a word in it")
 
 
 def _asked(scene: Scene, names: Sequence[str]) -> list[str]:

@@ -1,0 +1,103 @@
+"""Shots that are found: what can be aimed at, that they get there, and how one is chosen; through real events."""
+
+from __future__ import annotations
+
+import sys
+from concurrent.futures import Future
+
+import pygame
+import pytest
+
+from sandbox.scene import listings, simulate
+from sandbox.window.find import find, questions
+from sandbox.window.session import Session
+
+from .test_game import Here
+
+
+class Slow(Here):
+    """Never gets there."""
+
+    def submit(self, work, *args):
+        return Future()
+
+
+SCENES = [listing.name for listing in listings() if "/" not in listing.name]
+
+
+@pytest.mark.parametrize("source", SCENES)
+def test_what_is_looked_for_is_a_result_and_may_be_varied(source):
+    session = Session(source)
+    for question in questions(session, upright=True):
+        for goal in question.goals:
+            assert goal.wanted.keys() <= session.scene.facts.keys()
+            for key, (low, high) in goal.vary.items():
+                assert session.parameter(key) is not None
+                assert low < high
+
+
+def test_shots_into_the_ring_get_there_and_the_most_forgiving_is_first(monkeypatch):
+    monkeypatch.setattr("sandbox.window.find.REFINED", 1)
+    monkeypatch.setattr(sys.modules["sandbox.lab.aim.regions"], "_SCAN_EACH", 21)
+    session = Session("basketball")
+    (question,) = questions(session, upright=True)
+    found = find(session.scene, question.goals)
+    assert found
+    assert all(simulate(each.scene).result["made"] for each in found)
+    margins = [each.margin for each in found]
+    assert margins == sorted(margins, reverse=True)
+    assert margins[0] > 0
+
+
+class TestInBilliards:
+    @pytest.fixture
+    def asking(self, player, monkeypatch):
+        monkeypatch.setattr(sys.modules["sandbox.lab.aim.shots"], "_SCAN", 17)
+        monkeypatch.setattr("sandbox.window.score_map.COARSE", (3, 3))
+        player = player("billiards/cut", (900, 560))
+        player.game.helper = Here()
+        player.key(pygame.K_SLASH)
+        return player
+
+    def test_a_click_on_a_ball_finds_how_to_pot_it_and_a_click_on_a_path_aims_so(self, asking):
+        game, view = asking.game, asking.view
+        angle = game.session.value("cue.angle")
+        game.change({"cue.angle": angle + 30.0})
+        asking.settle()
+        assert not game.shot.scored
+        asking.key(pygame.K_ESCAPE)
+        asking.key(pygame.K_SLASH)
+        assert view.over.name == "find"
+        x, y = game.session.value("balls[1].x"), game.session.value("balls[1].y")
+        asking.click(tuple(map(round, view.stage.camera.pixel(x, y))))
+        asking.settle()
+        assert view.over.name == "found"
+        (mark,) = view.over.marks()
+        middle = mark.line[len(mark.line) // 2]
+        asking.click((round(middle[0]), round(middle[1])))
+        asking.settle()
+        assert view.over is None
+        assert game.session.value("cue.angle") == pytest.approx(angle, abs=0.2)
+        assert game.shot.scored
+        asking.key(pygame.K_z, pygame.KMOD_CTRL)
+        assert game.session.value("cue.angle") == angle + 30.0
+
+    def test_by_key_alone_or_not_at_all(self, asking):
+        over = asking.view.over
+        assert over.chosen == "ball 1"
+        asking.key(pygame.K_DOWN)
+        assert over.chosen == "left head corner pocket"
+        asking.key(pygame.K_UP)
+        asking.game.helper = Slow()
+        asking.key(pygame.K_RETURN)
+        assert "looking for shots at ball 1" in asking.game.notices[0][0]
+        asking.key(pygame.K_ESCAPE)
+        assert not asking.game.jobs
+        asking.settle()
+        assert asking.view.over is None
+
+
+def test_a_scene_that_does_not_score_says_so(player):
+    player = player("bullet", (640, 400))
+    player.key(pygame.K_SLASH)
+    assert "says of no shot that it scores" in player.game.notices[-1][0]
