@@ -60,7 +60,7 @@ MOST_CHANGES = 5
 
 NEW = "new"
 #: Kinds of notes in the report of a test.
-WRITTEN, CHECKED = "golden file written", "golden name"
+WRITTEN, CHECKED, FAILED = "golden file written", "golden name", "golden failure"
 HOW_TO_ACCEPT = "if the change is intended: pytest --golden-update"
 FOLDER = "golden"
 REPORT = Path("out", "golden")
@@ -121,17 +121,23 @@ def _changed(difference: np.ndarray) -> np.ndarray:
     return np.any(higher | lower, axis=2)
 
 
-def side_by_side(expected: Image.Image, actual: Image.Image) -> Image.Image:
-    """Expected, actual, and the difference: changed pixels red on a pale copy."""
+def what_changed(expected: Image.Image, actual: Image.Image) -> Image.Image:
+    """The changed pixels red on a pale copy of a picture of the same size."""
     import numpy as np
+    from PIL import Image
+
+    pale = 170 + np.asarray(expected.convert("L"))[:, :, None] // 3 * np.ones(3, np.uint8)
+    pale[_changed(_difference(expected, actual))] = (220, 20, 20)
+    return Image.fromarray(pale.astype(np.uint8))
+
+
+def side_by_side(expected: Image.Image, actual: Image.Image) -> Image.Image:
+    """Expected, actual, and the difference."""
     from PIL import Image
 
     images = [expected.convert("RGB"), actual.convert("RGB")]
     if expected.size == actual.size:
-        changed = _changed(_difference(expected, actual))
-        pale = 170 + np.asarray(expected.convert("L"))[:, :, None] // 3 * np.ones(3, np.uint8)
-        pale[changed] = (220, 20, 20)
-        images.append(Image.fromarray(pale.astype(np.uint8)))
+        images.append(what_changed(expected, actual))
     sheet = Image.new(
         "RGB", (sum(i.width for i in images) + 8 * (len(images) - 1), max(i.height for i in images)), "white"
     )
@@ -145,9 +151,11 @@ def side_by_side(expected: Image.Image, actual: Image.Image) -> Image.Image:
 class Golden:
     """The fixture: compares runs and pictures with the golden ones of one test."""
 
-    def __init__(self, folder: Path, report: Path, update: bool, note: Callable[[str, str], None]):
-        """``note`` adds a line of a kind to the test's report: WRITTEN or CHECKED."""
-        self.folder, self.report, self.update, self.note = folder, report, update, note
+    def __init__(
+        self, folder: Path, report: Path, update: bool, note: Callable[[str, str], None], with_page: bool = False
+    ):
+        """``note`` adds a line of a kind to the test's report: WRITTEN, CHECKED or, ``with_page``, FAILED."""
+        self.folder, self.report, self.update, self.note, self.with_page = folder, report, update, note, with_page
         self.checked: set[str] = set()
 
     def check(self, name: str, subject: Any, until: float | None = None) -> None:
@@ -179,11 +187,15 @@ class Golden:
             what, path = ("picture", png) if expected is None else ("run", text)
             _fail(f"{name} has no golden {what} at {path}; make it with pytest --golden-update")
         else:
-            _fail(
-                *_kind_of_change(name, text, run, until, physics, drawing),
-                *self._shown(name, expected, image, drawing),
-                HOW_TO_ACCEPT,
-            )
+            said = list(_kind_of_change(name, text, run, until, physics, drawing))
+            if self.with_page:
+                from sandbox.page.golden_report import failure
+
+                compared = expected is not None and expected.size == image.size
+                images = (expected, image, what_changed(expected, image)) if expected and compared else None
+                changes = [] if run is None else _all_changes(text, run, until)
+                self.note(FAILED, json.dumps(failure(name, said, changes, images)))
+            _fail(*said, *self._shown(name, expected, image, drawing), HOW_TO_ACCEPT)
 
     def _check_damage(self, name: str, damage: dict[Path, str | None]) -> None:
         """Remove damaged files on an update, to make them again; otherwise fail and say what is wrong."""
@@ -280,6 +292,13 @@ def _changed_physics(path: Path, run: Any, until: float | None) -> str | None:
     return "; ".join(shown)
 
 
+def _all_changes(path: Path, run: Any, until: float | None) -> list[str]:
+    """How each ball, the events and the results differ from the golden run, in words."""
+    expected = json.loads(path.read_text("utf-8"))
+    actual = record.record(run, until, record.times_of(expected))
+    return [*(text for _, text in record.changes(expected, actual)), *record.changed_results(expected, actual)]
+
+
 def _damaged_picture(path: Path) -> str | None:
     """What is wrong with a golden picture; None if it is complete or missing."""
     try:
@@ -364,9 +383,13 @@ def _folder_for(test: Path, root: Path) -> Path:
 
 def pytest_addoption(parser: pytest.Parser) -> None:
     parser.addoption("--golden-update", action="store_true", help="make and rewrite golden files, and list them")
+    parser.addoption("--golden-report", metavar="F.html", help="write all golden failures as one page")
 
 
 def pytest_configure(config: pytest.Config) -> None:
+    page = config.getoption("--golden-report")
+    if page is not None and Path(page).suffix.lower() != ".html":
+        raise pytest.UsageError(f"--golden-report {page}: its name must end in .html")
     if config.getoption("--golden-update") and os.environ.get("CI", "").lower() not in ("", "0", "false"):
         raise pytest.UsageError("--golden-update: golden files are never written on CI, and the variable CI is set")
 
@@ -381,7 +404,8 @@ def golden(request: pytest.FixtureRequest) -> Golden:
 
     config = request.config
     folder = _folder_for(request.path, config.rootpath)
-    return Golden(folder, config.rootpath / REPORT, bool(config.getoption("--golden-update")), note)
+    return Golden(folder, config.rootpath / REPORT, bool(config.getoption("--golden-update")), note,
+                  bool(config.getoption("--golden-report")))  # fmt: skip
 
 
 def _noted(config: pytest.Config, kind: str) -> dict[str, set[str]]:
@@ -409,7 +433,23 @@ def pytest_sessionfinish(session: pytest.Session) -> None:
         session.exitstatus = pytest.ExitCode.TESTS_FAILED
 
 
+def _write_page(config: pytest.Config, path: Path) -> str:
+    """Write the page of all failures; a line that says so, or why it could not be written."""
+    from sandbox.page.golden_report import page_of
+    from sandbox.page.parts import save
+
+    failures = ((sorted(tests)[0], json.loads(line)) for line, tests in _noted(config, FAILED).items())
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        save(page_of(sorted(failures, key=lambda failed: (failed[0], failed[1]["name"]))), path)
+    except OSError as error:
+        return f"--golden-report {path}: cannot be written: {error.strerror}"
+    return f"golden failures as a page: {path}"
+
+
 def pytest_terminal_summary(terminalreporter: Any, config: pytest.Config) -> None:
+    if config.getoption("--golden-report"):
+        terminalreporter.write_line(_write_page(config, Path(config.getoption("--golden-report"))))
     for title, lines in (
         ("golden files written: look at them", sorted(_noted(config, WRITTEN))),
         ("golden names used twice", _used_twice(config)),

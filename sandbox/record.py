@@ -116,8 +116,12 @@ def _lines(opening: str, rows: Iterator[str], closing: str, deep: int = 1) -> st
 
 def first_change(expected: Record, actual: Record, tolerance: float = TOLERANCE) -> tuple[float, str] | None:
     """Time in s and description of the first difference in how the balls moved; None if there is none."""
-    changes = [*_changed_states(expected, actual, tolerance), *_changed_events(expected, actual, tolerance)]
-    return min(changes, default=None)
+    return min(changes(expected, actual, tolerance), default=None)
+
+
+def changes(expected: Record, actual: Record, tolerance: float = TOLERANCE) -> list[tuple[float, str]]:
+    """Time in s and description of the first difference of each ball, and of the first in the events; in order."""
+    return sorted([*_changed_states(expected, actual, tolerance), *_changed_events(expected, actual, tolerance)])
 
 
 def changed_results(expected: Record, actual: Record, tolerance: float = TOLERANCE) -> list[str]:

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from importlib import import_module
 from math import dist, inf
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from sandbox.engine.event import Event
 from sandbox.engine.path import Above, Path, climb
@@ -13,6 +14,8 @@ from sandbox.errors import RequestError
 from sandbox.physics.integrators import State
 
 if TYPE_CHECKING:
+    from pathlib import Path as FilePath
+
     import numpy as np
 
     from sandbox.engine.accuracy import Accuracy
@@ -33,6 +36,21 @@ class Numerics:
     clusters: int = 0  # impacts of several balls at once, simulated through the contact
 
 
+class Motion(NamedTuple):
+    """The state of a ball."""
+
+    x: float  # m
+    y: float  # m
+    vx: float  # m/s
+    vy: float  # m/s
+    spin: float  # rad/s, counter-clockwise
+
+
+def _notebook() -> Any:
+    """What draws runs, which is above the engine and imported on first use."""
+    return import_module("sandbox.page.notebook")
+
+
 @dataclass
 class Run:
     """One simulated run, from ``t = 0`` to ``duration``."""
@@ -51,12 +69,40 @@ class Run:
         what = "" if self.scene is None else f" of {self.scene.title}"
         return f"<Run{what}: {self.duration:.2f} s, {len(self.events)} events, ended by {self.ended}>"
 
-    def state(self, ball: str, t: float) -> State:
-        """(x, y, vx, vy, spin) of a ball at time t, constant after the end; m, m/s, rad/s.
+    def state(self, ball: str, t: float) -> Motion:
+        """x, y, vx, vy and spin of a ball at time t, constant after the end; m, m/s, rad/s.
 
         At an impact it is the state just after.
         """
-        return self._path(ball).at(t).state(t)[:5]
+        return Motion(*self._path(ball).at(t).state(t)[:5])
+
+    def states(self, times: Sequence[float], ball: str = "ball") -> np.ndarray:
+        """The states of a ball at these times in s, shape (times, 5): x, y, vx, vy, spin in m, m/s, rad/s."""
+        import numpy as np
+
+        return np.array([self.state(ball, float(t)) for t in times]).reshape(-1, 5)
+
+    # ------------------------------------------------------------------ as pictures
+
+    def poster(self, path: str | FilePath | None = None, size: tuple[int, int] | None = None) -> Any:
+        """The whole run as one picture: written to ``path`` (a PNG), or without one handed back as a Pillow image."""
+        return _notebook().poster(self, path, size)
+
+    def frame(self, t: float, size: tuple[int, int] | None = None) -> Any:
+        """The run at time t in s, as a Pillow image."""
+        return _notebook().frame(self, t, size)
+
+    def animate(
+        self, path: str | FilePath | None = None, size: tuple[int, int] | None = None, fps: float = 25.0
+    ) -> Any:
+        """The run in motion: written to ``path`` (GIF or WebP), or without one handed back for a notebook to show."""
+        return _notebook().animate(self, path, size, fps)
+
+    def _repr_html_(self) -> str | None:
+        html: str | None = _notebook().run_html(self)
+        return html
+
+    # ------------------------------------------------------------------ along the paths
 
     def _path(self, ball: str) -> Path:
         """The arcs of a ball. Raises RequestError if there is no such ball."""

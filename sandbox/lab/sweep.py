@@ -9,6 +9,7 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import lru_cache
+from importlib import import_module
 from pathlib import Path
 from time import perf_counter
 from typing import Any
@@ -66,6 +67,15 @@ class Sweep:
 
     def __repr__(self) -> str:
         return f"<Sweep of {self.plan.scene.title}: {len(self.records):,} points over {', '.join(self.plan.keys)}>"
+
+    def plot(self, path: Path | str | None = None, of: str | None = None) -> Any:
+        """The map or the curves of one result (``of``, by default the verdict or the first): written to ``path`` (a
+        PNG), or without one handed back as a Pillow image."""
+        return import_module("sandbox.page.notebook").sweep_plot(self, path, of)
+
+    def _repr_html_(self) -> str:
+        html: str = import_module("sandbox.page.notebook").sweep_html(self)
+        return html
 
     @property
     def axes(self) -> dict[str, np.ndarray]:

@@ -178,6 +178,10 @@ class Scene:
         file = shown(self.folder / "scene.py")
         return RunError(f"{file}: {function} must return {expected}, but returned {shortened(repr(value))}")
 
+    def _repr_html_(self) -> str:
+        html: str = importlib.import_module("sandbox.page.notebook").scene_html(self)
+        return html
+
     @property
     def title(self) -> str:
         """``golf`` or ``golf/driver``."""

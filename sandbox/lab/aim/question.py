@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from importlib import import_module
 from math import isfinite
 from typing import Any
 
@@ -100,6 +101,10 @@ class Aim:
         wanted = ", ".join(map(str, self.targets))
         found = "; ".join(", ".join(f"{k} = {v:.6g}" for k, v in one.values.items()) for one in self.solutions)
         return f"<Aim of {self.scene.title} at {wanted}: {found or 'no solution'}>"
+
+    def _repr_html_(self) -> str:
+        html: str = import_module("sandbox.page.notebook").aim_html(self)
+        return html
 
     @property
     def misses(self) -> dict[str, float]:

@@ -1,0 +1,157 @@
+"""What notebooks show of a run, a scene, a sweep and a search, and pictures of a run as Pillow images."""
+
+from __future__ import annotations
+
+import io
+import tempfile
+from collections.abc import Callable, Mapping
+from html import escape
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from PIL import Image
+
+from sandbox.errors import RequestError
+from sandbox.page.parts import html, picture, table
+from sandbox.page.replay import page_of
+from sandbox.parameters import walk
+from sandbox.picture import frames
+
+if TYPE_CHECKING:
+    from sandbox.engine.run import Run
+    from sandbox.lab.aim import Aim
+    from sandbox.lab.sweep import Sweep
+    from sandbox.scene import Scene
+
+Size = tuple[int, int]
+
+#: Of pictures in a notebook, in px, and frames per second of animations.
+POSTER, MOVING, FPS = (960, 540), (640, 360), 25
+#: Height of the page of a run in a notebook, in px.
+PLAYER = 760
+#: How animations are written, by the end of the file's name.
+WRITERS: Mapping[str, Callable[..., int]] = {".gif": frames.save_gif, ".webp": frames.save_webp}
+
+
+class Animation:
+    """A run in motion: shown by a notebook, and ``data`` is an animated WebP."""
+
+    def __init__(self, data: bytes):
+        self.data = data
+
+    def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, Any]:
+        import base64
+
+        url = f"data:image/webp;base64,{base64.b64encode(self.data).decode()}"
+        return {"text/html": f'<img alt="the run in motion" src="{url}">', "text/plain": "<Animation of a run>"}
+
+
+def poster(run: Run, path: Path | str | None, size: Size | None) -> Image.Image | None:
+    """The whole run as one picture: written to ``path``, or handed back."""
+    drawn = _picture(run, size or POSTER)
+    if path is None:
+        return frames.to_image(frames.poster_of(drawn))
+    _check(path, ".png")
+    frames.save_poster(drawn, path)
+    return None
+
+
+def frame(run: Run, t: float, size: Size | None) -> Image.Image:
+    """The run at time t in s."""
+    return frames.to_image(frames.frame_of(_picture(run, size or POSTER), t))
+
+
+def animate(run: Run, path: Path | str | None, size: Size | None, fps: float) -> Animation | None:
+    """The run in motion: written to ``path``, or handed back."""
+    drawn = _picture(run, size or MOVING)
+    if path is not None:
+        _check(path, *WRITERS)
+        WRITERS[Path(path).suffix.lower()](drawn, run, path, fps)
+        return None
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder, "run.webp")
+        frames.save_webp(drawn, run, file, fps)
+        return Animation(file.read_bytes())
+
+
+def _picture(run: Run, size: Size) -> Any:
+    if run.scene is None:
+        raise RequestError("only a run of a scene has a picture: give what sandbox.simulate(scene) returns")
+    return run.scene.picture(run, size)
+
+
+def _check(path: Path | str, *suffixes: str) -> None:
+    if Path(path).suffix.lower() not in suffixes:
+        raise RequestError(f"{path}: its name must end in {' or '.join(suffixes)}")
+
+
+# ------------------------------------------------------------------------------------------------------------ as HTML
+
+
+def run_html(run: Run) -> str | None:
+    """Card and poster, and the page that plays it where the notebook is trusted; None for a run of no scene."""
+    if run.scene is None:
+        return None
+    page = escape(page_of(run))
+    shown = picture(frames.to_image(frames.poster_of(_picture(run, POSTER))))
+    return (
+        f'<h3>{html(run.scene.verdict(run))}</h3><img alt="poster" width="{POSTER[0]}" src="{shown}">'
+        f"{table(run.scene.rows(run), run.scene.title, 'card')}"
+        f'<details><summary>play</summary><iframe title="{html(run.scene.title)}" srcdoc="{page}" loading="lazy" '
+        f'style="width: 100%; height: {PLAYER}px; border: 0"></iframe></details>'
+    )
+
+
+def scene_html(scene: Scene) -> str:
+    """Its parameters as a table: key, value, unit and meaning."""
+    cells = [
+        (parameter.key, str(parameter.value), parameter.unit or "", parameter.meaning)
+        for parameter in walk(scene.parameters)
+    ]
+    return f"<h3>{html(scene.title)}</h3><p>{html(scene.about)}</p>{table(cells, scene.title, 'parameters')}"
+
+
+def sweep_html(sweep: Sweep) -> str:
+    """Its map or curves; its size alone where it cannot be drawn."""
+    try:
+        return f"<p>{html(repr(sweep))}</p>{_image(sweep.plot())}"
+    except RequestError as error:
+        return f"<p>{html(repr(sweep))}: {html(str(error))}</p>"
+
+
+def aim_html(aim: Aim) -> str:
+    """What was found, and all tries as a chart."""
+    from sandbox.lab.aim import report
+
+    text = escape("\n".join(report.as_text(aim)))
+    return f"<pre>{text}</pre>{_image(_drawn(lambda path: report.draw(aim, path)))}"
+
+
+def sweep_plot(sweep: Sweep, path: Path | str | None, of: str | None) -> Image.Image | None:
+    """The chart of a sweep: written to ``path``, or handed back; ``of`` names the result."""
+    from sandbox.lab.maps import check_plot, draw_sweep
+    from sandbox.lab.row_file import RowFile
+
+    with tempfile.TemporaryDirectory() as folder:
+        rows, drawn = Path(folder, "rows.csv"), Path(folder, "chart.png")
+        check_plot(sweep.plan, drawn if path is None else Path(path), of)
+        with RowFile(rows, sweep.plan) as file:
+            file.append(sweep.records)
+            file.finish()
+        if path is not None:
+            draw_sweep(sweep.plan, rows, Path(path), of)
+            return None
+        return _drawn(lambda chart: draw_sweep(sweep.plan, rows, chart, of))
+
+
+def _drawn(draw: Callable[[Path], None]) -> Image.Image:
+    """The image that a function writes to a file."""
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder, "chart.png")
+        draw(file)
+        return Image.open(io.BytesIO(file.read_bytes()))
+
+
+def _image(image: Image.Image | None) -> str:
+    assert image is not None
+    return f'<img alt="chart" width="{min(960, image.width)}" src="{picture(image.convert("RGB"))}">'
