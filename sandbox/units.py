@@ -44,6 +44,7 @@ KINDS: dict[str, dict[str, tuple[float, float]]] = {
     "impulse": {"N s": (1.0, 0.0)},
     "torque": {"N m": (1.0, 0.0)},
     "energy": {"J": (1.0, 0.0), "kJ": (1e3, 0.0)},
+    "momentum": {"kg m/s": (1.0, 0.0)},
     "power": {"W": (1.0, 0.0), "kW": (1e3, 0.0)},
     "stiffness": {"N/m": (1.0, 0.0), "N/mm": (1e3, 0.0)},
     "contact stiffness": {"N/m^1.5": (1.0, 0.0)},

@@ -132,9 +132,11 @@ class Heap:
         return found
 
     def _forced_in_a_step(self, index: int, t: float, state: State) -> float:
-        """The speed in m/s that forces give in a step, for a body at least what is rounding."""
-        least = 0.0 if discs(self._tracks[index].ball) else STILL
-        return max(hypot(*self._applied(index, t, state)[:2]) * self._longest, least)
+        """The speed in m/s that forces give in a step: for a body at least what is rounding, while rounding does not
+        press balls on each other."""
+        least = -inf if discs(self._tracks[index].ball) else STILL
+        speed = hypot(*self._applied(index, t, state)[:2]) * self._longest
+        return speed if speed > STILL else least
 
     def _parting(self, i: int, a: State, j: int, b: State) -> float:
         """The speed in m/s at which two balls or bodies part; infinite if they do not touch."""

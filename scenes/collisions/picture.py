@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import cached_property, partial
-from itertools import product
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import chain, product
 
 import numpy as np
 
@@ -12,23 +13,49 @@ from sandbox.engine.setup import Segment
 from sandbox.picture.above import AboveView
 from sandbox.picture.ball import Look, Mark, near
 from sandbox.picture.camera import Camera
-from sandbox.picture.painter import Painter, from_colours
+from sandbox.picture.painter import Painter
 from sandbox.picture.palette import Colour, palette, scene_colours
+from sandbox.picture.places.plan import Plan, unit_of
 from sandbox.picture.sheet import Sheet, nice
 from sandbox.sport.amounts import signed
 
-from .scene import Parameters, blow, energy, hangs, momentum
+from .scene import AMOUNTS, Parameters, blow, hangs, shares
 
 CARD, COLOURS = palette("card"), scene_colours(__file__)
 SPOTS = near(np.array(list(product((-1.0, 1.0), repeat=3))) / 3**0.5, 0.25)  # so that one sees them turn
 LOOKS = [Look(colour, Mark(COLOURS["spot"], SPOTS), gloss=0.7) for colour in COLOURS["balls"]]
-SUMS = partial(momentum, axis=0), partial(momentum, axis=1), energy
 BARS, LONGEST = 0.27, 90.0  # share of the width that bars take; px on 720 rows of the longest arrow
+
+
+@dataclass(frozen=True)
+class Board:
+    """A dark board with a grid of round lengths, and a floor or a bowl."""
+
+    shapes: tuple[Segment, ...]
+
+    def draw(self, painter: Painter, camera: Camera) -> None:
+        size = painter.surface.get_size()
+        painter.surface.fill(COLOURS["board"])
+        (left, high), (right, low) = camera.world(0, 0), camera.world(*size)
+        unit = unit_of(painter)
+        step = nice(60 * unit / camera.scale)
+        across = [((x, low), (x, high)) for x in np.arange(left // step, right / step) * step]
+        along = [((left, y), (right, y)) for y in np.arange(low // step, high / step) * step]
+        floor = [[(min(max(x, left), right), y) for x, y in (shape.a, shape.b)] for shape in self.shapes]
+        for lines, width, colour in ((across + along, 1.0, COLOURS["grid"]), (floor, 4 * unit, COLOURS["floor"])):
+            for ends in lines:
+                painter.line([camera.pixel(*end) for end in ends], width, colour)
 
 
 class Picture(AboveView[Parameters]):
     LEAST_IMPACT = np.inf  # marks would hide the arrows
     STRING = COLOURS["string"]
+    DUSK = COLOURS["dusk"]
+
+    @property
+    def ball(self) -> str:
+        named = self.parameters.launch.ball
+        return named if named in self.balls else self.balls[0]
 
     @property
     def _area(self) -> tuple[tuple[float, float], tuple[float, float]]:
@@ -36,38 +63,20 @@ class Picture(AboveView[Parameters]):
         return (left, top), (right - BARS * self.size[0], bottom)
 
     def look_of(self, name: str) -> Look:
-        return LOOKS[min(self.balls.index(name), 2 + (self.balls.index(name) - 2) % (len(LOOKS) - 2))]
+        place = self.balls.index(name)
+        return LOOKS[min(place, 2 + (place - 2) % (len(LOOKS) - 2))]
 
     def colour_of(self, name: str) -> Colour:
         return self.look_of(name).colour
 
-    def backdrop(self, painter: Painter, camera: Camera) -> None:
-        """A dark board with a grid of round lengths, floor or bowl, and the strings' beam."""
-        top, foot = (np.array(colour, float) for colour in COLOURS["board"])
-        painter.surface.blit(
-            from_colours(np.broadcast_to(np.linspace(top, foot, self.size[1]), (*self.size, 3))), (0, 0)
-        )
-        width, height = self.size
-        step = nice(60 * self.unit / camera.scale)
-        (left, high), (right, low) = camera.world(0, 0), camera.world(width, height)
-        for x in np.arange(np.floor(left / step), right / step) * step:
-            painter.line([camera.pixel(x, low), camera.pixel(x, high)], 1.0, COLOURS["grid"])
-        for y in np.arange(np.floor(low / step), high / step) * step:
-            painter.line([camera.pixel(left, y), camera.pixel(right, y)], 1.0, COLOURS["grid"])
-        shapes = (surface.shape for surface in self.run.setup.surfaces)
-        for shape in (shape for shape in shapes if isinstance(shape, Segment)):
-            ends = [(min(max(x, left - 1), right + 1), y) for x, y in (shape.a, shape.b)]
-            painter.line([camera.pixel(*end) for end in ends], 4 * self.unit, COLOURS["floor"])
-
     @cached_property
     def seen(self) -> np.ndarray:
         """With the ends of the strings."""
-        return np.vstack(
-            [
-                self.surroundings,
-                *([(hangs(self.parameters)[0], self.parameters.strings)] * bool(self.parameters.strings)),
-            ]
-        )
+        return np.vstack([self.surroundings, *(end for _, end in self.strings)])
+
+    @cached_property
+    def plan(self) -> Plan:
+        return (Board(tuple(s.shape for s in self.run.setup.surfaces if isinstance(s.shape, Segment))),)
 
     @property
     def strings(self) -> Sequence[tuple[str, tuple[float, float]]]:
@@ -93,53 +102,45 @@ class Picture(AboveView[Parameters]):
         for name, (before, after) in speeds.items():
             if np.hypot(*(after - before)) < 0.01 * fastest:
                 continue
-            at = camera.pixel(*met.before[name][:2])
+            x, y = at = camera.pixel(*met.before[name][:2])
             painter.ring(at, self.radii[name] * camera.scale, 1.5 * unit, self.colour_of(name))
             for velocity, colour, width in ((before, COLOURS["before"], 3.0), (after, CARD["text"], 4.0)):
                 along, up = velocity / fastest * LONGEST * unit
                 if np.hypot(along, up) > 6 * unit:
-                    painter.arrow(at, (at[0] + along, at[1] - up), width * unit, colour)
+                    painter.arrow(at, (x + along, y - up), width * unit, colour)
 
     def scale(self, sheet: Sheet, camera: Camera) -> None:
         """The scale bar, and the sums that have to stay."""
         super().scale(sheet, camera)
-        met, run, top = blow(self.run, self.parameters), self.run, sheet.top_row + 1.2 * sheet.lettering.height("small")
+        met = blow(self.run, self.parameters)
         if met is None:
             return
-        along, up, joule = ([what(run, states) for states in (met.before, met.after)] for what in SUMS)
-        joule[1] += [max(0.0, sum(joule[0]) - sum(joule[1]))]
-        least = 0.02 * max(map(abs, [*along[0], *along[1], *up[0], *up[1]]))
-        for title, unit, sums in (
-            ("momentum x", "kg m/s", along),
-            ("momentum y", "kg m/s", up),
-            ("energy", "J", joule),
-        ):
-            if max(map(abs, [*sums[0], *sums[1]])) > least:
-                top = self._bars(sheet, top, f"{title}: {signed(format(round(sum(sums[0]), 9), '.3g'))} {unit}", sums)
+        top = sheet.top_row + 1.2 * sheet.lettering.height("small")
+        sums = {what: [shares(self.run, states, what) for states in (met.before, met.after)] for what in AMOUNTS}
+        sums["energy"][1].append(max(0.0, sum(sums["energy"][0]) - sum(sums["energy"][1])))  # what is lost
+        largest = {what: max(map(abs, chain(*parts))) for what, parts in sums.items()}
+        for what, parts in sums.items():
+            unit, _ = AMOUNTS[what]
+            if largest[what] > 0.02 * max(size for other, size in largest.items() if AMOUNTS[other][0] == unit):
+                top = self._bars(sheet, top, f"{what}: {signed(f'{round(sum(parts[0]), 9):.3g}')} {unit}", parts)
 
     def _bars(self, sheet: Sheet, top: float, title: str, sums: Sequence[Sequence[float]]) -> float:
         """Two bars of shares in the balls' colours, negative ones to the left, with a tick at their sum; what is lost
         comes last. Returns the row below."""
-        unit, right, room, thick = (
-            self.unit,
-            sheet.frame.right,
-            (BARS - 0.06) * self.size[0],
-            0.75 * sheet.lettering.height("small"),
-        )
-        most = max(sum(max(part, 0.0) for part in parts) for parts in sums)
-        least = min(sum(min(part, 0.0) for part in parts) for parts in sums)
+        unit, right, small = self.unit, sheet.frame.right, sheet.lettering.height("small")
+        room, thick, colours = (BARS - 0.06) * self.size[0], 0.75 * small, [*map(self.colour_of, self.balls)]
+        least = min(float(np.minimum(parts, 0.0).sum()) for parts in sums)
+        most = max(float(np.maximum(parts, 0.0).sum()) for parts in sums)
         scale, left = room / (most - least), right - room
-        zero = left - least * scale
         sheet.write(title, "small", (right, top), CARD["quiet"], "bottomright")
         for parts, word in zip(sums, ("before", "after"), strict=True):
             top += 0.3 * thick
-            ends = [zero, zero]
-            for part, colour in zip(parts, [*map(self.colour_of, self.balls), COLOURS["lost"]], strict=False):
+            ends = [left - least * scale] * 2
+            for part, colour in zip(parts, [*colours, COLOURS["lost"]], strict=False):
                 start = ends[part > 0.0]
                 ends[part > 0.0] = end = start + part * scale
-                corners = [(start, top), (end, top), (end, top + thick), (start, top + thick)]
-                sheet.painter.polygon(corners, colour)
-            total = zero + sum(parts) * scale
+                sheet.painter.polygon([(start, top), (end, top), (end, top + thick), (start, top + thick)], colour)
+            total = left + (sum(parts) - least) * scale
             sheet.painter.line([(total, top - 3 * unit), (total, top + thick + 3 * unit)], 2 * unit, CARD["accent"])
             sheet.write(word, "small", (left - 8 * unit, top + thick / 2), CARD["quiet"], "midright")
             top += thick

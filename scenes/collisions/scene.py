@@ -7,87 +7,87 @@ Leaves out: the third dimension; the rise of a ball on its string, 0.4 % of a sw
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
-from itertools import pairwise
-from math import cos, hypot, pi, radians, sin
+from itertools import accumulate, pairwise
+from math import cos, dist, hypot, pi, radians, sin
 from typing import Any, Literal, NamedTuple
 
+from pydantic import Field
+
 from sandbox.engine.run import Run
-from sandbox.engine.setup import Always, Ball, Bounce, ContactModel, Segment, Setup, Surface, kinetic
+from sandbox.engine.setup import Always, Ball, Bounce, ContactModel, Force, Segment, Setup, Surface, kinetic
 from sandbox.engine.track import PRESSED
 from sandbox.parameters import Accuracy, Group, choice, group, groups, quantity
 from sandbox.physics.coefficients import Constant
 from sandbox.physics.forces import Drag, Gravity
-from sandbox.physics.hertz import PHENOLIC, STEEL
+from sandbox.physics.integrators import State
 from sandbox.sport.air import Air, wind_in
 from sandbox.sport.controls import Controls, Handle
 from sandbox.sport.facts import ENDED, Fact, once
+from sandbox.sport.readings import at
+from sandbox.sport.solids import Solid
 
 SPHERE_DRAG = 0.47  # of a smooth sphere before its drag crisis (Clift, Grace & Weber 1978)
 
 
 class Body(Group):
-    """A ball on the bench."""
+    """A ball on the bench; what is left out is that of a pool ball at rest."""
 
-    mass: float = quantity(..., "kg", 1e-3, 100, "mass")
-    radius: float = quantity(..., "m", 0.001, 1, "radius")
-    x: float = quantity(..., "m", -50, 50, "of its centre, to the right")
-    y: float = quantity(..., "m", -50, 50, "of its centre, upward, or across a level bench")
-    speed: float = quantity(..., "m/s", 0, 50, "at the start")
-    angle: float = quantity(..., "deg", -180, 180, "of its way, from +x counter-clockwise")
-
-
-class Other(Body):
-    """A ball that is met: what is left out is that of a pool ball at rest."""
-
-    mass: float = quantity(0.17, "kg", 1e-3, 100, "mass")
-    radius: float = quantity(0.028575, "m", 0.001, 1, "radius")
+    name: str = Field(description="name of the ball", min_length=1, max_length=40)
     x: float = quantity(0.0, "m", -50, 50, "of its centre, to the right")
     y: float = quantity(0.0, "m", -50, 50, "of its centre, upward, or across a level bench")
-    speed: float = quantity(0.0, "m/s", 0, 50, "at the start")
-    angle: float = quantity(0.0, "deg", -180, 180, "of its way, from +x counter-clockwise")
+    vx: float | None = quantity(None, "m/s", -50, 50, "along x; if vx and vy are left out, 0 or that of the launch")
+    vy: float | None = quantity(None, "m/s", -50, 50, "along y")
+    spin: float = quantity(0.0, "rad/s", -10000, 10000, "counter-clockwise")
+    mass: float = quantity(0.17, "kg", 1e-3, 100, "mass")
+    radius: float = quantity(0.028575, "m", 0.001, 1, "radius")
 
 
-class Meeting(Group):
-    """What happens between two balls."""
+class Launch(Group):
+    """The ball that is played."""
 
-    restitution: float = quantity(..., "", 0, 1, "speed apart over speed of approach: 1 elastic, 0 inelastic")
-    friction: float = quantity(..., "", 0, 10, "of the balls: 0 smooth")
+    ball: str = Field(description="its name; without a ball of that name none is launched", max_length=40)
+    speed: float = quantity(..., "m/s", 0, 50, "speed")
+    angle: float = quantity(..., "deg", -180, 180, "direction, from +x counter-clockwise")
+
+
+class Contact(Solid):
+    """How two balls meet: restitution 1 is elastic, friction 0 smooth."""
+
     model: Literal["auto", "rigid", "hertz"] = choice(..., "contact mechanics where it matters, never, or always")
-    material: Literal["phenolic", "steel"] = choice(..., "how stiff they are")
+    stiffness: float = quantity(..., "N/m^1.5", 1e3, 1e12, "of a pair of balls")
 
 
-class Floor(Group):
+class Floor(Solid):
     """What lies below."""
 
     shape: Literal["none", "flat", "bowl"] = choice(..., "a level bench needs none; a floor or a bowl at y = 0")
     radius: float = quantity(..., "m", 0.01, 50, "of the bowl")
-    restitution: float = quantity(..., "", 0, 1, "of ball and floor")
-    friction: float = quantity(..., "", 0, 10, "of ball and floor")
     resistance: float = quantity(..., "", 0, 1, "to rolling: deceleration over the acceleration that presses it on")
 
 
 class Parameters(Group):
     """All parameters of a collision."""
 
-    first: Body = group(..., "the ball that is played")
-    others: list[Other] = groups(..., "the balls that it meets: second, 3, 4, ...")
-    meet: Meeting = group(..., "between balls")
+    balls: list[Body] = groups(..., "the balls")
+    launch: Launch = group(..., "the ball that is played")
+    contact: Contact = group(..., "between balls")
     floor: Floor = group(..., "what lies below")
     gravity: float = quantity(..., "m/s^2", 0, 30, "gravity, along -y; none along a level bench")
-    strings: float = quantity(..., "m", 0, 50, "length of the strings of a cradle, in which the others hang; 0: none")
+    strings: float = quantity(
+        ..., "m", 0, 50, "length of a cradle's strings, in which the balls hang in touch; 0: none"
+    )
     air: Air = group(..., "the air; without density where it does not matter")
     duration: float = quantity(..., "s", 0.01, 60, "shown at most")
     accuracy: Accuracy = group(Accuracy(), "speed against accuracy")
 
 
 CONTROLS = Controls(
-    speed="first.speed",
-    angle="first.angle",
     strongest=10.0,
-    ball="first",
-    handles=(Handle("first.x", "first.y"), Handle("others[*].x", "others[*].y")),
-    sliders=("meet.restitution", "meet.friction", "first.mass", "first.y", "floor.restitution"),
+    ball="launch.ball",
+    sliders=("contact.restitution", "contact.friction", "launch.speed", "launch.angle", "floor.restitution"),
+    handles=(Handle("balls[*].x", "balls[*].y"),),
 )
 
 
@@ -103,42 +103,39 @@ class String:
 
 
 def hangs(it: Parameters) -> list[float]:
-    """Where the balls of a cradle hang along x, in m: the others where they begin, the first ball beside the second."""
-    others = [body.x for body in it.others]
-    return [others[0] - it.first.radius - it.others[0].radius, *others] if others else [it.first.x]
+    """Where the balls of a cradle hang along x, in m: in touch, the last where it begins."""
+    radii = [body.radius for body in reversed(it.balls)]
+    return [*accumulate((-a - b for a, b in pairwise(radii)), initial=it.balls[-1].x)][::-1]
 
 
-def build(parameters: Parameters) -> Setup:
+def build(it: Parameters) -> Setup:
     """The balls, each with its forces, and what lies below."""
-    it, balls = parameters, list[Ball]()
-    bodies: list[Body] = [it.first, *it.others]
-    for number, (body, hung) in enumerate(zip(bodies, hangs(it), strict=True), 1):
-        forces: list[Any] = [Gravity(body.mass, it.gravity)] if it.gravity and not it.strings else []
-        if it.strings:
-            forces.append(String(hung, body.mass * it.gravity / it.strings))
+    balls, floor, launch = list[Ball](), it.floor, it.launch
+    for body, hung in zip(it.balls, hangs(it) if it.balls else (), strict=True):
+        weight, forces = body.mass * it.gravity, list[Force]()
+        if weight:
+            forces.append(String(hung, weight / it.strings) if it.strings else Gravity(body.mass, it.gravity))
         if it.air.density:
-            forces.append(
-                Drag(body.radius, it.air.density, Constant(SPHERE_DRAG), wind_in(it.air), viscosity=it.air.viscosity)
-            )
-        way = body.speed * cos(radians(body.angle)), body.speed * sin(radians(body.angle))
-        name = {1: "first", 2: "second"}.get(number, str(number))
-        balls.append(Ball(name, body.mass, body.radius, (body.x, body.y), way, forces=forces))
-    floor, meet = it.floor, it.meet
+            air = it.air.density, Constant(SPHERE_DRAG), wind_in(it.air)
+            forces.append(Drag(body.radius, *air, viscosity=it.air.viscosity))
+        velocity = body.vx or 0.0, body.vy or 0.0
+        if body.name == launch.ball and body.vx is None and body.vy is None:
+            velocity = launch.speed * cos(radians(launch.angle)), launch.speed * sin(radians(launch.angle))
+        balls.append(Ball(body.name, body.mass, body.radius, (body.x, body.y), velocity, body.spin, forces=forces))
     turns = [pi * part / 40 for part in range(41)]
     rim = [(-floor.radius * cos(turn), floor.radius * (1.0 - sin(turn))) for turn in turns]
     corners = {"none": [], "flat": [(-100.0, 0.0), (100.0, 0.0)], "bowl": rim}[floor.shape]
-    surfaces = [
-        Surface("floor", Segment(*ends), floor.restitution, floor.friction, floor.resistance)
-        for ends in pairwise(corners)
-    ]
-    material = STEEL if meet.material == "steel" else PHENOLIC
-    model = ContactModel(meet.model, material.between(*(body.radius for body in [*bodies, it.first][:2])))
+    ground = floor.restitution, floor.friction, floor.resistance
     return Setup(
-        balls, surfaces, it.duration, between_balls=Always(Bounce(meet.restitution, meet.friction)), contact=model
+        balls,
+        [Surface("floor", Segment(*ends), *ground) for ends in pairwise(corners)],
+        it.duration,
+        between_balls=Always(Bounce(it.contact.restitution, it.contact.friction)),
+        contact=ContactModel(it.contact.model, it.contact.stiffness),
     )
 
 
-States = dict[str, tuple[float, ...]]
+States = dict[str, State]
 
 
 class Blow(NamedTuple):
@@ -148,60 +145,79 @@ class Blow(NamedTuple):
     before: States
     after: States
 
-    @property
-    def line(self) -> tuple[float, float]:
-        """Unit vector along the line of action."""
-        (x, y, *_), (u, v, *_) = (self.before[name] for name in self.pair)
-        return (u - x) / hypot(u - x, v - y), (v - y) / hypot(u - x, v - y)
-
     def closing(self, states: States) -> float:
         """Speed in m/s at which the two approach along the line of action; negative where they part."""
+        a, b = (self.before[name][:2] for name in self.pair)
         (_, _, ux, uy, _), (_, _, vx, vy, _) = (states[name] for name in self.pair)
-        return (ux - vx) * self.line[0] + (uy - vy) * self.line[1]
+        return ((ux - vx) * (b[0] - a[0]) + (uy - vy) * (b[1] - a[1])) / dist(a, b)
 
 
 @once
 def blow(run: Run, parameters: Parameters) -> Blow | None:
     """The first blow, through to the end of the contact; None if no two balls meet."""
-    names = [ball.name for ball in run.setup.balls]
-    event = next((e for e in run.events if e.kind == "impact" and e.partner in names), None)
+    event = next((e for e in run.events if e.kind == "impact" and e.partner in run.arcs), None)
     if event is None:
         return None
-    ends = [
-        arc.t1 for name in names for arc in run.arcs[name] if arc.contact == PRESSED and arc.t0 <= event.t <= arc.t1
-    ]
-    before, after = (
-        {name: how(name, t) for name in names}
-        for how, t in ((run.before, event.t), (run.state, max(ends, default=event.t)))
-    )
-    return Blow(sorted((event.ball, event.partner), key=lambda name: before[name][0]), before, after)
+    pressed = (arc for arcs in run.arcs.values() for arc in arcs if arc.contact == PRESSED)
+    end = max((arc.t1 for arc in pressed if arc.t0 <= event.t <= arc.t1), default=event.t)
+    before = {name: run.before(name, event.t) for name in run.arcs}
+    pair = sorted((event.ball, event.partner), key=lambda name: before[name][0])
+    return Blow(pair, before, {name: run.state(name, end) for name in run.arcs})
 
 
-def momentum(run: Run, states: States, axis: int) -> list[float]:
-    """Of each ball along x (0) or y (1), in kg m/s."""
-    return [ball.mass * states[ball.name][2 + axis] for ball in run.setup.balls]
+#: What stays, if nothing from outside acts and nothing is lost: its unit, and how much of it a ball has.
+AMOUNTS: dict[str, tuple[str, Callable[[Ball, State], float]]] = {
+    "momentum x": ("kg m/s", lambda ball, state: ball.mass * state[2]),
+    "momentum y": ("kg m/s", lambda ball, state: ball.mass * state[3]),
+    "energy": ("J", kinetic),
+}
 
 
-def energy(run: Run, states: States) -> list[float]:
-    """Kinetic energy of each ball, including rotation, in J."""
-    return [kinetic(ball, states[ball.name]) for ball in run.setup.balls]
+def shares(run: Run, states: States, what: str) -> list[float]:
+    """How much each ball has of one of these amounts."""
+    return [AMOUNTS[what][1](ball, states[ball.name]) for ball in run.setup.balls]
 
 
-def _of(what: Any) -> Any:
-    return lambda run, parameters: None if (met := blow(run, parameters)) is None else what(run, met)
-
-
-def _share(had: float, has: float) -> float:
-    """How much of what there was is not there any more, in %."""
+def _lost(run: Run, parameters: Parameters) -> float | None:
+    """How much of the energy before the blow is lost in it, in %."""
+    if (met := blow(run, parameters)) is None:
+        return None
+    had, has = (sum(shares(run, states, "energy")) for states in (met.before, met.after))
     return round(100.0 * (1.0 - has / had), 9) if had > 0.0 else 0.0
 
 
+def _at_end(part: Callable[[State], Any]) -> Callable[[Run, Parameters], dict[str, Any]]:
+    """A part of the state of each ball at the end."""
+    return lambda run, parameters: {name: part(run.state(name, run.duration)) for name in run.arcs}
+
+
+def _sums(what: str) -> tuple[Fact, Fact]:
+    """Facts of an amount at the start and at the end: a number, or two along x and y."""
+    names = [name for name in AMOUNTS if name.startswith(what)]
+
+    def at_time(run: Run, t: float) -> Any:
+        states = {name: run.state(name, t) for name in run.arcs}
+        found = [sum(shares(run, states, name)) for name in names]
+        return found if len(found) > 1 else found[0]
+
+    unit = AMOUNTS[names[0]][0]
+    return (
+        Fact(f"{what}_before", "", unit, lambda run, parameters: at_time(run, 0.0)),
+        Fact(f"{what}_after", "", unit, lambda run, parameters: at_time(run, run.duration)),
+    )
+
+
 FACTS = (
-    Fact("lost", "energy lost", "%", _of(lambda run, met: _share(*(sum(energy(run, it)) for it in met[1:])))),
-    Fact("approach", "approach", "m/s", _of(lambda run, met: met.closing(met.before))),
-    Fact("separation", "separation", "m/s", _of(lambda run, met: -met.closing(met.after))),
-    Fact("first_after", "first ball", "m/s", _of(lambda run, met: hypot(*met.after["first"][2:4]))),
-    Fact("fastest", "fastest", "m/s", _of(lambda run, met: max(hypot(*state[2:4]) for state in met.after.values()))),
+    Fact("lost", "energy lost", "%", _lost),
+    Fact("approach", "approach", "m/s", at(blow, lambda met: met.closing(met.before))),
+    Fact("separation", "separation", "m/s", at(blow, lambda met: -met.closing(met.after))),
+    Fact("first_after", "first ball", "m/s", at(blow, lambda met: hypot(*next(iter(met.after.values()))[2:4]))),
+    Fact("fastest", "fastest", "m/s", at(blow, lambda met: max(hypot(*state[2:4]) for state in met.after.values()))),
+    Fact("positions", "", "m", _at_end(lambda state: list(state[:2]))),
+    Fact("velocities", "", "m/s", _at_end(lambda state: list(state[2:4]))),
+    Fact("spins", "", "rad/s", _at_end(lambda state: state[4])),
+    *_sums("energy"),
+    *_sums("momentum"),
     ENDED,
 )
 

@@ -17,6 +17,10 @@ def run_of(name: str = "collisions", **changes: Any) -> Run:
     return sandbox.simulate(load(name, {key.replace("__", "."): value for key, value in changes.items()}))
 
 
+def bench(*balls: dict[str, Any], **changes: Any) -> Run:
+    return run_of(balls=list(balls), **changes)
+
+
 @given(
     st.floats(0.0, 1.0),
     st.floats(0.0, 1.0),
@@ -26,13 +30,15 @@ def run_of(name: str = "collisions", **changes: Any) -> Run:
 def test_momentum_stays_and_they_part_as_restitution_says(
     restitution: float, friction: float, mass: float, aside: float
 ):
-    run = run_of(meet__restitution=restitution, meet__friction=friction, first__mass=mass, first__y=aside)
-    result, balls = run.result, run.setup.balls
+    balls = {"name": "a", "x": -0.5, "y": aside, "vx": 2.0, "mass": mass}, {"name": "b", "vy": 0.01, "spin": 3.0}
+    result = bench(*balls, contact__restitution=restitution, contact__friction=friction).result
     assert result["separation"] == pytest.approx(restitution * result["approach"], abs=1e-9)
-    for axis in (2, 3):
-        start = sum(ball.mass * ball.velocity[axis - 2] for ball in balls)
-        assert sum(ball.mass * run.state(ball.name, 0.8)[axis] for ball in balls) == pytest.approx(start, abs=1e-9)
+    assert result["momentum_before"] == pytest.approx([2.0 * mass, 0.0017])
+    assert result["momentum_after"] == pytest.approx(result["momentum_before"], abs=1e-9)
     assert 0.0 <= result["lost"] <= 100.0
+    assert result["energy_before"] == pytest.approx(0.5 * mass * 4.0 + 0.085e-4 + 0.2 * 0.17 * (3.0 * 0.028575) ** 2)
+    left = result["energy_before"] * (1.0 - 0.01 * result["lost"])
+    assert result["energy_after"] == pytest.approx(left, rel=1e-9)
     if restitution == 1.0 and friction == 0.0:
         assert result["lost"] == pytest.approx(0.0, abs=1e-6)
 
@@ -45,7 +51,7 @@ def test_equal_masses_exchange_their_speeds_head_on():
 
 def test_an_inelastic_hit_loses_the_energy_of_the_approach():
     """1/2 mu v^2 of 1/2 m v^2: half for equal masses."""
-    assert run_of("collisions/equal-masses", meet__restitution=0.0).result["lost"] == pytest.approx(50.0)
+    assert run_of("collisions/equal-masses", contact__restitution=0.0).result["lost"] == pytest.approx(50.0)
 
 
 @pytest.mark.parametrize(("preset", "out"), [("cradle-3", 1), ("cradle-5", 1), ("cradle-two-lifted", 2)])
@@ -90,4 +96,15 @@ def test_balls_in_a_bowl_come_to_rest():
 
 
 def test_no_two_balls_that_meet_is_said():
-    assert run_of(first__y=0.2).scene.verdict(run_of(first__y=0.2)) == "No two balls meet"
+    run = bench({"name": "first", "y": 0.2}, {"name": "second"})
+    assert run.scene.verdict(run) == "No two balls meet"
+    assert run.result["velocities"] == {"first": [2.0, 0.0], "second": [0.0, 0.0]}
+
+
+def test_the_launch_is_for_a_ball_of_its_name_without_a_listed_velocity():
+    for name, listed, speed in (("a", {}, 0.0), ("first", {"vx": 0.5}, 0.5), ("first", {"vy": 0.0}, 0.0)):
+        result = bench({"name": name, "x": -0.5, **listed}, {"name": "b", "x": 30.0}).result
+        assert result["velocities"][name] == [speed, 0.0]
+    assert (
+        bench({"name": "b", "x": 1.0}, {"name": "first"}, launch__angle=180.0).result["velocities"]["first"][0] == -2.0
+    )
