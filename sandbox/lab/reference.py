@@ -13,9 +13,10 @@ from math import hypot
 from sandbox.engine import simulate
 from sandbox.engine.accuracy import LEVELS, SKIN, Accuracy
 from sandbox.engine.run import Run
-from sandbox.engine.setup import Ball, Setup
+from sandbox.engine.setup import Setup
 from sandbox.errors import RequestError
 from sandbox.scene import Scene
+from sandbox.scene.checking import NUDGE, nudged
 
 #: A thousand times finer than the finest level.
 REFERENCE = replace(LEVELS["precise"], level="reference", tolerance=1e-3 * LEVELS["precise"].tolerance, settle=1e-14)
@@ -26,9 +27,6 @@ _CHECK_STEP, _CHECK_STEPS = 1 / 2000, 60_000
 #: Lowest bounce in m of the second reference. The error of ignored bounces grows with the root of their height, so this
 #: reference has twice the error.
 _CHECK_SETTLE = 4.0 * REFERENCE.settle
-
-#: The nudge: a change of speed and of direction (rad) at the start.
-NUDGE = 1e-9
 
 #: If a nudge grows to this, in m, the scene is chaotic from then on: a growth of 1e6.
 DIVERGED = 1e-3
@@ -52,8 +50,8 @@ class Reference:
     error: float  # m, estimated
     first_touch: float  # s, the first contact of a ball; ``time`` if there is none
     size: float  # m, largest distance of a ball from its start
-    growth: float  # of a nudge until ``time``, in m per unit
-    diverges_at: float | None  # s, when a nudge of 1e-9, or the method's own error, has grown to 1 mm; None if never
+    growth: float  # how many times as large a nudge of the start is at ``time``
+    diverges_at: float | None  # s, when a nudge of 1e-9 m, or the method's own error, has grown to 1 mm; None if never
     closed_form: bool  # whether the motion has a closed form, so that only contacts are computed
 
     def setup(self) -> Setup:
@@ -76,17 +74,17 @@ def converge(scene: Scene) -> Reference:
         raise RequestError(f"{scene.name}: the run ends immediately; there is nothing to measure")
     whole = _BEFORE_THE_END * first.duration if first.ended == "until" else first.duration
     first = simulate(until(scene.build(), whole), REFERENCE)
-    nudged = simulate(until(_nudged(scene.build()), whole), REFERENCE)
+    other = simulate(until(nudged(scene.build(), NUDGE, 1), whole), REFERENCE)
     check = simulate(until(scene.build(), whole), _check(whole))
     time, diverges_at = whole, None
     names = [ball.name for ball in setup.balls]
     for t in _looks(first, whole):
         here = places(first, names, t)
-        if max(apart(here, places(other, names, t)) for other in (nudged, check)) > DIVERGED:
+        if max(apart(here, places(run, names, t)) for run in (other, check)) > DIVERGED:
             diverges_at = t
             break
         time = t
-    growth = apart(places(first, names, time), places(nudged, names, time)) / NUDGE
+    growth = apart(places(first, names, time), places(other, names, time)) / NUDGE
     points = looked_at(scene, first, time)
     return Reference(
         scene,
@@ -129,18 +127,6 @@ def _looks(run: Run, whole: float) -> Iterator[float]:
 def until(setup: Setup, time: float) -> Setup:
     """The same setup, ending only at ``time`` (s)."""
     return replace(setup, duration=time, until=None)
-
-
-def _nudged(setup: Setup) -> Setup:
-    return replace(setup, balls=[_nudged_ball(ball) for ball in setup.balls])
-
-
-def _nudged_ball(ball: Ball) -> Ball:
-    """Slightly faster and turned slightly to the left; a ball at rest with forces gets a small velocity."""
-    vx, vy = ball.velocity
-    if vx == vy == 0.0 and ball.forces:
-        return replace(ball, velocity=(NUDGE, NUDGE))
-    return replace(ball, velocity=(vx + NUDGE * (vx - vy), vy + NUDGE * (vy + vx)))
 
 
 def _check(time: float) -> Accuracy:

@@ -232,7 +232,7 @@ def _about(reference: Reference) -> list[str]:
     how = "contacts are computed, the rest is in closed form" if closed else "checked with another integrator"
     growth = f"a nudge at the start grows {significant(reference.growth)} times until then"
     if chaotic is not None:
-        growth = f"chaotic: a nudge of 1e-9 has grown to 1 mm after {chaotic:.4g} s"
+        growth = f"chaotic: a nudge of 1e-9 m has grown to 1 mm after {chaotic:.4g} s"
     return [
         scene.title,
         f"  measure    {measure}",
