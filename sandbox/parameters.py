@@ -408,11 +408,16 @@ def parse_assignment(text: str) -> tuple[str, Any]:
     key, value = key.strip(), value.strip()
     if not equals or not all(part.strip() for part in key.split(".")):
         raise RequestError(f'--set {text}: write it as key.path=value, for example --set launch.speed="171 mph"')
+    return key, toml_value(value)
+
+
+def toml_value(text: str) -> Any:
+    """A TOML value, or else the text as a string."""
     try:
-        parsed = tomllib.loads(f"value = {value}")
+        parsed = tomllib.loads(f"value = {text}")
     except (ValueError, RecursionError):
-        return key, value
-    return key, parsed["value"] if len(parsed) == 1 else value
+        return text
+    return parsed["value"] if len(parsed) == 1 else text
 
 
 def nested(dotted: Mapping[str, Any]) -> dict[str, Any]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -11,7 +10,7 @@ import numpy as np
 
 from sandbox import parameters as declared
 from sandbox.errors import RequestError
-from sandbox.parameters import Group, Quantity, path_of
+from sandbox.parameters import Group, Quantity, path_of, toml_value
 from sandbox.scene import Scene
 
 #: Most values along one axis, and most points of a sweep: more is taken as a mistake in the request.
@@ -55,14 +54,19 @@ def parse_axis(scene: Scene, option: str, text: str) -> Axis:
         raise RequestError(f"{option} {text}: write it as KEY=LO:HI:N, for example {option} launch.angle=10:60:51")
     parts = [part.strip() for part in body.split(":")]
     if len(parts) == 1:
-        values = [checked(scene, option, key, value) for value in _listed(body)]
-        return Values(key, tuple(values))
+        values = toml_value(f"[{body}]")
+        listed = values if isinstance(values, list) else [toml_value(part.strip()) for part in body.split(",")]
+        return as_axis(scene, key, listed, option)
     if len(parts) > 3:
         raise RequestError(f"{option} {text}: {len(parts)} parts, but a range has two or three: LO:HI:N")
-    low, high = (_number(scene, option, key, part) for part in parts[:2])
+    low, high = (checked(scene, option, key, toml_value(part)) for part in parts[:2])
+    if not isinstance(low, float) or not isinstance(high, float):
+        raise RequestError(f"{option} {key}: only numbers can have a range; list values, separated by commas")
     if len(parts) == 2:
         return span(option, key, low, high)
-    count = _count(option, text, parts[2])
+    count = int(parts[2]) if parts[2].isdecimal() and len(parts[2]) < 9 else 0
+    if not 1 <= count <= MOST_VALUES:
+        raise RequestError(f"{option} {text}: {parts[2]!r} is not a number of points from 1 to {MOST_VALUES:,}")
     return Values(key, tuple(np.linspace(low, high, count).tolist()) if count > 1 else (low,))
 
 
@@ -100,37 +104,6 @@ def span(option: str, key: str, low: float, high: float) -> Span:
     if low >= high:
         raise RequestError(f"{option} {key}: the range from {low:g} to {high:g} is empty; write the lower end first")
     return Span(key, low, high)
-
-
-def _number(scene: Scene, option: str, key: str, text: str) -> float:
-    value = checked(scene, option, key, _toml(text))
-    if not isinstance(value, float):
-        raise RequestError(f"{option} {key}: only numbers can have a range; list values, separated by commas")
-    return value
-
-
-def _count(option: str, text: str, number: str) -> int:
-    try:
-        count = int(number)
-    except ValueError:
-        count = 0
-    if not 1 <= count <= MOST_VALUES:
-        raise RequestError(f"{option} {text}: {number!r} is not a number of points from 1 to {MOST_VALUES:,}")
-    return count
-
-
-def _toml(text: str) -> Any:
-    """A TOML value, or else the text as a string."""
-    try:
-        parsed = tomllib.loads(f"value = {text}")
-    except (ValueError, RecursionError):
-        return text
-    return parsed["value"] if len(parsed) == 1 else text
-
-
-def _listed(text: str) -> list[Any]:
-    values = _toml(f"[{text}]")
-    return values if isinstance(values, list) else [_toml(part.strip()) for part in text.split(",")]
 
 
 def checked(scene: Scene, option: str, key: str, value: Any) -> Any:
