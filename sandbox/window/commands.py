@@ -29,7 +29,7 @@ from sandbox.window.worker import cost_and_errors
 
 CARD = palette("card")
 #: What can be shown or hidden: the command of the same name switches it.
-SWITCHES = ("view", "ghosts", "arrows", "charts", "cost", "tape", "fan", "map")
+SWITCHES = ("view", "pad", "ghosts", "arrows", "charts", "cost", "tape", "fan", "map")
 #: One step enlarges the picture by this factor, or moves it by this many px.
 ZOOM, PAN = 1.25, 60.0
 

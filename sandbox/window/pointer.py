@@ -25,6 +25,7 @@ class Pointer:
         self.scrubbing = False  # the time line is dragged
         self.laying = False  # the tape is dragged
         self.panning = False  # the picture is dragged
+        self.spinning = False  # the ball of spins is dragged
         self.fingers: dict[int, tuple[float, float]] = {}  # on a touch screen, px
         self.grabbed: Place = (0, 0)  # where the button was pressed on a handle
         self.pressed: Place | None = None  # where the button was pressed on a shot that is over
@@ -36,7 +37,7 @@ class Pointer:
     @property
     def dragging(self) -> bool:
         """Whether a drag is in progress, which may leave the area where it began."""
-        return self.scrubbing or self.laying or self.panning or self.view.game.holding
+        return self.scrubbing or self.laying or self.panning or self.spinning or self.view.game.holding
 
     def handle(self, event: pygame.event.Event) -> None:
         """One event of the mouse, or of fingers on a screen: one is a mouse, two zoom and move the picture."""
@@ -112,6 +113,9 @@ class Pointer:
                 self.panning = True
             elif aimed is not None:
                 game.nudge(aim.aimed(game.session, *aimed))
+            elif (pad := view.pad) is not None and pad.rect.collidepoint(at):
+                self.spinning = True
+                game.nudge(pad.changes(at))
             elif (grip := view.handle_at(at)) is not None:
                 view.hold()
                 game.begin_drag(grip)
@@ -157,6 +161,8 @@ class Pointer:
                 self._begin_pull(self.pressed)
                 self.pressed = None
                 game.pull_to(at)
+        elif self.spinning and (pad := view.pad) is not None:
+            game.nudge(pad.changes(at))
         elif game.grip is not None:
             snap = bool(pygame.key.get_mods() & pygame.KMOD_SHIFT)
             game.drag_to(view.dragged(game.grip, self.grabbed, at), view.step_of(game.grip, snap))
@@ -164,7 +170,7 @@ class Pointer:
             game.pull_to(at)
 
     def _released(self) -> None:
-        self.scrubbing = self.laying = self.panning = False
+        self.scrubbing = self.laying = self.panning = self.spinning = False
         self.pressed = None
         self.view.game.release()
         self.view.free()

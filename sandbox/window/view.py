@@ -30,6 +30,7 @@ from sandbox.window.game import Game
 from sandbox.window.handles import Grip, grips
 from sandbox.window.measure import NEAR, Tape, draw_reading, reading, state_entries
 from sandbox.window.overlay import Overlay
+from sandbox.window.pad import Pad
 from sandbox.window.score_map import FINER, QUICK, ScoreMap, score_map
 from sandbox.window.shot import Shot
 from sandbox.window.stage import Stage, draw_map, headline, picture_of
@@ -239,6 +240,16 @@ class View:
 
     def _sheet(self) -> Canvas:
         return Canvas(self.canvas.subsurface(self.area))
+
+    @property
+    def pad(self) -> Pad | None:
+        """Where spin is set by hand: for a cue unless it is switched off, else if it is switched on."""
+        game, shot = self.game, self.game.shot
+        spins = game.session.controls.spins
+        if shot is None or game.playback is not None or not spins or ("pad" in self.on) == (len(spins) > 1):
+            return None
+        sheet = self._sheet()
+        return Pad(game.session, shot.upright, sheet.frame.left, self.head.bottom + 2 * sheet.gap, sheet)
 
     def handle_at(self, at: tuple[int, int]) -> Grip | None:
         """The handle at a place in px."""
@@ -467,6 +478,9 @@ class View:
                 _darken(sheet.surface)
         else:
             sheet.surface.fill(CARD["background"])
+        pad = self.pad if drawn and self.over is None and game.failure is None and game.pull is None else None
+        if pad is not None:
+            pad.draw(sheet)
         spots = self.spots if self.over is None and game.failure is None else []
         if spots and stage is not None:
             held = self._held()

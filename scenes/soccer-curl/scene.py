@@ -79,7 +79,7 @@ class Parameters(Group):
 
 CONTROLS = Controls(
     strongest=45.0,
-    spins=(Spin("launch.spin", 50.0),),
+    spins=(Spin("launch.spin", 50.0), Spin("launch.tilt", 5.0)),
     sliders=("launch.speed", "launch.angle", "launch.spin", "launch.tilt", "goal.distance", "air.wind"),
     handles=(
         Handle("wall.distance", "wall.offset", where="wall.present"),
