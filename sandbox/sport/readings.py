@@ -7,7 +7,7 @@ from math import atan2, degrees, hypot
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 from sandbox.sport.amounts import amount
-from sandbox.sport.facts import Fact
+from sandbox.sport.facts import Fact, once
 from sandbox.sport.flight import RPM
 
 if TYPE_CHECKING:
@@ -96,5 +96,18 @@ LAUNCH_ANGLE = Fact(
 LAUNCH_SPIN = Fact(
     "launch_spin", "spin", "rpm", _launched(lambda velocity, spin: spin / RPM), "start", sides=("topspin", "backspin")
 )
+
+
+@once
+def landing(run: Run, parameters: Any) -> Moment | None:
+    """The ball just before it first meets the ground."""
+    return next((before(run, event.t) for event in run.events if event.partner == "ground"), None)
+
+
+#: How far and how high it flew, and how it came down on the surface "ground".
+DISTANCE = Fact("distance", "distance", "m", at(landing, lambda ball: ball.x), "ground", also="ft")
+APEX = Fact("apex", "apex", "m", lambda run, parameters: run.highest("ball")[1][1], "ground", also="ft")
+FLIGHT_TIME = Fact("flight_time", "flight time", "s", at(landing, lambda ball: ball.t), "ground")
+LANDING_ANGLE = Fact("landing_angle", "comes down at", "deg", at(landing, lambda ball: ball.descent), "ground")
 #: How the ball was launched, seen from the side.
 LAUNCH = (BALL_SPEED, LAUNCH_ANGLE, LAUNCH_SPIN)

@@ -8,6 +8,7 @@ distance is that to where the ball would come down.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Literal
 
 from sandbox.engine.run import Run
@@ -16,9 +17,9 @@ from sandbox.parameters import Accuracy, Group, choice, group, quantity
 from sandbox.sport.air import Weather
 from sandbox.sport.amounts import roughly
 from sandbox.sport.controls import Controls, Handle, Spin
-from sandbox.sport.facts import ENDED, Fact, once
+from sandbox.sport.facts import ENDED, Fact
 from sandbox.sport.flight import Launch, Release, forces_in_flight, launched_ball, with_spin_decay
-from sandbox.sport.readings import LAUNCH, Moment, at, before, passing
+from sandbox.sport.readings import APEX, DISTANCE, FLIGHT_TIME, LANDING_ANGLE, LAUNCH, passing
 from sandbox.sport.swing import Bat, struck_by
 
 from .ball import Baseball
@@ -66,12 +67,6 @@ def build(parameters: Parameters) -> Setup:
     return Setup([hit], [Surface("ground", Segment((-1e4, 0.0), (1e4, 0.0)), 0.5, 0.5)], 60.0, Touches("ground"))
 
 
-@once
-def landing(run: Run, parameters: Parameters) -> Moment | None:
-    """The ball as it comes down."""
-    return next((before(run, event.t) for event in run.events if event.partner == "ground"), None)
-
-
 def over_fence(run: Run, parameters: Parameters) -> float | None:
     """Gap in m between the ball and the top of the fence as it passes; negative if it would hit it."""
     passed = passing(run, parameters.fence.distance)
@@ -79,11 +74,11 @@ def over_fence(run: Run, parameters: Parameters) -> float | None:
 
 
 FACTS = (
-    Fact("distance", "distance", "m", at(landing, lambda ball: ball.x), settled="ground", also="ft"),
+    DISTANCE,
     Fact("over_fence", "over the fence", "m", over_fence, settled="ground", also="ft"),
-    Fact("apex", "apex", "m", lambda run, parameters: run.highest("ball")[1][1], settled="ground", also="ft"),
-    Fact("hang_time", "hang time", "s", at(landing, lambda ball: ball.t), settled="ground"),
-    Fact("landing_angle", "comes down at", "deg", at(landing, lambda ball: ball.descent), settled="ground"),
+    APEX,
+    replace(FLIGHT_TIME, key="hang_time", label="hang time"),
+    LANDING_ANGLE,
     *LAUNCH,
     Fact("home_run", "", "", lambda run, parameters: (over_fence(run, parameters) or -1.0) > 0.0, settled="ground"),
     ENDED,

@@ -15,9 +15,9 @@ from sandbox.parameters import Accuracy, Group, either, group, quantity
 from sandbox.sport.air import Air, ConstantDrag, NoDrag, NoLift
 from sandbox.sport.amounts import roughly
 from sandbox.sport.controls import Controls, Handle, Spread
-from sandbox.sport.facts import ENDED, Fact, once
+from sandbox.sport.facts import ENDED, Fact
 from sandbox.sport.flight import Launch, Release, Sphere, forces_in_flight, launched_ball
-from sandbox.sport.readings import BALL_SPEED, LAUNCH_ANGLE, Moment, at, before
+from sandbox.sport.readings import APEX, BALL_SPEED, DISTANCE, FLIGHT_TIME, LANDING_ANGLE, LAUNCH_ANGLE, landing
 
 
 class Shot(Sphere):
@@ -57,12 +57,6 @@ def build(parameters: Parameters) -> Setup:
     return Setup([thrown], [ground], 60.0, Touches("ground"))
 
 
-@once
-def landing(run: Run, parameters: Parameters) -> Moment | None:
-    """The shot as it lands."""
-    return next((before(run, event.t) for event in run.events if event.partner == "ground"), None)
-
-
 def best_angle(run: Run, parameters: Parameters) -> float:
     """Angle in deg at which this speed goes farthest from this height, without air: tan = v / (v^2 + 2 g h)^(1/2)."""
     speed = hypot(*run.setup.balls[0].velocity)
@@ -81,11 +75,11 @@ def _beaten(run: Run, parameters: Parameters) -> bool:
 
 
 FACTS = (
-    Fact("distance", "distance", "m", at(landing, lambda ball: ball.x), settled="ground", also="ft"),
+    DISTANCE,
     Fact("vacuum_distance", "without air", "m", vacuum_distance, settled="start"),
-    Fact("apex", "apex", "m", lambda run, parameters: run.highest("ball")[1][1], settled="ground"),
-    Fact("flight_time", "flight time", "s", at(landing, lambda ball: ball.t), settled="ground"),
-    Fact("landing_angle", "lands at", "deg", at(landing, lambda ball: ball.descent), settled="ground"),
+    APEX,
+    FLIGHT_TIME,
+    LANDING_ANGLE,
     BALL_SPEED,
     LAUNCH_ANGLE,
     Fact("best_angle", "best angle", "deg", best_angle, settled="start"),
