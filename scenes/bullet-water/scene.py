@@ -13,7 +13,7 @@ from bisect import bisect_left
 from math import dist, log, pi
 
 from sandbox.engine.run import Run
-from sandbox.engine.setup import Ball, Force, Setup
+from sandbox.engine.setup import Ball, Force, Patch, Setup
 from sandbox.parameters import Accuracy, Group, group, quantity
 from sandbox.physics.ballistics import BulletDrag, speed_of_sound
 from sandbox.physics.coefficients import Constant
@@ -36,7 +36,7 @@ class Muzzle(Group):
 
     speed: float = quantity(..., "m/s", 1, 1700, "muzzle speed")
     angle: float = quantity(..., "deg", -90, -1, "direction, below the horizontal")
-    height: float = quantity(..., "m", 0, 10, "of the muzzle above the water")
+    height: float = quantity(..., "m", 0.01, 10, "of the muzzle above the water")
 
 
 class Water(Group):
@@ -88,7 +88,8 @@ def build(parameters: Parameters) -> Setup:
     angle = launch.angle * DEGREE
     velocity = launch.speed * cos(angle), launch.speed * sin(angle)
     fired = Ball("ball", bullet.mass, bullet.radius, (0.0, launch.height), velocity, forces=forces)
-    return Setup([fired], duration=parameters.duration)
+    skin = Patch(-1e4, -bullet.radius, 1e4, bullet.radius, 0.5 * bullet.radius / launch.speed)  # of the water
+    return Setup([fired], duration=parameters.duration, patches=[skin])
 
 
 def entry(run: Run, parameters: Parameters) -> Moment | None:

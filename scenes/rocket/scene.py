@@ -30,7 +30,7 @@ class Start(Group):
     """The rocket on its rail, or as it leaves a tube."""
 
     speed: float = quantity(..., "m/s", 0, 270, "speed at the start")
-    angle: float = quantity(..., "deg", 0, 180, "of rail or tube above the horizontal")
+    angle: float = quantity(..., "deg", 1, 179, "of rail or tube above the horizontal")
     height: float = quantity(..., "m", 0.1, 100, "of the rocket above the ground")
     rail: float = quantity(..., "m", 0.01, 20, "length of the rail")
 
