@@ -19,7 +19,7 @@ from sandbox.parameters import Accuracy, Group, group, groups, quantity
 from sandbox.physics.cloth import Cloth
 from sandbox.physics.ice import Glide
 from sandbox.physics.plane import Strips
-from sandbox.sport.controls import Controls, Spin, Spread
+from sandbox.sport.controls import Controls, Handle, Spin, Spread
 from sandbox.sport.facts import ENDED, Fact
 from sandbox.sport.flight import DEGREE, RPM
 from sandbox.sport.readings import Moment, at, before
@@ -79,6 +79,7 @@ class Parameters(Group):
 
 CONTROLS = Controls(
     strongest=14.0,
+    handles=(Handle(y="launch.aside"),),
     spins=(Spin("launch.spin", 20.0), Spin("launch.axis", 5.0)),
     sliders=("launch.speed", "launch.angle", "launch.aside", "launch.spin", "launch.axis", "dry"),
     scores="strike",

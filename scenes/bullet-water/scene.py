@@ -21,7 +21,7 @@ from sandbox.physics.elementwise import cos, sin
 from sandbox.physics.forces import Drag, Gravity, Inside
 from sandbox.sport.air import Weather, wind_in
 from sandbox.sport.amounts import metres
-from sandbox.sport.controls import Controls, Spread
+from sandbox.sport.controls import Controls, Handle, Spread
 from sandbox.sport.facts import ENDED, Fact, once
 from sandbox.sport.flight import DEGREE
 from sandbox.sport.readings import BALL_SPEED, LAUNCH_ANGLE, Moment, at
@@ -61,6 +61,7 @@ class Parameters(Group):
 
 CONTROLS = Controls(
     strongest=1000.0,
+    handles=(Handle(y="launch.height"),),
     sliders=("bullet.mass", "bullet.radius", "water.coefficient", "launch.height", "harmless"),
     spread=(Spread("launch.speed", 0.02), Spread("water.coefficient", 0.3)),  # assumed
 )

@@ -18,7 +18,7 @@ from sandbox.parameters import Accuracy, Group, choice, group, groups, quantity
 from sandbox.physics.ice import CurlingIce
 from sandbox.physics.plane import Strips
 from sandbox.sport.amounts import roughly
-from sandbox.sport.controls import Controls, Spin, Spread
+from sandbox.sport.controls import Controls, Handle, Spin, Spread
 from sandbox.sport.facts import ENDED, Fact
 from sandbox.sport.readings import at
 from sandbox.sport.sliding import REST_TIME, Body, Slide, aside, beside, beyond, end_of, left, passes, taken
@@ -69,6 +69,7 @@ CONTROLS = Controls(
     strongest=4.0,
     spins=(Spin("launch.spin", 1.0),),
     ball=DELIVERED,
+    handles=(Handle("stones[*].x", "stones[*].y"),),
     sliders=("launch.speed", "launch.angle", "sweep.start", "sweep.end", "ice.friction", "ice.curl"),
     scores="good",
     spread=(Spread("launch.speed", 0.01), Spread("launch.angle", least=0.15)),  # assumed

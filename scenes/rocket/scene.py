@@ -20,7 +20,7 @@ from sandbox.physics.forces import Gravity
 from sandbox.physics.rocket import Motor, Thrust
 from sandbox.sport.air import Air, ConstantDrag, NoDrag, NoLift, wind_in
 from sandbox.sport.amounts import roughly
-from sandbox.sport.controls import Controls, Spread
+from sandbox.sport.controls import Controls, Handle, Spread
 from sandbox.sport.facts import ENDED, Fact
 from sandbox.sport.flight import DEGREE, Sphere, forces_in_flight
 from sandbox.sport.readings import Moment, at
@@ -67,6 +67,7 @@ CONTROLS = Controls(
     ball="rocket",
     speed="motor.strength",
     strongest=2.0,
+    handles=(Handle(y="launch.height"),),
     sliders=("motor.propellant", "ball.mass", "ball.drag.coefficient", "launch.rail", "air.wind", "gravity"),
     spread=(Spread("launch.angle", least=2.0), Spread("ball.mass", 0.02)),  # assumed
 )

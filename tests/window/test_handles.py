@@ -42,7 +42,7 @@ def test_what_is_dragged_is_where_the_mouse_is_and_can_be_undone(player, source)
     assert places, "a scene has something to drag"
     inside = [(grip, at) for grip, at in view.spots if grip.keys != WIND_KEYS and view.area.contains((*at, 40, 40))]
     grip, at = inside[-1]
-    by = tuple(8 if key and slope else 0 for key, slope in zip(grip.keys, grip.slopes, strict=True))
+    by = tuple(px if key and slope else 0 for px, key, slope in zip((8, -8), grip.keys, grip.slopes, strict=True))
     drag(player, next(filter(None, grip.keys)), by, let_go=False)
     now = next(place for each, place in view.spots if each.keys == grip.keys)
     assert now == pytest.approx((at[0] + by[0], at[1] + by[1]), abs=1.1)
