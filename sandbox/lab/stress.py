@@ -20,6 +20,7 @@ from sandbox.engine.accuracy import LEVELS, Accuracy
 from sandbox.engine.ledger import ledger
 from sandbox.engine.run import Run
 from sandbox.engine.setup import Circle, Surface, kinetic
+from sandbox.engine.track import PRESSED
 from sandbox.errors import RequestError, SandboxError
 from sandbox.lab.extremes import Extreme, bare, of_scene
 from sandbox.lab.tables import length, paragraph, percent, table
@@ -208,7 +209,8 @@ def _crosses(path: np.ndarray, surface: Surface) -> bool:
 
 
 def _overlap_of_balls(run: Run) -> float:
-    """Deepest overlap in m of two balls, at the ends of their arcs; for a pile, at the end of the run."""
+    """Deepest overlap in m of two balls, at the ends of their arcs, but not within a contact that is simulated, which
+    compresses them; for a pile, at the end of the run."""
     import numpy as np
 
     balls = run.setup.balls
@@ -216,7 +218,9 @@ def _overlap_of_balls(run: Run) -> float:
         return 0.0
     times = [run.duration]
     if len(balls) <= _MOST_PAIRED:
-        times = sorted({arc.t1 for arcs in run.arcs.values() for arc in arcs})
+        contacts = {(arc.t0, arc.t1) for arcs in run.arcs.values() for arc in arcs if arc.contact == PRESSED}
+        ends = {arc.t1 for arcs in run.arcs.values() for arc in arcs}
+        times = sorted(t for t in ends if not any(start < t < end for start, end in contacts))
         times = times[:: max(1, len(times) // _LOOKS)]
     caught = {ball.name: run.caught_at(ball.name) for ball in balls}
     deepest = 0.0
