@@ -4,7 +4,7 @@ off."""
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import cos, dist, sin
+from math import cos, dist, hypot, pi, sin
 from typing import TYPE_CHECKING, Any
 
 from sandbox.engine.setup import DISC, Ball, Catch, Vector
@@ -16,6 +16,9 @@ from sandbox.sport.solids import Solid
 if TYPE_CHECKING:
     from sandbox.engine.run import Run
 
+
+#: Chords of a rounded corner: their directions are 0.7 deg off at most.
+CHORDS = 64
 
 #: How far beyond a line bodies are taken, in m.
 _REACH = 2.0
@@ -29,6 +32,16 @@ class Slide(Group):
     spin: float = quantity(..., "rpm", -5000, 5000, "counter-clockwise positive, as seen from above")
     aside: float = quantity(..., "m", -50, 50, "where it starts, to the left of the middle")
 
+    @property
+    def velocity(self) -> Vector:
+        """In m/s."""
+        return self.speed * cos(self.angle * DEGREE), self.speed * sin(self.angle * DEGREE)
+
+    @property
+    def turning(self) -> float:
+        """Its spin in rad/s."""
+        return self.spin * RPM
+
 
 class Body(Solid):
     """A body that slides."""
@@ -36,16 +49,9 @@ class Body(Solid):
     mass: float = quantity(..., "kg", 0.001, 100, "mass")
     radius: float = quantity(..., "m", 0.002, 0.5, "radius")
 
-    def at(self, name: str, place: Vector, launch: Slide | None = None) -> Ball:
-        """A disc at a place in m, at rest or launched."""
-        if launch is None:
-            return Ball(name, self.mass, self.radius, place, inertia_factor=DISC)
-        return Ball(name, self.mass, self.radius, place, velocity_of(launch), launch.spin * RPM, inertia_factor=DISC)
-
-
-def velocity_of(launch: Slide) -> Vector:
-    """In m/s."""
-    return launch.speed * cos(launch.angle * DEGREE), launch.speed * sin(launch.angle * DEGREE)
+    def at(self, name: str, place: Vector, velocity: Vector = (0.0, 0.0), spin: float = 0.0) -> Ball:
+        """A disc at a place in m, with a velocity in m/s and a spin in rad/s."""
+        return Ball(name, self.mass, self.radius, place, velocity, spin, inertia_factor=DISC)
 
 
 def beyond(name: str, a: Vector, b: Vector, gap: float = 0.0, only: Sequence[str] = ()) -> Catch:
@@ -62,6 +68,22 @@ def beside(name: str, side: float, near: float, far: float, gap: float = 0.0, on
         beyond(name, (far, side), (near, side), gap, only),
         beyond(name, (near, -side), (far, -side), gap, only),
     ]
+
+
+def rounded(length: float, width: float, corner: float, opening: float) -> list[Vector]:
+    """Points of a rectangle with rounded corners about the origin, each of CHORDS chords, counter-clockwise from one
+    side of an ``opening`` in the middle of the end at +x to the other; lengths in m."""
+    x, y, r = 0.5 * length, 0.5 * width, min(corner, 0.5 * length, 0.5 * width)
+    middles = (x - r, y - r), (r - x, y - r), (r - x, r - y), (x - r, r - y)
+    turns = [(middle, 0.5 * pi * (i + step / CHORDS)) for i, middle in enumerate(middles) for step in range(CHORDS + 1)]
+    corners = [(a + r * cos(turn), b + r * sin(turn)) for (a, b), turn in turns]
+    return [(x, 0.5 * opening), *corners, (x, -0.5 * opening)]
+
+
+def met(run: Run, name: str) -> list[tuple[float, str]]:
+    """What a body meets, up to what takes it off: the times in s, and what it is called."""
+    hits = (event for event in run.events if event.kind in ("impact", "caught") and name in (event.ball, event.partner))
+    return [(event.t, event.partner if event.ball == name else event.ball) for event in hits]
 
 
 def taken(run: Run) -> dict[str, str]:
@@ -99,3 +121,8 @@ def _rest_time(run: Run, parameters: Any) -> float | None:
 
 
 REST_TIME = Fact("rest_time", "at rest after", "s", _rest_time)
+
+
+def speed_before(run: Run, name: str, t: float) -> float:
+    """Of a body just before time t (s), in m/s."""
+    return hypot(*run.before(name, t)[2:4])

@@ -21,9 +21,9 @@ from sandbox.physics.ice import Glide
 from sandbox.physics.plane import Strips
 from sandbox.sport.controls import Controls, Handle, Spin, Spread
 from sandbox.sport.facts import ENDED, Fact
-from sandbox.sport.flight import DEGREE, RPM
+from sandbox.sport.flight import DEGREE
 from sandbox.sport.readings import Moment, at, before
-from sandbox.sport.sliding import Body, Slide, beside, beyond, end_of, taken, velocity_of
+from sandbox.sport.sliding import Body, Slide, beside, beyond, end_of, met, taken
 
 #: USBC: from the foul line to the head pin, between pins and between their rows; from the head pin to the pit; half the
 #: widths of lane and lane with gutters; in m.
@@ -93,10 +93,10 @@ def build(parameters: Parameters) -> Setup:
     it, ball, pin, launch = parameters, parameters.ball, parameters.pin, parameters.launch
     if unknown := set(pin.standing.split()) - set(SPOTS):
         raise RequestError(f"pin.standing: there is no pin {', '.join(sorted(unknown))}; there are {ALL}")
-    turn, axis = launch.spin * RPM, (launch.angle + launch.axis) * DEGREE  # about a level axis
+    turn, axis = launch.turning, (launch.angle + launch.axis) * DEGREE  # about a level axis
     roll = -turn * sin(axis), turn * cos(axis)
     inertia = (ball.gyration / ball.radius) ** 2
-    thrown = Ball("ball", ball.mass, ball.radius, (0.0, launch.aside), velocity_of(launch), 0.0, roll, inertia)
+    thrown = Ball("ball", ball.mass, ball.radius, (0.0, launch.aside), launch.velocity, 0.0, roll, inertia)
     oiled = sorted((oil.end, oil.friction) for oil in it.oil)
     lane = [Cloth(mu, 0.0, 0.0, it.gravity, inertia, "lane") for mu in (*(mu for _, mu in oiled), it.dry)]
     sides = [Segment((HEAD - 0.5, y), (HEAD + PIT + 0.5, y)) for y in (KICKBACK, -KICKBACK)]
@@ -120,12 +120,11 @@ def _leaves(run: Run, parameters: Parameters) -> list[str]:
 
 def _met(run: Run, parameters: Parameters) -> dict[str, Moment]:
     """The pins that the ball meets itself, in order, and the ball just before."""
-    met: dict[str, Moment] = {}
-    for event in run.events:
-        pin = event.partner if event.ball == "ball" else event.ball if event.partner == "ball" else ""
-        if event.kind == "impact" and pin in SPOTS:
-            met.setdefault(pin, before(run, event.t))
-    return met
+    first: dict[str, Moment] = {}
+    for t, name in met(run, "ball"):
+        if name in SPOTS:
+            first.setdefault(name, before(run, t))
+    return first
 
 
 def _entry(run: Run, parameters: Parameters) -> Moment | None:

@@ -81,7 +81,7 @@ def build(parameters: Parameters) -> Setup:
     """The stones, the ice, swept for one of them, and the lines that take stones off."""
     it, stone, sweep, side = parameters, parameters.stone, parameters.sweep, 0.5 * parameters.width
     lying = [stone.at(f"{spot.team} {i}", (spot.x, spot.y)) for i, spot in enumerate(it.stones, 1)]
-    balls = [stone.at(DELIVERED, (RELEASE, it.launch.aside), it.launch), *lying]
+    balls = [stone.at(DELIVERED, (RELEASE, it.launch.aside), it.launch.velocity, it.launch.turning), *lying]
     ice = _ice(it)
     swept = replace(ice, friction=ice.friction * sweep.friction, curl=ice.curl * sweep.curl)
     own = [(DELIVERED, Strips((sweep.start, sweep.end), (ice, swept, ice)))] if sweep.end > sweep.start else []

@@ -1,0 +1,148 @@
+"""Hockey from above: a puck on the ice, off the boards, past the players, between the posts; or on an air table.
+
+Models: constant friction of the ice, none of an air table; impacts with boards, posts, net and players, with friction
+and the puck's spin; players, or mallets, that stand or move at an even speed.
+Leaves out: the third dimension, and with it the saucer pass and every shot that leaves the ice; how a spinning puck is
+slowed less along its path; the near slot of a table. A rounded corner is 64 chords, 0.7 deg off at most.
+Not validated: the friction of ice, and how boards and players answer.
+"""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from typing import Literal
+
+from sandbox.engine.run import Run
+from sandbox.engine.setup import Always, Bounce, Catch, Circle, Segment, Setup, Surface, Touches, Vector
+from sandbox.parameters import Accuracy, Group, choice, group, groups, quantity
+from sandbox.physics.ice import Glide
+from sandbox.sport.amounts import roughly
+from sandbox.sport.controls import Controls, Spin, Spread
+from sandbox.sport.facts import ENDED, Fact
+from sandbox.sport.sliding import Body, Slide, end_of, met, rounded, speed_before, taken
+
+DECIDING = {"goal", "goalie", "defender", "receiver"}
+POST, DEPTH = 0.030, 1.0  # m: radius of a post (NHL rule 2.1), depth of the net
+
+
+class Launch(Slide):
+    """The puck as it leaves the stick."""
+
+    x: float = quantity(..., "m", -40, 40, "where it starts, from the middle towards the goal")
+
+
+class Rink(Group):
+    """The ice, or the table."""
+
+    length: float = quantity(..., "m", 0.5, 80, "from end to end")
+    width: float = quantity(..., "m", 0.3, 40, "from side to side")
+    corner: float = quantity(..., "m", 0.01, 15, "radius of the corners")
+    goal_line: float = quantity(..., "m", 0, 10, "from the boards; 0: the goal is a slot in them, as of a table")
+    goal_width: float = quantity(..., "m", 0.1, 5, "between the posts")
+    sliding: float = quantity(..., "", 0, 1, "friction of puck and ice")
+
+    @property
+    def line(self) -> float:
+        """Where the goal line is, from the middle, in m."""
+        return 0.5 * self.length - self.goal_line
+
+    @property
+    def outline(self) -> list[Vector]:
+        """The boards' inside, from one side of the goal to the other."""
+        return rounded(self.length, self.width, self.corner, self.goal_width)
+
+
+class Player(Group):
+    """A player, or a mallet: a disc that keeps its speed; one that stands holds its ground when it is hit."""
+
+    role: Literal["goalie", "defender", "receiver", "mallet"] = choice("goalie", "what it does; a pass is received")
+    x: float = quantity(0.0, "m", -40, 40, "from the middle towards the goal")
+    y: float = quantity(0.0, "m", -20, 20, "to the left")
+    vx: float = quantity(0.0, "m/s", -15, 15, "towards the goal")
+    vy: float = quantity(0.0, "m/s", -15, 15, "to the left")
+
+
+class Parameters(Group):
+    """All parameters of a shot."""
+
+    launch: Launch = group(..., "the puck as it leaves the stick")
+    players: list[Player] = groups(..., "who is on the ice")
+    player: Body = group(..., "what they are, and how the puck meets them")
+    puck: Body = group(..., "the puck, and how it meets the boards")
+    rink: Rink = group(..., "the ice, or the table")
+    gravity: float = quantity(..., "m/s^2", 0.1, 30, "gravity")
+    duration: float = quantity(..., "s", 0.1, 60, "shown at most")
+    accuracy: Accuracy = group(Accuracy(), "speed against accuracy")
+
+
+CONTROLS = Controls(
+    strongest=50.0,
+    spins=(Spin("launch.spin", 50.0),),
+    ball="puck",
+    sliders=("launch.speed", "launch.angle", "launch.x", "launch.aside", "rink.sliding", "puck.restitution"),
+    scores="done",
+    spread=(Spread("launch.speed", 0.05), Spread("launch.angle", least=1.0)),  # assumed
+)
+
+
+def build(parameters: Parameters) -> Setup:
+    """The puck, the players, boards and goal. The run ends with a goal, and where the puck stops."""
+    it, puck, rink, line = parameters, parameters.puck, parameters.rink, parameters.rink.line
+    half, boards = 0.5 * rink.goal_width, rink.outline
+    surfaces = puck.outline("boards", boards if rink.goal_line == 0.0 else [*boards, boards[0]])
+    for x, back in ((line, line + DEPTH), (-line, -line - DEPTH)) if rink.goal_line > 0.0 else ():
+        corners = [(x, half + POST), (back, half + POST), (back, -half - POST), (x, -half - POST)]
+        surfaces += [puck.surface("post", Circle(post, POST)) for post in (corners[0], corners[3])]
+        surfaces += [Surface("net", Segment(*ends), 0.1, 0.5) for ends in pairwise(corners)]
+    inside = line + puck.radius + POST
+    goal = Catch("goal", (inside, POST - half), POST, (inside, half - POST), ["puck"])
+    bodies = [it.player.at(f"{who.role} {i}", (who.x, who.y), (who.vx, who.vy)) for i, who in enumerate(it.players, 1)]
+    start = it.launch.x, it.launch.aside
+    return Setup(
+        [puck.at("puck", start, it.launch.velocity, it.launch.turning), *bodies],
+        surfaces,
+        it.duration,
+        Touches("goal"),
+        Always(Bounce(it.player.restitution, it.player.friction)),
+        Glide(rink.sliding, 2.0 / 3.0 * rink.sliding, it.gravity),
+        [goal],
+        planes=[(who.name, Glide(0.0 if any(who.velocity) else 1.0)) for who in bodies],
+    )
+
+
+def decided(run: Run, parameters: Parameters) -> tuple[float, str]:
+    """When, in s, and by whom or what the shot is decided: the goal or the first player; "" where by none."""
+    touches = ((t, what.partition(" ")[0]) for t, what in met(run, "puck"))
+    return next(((t, what) for t, what in touches if what in DECIDING), (run.duration, ""))
+
+
+def _word(run: Run, parameters: Parameters) -> str:
+    """goal, received, saved, or who else stops it; post, wide; short of the goal line."""
+    by, line = decided(run, parameters)[1], parameters.rink.line
+    if by:
+        return {"receiver": "received", "goalie": "saved"}.get(by, by)
+    farthest = max(state[0] for _, state in run.ends("puck"))
+    return "post" if "post" in dict(met(run, "puck")).values() else "wide" if farthest > line - 0.1 else "short"
+
+
+FACTS = (
+    Fact("speed", "at the end", "m/s", lambda run, it: speed_before(run, "puck", decided(run, it)[0]), also="mph"),
+    Fact("time", "time", "s", lambda run, it: decided(run, it)[0]),
+    Fact("boards", "off the boards", "", lambda run, it: [what for _, what in met(run, "puck")].count("boards")),
+    Fact("release", "release", "m/s", lambda run, it: it.launch.speed, "start", also="mph"),
+    Fact("goal", "", "", lambda run, it: "puck" in taken(run)),
+    Fact("verdict", "", "", _word),
+    Fact("done", "", "", lambda run, it: _word(run, it) in ("goal", "received")),
+    Fact("touches", "", "", lambda run, it: [what for _, what in met(run, "puck")]),
+    ENDED,
+)
+
+
+def verdict(run: Run, parameters: Parameters) -> str:
+    """What happened, in a sentence."""
+    said, off = run.result["verdict"], ", off the boards" if run.result["boards"] else ""
+    if said in ("goal", "received"):
+        return f"{said.capitalize()} at {run.result['speed']:.1f} m/s{off}"
+    ways = {"saved": "Saved by the goalie", "post": "Off the post", "wide": "Wide of the goal"}
+    before = f"Stops {roughly(max(0.0, parameters.rink.line - end_of(run, 'puck')[0]))} before the goal line"
+    return ways.get(said, before if said == "short" else f"Stopped by the {said}")
