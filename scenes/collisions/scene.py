@@ -196,7 +196,7 @@ def _sums(what: str) -> tuple[Fact, Fact]:
     names = [name for name in AMOUNTS if name.startswith(what)]
 
     def at_time(run: Run, t: float) -> Any:
-        states = {name: run.state(name, t) for name in run.arcs}
+        states: States = {name: run.state(name, t) for name in run.arcs}
         found = [sum(shares(run, states, name)) for name in names]
         return found if len(found) > 1 else found[0]
 
