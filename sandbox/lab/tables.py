@@ -6,6 +6,7 @@ import io
 import shutil
 import textwrap
 from collections.abc import Iterable, Sequence
+from itertools import compress
 from typing import Literal
 
 from sandbox.sport.amounts import significant
@@ -30,7 +31,8 @@ def width() -> int:
 
 def table(headings: Sequence[str], rows: Iterable[Sequence[str]], align: str, indent: str = "  ") -> list[str]:
     """Lines with columns aligned by ``align``, a letter for each: l or r. Headings and left-aligned cells are wrapped
-    between words so that lines fit ``width``, right-aligned numbers never; empty headings give no heading line."""
+    between words so that lines fit ``width``, right-aligned numbers never; empty headings give no heading line, and a
+    column without any text is left out."""
     from rich.console import Console
     from rich.padding import Padding
     from rich.table import Table
@@ -38,11 +40,12 @@ def table(headings: Sequence[str], rows: Iterable[Sequence[str]], align: str, in
 
     cells = [[one_line(cell) for cell in row] for row in rows]
     drawn = Table(box=None, padding=(0, 2, 0, 0), pad_edge=False, show_header=any(headings), header_style="")
-    for heading, side in zip(headings, align, strict=True):
+    used = [any(column) for column in zip(headings, *cells, strict=True)]
+    for heading, side in compress(zip(headings, align, strict=True), used):
         justify: Literal["left", "right"] = "left" if side == "l" else "right"
         drawn.add_column(Text(heading), justify=justify, no_wrap=side == "r", overflow="fold")
     for row in cells:
-        drawn.add_row(*map(Text, row))
+        drawn.add_row(*map(Text, compress(row, used)))
     console = Console(file=io.StringIO(), width=width(), color_system=None, legacy_windows=False)
     with console.capture() as captured:
         console.print(Padding(drawn, (0, 0, 0, len(indent)), expand=False))

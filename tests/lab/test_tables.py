@@ -61,3 +61,8 @@ def test_reports_fit_80_columns():
     ]
     for lines in (validate.as_text(validate.validate("billiards")), stress_text(outcomes)):
         assert max(map(len, lines)) <= 80
+
+
+def test_a_column_without_text_takes_no_room():
+    assert table(("", "", ""), [("24.30 s", "stone", "")], "rll") == ["  24.30 s  stone"]
+    assert table(("a", "b"), [], "ll") == ["  a  b"]
