@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
+from importlib.util import find_spec
 from math import isfinite
 from pathlib import Path
 from typing import Any, TextIO
@@ -40,6 +41,12 @@ def check_folder(option: str, path: Path) -> None:
     if path.exists() and not path.is_dir():
         raise RequestError(f"{option} {path}: is a file; a folder is needed")
     _check_folder(option, next(folder for folder in (path, *path.absolute().parents) if folder.exists()))
+
+
+def check_installed(option: str, package: str) -> None:
+    """Raise RequestError with installation instructions if a package is missing; "" is none."""
+    if package and find_spec(package.replace("-", "_")) is None:
+        raise RequestError(f"{option} needs {package}, which is not installed: pip install {package}")
 
 
 def check_distinct(outputs: Mapping[str, Path | None]) -> None:

@@ -412,7 +412,7 @@ def test_one_of_a_list_may_be_set(call, monkeypatch):
         (["run", "golf", "--set", "ball.drag.model=ideal"], "ball.drag"),
         (["run", "golf", "--accuracy", "best"], "--accuracy best: must be fast, balanced or precise"),
         (["run", "golf", "--set", "accuracy.level=best"], 'must be "fast", "balanced" or "precise"'),
-        (["run", "golf", "--fps", "30"], "--fps 30: goes with --frames, --gif or --webp"),
+        (["run", "golf", "--fps", "30"], "--fps 30: goes with --frames, --gif, --video or --webp"),
         (["run", "golf", "--frames", "frames", "--fps", "0"], "--fps 0: must be a whole number from 1 to 240 frames"),
         (["run", "golf", "--frames", "frames", "--fps", "12.5"], "--fps 12.5: must be a whole number from 1 to 240"),
         (["sweep", "golf", "--jobs", "0"], "--jobs 0: must be a whole number of 1 or more processes"),

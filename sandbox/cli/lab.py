@@ -152,14 +152,14 @@ def sweep(
 
         check_plot(plan, plot, of)
     if html is not None:
-        from sandbox.lab.chart import check_installed
+        from sandbox.files import check_installed
         from sandbox.page import sweep as page
 
         check_file("--html", html, ".html")
         check_installed("--html", "matplotlib")
         page.check_page(plan)
     if parquet is not None:
-        from sandbox.lab.chart import check_installed
+        from sandbox.files import check_installed
         from sandbox.lab.parquet import write_parquet
 
         check_file("--parquet", parquet, ".parquet")

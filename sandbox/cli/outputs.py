@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -18,6 +18,8 @@ if TYPE_CHECKING:
 
 #: Smallest and largest pictures, in px, and the default.
 SMALLEST, LARGEST, USUAL = (320, 180), (7680, 4320), (1280, 720)
+#: GIFs are made of so many px and frames, unless others are asked for: the largest, of a long flight, has 5 MB then.
+SMALL, MOST_FRAMES = (800, 450), 450
 
 Size = tuple[int, int]
 
@@ -47,6 +49,7 @@ class Output:
     help: str
     is_picture: bool = True
     moves: bool = False
+    needs: str = ""  # a library that is not always installed
 
 
 def _trajectory(drawn: Drawn, path: Path) -> None:
@@ -84,16 +87,19 @@ def _energy(drawn: Drawn, path: Path) -> None:
     save_png(energy_chart(drawn.run, drawn.size or USUAL), path)
 
 
-def _animation(saver: str, rate: int) -> Callable[[Drawn, Path], None]:
-    """Writes with a function of sandbox.picture.frames; ``rate`` is the default."""
+def _animation(saver: str, rate: int, size: Size | None = None) -> Callable[[Drawn, Path], None]:
+    """Writes with a function of sandbox.picture.frames; ``rate`` and ``size`` are the defaults, the rate lower for a
+    long run in a file of limited ``size``."""
 
     def write(drawn: Drawn, path: Path) -> None:
         from sandbox.files import no_empty_folder
         from sandbox.picture import frames
         from sandbox.progress import bar
 
+        smaller = drawn if drawn.size or size is None else replace(drawn, size=size)
+        usual = rate if size is None else max(5.0, min(rate, MOST_FRAMES / max(drawn.run.duration, 1e-9)))
         with no_empty_folder(path), bar(saver.removeprefix("save_")) as progress:
-            getattr(frames, saver)(drawn.picture, drawn.run, path, drawn.rate or rate, progress)
+            getattr(frames, saver)(smaller.picture, drawn.run, path, drawn.rate or usual, progress)
 
     return write
 
@@ -105,8 +111,13 @@ OUTPUTS = (
     Output("--html", ".html", _html, "Write a page for any browser that plays the run; it needs no network.", False),
     Output("--strip", ".png", _strip, "Write five frames side by side."),
     Output("--energy", ".png", _energy, "Write a chart of where the energy goes."),
-    Output("--gif", ".gif", _animation("save_gif", 25), "Write the run as an animation.", moves=True),
+    Output("--gif", ".gif", _animation("save_gif", 25, SMALL), "Write it as an animation below 5 MB.", moves=True),
     Output("--webp", ".webp", _animation("save_webp", 25), "Write it as WebP: all colours, smaller file.", moves=True),
+    Output(
+        *("--video", ".mp4", _animation("save_video", 60), "Write it as a video; needs imageio-ffmpeg."),
+        moves=True,
+        needs="imageio-ffmpeg",
+    ),
     Output(
         *("--frames", "", _animation("save_frames", 60)),
         *("Write the run as PNG frames; the folder is made if missing.", True, True),
@@ -128,13 +139,14 @@ def requested(paths: Mapping[str, Path | None], size: Size | None, rate: int | N
     Raises RequestError, before any work is done, for one that cannot be written, and for a size or rate that no output
     uses.
     """
-    from sandbox.files import check_distinct, check_file, check_folder
+    from sandbox.files import check_distinct, check_file, check_folder, check_installed
 
     given = {f"--{name}": path for name, path in paths.items()}
     chosen = {output: path for output in OUTPUTS if (path := given[output.option]) is not None}
     for output, path in chosen.items():
         if output.suffix:
             check_file(output.option, path, output.suffix)
+            check_installed(output.option, output.needs)
         else:
             from sandbox.picture.frames import check_frames_folder
 
@@ -142,7 +154,7 @@ def requested(paths: Mapping[str, Path | None], size: Size | None, rate: int | N
             check_frames_folder(output.option, path)
     check_distinct(given)
     if rate is not None and not any(output.moves for output in chosen):
-        raise RequestError(f"--fps {rate}: goes with --frames, --gif or --webp")
+        raise RequestError(f"--fps {rate}: goes with --frames, --gif, --video or --webp")
     if size is not None and not any(output.is_picture for output in chosen):
         raise RequestError(f"--size {'x'.join(map(str, size))}: goes with a picture, such as --poster F.png")
     return chosen

@@ -34,13 +34,14 @@ if TYPE_CHECKING:
     "--fps",
     metavar="N",
     type=whole_number("--fps", 1, 240, "frames per second"),
-    help="Frames per second of the run, from 1 to 240.  [default: 60 for --frames, else 25]",
+    help="Frames per second of the run, from 1 to 240.  [default: 60 for --frames and --video, else 25]",
 )
 @click.option(
     "--size",
     metavar="WxH",
     type=outputs.read_size,
-    help="Size of pictures in px; the frames of a strip are half of it, at least 320x180.  [default: 1280x720]",
+    help="Size of pictures in px; the frames of a strip are half of it, at least 320x180.  "
+    "[default: 800x450 for --gif, else 1280x720]",
 )
 def run(
     scene: str,

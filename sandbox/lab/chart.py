@@ -5,14 +5,12 @@ from __future__ import annotations
 import tomllib
 from collections.abc import Iterator
 from contextlib import contextmanager
-from importlib import import_module
 from itertools import takewhile
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from sandbox import resources
-from sandbox.errors import RequestError
-from sandbox.files import check_file, written_whole
+from sandbox.files import check_file, check_installed, written_whole
 from sandbox.lab.tables import length
 from sandbox.sport.amounts import significant
 
@@ -36,14 +34,6 @@ def check_chart(option: str, path: Path) -> None:
     """Raise RequestError, before any work is done, if a chart cannot be written there, or matplotlib is missing."""
     check_file(option, path, ".png")
     check_installed(option, "matplotlib")
-
-
-def check_installed(option: str, library: str) -> None:
-    """Raise RequestError with installation instructions if a library is missing."""
-    try:
-        import_module(library)
-    except ImportError:
-        raise RequestError(f"{option} needs {library}, which is not installed: pip install {library}") from None
 
 
 @contextmanager

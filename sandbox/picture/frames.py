@@ -32,10 +32,14 @@ FRAME_LEVEL = 1
 POSTER_LEVEL = 6
 #: Smaller than a GIF, in all colours; "method" is the encoder's effort, from 0 to 6: 3 takes twice the time for 2 %.
 WEBP = {"quality": 82, "method": 2}
+#: ffmpeg's options: quality (lower is better, 18 looks as drawn), colours that all players know, and even sides.
+VIDEO = ["-crf", "18", "-pix_fmt", "yuv420p", "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-movflags", "+faststart"]
 #: As far as this, in px, WebP lets colours run: what has moved on leaves nothing behind.
 BLEED = 16
 #: Of so many frames the colours of a GIF are chosen.
 PALETTE_FRAMES = 16
+#: The index of what stays as it was, after all colours.
+SEE_THROUGH = 255
 #: Pixels of all frames that wait to be written, at 3 bytes each.
 MOST_PIXELS = 100_000_000
 #: Viewers slow a GIF down that shows more frames per second than this.
@@ -173,15 +177,21 @@ def save_gif(picture: Picture, run: Run, path: Path | str, fps: float, progress:
     """Write the run as an animated GIF that repeats; returns the number of frames.
 
     All frames share one palette, and times are rounded to the 10 ms that the format knows so that none is lost. Of each
-    frame only the rectangle that differs from the frame before is kept; Pillow alone would hold all frames in memory.
+    frame only what differs from the frame before is kept; Pillow alone would hold all frames in memory.
     Raises OSError where it cannot be written.
     """
     times = frame_times(run.duration, min(fps, FASTEST_GIF))
     colours = _shared_palette(picture, times)
     durations = _durations([round(100 * t) for t in times], 10)
 
-    def encoded(image: Image.Image, box: Box) -> bytes:
+    def encoded(image: Image.Image, box: Box, before: Image.Image | None) -> bytes:
         part = image.crop(box).quantize(palette=colours, dither=Image.Dither.NONE)
+        if before is not None:  # long runs of one colour take no room
+            there = before.crop(box).quantize(palette=colours, dither=Image.Dither.NONE)
+            colour, old = np.asarray(part), np.asarray(there)
+            part = Image.frombytes(
+                "P", part.size, np.where(colour == old, SEE_THROUGH, colour).astype(np.uint8).tobytes()
+            )
         return b"".join(GifImagePlugin.getdata(part, box[:2]))
 
     parts = _parts(picture, times, encoded, progress)
@@ -190,7 +200,7 @@ def save_gif(picture: Picture, run: Run, path: Path | str, fps: float, progress:
     head = b"GIF89a" + struct.pack("<HHBBB", width, height, 0b11110111, 0, 0) + palette  # 256 colours for all frames
     repeat = b"!\xff\x0bNETSCAPE2.0\x03\x01" + struct.pack("<H", 0) + b"\0"
     frames = (  # each stays so long, and what it drew stays where the next one draws nothing
-        b"!\xf9\x04" + struct.pack("<BHBB", 0b100, stay // 10, 0, 0) + data
+        b"!\xf9\x04" + struct.pack("<BHBB", 0b101, stay // 10, SEE_THROUGH, 0) + data
         for (_, data), stay in zip(parts, durations, strict=True)
     )
     _write(Path(path), head + repeat + b"".join(frames) + b";")
@@ -214,26 +224,60 @@ def save_webp(picture: Picture, run: Run, path: Path | str, fps: float, progress
     return len(times)
 
 
+def save_video(picture: Picture, run: Run, path: Path | str, fps: float, progress: Progress | None = None) -> int:
+    """Write the run as a video (H.264 in MP4, which every player knows); returns the number of frames.
+
+    A side with an odd number of px gets one more. Raises OSError where it cannot be written.
+    """
+    import imageio_ffmpeg
+
+    times = frame_times(run.duration, fps)
+    times += [times[-1]] * round(PAUSE * fps)
+    path = Path(os.path.realpath(path))
+    with tempfile.TemporaryDirectory(prefix=".video-", dir=path.parent) as folder:
+        part = Path(folder, "run.mp4")
+        images = (to_image(frame_of(picture, t)) for t in times)
+        first = next(images)
+        film = imageio_ffmpeg.write_frames(
+            str(part), first.size, fps=fps, macro_block_size=1, codec="libx264", quality=None,
+            output_params=VIDEO, ffmpeg_log_level="error",
+        )  # fmt: skip
+        try:
+            film.send(None)
+            for done, image in enumerate(chain([first], images), 1):
+                film.send(image.tobytes())
+                if progress:
+                    progress(done, len(times))
+        finally:
+            film.close()
+        part.replace(path)
+    return len(times)
+
+
 def _parts(
-    picture: Picture, times: list[float], encoded: Callable[[Image.Image, Box], bytes], progress: Progress | None
+    picture: Picture,
+    times: list[float],
+    encoded: Callable[[Image.Image, Box, Image.Image | None], bytes],
+    progress: Progress | None,
 ) -> list[tuple[Box, bytes]]:
     """Of each frame the rectangle that differs from the frame before, and what is in it, encoded."""
     changed = _with_changes(to_image(frame_of(picture, t)) for t in times)
     return list(_in_threads(lambda item: (item[1], encoded(*item)), changed, len(times), progress))
 
 
-def _with_changes(images: Iterator[Image.Image]) -> Iterator[tuple[Image.Image, Box]]:
-    """Each image with the rectangle that differs from the one before, and BLEED px around it; left and top are even."""
+def _with_changes(images: Iterator[Image.Image]) -> Iterator[tuple[Image.Image, Box, Image.Image | None]]:
+    """Each image with the rectangle that differs from the one before, and BLEED px around it, and the one before; left
+    and top are even."""
     before = None
     for image in images:
         changed = (0, 0, *image.size) if before is None else ImageChops.difference(before, image).getbbox()
         left, top, right, bottom = changed or (0, 0, 2, 2)
         far = min(right + BLEED, image.width), min(bottom + BLEED, image.height)
-        yield image, (max(0, left - BLEED) & ~1, max(0, top - BLEED) & ~1, *far)
+        yield image, (max(0, left - BLEED) & ~1, max(0, top - BLEED) & ~1, *far), before
         before = image
 
 
-def _webp_part(image: Image.Image, box: Box) -> bytes:
+def _webp_part(image: Image.Image, box: Box, before: Image.Image | None) -> bytes:
     """The rectangle's picture as a WebP's chunk, without the file's header."""
     data = io.BytesIO()
     image.crop(box).save(data, "WEBP", **WEBP)
@@ -266,7 +310,7 @@ def frame_times(duration: float, fps: float) -> list[float]:
 
 
 def _shared_palette(picture: Picture, times: list[float]) -> Image.Image:
-    """256 colours for all frames, chosen from some of them.
+    """255 colours for all frames, chosen from some of them.
 
     A colour counts by the square root of its area: small things such as ball and trace matter more than their size.
     """
@@ -279,7 +323,9 @@ def _shared_palette(picture: Picture, times: list[float]) -> Image.Image:
     present = np.flatnonzero(counts)
     colours = np.stack([present >> 12, present >> 6 & 63, present & 63], axis=1).astype(np.uint8) << 2 | 2
     row = np.repeat(colours, np.ceil(np.sqrt(counts[present])).astype(int), axis=0)
-    return Image.fromarray(row[None]).quantize(256, method=Image.Quantize.MEDIANCUT, kmeans=2, dither=Image.Dither.NONE)
+    return Image.fromarray(row[None]).quantize(
+        SEE_THROUGH, method=Image.Quantize.MEDIANCUT, kmeans=2, dither=Image.Dither.NONE
+    )
 
 
 def _in_threads(work: Callable[[T], R], items: Iterator[T], total: int, progress: Progress | None) -> Iterator[R]:

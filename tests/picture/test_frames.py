@@ -2,12 +2,14 @@
 
 import io
 import tracemalloc
+from pathlib import Path
 
 import numpy as np
 import pygame
 import pytest
 from PIL import Image
 
+import sandbox
 from sandbox.picture import frames
 from sandbox.picture.frames import (
     FASTEST_GIF,
@@ -18,6 +20,7 @@ from sandbox.picture.frames import (
     save_gif,
     save_png,
     save_poster,
+    save_video,
     save_webp,
     to_image,
 )
@@ -270,3 +273,19 @@ class TestMemory:
             assert tracemalloc.get_traced_memory()[1] < 20e6  # bytes; the pixels of 16 such frames alone are 25e6
         finally:
             tracemalloc.stop()
+
+
+def test_a_video_has_every_frame_and_a_gif_is_small(tmp_path: Path):
+    """The video read back: its size (one px more where a side is odd), its rate, and colours close to those drawn."""
+    imageio_ffmpeg = pytest.importorskip("imageio_ffmpeg")
+    run = sandbox.simulate("throws")
+    picture = run.scene.picture(run, (321, 180))
+    count = save_video(picture, run, tmp_path / "a.mp4", 10)
+    film = imageio_ffmpeg.read_frames(str(tmp_path / "a.mp4"))
+    about = next(film)
+    assert (about["size"], about["fps"]) == ((322, 180), 10.0)
+    shown = [np.frombuffer(data, np.uint8).reshape(180, 322, 3) for data in film]
+    assert len(shown) == count
+    drawn = np.asarray(to_image(picture.frame(1.0)))
+    assert np.abs(shown[10][:, :321].astype(int) - drawn).mean() < 6
+    assert sorted(tmp_path.iterdir()) == [tmp_path / "a.mp4"]
