@@ -74,6 +74,14 @@ def test_a_result_that_jumps_over_the_target_is_no_solution():
         assert 0 < other.values[0] - one.values[0] < 1e-10
 
 
+def test_a_smooth_result_needs_no_more_than_its_scan(vacuum):
+    """Its greatest value is not taken for a jump; a root takes a few runs, its slope and its error a few more."""
+    found = aim(vacuum, {"launch.angle": (5, 75)}, {"carry": 100.0})
+    assert len(found.solutions) == 2
+    assert sum(each.phase == "scan" for each in found.tries) == 129
+    assert len(found.tries) < 129 + 2 * 10
+
+
 def test_a_result_that_is_there_in_part_of_the_range_only():
     """From too high up the ball does not come down in time: there is no first touch."""
     found = aim(DROP, {"launch.height": (0.1, 50.0)}, {"first_touch": 0.5})
@@ -118,6 +126,7 @@ def test_what_holds_or_not_has_intervals():
     assert interval.open_low
     assert not interval.open_high
     assert interval.high == pytest.approx(0.05 + 0.5 * 9.81, abs=1e-5)
+    assert abs(interval.high - (0.05 + 0.5 * 9.81)) < interval.high_error < 1e-5
     assert solution.values["launch.height"] == pytest.approx(0.5 * (0.1 + interval.high))
     assert solution.result["bounced"] is True
 
