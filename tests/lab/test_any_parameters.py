@@ -31,6 +31,12 @@ quickly = settings(
 )
 
 
+@pytest.fixture(autouse=True)
+def fewer_steps(monkeypatch: pytest.MonkeyPatch) -> None:
+    """What is far too stiff is refused after a tenth of the steps."""
+    monkeypatch.setattr("sandbox.engine.simulation._MOST_STEPS", 10_000)
+
+
 def numbers(value: Any) -> Iterator[float]:
     if isinstance(value, dict):
         value = list(value.values())
