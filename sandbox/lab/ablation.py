@@ -253,6 +253,8 @@ def _steady(ball: Ball, kind: type[Drag | Magnus]) -> Ball:
 
 def _in_wind(ball: Ball, wind: UniformWind | None) -> Ball:
     def blown(term: Any) -> Any:
+        if hasattr(term, "force"):  # in a medium
+            return replace(term, force=blown(term.force))
         return replace(term, wind=wind) if hasattr(term, "wind") else term
 
     forces, torques = ([blown(term) for term in terms] for terms in (ball.forces, ball.torques))

@@ -30,6 +30,15 @@ def moist_density(temperature: float, pressure: float, humidity: float, elevatio
     return 1.2929 * 273.0 / temperature * here / 101325.0
 
 
+def density_share(height: Any) -> Any:
+    """Density of air at a height in m over that at the ground: ``(1 - h / 44331 m)^4.2559``.
+
+    Valid up to 11,000 m over the sea, where the temperature falls by 6.5 K per km; the ground is at the sea.
+    Source: U.S. Standard Atmosphere 1976, equations 33b and 42.
+    """
+    return clip(1.0 - height / 44331.0, 0.0, 1.0) ** 4.2559
+
+
 #: Dynamic viscosity in Pa s of air at 15 C.
 VISCOSITY = viscosity(288.15)
 

@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 from math import pi
 from typing import Any, Protocol
 
-from sandbox.physics.air import VISCOSITY
+from sandbox.physics.air import VISCOSITY, density_share
 from sandbox.physics.coefficients import Coefficient
 from sandbox.physics.elementwise import clip
 
@@ -129,6 +129,25 @@ class Inside:
     def __call__(self, t: float, position: Any, velocity: Any, spin: Any) -> tuple[Any, Any]:
         (x, y), (px, py), (nx, ny) = position, self.point, self.normal
         share = clip(0.5 - ((x - px) * nx + (y - py) * ny) / (2.0 * self.radius), 0.0, 1.0)
+        fx, fy = self.force(t, position, velocity, spin)
+        return share * fx, share * fy
+
+
+@dataclass(frozen=True)
+class Thinning:
+    """A force of air that grows thinner on the way up, times ``rho(y) / rho(0)`` of the standard atmosphere.
+
+    Only the density falls: the Reynolds and Mach numbers stay those at the ground.
+    """
+
+    force: Force
+
+    @property
+    def __name__(self) -> str:
+        return type(self.force).__name__
+
+    def __call__(self, t: float, position: Any, velocity: Any, spin: Any) -> tuple[Any, Any]:
+        share = density_share(position[1])
         fx, fy = self.force(t, position, velocity, spin)
         return share * fx, share * fy
 

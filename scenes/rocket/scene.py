@@ -1,9 +1,9 @@
 """Rockets from the side: up from a rail, or out of a tube at a target; how high, how far, how fast.
 
-Models: thrust by a measured curve; mass that falls as propellant burns; gravity; drag with one coefficient; wind, into
-which the nose turns; a rail that holds the rocket at first, without friction.
-Leaves out: swinging about the direction of flight and what it costs; drag near the speed of sound, so it holds below
-Mach 0.8 or so; less drag while the motor burns; air that thins on the way up (3 % in 300 m); parachutes.
+Models: thrust by a measured curve; mass that falls as propellant burns; gravity; drag with one coefficient, in air that
+thins on the way up; wind, into which the nose turns; a rail without friction that holds the rocket at first.
+Leaves out: swinging about the direction of flight and what it costs; the speed of sound, so it holds below Mach 0.8;
+less drag while the motor burns; parachutes.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from sandbox.engine.setup import Ball, Force, Segment, Setup, Surface, Touches
 from sandbox.errors import RequestError
 from sandbox.parameters import Accuracy, Group, either, group, quantity, vectors
 from sandbox.physics.elementwise import anywhere, choose, cos, sin
-from sandbox.physics.forces import Gravity
+from sandbox.physics.forces import Gravity, Thinning
 from sandbox.physics.rocket import Motor, Thrust
 from sandbox.sport.air import Air, ConstantDrag, NoDrag, NoLift, wind_in
 from sandbox.sport.amounts import roughly
@@ -88,11 +88,10 @@ def motor_of(parameters: Parameters) -> Motor:
 def build(parameters: Parameters) -> Setup:
     """The rocket on its rail, over level ground."""
     launch, rocket, motor = parameters.launch, parameters.ball, motor_of(parameters)
-    start, angle = (0.0, launch.height), launch.angle * DEGREE
-    ex, ey = cos(angle), sin(angle)
+    start, ex, ey = (0.0, launch.height), cos(launch.angle * DEGREE), sin(launch.angle * DEGREE)
     thrust = Thrust(motor, start, (ex, ey), launch.rail, wind_in(parameters.air))
     weight = Gravity(rocket.mass, parameters.gravity, motor)
-    forces: list[Force] = [weight, *forces_in_flight(rocket, parameters.air), thrust]
+    forces: list[Force] = [weight, *map(Thinning, forces_in_flight(rocket, parameters.air)), thrust]
     velocity = launch.speed * ex, launch.speed * ey
     flying = Ball("rocket", rocket.mass, rocket.radius, start, velocity, forces=forces, loss=motor)
     side = choose(launch.angle <= 90.0, rocket.radius, -rocket.radius)

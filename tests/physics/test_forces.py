@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from sandbox.engine.acting import cause
 from sandbox.physics.air import LogWind, UniformWind
 from sandbox.physics.coefficients import Constant, spin_ratio_lift, tour_fit_drag, tour_fit_lift
-from sandbox.physics.forces import Drag, Gravity, Inside, Magnus, SpinDecay
+from sandbox.physics.forces import Drag, Gravity, Inside, Magnus, SpinDecay, Thinning
 
 RADIUS, DENSITY = 0.021335, 1.2
 DRAG = Drag(RADIUS, DENSITY, tour_fit_drag)
@@ -144,3 +144,14 @@ def test_a_force_inside_a_medium_grows_with_the_share_of_the_ball_that_is_in_it(
     assert together == pytest.approx(np.multiply(shares, -10.0))
     assert alone == pytest.approx(together)
     assert cause(force) == "drag of water"
+
+
+def test_air_thins_as_in_the_standard_atmosphere():
+    """Its table has 1.2250, 1.1117, 0.7364 and 0.3639 kg/m^3 at 0, 1, 5 and 11 km."""
+    heights = np.array([0.0, 1000.0, 5000.0, 11000.0])
+    thinning = Thinning(Gravity(1.0, 1.2250))
+    assert thinning(0.0, (0.0, heights), (0.0, 0.0), 0.0)[1] == pytest.approx(
+        [-1.225, -1.1117, -0.7364, -0.3639], rel=5e-4
+    )
+    assert thinning(0.0, (0.0, 1000.0), (0.0, 0.0), 0.0)[1] == pytest.approx(-1.1117, rel=5e-4)
+    assert cause(thinning) == "gravity"
