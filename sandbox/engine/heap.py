@@ -124,9 +124,9 @@ class Heap:
             if self._lies(i, t, state):
                 found = True
                 self._pressed[frozenset((i,))] = self._steps
+        forced = {index: self._forced_in_a_step(index, t, state) for index, state in states.items()}
         for (i, a), (j, b) in combinations(states.items(), 2):
-            parting = self._parting(i, a, j, b)
-            if parting < max(self._forced_in_a_step(i, t, a), self._forced_in_a_step(j, t, b)):
+            if self._parting(i, a, j, b) < max(forced[i], forced[j]):
                 found = True
                 self._pressed[frozenset((i, j))] = self._steps
         return found

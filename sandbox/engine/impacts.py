@@ -132,6 +132,9 @@ class Impacts:
                 if other in states or neighbour.caught:
                     continue
                 reach = track.ball.radius + neighbour.ball.radius + self.gap
+                left, bottom, right, top = neighbour.arc.box()
+                if not (left - reach <= state[0] <= right + reach and bottom - reach <= state[1] <= top + reach):
+                    continue
                 x, y = neighbour.arc.position(t)
                 if (x - state[0]) ** 2 + (y - state[1]) ** 2 <= reach * reach and (
                     discs(track.ball, neighbour.ball)

@@ -233,7 +233,7 @@ class Simulation:
             self._tracks[index].arc = arc
         for index in stepped:
             self._note_rest(self._tracks[index], t)
-            self._predict(index, t, "heap", partial(self._heap.keeps_apart, index))
+            self._predict(index, t, "heap", partial(self._heap.keeps_apart, index), stepped.keys())
         for index in members - set(joining) - stepped.keys():
             self._resume(index, t)
         return stepped.keys()
@@ -308,9 +308,16 @@ class Simulation:
         own = None if track.contact is None else track.contact.obstacle
         self._predict(index, t, kind, lambda other: other is own)
 
-    def _predict(self, index: int, t: float, kind: str, in_contact: Callable[[Obstacle | int], bool]) -> None:
+    def _predict(
+        self,
+        index: int,
+        t: float,
+        kind: str,
+        in_contact: Callable[[Obstacle | int], bool],
+        together: Collection[int] = (),
+    ) -> None:
         """Predict the first event on a ball's new arc, which ends for the reason ``kind``; it does not meet what it is
-        ``in_contact`` with: obstacles, and balls by index."""
+        ``in_contact`` with: obstacles, and balls by index. Of two that are predicted ``together`` the first asks."""
         track = self._tracks[index]
         arc = track.arc
         at = arc.t1
@@ -326,7 +333,7 @@ class Simulation:
                     at, kind = touch, what
         self._push(at, kind, index)
         for other, neighbour in enumerate(self._tracks):
-            if other == index or neighbour.caught:
+            if other == index or neighbour.caught or (other < index and other in together):
                 continue
             reach = track.ball.radius + neighbour.ball.radius
             a, b, c, d = neighbour.arc.box()
