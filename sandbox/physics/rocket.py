@@ -73,10 +73,11 @@ class Motor:
 
 @dataclass(frozen=True)
 class Thrust:
-    """A motor's thrust on a rocket that points into the flow, ``F = F(t) u / |u|`` with ``u = v - wind``, and along its
-    rail for the first ``rail`` m.
+    """A motor's thrust on a rocket that points along its rail for the first ``rail`` m, and then into the flow:
+    ``F = F(t) u / |u|`` with ``u = v - wind``.
 
-    A rocket with fins does so at once here; in truth it swings about that direction, and loses some height.
+    It turns from the one to the other while it goes as far again. In truth a rocket with fins swings about the
+    direction of the flow, by how much depends on its length and fins, and loses some height.
     """
 
     motor: Motor
@@ -90,7 +91,9 @@ class Thrust:
         if self.wind is not None:
             wx, wy = self.wind(t, position)
             ux, uy = ux - wx, uy - wy
-        guided = (x - self.start[0]) * ex + (y - self.start[1]) * ey < self.rail
-        ux, uy = choose(guided, ex, ux), choose(guided, ey, uy)
+        speed = (ux * ux + uy * uy) ** 0.5 + 1e-30
+        turned = clip(((x - self.start[0]) * ex + (y - self.start[1]) * ey) / self.rail - 1.0, 0.0, 1.0)
+        turned = turned * turned * (3.0 - 2.0 * turned)  # gently: no kink for the integrator
+        ux, uy = ex + turned * (ux / speed - ex), ey + turned * (uy / speed - ey)
         force = self.motor.thrust(t) / ((ux * ux + uy * uy) ** 0.5 + 1e-30)
         return force * ux, force * uy
