@@ -87,6 +87,13 @@ def _energy(drawn: Drawn, path: Path) -> None:
     save_png(energy_chart(drawn.run, drawn.size or USUAL), path)
 
 
+def _graph(drawn: Drawn, path: Path) -> None:
+    from sandbox.picture.frames import save_png
+    from sandbox.picture.graph import graph
+
+    save_png(graph(drawn.run, drawn.size or USUAL, drawn.ghosts), path)
+
+
 def _animation(saver: str, rate: int, size: Size | None = None) -> Callable[[Drawn, Path], None]:
     """Writes with a function of sandbox.picture.frames; ``rate`` and ``size`` are the defaults, the rate lower for a
     long run in a file of limited ``size``."""
@@ -111,6 +118,7 @@ OUTPUTS = (
     Output("--html", ".html", _html, "Write a page for any browser that plays the run; it needs no network.", False),
     Output("--strip", ".png", _strip, "Write five frames side by side."),
     Output("--energy", ".png", _energy, "Write a chart of where the energy goes."),
+    Output("--graph", ".png", _graph, "Write graphs over time: place, speed, spin, acceleration, forces, energy."),
     Output("--gif", ".gif", _animation("save_gif", 25, SMALL), "Write it as an animation below 5 MB.", moves=True),
     Output("--webp", ".webp", _animation("save_webp", 25), "Write it as WebP: all colours, smaller file.", moves=True),
     Output(

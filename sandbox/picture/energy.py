@@ -111,6 +111,8 @@ def _names(run: Run) -> Callable[[str], str]:
     kinds = Counter(name.split()[-1] for name in surfaces)
 
     def called(name: str) -> str:
+        if not name:  # a contact of several balls, cut where none of its impacts is
+            return "balls"
         kind = name.split()[-1]
         if name in surfaces:
             return f"{kind}s" if kinds[kind] > 1 else name

@@ -1,0 +1,213 @@
+"""Graphs over time: where a ball is, how fast, what acts on it, and its energy; several runs laid over each other.
+
+``draw_panel`` draws one of them anywhere: a panel is data.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from itertools import pairwise
+from math import ceil, floor, hypot, pi
+from typing import Any, NamedTuple
+
+import numpy as np
+import pygame
+
+from sandbox.engine.bernstein import evaluate
+from sandbox.engine.run import Run
+from sandbox.engine.track import PRESSED
+from sandbox.picture.energy import course, hard_impacts
+from sandbox.picture.palette import Colour, mix, palette
+from sandbox.picture.path import instants
+from sandbox.picture.plain import view_of
+from sandbox.picture.sheet import CARD, Sheet, nice
+from sandbox.picture.side import SideView
+from sandbox.picture.vectors import Vectors, colour_of
+from sandbox.picture.view import View
+from sandbox.sport.amounts import ladder, signed
+from sandbox.units import convert
+
+GROUND, TRACES = palette("energy"), palette("trace")["colours"]
+#: A run is sampled at so many even times.
+PIECES = 300
+#: Panels next to each other; on a picture narrower than so many px per row, fewer.
+COLUMNS, NARROW = 4, 1.3
+#: How much of its colour another run's curve has, and how much lighter than a trace a curve on dark ground is.
+PALE, LIGHTER = 0.75, 0.25
+
+
+class Curve(NamedTuple):
+    """One line of a panel: times in s, values in the panel's unit (NaN where there is none)."""
+
+    name: str
+    times: np.ndarray
+    values: np.ndarray
+    colour: Colour
+    opacity: float = 1.0
+
+
+class Panel(NamedTuple):
+    """One graph over time; the names of its curves are written where ``named``."""
+
+    title: str
+    unit: str
+    curves: Sequence[Curve]
+    named: bool = False
+
+    @property
+    def shown(self) -> Panel:
+        """The same in the units that were chosen."""
+        largest = max((float(np.nanmax(np.abs(curve.values), initial=0.0)) for curve in self.curves), default=0.0)
+        steps = [step for step in ladder(self.unit) if step.unit not in ("km", "cm", "mN", "kN")]
+        unit = next((step.unit for step in steps if largest >= step.least), steps[-1].unit if steps else self.unit)
+        factor = convert(1.0, self.unit, unit)
+        return self._replace(unit=unit, curves=[curve._replace(values=curve.values * factor) for curve in self.curves])
+
+
+def panels_of(runs: Mapping[str, Run]) -> list[Panel]:
+    """The panels of runs of one scene by name, the first on top."""
+    colours = [mix(colour, CARD["text"], LIGHTER) for colour in TRACES]
+    views = [view_of(run, (1280, 720)) for run in runs.values()]
+    found: dict[str, Panel] = {}
+    for i, (name, run, view) in reversed(list(enumerate(zip(runs, runs.values(), views, strict=True)))):
+        colour, opacity = colours[i % len(colours)], 1.0 if i == 0 else PALE
+        for title, unit, curves in _courses(run, view):
+            lines = [
+                Curve(cause or name, times, values, own or colour, opacity) for cause, times, values, own in curves
+            ]
+            before = found[title].curves if title in found else ()
+            found[title] = Panel(title, unit, [*before, *lines], named=title == FORCES)
+    return list(found.values())
+
+
+FORCES = "forces"
+Course = tuple[str, np.ndarray, np.ndarray, Colour | None]
+
+
+def _courses(run: Run, view: View[Any]) -> list[tuple[str, str, list[Course]]]:
+    """Title, unit and curves of each panel of one run: its name and colour where they are not the run's."""
+    ball = view.ball
+    times = instants(run, PIECES, [ball])
+    times = times[times <= (run.caught_at(ball) or run.duration)]
+    x, y, vx, vy, spin = run.states(times.tolist(), ball).T
+    from_side = isinstance(view, SideView)
+    up = np.maximum(0.0, y - view.radius - view.ground(x)) if isinstance(view, SideView) else y
+    pulls = [Vectors(run, ball).forces(float(t)) for t in times]
+    causes = dict.fromkeys(name for forces in pulls for name in forces)
+    forces: list[Course] = [
+        (name, times, np.array([hypot(*each[name]) if name in each else np.nan for each in pulls]), colour_of(name))
+        for name in causes
+    ]
+    energy = course(run)
+    return [
+        ("x", "m", [("", times, x, None)]),
+        ("height" if from_side else "y", "m", [("", times, up, None)]),
+        ("speed", "m/s", [("", times, np.hypot(vx, vy), None)]),
+        ("spin", "rpm", [("", times, spin * 30 / pi, None)]),
+        ("acceleration", "m/s^2", [("", times, _accelerations(run, ball, times), None)]),
+        (FORCES, "N", forces),
+        ("energy" if len(run.setup.balls) == 1 else "energy of all balls", "J",
+         [("", energy.times, np.sum(list(energy.has.values()), axis=0), None)]),
+    ]  # fmt: skip
+
+
+def _accelerations(run: Run, ball: str, times: np.ndarray) -> np.ndarray:
+    """Of a ball in m/s^2, from the polynomials of its path; an impact itself has none."""
+    found = []
+    for t in times.tolist():
+        arc = run.arcs[ball].at(t)
+        h = arc.t1 - arc.t0
+        if h <= 0.0 or arc.contact == PRESSED:
+            found.append(np.nan)
+            continue
+        u = min(1.0, max(0.0, (t - arc.t0) / h))
+        found.append(hypot(*(_slope(curve, u) / h for curve in (arc.vx, arc.vy))))
+    return np.array(found)
+
+
+def _slope(curve: Sequence[float], u: float) -> float:
+    """The derivative at u of a polynomial in Bernstein form."""
+    n = len(curve) - 1
+    return evaluate([n * (b - a) for a, b in pairwise(curve)], u) if n > 0 else 0.0
+
+
+def draw_panel(
+    sheet: Sheet, rect: pygame.Rect, panel: Panel, until: float, t: float | None = None, hits: Sequence[float] = ()
+) -> None:
+    """One graph with its axes in a rectangle: time from 0 to ``until`` s; ``t`` and the times of impacts are marked."""
+    unit, gap, letters, painter = sheet.unit, sheet.gap, sheet.lettering, sheet.painter
+    panel = panel.shown
+    small = letters.height("small")
+    known = np.concatenate([curve.values[np.isfinite(curve.values)] for curve in panel.curves] or [np.zeros(1)])
+    low, high = min(0.0, float(known.min(initial=0.0))), float(known.max(initial=0.0))
+    high = high if high - low > 1e-9 else low + 1.0
+    step = nice(max(1.9 * small / max(1, rect.height - 2 * small - 3 * gap), 0.15) * (high - low))
+    levels = [i * step for i in range(ceil(low / step - 1e-9), floor(high / step + 1e-9) + 1)]
+    texts = [signed(f"{level:.10g}") for level in levels]
+    left = max(letters.width(text, "small") for text in texts) + gap
+    plot = pygame.Rect(rect.left + left, rect.top + small + 2 * gap, rect.width - left - gap, 0)
+    plot.height = rect.bottom - small - 2 * gap - plot.top
+    thin = max(1, round(unit))
+
+    def row(value: float) -> float:
+        return plot.bottom - plot.height * (value - low) / (high - low)
+
+    for level, text in zip(levels, texts, strict=True):
+        sheet.surface.fill(GROUND["rule"], (plot.left, round(row(level)), plot.width, thin))
+        letters.write(sheet.surface, text, "small", (plot.left - gap, row(level)), sheet.quiet_ink, "midright")
+    every = nice(letters.width("00.0 s  ", "small") / plot.width * until)
+    for i in range(floor(until / every + 1e-9) + 1):
+        at = plot.left + plot.width * i * every / until
+        words = f"{i * every:g} s" if i == 0 else f"{i * every:g}"
+        letters.write(sheet.surface, words, "small", (at, plot.bottom + gap / 2), sheet.quiet_ink, "midtop")
+    for hit in hits:
+        at = plot.left + plot.width * hit / until
+        painter.dashes([(at, plot.top), (at, plot.bottom)], thin, CARD["text"], 4 * unit, 4 * unit, 0.3)
+    for curve in panel.curves:
+        rows = plot.bottom - plot.height * (curve.values - low) / (high - low)
+        points = np.column_stack([plot.left + plot.width * curve.times / until, rows])
+        gone = np.flatnonzero(~np.isfinite(rows))
+        for piece in np.split(points, gone):
+            line = piece[np.isfinite(piece[:, 1])]
+            if len(line) > 1:
+                painter.line(line, max(1.2, 2.0 * unit), curve.colour, curve.opacity)
+        if t is not None and len(curve.times):
+            value = float(np.interp(t, curve.times, rows))
+            if np.isfinite(value):
+                painter.disc((plot.left + plot.width * min(t, until) / until, value), 4 * unit, curve.colour)
+    if t is not None:
+        sheet.surface.fill(CARD["quiet"], (round(plot.left + plot.width * t / until), plot.top, thin, plot.height))
+    title = f"{panel.title} ({panel.unit})"
+    end = letters.write(sheet.surface, title, "small", (rect.left, rect.top), CARD["text"], bold=True).right
+    for name, colour in {curve.name: curve.colour for curve in panel.curves if panel.named}.items():
+        if end + 2 * gap + letters.width(name, "small") <= rect.right:
+            end = letters.write(sheet.surface, name, "small", (end + 2 * gap, rect.top), colour).right
+
+
+def graph(run: Run, size: tuple[int, int] = (1280, 720), others: Mapping[str, Run] | None = None) -> pygame.Surface:
+    """All graphs of a run, with other runs by name laid over them."""
+    sheet = Sheet(size, on_dark=True)
+    sheet.surface.fill(GROUND["ground"])
+    scene = run.scene
+    title = "over time" if scene is None else scene.title
+    runs = {title: run, **(others or {})}
+    panels = panels_of(runs)
+    until = max(max(each.duration for each in runs.values()), 1e-9)
+    sheet.headline("Over time" if scene is None else scene.verdict(run), [], sheet.frame.width)
+    gap, letters, across = sheet.gap, sheet.lettering, sheet.frame.left
+    row = sheet.frame.top + letters.height(sheet.head) + gap
+    for i, name in enumerate(runs):
+        colour = mix(TRACES[i % len(TRACES)], CARD["text"], LIGHTER)
+        across = sheet.write(name, "small", (across, row), colour, bold=True).right + 3 * gap
+    columns = COLUMNS if size[0] > NARROW * size[1] else 2
+    rows = ceil(len(panels) / columns)
+    top = row + letters.height("small") + 3 * gap
+    wide, tall = (sheet.frame.width + 3 * gap) / columns, (sheet.frame.bottom - top + 2 * gap) / rows
+    hits = hard_impacts(run)
+    for i, panel in enumerate(panels):
+        rect = pygame.Rect(
+            round(sheet.frame.left + i % columns * wide), round(top + i // columns * tall),
+            round(wide - 3 * gap), round(tall - 2 * gap),
+        )  # fmt: skip
+        draw_panel(sheet, rect, panel, until, hits=hits)
+    return sheet.surface
