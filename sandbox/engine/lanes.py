@@ -44,7 +44,6 @@ class ManyLanes(Lanes):
         count = len(slip)
         for lane, pair in enumerate(map(tuple, bounces.tolist())):
             self._prepare(lane, pair)
-        self._entered[:] = self._parked
         self._entered[:count, 1] = self._heights[:count]
         self._entered[:count, 2] = slip
         self._entered[:count, 3] = -approach

@@ -94,7 +94,7 @@ def shoot(acceleration, state, surfaces, radius, factor, duration, most=40):
             events=[event(s) for s in surfaces],
             rtol=1e-13,
             atol=1e-13,
-            max_step=0.002,
+            max_step=0.004,
         )
         t, state = solution.t[-1], solution.y[:, -1].copy()
         if solution.status != 1:
