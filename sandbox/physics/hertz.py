@@ -38,8 +38,6 @@ class Material(NamedTuple):
 #: Billiard balls; a maker's figures (dbkcues.ru). They touch for 390 us at 1 m/s; 250 to 300 us are measured (Kim
 #: 2024; Marlow 1995), which would need a resin twice as stiff.
 PHENOLIC = Material(5.84e9, 0.34)
-#: Bearing steel: rounded textbook values.
-STEEL = Material(2.1e11, 0.3)
 
 
 def damping(restitution: float) -> float:

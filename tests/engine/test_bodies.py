@@ -364,3 +364,13 @@ def test_a_rod_tips_over_its_end_as_the_pendulum_says():
     fell = away * (np.cos(start - off) - np.cos(turn - off))
     pace = 1.0 / np.sqrt(2.0 * mass * G * fell / rocking)
     assert lands == pytest.approx(float(np.mean(pace * 2.0 * share * (np.pi / 2 - start))), rel=2e-4)
+
+
+def test_a_torque_may_depend_on_the_angle():
+    """I w' = -k (angle): a torsion pendulum turns as A cos((k / I)^(1/2) t)."""
+    stiffness, most = 0.5, 0.8
+    spring = lambda t, position, velocity, spin: -stiffness * position.angle  # noqa: E731
+    crate = Body("crate", position=(0.0, 0.0), shape=box(0.4, 0.3), mass=2.0, angle=most, torques=(spring,))
+    run = run_of([crate], 3.0)
+    for t in (0.4, 1.7, 3.0):
+        assert run.angle("crate", t) == pytest.approx(most * math.cos((stiffness / crate.inertia) ** 0.5 * t), abs=2e-3)

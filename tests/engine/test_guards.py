@@ -2,6 +2,7 @@
 user's force.
 """
 
+from dataclasses import replace
 from math import inf, isfinite, nan, pi, sin, tanh
 
 import numpy as np
@@ -119,9 +120,11 @@ def test_stiff_drag_at_a_fixed_step_takes_smaller_steps_where_it_must():
     assert calm.numerics.refined_steps == 0
 
 
-def test_plain_refuses_a_step_in_which_drag_would_turn_the_motion_round():
+@pytest.mark.parametrize("velocity", [(300.0, 0.0), (0.0, 300.0), (-200.0, 200.0)])
+def test_plain_refuses_a_step_in_which_drag_would_turn_the_motion_round(velocity: tuple[float, float]):
+    bullet = replace(bullet_in_water(), velocity=velocity)
     with pytest.raises(RunError, match=r"'bullet': drag would reverse its velocity.*accuracy\.step"):
-        simulate(Setup([bullet_in_water()], duration=0.5), resolve(method="plain", step=1 / 60))
+        simulate(Setup([bullet], duration=0.5), resolve(method="plain", step=1 / 60))
 
 
 def test_a_force_that_jumps_is_no_error():
