@@ -49,6 +49,7 @@ class Cloth:
     name: str = "cloth"  # what it is called in reports: cloth, lane
 
     rolls: ClassVar[bool] = True
+    in_closed_form: ClassVar[bool] = True
     TERMS: ClassVar[Mapping[str, str]] = {
         "sliding": "sliding friction",
         "rolling": "rolling friction",

@@ -79,6 +79,7 @@ class Glide:
     name: str = "ice"  # what it is called in reports: ice, deck, table
 
     rolls: ClassVar[bool] = False
+    in_closed_form: ClassVar[bool] = True
     TERMS: ClassVar[Mapping[str, str]] = {"sliding": "sliding friction", "spinning": "spinning friction"}
 
     def __post_init__(self) -> None:
@@ -116,6 +117,7 @@ class CurlingIce:
     name: str = "ice"
 
     rolls: ClassVar[bool] = False
+    in_closed_form: ClassVar[bool] = False
     TERMS: ClassVar[Mapping[str, str]] = {"friction": "friction", "curl": "curl"}
 
     def __post_init__(self) -> None:

@@ -55,6 +55,10 @@ class Plane(Protocol):
         """Whether bodies on it roll as spheres, and their state has spins about x and y."""
 
     @property
+    def in_closed_form(self) -> bool:
+        """Whether every phase has constant accelerations."""
+
+    @property
     def strongest(self) -> float:
         """The largest deceleration in m/s^2 of a sliding body."""
 
@@ -95,6 +99,10 @@ class Strips:
     @property
     def rolls(self) -> bool:
         return self.laws[0].rolls
+
+    @property
+    def in_closed_form(self) -> bool:
+        return all(law.in_closed_form for law in self.laws)
 
     @property
     def TERMS(self) -> Mapping[str, str]:  # noqa: N802

@@ -139,6 +139,11 @@ def test_on_cloth_no_integrator_takes_part():
     assert methods == {"plain", "closed form", "level"}
 
 
+def test_on_ice_integrators_take_part():
+    methods = {method for method, _, _ in lab.settings(converge(load("curling")))}
+    assert {"plain", "rk4", "dormand-prince"} <= methods
+
+
 @pytest.mark.parametrize("scene", ["golf", "soccer", "soccer-curl", "basketball"])
 def test_the_levels_are_on_or_near_the_front(scene: str, monkeypatch: pytest.MonkeyPatch):
     """By force evaluations, which repeat: no method and setting as accurate needs less than half of them."""
