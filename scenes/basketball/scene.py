@@ -249,6 +249,7 @@ def entry(run: Run, parameters: Parameters) -> Moment | None:
     return down if down is not None and down.t <= floor else None
 
 
+@once
 def _touches(run: Run, parameters: Parameters) -> list[str]:
     """The surfaces touched until the shot was decided: by leaving the ring below, or by reaching the floor."""
     through = _through(run, parameters)
