@@ -207,13 +207,16 @@ class Varied:
 
 
 def _can_set_unchecked(parameters: Any, path: Path) -> bool:
-    """Whether a number may be set at ``path`` unchecked: no group on the path has checks of its own."""
+    """Whether a number may be set at ``path`` unchecked: no group on the path has checks of its own.
+
+    The accuracy may not: it is one for all shots that are computed together.
+    """
     node, quantity = parameters, None
     for step in path:
         if isinstance(step, int):
             node = node[step]
             continue
-        if not isinstance(node, Group):
+        if not isinstance(node, Group) or isinstance(node, declared.Accuracy):
             return False
         checks = type(node).__pydantic_decorators__
         if checks.model_validators or checks.field_validators or checks.root_validators or checks.validators:

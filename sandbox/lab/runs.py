@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
+from itertools import repeat
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -32,34 +33,37 @@ def runs(
     ``asked`` for, each run ends when these are settled, and its result contains only these.
     """
     build, read, varied = _builder(scene, asked), scene.reader(asked), Varied(scene, keys)
-    parameters = [_or_error(varied.parameters, values) for values in points]
-    alone: dict[tuple[int, Accuracy], dict[int, Setup]] = {}  # by group and accuracy
+    parameters: dict[int, Any] = {}
     found: dict[int, Iterator[Run | Exception]] = {}
-    errors: dict[int, Exception] = {}
-    for group, (places, many) in enumerate(varied.together(points)):
-        stack = _stack(build, many, [parameters[place] for place in places])
-        if stack is not None:
-            accuracy = _accuracy(many, finer)
-            found |= dict.fromkeys(places, simulate_many(stack, accuracy))
-            continue
-        for place in places:
-            made = parameters[place]
-            try:
-                if isinstance(made, Exception):
-                    raise made
-                alone.setdefault((group, _accuracy(made, finer)), {})[place] = build(made)
-            except Exception as error:
-                errors[place] = error
-    for (_, accuracy), setups in alone.items():
-        found |= dict.fromkeys(setups, simulate_many([setups[place] for place in sorted(setups)], accuracy))
-    for place, made in enumerate(parameters):
-        run = errors[place] if place in errors else next(found[place])
+    for places, many in varied.together(points):
+        each = [] if isinstance(many, Exception) else [varied.parameters(points[place]) for place in places]
+        parameters |= zip(places, each, strict=False)
+        found |= dict.fromkeys(places, _outcomes(build, many, each, finer))
+    for place in range(len(points)):
+        run = next(found[place])
         if not isinstance(run, Exception):
             try:
-                run.result = read(run, made)
+                run.result = read(run, parameters[place])
             except Exception as error:
                 run = error
         yield run
+
+
+def _outcomes(build: Callable[[Any], Setup], many: Any, each: Sequence[Any], finer: bool) -> Iterator[Run | Exception]:
+    """The outcomes of runs that differ only in numbers: ``many`` has the parameters of all in one, or is the error that
+    explains why there are none."""
+    try:
+        if isinstance(many, Exception):
+            raise many
+        accuracy = _resolved(many.accuracy, finer)
+    except Exception as error:
+        return repeat(error)
+    stack = _stack(build, many, each)
+    if stack is not None:
+        return simulate_many(stack, accuracy)
+    setups = [_or_error(build, parameters) for parameters in each]
+    found = simulate_many([setup for setup in setups if not isinstance(setup, Exception)], accuracy)
+    return (setup if isinstance(setup, Exception) else next(found) for setup in setups)
 
 
 def _or_error(work: Callable[[Any], Any], values: Any) -> Any:
@@ -121,14 +125,10 @@ def _resolved(accuracy: declared.Accuracy, finer: bool) -> Accuracy:
     return found.finer() if finer else found
 
 
-def _accuracy(parameters: Any, finer: bool = False) -> Accuracy:
-    return _resolved(parameters.accuracy, finer)
-
-
 def fly_together(scene: Scene, keys: Sequence[str], values: Sequence[Any]) -> bool:
     """Whether the engine computes many runs of this kind at once, judged by the one with these values."""
     try:
         parameters = Varied(scene, keys).parameters(values)
-        return flies_in_batches(replace(scene, parameters=parameters).build(), _accuracy(parameters))
+        return flies_in_batches(replace(scene, parameters=parameters).build(), _resolved(parameters.accuracy, False))
     except Exception:
         return False  # its row reports the error

@@ -48,6 +48,14 @@ def test_a_build_that_is_another_between_the_points_compared_is_not_trusted():
     assert _stack(only_floats, many, each) is None
 
 
+def test_the_accuracy_may_differ_from_shot_to_shot():
+    tolerances = np.geomspace(1e-6, 1e-3, FEWEST).tolist()
+    found = list(runs(load("throws"), ["accuracy.tolerance"], [(each,) for each in tolerances]))
+    assert [run.accuracy.tolerance for run in found] == tolerances
+    alone = sandbox.simulate(load("throws", {"accuracy.tolerance": tolerances[-1]}))
+    assert found[-1].result == alone.result
+
+
 def test_numbers_and_words_may_be_mixed():
     keys = ["launch.speed", "ball.drag.model", "accuracy.level"]
     points = [
