@@ -158,7 +158,7 @@ def listings() -> Iterator[Listing]:
 
 def listings_in(place: Path) -> Iterator[Listing]:
     """The scenes with folders in ``place``, each followed by its presets; named by paths from there."""
-    ours = (resources.PACKAGE, resources.folder("template"))  # in a checkout
+    ours = (resources.PACKAGE, *map(resources.folder, ("template", "template_above")))  # in a checkout
     for folder in sorted(file.parent for file in place.glob("*/scene.py")):
         if folder.resolve() not in ours:
             yield from _listed(f"./{folder.name}", folder)

@@ -14,6 +14,7 @@ from sandbox.window import commands, replay
 from sandbox.window.background import steady
 from sandbox.window.game import Game
 from sandbox.window.keys import pressed
+from sandbox.window.memory import Memory, usual_place
 from sandbox.window.pointer import Pointer
 from sandbox.window.session import Session
 from sandbox.window.sound import Sound
@@ -177,7 +178,7 @@ def play(source: str, changes: Mapping[str, Any] | None = None, scene: str | Non
     session = replay.read(Path(source), scene)[0] if recorded else Session(source, changes)
     worker, helper = Processes(1), Processes(1)
     try:
-        game = Game(session, worker, helper=helper)
+        game = Game(session, worker, helper=helper, memory=Memory(usual_place()))
         with opened(SIZE, f"{session.title} – Sports sandbox") as screen:
             if recorded:
                 game.open_replay(Path(source), scene)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from concurrent.futures import Future
 from functools import partial
 from pathlib import Path
 from threading import Thread
@@ -13,12 +14,14 @@ import pygame
 
 from sandbox.engine.accuracy import LEVELS
 from sandbox.picture.palette import palette
-from sandbox.scene import listings
+from sandbox.scene import listings, listings_in, scene_files_in
+from sandbox.scene.finding import folder_of, is_installed
 from sandbox.window import aim, export, replay
 from sandbox.window.choice import Choice, Mark
 from sandbox.window.find import Found, Question, find, questions
 from sandbox.window.game import WIDEST
 from sandbox.window.keys import GROUPS, LISTED, of_groups
+from sandbox.window.menu import Menu, thumbnail
 from sandbox.window.overlay import Board, Chart, Overlay, Row
 from sandbox.window.run_data import run_of
 from sandbox.window.shot import Shot
@@ -215,16 +218,24 @@ def _find_one(view: View, question: Question) -> None:
 
 
 def _menu(view: View, by: float) -> None:
-    """All scenes, each with its presets; the user's own files come first."""
-    scenes: dict[str, list[Row]] = {}
+    """All scenes, each with its presets; those opened last and the user's own come first."""
+    game, here = view.game, Path()
+    groups: dict[str, list[Row]] = {}
     for item in listings():
-        scene, _, preset = item.name.partition("/")
-        scenes.setdefault(scene, []).append(Row(item.name, preset or scene, "", item.about, heading=not preset))
-    known = {row.action for rows in scenes.values() for row in rows}
-    own = [Row(source, Path(source).name, "", source) for source in view.game.opened if source not in known]
-    groups = [[Row("", "your files", heading=True), *own]] * bool(own) + list(scenes.values())
-    chosen = view.game.session.source
-    _open(view, "menu", lambda: Board("What shall we play?", groups, view.game.open, chosen=chosen))
+        groups.setdefault(item.name.partition("/")[0], []).append(Row(item.name, item.name, "", item.about))
+    known = {row.action: row for rows in groups.values() for row in rows}
+    own = [Row(item.name, item.name, "", item.about) for item in (*scene_files_in(here), *listings_in(here))]
+    opened = [known.get(source, Row(source, Path(source).name, "", source)) for source in game.memory.recent]
+    groups = {**({"recent": opened} if opened else {}), **({"in this folder": own} if own else {}), **groups}
+
+    def picture_of(source: str) -> Future[bytes]:
+        if source not in view.thumbnails:
+            folder = folder_of(source)  # no code runs only because it lies here
+            shown = folder is not None and is_installed(folder)
+            view.thumbnails[source] = game.helper.submit(thumbnail if shown else bytes, *([source] if shown else []))
+        return view.thumbnails[source]
+
+    _open(view, "menu", lambda: Menu(groups, game.open, picture_of, game.session.source))
 
 
 def _energy(view: View, by: float) -> None:

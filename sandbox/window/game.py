@@ -18,6 +18,7 @@ from sandbox.window.aim import Pull, strongest
 from sandbox.window.background import PATIENCE, Latest
 from sandbox.window.handles import Grip
 from sandbox.window.history import Changes, History
+from sandbox.window.memory import Memory
 from sandbox.window.playback import Playback
 from sandbox.window.run_data import run_of
 from sandbox.window.session import Session
@@ -51,7 +52,12 @@ class Game:
     """A session that is played. Every change that can be seen also changes ``revision``."""
 
     def __init__(
-        self, session: Session, worker: Processes, patience: float = PATIENCE, helper: Processes | None = None
+        self,
+        session: Session,
+        worker: Processes,
+        patience: float = PATIENCE,
+        helper: Processes | None = None,
+        memory: Memory | None = None,
     ) -> None:
         """A frame waits for the path after a change if that takes no longer than ``patience`` s. ``helper`` computes
         what takes longer than a path, by default the worker itself."""
@@ -75,7 +81,8 @@ class Game:
         self.cost = 0.0  # s, of the last run
         self.message: Message | None = None
         self.unreadable: str | None = None  # what is wrong with the files as last saved
-        self.opened: list[str] = [session.source]  # all scene files so far
+        self.memory = memory or Memory()
+        self.memory.opened(session.source)
         self.dropped: list[Future[Any]] = []  # work that the worker still has to abandon
         self._waited = 0  # s that were reported last
         self.jobs: list[tuple[Future[Any], Callable[[Any], object], str]] = []  # and what they are
@@ -479,8 +486,7 @@ class Game:
         self.playback = self.pull = self.grip = self.before_save = self.unreadable = None
         self.shooting = False
         self.runs.forget()
-        if self.session.source not in self.opened:
-            self.opened.append(self.session.source)
+        self.memory.opened(self.session.source)
         self.watch_files = Watch(self.session.files)
         self.revision += 1
 

@@ -34,8 +34,13 @@ class Overlay(Protocol):
     name: str  # of the command that opens and closes it
 
     @property
-    def ready(self) -> bool:
-        """Whether it can be drawn."""
+    def progress(self) -> object:
+        """Changes when it must be drawn again."""
+        ...
+
+    @property
+    def waiting(self) -> bool:
+        """Whether something of it is still being made."""
         ...
 
     def draw(self, sheet: Sheet, mouse: tuple[int, int], on: Collection[str]) -> None:
@@ -64,11 +69,15 @@ class Chart:
         self.work = work
 
     @property
-    def ready(self) -> bool:
+    def waiting(self) -> bool:
+        return not self.work.done()
+
+    @property
+    def progress(self) -> bool:
         return self.work.done()
 
     def draw(self, sheet: Sheet, mouse: tuple[int, int], on: Collection[str]) -> None:
-        if self.ready:
+        if self.work.done():
             surface = self.work.result()
             sheet.surface.blit(surface, surface.get_rect(center=sheet.surface.get_rect().center))
 
@@ -85,7 +94,7 @@ class Chart:
 class Board:
     """Groups of rows in as many columns as they need, to be chosen by mouse, or by arrows and Enter."""
 
-    name, ready = "", True
+    name, waiting, progress = "", False, 0
 
     def __init__(
         self,

@@ -27,7 +27,7 @@ BINS = 24
 class Table:
     """The shots of the current scene; ``act`` carries out an action with a shot."""
 
-    name, ready = "shots", True
+    name, waiting, progress = "shots", False, 0
 
     def __init__(
         self,

@@ -7,6 +7,7 @@ ready, the last picture stays: a path is never drawn on the stage of another pla
 from __future__ import annotations
 
 from collections.abc import Sequence
+from concurrent.futures import Future
 from dataclasses import replace
 from functools import partial
 from threading import Thread
@@ -95,6 +96,7 @@ class View:
         self.head = pygame.Rect(0, 0, 0, 0)  # where the headline is
         self.frame_cost = 0.0  # s, smoothed
         self.changed = True  # something other than the game
+        self.thumbnails: dict[str, Future[bytes]] = {}  # of the menu
         self.exporter: Thread | None = None  # writes an animation, which takes seconds
         self.windowed = SIZE  # its size before full screen
         self.caption = ""
@@ -302,7 +304,7 @@ class View:
     @property
     def busy(self) -> bool:
         """Whether something is being prepared that will have to be drawn."""
-        over = self.over is not None and not self.over.ready
+        over = self.over is not None and self.over.waiting
         lively = self.panel is not None and self._lively < LIVELY
         exporting = self.exporter is not None and self.exporter.is_alive()
         coming = any(latest.work is not None for latest in (self.stages, self.clouds, self.maps, self.panels))
@@ -320,8 +322,13 @@ class View:
 
     def tick(self, dt: float, happened: bool) -> None:
         """``dt`` s have passed, and something may have happened in the window."""
+        game = self.game
         self._lively = 0.0 if happened else self._lively + dt
         self.composed += dt
+        followed = {"shoot": game.table.count, "drag": game.grip, "menu": self.over and self.over.name == "menu"}
+        for hint, done in followed.items():
+            if done:
+                game.memory.follow(hint)
         self._follow_panel()
         self._follow_stage()
         self._follow_cloud()
@@ -426,7 +433,7 @@ class View:
         blink = self._lively // BLINK if self.panel is not None and self.panel.typing else 0
         playback = self.game.playback
         clock = (playback.t, playback.playing, playback.rate) if playback is not None else None
-        over = (self.over, self.over is not None and self.over.ready, self.tape, frozenset(self.on))
+        over = (self.over, self.over and self.over.progress, self.tape, frozenset(self.on))
         seen = (self.game.revision, self.game.failure, clock, over, self.panel, blink)
         needed = happened or self.changed or lively or seen != self._seen
         self._seen, self.changed = seen, False
@@ -592,6 +599,9 @@ class View:
             level = game.session.value("accuracy.level")
             text = f"frame {1e3 * self.frame_cost:.1f} ms; run {1e3 * game.cost:.1f} ms, {level}"
             top = overlay.draw_note(sheet, [(text, CARD["accent"])], top, self.head)
+        hints = [(text, CARD["accent"]) for text in game.memory.hints.values()]
+        if hints and game.pull is None:
+            top = overlay.draw_note(sheet, hints, top, self.head)
         if self.hidden:
             return
         if "fan" in self.on:

@@ -116,6 +116,7 @@ class TestWhatIsOpen:
         player.settle()
         assert "soccer" in pygame.display.get_caption()[0]
         player.button("menu")
+        player.click(next(rect.center for rect, group in player.view.over.columns if group == "recent"))
         rect = next(rect for rect, row in player.view.over.places if row.action == str(file))
         player.click(rect.center)
         assert player.game.session.title == "mine.toml"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from concurrent.futures import Future
 from itertools import combinations
 from typing import Any
 
@@ -108,13 +109,23 @@ def test_every_scene_and_every_key_can_be_seen(player, size, written, name):
     commands.do(player.view, name)
     player.frames(1)
     over, area = player.view.over, pygame.Rect(0, 0, size[0], player.view.area.height)
-    said = {row.action for _, row in over.places}
-    every = {listing.name for listing in listings()} if name == "menu" else {c.name for c in TABLE if c.meaning}
-    assert said == every
+    said, every = {row.action for _, row in over.places}, {c.name for c in TABLE if c.meaning}
+    if name == "menu":
+        said, every = set(), {listing.name for listing in listings()}
+        over.picture_of = lambda source: Future()
+        for group in over.groups:
+            over.turn_to(group)
+            for _ in range(0, len(over.rows), over.seen):
+                over.draw(player.view._sheet(), (0, 0), ())
+                said |= {row.action for _, row in over.places}
+                assert all(area.contains(place) for place, _ in [*over.columns, *over.places])
+                over.scroll(over.seen)
+    assert said >= every
     assert all(area.contains(place) for place, _ in over.places)
     assert not any(a.colliderect(b) for (a, _), (b, _) in combinations(over.places, 2))
-    inside = [rect for _, rect in written if any(place.contains(rect.inflate(0, -8)) for place, _ in over.places)]
-    assert len(inside) >= len(every)
+    if name == "help":
+        inside = [rect for _, rect in written if any(place.contains(rect.inflate(0, -8)) for place, _ in over.places)]
+        assert len(inside) >= len(every)
 
 
 @pytest.mark.parametrize("size", [(640, 400), (960, 1080), (1280, 720), (2560, 1440)])

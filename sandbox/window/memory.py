@@ -1,0 +1,65 @@
+"""What the window remembers from one time to the next: files opened last, and which hints were followed."""
+
+from __future__ import annotations
+
+import json
+import os
+from contextlib import suppress
+from pathlib import Path
+
+from sandbox.files import written_whole
+
+#: What a first user may try, by the name under which it is remembered.
+HINTS = {
+    "shoot": "Pull back anywhere and let go: a shot",
+    "drag": "Drag a ring: the thing under it moves",
+    "menu": "L, or the name below: other scenes",
+}
+#: So many files are remembered.
+MOST = 8
+
+
+def usual_place() -> Path:
+    """Where programs keep such things."""
+    home = os.environ.get("XDG_STATE_HOME") or os.environ.get("LOCALAPPDATA") or Path.home() / ".local" / "state"
+    return Path(home) / "sports-sandbox" / "window.json"
+
+
+class Memory:
+    """Kept in a file, or only until the window is closed. A file that cannot be read or written is no matter."""
+
+    def __init__(self, file: Path | None = None) -> None:
+        """Without a file there are no hints."""
+        self.file = file
+        self.recent: list[str] = []
+        self.followed: list[str] = []
+        with suppress(OSError, ValueError, TypeError, AttributeError):
+            kept = json.loads(file.read_text("utf-8")) if file is not None else {}
+            self.recent = [source for source in kept.get("recent", []) if isinstance(source, str)][:MOST]
+            self.followed = [hint for hint in kept.get("followed", []) if isinstance(hint, str)]
+
+    def opened(self, source: str) -> None:
+        """A scene was opened; a file is remembered by its whole path."""
+        path = Path(source)
+        source = str(path.resolve()) if path.exists() else source
+        if source not in self.recent[:1]:
+            self.recent = [source, *(each for each in self.recent if each != source)][:MOST]
+            self._save()
+
+    @property
+    def hints(self) -> dict[str, str]:
+        """Those that were not followed yet."""
+        return {name: text for name, text in HINTS.items() if name not in self.followed and self.file is not None}
+
+    def follow(self, hint: str) -> None:
+        """A hint was followed, and is not shown again."""
+        if hint not in self.followed:
+            self.followed.append(hint)
+            self._save()
+
+    def _save(self) -> None:
+        if self.file is not None:
+            with suppress(OSError):
+                self.file.parent.mkdir(parents=True, exist_ok=True)
+                with written_whole(self.file) as file:
+                    json.dump({"recent": self.recent, "followed": self.followed}, file)

@@ -1,0 +1,80 @@
+"""What a new user sees: hints that go when followed, thumbnails and descriptions in the menu, recent files."""
+
+from __future__ import annotations
+
+import json
+
+import pygame
+import pytest
+
+from sandbox.new import new_scene
+from sandbox.scene import listings
+from sandbox.window.memory import HINTS, MOST, Memory
+from sandbox.window.menu import THUMBNAIL, thumbnail
+
+from .test_see import said
+
+
+@pytest.fixture
+def remembering(player, tmp_path):
+    player = player("golf", (900, 560))
+    player.game.memory = Memory(tmp_path / "state" / "window.json")
+    player.game.memory.opened("golf")
+    return player
+
+
+def test_hints_go_when_they_are_followed_and_do_not_come_back(remembering):
+    game = remembering.game
+    assert set(HINTS.values()) <= said(remembering)
+    remembering.key(pygame.K_SPACE)
+    remembering.frames(1)
+    assert HINTS["shoot"] not in game.memory.hints.values()
+    remembering.key(pygame.K_l)
+    remembering.frames(1)
+    remembering.key(pygame.K_ESCAPE)
+    assert set(said(remembering)) & set(HINTS.values()) == {HINTS["drag"]}
+    assert Memory(game.memory.file).hints.keys() == {"drag"}
+
+
+def test_recent_files_are_remembered_the_last_first(tmp_path):
+    memory = Memory(tmp_path / "window.json")
+    (tmp_path / "mine.toml").write_text("", "utf-8")
+    for source in ("golf", "soccer", "golf", str(tmp_path / "mine.toml")):
+        memory.opened(source)
+    assert Memory(memory.file).recent == [str(tmp_path / "mine.toml"), "golf", "soccer"]
+    for number in range(2 * MOST):
+        memory.opened(f"golf/{number}")
+    assert len(memory.recent) == MOST
+
+
+@pytest.mark.parametrize("text", ["", "[1]", '{"recent": 5}', '{"recent": [5], "followed": null}'])
+def test_a_damaged_memory_is_no_matter(tmp_path, text):
+    file = tmp_path / "window.json"
+    file.write_text(text, "utf-8")
+    memory = Memory(file)
+    assert memory.recent == []
+    memory.opened("golf")
+    assert json.loads(file.read_text("utf-8"))["recent"] == ["golf"]
+
+
+def test_the_menu_has_thumbnails_descriptions_and_what_is_in_the_folder(remembering, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    new_scene(tmp_path / "ours")
+    remembering.key(pygame.K_l)
+    menu = remembering.view.over
+    assert {"recent", "in this folder", "golf"} <= menu.groups.keys()
+    assert [row.action for row in menu.groups["in this folder"]] == ["./ours", "./ours/still"]
+    remembering.settle()
+    assert menu.pictures
+    assert all(len(picture.result()) == 3 * THUMBNAIL[0] * THUMBNAIL[1] for picture in menu.pictures.values())
+    about = next(listing.about for listing in listings() if listing.name == "golf")
+    assert any(about.startswith(text.removesuffix(" ...")) and len(text) > 20 for text in said(remembering))
+    remembering.click(next(rect.center for rect, group in menu.columns if group == "in this folder"))
+    remembering.settle()
+    assert menu.pictures["./ours"].result() == b""  # no code runs only because it lies here
+
+
+def test_a_scene_that_cannot_be_drawn_has_no_thumbnail(tmp_path):
+    new_scene(tmp_path / "ours")
+    (tmp_path / "ours" / "picture.py").write_text("raise ValueError", "utf-8")
+    assert thumbnail(str(tmp_path / "ours")) == b""
