@@ -31,7 +31,12 @@ def _place(state: State) -> tuple[Any, ...]:
 def acceleration(ball: Ball, t: Any, state: State) -> Acceleration:
     """Acceleration of a ball in flight from its forces and torques, in m/s^2 and rad/s^2. Raises RunError if one of
     them returns anything but numbers."""
-    position, velocity, spin = state[:2] if len(state) == 5 else _place(state), state[2:4], state[4]
+    position: tuple[Any, ...]
+    if len(state) == 5:  # as _place does, where it must be fast
+        x, y, vx, vy, spin = state
+        position, velocity = (x, y), (vx, vy)
+    else:
+        position, velocity, spin = _place(state), state[2:4], state[4]
     fx = fy = torque = 0.0
     term: Any = None
     try:

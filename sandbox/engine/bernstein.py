@@ -12,7 +12,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from functools import lru_cache
-from itertools import pairwise
 from math import comb
 from typing import Any
 
@@ -71,12 +70,11 @@ def split(b: Sequence[float], u: float) -> tuple[list[float], list[float]]:
 
 
 def until(b: Sequence[Any], u: Any) -> list[Any]:
-    """Coefficients on [0, u]; of one polynomial, or of many with arrays as coefficients."""
-    w = 1.0 - u
-    row, left = b, [b[0]]
-    for _ in range(len(b) - 1):
-        row = [w * p + u * q for p, q in pairwise(row)]
-        left.append(row[0])
+    """Coefficients on [0, u], by de Casteljau; of one polynomial, or of many with arrays as coefficients."""
+    w, left = 1.0 - u, list(b)
+    for level in range(1, len(left)):
+        for k in range(len(left) - 1, level - 1, -1):
+            left[k] = w * left[k - 1] + u * left[k]
     return left
 
 
