@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import json
 from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from itertools import chain
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +15,7 @@ from sandbox import parameters as declared
 from sandbox.errors import RequestError
 from sandbox.lab.axes import Axis, Values, at, label, result_label
 from sandbox.lab.chart import PLATE, chart, check_chart, legend
-from sandbox.lab.plan import CHANGED, FLAGS, Plan, records
+from sandbox.lab.plan import Plan
 from sandbox.lab.row_file import cell, rows
 from sandbox.parameters import path_of
 from sandbox.sport.amounts import significant
@@ -69,13 +68,8 @@ def check_plot(plan: Plan, path: Path, of: str | None) -> None:
         raise RequestError(f"--plot shows one or two parameters, not {len(plan.axes)}: {', '.join(plan.keys)}")
     if any(len(axis.values) < 2 for axis in plan.axes if isinstance(axis, Values)):
         raise RequestError("--plot needs two values or more along each parameter")
-    first = records(plan, 0, 1)[0]
-    if of is not None and of not in first and not first["error"]:
-        raise RequestError(_no_such(of, first))
-
-
-def _no_such(name: str, columns: Iterable[str]) -> str:
-    return f"--of {name}: {declared.no_such_result(name, [each for each in columns if each != 'error'])}"
+    if of is not None and of not in plan.columns:
+        raise RequestError(f"--of {of}: {declared.no_such_result(of, plan.columns[:-1])}")
 
 
 def draw_sweep(plan: Plan, file: Path, path: Path, of: str | None = None) -> None:
@@ -107,23 +101,19 @@ def draw_sweep(plan: Plan, file: Path, path: Path, of: str | None = None) -> Non
 
 
 def read(plan: Plan, file: Path, of: str | None) -> Found:
-    """The swept columns and the one to show. Raises RequestError if there is no such column."""
-    table, scene = rows(file), plan.scene
-    first = next(table, {})
-    names = [name for name in first if name not in (*plan.keys, *FLAGS, CHANGED, "ended", "error")]
-    shown = of or ("verdict" if "verdict" in names else next(iter(names), None))
-    if shown is None:
-        raise RequestError("--plot: every point failed, there is nothing to show")
-    if shown not in first:
-        raise RequestError(_no_such(shown, list(first)))
+    """The swept columns and the one to show. Raises RequestError if every point failed."""
+    scene = plan.scene
+    shown = of or ("verdict" if "verdict" in plan.asked else next(iter(plan.asked), "ended"))
     places: list[list[str]] = [[] for _ in plan.keys]
     texts: list[str] = []
     won: list[bool] = []
-    for row in chain([first], table):
+    for row in rows(file):
         for place, key in zip(places, plan.keys, strict=True):
             place.append(row[key])
         texts.append(row[shown] if not row["error"] else FAILED)
         won.append(row.get(scene.controls.scores) not in NOTHING)
+    if all(text == FAILED for text in texts):
+        raise RequestError("--plot: every point failed, there is nothing to show")
     swept = [_column(axis, place) for axis, place in zip(plan.axes, places, strict=True)]
     numbers = _numbers(["" if text == FAILED else text for text in texts])
     if numbers is not None:

@@ -14,8 +14,8 @@ from contextlib import ExitStack, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TextIO
 
-from sandbox.errors import RequestError, RunError
-from sandbox.files import json_ready, writing, written_whole
+from sandbox.errors import RequestError
+from sandbox.files import json_ready, writing
 from sandbox.text import csv_text
 
 if TYPE_CHECKING:
@@ -43,7 +43,7 @@ class RowFile:
         self.done = 0
         self.damaged: int | None = None
         self._plan = plan
-        self._columns: list[str] = []
+        self._first_line = _line(map(csv_text, plan.columns))
         self._is_device = path.exists() and not path.is_file()
         self._file_path = path if self._is_device else path.resolve()  # the target of a link, not the link
         self._mark_path = self._file_path.with_name(f"{self._file_path.name}.resume")
@@ -71,37 +71,18 @@ class RowFile:
                 self.before.unlink()
 
     def append(self, records: Sequence[Mapping[str, Any]]) -> None:
-        """Add rows; they have been passed to the operating system on return. New columns are empty in earlier rows.
+        """Add rows; they have been passed to the operating system on return.
 
         Raises RunError if writing fails, for example on a full disk; earlier rows are kept.
         """
-        named = [{csv_text(name): value for name, value in record.items()} for record in records]
-        columns = _merged(self._columns, named)
         with writing("--out", self.path):
-            if columns != self._columns:
-                self._widen(columns)
+            if not self.done:
+                self._file.write(self._first_line)
             lines = csv.writer(self._file, lineterminator="\n")
-            for record in named:
-                lines.writerow([cell(record.get(name)) for name in columns])
+            for record in records:
+                lines.writerow([cell(record.get(name)) for name in self._plan.columns])
                 self.done += 1
             self._file.flush()
-
-    def _widen(self, columns: list[str]) -> None:
-        """Write the first line, or the existing rows again with more columns."""
-        if not self.done:
-            self._file.write(_line(columns))
-        elif self._is_device:
-            raise RunError(f"{self.path}: later rows have more columns than the first ones; write to a file instead")
-        else:
-            self._file.close()
-            try:
-                with written_whole(self._file_path) as file:
-                    file.write(_line(columns))
-                    for row in rows(self._file_path):
-                        file.write(_line([row.get(name, "") for name in columns]))
-            finally:
-                self._file = self._file_path.open("a", encoding="utf-8", newline="")
-        self._columns = columns
 
     # Before the first row
 
@@ -147,20 +128,18 @@ class RowFile:
         """Count the intact rows and cut off the rest; without any, the first line too."""
         with self._file_path.open("rb+") as file:
             header = file.readline()
-            columns = _cells(header) or []
-            keys = [csv_text(key) for key in self._plan.keys]
-            is_whole = columns[: len(keys)] == keys and columns[-1] == _LAST and len({*columns}) == len(columns)
-            if header.endswith(b"\n") and not is_whole:
+            if header.endswith(b"\n") and header != self._first_line.encode():
                 raise RequestError(
                     f"--out {self.path}: its first line is not what this sweep wrote; repair it, or remove the "
                     f"file and {self._mark_path.name} to start again"
                 )
+            width, keys = len(self._plan.columns), len(self._plan.keys)
             end = 0
             for point in self._plan.points(0, self._plan.size):
                 cells = _cells(file.readline())
-                if cells is None or len(cells) != len(columns) or cells[: len(keys)] != [cell(part) for part in point]:
+                if cells is None or len(cells) != width or cells[:keys] != [cell(part) for part in point]:
                     break
-                self._columns, self.done, end = columns, self.done + 1, file.tell()
+                self.done, end = self.done + 1, file.tell()
             file.seek(end or len(header))
             rest = file.readline()
             if rest.endswith(b"\n") or b"\0" in rest:  # not just the line that was being written
@@ -215,16 +194,6 @@ def is_of_a_sweep(path: Path) -> bool:
     except OSError:
         return False
     return first.endswith(f",{_LAST}".encode()) or first in (_TRAJECTORY, b"")
-
-
-def _merged(columns: list[str], records: Iterable[Mapping[str, Any]]) -> list[str]:
-    """The columns plus those that the records add, in the records' order; the last stays last."""
-    known = dict.fromkeys(columns)
-    new = {name: None for record in records for name in record if name not in known}
-    if not new:
-        return columns
-    last = columns[-1:] or list(next(iter(records)))[-1:]
-    return [name for name in (known | new) if name not in last] + last
 
 
 def cell(value: Any) -> str:
