@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from functools import cache, lru_cache
 from math import ceil
+from typing import ClassVar
 
 import numpy as np
 import pygame
@@ -49,8 +50,13 @@ def stamp(text: str) -> np.ndarray:
 class Lettering:
     """The three sizes for a picture of ``height`` px."""
 
+    larger: ClassVar[float] = 1.0  # than usual, for those who need it
+
     def __init__(self, height: int):
-        self.pixels = {name: max(least, round(size * height / 720)) for name, (size, least) in SIZES.items()}
+        rows = self.larger * height / 720
+        self.pixels = {
+            name: max(round(self.larger * least), round(size * rows)) for name, (size, least) in SIZES.items()
+        }
 
     def height(self, size: str) -> int:
         """From the top of a tall letter to the bottom of a deep one, in px."""

@@ -36,6 +36,17 @@ def palette(section: str) -> dict[str, Any]:
 
 
 @cache
+def _usual(section: str) -> dict[str, Any]:
+    return dict(_sections()[section])
+
+
+def set_contrast(high: bool) -> None:
+    """Give cards and their text more contrast, or the usual one, in everything that is drawn from now on."""
+    _usual("card")
+    _sections()["card"].update(_sections()["high_contrast"] if high else _usual("card"))
+
+
+@cache
 def scene_colours(file: str) -> dict[str, Any]:
     """The colours of a scene, from colours.toml in the folder of one of its files."""
     return _colour(tomllib.loads((Path(file).parent / "colours.toml").read_text("utf-8")))

@@ -182,7 +182,10 @@ def play(source: str, changes: Mapping[str, Any] | None = None, scene: str | Non
         with opened(SIZE, f"{session.title} – Sports sandbox") as screen:
             if recorded:
                 game.open_replay(Path(source), scene)
-            App(game, screen, Sound()).run()
+            app = App(game, screen, Sound())
+            if game.memory.look != (1.0, False):
+                app.view.set_look(*game.memory.look)
+            app.run()
     finally:
         worker.close(abandon=True)
         helper.close(abandon=True)

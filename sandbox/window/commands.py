@@ -31,6 +31,8 @@ from sandbox.window.view import AHEAD, View
 from sandbox.window.worker import cost_and_errors
 
 CARD = palette("card")
+#: How much larger than usual letters can be.
+TEXT_SIZES = (1.0, 1.15, 1.3, 1.5)
 #: What can be shown or hidden: the command of the same name switches it.
 SWITCHES = ("view", "pad", "ghosts", "arrows", "charts", "cost", "tape", "fan", "map")
 #: One step enlarges the picture by this factor, or moves it by this many px.
@@ -363,6 +365,17 @@ def _other_preset(view: View, by: float) -> None:
     view.game.open(names[(now + int(by)) % len(names)])
 
 
+def _text_size(view: View, by: float) -> None:
+    larger, contrast = view.game.memory.look
+    place = min(range(len(TEXT_SIZES)), key=lambda i: abs(TEXT_SIZES[i] - larger)) + int(by)
+    view.set_look(TEXT_SIZES[min(max(place, 0), len(TEXT_SIZES) - 1)], contrast)
+
+
+def _contrast(view: View, by: float) -> None:
+    larger, contrast = view.game.memory.look
+    view.set_look(larger, not contrast)
+
+
 def _quit(view: View, by: float) -> None:
     view.game.running = False
 
@@ -411,6 +424,8 @@ COMMANDS: dict[str, Callable[[View, float], object]] = {
     "undo": lambda view, by: view.game.undo() if by > 0 else view.game.redo(),
     "rack": lambda view, by: view.game.begin_again(),
     "sound": _sound,
+    "text_size": _text_size,
+    "contrast": _contrast,
     "fullscreen": lambda view, by: view.toggle_full_screen(),
     "help": _help,
     "back": _back,

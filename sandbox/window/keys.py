@@ -79,6 +79,8 @@ TABLE = (
     Command("undo", ("ctrl z", "ctrl y"), "undo, redo the last of 200 changes", "More", repeats=True),
     Command("rack", ("b",), "the balls back where they began", "More"),
     Command("sound", ("u",), "sound", "More"),
+    Command("text_size", ("alt +", "alt -"), "larger, smaller text", "More"),
+    Command("contrast", ("alt c",), "high contrast", "More"),
     Command("cost", ("f3",), "what a frame and a run cost", "More"),
     Command("fullscreen", ("f11",), "full screen", "More"),
     Command("help", ("h",), "all keys", "More"),

@@ -33,9 +33,12 @@ class Memory:
         self.file = file
         self.recent: list[str] = []
         self.followed: list[str] = []
+        self.look = 1.0, False  # how much larger letters are, and whether the contrast is high
         with suppress(OSError, ValueError, TypeError, AttributeError):
             kept = json.loads(file.read_text("utf-8")) if file is not None else {}
             self.recent = [source for source in kept.get("recent", []) if isinstance(source, str)][:MOST]
+            larger, contrast = kept.get("look", self.look)
+            self.look = min(max(float(larger), 1.0), 2.0), bool(contrast)
             self.followed = [hint for hint in kept.get("followed", []) if isinstance(hint, str)]
 
     def opened(self, source: str) -> None:
@@ -44,7 +47,7 @@ class Memory:
         source = str(path.resolve()) if path.exists() else source
         if source not in self.recent[:1]:
             self.recent = [source, *(each for each in self.recent if each != source)][:MOST]
-            self._save()
+            self.save()
 
     @property
     def hints(self) -> dict[str, str]:
@@ -55,11 +58,12 @@ class Memory:
         """A hint was followed, and is not shown again."""
         if hint not in self.followed:
             self.followed.append(hint)
-            self._save()
+            self.save()
 
-    def _save(self) -> None:
+    def save(self) -> None:
+        """Write it, if it has a file."""
         if self.file is not None:
             with suppress(OSError):
                 self.file.parent.mkdir(parents=True, exist_ok=True)
                 with written_whole(self.file) as file:
-                    json.dump({"recent": self.recent, "followed": self.followed}, file)
+                    json.dump({"recent": self.recent, "followed": self.followed, "look": self.look}, file)

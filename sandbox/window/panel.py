@@ -23,7 +23,7 @@ from sandbox.picture.lettering import Lettering
 from sandbox.picture.sheet import rows_of
 from sandbox.window.game import Game
 from sandbox.window.session import Session
-from sandbox.window.theme import NAMED, theme
+from sandbox.window.theme import CARD, theme
 
 WIDTH, NARROWEST = 320, 280  # px on 720 rows; px
 #: Smallest scale, so that text in a small window can still be read.
@@ -236,7 +236,8 @@ class Panel:
         """``chosen`` is the row that keys change."""
         self.game, self.rect = game, rect
         self.scene, self.base = game.session.scene, game.session.base
-        self.unit, self.lettering = max(LEAST_UNIT, rows_of(size) / 720), Lettering(rows_of(size))
+        self.unit = Lettering.larger * max(LEAST_UNIT, rows_of(size) / 720)
+        self.lettering = Lettering(rows_of(size))
         self.manager = pygame_gui.UIManager(size, theme(self.unit))
         self.groups = self._groups()
         self.group = self.wanted = group if group in self.groups else FAVOURITES
@@ -366,11 +367,11 @@ class Panel:
         self.manager.update(dt)
 
     def draw(self, surface: pygame.Surface) -> None:
-        surface.fill(NAMED["background"], self.rect)
+        surface.fill(CARD["background"], self.rect)
         self.manager.draw_ui(surface)
         if self.chosen is not None and self.chosen < len(self.rows):
             label = self.rows[self.chosen].label.rect
-            surface.fill(NAMED["accent"], (self.rect.left + 3, label.top + 3, 3, label.height - 6))
+            surface.fill(CARD["accent"], (self.rect.left + 3, label.top + 3, 3, label.height - 6))
 
 
 def _shape(parameters: Group) -> list[Any]:

@@ -8,12 +8,18 @@ from typing import Any
 from sandbox.picture.palette import ASSETS, Colour, mix, palette
 
 CARD = palette("card")
-NAMED = {
-    **{name: CARD[name] for name in ("background", "text", "quiet", "accent")},
-    "raised": mix(CARD["background"], CARD["quiet"], 0.16),
-    "lifted": mix(CARD["background"], CARD["quiet"], 0.3),
-    "groove": mix(CARD["background"], CARD["quiet"], 0.1),
-}
+
+
+def named() -> dict[str, Colour]:
+    """The colours of the theme."""
+    return {
+        **{name: CARD[name] for name in ("background", "text", "quiet", "accent")},
+        "raised": mix(CARD["background"], CARD["quiet"], 0.16),
+        "lifted": mix(CARD["background"], CARD["quiet"], 0.3),
+        "groove": mix(CARD["background"], CARD["quiet"], 0.1),
+    }
+
+
 #: Elements with text.
 WRITTEN_ON = ("button", "label", "text_entry_line", "drop_down_menu", "text_box")
 #: Lengths in px on 720 rows, by element.
@@ -33,7 +39,7 @@ def _filled(node: Any) -> Any:
     """Replace names such as ``$accent`` by their colours, at any depth."""
     if isinstance(node, dict):
         return {key: _filled(value) for key, value in node.items()}
-    return _hex(NAMED[node[1:]]) if isinstance(node, str) and node.startswith("$") else node
+    return _hex(named()[node[1:]]) if isinstance(node, str) and node.startswith("$") else node
 
 
 def theme(unit: float) -> dict[str, Any]:

@@ -17,7 +17,8 @@ import numpy as np
 import pygame
 
 from sandbox.picture.camera import Camera
-from sandbox.picture.palette import palette
+from sandbox.picture.lettering import Lettering
+from sandbox.picture.palette import palette, set_contrast
 from sandbox.picture.sheet import Entry, nice, rows_of
 from sandbox.picture.vectors import Vectors
 from sandbox.picture.view import View as Picture
@@ -147,6 +148,18 @@ class View:
     def open_panel(self, wanted: bool) -> None:
         """Show the panel of parameters, or close it."""
         self.panel_wanted = wanted
+        self.lay_out()
+
+    def set_look(self, larger: float, contrast: bool) -> None:
+        """Draw everything anew with other letters or colours, now and next time."""
+        Lettering.larger = larger
+        set_contrast(contrast)
+        self.game.memory.look = larger, contrast
+        self.game.memory.save()
+        self.stages.forget()
+        self.stage, self._once = None, Once()
+        if self.panel is not None:
+            self.panel.outdated = True
         self.lay_out()
 
     def resized(self) -> None:
