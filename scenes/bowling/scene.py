@@ -80,7 +80,7 @@ class Parameters(Group):
 CONTROLS = Controls(
     strongest=14.0,
     handles=(Handle(y="launch.aside"),),
-    spins=(Spin("launch.spin", 20.0), Spin("launch.axis", 5.0)),
+    spins=(Spin("launch.spin", 20.0),),
     sliders=("launch.speed", "launch.angle", "launch.aside", "launch.spin", "launch.axis", "dry"),
     scores="strike",
     spread=(Spread("launch.speed", 0.015), Spread("launch.angle", least=0.25), Spread("launch.spin", 0.05)),  # assumed

@@ -17,7 +17,7 @@ from sandbox.engine.setup import Always, Bounce, Catch, Circle, Segment, Setup, 
 from sandbox.parameters import Accuracy, Group, choice, group, groups, quantity
 from sandbox.physics.ice import Glide
 from sandbox.sport.amounts import roughly
-from sandbox.sport.controls import Controls, Spin, Spread
+from sandbox.sport.controls import Controls, Handle, Spin, Spread
 from sandbox.sport.facts import ENDED, Fact
 from sandbox.sport.sliding import Body, Slide, end_of, met, rounded, speed_before, taken
 
@@ -79,6 +79,7 @@ CONTROLS = Controls(
     strongest=50.0,
     spins=(Spin("launch.spin", 50.0),),
     ball="puck",
+    handles=(Handle("players[*].x", "players[*].y"), Handle("launch.x", "launch.aside")),
     sliders=("launch.speed", "launch.angle", "launch.x", "launch.aside", "rink.sliding", "puck.restitution"),
     scores="done",
     spread=(Spread("launch.speed", 0.05), Spread("launch.angle", least=1.0)),  # assumed
