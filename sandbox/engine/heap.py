@@ -14,7 +14,7 @@ rigid lump.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, KeysView, Mapping, Sequence
 from functools import cached_property
 from itertools import combinations
 from math import hypot, inf
@@ -112,7 +112,7 @@ class Heap:
         return real
 
     @property
-    def members(self) -> Collection[int]:
+    def members(self) -> KeysView[int]:
         """The balls in the heap."""
         return self._members.keys()
 

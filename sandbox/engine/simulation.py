@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import heapq
 from collections.abc import Callable, Collection, Sequence
-from functools import partial
+from functools import cached_property, partial
 from itertools import count
 from time import perf_counter
 from typing import TYPE_CHECKING
@@ -62,19 +62,16 @@ class Simulation:
         self._tracks = self._make_tracks()
         slowest = 0.0 if setup.plane is None else slowest_hop(setup, accuracy.hop)
         self._impacts = Impacts(setup, self._tracks, self._numerics, slowest)
-        self._pressed: Pressed | None = None
         self._all_round = discs(*setup.balls)
-        self._heap: Heap | None = None
-        if not self._all_round:
-            self._heap = Heap(setup, self._tracks, accuracy, self._numerics)
-        elif len(setup.balls) > 1:
-            # here, not above: it brings numpy, which a run of one ball does not need
-            from sandbox.engine.pressed import Pressed
+        self._heap = Heap(setup, self._tracks, accuracy, self._numerics)
+        self._heaps_up = (setup.plane is None and len(setup.balls) > 1) or not self._all_round
 
-            if setup.plane is None:
-                self._heap = Heap(setup, self._tracks, accuracy, self._numerics)
+    @cached_property
+    def _pressed(self) -> Pressed:
+        # here, not above: it brings numpy, which a run in which no balls meet does not need
+        from sandbox.engine.pressed import Pressed
 
-            self._pressed = Pressed(setup, self._tracks, accuracy.contact_step)
+        return Pressed(self._setup, self._tracks, self._accuracy.contact_step)
 
     def _make_tracks(self) -> list[Track]:
         setup = self._setup
@@ -191,11 +188,10 @@ class Simulation:
 
     def _collide(self, t: float, seeds: Sequence[int]) -> None:
         """Everything that touches at this instant exchanges impulses at once, or is simulated through the contact."""
-        if self._heap is not None:
-            self._impacts.gap = self._heap.margin if self._heap.members else TOUCHING_GAP
+        self._impacts.gap = self._heap.margin if self._heap.members else TOUCHING_GAP
         touching = self._impacts.touching(t, seeds)
         outcome = None
-        if self._pressed is not None and len(touching) > 1 and not (self._heap and self._heap.members):
+        if self._all_round and len(touching) > 1 and not self._heap.members:
             outcome = self._pressed.through(t, touching)
         if outcome is None:
             outcome = self._impacts.exchange(t, touching)
@@ -212,7 +208,7 @@ class Simulation:
         for index, state in outcome.states.items():
             self._tracks[index].state = state
         held: Collection[int] = ()
-        if self._heap is not None and self._heap.presses(t, outcome.states):
+        if self._heaps_up and self._heap.presses(t, outcome.states):
             held = self._press_on(t, outcome.states.keys())
         for index in outcome.states:
             if index not in held:
@@ -220,7 +216,6 @@ class Simulation:
 
     def _press_on(self, t: float, joining: Collection[int]) -> Collection[int]:
         """Step the heap from t, with these balls if they press on others. Returns the balls in it."""
-        assert self._heap is not None
         members = set(self._heap.members)
         for index in members - set(joining):
             track = self._tracks[index]
@@ -241,8 +236,7 @@ class Simulation:
     def _part(self, t: float, touching: dict[int, State], parted: Outcome) -> None:
         """Apply the outcome of a contact that lasts from t until the balls separate."""
         self._numerics.clusters += 1
-        held = () if self._heap is None else self._heap.members
-        for index in touching.keys() - parted.states.keys() - set(held):
+        for index in touching.keys() - parted.states.keys() - self._heap.members:
             self._tracks[index].state = touching[index]
             self._resume(index, t)
         for index, state in parted.states.items():
