@@ -20,6 +20,9 @@ from sandbox.engine.shapes import Shape, Vector
 #: Most pieces to walk over and most Newton steps; each of them needs two or three.
 _MOST = 200
 
+#: Depth in m up to which outlines are in touch, and the direction found first is the right one.
+_TOUCHING = 1e-9
+
 #: Difference of two gaps in m that is rounding.
 _FLAT = 1e-10
 
@@ -46,13 +49,9 @@ class Nearest(NamedTuple):
 
 def nearest(one: Shape, here: Pose, other: Shape, there: Pose, direction: float | None = None) -> Nearest:
     """The distance and direction of two outlines. ``direction`` is a guess of that of the normal, in rad."""
-    if direction is not None:
-        found = _climbed(one, here, other, there, direction)
-        if found.gap > 0.0:
-            return found
     start = atan2(here.y - there.y, here.x - there.x) if direction is None else direction
     found = _climbed(one, here, other, there, start)
-    if found.gap > 0.0:
+    if found.gap > -_TOUCHING:
         return found
     # not certain to be the best: try the normals of all sides, and some more
     starts = [pi + here.angle + normal for normal in getattr(one, "normals", ())]
