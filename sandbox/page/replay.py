@@ -157,7 +157,7 @@ def _layout(view: View[Any]) -> dict[str, Any]:
 def _static(view: View[Any], run: Run) -> dict[str, Any]:
     """What does not depend on the layout."""
     names = view.balls
-    looks = {id(look): look for look in map(view.look_of, names)}
+    looks = {id(view.looks[name]): view.looks[name] for name in names}
     numbers = {key: i for i, key in enumerate(looks)}
     return {
         "ball": view.ball,
@@ -166,7 +166,7 @@ def _static(view: View[Any], run: Run) -> dict[str, Any]:
                 "name": name,
                 "radius": view.radii[name],
                 "colour": css(view.colour_of(name)),
-                "look": numbers[id(view.look_of(name))],
+                "look": numbers[id(view.looks[name])],
                 "lying": view.lying(name).tolist(),
                 "rolls": view.rolls(name),
                 "caught": run.caught_at(name),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 from functools import cached_property
 from typing import ClassVar, NamedTuple
@@ -9,6 +10,7 @@ from typing import ClassVar, NamedTuple
 import numpy as np
 import pygame
 
+from sandbox.picture.ball import Flat
 from sandbox.picture.camera import Camera, Follow
 from sandbox.picture.chase import sampled, settling
 from sandbox.picture.painter import Painter
@@ -107,6 +109,13 @@ class AboveView(View[P]):
         """On the ground, to the right below the ball."""
         below = at[0] + SHADOW[0] * radius, at[1] + SHADOW[1] * radius
         painter.shadow(below, 1.05 * radius, 0.95 * radius, CARD["shadow"], 0.55)
+
+    def _shadows(
+        self, painter: Painter, camera: Camera, placed: Mapping[str, tuple[tuple[float, float], float]], t: float
+    ) -> None:
+        """Of balls; a flat body lies on the ground."""
+        balls = {name: where for name, where in placed.items() if not isinstance(self.looks[name], Flat)}
+        super()._shadows(painter, camera, balls, t)
 
     def dimensions(self, sheet: Sheet, camera: Camera) -> None:
         """None; but no label goes to the headline or on the card, nor on a ball or a person."""

@@ -33,6 +33,8 @@ PHASE = 1 / 4
 LIGHT = np.array([-0.42, 0.50, 0.76])
 #: How much of its colour a ball shows where no light falls, and where its surface turns away.
 DARK, EDGE = 0.55, 0.7
+#: Width of the darker edge of a flat body, as a share of its radius.
+BEVEL = 0.07
 #: s over which a spin whose axis turns is taken as even.
 STEP = 1 / 60
 
@@ -109,6 +111,18 @@ class Silhouette(Look):
         if enlarged:
             reach = max(hypot(*corner) for corners, _ in self.shapes for corner in corners)
             painter.ring(centre, reach * radius + 2.0 * unit, max(1.2, 1.7 * unit), CARD["accent"])
+
+
+class Flat(Silhouette):
+    """A body of any outline: corners in radii around its centre, a darker edge, and a cross where its mass is."""
+
+    def __init__(self, colour: Colour, rim: Sequence[Point]):
+        edge, mark = (tuple(round(share * part) for part in colour) for share in (0.62, 0.78))
+        corners = np.asarray(rim)
+        inner = corners * (1.0 - BEVEL * np.abs(corners).max() / np.maximum(np.hypot(*corners.T), BEVEL))[:, None]
+        arm, thick = 0.16 * np.hypot(*corners.T).min(), 0.05 * np.hypot(*corners.T).min()
+        bars = [[(-x, -y), (x, -y), (x, y), (-x, y)] for x, y in ((arm, thick), (thick, arm))]
+        super().__init__(colour, (corners, edge), (inner, colour), *((bar, mark) for bar in bars))  # type: ignore[arg-type]
 
 
 def near(points: np.ndarray, angle: float) -> Callable[[np.ndarray], np.ndarray]:

@@ -16,10 +16,10 @@ import numpy as np
 import pygame
 
 from sandbox.engine.run import Run
-from sandbox.engine.setup import Segment
+from sandbox.engine.setup import Body, Segment
 from sandbox.errors import RequestError
 from sandbox.parameters import Group
-from sandbox.picture.ball import SMALLEST, Look, Turning, least_radius, mark_radius, turned
+from sandbox.picture.ball import SMALLEST, Flat, Look, Silhouette, Turning, least_radius, mark_radius, turned
 from sandbox.picture.camera import Camera
 from sandbox.picture.ghosts import Ghost, draw_ghost, draw_in_frame, label_ghost
 from sandbox.picture.painter import Painter, blank
@@ -419,6 +419,16 @@ class View(Generic[P]):
         """How a ball looks."""
         return self.LOOK
 
+    @cached_property
+    def looks(self) -> dict[str, Look]:
+        """How all that moves is drawn: balls as they look, bodies as their outline in that colour."""
+        looks = {name: self.look_of(name) for name in self.balls}
+        for body in (ball for ball in self.run.setup.balls if isinstance(ball, Body) and ball.name in looks):
+            if not isinstance(looks[body.name], Silhouette):
+                rim = [(x / body.radius, y / body.radius) for x, y in body.outline.rim(1e-3 * body.radius)]
+                looks[body.name] = Flat(looks[body.name].colour, rim)
+        return looks
+
     def colour_of(self, name: str) -> Colour:
         """Of the path of a ball, or of anything else that moves."""
         others = [ball.name for ball in self.run.setup.balls if ball.name != self.ball]
@@ -433,7 +443,7 @@ class View(Generic[P]):
     ) -> None:
         """A ball at time t in s; a lone one that is drawn larger than it is has a ring around it that says so."""
         larger = len(self.balls) == 1 and radius > UNSAID * self.radii[name] * camera.scale
-        self.look_of(name).draw(painter, at, radius, self.turn(name, t), self.unit, larger)
+        self.looks[name].draw(painter, at, radius, self.turn(name, t), self.unit, larger)
 
     def lying(self, name: str) -> np.ndarray:
         """The matrix by which a ball is turned at the start."""
@@ -477,7 +487,7 @@ class View(Generic[P]):
             return []
         painter = sheet.painter
         every, moments = self.path.even_times(self.span)
-        radius, look = max(self.radius * camera.scale, mark_radius(self.rows)), self.look_of(self.ball)
+        radius, look = max(self.radius * camera.scale, mark_radius(self.rows)), self.looks[self.ball]
         states = np.array([self.run.state(self.ball, t)[:2] for t in [*moments, self.told]])
         *places, end = self.spots(camera, states, radius)
         bead, last, crowded = min(BEAD * radius, max(2.0, LARGEST_BEAD * self.unit)), None, False

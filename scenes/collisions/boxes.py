@@ -1,0 +1,139 @@
+"""What is not round on the bench, and what a strip that separates two outlines says of them."""
+
+from __future__ import annotations
+
+from itertools import combinations
+from math import radians
+from typing import Any, Literal, NamedTuple
+
+from pydantic import Field
+
+from sandbox.engine.meeting import meeting, standing
+from sandbox.engine.nearest import Nearest, Pose, meeting_points, nearest
+from sandbox.engine.run import Run
+from sandbox.engine.setup import Body, Segment, Vector, outline_of
+from sandbox.engine.shapes import Ellipse, Polygon, Shape, box, capsule
+from sandbox.parameters import Group, choice, quantity
+
+#: Heights above the lane and diameters of a bowling pin, as shares of its height of 15 in (USBC); the neck is filled.
+PIN = ((0.0, 0.150), (0.05, 0.1885), (0.15, 0.2604), (0.225, 0.3007), (0.3, 0.3177), (0.9, 0.1698), (0.98, 0.093))
+#: The height of its centre of mass, and its moment of inertia over m h^2, computed from the whole profile.
+PIN_CENTER, PIN_MOMENT = 0.382, 0.0564
+
+#: Gap in m below which two outlines touch.
+TOUCH = 1e-5
+
+
+class Box(Group):
+    """Something that is not round; it lies as ``angle`` says."""
+
+    name: str = Field(description="its name", min_length=1, max_length=40)
+    shape: Literal["box", "ellipse", "capsule", "pin"] = choice("box", "its outline")
+    x: float = quantity(0.0, "m", -50, 50, "of its centre of mass, to the right")
+    y: float = quantity(0.0, "m", -50, 50, "of its centre of mass, upward, or across a level bench")
+    angle: float = quantity(0.0, "deg", -360, 360, "how far it is turned, counter-clockwise")
+    width: float = quantity(0.1, "m", 0.001, 20, "along its own x")
+    height: float = quantity(0.1, "m", 0.001, 20, "along its own y")
+    vx: float = quantity(0.0, "m/s", -50, 50, "velocity along x")
+    vy: float = quantity(0.0, "m/s", -50, 50, "velocity along y")
+    spin: float = quantity(0.0, "rad/s", -300, 300, "counter-clockwise")
+    mass: float = quantity(0.17, "kg", 1e-3, 100, "mass")
+
+
+class AsBox(Group):
+    """What the first ball is in place of a ball."""
+
+    width: float = quantity(..., "m", 0, 20, "of a box; 0: a ball")
+    height: float = quantity(..., "m", 0, 20, "of the box")
+    angle: float = quantity(..., "deg", -360, 360, "how far it is turned, counter-clockwise")
+    spin: float = quantity(..., "rad/s", -300, 300, "counter-clockwise, of ball or box")
+
+
+def outline(it: Box) -> Shape:
+    """Its outline; a pin stands on the origin."""
+    w, h = it.width, it.height
+    if it.shape == "ellipse":
+        return Ellipse(w / 2, h / 2)
+    if it.shape == "capsule":
+        return capsule(w, h / 2) if w > h else capsule(h, w / 2)
+    if it.shape == "pin":
+        right = [(0.5 * share * h * w / (PIN[4][1] * h), up * h) for up, share in PIN]
+        return Polygon([*right, *((-x, y) for x, y in reversed(right))])
+    return box(w, h)
+
+
+def body_of(it: Box, forces: list[Any]) -> Body:
+    """The body, with these forces on it."""
+    pin = it.shape == "pin"
+    return Body(
+        it.name,
+        position=(it.x, it.y),
+        velocity=(it.vx, it.vy),
+        spin=it.spin,
+        angle=radians(it.angle),
+        shape=outline(it),
+        mass=it.mass,
+        center=(0.0, PIN_CENTER * it.height) if pin else None,
+        moment=PIN_MOMENT * it.mass * it.height**2 if pin else None,
+        forces=forces,
+    )
+
+
+class Strip(NamedTuple):
+    """What lies between two outlines."""
+
+    names: tuple[str, str]
+    found: Nearest
+    points: list[tuple[Vector, Vector]]  # m, nearest to each other: on the one and on the other
+    why: str
+
+
+def strip(run: Run, t: float) -> Strip | None:
+    """Between the two that are nearest to each other at t: a body and another or, if none is near, a surface."""
+    there = []
+    for ball in run.setup.balls:
+        x, y, *_ = run.state(ball.name, t)
+        angle = run.angle(ball.name, t) if isinstance(ball, Body) else 0.0
+        there.append((ball.name, outline_of(ball), Pose(x, y, angle), isinstance(ball, Body)))
+    fixed = [
+        (s.name, standing(s.shape).shape, Pose(0.0, 0.0, 0.0), True)
+        for s in run.setup.surfaces
+        if isinstance(s.shape, Segment)
+    ]
+    bodies = [one for one in there if one[3]]
+    pairs = [(a, b) for a, b in combinations(there, 2) if a[3] or b[3]] or [(a, b) for a in bodies for b in fixed]
+    if not pairs:
+        return None
+    measured = [(nearest(a[1], a[2], b[1], b[2]), a, b) for a, b in pairs]
+    found, one, other = min(measured, key=lambda pair: pair[0].gap)
+    middle = meeting_points(one[1], one[2], other[1], other[2], (found.nx, found.ny), TOUCH)
+    half = 0.5 * found.gap
+    points = [
+        ((x + half * found.nx, y + half * found.ny), (x - half * found.nx, y - half * found.ny)) for x, y in middle
+    ]
+    if found.gap > TOUCH:
+        why = f"apart: a strip {_length(found.gap)} wide lies between them"
+    elif len(points) == 2:
+        why = "in touch along a side: no strip lies between them"
+    else:
+        why = "in touch at a point: no strip lies between them"
+    return Strip((one[0], other[0]), found, points, f"{one[0]} and {other[0]} are {why}")
+
+
+def _length(gap: float) -> str:
+    return f"{gap:.2f} m" if gap >= 1.0 else f"{100 * gap:.1f} cm" if gap >= 1e-3 else f"{1000 * gap:.2f} mm"
+
+
+def as_box(mass: float, it: AsBox, name: str, place: Vector, way: Vector, forces: list[Any]) -> Body:
+    """The first ball as a box."""
+    (x, y), (vx, vy) = place, way
+    flat = Box(name=name, x=x, y=y, vx=vx, vy=vy, mass=mass)
+    parts = {"angle": it.angle, "width": it.width, "height": it.height, "spin": it.spin}
+    return body_of(flat.model_copy(update=parts), forces)
+
+
+def closing(run: Run, pair: list[str], states: dict[str, tuple[float, ...]], t: float) -> float:
+    """Speed in m/s at which two outlines that touch at t approach where they touch; negative where they part."""
+    one, other = (next(ball for ball in run.setup.balls if ball.name == name) for name in pair)
+    here, there = ((*states[name], run.angle(name, t)) for name in pair)
+    return meeting(one, here, other, there, TOUCH).closing
