@@ -53,21 +53,29 @@ class Mover(NamedTuple):
         arc = self.arc
         h = arc.t1 - arc.t0
         if h <= 0.0:
-            return _Bounds(0.0, 0.0, 0.0, 0.0)
+            return _Bounds(0.0, (), 0.0, 0.0)
         ax, ay, turning = (
-            max((abs(b - a) for a, b in pairwise(curve)), default=0.0) * (len(curve) - 1) / h
-            for curve in (arc.vx, arc.vy, arc.spin)
+            [(b - a) * (len(curve) - 1) / h for a, b in pairwise(curve)] for curve in (arc.vx, arc.vy, arc.spin)
         )
-        return _Bounds(arc.fastest(), hypot(ax, ay), max(map(abs, arc.spin)), turning)
+        accelerations = tuple(zip(ax, ay, strict=True))
+        return _Bounds(arc.fastest(), accelerations, max(map(abs, arc.spin)), max(map(abs, turning), default=0.0))
 
 
 class _Bounds(NamedTuple):
     """Of how a body moves."""
 
     speed: float  # m/s
-    acceleration: float  # m/s^2
+    accelerations: tuple[tuple[float, float], ...]  # m/s^2; it is always between these
     spin: float  # rad/s
     turning: float  # rad/s^2
+
+    def acceleration(self, nx: float, ny: float) -> float:
+        """The largest along a fixed normal, in m/s^2."""
+        return max((abs(ax * nx + ay * ny) for ax, ay in self.accelerations), default=0.0)
+
+    def any_acceleration(self) -> float:
+        """The largest in any direction."""
+        return max((hypot(ax, ay) for ax, ay in self.accelerations), default=0.0)
 
 
 def fixed(shape: Shape) -> Mover:
@@ -136,9 +144,13 @@ def _apart_for(
     own, others = bounds
     size = max(shape.reach, shape.straightest)
     apart = hypot(x - u, y - v) + until * (own.speed + others.speed)
-    hurry = own.acceleration + others.acceleration + size * (own.spin**2 + own.turning)
-    hurry += 2.0 * others.spin * (own.speed + others.speed + size * own.spin)
-    hurry += (others.spin**2 + others.turning) * (apart + size)
+    hurry = size * (own.spin**2 + own.turning)
+    if others.spin == 0.0:  # the normal does not turn
+        hurry += own.acceleration(nx, ny) + others.acceleration(nx, ny)
+    else:
+        hurry += own.any_acceleration() + others.any_acceleration()
+        hurry += 2.0 * others.spin * (own.speed + others.speed + size * own.spin)
+        hurry += (others.spin**2 + others.turning) * (apart + size)
 
     step, approach = until, -inf
     for distance, across in ahead:

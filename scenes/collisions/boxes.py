@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from itertools import combinations
 from math import radians
-from typing import Any, Literal, NamedTuple
+from typing import Literal, NamedTuple
 
 from pydantic import Field
 
 from sandbox.engine.meeting import meeting, standing
 from sandbox.engine.nearest import Nearest, Pose, meeting_points, nearest
 from sandbox.engine.run import Run
-from sandbox.engine.setup import Body, Segment, Vector, outline_of
+from sandbox.engine.setup import Body, Force, Segment, Vector, outline_of
 from sandbox.engine.shapes import Ellipse, Polygon, Shape, box, capsule
 from sandbox.parameters import Group, choice, quantity
+from sandbox.physics.integrators import State
 
 #: Heights above the lane and diameters of a bowling pin, as shares of its height of 15 in (USBC); the neck is filled.
 PIN = ((0.0, 0.150), (0.05, 0.1885), (0.15, 0.2604), (0.225, 0.3007), (0.3, 0.3177), (0.9, 0.1698), (0.98, 0.093))
@@ -34,19 +36,10 @@ class Box(Group):
     angle: float = quantity(0.0, "deg", -360, 360, "how far it is turned, counter-clockwise")
     width: float = quantity(0.1, "m", 0.001, 20, "along its own x")
     height: float = quantity(0.1, "m", 0.001, 20, "along its own y")
-    vx: float = quantity(0.0, "m/s", -50, 50, "velocity along x")
-    vy: float = quantity(0.0, "m/s", -50, 50, "velocity along y")
+    vx: float | None = quantity(None, "m/s", -50, 50, "along x; if vx and vy are left out, 0 or that of the launch")
+    vy: float | None = quantity(None, "m/s", -50, 50, "along y")
     spin: float = quantity(0.0, "rad/s", -300, 300, "counter-clockwise")
     mass: float = quantity(0.17, "kg", 1e-3, 100, "mass")
-
-
-class AsBox(Group):
-    """What the first ball is in place of a ball."""
-
-    width: float = quantity(..., "m", 0, 20, "of a box; 0: a ball")
-    height: float = quantity(..., "m", 0, 20, "of the box")
-    angle: float = quantity(..., "deg", -360, 360, "how far it is turned, counter-clockwise")
-    spin: float = quantity(..., "rad/s", -300, 300, "counter-clockwise, of ball or box")
 
 
 def outline(it: Box) -> Shape:
@@ -62,13 +55,13 @@ def outline(it: Box) -> Shape:
     return box(w, h)
 
 
-def body_of(it: Box, forces: list[Any]) -> Body:
-    """The body, with these forces on it."""
+def body_of(it: Box, velocity: Vector, forces: Sequence[Force]) -> Body:
+    """The body, with this velocity and these forces on it."""
     pin = it.shape == "pin"
     return Body(
         it.name,
         position=(it.x, it.y),
-        velocity=(it.vx, it.vy),
+        velocity=velocity,
         spin=it.spin,
         angle=radians(it.angle),
         shape=outline(it),
@@ -124,15 +117,7 @@ def _length(gap: float) -> str:
     return f"{gap:.2f} m" if gap >= 1.0 else f"{100 * gap:.1f} cm" if gap >= 1e-3 else f"{1000 * gap:.2f} mm"
 
 
-def as_box(mass: float, it: AsBox, name: str, place: Vector, way: Vector, forces: list[Any]) -> Body:
-    """The first ball as a box."""
-    (x, y), (vx, vy) = place, way
-    flat = Box(name=name, x=x, y=y, vx=vx, vy=vy, mass=mass)
-    parts = {"angle": it.angle, "width": it.width, "height": it.height, "spin": it.spin}
-    return body_of(flat.model_copy(update=parts), forces)
-
-
-def closing(run: Run, pair: list[str], states: dict[str, tuple[float, ...]], t: float) -> float:
+def closing(run: Run, pair: list[str], states: dict[str, State], t: float) -> float:
     """Speed in m/s at which two outlines that touch at t approach where they touch; negative where they part."""
     one, other = (next(ball for ball in run.setup.balls if ball.name == name) for name in pair)
     here, there = ((*states[name], run.angle(name, t)) for name in pair)

@@ -6,10 +6,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import chain, product
+from math import cos, sin
 
 import numpy as np
 
-from sandbox.engine.setup import Segment
+from sandbox.engine.setup import Body, Segment
 from sandbox.picture.above import AboveView
 from sandbox.picture.ball import Look, Mark, near
 from sandbox.picture.camera import Camera
@@ -19,7 +20,8 @@ from sandbox.picture.places.plan import Plan, unit_of
 from sandbox.picture.sheet import Sheet, nice
 from sandbox.sport.amounts import signed
 
-from .scene import AMOUNTS, Parameters, blow, hangs, shares
+from .boxes import TOUCH, strip
+from .scene import AMOUNTS, Blow, Parameters, blow, hangs, shares
 
 CARD, COLOURS = palette("card"), scene_colours(__file__)
 SPOTS = near(np.array(list(product((-1.0, 1.0), repeat=3))) / 3**0.5, 0.25)  # so that one sees them turn
@@ -103,11 +105,39 @@ class Picture(AboveView[Parameters]):
             if np.hypot(*(after - before)) < 0.01 * fastest:
                 continue
             x, y = at = camera.pixel(*met.before[name][:2])
-            painter.ring(at, self.radii[name] * camera.scale, 1.5 * unit, self.colour_of(name))
+            self._outlined(painter, camera, name, met)
             for velocity, colour, width in ((before, COLOURS["before"], 3.0), (after, CARD["text"], 4.0)):
                 along, up = velocity / fastest * LONGEST * unit
                 if np.hypot(along, up) > 6 * unit:
                     painter.arrow(at, (x + along, y - up), width * unit, colour)
+
+    def _outlined(self, painter: Painter, camera: Camera, name: str, met: Blow) -> None:
+        """Where a ball or body was at the blow."""
+        (x, y, *_), body = met.before[name], next(ball for ball in self.run.setup.balls if ball.name == name)
+        if not isinstance(body, Body):
+            painter.ring(camera.pixel(x, y), body.radius * camera.scale, 1.5 * self.unit, self.colour_of(name))
+            return
+        c, s = cos(self.run.angle(name, met.t)), sin(self.run.angle(name, met.t))
+        rim = body.outline.rim(1e-3 * body.radius)
+        corners = [camera.pixel(x + c * u - s * v, y + s * u + c * v) for u, v in [*rim, rim[0]]]
+        painter.line(corners, 1.5 * self.unit, self.colour_of(name))
+
+    def before(self, painter: Painter, camera: Camera, t: float) -> None:
+        """Where not all is round: the strip that separates the two nearest to each other, or where they touch, and
+        why."""
+        if (between := strip(self.run, t)) is None:
+            return
+        found, unit, far = between.found, self.unit, 0.35 * self.size[1] / camera.scale
+        for pair in between.points:
+            if found.gap > TOUCH:
+                for x, y in pair:
+                    line = [camera.pixel(x - way * far * found.ny, y + way * far * found.nx) for way in (-1.0, 1.0)]
+                    painter.dashes(line, 1.2 * unit, CARD["quiet"], 6 * unit, 6 * unit)
+                painter.line([camera.pixel(*place) for place in pair], 2 * unit, CARD["accent"])
+            for place in pair:
+                painter.disc(camera.pixel(*place), 3.5 * unit, CARD["accent"])
+        above = self.card_row - 4.5 * self.sheet.gap
+        self.sheet.write(between.why, "small", (self.sheet.frame.right, above), CARD["text"], "bottomright")
 
     def scale(self, sheet: Sheet, camera: Camera) -> None:
         """The scale bar, and the sums that have to stay."""

@@ -1,7 +1,8 @@
 """The bench of a mechanics course: balls that meet, two or many, elastic or not, smooth or rough.
 
 Models: impulses for a lone pair, Hertz's contact law where others are reached; friction; gravity; a floor or a bowl,
-and balls that lie on one another; drag in the wind; strings of a cradle.
+and balls that lie on one another; drag in the wind; strings of a cradle; boxes, ellipses, capsules and bowling pins,
+whose blows are impulses at one or two points.
 Leaves out: the third dimension; the rise of a ball on its string, 0.4 % of a swing's time at 15 deg; lift.
 """
 
@@ -15,8 +16,9 @@ from typing import Any, Literal, NamedTuple
 
 from pydantic import Field
 
+from sandbox.engine.meeting import discs
 from sandbox.engine.run import Run
-from sandbox.engine.setup import Always, Ball, Bounce, ContactModel, Force, Segment, Setup, Surface, kinetic
+from sandbox.engine.setup import Always, Ball, Bounce, ContactModel, Force, Segment, Setup, Surface, Vector, kinetic
 from sandbox.engine.track import PRESSED
 from sandbox.parameters import Accuracy, Group, choice, group, groups, quantity
 from sandbox.physics.coefficients import Constant
@@ -27,6 +29,8 @@ from sandbox.sport.controls import Controls, Handle
 from sandbox.sport.facts import ENDED, Fact, once
 from sandbox.sport.readings import at
 from sandbox.sport.solids import Solid
+
+from .boxes import Box, body_of, closing
 
 SPHERE_DRAG = 0.47  # of a smooth sphere before its drag crisis (Clift, Grace & Weber 1978)
 
@@ -71,6 +75,7 @@ class Parameters(Group):
     """All parameters of a collision."""
 
     balls: list[Body] = groups(..., "the balls")
+    boxes: list[Box] = groups(..., "what is not round: boxes, ellipses, capsules, bowling pins")
     launch: Launch = group(..., "the ball that is played")
     contact: Contact = group(..., "between balls")
     floor: Floor = group(..., "what lies below")
@@ -118,10 +123,11 @@ def build(it: Parameters) -> Setup:
         if it.air.density:
             air = it.air.density, Constant(SPHERE_DRAG), wind_in(it.air)
             forces.append(Drag(body.radius, *air, viscosity=it.air.viscosity))
-        velocity = body.vx or 0.0, body.vy or 0.0
-        if body.name == launch.ball and body.vx is None and body.vy is None:
-            velocity = launch.speed * cos(radians(launch.angle)), launch.speed * sin(radians(launch.angle))
-        balls.append(Ball(body.name, body.mass, body.radius, (body.x, body.y), velocity, body.spin, forces=forces))
+        start = (body.x, body.y), _velocity(body, launch), body.spin
+        balls.append(Ball(body.name, body.mass, body.radius, *start, forces=forces))
+    for box in it.boxes:
+        weight_of_box = [Gravity(box.mass, it.gravity)] if it.gravity else []
+        balls.append(body_of(box, _velocity(box, launch), weight_of_box))
     turns = [pi * part / 40 for part in range(41)]
     rim = [(-floor.radius * cos(turn), floor.radius * (1.0 - sin(turn))) for turn in turns]
     corners = {"none": [], "flat": [(-100.0, 0.0), (100.0, 0.0)], "bowl": rim}[floor.shape]
@@ -135,6 +141,13 @@ def build(it: Parameters) -> Setup:
     )
 
 
+def _velocity(it: Body | Box, launch: Launch) -> Vector:
+    """The velocity at the start in m/s: as listed, or that of the launch."""
+    if it.name == launch.ball and it.vx is None and it.vy is None:
+        return launch.speed * cos(radians(launch.angle)), launch.speed * sin(radians(launch.angle))
+    return it.vx or 0.0, it.vy or 0.0
+
+
 States = dict[str, State]
 
 
@@ -144,9 +157,13 @@ class Blow(NamedTuple):
     pair: list[str]
     before: States
     after: States
+    t: float  # s
+    run: Run
 
     def closing(self, states: States) -> float:
         """Speed in m/s at which the two approach along the line of action; negative where they part."""
+        if not discs(*(ball for ball in self.run.setup.balls if ball.name in self.pair)):
+            return closing(self.run, self.pair, states, self.t)
         a, b = (self.before[name][:2] for name in self.pair)
         (_, _, ux, uy, _), (_, _, vx, vy, _) = (states[name] for name in self.pair)
         return ((ux - vx) * (b[0] - a[0]) + (uy - vy) * (b[1] - a[1])) / dist(a, b)
@@ -162,7 +179,7 @@ def blow(run: Run, parameters: Parameters) -> Blow | None:
     end = max((arc.t1 for arc in pressed if arc.t0 <= event.t <= arc.t1), default=event.t)
     before = {name: run.before(name, event.t) for name in run.arcs}
     pair = sorted((event.ball, event.partner), key=lambda name: before[name][0])
-    return Blow(pair, before, {name: run.state(name, end) for name in run.arcs})
+    return Blow(pair, before, {name: run.state(name, end) for name in run.arcs}, event.t, run)
 
 
 #: What stays, if nothing from outside acts and nothing is lost: its unit, and how much of it a ball has.
@@ -226,7 +243,9 @@ def verdict(run: Run, parameters: Parameters) -> str:
     """What happened, in a sentence."""
     said = run.result
     if said["lost"] is None:
-        return "No two balls meet"
+        falls = sum(event.kind == "impact" for event in run.events)
+        rest = ", and comes to rest" if falls and said["ended"] == "rest" else ""
+        return f"Strikes the floor {falls} times{rest}" if falls > 1 else "No two balls meet"
     loss = "nothing is lost" if said["lost"] < 0.05 else f"{said['lost']:.0f} % lost"
     rest = ", all at rest in the end" if said["ended"] == "rest" else ""
     return f"{said['approach']:.2f} m/s together, {said['separation']:.2f} apart; {loss}{rest}"

@@ -108,3 +108,39 @@ def test_the_launch_is_for_a_ball_of_its_name_without_a_listed_velocity():
     assert (
         bench({"name": "b", "x": 1.0}, {"name": "first"}, launch__angle=180.0).result["velocities"]["first"][0] == -2.0
     )
+
+
+@pytest.mark.parametrize("preset", ["boxes-head-on", "corner-on-face", "dominoes", "pin-hit-low", "pin-hit-high"])
+def test_bodies_part_as_restitution_says_and_lose_no_momentum_along(preset: str):
+    run = run_of(f"collisions/{preset}")
+    result = run.result
+    assert result["separation"] == pytest.approx(
+        run.scene.parameters.contact.restitution * result["approach"], abs=2e-3
+    )
+    assert 0.0 <= result["lost"] < 100.0
+    if not run.scene.parameters.gravity:
+        assert result["momentum_after"] == pytest.approx(result["momentum_before"], abs=1e-9)
+
+
+def test_a_row_of_dominoes_falls():
+    run = run_of("collisions/dominoes")
+    names = [box.name for box in run.scene.parameters.boxes]
+    falls = [next(e.t for e in run.events if name in (e.ball, e.partner) and "floor" not in e) for name in names]
+    assert falls == sorted(falls)
+    assert all(run.angle(name, run.duration) < -1.0 for name in names)
+
+
+def test_a_pin_hit_low_falls_towards_the_ball_and_one_hit_high_away_from_it():
+    low, high = (run_of(f"collisions/pin-hit-{where}").state("pin", 0.06)[4] for where in ("low", "high"))
+    assert low > 10.0
+    assert high < -10.0
+
+
+def test_the_strip_between_boxes_says_why_they_touch_or_not():
+    run = run_of("collisions/boxes-head-on")
+    from scenes.collisions.boxes import strip
+
+    t = run.events[0].t
+    assert "apart: a strip 40.0 cm wide" in strip(run, 0.0).why
+    assert "in touch along a side" in strip(run, t).why
+    assert len(strip(run, t).points) == 2
