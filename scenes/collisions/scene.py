@@ -203,6 +203,11 @@ def _lost(run: Run, parameters: Parameters) -> float | None:
     return round(100.0 * (1.0 - has / had), 9) if had > 0.0 else 0.0
 
 
+def _falls(run: Run, parameters: Parameters) -> int | None:
+    """How often something strikes the floor, where no two meet."""
+    return None if blow(run, parameters) else sum(event.kind == "impact" for event in run.events)
+
+
 def _at_end(part: Callable[[State], Any]) -> Callable[[Run, Parameters], dict[str, Any]]:
     """A part of the state of each ball at the end."""
     return lambda run, parameters: {name: part(run.state(name, run.duration)) for name in run.arcs}
@@ -230,6 +235,7 @@ FACTS = (
     Fact("separation", "separation", "m/s", at(blow, lambda met: -met.closing(met.after))),
     Fact("first_after", "first ball", "m/s", at(blow, lambda met: hypot(*next(iter(met.after.values()))[2:4]))),
     Fact("fastest", "fastest", "m/s", at(blow, lambda met: max(hypot(*state[2:4]) for state in met.after.values()))),
+    Fact("falls", "blows of the floor", "", _falls),
     Fact("positions", "", "m", _at_end(lambda state: list(state[:2]))),
     Fact("velocities", "", "m/s", _at_end(lambda state: list(state[2:4]))),
     Fact("spins", "", "rad/s", _at_end(lambda state: state[4])),
@@ -243,7 +249,7 @@ def verdict(run: Run, parameters: Parameters) -> str:
     """What happened, in a sentence."""
     said = run.result
     if said["lost"] is None:
-        falls = sum(event.kind == "impact" for event in run.events)
+        falls = said["falls"]
         rest = ", and comes to rest" if falls and said["ended"] == "rest" else ""
         return f"Strikes the floor {falls} times{rest}" if falls > 1 else "No two balls meet"
     loss = "nothing is lost" if said["lost"] < 0.05 else f"{said['lost']:.0f} % lost"
