@@ -529,7 +529,8 @@ def _placed(node: Any, path: Sequence[str | int], value: Any, what: str) -> Any:
     if not isinstance(node, list | tuple):
         raise RequestError(f"{what}: is not a list, so it has no [{head}]")
     if head >= len(node):
-        raise RequestError(f"{what}: there is no [{head}]; the list has {len(node)}, the first is [0]")
+        length = f"the list has {len(node)}, the first is [0]" if node else "the list is empty"
+        raise RequestError(f"{what}: there is no [{head}]; {length}")
     return [*node[:head], _placed(node[head], rest, value, what), *node[head + 1 :]]
 
 

@@ -98,7 +98,8 @@ class Plan:
         first = next(self.points(0, 1))
         if not fly_together(self.scene, self.keys, first):
             return 1
-        cost = 1 if isinstance(self._first, Exception) else self._first.numerics.force_evaluations
+        run = self._first_run()
+        cost = 1 if isinstance(run, Exception) else run.numerics.force_evaluations
         if self.scene.settles(self.asked) is None:
             cost *= _ONE_BY_ONE
         most = min(_LARGEST_BLOCK, _WORK // max(cost, 1))
@@ -112,14 +113,13 @@ class Plan:
         """The columns of a table of all rows. A checked sweep has an error for what is a number in its first run."""
         names = [*self.keys, *self.asked, "ended", *FLAGS]
         if self.check:
-            run = self._first
+            run = self._first_run()
             known, numbers = ({}, {}) if isinstance(run, Exception) else (run.result, compare(run, run).errors)
             names += [f"{key}_error" for key in self.asked if key in numbers or known.get(key) is None]
             names.append(CHANGED)
         return [*dict.fromkeys(names), "error"]
 
-    @cached_property
-    def _first(self) -> Run | Exception:
+    def _first_run(self) -> Run | Exception:  # not kept: a plan is sent to workers, and not every run can be
         return next(runs(self.scene, self.keys, list(self.points(0, 1)), asked=self.asked))
 
     def points(self, start: int, stop: int) -> Iterator[tuple[Any, ...]]:

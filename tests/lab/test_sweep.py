@@ -481,6 +481,8 @@ def test_the_columns_are_those_of_the_plan_whatever_fails_first(drop, tmp_path):
         "final_height_error",
         CHANGED,
     }
+    assert checked.block
+    assert not any(isinstance(kept, Run) for kept in vars(checked).values())  # a plan is sent, and not every run can be
 
 
 def test_a_full_disk_is_told(drop):
