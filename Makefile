@@ -6,7 +6,7 @@ PIP := $(BIN)/python -m pip --disable-pip-version-check install --quiet --constr
 
 SCENES := $(patsubst scenes/%/scene.py,%,$(wildcard scenes/*/scene.py))
 
-.PHONY: run play test lint format schemas pictures bench wheel clean
+.PHONY: run play test lint format schemas pictures gallery bench wheel clean
 
 run: .venv/ready
 	@mkdir -p out
@@ -33,6 +33,10 @@ schemas: .venv/ready
 
 pictures: .venv/ready-dev
 	$(BIN)/python docs/pictures/make.py
+
+# Every scene and preset as poster and page: two minutes.
+gallery: .venv/ready
+	$(BIN)/python -m sandbox.page.gallery out/gallery
 
 # Comparisons with other libraries, into docs/benchmarks.md: a few minutes on an idle machine.
 bench: .venv/ready-dev

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import shlex
 from collections.abc import Iterator, Mapping, Sequence
-from math import isinf
+from math import atan2, isinf
 from typing import Any
 
 import numpy as np
@@ -77,7 +77,7 @@ def page_of(run: Run, ghosts: Mapping[str, Run] | None = None) -> str:
         verdict=html(verdict),
         notes=html("   ·   ".join(heading.notes)),
         ground="dark" if view.on_dark else "light",
-        picture=html(f"{scene.title}: {verdict}. The path of the {view.ball}; the numbers are in the table below."),
+        picture=html(f"{scene.title}: {verdict}. The path of the {view.THING}; the numbers are in the table below."),
         card=table(card, scene.title, "card", {scene.title: css(CARD["accent"]), **others} if others else None),
         events="\n".join(listed),
         events_open="open" if len(events) <= 8 else "",
@@ -169,6 +169,7 @@ def _static(view: View[Any], run: Run) -> dict[str, Any]:
                 "look": numbers[id(view.looks[name])],
                 "lying": view.lying(name).tolist(),
                 "rolls": view.rolls(name),
+                "turned": _turned(view, name, run.duration),
                 "caught": run.caught_at(name),
                 "path": _path(run.arcs[name]),
             }
@@ -232,8 +233,19 @@ def _arc(arc: Arc) -> list[Any]:
     return [*curves, [list(curve) for curve in arc.rolling_spin]] if arc.rolling_spin else curves
 
 
+def _turned(view: View[Any], name: str, until: float) -> dict[str, Any] | None:
+    """Angles in rad at some times in s of what turns in a way of its own; None for what turns by its spin."""
+    if type(view).turn is View.turn:
+        return None
+    times = np.linspace(0.0, until, SAMPLES)
+    turns = [view.turn(name, float(t)) for t in times]
+    return {"times": times, "angles": np.unwrap([atan2(turn[1, 0], turn[0, 0]) for turn in turns])}
+
+
 def _look(look: balls.Look, view: View[Any]) -> dict[str, Any]:
-    """The two halves of a ball's skin next to each other, as large as the page needs them."""
+    """What is flat as its shapes, and of a ball the two halves of its skin next to each other, as large as needed."""
+    if isinstance(look, balls.Silhouette):
+        return {"shapes": [[np.asarray(corners), css(colour)] for corners, colour in look.shapes]}
     radius = max(view.least, view.radius * view.camera.scale)
     halves = look.skin(sum(radius >= mark.least for mark in look.marks))  # by half, column, row
     skin = np.concatenate(list(halves), axis=0).transpose(1, 0, 2)

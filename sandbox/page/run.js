@@ -85,9 +85,10 @@ class Path {
     return [x, y, ...speeds, spin].map((curve) => evaluate(curve, u));
   }
 
-  /** Angle in rad that it has turned about the axis out of the picture. */
+  /** Angle in rad that it has turned about the axis out of the picture; a body's is a polynomial of its own. */
   angle(t) {
-    const [i, u] = this.find(t), [t0, t1, , , spin] = this.arcs[i];
+    const [i, u] = this.find(t), [t0, t1, , , spin, , across] = this.arcs[i];
+    if (across && across.length === 1) return evaluate(across[0], u);
     return this.turned[i] + (t1 - t0) * integral(spin, u);
   }
 
@@ -216,6 +217,7 @@ class Player {
     this.main = data.balls.find((ball) => ball.name === data.ball);
     for (const ball of [...data.balls, ...data.ghosts]) ball.path = new Path(ball.path);
     for (const ball of data.balls) {
+      ball.shapes = data.looks[ball.look].shapes;
       ball.sprite = new Sprite(data.looks[ball.look], data.light);
       if (ball.rolls) ball.turning = new Turning(ball.path, ball.lying);
     }
@@ -344,12 +346,12 @@ class Player {
     if (ball.caught !== null && t >= ball.caught) return;
     const { context, view, data } = this, [x, y] = ball.path.state(t);
     const radius = Math.max(ball.radius * view.scale, view.least), [px, py] = this.spot(x, y, radius);
-    if (ball.outline) return this.outline(ball, t);
+    if (ball.shapes) return this.flat(ball, px, py, radius, this.angle(ball, t));
     this.shadow(ball, x, y, px, py, radius);
     context.globalAlpha = 0.65;
     this.disc(px, py, radius + Math.max(0.7, 0.8 * view.unit), data.rim);
     context.globalAlpha = 1;
-    const turn = ball.turning ? ball.turning.at(t) : times(turnedBy([0, 0, ball.path.angle(t)]), ball.lying);
+    const turn = ball.turning ? ball.turning.at(t) : times(turnedBy([0, 0, this.angle(ball, t)]), ball.lying);
     ball.sprite.draw(context, px, py, radius, turn);
     if (data.balls.length === 1 && radius > data.unsaid * ball.radius * view.scale) {
       context.beginPath();
@@ -360,18 +362,22 @@ class Player {
     }
   }
 
-  /** A body with corners, turned as it is. */
-  outline(ball, t) {
-    const { context, view } = this, [x, y] = ball.path.state(t), angle = ball.path.angle(t);
-    const c = Math.cos(angle), s = Math.sin(angle);
-    context.beginPath();
-    for (const [a, b] of ball.outline) context.lineTo(...this.pixel(x + c * a - s * b, y + s * a + c * b));
-    context.closePath();
-    context.fillStyle = ball.colour;
-    context.strokeStyle = this.data.rim;
-    context.lineWidth = Math.max(1, view.unit);
-    context.fill();
-    context.stroke();
+  /** How far a ball or body is turned about the axis out of the picture, in rad. */
+  angle(ball, t) {
+    if (!ball.turned) return ball.path.angle(t);
+    const { times, angles } = ball.turned, place = Math.min(t / (times[1] || 1), times.length - 1), i = Math.min(Math.floor(place), times.length - 2);
+    return angles[i] + (place - i) * (angles[i + 1] - angles[i]);
+  }
+
+  /** What is not round: shapes with corners in radii around (px, py). */
+  flat(ball, px, py, radius, angle) {
+    const { context } = this, c = radius * Math.cos(angle), s = radius * Math.sin(angle);
+    for (const [corners, colour] of ball.shapes) {
+      context.beginPath();
+      for (const [a, b] of corners) context.lineTo(px + c * a - s * b, py - s * a - c * b);
+      context.fillStyle = colour;
+      context.fill();
+    }
   }
 
   shadow(ball, x, y, px, py, radius) {
@@ -647,7 +653,7 @@ async function begin() {
   const layers = data.views.map(async (view) => {
     for (const name of ["place", "along", "over"]) view[name] = await image(view[name]);
   });
-  const skins = data.looks.map(async (look) => (look.skin = pixels(await image(look.skin))));
+  const skins = data.looks.filter(({ skin }) => skin).map(async (look) => (look.skin = pixels(await image(look.skin))));
   await Promise.all([...fonts, ...layers, ...skins]);
   window.player = new Player(data);
 }

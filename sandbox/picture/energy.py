@@ -93,15 +93,13 @@ def course(run: Run) -> Course:
     return Course(times, has, sums)
 
 
-def hard_impacts(run: Run) -> list[float]:
-    """Times in s of the hardest impacts."""
-    return sorted(set(_hits(run, HARD)[:HITS]))
-
-
-def _hits(run: Run, share: float = 0.0) -> list[float]:
-    """Times in s of the impacts that are at least this share as hard as the hardest, the hardest first."""
-    hits = sorted(((event.speed, event.t) for event in run.events if event.kind == "impact"), reverse=True)
-    return [t for speed, t in hits if speed >= share * hits[0][0]]
+def hard_impacts(run: Run, ball: str = "") -> list[float]:
+    """Times in s of the hardest impacts, of one ball or of all: none that is soft compared with the hardest."""
+    impacts = (
+        event for event in run.events if event.kind == "impact" and (not ball or ball in (event.ball, event.partner))
+    )
+    hits = sorted(((event.speed, event.t) for event in impacts), reverse=True)
+    return sorted({t for speed, t in hits[:HITS] if speed >= HARD * hits[0][0]})
 
 
 def _names(run: Run) -> Callable[[str], str]:

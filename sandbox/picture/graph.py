@@ -203,7 +203,7 @@ def graph(run: Run, size: tuple[int, int] = (1280, 720), others: Mapping[str, Ru
     rows = ceil(len(panels) / columns)
     top = row + letters.height("small") + 3 * gap
     wide, tall = (sheet.frame.width + 3 * gap) / columns, (sheet.frame.bottom - top + 2 * gap) / rows
-    hits = hard_impacts(run)
+    hits = hard_impacts(run, view_of(run, size).ball)
     for i, panel in enumerate(panels):
         rect = pygame.Rect(
             round(sheet.frame.left + i % columns * wide), round(top + i // columns * tall),

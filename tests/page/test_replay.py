@@ -50,14 +50,19 @@ def test_every_instant_is_that_of_python(browser, pages, name: str):
     browser.open(page)
     times = [*np.linspace(0.0, run.duration, 97), *(event.t for event in run.events[:3])]
     view = view_of(run, LAYOUTS[0][0])
-    states = browser.run("arguments[0].map((t) => player.data.balls.map((ball) => ball.path.state(t)))", times)
-    matrices = browser.run(
-        "arguments[0].map((t) => player.data.balls.map((ball) => ball.turning ? ball.turning.at(t) : null))", times
+    states = browser.run(
+        "arguments[0].map((t) => player.data.balls.slice(0, 4).map((ball) => ball.path.state(t)))", times
     )
-    angles = browser.run("arguments[0].map((t) => player.data.balls.map((ball) => ball.path.angle(t)))", times)
+    matrices = browser.run(
+        "arguments[0].map((t) => player.data.balls.slice(0, 4).map((ball) => ball.turning?.at(t) ?? null))",
+        times,
+    )
+    angles = browser.run(
+        "arguments[0].map((t) => player.data.balls.slice(0, 4).map((ball) => ball.path.angle(t)))", times
+    )
     begins = {ball: {arc.t0 for arc in arcs if isinstance(arc.contact, Heaped)} for ball, arcs in run.arcs.items()}
     for t, found, matrix, angle in zip(times, states, matrices, angles, strict=True):
-        for i, ball in enumerate(view.balls):
+        for i, ball in enumerate(view.balls[:4]):
             expected = run.state(ball, t)
             assert found[i][:2] == pytest.approx(expected[:2], rel=1e-14, abs=1e-12)
             if t not in begins[ball]:  # of an arc in a heap: there it has a velocity of its own

@@ -54,8 +54,9 @@ def test_several_runs_and_units():
     assert found["speed"].shown.unit == "m/s"
 
 
-@pytest.mark.parametrize("name", ["billiards", "collisions/bowl", "bullet"])
-@pytest.mark.parametrize("size", [(1280, 720), (320, 320)])
+@pytest.mark.parametrize(
+    ("name", "size"), [("billiards", (1280, 720)), ("collisions/cradle-3", (320, 320)), ("bullet", (640, 180))]
+)
 def test_all_can_be_drawn(name: str, size: tuple[int, int]):
     surface = graph(run_of(name), size)
     assert surface.get_size() == size
