@@ -260,6 +260,7 @@ class SideView(View[P]):
     def point_out(self, sheet: Sheet, camera: Camera, place: tuple[float, float], text: str) -> None:
         """Mark a place on the path, in m, and what it is."""
         at = camera.pixel(*place)
+        sheet.labels.take(pygame.Rect(0, 0, self.size[0], sheet.top_row))  # the headline's
         draw_mark(sheet, at)
         label_mark(sheet, at, (0.0, 1.0), text)
 
