@@ -4,6 +4,7 @@ import hashlib
 import struct
 import subprocess
 import sys
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
@@ -45,6 +46,13 @@ def digest():
 def test_two_runs_in_one_process_are_bit_equal(level):
     for one, other in zip(runs(level), runs(level), strict=True):
         assert first_difference(one, other) is None
+
+
+def test_threads_do_not_disturb_each_other():
+    """They share what pymunk computes impulses in only within a thread."""
+    before = digest()
+    with ThreadPoolExecutor(4) as pool:
+        assert {future.result() for future in [pool.submit(digest) for _ in range(12)]} == {before}
 
 
 def test_another_process_gives_the_same_bits():
