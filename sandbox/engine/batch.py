@@ -46,6 +46,12 @@ MOST_PIECES = 500_000
 #: a time.
 _ROUNDING = 1e-9
 
+#: What a scene's own function may raise.
+FAILURES = (Exception, SystemExit)
+
+#: Shots whose forces are checked one by one at the start; later one shot is checked in each step.
+_WATCHED = 32
+
 
 def together(setups: Sequence[Setup], accuracy: Accuracy) -> Iterator[Run | Exception] | None:
     """A run of each setup, in order, or the exception it ended with; None if they cannot fly together."""
@@ -79,13 +85,6 @@ def _ending(setup: Setup, events: Sequence[Event]) -> str:
         return "until" if setup.ends_with(events) else ""
     except FAILURES:
         return "after"
-
-
-#: What a scene's own function may raise.
-FAILURES = (Exception, SystemExit)
-
-#: Shots whose forces are checked one by one at the start; later one shot is checked in each step.
-_WATCHED = 32
 
 
 class _OnlyFloats(Exception):

@@ -176,13 +176,11 @@ class PlainSimulation:
         """Record and check the state of all balls. Returns whether all are at rest."""
         if self._progress is not None:
             self._progress(self._t, min(self._setup.duration, MOST_STEPS * self._accuracy.step))
-        left, bottom, right, top = self._setup.bounds
         rest = True
         for tracked in self._tracked.values():
             if not tracked.caught:
                 tracked.record(self._t)
-                x, y = tracked.body.position
-                if not (left <= x <= right and bottom <= y <= top):
+                if not self._setup.bounds.hold(tracked.state()[:5]):
                     raise self._diverged(tracked, tracked.state())
                 self._catch(tracked)
                 rest = self._rests(tracked) and rest
