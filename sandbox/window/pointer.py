@@ -113,13 +113,13 @@ class Pointer:
                 self.panning = True
             elif aimed is not None:
                 game.nudge(aim.aimed(game.session, *aimed))
-            elif (pad := view.pad) is not None and pad.rect.collidepoint(at):
-                self.spinning = True
-                game.nudge(pad.changes(at))
             elif (grip := view.handle_at(at)) is not None:
                 view.hold()
                 game.begin_drag(grip)
                 self.grabbed = at
+            elif (pad := view.pad) is not None and pad.rect.collidepoint(at):
+                self.spinning = True
+                game.nudge(pad.changes(at))
             elif game.playback is None:
                 self._begin_pull(at)
             elif game.playback.over:
