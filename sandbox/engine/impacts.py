@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from itertools import combinations
 from math import dist, hypot
 from typing import NamedTuple
@@ -72,6 +72,7 @@ class Impacts:
         model = setup.contact
         self._all_soft = len(setup.balls) > 1 and model.name != "rigid" and model.wall_stiffness == 0.0
         self._some_soft = self._all_soft or any(surface.nose_height is not None for surface in setup.surfaces)
+        self._all_round = discs(*setup.balls)
         self._heaviest = max(ball.mass for ball in setup.balls)  # kg
 
     def exchange(self, t: float, states: dict[int, State]) -> Outcome:
@@ -81,8 +82,7 @@ class Impacts:
         until nothing closes. If that takes too many turns, or in a heap, all exchange impulses at once instead.
         """
         start, hits = states, list[Hit]()
-        turning = any(isinstance(self._tracks[index].ball, Body) for index in states)
-        last = _TURNS if self._some_soft and self.gap == TOUCHING_GAP and not turning else 0
+        last = _TURNS if self._some_soft and self.gap == TOUCHING_GAP and not self._with_bodies(states) else 0
         for turn in range(last + 1):
             if turn in (0, last):
                 states, hits = dict(start), []
@@ -98,12 +98,16 @@ class Impacts:
             hits += _hits(t, closed)
         return Outcome(t, states, hits)
 
+    def _with_bodies(self, indices: Iterable[int]) -> bool:
+        """Whether some of these are no balls."""
+        return not self._all_round and any(isinstance(self._tracks[index].ball, Body) for index in indices)
+
     def _close_at_once(self, states: dict[int, State], softness: Sequence[bool]) -> list[Contact]:
         """Close all contacts of balls with each other and with hard or soft walls, or both, at once; returns those that
         were closing."""
         found = [*self._with_surfaces(states, softness), *self._with_balls(states)]
         closed = [contact for contact in found if contact.speed > CLOSING]
-        if len(found) == 1 and closed and not any(isinstance(ball, Body) for ball in self._balls(found[0])):
+        if len(found) == 1 and closed and not self._with_bodies(found[0].balls):
             self._exchange_alone(states, found[0])
         elif closed:
             self._exchange_at_once(states, found)

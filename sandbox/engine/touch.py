@@ -207,9 +207,10 @@ class Obstacle:
             return None
         first = None
         for side in (1.0, -1.0):
-            gap = [side * d - reach + self._skin for d in across]
-            if max(gap) <= -NOISE and side * across[0] <= 0.0:
+            farthest = high if side > 0.0 else -low
+            if farthest - reach + self._skin <= -NOISE and side * across[0] <= 0.0:
                 continue  # entirely beyond the line
+            gap = [side * d - reach + self._skin for d in across]
             for u in _closings(gap, side * across[0] > 0.0 and self._within(arc.x[0], arc.y[0], TOUCHING_GAP)):
                 if first is not None and u >= first:
                     break
