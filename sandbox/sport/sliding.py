@@ -8,6 +8,7 @@ from math import cos, dist, hypot, pi, sin
 from typing import TYPE_CHECKING, Any
 
 from sandbox.engine.setup import DISC, Ball, Catch, Vector
+from sandbox.errors import RequestError
 from sandbox.parameters import Group, quantity
 from sandbox.sport.facts import Fact
 from sandbox.sport.flight import DEGREE, RPM
@@ -41,6 +42,11 @@ class Slide(Group):
     def turning(self) -> float:
         """Its spin in rad/s."""
         return self.spin * RPM
+
+    def check(self, side: float) -> None:
+        """Raise RequestError if it starts further aside than ``side`` (m)."""
+        if abs(self.aside) > side:
+            raise RequestError(f"launch.aside = {self.aside:g} m: must be between {-side:.3g} and {side:.3g} m")
 
 
 class Body(Solid):
@@ -84,6 +90,18 @@ def met(run: Run, name: str) -> list[tuple[float, str]]:
     """What a body meets, up to what takes it off: the times in s, and what it is called."""
     hits = (event for event in run.events if event.kind in ("impact", "caught") and name in (event.ball, event.partner))
     return [(event.t, event.partner if event.ball == name else event.ball) for event in hits]
+
+
+def check_inside(balls: Sequence[Ball], length: float, width: float, corner: float) -> None:
+    """Raise RequestError for a body that starts outside a rectangle with rounded corners about the origin, in m."""
+    for ball in balls:
+        (x, y), r = ball.position, min(corner, 0.5 * length, 0.5 * width)
+        beyond_x, beyond_y = (abs(at) - 0.5 * size + r for at, size in ((x, length), (y, width)))
+        out = hypot(max(beyond_x, 0.0), max(beyond_y, 0.0)) if r else max(beyond_x, beyond_y)
+        if out + ball.radius > r + 1e-9:
+            raise RequestError(
+                f"{ball.name} at ({x:g}, {y:g}) m is outside the boards: it has a radius of {ball.radius:g} m"
+            )
 
 
 def taken(run: Run) -> dict[str, str]:

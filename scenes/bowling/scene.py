@@ -2,8 +2,7 @@
 
 Models: sliding and rolling of the ball in closed form, with friction by strips of the lane; its own moment of inertia;
 impacts of ball and pins, and of pins and the kickbacks, as discs that slide; gutters and pit.
-Leaves out: the fall of the pins, which roll and fly where here they slide upright: one is down once it is pushed so
-far that it would tip; the weight block, and with it the flare; the axis's tilt. Not validated: what the pins do.
+Leaves out: how pins fall (they slide, and are down if pushed so far as to tip: not validated); flare; the axis's tilt.
 """
 
 from __future__ import annotations
@@ -93,6 +92,7 @@ def build(parameters: Parameters) -> Setup:
     it, ball, pin, launch = parameters, parameters.ball, parameters.pin, parameters.launch
     if unknown := set(pin.standing.split()) - set(SPOTS):
         raise RequestError(f"pin.standing: there is no pin {', '.join(sorted(unknown))}; there are {ALL}")
+    launch.check(LANE)
     turn, axis = launch.turning, (launch.angle + launch.axis) * DEGREE  # about a level axis
     roll = -turn * sin(axis), turn * cos(axis)
     inertia = (ball.gyration / ball.radius) ** 2

@@ -80,6 +80,7 @@ CONTROLS = Controls(
 def build(parameters: Parameters) -> Setup:
     """The stones, the ice, swept for one of them, and the lines that take stones off."""
     it, stone, sweep, side = parameters, parameters.stone, parameters.sweep, 0.5 * parameters.width
+    it.launch.check(side - stone.radius)
     lying = [stone.at(f"{spot.team} {i}", (spot.x, spot.y)) for i, spot in enumerate(it.stones, 1)]
     balls = [stone.at(DELIVERED, (RELEASE, it.launch.aside), it.launch.velocity, it.launch.turning), *lying]
     ice = _ice(it)

@@ -19,7 +19,7 @@ from sandbox.physics.ice import Glide
 from sandbox.sport.amounts import roughly
 from sandbox.sport.controls import Controls, Handle, Spin, Spread
 from sandbox.sport.facts import ENDED, Fact
-from sandbox.sport.sliding import Body, Slide, end_of, met, rounded, speed_before, taken
+from sandbox.sport.sliding import Body, Slide, check_inside, end_of, met, rounded, speed_before, taken
 
 DECIDING = {"goal", "goalie", "defender", "receiver"}
 POST, DEPTH = 0.030, 1.0  # m: radius of a post (NHL rule 2.1), depth of the net
@@ -99,15 +99,17 @@ def build(parameters: Parameters) -> Setup:
     goal = Catch("goal", (inside, POST - half), POST, (inside, half - POST), ["puck"])
     bodies = [it.player.at(f"{who.role} {i}", (who.x, who.y), (who.vx, who.vy)) for i, who in enumerate(it.players, 1)]
     start = it.launch.x, it.launch.aside
+    bodies = [puck.at("puck", start, it.launch.velocity, it.launch.turning), *bodies]
+    check_inside(bodies, rink.length, rink.width, rink.corner)
     return Setup(
-        [puck.at("puck", start, it.launch.velocity, it.launch.turning), *bodies],
+        bodies,
         surfaces,
         it.duration,
         Touches("goal"),
         Always(Bounce(it.player.restitution, it.player.friction)),
         Glide(rink.sliding, 2.0 / 3.0 * rink.sliding, it.gravity),
         [goal],
-        planes=[(who.name, Glide(0.0 if any(who.velocity) else 1.0)) for who in bodies],
+        planes=[(who.name, Glide(0.0 if any(who.velocity) else 1.0)) for who in bodies[1:]],
     )
 
 

@@ -109,6 +109,8 @@ def test_the_next_ball_finds_what_is_left():
 def test_what_cannot_be_is_refused():
     with pytest.raises(RequestError, match=r"pin\.standing: there is no pin 11"):
         bowl(pin__standing="1 11")
+    with pytest.raises(RequestError, match=r"launch.aside = 0.6 m: must be between -0.527 and 0.527 m"):
+        bowl(launch__aside=0.6)
 
 
 def test_the_order_of_the_oil_does_not_matter():

@@ -111,5 +111,7 @@ def test_the_next_throw_finds_the_stones_where_they_lie():
     ],
 )
 def test_stones_that_cannot_lie_there_are_refused(stones, said):
+    with pytest.raises(RequestError, match=r"launch.aside = 2.3 m: must be between -2.23 and 2.23 m"):
+        throw(launch__aside=2.3)
     with pytest.raises(RequestError, match=said):
         throw(stones=stones)

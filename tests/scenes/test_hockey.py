@@ -10,6 +10,7 @@ import pytest
 import sandbox
 from sandbox.engine.ledger import ledger
 from sandbox.engine.run import Run
+from sandbox.errors import RequestError
 
 ALONE: dict[str, Any] = {"players": []}
 
@@ -112,3 +113,20 @@ def test_who_stands_holds_ground_and_who_skates_keeps_speed():
     run = shoot(players=players, duration=3.0, launch__angle=40.0)
     assert run.state("defender 1", 2.0)[0] == pytest.approx(4.0)
     assert run.state("goalie 2", 2.0)[:2] == (26.2, 0.15)
+
+
+@pytest.mark.parametrize(
+    ("x", "y", "said"),
+    [
+        (30.45, 0.0, r"puck at \(30.45, 0\) m is outside the boards"),
+        (0.0, -12.95, "outside the boards"),
+        (29.0, 11.5, "outside the boards"),  # in the rounding of a corner
+        (29.0, 7.0, None),
+    ],
+)
+def test_who_starts_outside_the_boards_is_refused(x, y, said):
+    if said is None:
+        shoot(**ALONE, launch__x=x, launch__aside=y, duration=0.1)
+        return
+    with pytest.raises(RequestError, match=said):
+        shoot(**ALONE, launch__x=x, launch__aside=y)
