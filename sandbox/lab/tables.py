@@ -30,9 +30,11 @@ def width() -> int:
 
 
 def table(headings: Sequence[str], rows: Iterable[Sequence[str]], align: str, indent: str = "  ") -> list[str]:
-    """Lines with columns aligned by ``align``, a letter for each: l or r. Headings and left-aligned cells are wrapped
-    between words so that lines fit ``width``, right-aligned numbers never; empty headings give no heading line, and a
-    column without any text is left out."""
+    """Lines with columns aligned by ``align``, a letter for each: l or r.
+
+    Headings and left-aligned cells are wrapped between words so that lines fit ``width``; right-aligned numbers never,
+    even if lines are longer then. Empty headings give no heading line; a column without any text is left out.
+    """
     from rich.console import Console
     from rich.padding import Padding
     from rich.table import Table
@@ -41,12 +43,20 @@ def table(headings: Sequence[str], rows: Iterable[Sequence[str]], align: str, in
     cells = [[one_line(cell) for cell in row] for row in rows]
     drawn = Table(box=None, padding=(0, 2, 0, 0), pad_edge=False, show_header=any(headings), header_style="")
     used = [any(column) for column in zip(headings, *cells, strict=True)]
-    for heading, side in compress(zip(headings, align, strict=True), used):
+    columns = list(compress(zip(headings, align, *cells, strict=True), used))
+    widest = [max(map(len, (heading, *column))) for heading, _, *column in columns]
+    is_wide = len(indent) + sum(widest) + 2 * len(columns) - 2 > width()
+    least = len(indent)
+    for heading, side, *column in columns:
         justify: Literal["left", "right"] = "left" if side == "l" else "right"
+        if side == "r":
+            whole = max(map(len, (*column, *heading.split())), default=0)
+            heading = "\n".join(textwrap.wrap(heading, whole)) if is_wide and heading else heading
+            least += 2 + whole
         drawn.add_column(Text(heading), justify=justify, no_wrap=side == "r", overflow="fold")
     for row in cells:
         drawn.add_row(*map(Text, compress(row, used)))
-    console = Console(file=io.StringIO(), width=width(), color_system=None, legacy_windows=False)
+    console = Console(file=io.StringIO(), width=max(width(), least), color_system=None, legacy_windows=False)
     with console.capture() as captured:
         console.print(Padding(drawn, (0, 0, 0, len(indent)), expand=False))
     return [line.rstrip() for line in captured.get().splitlines()]

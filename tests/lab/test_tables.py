@@ -30,6 +30,21 @@ def test_numbers_are_never_folded(rows: list[tuple[str, ...]]):
         assert any(number in line and other in line for line in lines)
 
 
+def test_headings_of_numbers_are_wrapped_and_no_digit_is_lost():
+    names = ["launch.angle (deg)", "±", "launch.speed (m/s)", "±", "carry (m)", "±", "apex (m)", "±"]
+    numbers = ["16.027061", "9e-08", "61.737761", "8e-08", "200", "3e-07", "30", "1e-07"]
+    *heads, row = table(names, [numbers], "r" * 8)
+    assert row.split() == numbers
+    assert len(heads) == 2
+    assert sorted(" ".join(heads).split()) == sorted(" ".join(names).split())
+    assert max(map(len, [*heads, row])) <= 80
+    row = ("p = 1, 45 deg", "carry", "23.5604720 m", "23.5604720", "-2.5e-10", "1.0e-06", "holds")
+    assert table(("case", "result", "published", "computed", "off by", "allowed", ""), [row], "llrrrrl")[1].endswith(
+        "23.5604720 m  23.5604720  -2.5e-10  1.0e-06  holds"
+    )
+    assert "".join(table(["", ""], [["1" * 60, "2" * 60]], "rr")).split() == ["1" * 60, "2" * 60]
+
+
 def test_what_stands_in_brackets_is_text_and_nothing_splits_a_row():
     assert table(("a", "b"), [("[red]x[/red]", "two\nlines"), ("\x1b[2J", ":smile:")], "ll") == [
         "  a             b",
