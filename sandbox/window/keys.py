@@ -43,7 +43,7 @@ TABLE = (
     Command("spin", ("e", "d"), "spin (Shift: finely)", "Play", "wheel", repeats=True, fine=True),
     Command("other_spin", ("x", "z"), "second spin, if any", "Play", "Shift wheel", repeats=True, fine=True),
     Command("handle", ("k", "i"), "take hold of the next thing; arrows move it, Esc lets go", "Play", "drag it"),
-    Command("pad", ("2",), "a ball to set spin on, or where the cue's tip hits", "Play", "drag on it"),
+    Command("pad", ("2",), "set spin on a ball, or where the (level) cue's tip hits", "Play", "drag on it"),
     Command("restart", ("r",), "from the start", "Watch"),
     Command("step", (".", ","), "one step on, back", "Watch", repeats=True),
     Command("faster", ("+", "-"), "faster to 8, slower to 1/16", "Watch"),

@@ -48,10 +48,8 @@ class Pad:
     def _texts(self) -> list[str]:
         if self.is_tip:
             up, right = (p.value for p in self.spins)
-            offsets = (
-                f"{abs(up):.2f} {'up' if up >= 0 else 'down'}, {abs(right):.2f} {'right' if right >= 0 else 'left'}"
-            )
-            return [offsets, "level cue, no elevation"]
+            sides = "up" if up >= 0 else "down", "right" if right >= 0 else "left"
+            return [f"{abs(up):.2f} {sides[0]}", f"{abs(right):.2f} {sides[1]}", "level cue"]
         names = [p.key.rpartition(".")[2] for p in self.spins]
         texts = [f"{name} {amount(p.value, p.unit or '')}" for name, p in zip(names, self.spins, strict=True)]
         return texts if len(texts) == 2 else [*texts, "about the axis across the picture" if self.upright else

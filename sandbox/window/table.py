@@ -117,7 +117,7 @@ class Table:
         letters.write(sheet.surface, f"{len(rows)} shots", "medium", inner.topleft, CARD["text"], bold=True)
         right = inner.right
         for action, text in reversed(WRITTEN.items()):
-            place = letters.rect(text, "small", (right, inner.top), "topright").inflate(2 * gap, gap)
+            place = letters.rect(text, "small", (right, inner.top), "topright", bold=True).inflate(2 * gap, gap)
             self._button(sheet, place, text, action, mouse)
             right = place.left - 2 * gap
         top = inner.top + letters.height("medium") + gap
@@ -224,9 +224,6 @@ class Table:
         return amount(value, unit)
 
     def _text(self, key: str, played: Played) -> str:
-        """A number of a shot, as its card says it."""
+        """A number of a shot."""
         value = played.numbers.get(key)
-        if value is None:
-            return ""
-        fact = played.scene.facts.get(key)
-        return fact.text(value) if fact is not None else self._amount(key, [played], value)
+        return "" if value is None else self._amount(key, [played], value)

@@ -42,6 +42,43 @@ def test_the_panel(player, golden):
     golden.check("window-panel", player.screen)
 
 
+def test_a_hoop_that_is_dragged(player, golden):
+    player = player("basketball/free-throw", SIZE)
+    x, y = next(at for grip, at in player.view.spots if "hoop.distance" in grip.keys)
+    player.press((round(x), round(y)))
+    player.move((round(x) + 40, round(y) - 20))
+    player.settle()
+    golden.check("window-handles", player.screen)
+
+
+def test_the_table_of_shots_and_what_is_pinned(player, golden):
+    player = player("basketball/free-throw", SIZE)
+    for speed in (7.3, 7.5, 7.7):
+        player.game.change({"launch.speed": speed})
+        player.settle()
+        player.game.shoot()
+        player.game.aim_again()
+    player.game.pin(player.game.table.rows[1])
+    player.key(pygame.K_q)
+    player.view.over.sort("launch.speed")
+    player.view.over.chosen = player.game.table.rows[1]
+    player.settle()
+    player.view.draw()
+    golden.check("window-shots", player.screen)
+
+
+def test_where_the_tip_hits_and_what_can_be_aimed_at(player, golden):
+    player = player("billiards/cut", (900, 560))
+    player.game.change({"cue.english": -0.3, "cue.follow": 0.2})
+    player.settle()
+    player.key(pygame.K_SLASH)
+    player.settle()
+    golden.check("window-find", player.screen)
+    player.key(pygame.K_ESCAPE)
+    player.settle()
+    golden.check("window-tip", player.screen)
+
+
 def test_a_line_is_as_wide_in_every_direction():
     for angle in np.radians([0, 20, 45, 70, 90]):
         surface = pygame.Surface((200, 200))
