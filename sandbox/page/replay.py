@@ -94,7 +94,7 @@ def command(scene: Scene) -> str:
     try:
         usual = {parameter.key: parameter.value for parameter in walk(load(scene.title).parameters)}
     except RequestError:  # a scene of the user's own, somewhere else
-        return shlex.join(["sandbox", "run", str(scene.folder)])
+        return shlex.join(["sandbox", "run", f"./{scene.folder.name}"])
     changed = (
         f"{parameter.key}={json.dumps(parameter.value)}"
         for parameter in walk(scene.parameters)

@@ -19,8 +19,8 @@ from sandbox.page.replay import LAYOUTS, command, page_of
 from sandbox.picture.plain import view_of
 from sandbox.sport.amounts import amount, shown_in
 
-#: A flight with rolling, balls that turn about all axes, a heap, a view from above with air.
-RUNS = ("golf", "billiards", "collisions/bowl", "soccer-curl")
+#: A flight with rolling, balls that turn about all axes, a heap.
+RUNS = ("golf", "billiards", "collisions/bowl")
 
 
 @cache
@@ -144,14 +144,14 @@ def test_numbers_are_written_as_python_writes_them(browser, pages, tmp_path: Pat
     """In the units that were chosen."""
     values = [0.0, 0.0004, -0.0123, 0.0996, 5.0, -8.314, 9.99, 10.0, 123.4, 12345.6]
     with shown_in("us"):
-        save(page_of(run_of("golf")), tmp_path / "us.html")
+        save(page_of(run_of("throws")), tmp_path / "us.html")
     for page, units in ((pages("golf"), None), (tmp_path / "us.html", "us")):
         browser.open(page)
         for unit in ("m", "m/s", "deg", "rpm", "s", "N"):
             with shown_in(units):
                 expected = [amount(value, unit) for value in values]
             assert browser.run("arguments[0].map((value) => amount(value, arguments[1]))", values, unit) == expected
-    assert any("yd" in text for text in browser.text(".card td"))
+    assert any("ft" in text for text in browser.text(".card td"))
 
 
 def test_a_page_says_how_to_run_it_again():
@@ -165,8 +165,8 @@ def test_a_page_says_how_to_run_it_again():
 def test_text_of_others_is_text(tmp_path: Path):
     """A title or name with HTML in it stays text."""
     file = tmp_path / "shot.toml"
-    file.write_text('# <script>alert(1)</script> & more\nscene = "golf"\n', "utf-8")
-    page = page_of(sandbox.simulate(str(file)), {"</script><b>": run_of("golf/headwind")})
+    file.write_text('# <script>alert(1)</script> & more\nscene = "throws"\n', "utf-8")
+    page = page_of(sandbox.simulate(str(file)), {"</script><b>": run_of("throws")})
     assert "<script>alert" not in page
     assert "</script><b>" not in page
     assert "&lt;script&gt;alert(1)&lt;/script&gt; &amp; more" in page

@@ -55,7 +55,7 @@ def test_several_runs_and_units():
 
 
 @pytest.mark.parametrize(
-    ("name", "size"), [("billiards", (1280, 720)), ("collisions/cradle-3", (320, 320)), ("bullet", (640, 180))]
+    ("name", "size"), [("curling", (1280, 720)), ("collisions/cradle-3", (320, 320)), ("bullet", (640, 180))]
 )
 def test_all_can_be_drawn(name: str, size: tuple[int, int]):
     surface = graph(run_of(name), size)
