@@ -15,7 +15,7 @@ from sandbox.engine.clusters import Body, Cluster, Link, StaysPressed
 from sandbox.engine.impacts import Hit, Outcome
 from sandbox.engine.setup import Bounce, Setup
 from sandbox.engine.surfaces import bounce_of_balls, bounce_off
-from sandbox.engine.touch import TOUCHING_GAP, Obstacle
+from sandbox.engine.touch import TOUCHING_GAP, Obstacle, touched
 from sandbox.engine.track import Track
 from sandbox.physics.hertz import contact_time
 from sandbox.physics.integrators import State
@@ -23,6 +23,9 @@ from sandbox.physics.integrators import State
 #: Restitution below which balls stay together, pressed by the cloth: these get impulses, as their contact does not
 #: end.
 STICKY = 0.25
+
+#: Depth in radii up to which a ball may enter a wall that pushes back only after the balls have separated.
+_DEEP = 0.25
 
 #: Approach speed in m/s below which balls push rather than strike each other: these get impulses.
 FAINTEST = 1e-3
@@ -41,7 +44,8 @@ class Pressed:
         """Simulate the contact of the cluster around the balls that touch at t (with their states).
 
         None if impulses are right: no two balls strike each other, other forces change their speed more during the
-        contact than they approach with, or no other body is reached during the contact.
+        contact than they approach with, no other body is reached during the contact, or balls are so soft that they are
+        pressed deep into walls.
         """
         model = self._setup.contact
         struck = [
@@ -74,6 +78,8 @@ class Pressed:
             try:
                 parted = self._passed(t, members, walls, pairs, speed)
             except StaysPressed:
+                return None
+            if self._entered(members, parted):
                 return None
             late = self._overlapping(parted) - {frozenset(pair) for pair in pairs}
             if not late:
@@ -127,6 +133,17 @@ class Pressed:
             for obstacle in self._tracks[index].obstacles
             if obstacle.near(state[0], state[1]).gap <= reach
         ]
+
+    def _entered(self, members: dict[int, State], parted: Outcome) -> bool:
+        """Whether a ball may have been pressed deep into a wall that does not push back meanwhile."""
+        if self._setup.contact.wall_stiffness > 0.0:
+            return False
+        for index, (u, v, *_) in parted.states.items():
+            track, (x, y, *_) = self._tracks[index], members[index]
+            within = hypot(u - x, v - y) - _DEEP * track.ball.radius
+            if any(near.gap <= within for _, near in touched(track.obstacles, x, y, max(within, 0.0))):
+                return True
+        return False
 
     def _overlapping(self, parted: Outcome) -> set[frozenset[int]]:
         """The pairs that overlap after the balls have separated, with at least one ball that was touched."""

@@ -157,7 +157,7 @@ class Picture(AboveView[Parameters]):
             if event.kind == "caught":
                 told = f"the {event.ball} into the {event.partner}"
             elif event.kind == "impact" and {event.ball, event.partner} == {self.ball, first}:
-                told, first = f"meets the {first} at {event.speed:.1f} m/s", None
+                told, first = f"meets the {first} at {self.run.closing_speed(event):.1f} m/s", None
         return told[0].upper() + told[1:], ""
 
     def live(self, t: float) -> list[Entry]:

@@ -89,8 +89,7 @@ class Contact(Group):
     """The contact of balls that are pressed together while others can reach them."""
 
     model: Literal["auto", "rigid", "hertz"] = choice(..., "contact mechanics where it matters, never, or always")
-    #: Softer balls would be pressed by millimetres, through cushions that do not push back meanwhile.
-    stiffness: float = quantity(..., "N/m^1.5", 1e6, 1e12, "of a pair of balls")
+    stiffness: float = quantity(..., "N/m^1.5", 1e3, 1e12, "of a pair of balls")
 
 
 class Parameters(Group):
@@ -351,6 +350,12 @@ def _first_contact(run: Run, parameters: Parameters) -> tuple[str, Event] | None
     return next((met for met in _meetings(run, parameters) if met[0] in others), None)
 
 
+def _contact_speed(run: Run, parameters: Parameters) -> float | None:
+    """At which the struck ball comes to the first other, along their surfaces included, as pictures say."""
+    met = _first_contact(run, parameters)
+    return None if met is None else run.closing_speed(met[1])
+
+
 def _point(run: Run, parameters: Parameters) -> int | None:
     """A carom's point, on a table without pockets: how many cushions the struck ball met before the last of the other
     balls, of which there must be two at least; None where it did not meet them all."""
@@ -426,7 +431,7 @@ FACTS = (
     Fact("stroke", "stroke", "m/s", lambda run, parameters: parameters.cue.speed, "start"),
     Fact("tip", "tip", "", _tip, "start"),
     Fact("cushions", "cushions", "", _cushions),
-    Fact("contact_speed", "contact", "m/s", at(_first_contact, lambda met: met[1].speed)),
+    Fact("contact_speed", "contact", "m/s", _contact_speed),
     Fact("path", "path", "m", lambda run, parameters: travelled(run, parameters.cue.ball)),
     Fact("rest_time", "at rest after", "s", lambda run, parameters: run.duration if run.ended == "rest" else None),
     Fact("rails", "cushions, all balls", "", _rails),

@@ -11,7 +11,7 @@ import pytest
 from sandbox.engine import simulate
 from sandbox.engine.accuracy import resolve
 from sandbox.engine.ledger import ledger
-from sandbox.engine.setup import Always, Ball, Bounce, Segment, Setup, Surface
+from sandbox.engine.setup import Always, Ball, Bounce, ContactModel, Segment, Setup, Surface
 from sandbox.engine.touch import Outline
 from sandbox.physics.forces import Gravity
 
@@ -110,6 +110,16 @@ def test_a_heap_of_any_restitution_is_no_error(restitution):
     run = run_of([ball(place, 0.001 * place, R + 3 * R * place) for place in range(4)], BOX, 0.2, restitution)
     assert run.ended == "rest"
     assert overlap(run, run.duration) < 1e-4
+
+
+@pytest.mark.parametrize("stiffness", [1e4, 1e6])
+def test_soft_balls_stay_in_their_bowl(stiffness):
+    """They are not pressed through it while they press on one another, for milliseconds and centimetres."""
+    laws = {"between_balls": Always(Bounce(0.6, 0.2)), "contact": ContactModel("auto", stiffness)}
+    run = simulate(Setup(poured(8, 0.3), BOWL, 30.0, **laws), resolve("balanced"))
+    assert run.ended == "rest"
+    assert overlap(run, run.duration) < 1e-4
+    assert all(run.state(ball.name, run.duration)[1] > 0.0 for ball in run.setup.balls)
 
 
 def test_a_pyramid_at_rest_stays_at_rest():
