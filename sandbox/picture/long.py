@@ -25,8 +25,9 @@ from sandbox.sport.amounts import metres, times
 
 CARD = palette("card")
 
-#: The strip takes this share of the room between headline and card, at most; gaps in px on 720 rows.
-STRIP, GAP, ROW = 0.42, 8.0, 24.0
+#: The strip takes this share of the room between headline and card, at most; gaps and the room around letters, in px
+#: on 720 rows.
+STRIP, GAP, AROUND = 0.42, 8.0, 7.0
 #: A ball that goes no further than this, in m, has no path.
 LEAST_WAY = 1e-6
 
@@ -80,14 +81,21 @@ class LongView(AboveView[P]):
 
     def landmarks(self, sheet: Sheet, camera: Camera) -> None:
         """What the lines across the strip are called, under it."""
-        row = camera.pixel(0.0, self.whole.bottom)[1] + 0.5 * ROW * self.unit
+        row = self._row.centery
         for name, x in self.lines.items():
             sheet.write(name, "small", (camera.pixel(x, 0.0)[0], row), sheet.quiet_ink, "center")
 
     @cached_property
+    def _row(self) -> pygame.Rect:
+        """Under the strip, where it is labelled."""
+        low = self.camera.pixel(0.0, self.whole.bottom)[1]
+        tall = self.sheet.lettering.height("small") + AROUND * self.unit
+        return pygame.Rect(0, round(low), self.size[0], round(tall))
+
+    @cached_property
     def lens(self) -> pygame.Rect:
         """Where in the picture the near part is."""
-        low = self.camera.pixel(0.0, self.whole.bottom)[1] + (ROW + GAP) * self.unit
+        low = self._row.bottom + GAP * self.unit
         frame = self.sheet.frame
         return pygame.Rect(frame.left, round(low), frame.width, round(self.card_row - GAP * self.unit - low))
 
@@ -133,7 +141,7 @@ class LongView(AboveView[P]):
 
     def dimensions(self, sheet: Sheet, camera: Camera) -> None:
         """None; but no label goes on the strip or on a ball in the near part."""
-        sheet.labels.take(pygame.Rect(0, 0, self.size[0], round(self.lens.top - (ROW + GAP) * self.unit)))
+        sheet.labels.take(pygame.Rect(0, 0, self.size[0], self._row.top))
         sheet.labels.take(pygame.Rect(0, round(self.card_row), *self.size))
         for (x, y), half in self._placed(self.near_camera, self.told, 1.0).values():
             sheet.labels.take(pygame.Rect(round(x - half), round(y - half), round(2 * half), round(2 * half)))
@@ -155,10 +163,10 @@ class LongView(AboveView[P]):
 
     def scale(self, sheet: Sheet, camera: Camera) -> None:
         """A scale bar under the strip."""
-        low = self.camera.pixel(0.0, self.whole.bottom)[1] + (ROW - 2.0) * self.unit
-        sheet.scale_bar(camera, sheet.frame.left + 2 * sheet.gap, low, 0.12 * sheet.frame.width)
+        sheet.scale_bar(camera, sheet.frame.left + 2 * sheet.gap, self._row.bottom, 0.12 * sheet.frame.width)
 
     def notes(self, camera: Camera) -> list[str]:
         """Of the near part; in the strip balls are only marks."""
         factor = self.near_camera.scale / camera.scale
-        return [*self._stretched(camera), *self.remarks(camera), f"below, {times(factor)} as large"]
+        notes = [*self._stretched(camera), *self.remarks(camera), f"below, {times(factor)} as large"]
+        return [*notes, *filter(None, [self.CAVEAT])]

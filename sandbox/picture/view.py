@@ -72,6 +72,8 @@ class View(Generic[P]):
     #: How the ball looks, and what it is called.
     LOOK: ClassVar[Look]
     THING: ClassVar[str] = "ball"
+    #: What must be said of the result wherever it is shown, such as that nothing measured stands behind it.
+    CAVEAT: ClassVar[str] = ""
     #: Colours of the path, of the thin line of it that stays behind in frames (None: the same), and of other runs.
     TRACE: ClassVar[Colour] = TRACES[0]
     FAINT: ClassVar[Colour | None] = None
@@ -319,7 +321,7 @@ class View(Generic[P]):
         if (factor := self.least / (self.radius * camera.scale)) > UNSAID:
             who, whose = (self.THING, "its") if len(self.balls) == 1 else (f"{self.THING}s", "their")
             notes.append(f"{who} drawn {times(factor)} {whose} size")
-        return notes
+        return [*notes, *filter(None, [self.CAVEAT])]
 
     def poster(self) -> pygame.Surface:
         """The whole run in one picture."""

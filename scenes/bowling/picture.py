@@ -26,7 +26,7 @@ PIN = Look(COLOURS["pin"], NECK)
 
 class Picture(LongView[Parameters]):
     TRACE, ROOM, EARLIER, WIDER = COLOURS["trace"], COLOURS["hall"], COLOURS["earlier"], 2.0
-    SOFT = 0.65
+    SOFT, CAVEAT = 0.65, "what the pins do is not validated"
     whole = Box(-0.7, -KICKBACK - 0.05, HEAD + PIT + 0.25, KICKBACK + 0.05)
     near = Box(HEAD - 0.6, -LANE - 0.1, HEAD + PIT + 0.15, LANE + 0.1)
     datum = (HEAD, 0.0), "the head pin"

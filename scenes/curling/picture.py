@@ -26,7 +26,7 @@ LOOKS = {
 
 
 class Picture(LongView[Parameters]):
-    TRACE, ROOM, EARLIER = COLOURS["trace"], COLOURS["hall"], COLOURS["earlier"]
+    TRACE, EARLIER, CAVEAT = COLOURS["trace"], COLOURS["earlier"], "sweeping and blows not validated"
     datum = (0.0, 0.0), "the tee"
     lines = {"hog line": HOG, "tee line": 0.0}
 

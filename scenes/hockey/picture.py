@@ -22,7 +22,7 @@ LOOKS = {name: Look(COLOURS[name], MARK, gloss=0.6) for name in ("puck", "air_pu
 
 
 class Picture(AboveView[Parameters]):
-    EARLIER, THING = COLOURS["earlier"], "puck"
+    EARLIER, THING, CAVEAT = COLOURS["earlier"], "puck", "not validated"
 
     @property
     def table(self) -> bool:

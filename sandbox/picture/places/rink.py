@@ -69,7 +69,7 @@ def air_table(around: Sequence[Point], goal_width: float, colours: Mapping[str, 
     holes = product(np.arange(-0.96 * end, 0.97 * end, HOLES), np.arange(-0.94 * side, 0.95 * side, HOLES))
     return (
         *_walls(around, colours["hall"], colours["rail"], colours["table"]),
-        Worn((-0.1 * end, 0.25 * side), 0.9 * end, 0.7 * side, colours["lamp"], 0.16),
+        Worn((-0.1 * end, 0.2 * side), 0.6 * end, 0.55 * side, colours["lamp"], 0.16),
         *(Spot((float(x), float(y)), 0.004, colours["hole"]) for x, y in holes),
         Line(_across(around, 0.0), thin, marking),
         Spot((0.0, 0.0), half, marking, thin),
