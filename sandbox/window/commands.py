@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from concurrent.futures import Future
 from functools import partial
 from pathlib import Path
@@ -35,6 +35,8 @@ CARD = palette("card")
 TEXT_SIZES = (1.0, 1.15, 1.3, 1.5)
 #: What can be shown or hidden: the command of the same name switches it.
 SWITCHES = ("view", "pad", "ghosts", "arrows", "charts", "cost", "tape", "fan", "map")
+#: Earlier shots in the graphs over time.
+MOST_GRAPHS = 5
 #: One step enlarges the picture by this factor, or moves it by this many px.
 ZOOM, PAN = 1.25, 60.0
 
@@ -253,6 +255,20 @@ def _energy_chart(shot: Shot, size: tuple[int, int]) -> pygame.Surface:
     return energy_chart(shot.run, size)
 
 
+def _graphs(view: View, by: float) -> None:
+    """The graphs of the current shot with the earlier ones that began from the same place."""
+    shot, size = view.game.shot, view.area.size
+    if shot is not None:
+        earlier = [other for other in view.game.earlier(shot.start, but=shot) if other.number][-MOST_GRAPHS:]
+        _open(view, "graphs", lambda: Chart(view.background.submit(_graph, shot, earlier, size)))
+
+
+def _graph(shot: Shot, earlier: Sequence[Shot], size: tuple[int, int]) -> pygame.Surface:
+    from sandbox.picture.graph import graph
+
+    return graph(shot.run, size, {f"shot {other.number}": other.run for other in reversed(earlier)})
+
+
 def _wider(view: View, by: float) -> None:
     game = view.game
     game.fan_width = min(max(game.fan_width * 2.0**by, 1 / WIDEST), WIDEST)
@@ -402,6 +418,7 @@ COMMANDS: dict[str, Callable[[View, float], object]] = {
     "next_shot": lambda view, by: view.game.watch_other(int(by)),
     "wider": _wider,
     "energy": _energy,
+    "graphs": _graphs,
     "shots": _shots,
     "find": _find,
     "predict": _predict,

@@ -62,6 +62,7 @@ TABLE = (
     Command("fit", ("ctrl 0",), "see all of the shot", "See"),
     Command("arrows", ("o",), "arrows: velocity and forces", "See"),
     Command("charts", ("w",), "charts over time", "See"),
+    Command("graphs", ("alt w",), "charts over time, large, with earlier shots", "See"),
     Command("energy", ("j",), "where the energy goes", "See"),
     Command("tape", ("t",), "tape", "See", "right drag"),
     Command("accuracy", ("a",), "accuracy: fast, balanced, precise", "See"),

@@ -365,6 +365,29 @@ def test_what_is_written_on_the_charts_does_not_overlap(shot_of, monkeypatch, si
         placed.clear()
 
 
+def test_graphs_lie_over_the_picture_with_earlier_shots(player, monkeypatch):
+    from sandbox.picture.lettering import Lettering
+
+    written = []
+    write = Lettering.write
+    monkeypatch.setattr(
+        Lettering, "write", lambda self, s, text, *a, **k: (written.append(text), write(self, s, text, *a, **k))[1]
+    )
+    player = player("throws")
+    for _ in range(2):
+        player.key(pygame.K_SPACE)
+        player.settle()
+        player.key(pygame.K_RETURN)
+    plain = picture(player)
+    player.press_named("alt w")
+    player.settle()
+    assert differ(picture(player), plain) > 0.5
+    assert {"forces (N)", "acceleration (m/s^2)"} <= set(written)
+    assert any(text.startswith("shot ") for text in written)
+    player.click((600, 300))
+    assert differ(picture(player), plain) < 0.2
+
+
 def test_where_the_energy_goes_lies_over_the_picture_until_a_click(player):
     player = player(PUTT)
     plain = picture(player)
