@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from math import inf
-from typing import Any, NamedTuple
+from typing import Any
 
 from sandbox.engine.accuracy import Accuracy
 from sandbox.engine.setup import Patch
@@ -43,15 +43,6 @@ _AT_BREAK = 1e-12
 _NO_ERROR = 1e-300
 
 
-class Attempt(NamedTuple):
-    """A step that was tried."""
-
-    fits: Any  # whether it is accepted
-    following: Any  # s, the step to try next, after it or in its place
-    state: State  # at its end
-    acceleration: Acceleration
-
-
 class StepControl:
     """The steps of one method at one accuracy, controlled by its order and its error estimate, if any."""
 
@@ -65,20 +56,24 @@ class StepControl:
 
     def attempt(
         self, law: Law, t: Any, state: State, acceleration: Acceleration, h: Any, wanted: Any, radius: Any
-    ) -> Attempt:
-        """A step of ``h`` s, which may be a part of the ``wanted`` step, from a state with this acceleration."""
+    ) -> tuple[Any, Any, State, Acceleration]:
+        """A step of ``h`` s, which may be a part of the ``wanted`` step, from a state with this acceleration.
+
+        Returns whether it is accepted, the step in s to try next, after it or in its place, and the state and the
+        acceleration at its end.
+        """
         end, last, error = self._method.step(law, t, state, acceleration, h)
         if last is None:
             last = law(t + h, end)
         if error is None:
             too_long = stiff(state, end, acceleration, last, h)
             longer = choose(h >= wanted, clip(2.0 * h, 0.0, self._step), wanted)
-            return Attempt(too_long ^ True, choose(too_long, 0.5 * h, longer), end, last)
+            return too_long ^ True, choose(too_long, 0.5 * h, longer), end, last
         off = size(error, radius)
         fits = off <= self._local_error
         change = clip(SAFETY * (self._local_error / (off + _NO_ERROR)) ** self._exponent, SHORTER, LONGER)
         following = h * choose(off < inf, change, LOST)
-        return Attempt(fits, most(following, wanted * (fits & (h < wanted))), end, last)
+        return fits, most(following, wanted * (fits & (h < wanted))), end, last
 
 
 def size(error: State, radius: Any) -> Any:
