@@ -34,6 +34,7 @@ from sandbox.sport.amounts import roughly
 from sandbox.sport.controls import Controls, Goal, Handle, Spin, Spread
 from sandbox.sport.facts import ENDED, Fact, once
 from sandbox.sport.readings import at, travelled
+from sandbox.sport.sliding import left, taken
 from sandbox.sport.solids import Solid
 
 from .table import AnyTable, catches, check, cushions, on_bed
@@ -335,11 +336,6 @@ def _touches(run: Run, parameters: Parameters) -> list[str]:
     return [name for name, _ in _meetings(run, parameters)]
 
 
-def _caught(run: Run, parameters: Parameters) -> dict[str, str]:
-    """Pockets by the balls in them, in order."""
-    return {event.ball: event.partner for event in run.events if event.kind == "caught"}
-
-
 def _others(run: Run, parameters: Parameters) -> set[str]:
     return {ball.name for ball in run.setup.balls} - {parameters.cue.ball}
 
@@ -372,15 +368,8 @@ def _point(run: Run, parameters: Parameters) -> int | None:
 
 def _scored(run: Run, parameters: Parameters) -> bool:
     """A point, or a ball potted without a scratch."""
-    caught = _caught(run, parameters)
+    caught = taken(run)
     return _point(run, parameters) is not None or (bool(caught) and parameters.cue.ball not in caught)
-
-
-def _positions(run: Run, parameters: Parameters) -> dict[str, list[float]]:
-    """Positions in m of the balls that are still on the table."""
-    caught = _caught(run, parameters)
-    balls = (ball.name for ball in run.setup.balls if ball.name not in caught)
-    return {name: list(run.state(name, run.duration)[:2]) for name in balls}
 
 
 @once
@@ -426,7 +415,7 @@ def _tip(run: Run, parameters: Parameters) -> str:
 
 
 FACTS = (
-    Fact("pockets", "potted", "", _caught),
+    Fact("pockets", "potted", "", lambda run, parameters: taken(run)),
     Fact("first_contact", "first contact", "", at(_first_contact, lambda met: met[0])),
     Fact("stroke", "stroke", "m/s", lambda run, parameters: parameters.cue.speed, "start"),
     Fact("tip", "tip", "", _tip, "start"),
@@ -435,11 +424,11 @@ FACTS = (
     Fact("path", "path", "m", lambda run, parameters: travelled(run, parameters.cue.ball)),
     Fact("rest_time", "at rest after", "s", lambda run, parameters: run.duration if run.ended == "rest" else None),
     Fact("rails", "cushions, all balls", "", _rails),
-    Fact("potted", "", "", lambda run, parameters: list(_caught(run, parameters)), in_order=False),
-    Fact("scratch", "", "", lambda run, parameters: parameters.cue.ball in _caught(run, parameters)),
+    Fact("potted", "", "", lambda run, parameters: list(taken(run)), in_order=False),
+    Fact("scratch", "", "", lambda run, parameters: parameters.cue.ball in taken(run)),
     Fact("point", "", "", _point),
     Fact("scored", "", "", _scored),
-    Fact("positions", "", "m", _positions),
+    Fact("positions", "", "m", lambda run, parameters: {name: [*place] for name, place in left(run).items()}),
     Fact("leaving_speed", "", "m/s", _speeds(0)),
     Fact("leaving_direction", "", "deg", _directions(0)),
     Fact("rolling_speed", "", "m/s", _speeds(1)),
