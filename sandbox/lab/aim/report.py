@@ -235,6 +235,7 @@ def draw(aim: Aim, path: Path) -> None:
 
 def _draw_one(axes: Any, aim: Aim, colours: Mapping[str, Any]) -> None:
     card, target = colours["card"], aim.targets[0]
+    axes.set_xlim(aim.spans[0].low, aim.spans[0].high)
     for solving, colour, size in ((False, card["quiet"], 14.0), (True, colours["trace"]["colours"][0], 22.0)):
         tries = [each for each in aim.tries if each.phase.startswith("solve") == solving and each.found[0] is not None]
         places, found = [each.values[0] for each in tries], [each.found[0] for each in tries]
@@ -244,7 +245,6 @@ def _draw_one(axes: Any, aim: Aim, colours: Mapping[str, Any]) -> None:
     for solution in aim.solutions:
         place = solution.values[aim.spans[0].key]
         mark(axes, (place, solution.result[target.name]), _with_unit(aim, 0, f"{place:.6g}"), card)
-    axes.set_xlim(aim.spans[0].low, aim.spans[0].high)
     axes.set_ylabel(result_label(aim.scene, target.name))
     legend(axes)
 
@@ -294,6 +294,7 @@ def _draw_plane(axes: Any, aim: Aim, colours: Mapping[str, Any]) -> None:
 
 def _draw_intervals(axes: Any, aim: Aim, colours: Mapping[str, Any]) -> None:
     card, key = colours["card"], aim.spans[0].key
+    axes.set_xlim(aim.spans[0].low, aim.spans[0].high)
     for solution in aim.solutions:
         assert solution.interval is not None  # the target has intervals
         axes.axvspan(solution.interval.low, solution.interval.high, color=card["good"], alpha=0.35, linewidth=0)
@@ -304,4 +305,3 @@ def _draw_intervals(axes: Any, aim: Aim, colours: Mapping[str, Any]) -> None:
         mark(axes, (solution.values[key], 0.5), _forgiving(aim), card)
     axes.set_yticks([0.0, 1.0], ["not met", "met"])
     axes.set_ylim(-0.3, 1.3)
-    axes.set_xlim(aim.spans[0].low, aim.spans[0].high)
