@@ -1,7 +1,9 @@
 """Bodies that slide on a plane with friction by speed and by place: against integrals, closed forms and the plain
 method."""
 
+import random
 from dataclasses import replace
+from itertools import pairwise
 from math import cos, hypot, log, pi, sin
 
 import numpy as np
@@ -215,3 +217,34 @@ def test_a_stone_that_spins_in_place_stops_turning():
     run = slid(stone((0.0, 0.0), spin=pi), ICE)
     assert run.ended == "rest"
     assert run.state("stone", run.duration) == (0.0, 0.0, 0.0, 0.0, 0.0)
+
+
+@pytest.mark.parametrize("law", [PUCK, ICE, Cloth(0.2, 0.02, 0.01), Glide(0.0)])
+@pytest.mark.parametrize("seed", range(6))
+def test_strips_of_one_law_are_that_law(law, seed):
+    """Also for bodies that start on an edge, along one, or at rest, and through impacts; energy is accounted for."""
+    chance = random.Random(seed)
+    edges = sorted(chance.choice([0.0, 1.0, chance.uniform(-3.0, 3.0)]) for _ in range(3))
+    corners = [(-4.0, -3.0), (4.0, -3.0), (4.0, 4.0), (-4.0, 4.0), (-4.0, -3.0)]
+    walls = [Surface("wall", Segment(a, b), 0.7, 0.2) for a, b in pairwise(corners)]
+    balls = [
+        Ball(
+            name,
+            chance.uniform(0.2, 20.0),
+            R,
+            (chance.choice([0.0, 1.0, chance.uniform(-2.0, 2.0)]), 0.4 * place),
+            (chance.choice([0.0, chance.uniform(-3.0, 3.0)]), chance.uniform(-2.0, 2.0)),
+            chance.uniform(-3.0, 3.0),
+            (chance.uniform(-9.0, 9.0), chance.uniform(-9.0, 9.0)),
+        )
+        for place, name in enumerate("abc")
+    ]
+    one, other = (
+        simulate(Setup(balls, walls, 3.0, plane=plane, between_balls=lambda normal, slip: Bounce(0.8, 0.1)), resolve())
+        for plane in (law, Strips(edges, [law] * 4))
+    )
+    for name in "abc":
+        assert one.state(name, 3.0)[:2] == pytest.approx(other.state(name, 3.0)[:2], abs=1e-6)
+    book = ledger(other)
+    changes = sum(book.impacts.values()) + sum(book.contacts.values()) + book.residue
+    assert book.start + changes == pytest.approx(book.end, abs=1e-9)
