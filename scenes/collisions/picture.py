@@ -9,6 +9,7 @@ from itertools import chain, product
 from math import cos, sin
 
 import numpy as np
+import pygame
 
 from sandbox.engine.setup import Body, Segment
 from sandbox.picture.above import AboveView
@@ -95,6 +96,7 @@ class Picture(AboveView[Parameters]):
         met = blow(self.run, self.parameters)
         if met is None:
             return
+        self._sums(sheet, met)
         painter, unit = sheet.painter, self.unit
         a, b = (np.array(met.before[name][:2]) for name in met.pair)
         line = [camera.pixel(*(at + way * (b - a))) for at, way in ((a, -1.2), (b, 1.2))]
@@ -139,12 +141,15 @@ class Picture(AboveView[Parameters]):
         above = self.card_row - 4.5 * self.sheet.gap
         self.sheet.write(between.why, "small", (self.sheet.frame.right, above), CARD["text"], "bottomright")
 
-    def scale(self, sheet: Sheet, camera: Camera) -> None:
-        """The scale bar, and the sums that have to stay."""
-        super().scale(sheet, camera)
-        met = blow(self.run, self.parameters)
-        if met is None:
-            return
+    def frame(self, t: float) -> pygame.Surface:
+        """With the sums, from the blow on."""
+        picture, met = super().frame(t), blow(self.run, self.parameters)
+        if met is not None and t >= met.t:
+            self._sums(self.sheet, met)
+        return picture
+
+    def _sums(self, sheet: Sheet, met: Blow) -> None:
+        """The sums that have to stay."""
         top = sheet.top_row + 1.2 * sheet.lettering.height("small")
         sums = {what: [shares(self.run, states, what) for states in (met.before, met.after)] for what in AMOUNTS}
         sums["energy"][1].append(max(0.0, sum(sums["energy"][0]) - sum(sums["energy"][1])))  # what is lost
