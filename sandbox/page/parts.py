@@ -32,7 +32,9 @@ def source(name: str) -> str:
 
 
 def filled(name: str, **parts: str) -> str:
-    """A template with its parts, which are HTML already."""
+    """A template with its parts, which are HTML already; with ``data`` it gets the script of its name."""
+    if "data" in parts:
+        parts["script"] = source("page.js") + source(name.replace(".html", ".js"))
     return Template(source(name)).substitute(style=source("page.css"), **parts)
 
 

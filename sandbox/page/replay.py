@@ -16,7 +16,7 @@ from sandbox.engine.heap import Heaped
 from sandbox.engine.run import Run
 from sandbox.engine.track import PRESSED
 from sandbox.errors import RequestError
-from sandbox.page.parts import css, filled, fonts, html, packed, picture, rows, source, table, what_changed
+from sandbox.page.parts import css, filled, fonts, html, packed, picture, rows, table, what_changed
 from sandbox.parameters import walk
 from sandbox.picture import ball as balls
 from sandbox.picture.above import AboveView
@@ -67,7 +67,7 @@ def page_of(run: Run, ghosts: Mapping[str, Run] | None = None) -> str:
         **_static(view, run),
         "views": [layout for _, layout in views],
         "events": [event.t for event in events],
-        "duration": run.duration,
+        "duration": max([run.duration, *(ghost.path.run.duration for ghost in view.ghosts)]),
         "told": view.told,
         "fonts": fonts(),
     }
@@ -85,7 +85,6 @@ def page_of(run: Run, ghosts: Mapping[str, Run] | None = None) -> str:
         about=html(scene.about),
         command=html(command(scene)),
         data=packed(data),
-        script=source("run.js"),
     )
 
 

@@ -1,4 +1,3 @@
-"use strict";
 // Plays one run. Its paths are the polynomials that the run was computed with, so any instant is exact; lengths are in
 // m, times in s, spins in rad/s, and on the picture in px of the layer that is shown.
 
@@ -6,14 +5,7 @@ const SLOWEST = -4, FASTEST = 3; // powers of two
 const STEP = 1 / 60; // s
 const NEAR = 28; // px around the pointer in which a path is found
 
-const $ = (id) => document.getElementById(id);
-
 // ------------------------------------------------------------------------------------------------ what Python sent
-
-async function unpacked(text) {
-  const packed = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
-  return new Response(new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate")));
-}
 
 async function image(url) {
   const found = new Image();
@@ -32,7 +24,8 @@ function pixels(picture) {
 
 // ------------------------------------------------------------------------------------------------ paths
 
-const BINOMIALS = [[1], [1, 1], [1, 2, 1], [1, 3, 3, 1], [1, 4, 6, 4, 1], [1, 5, 10, 10, 5, 1], [1, 6, 15, 20, 15, 6, 1]];
+const BINOMIALS = [[1]]; // by degree
+for (let n = 1; n <= 12; n++) BINOMIALS.push([...BINOMIALS[n - 1], 0].map((value, k) => value + (BINOMIALS[n - 1][k - 1] ?? 0)));
 
 /** A polynomial in Bernstein form at u from 0 to 1. */
 function evaluate(curve, u) {
@@ -647,14 +640,12 @@ class Player {
 }
 
 async function begin() {
-  const data = await (await unpacked($("data").textContent)).json();
-  const fonts = Object.entries(data.fonts).map(async ([weight, packed]) =>
-    document.fonts.add(await new FontFace("Sandbox Sans", await (await unpacked(packed)).arrayBuffer(), { weight }).load()));
+  const data = await received();
   const layers = data.views.map(async (view) => {
     for (const name of ["place", "along", "over"]) view[name] = await image(view[name]);
   });
   const skins = data.looks.filter(({ skin }) => skin).map(async (look) => (look.skin = pixels(await image(look.skin))));
-  await Promise.all([...fonts, ...layers, ...skins]);
+  await Promise.all([...layers, ...skins]);
   window.player = new Player(data);
 }
 

@@ -1,13 +1,6 @@
-"use strict";
 // The map of a sweep, and the path of the point that is chosen on it. Places are in the units of the axes, paths in m.
 
-const $ = (id) => document.getElementById(id);
 const EDGE = { left: 64, right: 14, top: 12, bottom: 46 }; // px around the map
-
-async function unpacked(text) {
-  const packed = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
-  return new Response(new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate")));
-}
 
 /** Round numbers from low to high, about so many. */
 function ticks(low, high, count) {
@@ -212,9 +205,7 @@ class Explorer {
 }
 
 async function begin() {
-  const data = await (await unpacked($("data").textContent)).json();
-  await Promise.all(Object.entries(data.fonts).map(async ([weight, packed]) =>
-    document.fonts.add(await new FontFace("Sandbox Sans", await (await unpacked(packed)).arrayBuffer(), { weight }).load())));
+  const data = await received();
   window.explorer = new Explorer(data);
 }
 

@@ -19,7 +19,7 @@ from sandbox.lab.maps import Found, coded, has_numbers, own_place, read
 from sandbox.lab.plan import Plan
 from sandbox.lab.row_file import cell
 from sandbox.lab.runs import runs
-from sandbox.page.parts import filled, fonts, html, packed, source
+from sandbox.page.parts import filled, fonts, html, packed
 from sandbox.picture.lines import points, simplify
 from sandbox.picture.palette import palette
 from sandbox.sport.amounts import amount, significant
@@ -72,7 +72,6 @@ def page_of(plan: Plan, file: Path, of: str | None = None) -> str:
         legend=legend,
         command=html(shlex.join([*command, *(["--samples", str(plan.samples)] if plan.samples else [])])),
         data=packed(data),
-        script=source("sweep.js"),
     )
 
 
