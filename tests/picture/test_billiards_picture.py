@@ -12,7 +12,7 @@ from sandbox.picture.sheet import Sheet
 from scenes.billiards import balls
 from tests.picture.legible import assert_legible
 
-SIZES = [(640, 360), (1280, 720), (1920, 1080), (960, 672), (640, 400)]
+SIZES = [(640, 360), (1920, 1080), (960, 672)]
 ONE_BALL = {"rack": "none", "balls": [{"name": "cue", "x": -0.5, "y": 0.0}]}
 SHOTS = {
     "break": ("billiards", {}),

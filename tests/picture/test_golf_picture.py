@@ -11,7 +11,7 @@ import sandbox
 from sandbox.picture.ball import Look
 from tests.picture.legible import assert_legible
 
-SIZES = [(640, 360), (1280, 720), (1920, 1080)]
+SIZES = [(640, 360), (1920, 1080)]
 SHOTS = {
     "drive": {},
     "putt": {"launch.speed": 2.05, "launch.angle": 0.0, "launch.spin": 0.0, "pin.distance": 3.0},

@@ -462,7 +462,7 @@ def test_on_higher_ground_the_carry_is_where_it_comes_down():
     assert impact.y > 10.0
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=30, deadline=None)
 @given(
     speed=st.floats(0.0, 340.0),
     angle=st.floats(-90.0, 180.0),
