@@ -16,7 +16,7 @@ play: .venv/ready
 	$(BIN)/sandbox play golf
 
 test: .venv/ready-dev
-	$(BIN)/python -m pytest --numprocesses=auto
+	$(BIN)/python -m pytest --numprocesses=auto $(PYTEST_OPTIONS)
 
 lint: .venv/ready-dev
 	$(BIN)/ruff check .
