@@ -32,15 +32,6 @@ def controls_error(how: Accuracy) -> bool:
     return how.method == "exact" and INTEGRATORS[how.integrator].controls_error
 
 
-def has_steps(how: Accuracy) -> bool:
-    """Whether the steps are fixed."""
-    return not controls_error(how)
-
-
-def is_plain(how: Accuracy) -> bool:
-    return how.method == "plain"
-
-
 class Extreme(NamedTuple):
     """One row, for the methods that it suits. ``build`` raises RequestError if the scene refuses; ``step`` (s) replaces
     that of the method."""
@@ -70,7 +61,7 @@ def of_scene(scene: Scene) -> Iterator[Extreme]:
     yield Extreme("an hour", lambda: replace(scene.build(), duration=HOUR, until=None), controls_error)
     for step in STEPS:
         ended = _ended(own, min(_LONGEST, _MOST_STEPS * step))
-        yield Extreme(f"step {step:.3g} s", lambda ended=ended: ended, has_steps, step)  # type: ignore[misc]
+        yield Extreme(f"step {step:.3g} s", lambda ended=ended: ended, lambda how: not controls_error(how), step)  # type: ignore[misc]
 
 
 def _alike(value: Any, number: Any) -> Any:
@@ -120,7 +111,7 @@ def bare() -> Iterator[Extreme]:
         "a force with a pole", lambda: _forced(lambda t, position, velocity, spin: (0.0, -1.0 / position[1] ** 3))
     )
     yield Extreme("drag that reverses the motion", lambda: _forced(_wrong_drag))
-    yield Extreme("1,000 balls in a pile", _heap, is_plain)
+    yield Extreme("1,000 balls in a pile", _heap, lambda how: how.method == "plain")
 
 
 def _lone(ball: Ball, surfaces: list[Surface], duration: float = 2.0) -> Setup:

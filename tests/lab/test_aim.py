@@ -189,7 +189,7 @@ def test_targets_have_units():
         ({"launch.height": (2, 1)}, {"bounced": True}, "lower end first"),
         ({"floor.present": (False, True)}, {"bounced": True}, "only numbers have a range"),
         ({"launch.height": (1, 2)}, {"bounces": True}, "is a number, such as bounces="),
-        ({"launch.height": (1, 2)}, {"bounced": 1.0}, "is true or false; write bounced=true"),
+        ({"launch.height": (1, 2)}, {"bounced": 1.0}, "is true or false, such as bounced="),
         ({"launch.height": (1, 2)}, {"bouncd": True}, "did you mean bounced?"),
         ({"launch.height": (1, 2)}, {"bounced": True, "bounces": 2.0}, "1 parameter and 2 targets: give one of each"),
         ({"launch.height": (1, 2)}, {"final_height": float("nan")}, "cannot be aimed at"),

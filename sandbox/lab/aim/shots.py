@@ -132,20 +132,23 @@ class Shots:
         if result is None:
             return
         for target in self.targets:
+            option, wanted = ("--maximize", 0.0) if target.value is GREATEST else ("--target", target.value)
             if target.name not in result:
-                raise RequestError(f"--target {target.name}: {declared.no_such_result(target.name, tuple(result))}")
+                raise RequestError(f"{option} {target.name}: {declared.no_such_result(target.name, tuple(result))}")
             value = result[target.name]
-            if isinstance(value, bool) and not isinstance(target.value, bool) and target.value is not GREATEST:
-                raise RequestError(f"--target {target.name}: is true or false; write {target.name}=true")
-            if isinstance(value, str) and not isinstance(target.value, str) and target.value is not GREATEST:
-                raise RequestError(f"--target {target.name}: is a word, such as {target.name}={value}")
-            if target.value is GREATEST:
-                if isinstance(value, bool | str):
-                    raise RequestError(f"--maximize {target.name}: is not a number")
-            elif isinstance(value, int | float) and not isinstance(value, bool) and not target.is_number:
-                raise RequestError(f"--target {target.name}: is a number, such as {target.name}={value:.4g}")
-            if isinstance(value, list | dict) and not isinstance(target.value, str):
-                raise RequestError(f"--target {target.name}: is a list; a target is a word in it")
+            if value is not None and _kind(value) != _kind(wanted):
+                example = f"{value:.4g}" if isinstance(value, float) else str(value).lower()
+                hint = f", such as {target.name}={example}" if option == "--target" and _kind(value) != "a list" else ""
+                raise RequestError(f"{option} {target.name}: is {_kind(value)}{hint}, not {_kind(wanted)}")
+
+
+def _kind(value: Any) -> str:
+    """What a result is, in words."""
+    if isinstance(value, bool | np.bool_):
+        return "true or false"
+    return (
+        "a number" if isinstance(value, int | float | np.number) else "a word" if isinstance(value, str) else "a list"
+    )
 
 
 def _asked(scene: Scene, names: Sequence[str]) -> list[str]:
