@@ -156,7 +156,7 @@ def test_the_greatest_value_is_found(vacuum):
     found = aim(vacuum, {"launch.angle": (5, 85), "launch.speed": (20, 50)}, maximize="carry")
     assert found.solutions[0].values == pytest.approx({"launch.angle": 45.0, "launch.speed": 50.0}, abs=1e-4)
     assert "greatest carry" in repr(found)
-    with pytest.raises(RequestError, match="--maximize holed: is not a number"):
+    with pytest.raises(RequestError, match="--maximize holed: is true or false, not a number"):
         aim(vacuum, {"launch.angle": (5, 85)}, maximize="holed")
 
 
