@@ -54,21 +54,6 @@ def _horner(scaled: Sequence[float], r: float) -> float:
     return value
 
 
-def split(b: Sequence[float], u: float) -> tuple[list[float], list[float]]:
-    """Coefficients on [0, u] and on [u, 1]."""
-    row = list(b)
-    n = len(row) - 1
-    left = [row[0]]
-    right = [row[n]]
-    w = 1.0 - u
-    for last in range(n, 0, -1):
-        row = [w * row[k] + u * row[k + 1] for k in range(last)]
-        left.append(row[0])
-        right.append(row[last - 1])
-    right.reverse()
-    return left, right
-
-
 def until(b: Sequence[Any], u: Any) -> list[Any]:
     """Coefficients on [0, u], by de Casteljau; of one polynomial, or of many with arrays as coefficients."""
     w, left = 1.0 - u, list(b)
@@ -78,20 +63,29 @@ def until(b: Sequence[Any], u: Any) -> list[Any]:
     return left
 
 
+def after(b: Sequence[float], u: float) -> list[float]:
+    """Coefficients on [u, 1]."""
+    w, right = 1.0 - u, list(b)
+    for level in range(len(right) - 1, 0, -1):
+        for k in range(level):
+            right[k] = w * right[k] + u * right[k + 1]
+    return right
+
+
 def piece(b: Sequence[float], u0: float, u1: float) -> Sequence[float]:
     """Coefficients on [u0, u1]."""
     if u1 < 1.0:
         b = until(b, u1)
         u0 = u0 / u1
     if u0 > 0.0:
-        b = split(b, u0)[1]
+        b = after(b, u0)
     return b
 
 
 def derivative(b: Sequence[float]) -> list[float]:
     """Coefficients of df/du."""
     n = len(b) - 1
-    return [n * (b[k + 1] - b[k]) for k in range(n)]
+    return [n * (b[k + 1] - b[k]) for k in range(n)] or [0.0]
 
 
 def elevate(b: Sequence[float], degree: int) -> Sequence[float]:
@@ -155,7 +149,7 @@ def _crossings(b: list[float], u0: float, u1: float, depth: int) -> Iterator[flo
             yield u0
         return
     middle = 0.5 * (u0 + u1)
-    left, right = split(b, 0.5)
+    left, right = until(b, 0.5), after(b, 0.5)
     yield from _crossings(left, u0, middle, depth + 1)
     if left[-1] == 0.0 and left[-2] > 0.0 > right[1]:  # the root is exactly at the split
         yield middle

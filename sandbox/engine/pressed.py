@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import partial
-from itertools import combinations, pairwise
+from itertools import combinations
 from math import hypot
 from typing import Any
 
 import numpy as np
 
-from sandbox.engine.bernstein import evaluate
+from sandbox.engine.bernstein import derivative, evaluate
 from sandbox.engine.clusters import Body, Cluster, Link, StaysPressed
 from sandbox.engine.impacts import Hit, Outcome
 from sandbox.engine.setup import Bounce, Setup
@@ -196,7 +196,7 @@ class Pressed:
         push = (0.0, 0.0)
         if arc.t1 > arc.t0:
             u, h = min(1.0, max(0.0, (t - arc.t0) / (arc.t1 - arc.t0))), arc.t1 - arc.t0
-            push = _slope(arc.vx, u) / h, _slope(arc.vy, u) / h
+            push = evaluate(derivative(arc.vx), u) / h, evaluate(derivative(arc.vy), u) / h
         turning = (*state[5:7], state[4]) if len(state) > 5 else (0.0, 0.0, state[4])
         return Body(ball.mass, ball.radius, ball.inertia, state[:2], state[2:4], turning, push)
 
@@ -224,10 +224,3 @@ class Pressed:
 def _friction(between_balls: Any, approach: float, slip: float) -> float:
     bounce: Bounce = between_balls(approach, slip)
     return bounce.friction
-
-
-def _slope(curve: Sequence[float], u: float) -> float:
-    """The derivative of a polynomial in Bernstein form with respect to u."""
-    if len(curve) == 1:
-        return 0.0
-    return evaluate([(len(curve) - 1) * (b - a) for a, b in pairwise(curve)], u)

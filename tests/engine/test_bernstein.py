@@ -6,13 +6,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from sandbox.engine.bernstein import (
+    after,
     derivative,
     downward_crossings,
     elevate,
     evaluate,
     piece,
-    split,
     squared_length,
+    until,
     without_root_at_start,
 )
 from sandbox.engine.bernstein_many import evaluate as evaluate_many
@@ -43,7 +44,7 @@ def test_value_of_a_known_polynomial():
 
 @given(coefficients, inside, inside)
 def test_split_piece_and_elevation_keep_the_polynomial(b, u, v):
-    left, right = split(b, u)
+    left, right = until(b, u), after(b, u)
     assert evaluate(left, v) == pytest.approx(evaluate(b, u * v), abs=1e-10)
     assert evaluate(right, v) == pytest.approx(evaluate(b, u + (1 - u) * v), abs=1e-10)
     low, high = sorted((u, v))
