@@ -385,7 +385,8 @@ class Game:
         grip = grip or self.grip
         if grip is not None:
             values = grip.changes(place, step)
-            self._changing(lambda: self.session.change(values, built=True), frozenset(values))
+            if self._changing(lambda: self.session.change(values, built=True), frozenset(values)):
+                self.message = None  # what was refused on the way
 
     def release(self) -> None:
         """The mouse lets go: a pull that is long enough is a shot."""

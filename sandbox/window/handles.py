@@ -112,9 +112,10 @@ def _slopes(
 
 
 def _name(parameters: Group, key: str) -> str:
-    """The group of a parameter, or what its entry of a list is called: ``hoop``, ``cue``, ``others 2``."""
+    """The group of a parameter, or what its entry of a list is called: ``hoop``, ``ball cue``, ``stone 2``."""
     group = key.rpartition(".")[0]
     name, bracket, number = group.partition("[")
     if not bracket:
         return key.partition("[")[0].replace("air.", "") if "[" in key else (group or key).replace(".", " ")
-    return value_at(parameters, f"{group}.name") or f"{name} {int(number.rstrip(']')) + 1}"
+    called = value_at(parameters, f"{group}.name") or int(number.rstrip("]")) + 1
+    return f"{name.removesuffix('s')} {called}"

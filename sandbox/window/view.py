@@ -634,7 +634,7 @@ class View:
         camera = self.camera
         if camera is not None and self.tape is not None:
             self.tape.draw(sheet, camera, shot.upright)
-        if camera is None or self.follows or self.over is not None or game.pull is not None:
+        if camera is None or self.follows or self.over is not None or game.holding:
             return
         if self.area.collidepoint(self.at) and not pygame.mouse.get_pressed()[2]:
             read = reading(shot, camera, self.at, NEAR * sheet.unit, self.until(shot))
