@@ -20,10 +20,6 @@ from sandbox.engine.track import Track
 from sandbox.physics.hertz import contact_time
 from sandbox.physics.integrators import State
 
-#: Restitution below which balls stay together, pressed by the cloth: these get impulses, as their contact does not
-#: end.
-STICKY = 0.25
-
 #: Depth in radii up to which a ball may enter a wall that pushes back only after the balls have separated.
 _DEEP = 0.25
 
@@ -171,8 +167,6 @@ class Pressed:
         place = {index: number for number, index in enumerate(order)}
         bodies = [self._body(t, index, state) for index, state in members.items()]
         links = [self._link(place, members, i, j, speed) for i, j in pairs]
-        if any(link.restitution < STICKY for link in links):
-            raise StaysPressed("balls that do not bounce off each other stay together")
         links += [self._wall_link(place[index], members[index], obstacle) for index, obstacle in walls]
         linked: list[tuple[int, ...]] = [*pairs, *((index,) for index, _ in walls)]  # the balls of each link
         names = [self._tracks[j].ball.name for _, j in pairs] + [obstacle.surface.name for _, obstacle in walls]

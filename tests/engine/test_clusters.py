@@ -178,12 +178,13 @@ def test_what_stays_pressed_is_an_error():
         Cluster(pressed, [floor]).pass_through(STEP)
 
 
-@pytest.mark.parametrize(("restitution", "through"), [(0.0, False), (0.2, False), (0.3, True)])
-def test_balls_that_hardly_bounce_get_impulses(restitution, through):
-    """They stay together: followed through their contact a break of them took three minutes."""
+@pytest.mark.parametrize("restitution", [0.0, 0.1])
+def test_balls_that_hardly_bounce_go_through_their_contact(restitution):
+    """A break of them, which stay together for long, ends in as many contacts as any other."""
     run = sandbox.simulate(sandbox.load("billiards", {"ball.restitution": restitution}))
     assert run.ended == "rest"
-    assert bool(run.numerics.clusters) is through
+    assert 1 <= run.numerics.clusters < 10
+    assert abs(ledger(run).residue) < 1e-9
 
 
 @pytest.mark.parametrize(
