@@ -20,6 +20,7 @@ from sandbox.engine.meeting import discs
 from sandbox.engine.run import Run
 from sandbox.engine.setup import Always, Ball, Bounce, ContactModel, Force, Segment, Setup, Surface, Vector, kinetic
 from sandbox.engine.track import PRESSED
+from sandbox.errors import RequestError
 from sandbox.parameters import Accuracy, Group, choice, group, groups, quantity
 from sandbox.physics.coefficients import Constant
 from sandbox.physics.forces import Drag, Gravity
@@ -116,6 +117,9 @@ def hangs(it: Parameters) -> list[float]:
 def build(it: Parameters) -> Setup:
     """The balls, each with its forces, and what lies below."""
     balls, floor, launch = list[Ball](), it.floor, it.launch
+    names = [each.name for each in (*it.balls, *it.boxes)]
+    if len({*names}) < len(names) or not names:
+        raise RequestError("balls and boxes: needs one at least, and for each a name of its own")
     for body, hung in zip(it.balls, hangs(it) if it.balls else (), strict=True):
         weight, forces = body.mass * it.gravity, list[Force]()
         if weight:

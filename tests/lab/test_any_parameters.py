@@ -86,7 +86,8 @@ def test_a_few_changes(scene: str):
 
 @pytest.mark.parametrize("scene", SCENES)
 def test_every_number_somewhat_changed(scene: str):
-    assert share_that_ran(scene, nearby(parameters_of(scene)[1])) > 0.5
+    """A quarter at least: a rink that is a fifth shorter has its goalie outside."""
+    assert share_that_ran(scene, nearby(parameters_of(scene)[1])) > 0.25
 
 
 @pytest.mark.parametrize("scene", SCENES)
