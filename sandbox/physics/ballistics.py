@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from sandbox.physics.elementwise import clip
-from sandbox.physics.forces import Wind
+from sandbox.physics.forces import Wind, in_wind
 
 #: kg/m^2 of a ballistic coefficient of 1 lb/in^2.
 POUND_PER_INCH = 703.0696
@@ -88,10 +88,7 @@ class BulletDrag:
         object.__setattr__(self, "_k", self.mass * pi / 8.0 * self.density / (self.coefficient * POUND_PER_INCH))
 
     def __call__(self, t: float, position: Any, velocity: Any, spin: Any) -> tuple[Any, Any]:
-        ux, uy = velocity
-        if self.wind is not None:
-            wx, wy = self.wind(t, position)
-            ux, uy = ux - wx, uy - wy
+        ux, uy = velocity if self.wind is None else in_wind(self.wind, t, position, velocity)
         speed = (ux * ux + uy * uy) ** 0.5
         k = -self._k * drag_by_mach(self.shape, speed / self.sound) * speed
         return k * ux, k * uy

@@ -67,7 +67,7 @@ class _InAir:
         object.__setattr__(self, "_reynolds_per_speed", self.density * 2.0 * self.radius / self.viscosity)
 
 
-def _in_wind(wind: Wind, t: float, position: Any, velocity: Any) -> tuple[Any, Any]:
+def in_wind(wind: Wind, t: float, position: Any, velocity: Any) -> tuple[Any, Any]:
     """Velocity relative to the air, in m/s."""
     wx, wy = wind(t, position)
     return velocity[0] - wx, velocity[1] - wy
@@ -78,7 +78,7 @@ class Drag(_InAir):
     """Quadratic drag, ``F = -1/2 rho Cd A |u| u`` with ``u = v - wind``. Clift, Grace & Weber 1978, chapter 5."""
 
     def __call__(self, t: float, position: Any, velocity: Any, spin: Any) -> tuple[Any, Any]:
-        ux, uy = velocity if self.wind is None else _in_wind(self.wind, t, position, velocity)
+        ux, uy = velocity if self.wind is None else in_wind(self.wind, t, position, velocity)
         speed = (ux * ux + uy * uy) ** 0.5
         spin_ratio = self.radius * abs(spin) / (speed + _ALMOST_ZERO)
         k = -self._half_density_area * self.coefficient(self._reynolds_per_speed * speed, spin_ratio) * speed
@@ -99,7 +99,7 @@ class Magnus(_InAir):
 
     def __call__(self, t: float, position: Any, velocity: Any, spin: Any) -> tuple[Any, Any]:
         wind = None if self.along_ground else self.wind
-        ux, uy = velocity if wind is None else _in_wind(wind, t, position, velocity)
+        ux, uy = velocity if wind is None else in_wind(wind, t, position, velocity)
         speed = (ux * ux + uy * uy) ** 0.5
         size = self.radius * abs(spin)
         spin_ratio = size / (speed + _ALMOST_ZERO)
@@ -169,5 +169,5 @@ class SpinDecay:
         object.__setattr__(self, "_k", self.inertia * self.rate / self.radius)
 
     def __call__(self, t: float, position: Any, velocity: Any, spin: Any) -> Any:
-        ux, uy = velocity if self.wind is None else _in_wind(self.wind, t, position, velocity)
+        ux, uy = velocity if self.wind is None else in_wind(self.wind, t, position, velocity)
         return -self._k * (ux * ux + uy * uy) ** 0.5 * spin

@@ -9,7 +9,7 @@ from itertools import pairwise
 from typing import Any
 
 from sandbox.physics.elementwise import choose, clip
-from sandbox.physics.forces import Wind
+from sandbox.physics.forces import Wind, in_wind
 
 
 @dataclass(frozen=True)
@@ -87,10 +87,8 @@ class Thrust:
     wind: Wind | None = None
 
     def __call__(self, t: Any, position: Any, velocity: Any, spin: Any) -> tuple[Any, Any]:
-        (x, y), (ux, uy), (ex, ey) = position, velocity, self.along
-        if self.wind is not None:
-            wx, wy = self.wind(t, position)
-            ux, uy = ux - wx, uy - wy
+        (x, y), (ex, ey) = position, self.along
+        ux, uy = velocity if self.wind is None else in_wind(self.wind, t, position, velocity)
         speed = (ux * ux + uy * uy) ** 0.5 + 1e-30
         turned = clip(((x - self.start[0]) * ex + (y - self.start[1]) * ey) / self.rail - 1.0, 0.0, 1.0)
         turned = turned * turned * (3.0 - 2.0 * turned)  # gently: no kink for the integrator

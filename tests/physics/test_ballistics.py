@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from sandbox.physics.ballistics import drag_by_mach, drag_table
+from sandbox.physics.ballistics import BulletDrag, drag_by_mach, drag_table
 
 
 @pytest.mark.parametrize("shape", ["G1", "G7", "GS"])
@@ -33,3 +33,9 @@ def test_its_slope_is_the_weighted_harmonic_mean(shape: str):
         for side in (-1e-7, 1e-7):
             slope = (drag_by_mach(shape, machs[k] + side) - points[k]) / side
             assert slope == pytest.approx(mean, abs=1e-4)
+
+
+def test_a_bullet_in_wind_is_one_that_flies_that_much_slower():
+    still = BulletDrag(0.01, "G7", 0.3, 1.2, 340.0)
+    blown = BulletDrag(0.01, "G7", 0.3, 1.2, 340.0, lambda t, position: (-5.0, 2.0))
+    assert blown(0.0, (0.0, 0.0), (800.0, 3.0), 0.0) == still(0.0, (0.0, 0.0), (805.0, 1.0), 0.0)
