@@ -46,6 +46,9 @@ ACTIONS = {
     "zoomed": lambda view: commands.do(view, "zoom"),
     "fit": lambda view: commands.do(view, "fit"),
     "pull": lambda view: view.pull_for_test(),
+    "drag": lambda view: view.drag_for_test(),
+    "aim as the first": lambda view: view.game.table.rows and view.game.aim_as(view.game.table.rows[0]),
+    "another scene": lambda view: view.game.open("golf/putt"),
 }
 PLACES = {
     "golf": ({"pin.distance": 60.0}, {"pin.distance": 200.0, "air.wind": [-4.0, 0.0]}),
@@ -59,6 +62,12 @@ class Watched(View):
     def pull_for_test(self) -> None:
         self.game.begin_pull((200, 200), self.area.height, 1.0)
         self.game.pull_to((150, 210))
+
+    def drag_for_test(self) -> None:
+        for grip, _ in self.spots[-2:-1]:
+            self.hold()
+            self.game.begin_drag(grip)
+            self.game.drag_to((grip.place[0] + 0.1, grip.place[1] + 0.1), 0.01)
 
     def _draw_shot(self, sheet, stage, shot):
         if self.game.playback is not None:
@@ -98,13 +107,15 @@ def test_the_stage_belongs_to_the_shot(screen, source, actions):
     try:
         settled(app)
         for action in actions:
-            if app.game.pull is not None:
+            if app.game.holding:
                 app.game.release()
+                app.view.free()
             if app.game.session.base.name not in PLACES:
                 app.game.open(source)
             ACTIONS[action](app.view)
             app.tick(0.016)
         app.game.release()
+        app.view.free()
         settled(app)
         stage, shot = app.view.stage, app.game.shot
         assert stage.shot.scene.parameters == shot.scene.parameters
