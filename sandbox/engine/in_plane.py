@@ -29,9 +29,6 @@ _LONGEST_TURN = 0.3
 #: Acceleration in m/s^2 into a surface below which it is rounding.
 _PUSH = 1e-9
 
-#: Share of its value at the end below which a value at the start is zero.
-_ROUNDING = 1e-9
-
 #: How a ball moves exactly at the end of an arc that ended for one of these reasons.
 _BECOMES = {"grip": ROLLING, "stop": RESTING}
 
@@ -248,13 +245,13 @@ class InPlane(Track):
         return checked(self.ball, t, state)
 
 
-def crossing(arc: Arc, value: Callable[[float, State], float]) -> float:
-    """The time at which ``value``, negative at the end of the arc, falls to zero; the start if it is never
-    positive."""
+def crossing(arc: Arc, value: Callable[[float, State], float], rounding: float = 0.0) -> float:
+    """The time at which ``value``, negative at the end of the arc, falls to zero; the start if it is never positive
+    and more than ``rounding``."""
     low, high = arc.t0, arc.t1
     at_low, at_high = value(low, arc.start), value(high, arc.state(high))
     for halvings in range(1, 40):  # it may start at zero, as slip does when a rolling ball loses its grip
-        if at_low > -_ROUNDING * at_high:
+        if at_low > rounding:
             break
         low = arc.t0 + (high - arc.t0) * 0.5**halvings
         at_low = value(low, arc.state(low))

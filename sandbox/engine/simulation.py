@@ -188,7 +188,8 @@ class Simulation:
 
     def _collide(self, t: float, seeds: Sequence[int]) -> None:
         """Everything that touches at this instant exchanges impulses at once, or is simulated through the contact."""
-        self._impacts.gap = self._heap.margin if self._heap.members else TOUCHING_GAP
+        near = {*self._heap.members} if self._all_round else {*self._heap.members}.intersection(seeds)
+        self._impacts.gap = self._heap.margin if near else TOUCHING_GAP
         touching = self._impacts.touching(t, seeds)
         outcome = None
         if self._all_round and len(touching) > 1 and not self._heap.members:

@@ -29,6 +29,9 @@ from sandbox.physics.integrators import Acceleration, State
 #: Repetitions of a step until its angle agrees with its spin, after which it is halved.
 _PATIENCE = 5
 
+#: Turn in rad, or way in m, from the next point of contact that is rounding: as when a body leaves what it lay on.
+_FLUSH = 1e-13
+
 #: Most repetitions.
 _MOST = 1_000
 
@@ -109,7 +112,7 @@ class Turning(InPlane):
         assert isinstance(contact, OnePoint)
         if contact.room(self.ball, arc.state(arc.t1)) >= 0.0:
             return None
-        return crossing(arc, lambda t, state: contact.room(self.ball, state))
+        return crossing(arc, lambda t, state: contact.room(self.ball, state), _FLUSH)
 
     def first_touch(self, obstacle: Obstacle) -> float | None:
         """The time in s at which the body starts to touch on its current arc, or None.
