@@ -1,0 +1,59 @@
+"""Football from the side: the field with a line every five yards, bar and uprights, and the stands."""
+
+from __future__ import annotations
+
+from functools import cached_property
+
+from sandbox.picture.ball import Look
+from sandbox.picture.camera import Box
+from sandbox.picture.figures import KICKING
+from sandbox.picture.palette import scene_colours
+from sandbox.picture.places import Ground, Person, Post, Stands, Stripes
+from sandbox.picture.side import Length, Place, SideView
+from sandbox.sport.amounts import metres
+
+from .scene import Parameters
+
+COLOURS = scene_colours(__file__)
+FIELD, YARD = COLOURS["field"], 0.9144
+UPRIGHT, APART, TALL, DEEP = 10.67, 5.64, 1.85, 48.8  # m: above the bar and between the uprights (NFL), kicker, field
+
+
+class Picture(SideView[Parameters]):
+    LOOK = Look(COLOURS["ball"])
+    TRACE, EARLIER = COLOURS["trace"], COLOURS["earlier"]
+    LENGTHS, FROM = 1, "from the kick"
+
+    @property
+    def company(self) -> Box:
+        return Box(-2.0, 0.0, 0.0, 2.2)
+
+    @property
+    def target(self) -> Box | None:
+        goal = self.parameters.goal
+        return Box(goal.distance, 0.0, goal.distance + 3.0, goal.height + 3.0) if goal.present else None
+
+    @cached_property
+    def place(self) -> Place:
+        goal, end = self.parameters.goal, float(self.points[:, 0].max()) + 20.0
+        count = int(end / (5.0 * YARD)) + 2
+        lines = [[(5.0 * YARD * i, 0.0), (5.0 * YARD * i, DEEP)] for i in range(-3, count)]
+        ground = Ground(
+            Stripes(FIELD["grass"], 10.0 * YARD),
+            FIELD["soil"],
+            edges=[(FIELD["edge"], 5)],
+            lines=lines,
+            line=(FIELD["line"], 0.1),
+        )
+        kicker, things = Person(-0.7, TALL, COLOURS["kicker"], KICKING), []
+        if goal.present:
+            x, bar = goal.distance, goal.height
+            ends = [(x, bar, -0.5 * APART), (x, bar, 0.5 * APART)]
+            foot = [(x + 2.0, 0.0, 0.0), (x + 2.0, 0.5 * bar, 0.0), (x, bar, 0.0)]
+            uprights = [[end, (x, bar + UPRIGHT, end[2])] for end in ends]
+            things = [Post(points, 0.06, FIELD["post"]) for points in (foot, ends, *uprights)]
+        return Place(Stands(**COLOURS["stands"]), ground, [*things, kicker])
+
+    def lengths(self) -> list[Length]:
+        goal = self.parameters.goal
+        return [Length(f"bar {metres(goal.distance)}", 0.0, goal.distance)] if goal.present else []

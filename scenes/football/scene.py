@@ -1,0 +1,223 @@
+"""American football from the side: punt, kick-off and field goal, and the bounce that nobody can predict.
+
+Models: gravity; drag by the ball's angle to the wind; an ellipse of 28.6 x 17.3 cm that turns end over end or, as a
+spiral, keeps its nose in its path; bounces, rolling and sliding of the ellipse on the grass; the bar.
+Leaves out: everything sideways; lift, and the torque of the air, which makes a bad spiral wobble; that ball and grass
+deform; resistance to rolling, so that it rocks to the end of the run. Not validated.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import cos, pi, radians, sin
+from typing import Any, Literal
+
+from sandbox.engine.run import Run
+from sandbox.engine.setup import Body, Circle, Segment, Setup, Surface, Torque
+from sandbox.engine.shapes import Ellipse
+from sandbox.parameters import Accuracy, Group, choice, group, quantity, switch
+from sandbox.physics.forces import Gravity
+from sandbox.sport.air import Air, wind_in
+from sandbox.sport.controls import Controls, Handle, Spin, Spread
+from sandbox.sport.facts import ENDED, Fact, once
+from sandbox.sport.flight import DEGREE, RPM
+from sandbox.sport.readings import LAUNCH, Moment, at, before, passing
+from sandbox.sport.solids import Solid
+
+#: The grass reaches so far, and a run lasts so long at most: in m, and in s.
+FAR, LONGEST = 1000.0, 15.0
+
+
+class Launch(Group):
+    """The ball as it leaves the foot."""
+
+    speed: float = quantity(..., "m/s", 0, 60, "ball speed")
+    angle: float = quantity(..., "deg", -90, 180, "direction above the horizontal")
+    spin: float = quantity(..., "rpm", -1200, 1200, "end over end, backward positive; none as a spiral")
+    height: float = quantity(..., "m", 0.1, 3, "of the ball's centre above the grass")
+    nose: float = quantity(..., "deg", -180, 180, "of the long axis above the horizontal, at the start")
+    turns: Literal["end-over-end", "spiral"] = choice(..., "how it turns; a spiral keeps its nose in its path")
+
+
+class Football(Group):
+    """The ball, a prolate spheroid: in the plane of the picture an ellipse."""
+
+    mass: float = quantity(..., "kg", 0.1, 2, "mass")
+    length: float = quantity(..., "m", 0.05, 1, "long axis")
+    width: float = quantity(..., "m", 0.05, 1, "short axis")
+    nose_drag: float = quantity(..., "", 0, 2, "drag coefficient, nose first, on the round cross-section")
+    side_drag: float = quantity(..., "", 0, 2, "drag coefficient, side on, on the same cross-section")
+
+
+class Grass(Solid):
+    """The ground."""
+
+
+class Goal(Group):
+    """Bar and uprights; the bar's middle is in the plane of play."""
+
+    present: bool = switch(..., "whether there is a goal")
+    distance: float = quantity(..., "m", 1, 150, "from the kick to the bar")
+    height: float = quantity(..., "m", 0.5, 10, "of the bar's upper edge")
+    restitution: float = quantity(..., "", 0, 1, "of the ball off the bar")
+
+
+class Parameters(Group):
+    """All parameters of a kick."""
+
+    launch: Launch = group(..., "the ball just after the kick")
+    gravity: float = quantity(..., "m/s^2", 0, 30, "gravity")
+    air: Air = group(..., "the air")
+    ball: Football = group(..., "the ball")
+    ground: Grass = group(..., "the grass")
+    goal: Goal = group(..., "the goal")
+    accuracy: Accuracy = group(Accuracy(), "speed against accuracy")
+
+
+CONTROLS = Controls(
+    strongest=40.0,
+    spins=(Spin("launch.spin", 20.0),),
+    sliders=("launch.speed", "launch.angle", "launch.spin", "launch.nose", "goal.distance", "air.wind"),
+    handles=(Handle("goal.distance", "goal.height", where="goal.present", goal=True),),
+    scores="good",
+    spread=(
+        Spread("launch.speed", 0.01),
+        Spread("launch.angle", least=0.5),
+        Spread("launch.nose", least=3.0),
+    ),  # assumed
+)
+
+BAR = 0.08  # m, half the bar's thickness; assumed
+
+
+@dataclass(frozen=True)
+class DragByAngle:
+    """Quadratic drag that depends on the angle a between the long axis and the wind:
+    ``F = -1/2 rho A (Cn cos^2 a + Cs sin^2 a) |u| u``, with A the round cross-section. The form is assumed."""
+
+    density: float  # kg/m^3
+    area: float  # m^2
+    nose: float  # Cn
+    side: float  # Cs
+    wind: Any
+    spiral: bool
+
+    def __call__(self, t: Any, position: Any, velocity: Any, spin: Any) -> tuple[Any, Any]:
+        wx, wy = (0.0, 0.0) if self.wind is None else self.wind(t, position)
+        ux, uy = velocity[0] - wx, velocity[1] - wy
+        speed = (ux * ux + uy * uy) ** 0.5
+        along = speed if self.spiral else ux * cos(position.angle) + uy * sin(position.angle)
+        nose = (along / (speed + 1e-30)) ** 2
+        k = -0.5 * self.density * self.area * (self.nose * nose + self.side * (1.0 - nose)) * speed
+        return k * ux, k * uy
+
+
+@dataclass(frozen=True)
+class Follows:
+    """What turns a spiral's nose with its path until it touches something: a stiff, damped torque towards it."""
+
+    inertia: float  # kg m^2
+    rate: float = 12.0  # rad/s, of the turning towards the path; assumed
+    lowest: float = 0.4  # m, below which it acts no more
+
+    def __call__(self, t: Any, position: Any, velocity: Any, spin: Any) -> Any:
+        speed = (velocity[0] ** 2 + velocity[1] ** 2) ** 0.5 + 1e-30
+        off = (velocity[1] * cos(position.angle) - velocity[0] * sin(position.angle)) / speed
+        high = min(max((position[1] - self.lowest) / 0.2, 0.0), 1.0)
+        return high * self.inertia * (self.rate**2 * off - 2.0 * self.rate * spin)
+
+
+def build(it: Parameters) -> Setup:
+    """The ball as an ellipse, the grass and, if there is a goal, its bar."""
+    ball, launch, angle = it.ball, it.launch, it.launch.angle * DEGREE
+    half, round_half, spiral = ball.length / 2, ball.width / 2, it.launch.turns == "spiral"
+    inertia = ball.mass * (half**2 + round_half**2) / 3.0  # about, of a thin shell: 5/3 of the solid's; assumed
+    forces: list[Any] = [Gravity(ball.mass, it.gravity)] if it.gravity else []
+    torques: list[Torque] = []
+    if it.air.density:
+        area = pi * round_half**2
+        forces.append(DragByAngle(it.air.density, area, ball.nose_drag, ball.side_drag, wind_in(it.air), spiral))
+    if spiral:
+        torques.append(Follows(inertia))
+    kicked = Body(
+        "ball",
+        position=(0.0, launch.height),
+        velocity=(launch.speed * cos(angle), launch.speed * sin(angle)),
+        spin=0.0 if spiral else launch.spin * RPM,
+        angle=angle if spiral else radians(launch.nose),
+        shape=Ellipse(half, round_half),
+        mass=ball.mass,
+        moment=inertia,
+        forces=forces,
+        torques=torques,
+    )
+    surfaces = [Surface("ground", Segment((-FAR, 0.0), (FAR, 0.0)), it.ground.restitution, it.ground.friction)]
+    if it.goal.present:
+        bar = Circle((it.goal.distance, it.goal.height - BAR), BAR)
+        surfaces.append(Surface("crossbar", bar, it.goal.restitution, 0.3))
+    return Setup([kicked], surfaces, LONGEST)
+
+
+@once
+def landing(run: Run, parameters: Parameters) -> Moment | None:
+    """The ball as it comes to the grass."""
+    return next((before(run, e.t) for e in run.events if e.partner == "ground" and e.kind == "impact"), None)
+
+
+def over(run: Run, parameters: Parameters) -> float | None:
+    """How far in m the ball's centre passes over the bar, before it has come down; None without a goal."""
+    if not parameters.goal.present:
+        return None
+    passed, down = passing(run, parameters.goal.distance), landing(run, parameters)
+    if passed is None or (down is not None and down.t < passed.t):
+        return None
+    return passed.y - parameters.goal.height
+
+
+def good(run: Run, parameters: Parameters) -> bool | None:
+    """Whether the kick is good: over the bar before it comes down, as seen from the side."""
+    if not parameters.goal.present:
+        return None
+    gap = over(run, parameters)
+    return gap is not None and gap > 0.0
+
+
+def _rolled(run: Run, parameters: Parameters) -> float | None:
+    down = landing(run, parameters)
+    return None if down is None else run.state("ball", run.duration)[0] - down.x
+
+
+FACTS = (
+    Fact("distance", "distance", "m", at(landing, lambda ball: ball.x), settled="ground", also="yd"),
+    Fact("hang_time", "hang time", "s", at(landing, lambda ball: ball.t), settled="ground"),
+    Fact("apex", "apex", "m", lambda run, parameters: run.highest("ball")[1][1]),
+    Fact("bounce", "bounces and rolls", "m", _rolled, also="yd"),
+    Fact("over", "over the bar", "m", over),
+    Fact("good", "", "", good),
+    Fact("landing_angle", "lands at", "deg", at(landing, lambda ball: ball.descent), settled="ground"),
+    Fact(
+        "nose",
+        "nose at landing",
+        "deg",
+        lambda run, parameters: (
+            None
+            if (down := landing(run, parameters)) is None
+            else (run.angle("ball", down.t) * 180.0 / pi + 90.0) % 180.0 - 90.0
+        ),
+    ),
+    *LAUNCH,
+    ENDED,
+)
+
+
+def verdict(run: Run, parameters: Parameters) -> str:
+    """What happened, in a sentence."""
+    said = run.result
+    if said["good"] is not None:
+        if said["good"]:
+            return f"Good, from {parameters.goal.distance / 0.9144:.0f} yd, {said['over']:.1f} m over the bar"
+        return "No good: short" if said["over"] is None else "No good: under the bar"
+    if said["distance"] is None:
+        return "Did not come down"
+    bounce, way = abs(said["bounce"]) / 0.9144, "on" if said["bounce"] >= 0.0 else "back"
+    return f"{said['distance'] / 0.9144:.0f} yd in {said['hang_time']:.1f} s, then {bounce:.0f} yd {way}"

@@ -1,0 +1,53 @@
+"""American football: the kick is good or not, the drag follows the angle, and the bounce is not to be predicted."""
+
+from __future__ import annotations
+
+from math import pi
+from typing import Any
+
+import numpy as np
+import pytest
+
+import sandbox
+from sandbox.engine.acting import Turned
+from sandbox.engine.run import Run
+from scenes.football.scene import DragByAngle
+
+
+def run_of(name: str = "football", **changes: Any) -> Run:
+    return sandbox.simulate(sandbox.load(name, {key.replace("__", "."): value for key, value in changes.items()}))
+
+
+def test_without_air_the_distance_is_that_of_a_parabola():
+    run = run_of("football/punt", air__density=0.0, launch__speed=20.0, launch__angle=45.0, launch__nose=0.0)
+    moment = run.result
+    t = moment["hang_time"]
+    assert moment["distance"] == pytest.approx(20.0 * t * 0.5**0.5, rel=1e-9)
+    assert moment["apex"] == pytest.approx(0.9 + 20.0**2 * 0.5 / (2 * 9.81), rel=1e-9)
+
+
+@pytest.mark.parametrize(("turned", "coefficient"), [(0.0, 0.15), (pi / 2, 0.5), (pi / 4, 0.325)])
+def test_drag_follows_the_angle_to_the_wind(turned: float, coefficient: float):
+    position = Turned((0.0, 0.0))
+    position.angle = turned
+    drag = DragByAngle(1.2, 0.02, 0.15, 0.5, None, spiral=False)
+    assert drag(0.0, position, (10.0, 0.0), 0.0) == pytest.approx((-0.5 * 1.2 * 0.02 * coefficient * 100.0, 0.0))
+
+
+def test_a_kick_is_good_over_the_bar_only():
+    assert run_of().result["good"] is True
+    assert run_of(launch__speed=22.0).result["good"] is False
+    assert run_of("football/punt").result["good"] is None
+
+
+def test_a_spiral_lands_nose_first_and_goes_farther():
+    spiral, over = (
+        run_of("football/punt", launch__turns=turns, launch__spin=200) for turns in ("spiral", "end-over-end")
+    )
+    assert spiral.result["distance"] > over.result["distance"] + 1.0
+    assert spiral.result["nose"] == pytest.approx(-spiral.result["landing_angle"], abs=12.0)
+
+
+def test_bounces_spread_by_metres_though_the_kick_differs_by_degrees():
+    bounces = [run_of("football/bounce", launch__nose=nose).result["bounce"] for nose in np.linspace(15.0, 25.0, 6)]
+    assert max(bounces) - min(bounces) > 5.0
