@@ -3,7 +3,7 @@
 Models: gravity; drag by the ball's angle to the wind; an ellipse of 28.6 x 17.3 cm that turns end over end or, as a
 spiral, keeps its nose in its path; bounces, rolling and sliding of the ellipse on the grass; the bar.
 Leaves out: everything sideways; lift, and the torque of the air, which makes a bad spiral wobble; that ball and grass
-deform; resistance to rolling, so that it rocks to the end of the run. Not validated.
+deform; how it rolls once it has stopped bouncing, where the run ends. Not validated.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from math import cos, pi, radians, sin
 from typing import Any, Literal
 
-from sandbox.engine.run import Run
+from sandbox.engine.run import Event, Run
 from sandbox.engine.setup import Body, Circle, Segment, Setup, Surface, Torque
 from sandbox.engine.shapes import Ellipse
 from sandbox.parameters import Accuracy, Group, choice, group, quantity, switch
@@ -155,7 +155,12 @@ def build(it: Parameters) -> Setup:
     if it.goal.present:
         bar = Circle((it.goal.distance, it.goal.height - BAR), BAR)
         surfaces.append(Surface("crossbar", bar, it.goal.restitution, 0.3))
-    return Setup([kicked], surfaces, LONGEST)
+    return Setup([kicked], surfaces, LONGEST, until=bounces_no_more)
+
+
+def bounces_no_more(event: Event) -> bool:
+    """Whether the ball lies: from here on it would rock and roll."""
+    return event.kind == "contact" and event.partner == "ground"
 
 
 @once
@@ -191,7 +196,7 @@ FACTS = (
     Fact("distance", "distance", "m", at(landing, lambda ball: ball.x), settled="ground", also="yd"),
     Fact("hang_time", "hang time", "s", at(landing, lambda ball: ball.t), settled="ground"),
     Fact("apex", "apex", "m", lambda run, parameters: run.highest("ball")[1][1]),
-    Fact("bounce", "bounces and rolls", "m", _rolled, also="yd"),
+    Fact("bounce", "bounces", "m", _rolled, also="yd"),
     Fact("over", "over the bar", "m", over),
     Fact("good", "", "", good),
     Fact("landing_angle", "lands at", "deg", at(landing, lambda ball: ball.descent), settled="ground"),
