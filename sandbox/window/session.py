@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -92,10 +91,7 @@ class Session:
 
     def with_changes(self, values: Mapping[str, Any]) -> Scene:
         """The scene of the file with these changes."""
-        parameters = declared.validate(
-            type(self.base.parameters), self.base.parameters.model_dump(), "", values, "the window's"
-        )
-        return replace(self.base, parameters=parameters)
+        return self.base.changed(values, "the window's")
 
     def _set(self, values: dict[str, Any], positions: frozenset[str]) -> None:
         self.scene, self.changes = self.with_changes(values), Changes(self.source, values, positions & values.keys())
