@@ -100,6 +100,8 @@ def test_a_heap_comes_to_rest_without_overlap_and_its_energy_is_accounted_for(he
     booked = sum(book.work.values()) + sum(book.impacts.values()) + sum(book.contacts.values())
     assert book.start + booked == pytest.approx(book.end, abs=1e-9)
     assert abs(book.residue) < 1e-9
+    fallen = sum(run.state(ball.name, 0.0)[1] - run.state(ball.name, run.duration)[1] for ball in run.setup.balls)
+    assert book.work["gravity"] == pytest.approx(M * G * fallen, rel=0.02)  # but for what it does during impacts
     assert book.contacts.get("heap", 0.0) < 0.0
     assert -1e-12 <= book.contacts["position correction"] < 0.02 * sum(book.work.values())
 
