@@ -42,7 +42,6 @@ class Rubbing:
         self._pull, self._turn = (incidence.T * light), (arms.T * easy)
         self._incidence, self._arms, self._laws = incidence, arms, laws
         self._shifts, self._twists = self._pull @ incidence, self._turn @ arms  # 1/kg: links that share a body
-        self._any = any(law(0.0) > 0.0 or law(1.0) > 0.0 for law in laws)
         self._used = np.zeros((2, len(laws)))  # of the normal impulses, in the last interval: a first guess
 
     def after(
@@ -60,7 +59,7 @@ class Rubbing:
         ``pressed`` are the normal impulses (N s) of that time, ``gain`` the accelerations (m/s^2) by normal forces.
         """
         acting = np.flatnonzero(pressed > 0.0)
-        if not (self._any and acting.size):
+        if not acting.size:
             return motion
         (nx, ny), pressed = normal[:, acting], pressed[acting]
         incidence, both = self._incidence[:, acting], (acting[:, None], acting)
@@ -68,11 +67,13 @@ class Rubbing:
         wx, wy, wz = motion[3:] @ self._arms[:, acting]
         ax, ay = gain @ incidence
         slip = np.array([ux * ny - uy * nx + wz, uz - wx * ny + wy * nx])
+        laws = [self._laws[link] for link in acting.tolist()]
+        if all(law(speed) == 0.0 for law, speed in zip(laws, _size(slip).tolist(), strict=True)):
+            return motion
         drift = np.array([ax * ny - ay * nx, np.zeros_like(ax)])  # m/s^2
         turned = nx[:, None] * nx + ny[:, None] * ny
         shifts, twists = self._shifts[both], self._twists[both]
         mobility = np.array([shifts * turned + twists, shifts + twists * turned])
-        laws = [self._laws[link] for link in acting.tolist()]
         total, used = np.zeros_like(slip), self._used[:, acting]
         waiting = [(-back, ahead, _HALVINGS)]
         while waiting:

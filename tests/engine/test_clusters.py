@@ -100,6 +100,14 @@ def test_friction_of_a_pair_is_coulomb_s(friction, roll):
         assert slip == pytest.approx(0.0, abs=2e-2)  # of where they met
 
 
+def test_friction_may_depend_on_the_slip_in_any_way():
+    """None at rest and none from 1 m/s on, but some between."""
+    bodies = [ball(0.0, 0.0, 1.0), ball(2 * RADIUS * cos(0.7), 2 * RADIUS * sin(0.7))]
+    between = passage(bodies, 0.95, lambda slip: 0.05 if 0.1 < slip < 0.9 else 0.0)
+    assert between.spin[1] == pytest.approx(passage(bodies, 0.95, 0.05).spin[1])
+    assert abs(between.spin[1, 2]) > 1.0
+
+
 def blow(name):
     """Clusters in which links begin to slide, reverse and hold: bodies, and the friction."""
     apart, cut = 2 * RADIUS, 0.5
