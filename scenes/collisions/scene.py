@@ -117,7 +117,7 @@ def hangs(it: Parameters) -> list[float]:
 def build(it: Parameters) -> Setup:
     """The balls, each with its forces, and what lies below."""
     balls, floor, launch = list[Ball](), it.floor, it.launch
-    names = [each.name for each in (*it.balls, *it.boxes)]
+    names = [*(ball.name for ball in it.balls), *(box.name for box in it.boxes)]
     if len({*names}) < len(names) or not names:
         raise RequestError("balls and boxes: needs one at least, and for each a name of its own")
     for body, hung in zip(it.balls, hangs(it) if it.balls else (), strict=True):
