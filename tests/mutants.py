@@ -33,7 +33,7 @@ TESTS: dict[str, dict[str, str]] = {
         "batch": "batch methods",
         "bernstein": "bernstein contact exact",
         "bernstein_many": "bernstein batch",
-        "clusters": "clusters",
+        "clusters": "clusters pressed",
         "heap": "heap bodies",
         "impacts": "contact cloth clusters bodies",
         "impulses": "contact cloth batch bodies",

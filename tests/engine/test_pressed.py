@@ -42,6 +42,13 @@ def test_a_lone_pair_takes_no_contact_mechanics():
     assert run.state("1", 1.0)[2] == pytest.approx(2.0)
 
 
+@pytest.mark.parametrize(("gap", "through"), [(0.3e-3, True), (0.5e-3, False)])
+def test_a_third_ball_counts_if_it_is_reached_during_the_contact(gap, through):
+    """Pool balls at 1 m/s touch for 390 us, in which none goes farther than 0.39 mm."""
+    run = struck([ball("cue", -0.5, vx=1.0), ball("1", 0.0), ball("2", 2 * R + gap)])
+    assert bool(run.numerics.clusters) is through
+
+
 def test_a_gap_that_a_contact_does_not_notice_changes_nothing():
     """A frozen combination, struck at 30 deg to the line of the two: alike with no gap, and with one of 0.1 um."""
     turn = radians(30.0)
