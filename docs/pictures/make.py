@@ -78,7 +78,7 @@ def window() -> None:
     for key in (pygame.K_TAB, pygame.K_f):
         post(app, pygame.KEYDOWN, key=key, mod=0, unicode="", scancode=0)
     x, y = (round(value) for value in view.stage.ball_at(game.shot))
-    pull = aim.Pull((x, y), game.session.changes, aim.strongest(game.session), view.area.height, 1.0)
+    pull = aim.Pull((x, y), aim.strongest(game.session), view.area.height, 1.0)
     across, down = pull.vector_of(game.session)
     post(app, pygame.MOUSEBUTTONDOWN, pos=(x, y), button=1)
     for share in (0.4, 0.7, 1.0):
