@@ -185,7 +185,7 @@ class Heap:
                 for obstacle, touching in self._tracks[index].near(x, y, self.margin):
                     pushed = press(states[index], applied[index], touching.nx, touching.ny, touching.curvature)
                     self._members[index].resist(obstacle.surface, self._tracks[index].ball.mass * max(0.0, pushed))
-        self._forced = max(hypot(ax, ay) for ax, ay, _ in applied.values())
+        self._forced = max(hypot(*applied[index][:2]) + self._swing(index, state) for index, state in states.items())
         self._fastest = _SLOW * self._forced * self._longest
         for index, (x, y, vx, vy, spin, *angle) in states.items():
             member, (ax, ay, turning) = self._members[index], applied[index]
@@ -207,6 +207,10 @@ class Heap:
             at_rest = {index: (*states[index][:2], 0.0, 0.0, 0.0, *states[index][5:]) for index in sorted(held)}
             return {index: still(t, until, state, Heaped()) for index, state in at_rest.items()}
         return {index: self._arc(t, self._members[index]) for index in sorted(held)}
+
+    def _swing(self, index: int, state: State) -> float:
+        """The acceleration in m/s^2 of a turning body's farthest point: it presses on others without a force, too."""
+        return 0.0 if len(state) == 5 else float(state[4] ** 2) * self._tracks[index].ball.radius
 
     def _speed(self, index: int, state: State) -> float:
         """The speed in m/s of a ball's centre, or of a body's fastest point."""

@@ -374,3 +374,32 @@ def test_a_torque_may_depend_on_the_angle():
     run = run_of([crate], 3.0)
     for t in (0.4, 1.7, 3.0):
         assert run.angle("crate", t) == pytest.approx(most * math.cos((stiffness / crate.inertia) ** 0.5 * t), abs=2e-3)
+
+
+@pytest.mark.parametrize("seed", [5, 20, 21, *range(100, 110)])
+def test_random_pairs_neither_tunnel_nor_gain_energy_nor_stall(seed: int):
+    """Two random outlines and a floor and wall, with and without gravity, any restitution and friction."""
+    rng = random.Random(seed)
+    gravity, bodies = rng.choice((0.0, G, G)), []
+    for name, side in (("0", -1.5), ("1", 1.5)):
+        mass = rng.uniform(0.2, 5.0)
+        place = rng.uniform(-0.3, 0.3) + side, rng.uniform(1.2, 2.5)
+        start = (-math.copysign(rng.uniform(0.0, 8.0), side), rng.uniform(-3.0, 3.0)), rng.uniform(-25.0, 25.0)
+        turned, shape = rng.uniform(-3.0, 3.0), random_outline(rng)
+        forces = [Gravity(mass, gravity)] if gravity else []
+        bodies.append(Body(name, *(place, *start), angle=turned, shape=shape, mass=mass, forces=forces))
+    restitution, friction = rng.choice((0.0, 0.3, 0.7, 1.0)), rng.choice((0.0, 0.1, 0.5, 1.5))
+    wall = Surface("wall", Segment((-4.0, 0.0), (-4.0, 50.0)), restitution, friction)
+    law = Always(Bounce(restitution, friction))
+    run = run_of(bodies, 1.5, [*floor(restitution, friction), wall], between_balls=law)
+
+    def energy(t: float) -> float:
+        states = [(body, run.state(body.name, t)) for body in bodies]
+        return sum(kinetic(body, state) + body.mass * gravity * state[1] for body, state in states)
+
+    for t in np.linspace(0.0, 1.5, 31):
+        assert energy(t) <= energy(0.0) * (1.0 + 1e-5)
+        poses = [Pose(*run.state(body.name, t)[:2], run.angle(body.name, t)) for body in bodies]
+        gap = nearest(bodies[0].outline, poses[0], bodies[1].outline, poses[1]).gap
+        assert gap > -2e-3 * min(body.radius for body in bodies)  # what a heap leaves
+        assert all(pose.y > 0.0 and pose.x > -4.0 for pose in poses)
