@@ -48,7 +48,7 @@ TESTS: dict[str, dict[str, str]] = {
         "pressed": "clusters pressed contact",
         "real_space": "heap plain bodies",
         "rubbing": "clusters",
-        "run": "run batch cloth",
+        "run": "run names batch cloth",
         "setup": "guards contact run batch bodies names",
         "setup_errors": "guards",
         "simulation": "contact guards cloth exact heap bodies",

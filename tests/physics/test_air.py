@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from sandbox.physics.air import VISCOSITY, LogWind, UniformWind, viscosity
+from sandbox.physics.air import VISCOSITY, LogWind, UniformWind, moist_density, viscosity
 
 
 @pytest.mark.parametrize(
@@ -57,3 +57,13 @@ def test_log_wind_takes_arrays():
     one_by_one = [wind(0.0, (0.0, float(h))) for h in heights]
     for number, expected in enumerate(one_by_one):
         assert (x[number], y[number]) == pytest.approx(expected, rel=1e-15)
+
+
+def test_moist_air_by_the_gas_law():
+    """rho = (p - p_v) / (R_d T) + p_v / (R_v T); the saturated vapour of water is 3,169 Pa at 25 C (CRC Handbook)."""
+    for celsius, vapour in ((25.0, 3169.0), (0.0, 611.2)):
+        t = celsius + 273.15
+        for humidity in (0.0, 0.5, 1.0):
+            wet = humidity * vapour
+            exact = (101325.0 - wet) / (287.05 * t) + wet / (461.5 * t)
+            assert moist_density(t, 101325.0, humidity, 0.0) == pytest.approx(exact, rel=1e-3)
