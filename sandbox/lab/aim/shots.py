@@ -136,7 +136,8 @@ class Shots:
             if target.name not in result:
                 raise RequestError(f"{option} {target.name}: {declared.no_such_result(target.name, tuple(result))}")
             value = result[target.name]
-            if value is not None and _kind(value) != _kind(wanted):
+            held = isinstance(value, list | dict) and isinstance(wanted, str)  # a word that a list may hold
+            if value is not None and _kind(value) != _kind(wanted) and not held:
                 example = f"{value:.4g}" if isinstance(value, float) else str(value).lower()
                 hint = f", such as {target.name}={example}" if option == "--target" and _kind(value) != "a list" else ""
                 raise RequestError(f"{option} {target.name}: is {_kind(value)}{hint}, not {_kind(wanted)}")
