@@ -25,7 +25,7 @@ import pymunk
 from sandbox.engine.accuracy import Accuracy
 from sandbox.engine.acting import checked
 from sandbox.engine.arc import Arc, still
-from sandbox.engine.meeting import discs, meeting, surface_met, surfaces_met
+from sandbox.engine.meeting import discs, meeting, rounding, surface_met, surfaces_met
 from sandbox.engine.one_point import one_point
 from sandbox.engine.real_space import RealSpace, speeds_at
 from sandbox.engine.run import Numerics
@@ -134,9 +134,10 @@ class Heap:
     def _forced_in_a_step(self, index: int, t: float, state: State) -> float:
         """The speed in m/s that forces give in a step: for a body at least what is rounding, while rounding does not
         press balls on each other."""
-        least = -inf if discs(self._tracks[index].ball) else STILL
+        ball = self._tracks[index].ball
+        least = -inf if discs(ball) else rounding(ball, state)
         speed = hypot(*self._applied(index, t, state)[:2]) * self._longest
-        return speed if speed > STILL else least
+        return max(speed, least) if speed > STILL else least
 
     def _parting(self, i: int, a: State, j: int, b: State) -> float:
         """The speed in m/s at which two balls or bodies part; infinite if they do not touch."""
@@ -156,7 +157,7 @@ class Heap:
         if discs(track.ball):
             return False
         applied = self._applied(index, t, state)
-        slow = leaves_at(hypot(*applied[:2]), self._settle)
+        slow = max(leaves_at(hypot(*applied[:2]), self._settle), rounding(track.ball, state))
         within = self.margin if index in self._members else TOUCHING_GAP
         found = [
             (obstacle, met, point)

@@ -10,12 +10,16 @@ from typing import NamedTuple
 from sandbox.engine.nearest import Pose, meeting_points, nearest
 from sandbox.engine.setup import Ball, Body, Circle, Segment, Vector, outline_of
 from sandbox.engine.shapes import Polygon, Shape
+from sandbox.engine.surfaces import STILL
 from sandbox.engine.touch import Obstacle, balls_touch, touched
 from sandbox.engine.track import Track
 from sandbox.engine.turning_touch import Mover, first_touch, fixed, pose_of
 from sandbox.physics.integrators import State
 
 Speeds = tuple[float, float, float]
+
+#: Share of the speeds of two bodies that is rounding in that at which they part.
+_ROUNDING = 1e-7
 
 _IN_PLACE = Pose(0.0, 0.0, 0.0)
 
@@ -37,6 +41,11 @@ class Meeting(NamedTuple):
 def discs(*balls: Ball) -> bool:
     """Whether these are all balls, whose distance is that of their centres."""
     return not any(isinstance(ball, Body) for ball in balls)
+
+
+def rounding(body: Ball, state: State) -> float:
+    """The speed in m/s at which a body parts from another by rounding alone, when they do not bounce."""
+    return STILL + _ROUNDING * (hypot(state[2], state[3]) + body.radius * abs(state[4]))
 
 
 def meeting(one: Ball, state: State, other: Ball, other_state: State, within: float = 0.0) -> Meeting:

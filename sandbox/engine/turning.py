@@ -16,7 +16,7 @@ from sandbox.engine.arc import Arc, still
 from sandbox.engine.bernstein import evaluate
 from sandbox.engine.in_plane import InPlane, crossing
 from sandbox.engine.lasting import RESTING, LastingContact
-from sandbox.engine.meeting import standing, surfaces_met
+from sandbox.engine.meeting import rounding, standing, surfaces_met
 from sandbox.engine.one_point import OnePoint, one_point
 from sandbox.engine.run import Numerics
 from sandbox.engine.setup import Ball, Setup, outline_of
@@ -95,12 +95,12 @@ class Turning(InPlane):
         self.contact = None
         slips, self._slips = self._slips, False
         applied = self._applied(t, self.state)
-        forced = hypot(applied[0], applied[1])
+        forced, least = hypot(applied[0], applied[1]), rounding(self.ball, self.state)
         found = [
             (obstacle, met, point)
             for obstacle, met in surfaces_met(self.ball, self.obstacles, self.state, TOUCHING_GAP)
             for point, (approach, *_) in zip(met.points, met.speeds, strict=True)
-            if -approach <= leaves_at(forced, max(height, obstacle.surface.lowest_bounce))
+            if -approach <= max(leaves_at(forced, max(height, obstacle.surface.lowest_bounce)), least)
         ]
         if len(found) == 1:
             self.contact = one_point(self.ball, self.state, *found[0], applied, slips)
