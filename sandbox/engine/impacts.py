@@ -8,7 +8,7 @@ from math import dist, hypot
 from typing import NamedTuple
 
 from sandbox.engine.impulses import Contact, Lanes, exchange_at_once, lanes
-from sandbox.engine.meeting import discs, meeting, surfaces_met
+from sandbox.engine.meeting import discs, meeting, speeds_at, surfaces_met
 from sandbox.engine.run import Numerics
 from sandbox.engine.setup import Ball, Body, Bounce, Setup, kinetic
 from sandbox.engine.surfaces import (
@@ -32,6 +32,9 @@ _GAIN = 1e-7
 #: Alternations between balls and soft walls at one instant, after which all exchange impulses at once.
 _TURNS = 9
 
+
+#: Share of the fastest approach that an impact may leave.
+_LEFT = 1e-6
 
 #: Distance in m of two points of contact that are one, where two surfaces join.
 _SAME_POINT = 1e-9
@@ -249,7 +252,7 @@ class Impacts:
             bounces = [Bounce(restitution * e, friction * mu) for e, mu in wanted]
             after, pushes = exchange_at_once(balls, states, found, bounces)
             self._numerics.pymunk_steps += 1
-            if self._energy(after) <= most or restitution == 0.0:
+            if (self._energy(after) <= most and self._parted(after, found)) or restitution == 0.0:
                 break
             if friction > 0.0:
                 friction = 0.5 * friction if friction > 1e-3 else 0.0
@@ -262,6 +265,16 @@ class Impacts:
                 slip = contact.speeds[1:]
                 rubbed = rubbed_upward(self._balls(contact), before, contact.nx, contact.ny, slip, most)
                 states.update(zip(contact.balls, rubbed, strict=True))
+
+    def _parted(self, after: dict[int, State], found: Sequence[Contact]) -> bool:
+        """Whether no body closes any more: with much friction on a slim one Chipmunk does not come to an end."""
+        closing = max(contact.speed for contact in found)
+        return all(
+            discs(*self._balls(contact))
+            or speeds_at([after[index] for index in contact.balls], contact.point, (contact.nx, contact.ny))[0]
+            <= _LEFT * closing
+            for contact in found
+        )
 
     def _balls(self, contact: Contact) -> list[Ball]:
         return [self._tracks[index].ball for index in contact.balls]

@@ -75,10 +75,10 @@ def _meeting(shapes: tuple[Shape, Shape], states: Sequence[State], within: float
     found = nearest(one, here, other, there)
     normal = found.nx, found.ny
     points = meeting_points(one, here, other, there, normal, max(0.0, within - found.gap))
-    return Meeting(found.gap, normal, points, [_speeds(states, point, normal) for point in points])
+    return Meeting(found.gap, normal, points, [speeds_at(states, point, normal) for point in points])
 
 
-def _speeds(states: Sequence[State], point: Vector, normal: Vector) -> Speeds:
+def speeds_at(states: Sequence[State], point: Vector, normal: Vector) -> Speeds:
     """Of the first relative to the second, or to what stands still, where they touch."""
     ux = uy = 0.0
     for (x, y, vx, vy, spin, *_), way in zip(states, (1.0, -1.0), strict=False):
