@@ -1,6 +1,8 @@
 """Pictures to files: whole or not at all, as many as asked, as long as the run."""
 
 import io
+import re
+import subprocess
 import tracemalloc
 from pathlib import Path
 
@@ -281,10 +283,11 @@ def test_a_video_has_every_frame_and_a_gif_is_small(tmp_path: Path):
     run = sandbox.simulate("throws")
     picture = run.scene.picture(run, (321, 180))
     count = save_video(picture, run, tmp_path / "a.mp4", 10)
-    film = imageio_ffmpeg.read_frames(str(tmp_path / "a.mp4"))
-    about = next(film)
-    assert (about["size"], about["fps"]) == ((322, 180), 10.0)
-    shown = [np.frombuffer(data, np.uint8).reshape(180, 322, 3) for data in film]
+    # By itself: imageio_ffmpeg.read_frames leaves its pipes open where ffmpeg has ended before it.
+    command = [imageio_ffmpeg.get_ffmpeg_exe(), "-i", tmp_path / "a.mp4", "-f", "rawvideo", "-pix_fmt", "rgb24", "-"]
+    read = subprocess.run(command, capture_output=True, check=True)
+    assert re.search(r"Video: h264.* 322x180.* 10 fps", read.stderr.decode())
+    shown = np.frombuffer(read.stdout, np.uint8).reshape(-1, 180, 322, 3)
     assert len(shown) == count
     drawn = np.asarray(to_image(picture.frame(1.0)))
     assert np.abs(shown[10][:, :321].astype(int) - drawn).mean() < 6

@@ -68,7 +68,7 @@ def test_the_table_of_shots_and_what_is_pinned(player, golden):
 
 
 def test_where_the_tip_hits_and_what_can_be_aimed_at(player, golden):
-    player = player("billiards/cut", (900, 560))
+    player = player("billiards/cut", SIZE)
     player.game.change({"cue.english": -0.3, "cue.follow": 0.2})
     player.settle()
     player.key(pygame.K_SLASH)
