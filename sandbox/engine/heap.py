@@ -25,12 +25,12 @@ import pymunk
 from sandbox.engine.accuracy import Accuracy
 from sandbox.engine.acting import checked
 from sandbox.engine.arc import Arc, still
-from sandbox.engine.meeting import discs, meeting, rounding, surface_met, surfaces_met
+from sandbox.engine.meeting import discs, meeting, returns, rounding, stays, surface_met, surfaces_met
 from sandbox.engine.one_point import one_point
 from sandbox.engine.real_space import RealSpace, speeds_at
 from sandbox.engine.run import Numerics
-from sandbox.engine.setup import Ball, Setup, Surface
-from sandbox.engine.surfaces import STILL, bounce_of_balls, bounce_off, leaves_at, press
+from sandbox.engine.setup import Ball, Setup, Surface, outline_of
+from sandbox.engine.surfaces import STILL, bounce_of_balls, bounce_off, press
 from sandbox.engine.touch import TOUCHING_GAP, Obstacle
 from sandbox.engine.track import Track
 from sandbox.physics.integrators import Acceleration, State
@@ -126,7 +126,7 @@ class Heap:
                 self._pressed[frozenset((i,))] = self._steps
         forced = {index: self._forced_in_a_step(index, t, state) for index, state in states.items()}
         for (i, a), (j, b) in combinations(states.items(), 2):
-            if self._parting(i, a, j, b) < max(forced[i], forced[j]):
+            if self._parting(i, a, j, b) < max(forced[i], forced[j]) or self._come_back(t, i, a, j, b):
                 found = True
                 self._pressed[frozenset((i, j))] = self._steps
         return found
@@ -150,6 +150,15 @@ class Heap:
         found = meeting(one, a, other, b, self.margin)
         return -found.closing if found.gap <= self.margin else inf
 
+    def _come_back(self, t: float, i: int, a: State, j: int, b: State) -> bool:
+        """Whether bodies that touch and part touch again at once, as they turn."""
+        one, other = self._tracks[i].ball, self._tracks[j].ball
+        if discs(one, other):
+            return False
+        met = meeting(one, a, other, b, self.margin)
+        shapes, applied = (outline_of(one), outline_of(other)), (self._applied(i, t, a), self._applied(j, t, b))
+        return met.gap <= self.margin and returns(shapes, (a, b), applied, met, self._settle)
+
     def _lies(self, index: int, t: float, state: State) -> bool:
         """Whether a body leaves surfaces too slowly for a bounce that counts: at two points or more, or at one that its
         own path cannot follow."""
@@ -157,13 +166,12 @@ class Heap:
         if discs(track.ball):
             return False
         applied = self._applied(index, t, state)
-        slow = max(leaves_at(hypot(*applied[:2]), self._settle), rounding(track.ball, state))
         within = self.margin if index in self._members else TOUCHING_GAP
         found = [
             (obstacle, met, point)
             for obstacle, met in surfaces_met(track.ball, track.obstacles, state, within)
             for point, (approach, *_) in zip(met.points, met.speeds, strict=True)
-            if -approach < slow
+            if stays(track.ball, state, obstacle, met, approach, applied, self._settle)
         ]
         alone = len(found) == 1 and one_point(track.ball, state, *found[0], applied) is not None
         return bool(found) and not alone

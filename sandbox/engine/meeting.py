@@ -3,23 +3,26 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from functools import lru_cache
+from functools import lru_cache, partial
 from math import hypot
 from typing import NamedTuple
 
 from sandbox.engine.nearest import Pose, meeting_points, nearest
 from sandbox.engine.setup import Ball, Body, Circle, Segment, Vector, outline_of
 from sandbox.engine.shapes import Polygon, Shape
-from sandbox.engine.surfaces import STILL
+from sandbox.engine.surfaces import STILL, leaves_at
 from sandbox.engine.touch import Obstacle, balls_touch, touched
 from sandbox.engine.track import Track
 from sandbox.engine.turning_touch import Mover, first_touch, fixed, pose_of
-from sandbox.physics.integrators import State
+from sandbox.physics.integrators import Acceleration, State
 
 Speeds = tuple[float, float, float]
 
 #: Share of the speeds of two bodies that is rounding in that at which they part.
 _ROUNDING = 1e-7
+
+#: Largest turn in rad in a bounce that is none.
+_TURN = 0.1
 
 _IN_PLACE = Pose(0.0, 0.0, 0.0)
 
@@ -68,6 +71,39 @@ def surfaces_met(
         found = surface_met(body, state, obstacle, within)
         if found.gap <= within:
             yield obstacle, found
+
+
+def returns(
+    shapes: tuple[Shape, Shape],
+    states: Sequence[State],
+    applied: Sequence[Acceleration],
+    met: Meeting,
+    height: float,
+) -> bool:
+    """Whether two bodies, or one and what stands still, that part come back without rising higher than ``height`` (m),
+    which takes 4 height / v: those that turn do so without a force, too."""
+    lasts = min(4.0 * height / -met.closing, _TURN / max(1e-9, *(abs(state[4]) for state in states)))
+    (one, other), (here, there) = shapes, [*map(partial(_later, lasts), states, applied), _IN_PLACE][:2]
+    return nearest(one, here, other, there).gap < met.gap
+
+
+def _later(lasts: float, state: State, applied: Acceleration) -> Pose:
+    x, y, vx, vy, spin, *angle = state
+    (ax, ay, turning), half = applied, 0.5 * lasts
+    turned = [angle[0] + lasts * (spin + half * turning)] if angle else []
+    return pose_of((x + lasts * (vx + half * ax), y + lasts * (vy + half * ay), vx, vy, spin, *turned))
+
+
+def stays(
+    body: Ball, state: State, obstacle: Obstacle, met: Meeting, approach: float, applied: Acceleration, height: float
+) -> bool:
+    """Whether a body that leaves a surface, at a point with this speed of approach (m/s), rises no higher than for a
+    bounce of ``height`` (m)."""
+    height = max(height, obstacle.surface.lowest_bounce)
+    if -approach <= max(leaves_at(hypot(*applied[:2]), height), rounding(body, state)):
+        return True
+    shapes = outline_of(body), standing(obstacle.surface.shape).shape
+    return approach == met.closing and returns(shapes, (state,), (applied,), met, height)
 
 
 def _meeting(shapes: tuple[Shape, Shape], states: Sequence[State], within: float) -> Meeting:

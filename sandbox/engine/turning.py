@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import accumulate
-from math import hypot
 
 from sandbox.engine.accuracy import Accuracy
 from sandbox.engine.acting import checked
@@ -16,12 +15,11 @@ from sandbox.engine.arc import Arc, still
 from sandbox.engine.bernstein import evaluate
 from sandbox.engine.in_plane import InPlane, crossing
 from sandbox.engine.lasting import RESTING, LastingContact
-from sandbox.engine.meeting import rounding, standing, surfaces_met
+from sandbox.engine.meeting import standing, stays, surfaces_met
 from sandbox.engine.one_point import OnePoint, one_point
 from sandbox.engine.run import Numerics
 from sandbox.engine.setup import Ball, Setup, outline_of
 from sandbox.engine.step_control import LOCAL_SHARE
-from sandbox.engine.surfaces import leaves_at
 from sandbox.engine.touch import TOUCHING_GAP, Obstacle
 from sandbox.engine.turning_touch import Mover, first_touch
 from sandbox.physics.integrators import Acceleration, State
@@ -95,12 +93,11 @@ class Turning(InPlane):
         self.contact = None
         slips, self._slips = self._slips, False
         applied = self._applied(t, self.state)
-        forced, least = hypot(applied[0], applied[1]), rounding(self.ball, self.state)
         found = [
             (obstacle, met, point)
             for obstacle, met in surfaces_met(self.ball, self.obstacles, self.state, TOUCHING_GAP)
             for point, (approach, *_) in zip(met.points, met.speeds, strict=True)
-            if -approach <= max(leaves_at(forced, max(height, obstacle.surface.lowest_bounce)), least)
+            if stays(self.ball, self.state, obstacle, met, approach, applied, height)
         ]
         if len(found) == 1:
             self.contact = one_point(self.ball, self.state, *found[0], applied, slips)

@@ -376,7 +376,7 @@ def test_a_torque_may_depend_on_the_angle():
         assert run.angle("crate", t) == pytest.approx(most * math.cos((stiffness / crate.inertia) ** 0.5 * t), abs=2e-3)
 
 
-@pytest.mark.parametrize("seed", [5, 20, 21, *range(100, 110)])
+@pytest.mark.parametrize("seed", [5, 20, 21, *range(100, 108), 1020, 1258])
 def test_random_pairs_neither_tunnel_nor_gain_energy_nor_stall(seed: int):
     """Two random outlines and a floor and wall, with and without gravity, any restitution and friction."""
     rng = random.Random(seed)
@@ -391,13 +391,15 @@ def test_random_pairs_neither_tunnel_nor_gain_energy_nor_stall(seed: int):
     restitution, friction = rng.choice((0.0, 0.3, 0.7, 1.0)), rng.choice((0.0, 0.1, 0.5, 1.5))
     wall = Surface("wall", Segment((-4.0, 0.0), (-4.0, 50.0)), restitution, friction)
     law = Always(Bounce(restitution, friction))
-    run = run_of(bodies, 1.5, [*floor(restitution, friction), wall], between_balls=law)
+    run = run_of(bodies, 2.5, [*floor(restitution, friction), wall], between_balls=law)
+
+    assert run.numerics.impacts < 100
 
     def energy(t: float) -> float:
         states = [(body, run.state(body.name, t)) for body in bodies]
         return sum(kinetic(body, state) + body.mass * gravity * state[1] for body, state in states)
 
-    for t in np.linspace(0.0, 1.5, 31):
+    for t in np.linspace(0.0, 2.5, 31):
         assert energy(t) <= energy(0.0) * (1.0 + 1e-5)
         poses = [Pose(*run.state(body.name, t)[:2], run.angle(body.name, t)) for body in bodies]
         gap = nearest(bodies[0].outline, poses[0], bodies[1].outline, poses[1]).gap
