@@ -90,7 +90,7 @@ class Contact(Group):
     """The contact of balls that are pressed together while others can reach them."""
 
     model: Literal["auto", "rigid", "hertz"] = choice(..., "contact mechanics where it matters, never, or always")
-    stiffness: float = quantity(..., "N/m^1.5", 1e3, 1e12, "of a pair of balls")
+    stiffness: float = quantity(..., "N/m^1.5", 1e5, 1e12, "of a pair of balls")
 
 
 class Parameters(Group):
