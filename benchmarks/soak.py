@@ -5,6 +5,7 @@ the same cases, each of which can be repeated alone: ``--only scenes:123``. Part
 
 - scenes: the built-in scenes with random parameters, and scene files with changed bytes
 - setups: balls, surfaces and forces with numbers from 1e-320 to 1e300
+- bodies: random outlines and a ball, thrown at each other, a floor and a wall: none gains energy, or gets through
 - faulty: user scenes with mistakes, in run, sweep and aim
 - replays: recorded shots with changed bytes, and forged ones with a correct checksum
 - kills: sweeps ended by SIGKILL or another signal at any moment, with damaged files, or two at once into one file;
@@ -33,7 +34,7 @@ import traceback
 from collections import Counter, defaultdict
 from collections.abc import Callable, Iterator
 from functools import cache
-from math import cos, sin
+from math import cos, sin, tau
 from pathlib import Path
 from threading import Thread
 from typing import Any
@@ -46,7 +47,8 @@ from sandbox import resources
 from sandbox.cli import main as program
 from sandbox.engine import simulate
 from sandbox.engine.accuracy import resolve
-from sandbox.engine.setup import Ball, Segment, Setup, Surface
+from sandbox.engine.setup import Always, Ball, Body, Bounce, Segment, Setup, Surface, kinetic
+from sandbox.engine.shapes import Ellipse, Polygon, Shape, box, capsule
 from sandbox.errors import RequestError, RunError
 from sandbox.new import new_scene
 from sandbox.physics.forces import Gravity
@@ -60,10 +62,10 @@ from sandbox.workers import Processes, WorkerLost, cores
 LONGEST, BY_THE_CLOCK = 30.0, 6
 
 #: Cases per call to a process.
-AT_ONCE = {"scenes": 20, "setups": 40, "faulty": 4, "replays": 40}
+AT_ONCE = {"scenes": 20, "setups": 40, "bodies": 40, "faulty": 4, "replays": 40}
 
 #: Number of cases of the other parts, as fractions of the fuzzed scenes.
-SHARES = {"scenes": 1.0, "setups": 0.15, "faulty": 0.03, "replays": 0.06}
+SHARES = {"scenes": 1.0, "setups": 0.15, "bodies": 0.1, "faulty": 0.03, "replays": 0.06}
 
 REFUSED, FAILED = "request refused", "run failed by name"
 SAME, ONE_OF_TWO = "finished, the same bytes", "one wrote, the other was refused"
@@ -190,6 +192,52 @@ def extreme_setup(draw: random.Random) -> str:
     method = draw.choice(({}, {}, {}, {"method": "plain", "step": draw.choice((1e-3, 1 / 60))}))
     accuracy = resolve(level=draw.choice(("fast", "balanced")), **method)
     return looked_at(simulate(Setup(tuple(balls), (surface,), draw.choice((0.5, 2.0, 2.0))), accuracy), "a setup")
+
+
+# ---------------------------------------------------------------------------------------------------------------------
+# Bodies
+# ---------------------------------------------------------------------------------------------------------------------
+
+
+def outline(draw: random.Random) -> Shape:
+    size, slim, rounding = draw.uniform(0.2, 0.7), draw.uniform(0.1, 0.9), draw.choice((0.0, 0.1))
+    turns = [tau * (corner + draw.uniform(0.0, 0.8)) / 5 for corner in range(5)]
+    polygon = Polygon([(size * cos(turn), size * sin(turn)) for turn in turns], rounding)
+    return draw.choice((polygon, Ellipse(size, slim * size), capsule(2.0 * size, slim * size), box(size, slim * size)))
+
+
+def thrown_bodies(draw: random.Random) -> str:
+    gravity, restitution = draw.choice((0.0, 9.81)), draw.choice((0.0, 0.3, 0.7, 1.0))
+    bounce = Bounce(restitution, draw.choice((0.0, 0.1, 0.5, 1.5)))
+    balls: list[Ball] = []
+    for number in range(draw.choice((2, 3))):
+        x, mass = 1.8 * (number - 1), draw.uniform(0.2, 5.0)
+        start: dict[str, Any] = {
+            "position": (x, draw.uniform(1.2, 2.0)),
+            "velocity": (-x * draw.uniform(0.0, 4.0), draw.uniform(-3.0, 3.0)),
+            "spin": draw.uniform(-25.0, 25.0),
+            "forces": (Gravity(mass, gravity),),
+        }
+        if number == 1 and draw.random() < 0.3:
+            balls.append(Ball("1", mass, 0.2, **start))
+        else:
+            balls.append(Body(f"{number}", mass=mass, shape=outline(draw), **start))
+    sides = {"floor": Segment((-50.0, 0.0), (50.0, 0.0)), "wall": Segment((-4.0, 0.0), (-4.0, 50.0))}
+    surfaces = [Surface(name, side, bounce.restitution, bounce.friction) for name, side in sides.items()]
+    run = simulate(Setup(balls, surfaces, 3.0, between_balls=Always(bounce)), resolve(level="balanced"))
+
+    def energy(t: float) -> float:
+        states = [(ball, run.state(ball.name, t)) for ball in balls]
+        return sum(kinetic(ball, state) + ball.mass * gravity * state[1] for ball, state in states)
+
+    moments = [0.05 * step for step in range(61) if 0.05 * step <= run.duration]
+    gained = max(map(energy, moments)) / energy(0.0) - 1.0
+    if gained > 1e-5:
+        raise Wrong("gained energy", f"{gained:.2g} of it")
+    places = [(ball.name, t, *run.state(ball.name, t)[:2]) for ball in balls for t in moments]
+    if through := [place for place in places if place[2] < -4.0 or place[3] < 0.0]:
+        raise Wrong("went through a surface", f"{through[0]}")
+    return looked_at(run, "bodies")
 
 
 # ---------------------------------------------------------------------------------------------------------------------
@@ -533,6 +581,7 @@ def damage(draw: random.Random, file: Path) -> None:
 CASES: dict[str, Callable[[random.Random], str]] = {
     "scenes": fuzzed_scene,
     "setups": extreme_setup,
+    "bodies": thrown_bodies,
     "faulty": faulty_scene,
     "replays": forged_replay,
 }

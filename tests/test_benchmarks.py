@@ -165,7 +165,9 @@ def test_the_page_names_the_machine(opened: Callable[[str], ModuleType]):
     assert lines[2].endswith("0.0.")
 
 
-@pytest.mark.parametrize(("part", "first"), [("scenes", 3), ("setups", 0), ("faulty", 5), ("replays", 0)])
+@pytest.mark.parametrize(
+    ("part", "first"), [("scenes", 3), ("setups", 0), ("bodies", 0), ("faulty", 5), ("replays", 0)]
+)
 def test_the_soak_tries_each_part(opened: Callable[[str], ModuleType], part: str, first: int):
     soak = opened("soak")
     found = soak.cases(part, 1, first, first + 3)
