@@ -11,6 +11,9 @@ from sandbox.engine.setup import Ball, Circle, Surface, outline_of
 
 _BALL, _SURFACE = 1, 2
 
+#: By how much corners are rounded, as a share of the margin.
+_ROUNDED = 1e-2
+
 #: Finds surfaces only.
 ONLY_SURFACES = pymunk.ShapeFilter(mask=_SURFACE)
 
@@ -40,7 +43,8 @@ class RealSpace:
     def add(self, ball: Ball) -> tuple[pymunk.Body, pymunk.Shape]:
         """Add a ball or body; pymunk multiplies its elasticity and friction, 1, by the surface's."""
         body = pymunk.Body(ball.mass, ball.inertia)
-        outline = outline_of(ball).as_polygon()
+        # cores that touch exactly, as those of boxes at rest would, have any normal for Chipmunk
+        outline = outline_of(ball).as_polygon().rounded(_ROUNDED * self._margin)
         corners, radius = outline.corners, outline.radius + self._margin
         shape: pymunk.Shape
         if len(corners) > 2:

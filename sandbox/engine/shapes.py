@@ -20,6 +20,9 @@ Vector = tuple[float, float]
 #: Sine of the angle between two sides below which their corner is no corner.
 _STRAIGHT = 1e-9
 
+#: Share of the distance of a side from the centre that rounding its corners may take.
+_SHALLOW = 1e-3
+
 #: Corners of the polygon that stands for an ellipse where only polygons will do.
 _CORNERS = 64
 
@@ -70,6 +73,19 @@ class Polygon:
     def moved(self, dx: float, dy: float) -> Polygon:
         """The same outline elsewhere."""
         return replace(self, corners=tuple((x + dx, y + dy) for x, y in self.corners))
+
+    def rounded(self, by: float) -> Polygon:
+        """The same sides, with corners rounded by up to ``by`` (m) more: the core is smaller by as much."""
+        out = [(cos(normal), sin(normal)) for normal in self.normals]
+        reaches = [x * nx + y * ny for (x, y), (nx, ny) in zip(self.corners, out, strict=False)]
+        by = min([by, *(_SHALLOW * reach for reach in reaches)])
+        if len(self.corners) < 3 or by <= 0.0:
+            return self
+        corners = []
+        for (x, y), (ax, ay), (cx, cy) in zip(self.corners, [out[-1], *out], out, strict=False):
+            inward = by / (1.0 + ax * cx + ay * cy)
+            corners.append((x - inward * (ax + cx), y - inward * (ay + cy)))
+        return Polygon(corners, self.radius + by)
 
     def mass_properties(self) -> MassProperties:
         """The sum of the polygon, a rectangle along each side, and a sector of a disc at each corner."""
