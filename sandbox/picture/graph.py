@@ -84,14 +84,27 @@ FORCES = "forces"
 Course = tuple[str, np.ndarray, np.ndarray, Colour | None]
 
 
-def _courses(run: Run, view: View[Any]) -> list[tuple[str, str, list[Course]]]:
-    """Title, unit and curves of each panel of one run: its name and colour where they are not the run's."""
+def motion(run: Run, view: View[Any]) -> tuple[np.ndarray, dict[str, tuple[str, np.ndarray]]]:
+    """Times in s until the ball is caught, and over them by name what it does: unit and values."""
     ball = view.ball
     times = instants(run, PIECES, [ball])
     times = times[times <= (run.caught_at(ball) or run.duration)]
     x, y, vx, vy, spin = run.states(times.tolist(), ball).T
-    from_side = isinstance(view, SideView)
-    up = np.maximum(0.0, y - view.radius - view.ground(x)) if isinstance(view, SideView) else y
+    if isinstance(view, SideView):
+        places = {"height": ("m", np.maximum(0.0, y - view.radius - view.ground(x)))}
+    else:
+        way = np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(x), np.diff(y)))])
+        places = {"y": ("m", y), "way": ("m", way)}
+    return times, {"x": ("m", x), **places, "speed": ("m/s", np.hypot(vx, vy)), "spin": ("rpm", spin * 30 / pi)}
+
+
+def _courses(run: Run, view: View[Any]) -> list[tuple[str, str, list[Course]]]:
+    """Title, unit and curves of each panel of one run: its name and colour where they are not the run's."""
+    ball = view.ball
+    times, moves = motion(run, view)
+    moved: list[tuple[str, str, list[Course]]] = [
+        (name, unit, [("", times, values, None)]) for name, (unit, values) in moves.items()
+    ]
     pulls = [Vectors(run, ball).forces(float(t)) for t in times]
     causes = dict.fromkeys(name for forces in pulls for name in forces)
     forces: list[Course] = [
@@ -100,10 +113,7 @@ def _courses(run: Run, view: View[Any]) -> list[tuple[str, str, list[Course]]]:
     ]
     energy = course(run)
     return [
-        ("x", "m", [("", times, x, None)]),
-        ("height" if from_side else "y", "m", [("", times, up, None)]),
-        ("speed", "m/s", [("", times, np.hypot(vx, vy), None)]),
-        ("spin", "rpm", [("", times, spin * 30 / pi, None)]),
+        *moved,
         ("acceleration", "m/s^2", [("", times, _accelerations(run, ball, times), None)]),
         (FORCES, "N", forces),
         ("energy" if len(run.setup.balls) == 1 else "energy of all balls", "J",
@@ -132,9 +142,17 @@ def _slope(curve: Sequence[float], u: float) -> float:
 
 
 def draw_panel(
-    sheet: Sheet, rect: pygame.Rect, panel: Panel, until: float, t: float | None = None, hits: Sequence[float] = ()
+    sheet: Sheet,
+    rect: pygame.Rect,
+    panel: Panel,
+    until: float,
+    t: float | None = None,
+    hits: Sequence[float] = (),
+    said: str = "",
 ) -> None:
-    """One graph with its axes in a rectangle: time from 0 to ``until`` s; ``t`` and the times of impacts are marked."""
+    """One graph with its axes in a rectangle: time from 0 to ``until`` s; ``t`` and the times of impacts are marked,
+    ``said`` is written over it at the right.
+    """
     unit, gap, letters, painter = sheet.unit, sheet.gap, sheet.lettering, sheet.painter
     panel = panel.shown
     small = letters.height("small")
@@ -143,8 +161,10 @@ def draw_panel(
     high = high if high - low > 1e-9 else low + 1.0
     step = nice(max(1.9 * small / max(1, rect.height - 2 * small - 3 * gap), 0.15) * (high - low))
     levels = [i * step for i in range(ceil(low / step - 1e-9), floor(high / step + 1e-9) + 1)]
+    if len(levels) == 1:  # a low panel: round numbers near its ends
+        levels = [_rounded(end) for end in (low, high)]
     texts = [signed(f"{level:.10g}") for level in levels]
-    left = max(letters.width(text, "small") for text in texts) + gap
+    left = max(letters.width(text, "small") for text in ["0000", *texts]) + gap  # mostly the same: panels in line
     plot = pygame.Rect(rect.left + left, rect.top + small + 2 * gap, rect.width - left - gap, 0)
     plot.height = rect.bottom - small - 2 * gap - plot.top
     thin = max(1, round(unit))
@@ -154,12 +174,14 @@ def draw_panel(
 
     for level, text in zip(levels, texts, strict=True):
         sheet.surface.fill(GROUND["rule"], (plot.left, round(row(level)), plot.width, thin))
-        letters.write(sheet.surface, text, "small", (plot.left - gap, row(level)), sheet.quiet_ink, "midright")
+        letters.write(sheet.surface, text, "small", (plot.left - gap, row(level)), CARD["quiet"], "midright")
     every = nice(letters.width("00.0 s  ", "small") / plot.width * until)
     for i in range(floor(until / every + 1e-9) + 1):
         at = plot.left + plot.width * i * every / until
         words = f"{i * every:g} s" if i == 0 else f"{i * every:g}"
-        letters.write(sheet.surface, words, "small", (at, plot.bottom + gap / 2), sheet.quiet_ink, "midtop")
+        letters.write(
+            sheet.surface, words, "small", (at, plot.bottom + gap / 2), CARD["quiet"], "midtop" if i else "topleft"
+        )
     for hit in hits:
         at = plot.left + plot.width * hit / until
         painter.dashes([(at, plot.top), (at, plot.bottom)], thin, CARD["text"], 4 * unit, 4 * unit, 0.3)
@@ -177,11 +199,18 @@ def draw_panel(
                 painter.disc((plot.left + plot.width * min(t, until) / until, value), 4 * unit, curve.colour)
     if t is not None:
         sheet.surface.fill(CARD["quiet"], (round(plot.left + plot.width * t / until), plot.top, thin, plot.height))
+    letters.write(sheet.surface, said, "small", rect.topright, CARD["text"], "topright", bold=True)
     title = f"{panel.title} ({panel.unit})"
     end = letters.write(sheet.surface, title, "small", (rect.left, rect.top), CARD["text"], bold=True).right
     for name, colour in {curve.name: curve.colour for curve in panel.curves if panel.named}.items():
         if end + 2 * gap + letters.width(name, "small") <= rect.right:
             end = letters.write(sheet.surface, name, "small", (end + 2 * gap, rect.top), colour).right
+
+
+def _rounded(value: float) -> float:
+    """The last number of a nice step before a value, at least half of it."""
+    step = nice(abs(value) / 2.5) if value else 1.0
+    return int(value / step) * step
 
 
 def graph(run: Run, size: tuple[int, int] = (1280, 720), others: Mapping[str, Run] | None = None) -> pygame.Surface:

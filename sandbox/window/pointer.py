@@ -113,6 +113,8 @@ class Pointer:
                 self.panning = True
             elif aimed is not None:
                 game.nudge(aim.aimed(game.session, *aimed))
+            elif view.on_charts(at):
+                commands.do(view, "graphs")
             elif (grip := view.handle_at(at)) is not None:
                 view.hold()
                 game.begin_drag(grip)

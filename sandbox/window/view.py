@@ -94,6 +94,7 @@ class View:
         self.clouds: Latest[Cloud] = Latest()  # the fan
         self.maps: Latest[ScoreMap] = Latest()
         self.map_at = pygame.Rect(0, 0, 0, 0)  # where its cells are drawn
+        self.charts_at = pygame.Rect(0, 0, 0, 0)
         self.head = pygame.Rect(0, 0, 0, 0)  # where the headline is
         self.frame_cost = 0.0  # s, smoothed
         self.changed = True  # something other than the game
@@ -630,7 +631,8 @@ class View:
                 self.map_at, top = draw_map(sheet, known, shot.aim, top, self.head)
         if "charts" in self.on:
             charts: Charts = self._once("charts", shot, lambda: Charts(shot, stage.picture))
-            charts.draw(sheet, top, game.playback.t if game.playback is not None else None, self.head)
+            t = game.playback.t if game.playback is not None else None
+            self.charts_at = charts.draw(sheet, top, t, self.head)
         camera = self.camera
         if camera is not None and self.tape is not None:
             self.tape.draw(sheet, camera, shot.upright)
@@ -646,6 +648,10 @@ class View:
     def _why(self, latest: Latest[Any], what: str) -> str:
         """Why there is no such value."""
         return f"{what} ..." if latest.error is None else self.game.reason(latest.error)
+
+    def on_charts(self, at: tuple[int, int]) -> bool:
+        """Whether a place (px) is on the charts."""
+        return "charts" in self.on and not self.hidden and self.charts_at.collidepoint(at)
 
     def aim_on_map(self, at: tuple[int, int]) -> tuple[float, float] | None:
         """The speed and the angle at a place (px) on the map; None if it is not on it."""
