@@ -16,6 +16,7 @@ from sandbox.engine.run import Event, Run
 from sandbox.engine.setup import Body, Circle, Segment, Setup, Surface, Torque
 from sandbox.engine.shapes import Ellipse
 from sandbox.parameters import Accuracy, Group, choice, group, quantity, switch
+from sandbox.physics.elementwise import hypot
 from sandbox.physics.forces import Gravity
 from sandbox.sport.air import Air, wind_in
 from sandbox.sport.controls import Controls, Handle, Spin, Spread
@@ -105,7 +106,7 @@ class DragByAngle:
     def __call__(self, t: Any, position: Any, velocity: Any, spin: Any) -> tuple[Any, Any]:
         wx, wy = (0.0, 0.0) if self.wind is None else self.wind(t, position)
         ux, uy = velocity[0] - wx, velocity[1] - wy
-        speed = (ux * ux + uy * uy) ** 0.5
+        speed = hypot(ux, uy)
         along = speed if self.spiral else ux * cos(position.angle) + uy * sin(position.angle)
         nose = (along / (speed + 1e-30)) ** 2
         k = -0.5 * self.density * self.area * (self.nose * nose + self.side * (1.0 - nose)) * speed
@@ -121,7 +122,7 @@ class Follows:
     lowest: float = 0.4  # m, below which it acts no more
 
     def __call__(self, t: Any, position: Any, velocity: Any, spin: Any) -> Any:
-        speed = (velocity[0] ** 2 + velocity[1] ** 2) ** 0.5 + 1e-30
+        speed = hypot(*velocity) + 1e-30
         off = (velocity[1] * cos(position.angle) - velocity[0] * sin(position.angle)) / speed
         high = min(max((position[1] - self.lowest) / 0.2, 0.0), 1.0)
         return high * self.inertia * (self.rate**2 * off - 2.0 * self.rate * spin)
