@@ -7,6 +7,7 @@ from functools import lru_cache, partial
 from math import hypot
 from typing import NamedTuple
 
+from sandbox.engine.accuracy import SKIN
 from sandbox.engine.nearest import Pose, meeting_points, nearest
 from sandbox.engine.setup import Ball, Body, Circle, Segment, Vector, outline_of
 from sandbox.engine.shapes import Polygon, Shape
@@ -82,7 +83,7 @@ def returns(
 ) -> bool:
     """Whether two bodies, or one and what stands still, that part come back without rising higher than ``height`` (m),
     which takes 4 height / v: those that turn do so without a force, too."""
-    lasts = min(4.0 * height / -met.closing, _TURN / max(1e-9, *(abs(state[4]) for state in states)))
+    lasts = min(4.0 * max(height, SKIN) / -met.closing, _TURN / max(1e-9, *(abs(state[4]) for state in states)))
     (one, other), (here, there) = shapes, [*map(partial(_later, lasts), states, applied), _IN_PLACE][:2]
     return nearest(one, here, other, there).gap < met.gap
 
@@ -98,8 +99,8 @@ def stays(
     body: Ball, state: State, obstacle: Obstacle, met: Meeting, approach: float, applied: Acceleration, height: float
 ) -> bool:
     """Whether a body that leaves a surface, at a point with this speed of approach (m/s), rises no higher than for a
-    bounce of ``height`` (m)."""
-    height = max(height, obstacle.surface.lowest_bounce)
+    bounce of ``height`` (m), or than the overlap by which a touch is found."""
+    height = max(height, obstacle.surface.lowest_bounce, SKIN)
     if -approach <= max(leaves_at(hypot(*applied[:2]), height), rounding(body, state)):
         return True
     shapes = outline_of(body), standing(obstacle.surface.shape).shape

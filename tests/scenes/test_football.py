@@ -51,3 +51,22 @@ def test_a_spiral_lands_nose_first_and_goes_farther():
 def test_bounces_spread_by_metres_though_the_kick_differs_by_degrees():
     bounces = [run_of("football/bounce", launch__nose=nose).result["bounce"] for nose in np.linspace(15.0, 25.0, 6)]
     assert max(bounces) - min(bounces) > 5.0
+
+
+def test_a_disc_in_a_gale_comes_to_lie_on_the_grass():
+    """Its bounces fade to less than the overlap by which a touch is found: then it slides."""
+    ball = {"ball.width": 0.7278343070087627, "ball.length": 0.05, "ball.mass": 1.0, "ball.side_drag": 0.7381}
+    grass = {"ground.restitution": 0.9430186938354834, "ground.friction": 0.0, "gravity": 0.0, "air.density": 1.0}
+    kick = {"launch.speed": 0.0, "launch.angle": 0.0, "launch.height": 1.0, "launch.turns": "spiral"}
+    wind = {"air.wind": (-100.0, -44.49979139293444), "ball.nose_drag": 0.7645127703036383, "goal.present": False}
+    run = sandbox.simulate(sandbox.load("football", ball | grass | kick | wind | {"accuracy.level": "precise"}))
+    assert run.events[-1].kind == "contact"
+    assert run.numerics.impacts < 400
+
+
+def test_a_step_that_is_far_too_long_is_made_again():
+    """The trial speed is beyond 1e154 m/s, whose square no number holds."""
+    light = {"ball.mass": 0.1, "ball.width": 1.0, "ball.side_drag": 0.0, "ball.length": 0.33, "air.density": 1100.0}
+    kick = {"launch.speed": 1e-9, "launch.angle": 0.0, "launch.height": 3.0, "launch.turns": "spiral"}
+    changes = light | kick | {"air.wind": (89.3, 89.3), "ball.nose_drag": 0.19863759836037037}
+    assert sandbox.simulate(sandbox.load("football", changes)).duration > 0.0
