@@ -35,6 +35,8 @@ from sandbox.units import convert
 
 #: The picture on a wide screen and on a phone: size in px, and how many times as large letters are drawn on it.
 LAYOUTS = (((1600, 900), 1.0), ((801, 1001), 1.78))
+#: The picture that shows until the page's script draws, and where none runs, is at most so large, in px.
+POSTER = (640, 640)
 #: The forces are sampled at so many even times, and at each impact.
 SAMPLES = 240
 #: The ground's height is sampled at so many places.
@@ -53,6 +55,7 @@ def page_of(run: Run, ghosts: Mapping[str, Run] | None = None) -> str:
         raise RequestError("only a run of a scene has a page: give what sandbox.simulate(scene) returns")
     scene, verdict = run.scene, run.scene.verdict(run)
     views = list(_views(run, ghosts))
+    wide, narrow = (layout.pop("poster") for _, layout in views)
     view, heading = views[0][0], views[0][0].heading
     events = run.events[:MOST_EVENTS]
     others = {ghost.label: css(ghost.light) for ghost in view.ghosts}
@@ -78,6 +81,8 @@ def page_of(run: Run, ghosts: Mapping[str, Run] | None = None) -> str:
         notes=html("   ·   ".join(heading.notes)),
         ground="dark" if view.on_dark else "light",
         picture=html(f"{scene.title}: {verdict}. The path of the {view.THING}; the numbers are in the table below."),
+        poster=wide,
+        poster_narrow=narrow,
         card=table(card, scene.title, "card", {scene.title: css(CARD["accent"]), **others} if others else None),
         events="\n".join(listed),
         events_open="open" if len(events) <= 8 else "",
@@ -133,6 +138,8 @@ def _layout(view: View[Any]) -> dict[str, Any]:
     tall = round(view.card_row - 2 * view.sheet.gap)  # the card is below
     place, paths, along, drawn, over = (layer[:tall] for layer in layers)
     camera = view.camera
+    poster = Image.fromarray(over)
+    poster.thumbnail(POSTER)
     too_large = max(0.0, balls.mark_radius(view.rows) - view.radius * camera.scale)
     return {
         "size": (view.size[0], tall),
@@ -144,6 +151,7 @@ def _layout(view: View[Any]) -> dict[str, Any]:
         "least": view.least,
         "lift": too_large if isinstance(view, SideView) and not isinf(view.STRETCHES) else None,
         "room": view.heading.room,
+        "poster": picture(poster),
         "place": picture(Image.fromarray(place)),
         "along": picture(what_changed(paths, along), exact=True),
         "over": picture(what_changed(drawn, over), exact=True),

@@ -646,6 +646,8 @@ async function begin() {
   });
   const skins = data.looks.filter(({ skin }) => skin).map(async (look) => (look.skin = pixels(await image(look.skin))));
   await Promise.all([...layers, ...skins]);
+  $("poster").remove();
+  $("picture").hidden = false;
   window.player = new Player(data);
 }
 

@@ -19,8 +19,8 @@ from sandbox.page.replay import LAYOUTS, command, page_of
 from sandbox.picture.plain import view_of
 from sandbox.sport.amounts import amount, shown_in
 
-#: A flight with rolling, balls that turn about all axes, a heap.
-RUNS = ("golf", "billiards", "collisions/bowl")
+#: A flight with rolling, balls that turn about all axes, a heap, a body that turns.
+RUNS = ("golf", "billiards", "collisions/bowl", "collisions/tumbling-box")
 
 
 @cache
@@ -48,6 +48,7 @@ def test_every_instant_is_that_of_python(browser, pages, name: str):
     page, run = pages(name), run_of(name)
     assert page.stat().st_size < 500_000
     browser.open(page)
+    assert browser.run("document.getElementById('poster')") is None  # the canvas took its place
     times = [*np.linspace(0.0, run.duration, 97), *(event.t for event in run.events[:3])]
     view = view_of(run, LAYOUTS[0][0])
     states = browser.run(
