@@ -339,20 +339,26 @@ class Player {
     if (ball.caught !== null && t >= ball.caught) return;
     const { context, view, data } = this, [x, y] = ball.path.state(t);
     const radius = Math.max(ball.radius * view.scale, view.least), [px, py] = this.spot(x, y, radius);
-    if (ball.shapes) return this.flat(ball, px, py, radius, this.angle(ball, t));
+    if (ball.shapes) this.flat(ball, px, py, radius, this.angle(ball, t));
+    else this.round(ball, t, x, y, px, py, radius);
+    if (data.balls.length === 1 && radius > data.unsaid * ball.radius * view.scale) {
+      const reach = ball.shapes && Math.max(...ball.shapes.flatMap(([corners]) => corners.map((corner) => Math.hypot(...corner))));
+      context.beginPath();
+      context.arc(px, py, ball.shapes ? reach * radius + 2 * view.unit : radius + 4.5 * view.unit, 0, 2 * Math.PI);
+      context.lineWidth = Math.max(1.2, 1.7 * view.unit);
+      context.strokeStyle = data.accent;
+      context.stroke();
+    }
+  }
+
+  round(ball, t, x, y, px, py, radius) {
+    const { context, view, data } = this;
     this.shadow(ball, x, y, px, py, radius);
     context.globalAlpha = 0.65;
     this.disc(px, py, radius + Math.max(0.7, 0.8 * view.unit), data.rim);
     context.globalAlpha = 1;
     const turn = ball.turning ? ball.turning.at(t) : times(turnedBy([0, 0, this.angle(ball, t)]), ball.lying);
     ball.sprite.draw(context, px, py, radius, turn);
-    if (data.balls.length === 1 && radius > data.unsaid * ball.radius * view.scale) {
-      context.beginPath();
-      context.arc(px, py, radius + 4.5 * view.unit, 0, 2 * Math.PI);
-      context.lineWidth = Math.max(1.2, 1.7 * view.unit);
-      context.strokeStyle = data.accent;
-      context.stroke();
-    }
   }
 
   /** How far a ball or body is turned about the axis out of the picture, in rad. */
