@@ -33,7 +33,7 @@ def build(folder: Path, names: Iterable[str] | None = None, tell: Callable[[str]
     )
     index = folder / "index.html"
     about = f"{len(entries)} runs, each as a picture and as a page that plays it."
-    save(filled("gallery.html", about=about, scenes="\n".join(sections)), index)
+    save(filled("gallery.html", title="sports sandbox: gallery", about=about, scenes="\n".join(sections)), index)
     return index
 
 

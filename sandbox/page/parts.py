@@ -31,11 +31,13 @@ def source(name: str) -> str:
     return (FOLDER / name).read_text("utf-8")
 
 
-def filled(name: str, **parts: str) -> str:
-    """A template with its parts, which are HTML already; with ``data`` it gets the script of its name."""
-    if "data" in parts:
-        parts["script"] = source("page.js") + source(name.replace(".html", ".js"))
-    return Template(source(name)).substitute(style=source("page.css"), **parts)
+def filled(name: str, title: str, data: str = "", **parts: str) -> str:
+    """A page: a template with its parts, which are HTML already; with packed ``data`` also the script of its name."""
+    body = Template(source(name)).substitute(title=title, **parts)
+    if data:
+        script = source("page.js") + source(name.replace(".html", ".js"))
+        body += f'<script type="text/plain" id="data">{data}</script>\n<script>\n{script}\n</script>\n'
+    return Template(source("frame.html")).substitute(title=title, style=source("page.css"), body=body)
 
 
 def save(page: str, path: Path | str) -> None:

@@ -76,7 +76,7 @@ def page_of(run: Run, ghosts: Mapping[str, Run] | None = None) -> str:
     }
     return filled(
         "run.html",
-        title=html(scene.title),
+        title=html(f"{scene.title}: {verdict}"),
         verdict=html(verdict),
         notes=html("   ·   ".join(heading.notes)),
         ground="dark" if view.on_dark else "light",
