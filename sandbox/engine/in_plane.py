@@ -48,6 +48,7 @@ class InPlane(Track):
     ) -> None:
         super().__init__(ball, state, obstacles, catches)
         self._setup = setup
+        self._accuracy = accuracy
         self._numerics = numerics
         self._law: Law = partial(acceleration, ball)
         self._control = StepControl(accuracy)

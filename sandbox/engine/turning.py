@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import accumulate
 
-from sandbox.engine.accuracy import Accuracy
 from sandbox.engine.acting import checked
 from sandbox.engine.arc import Arc, still
 from sandbox.engine.bernstein import evaluate
@@ -17,8 +16,7 @@ from sandbox.engine.in_plane import InPlane, crossing
 from sandbox.engine.lasting import RESTING, LastingContact
 from sandbox.engine.meeting import standing, stays, surfaces_met
 from sandbox.engine.one_point import OnePoint, one_point
-from sandbox.engine.run import Numerics
-from sandbox.engine.setup import Ball, Setup, outline_of
+from sandbox.engine.setup import outline_of
 from sandbox.engine.step_control import LOCAL_SHARE
 from sandbox.engine.touch import TOUCHING_GAP, Obstacle
 from sandbox.engine.turning_touch import Mover, first_touch
@@ -40,23 +38,9 @@ _LONGEST_TURN, _SLOW = 0.35, 0.7
 class Turning(InPlane):
     """A body: its path, and when it touches what stands still."""
 
-    def __init__(
-        self,
-        body: Ball,
-        state: State,
-        obstacles: Sequence[Obstacle],
-        catches: Sequence[Obstacle],
-        setup: Setup,
-        accuracy: Accuracy,
-        numerics: Numerics,
-    ) -> None:
-        super().__init__(body, state, obstacles, catches, setup, accuracy, numerics)
-        self.outline = outline_of(body)
-        self._skin = accuracy.skin
-        self._angle_error = LOCAL_SHARE * accuracy.tolerance / body.radius  # rad
-
     def advance(self, t: float, until: float) -> tuple[Arc, str]:
         """The next arc from t, at most to ``until``, and why it ends: "" if only because of its length."""
+        error = LOCAL_SHARE * self._accuracy.tolerance / self.ball.radius  # rad
         contact, start, known, angle = self.contact, self.state, self._known[0], self.state[5]
         if contact is not None:
             if contact.mode == RESTING:
@@ -78,7 +62,7 @@ class Turning(InPlane):
             found = list(accumulate((h * spin / len(arc.spin) for spin in arc.spin), initial=angle))
             off = max(abs(evaluate(curve, share * h / (t1 - t)) - evaluate(found, share)) for share in (0.5, 1.0))
             curve, t1 = found, arc.t1
-            if off <= self._angle_error:
+            if off <= error:
                 break
             until = t + 0.5 * h if count % _PATIENCE == 0 else arc.t1
         self.state, arc.start, arc.rolling_spin = start, start, (curve,)
@@ -125,4 +109,6 @@ class Turning(InPlane):
             if u is None:
                 return None
             start += u * (arc.t1 - arc.t0)
-        return first_touch(Mover(self.outline, arc), standing(obstacle.surface.shape), start, arc.t1, self._skin)
+        return first_touch(
+            Mover(outline_of(self.ball), arc), standing(obstacle.surface.shape), start, arc.t1, self._accuracy.skin
+        )
