@@ -5,20 +5,18 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import pairwise
 from math import dist
-from typing import Any
 
 import numpy as np
 import pygame
 
-from sandbox.picture import plain
 from sandbox.picture.camera import Camera
 from sandbox.picture.ghosts import colours_beside
 from sandbox.picture.lines import simplify
 from sandbox.picture.painter import blank
 from sandbox.picture.palette import Colour, mix, palette
 from sandbox.picture.path import chip
+from sandbox.picture.plain import view_of
 from sandbox.picture.sheet import Sheet
-from sandbox.picture.view import View
 from sandbox.window.background import Once
 from sandbox.window.canvas import Canvas
 from sandbox.window.score_map import ScoreMap
@@ -64,7 +62,7 @@ class Stage:
         far, is kept if it does so too, or each small change of the aim would shift the picture.
         """
         self.shot, self.size, self.code, self.chosen = shot, size, code, chosen
-        self.picture = picture_of(shot, size)
+        self.picture = view_of(shot.run, size)
         self.whole = self.picture.camera
         vars(self.picture)["camera"] = chosen or self._camera_of(before) or self.whole
         self.camera = self.picture.camera
@@ -189,12 +187,6 @@ class Stage:
         for at in marked[:MOST_CONTACTS]:
             sheet.painter.disc(at, 5.0 * sheet.unit, TRACE["rim"], 0.7)
             sheet.painter.disc(at, 3.6 * sheet.unit, CARD["accent"])
-
-
-def picture_of(shot: Shot, size: tuple[int, int]) -> View[Any]:
-    """The scene's picture of a shot; a plain one if the scene's draws posters and frames only."""
-    picture = shot.scene.picture(shot.run, size)
-    return picture if isinstance(picture, View) else plain.Picture(shot.run, shot.scene.parameters, size)
 
 
 def draw_line(surface: pygame.Surface, points: np.ndarray, width: float, colour: Colour) -> None:

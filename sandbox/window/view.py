@@ -19,6 +19,7 @@ import pygame
 from sandbox.picture.camera import Camera
 from sandbox.picture.lettering import Lettering
 from sandbox.picture.palette import palette, set_contrast
+from sandbox.picture.plain import view_of
 from sandbox.picture.sheet import Entry, nice, rows_of
 from sandbox.picture.vectors import Vectors
 from sandbox.picture.view import View as Picture
@@ -35,7 +36,7 @@ from sandbox.window.overlay import Overlay
 from sandbox.window.pad import Pad
 from sandbox.window.score_map import FINER, QUICK, ScoreMap, score_map
 from sandbox.window.shot import Shot
-from sandbox.window.stage import Stage, draw_map, headline, picture_of
+from sandbox.window.stage import Stage, draw_map, headline
 
 if TYPE_CHECKING:
     from sandbox.window.panel import Panel
@@ -209,7 +210,7 @@ class View:
 
     def near(self, shot: Shot) -> Picture[Any]:
         """The picture of a shot that follows its ball, as near as the player has zoomed."""
-        found: Picture[Any] = self._once("near", (shot, self.area.size), lambda: picture_of(shot, self.area.size))
+        found: Picture[Any] = self._once("near", (shot, self.area.size), lambda: view_of(shot.run, self.area.size))
         vars(found)["view"] = lambda t: _zoomed(type(found).view(found, t), self.nearer, shot.run.state(shot.ball, t))
         return found
 
