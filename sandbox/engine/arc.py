@@ -114,8 +114,8 @@ def through(
 ) -> Arc:
     """The arc that matches both ends of a step of length h. Arrays of shape (n,) in place of floats give n arcs in
     one."""
-    x0, y0, vx0, vy0, w0 = start
-    x1, y1, vx1, vy1, w1 = end
+    x0, y0, vx0, vy0, w0 = start[:5]
+    x1, y1, vx1, vy1, w1 = end[:5]
     ax0, ay0, al0 = acceleration
     ax1, ay1, al1 = end_acceleration
     p = 0.2 * h
@@ -127,7 +127,7 @@ def through(
     if not isinstance(h, float) or h <= _SHORT:
         mx = choose(h > _SHORT, mx, 0.5 * (vx0 + vx1 + third * (ax0 - ax1)))
         my = choose(h > _SHORT, my, 0.5 * (vy0 + vy1 + third * (ay0 - ay1)))
-    return Arc(
+    arc = Arc(
         t,
         t + h,
         start,
@@ -139,6 +139,11 @@ def through(
         contact,
         end=end,
     )
+    if len(start) == 6:  # a body's angle changes as a coordinate does
+        turns = [(angle, 0.0, spin, 0.0, 0.0) for *_, spin, angle in (start, end)]
+        turn = through(t, h, turns[0], (al0, 0.0, 0.0), turns[1], (al1, 0.0, 0.0))
+        arc.spin, arc.rolling_spin = turn.vx, (turn.x,)
+    return arc
 
 
 def still(t: float, until: float, state: State, contact: object = None) -> Arc:

@@ -117,7 +117,7 @@ class InPlane(Track):
             return
         where = f"t = {t:.6g} s, ball {self.ball.name!r}: "
         names, units = ("x", "y", "vx", "vy", "spin"), ("m", "m", "m/s", "m/s", "rad/s")
-        for quantity, unit, value in zip(names, units, state, strict=True):
+        for quantity, unit, value in zip(names, units, state, strict=False):
             if not isfinite(value):
                 raise RunError(
                     f"{where}{quantity} is {value} {unit}; "

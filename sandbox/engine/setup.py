@@ -278,7 +278,7 @@ class Bounds(NamedTuple):
 
     def hold(self, state: State) -> Any:
         """Whether a ball in this state is inside, and all its numbers are finite."""
-        x, y, vx, vy, spin = state
+        x, y, vx, vy, spin = state[:5]
         total = x + y + vx + vy + spin
         inside = (self.left <= x) & (x <= self.right) & (self.bottom <= y) & (y <= self.top)
         return inside & (total - total == 0.0)

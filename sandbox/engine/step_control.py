@@ -62,7 +62,10 @@ class StepControl:
         Returns whether it is accepted, the step in s to try next, after it or in its place, and the state and the
         acceleration at its end.
         """
-        end, last, error = self._method.step(law, t, state, acceleration, h)
+        if len(state) == 5:
+            end, last, error = self._method.step(law, t, state, acceleration, h)
+        else:
+            end, last, error = self._method.step_turning(law, t, state, acceleration, h, radius)
         if last is None:
             last = law(t + h, end)
         if error is None:
@@ -92,7 +95,7 @@ def before_break(breaks: Iterable[Any], t: Any, h: Any) -> Any:
 
 def within(patches: Iterable[Patch], h: Any, state: State, acceleration: Acceleration) -> Any:
     """A step that ends before each patch, or is no longer than the patch allows."""
-    x, y, vx, vy, _ = state
+    x, y, vx, vy = state[:4]
     ax, ay, _ = acceleration
     for patch in patches:
         while anywhere(h > patch.step):

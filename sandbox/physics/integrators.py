@@ -32,6 +32,32 @@ class Integrator(NamedTuple):
     source: str
     controls_error: bool = False  # chooses its step from its error estimate
 
+    def step_turning(
+        self, law: Law, t: float, state: State, acceleration: Acceleration, dt: float, radius: float
+    ) -> Step:
+        """A step of a body, whose angle (rad) is a sixth component of its state.
+
+        A method is linear in what it adds up, so a complex number goes through it as two real ones: the turn, as the
+        way of a point at this radius (m), is the imaginary part of x. The errors of both are added.
+        """
+        angle = state[5]
+
+        def beside(found: Acceleration) -> Acceleration:
+            return complex(found[0], radius * found[2]), *found[1:]
+
+        def both(at: Any, now: State) -> Acceleration:
+            x, y, vx, vy, spin = now
+            return beside(law(at, (x.real, y, vx.real, vy, spin, angle + x.imag / radius)))
+
+        x, y, vx, vy, spin, _ = state
+        start = complex(x, 0.0), y, complex(vx, radius * spin), vy, spin
+        (x, y, vx, vy, spin), last, error = self.step(both, t, start, beside(acceleration), dt)
+        return Step(
+            (x.real, y, vx.real, vy, spin, angle + x.imag / radius),
+            None if last is None else (last[0].real, *last[1:]),
+            None if error is None else (*(abs(part.real) + abs(part.imag) for part in error),),
+        )
+
 
 def _explicit_euler(law: Law, t: Any, state: State, acceleration: Acceleration, dt: Any) -> Step:
     x, y, vx, vy, spin = state

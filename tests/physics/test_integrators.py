@@ -12,7 +12,10 @@ def advance(name, law, state, duration, steps):
     dt = duration / steps
     t = 0.0
     for _ in range(steps):
-        state = METHODS[name].step(law, t, state, law(t, state), dt).state
+        if len(state) == 6:
+            state = METHODS[name].step_turning(law, t, state, law(t, state), dt, 0.3).state
+        else:
+            state = METHODS[name].step(law, t, state, law(t, state), dt).state
         t += dt
     return state
 
@@ -40,13 +43,20 @@ def test_converges_at_its_stated_order(name):
     assert slope == pytest.approx(METHODS[name].order, abs=0.15)
 
 
+def swinging(t, state):
+    """A body whose angle drives its turning and its way."""
+    return 2.0 * sin(state[5]), -0.5 * state[3], -9.0 * sin(state[5]) - 0.3 * state[4] + 0.5 * state[0]
+
+
+@pytest.mark.parametrize(
+    ("law", "start"), [(turning, (1.0, -0.5, 0.7, 0.3, 0.0)), (swinging, (0.2, 0.0, 0.5, 0.3, -1.0, 0.8))]
+)
 @pytest.mark.parametrize("name", METHODS)
-def test_converges_where_time_position_and_velocity_all_matter(name):
+def test_converges_where_time_position_angle_and_velocity_all_matter(name, law, start):
     """Against the same method at a sixteenth of the finest step."""
     counts = 2 ** np.arange(4, 7) if METHODS[name].order >= 4 else 2 ** np.arange(6, 10)
-    start = (1.0, -0.5, 0.7, 0.3, 0.0)
-    fine = np.array(advance("dormand-prince", turning, start, 1.0, 512))
-    errors = [np.abs(np.array(advance(name, turning, start, 1.0, int(n))) - fine).max() for n in counts]
+    fine = np.array(advance("dormand-prince", law, start, 1.0, 512))
+    errors = [np.abs(np.array(advance(name, law, start, 1.0, int(n))) - fine).max() for n in counts]
     slope = np.polyfit(np.log(1.0 / counts), np.log(errors), 1)[0]
     assert slope == pytest.approx(METHODS[name].order, abs=0.15)
 
