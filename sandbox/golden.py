@@ -182,7 +182,7 @@ class Golden:
             if physics is not None:
                 self._write_run(name, text, run, until, physics)
             if drawing is not None:
-                self._write(png, _png(_coarser(image)), drawing)
+                self._write(png, _png(coarser(image)), drawing)
         elif expected is None or physics == NEW:
             what, path = ("picture", png) if expected is None else ("run", text)
             _fail(f"{name} has no golden {what} at {path}; make it with pytest --golden-update")
@@ -346,7 +346,7 @@ def _read(path: Path) -> Image.Image | None:
         return file.convert("RGB")
 
 
-def _coarser(image: Image.Image) -> Image.Image:
+def coarser(image: Image.Image) -> Image.Image:
     """With COLOUR_BITS per channel, which saves a third of the bytes; no level changes by more than 2."""
     import numpy as np
     from PIL import Image

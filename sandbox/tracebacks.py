@@ -13,8 +13,8 @@ from sandbox.errors import SandboxError
 def of_user_code(error: BaseException) -> str | None:
     """The traceback from the first frame of the user's code, without the sandbox's own frames; None without any."""
     frames = traceback.extract_tb(error.__traceback__)
-    first = next((index for index, frame in enumerate(frames) if not _is_ours(frame.filename)), None)
-    is_users_syntax = isinstance(error, SyntaxError) and error.filename is not None and not _is_ours(error.filename)
+    first = next((index for index, frame in enumerate(frames) if not is_ours(frame.filename)), None)
+    is_users_syntax = isinstance(error, SyntaxError) and error.filename is not None and not is_ours(error.filename)
     if first is None and not is_users_syntax:
         return None
     shown = [frame for frame in frames[first:] if not _is_hidden(frame.filename)] if first is not None else []
@@ -28,12 +28,12 @@ def one_line_error(error: Exception) -> str:
     text = " ".join(str(error).split())
     if isinstance(error, SandboxError):
         return text
-    own = [frame for frame in traceback.extract_tb(error.__traceback__) if not _is_ours(frame.filename)]
+    own = [frame for frame in traceback.extract_tb(error.__traceback__) if not is_ours(frame.filename)]
     place = f" ({'/'.join(Path(own[-1].filename).parts[-2:])}, line {own[-1].lineno})" if own else ""
     return f"{type(error).__name__}{': ' if text else ''}{text}{place}"
 
 
-def _is_ours(filename: str) -> bool:
+def is_ours(filename: str) -> bool:
     """Whether a file came with the sandbox, Python or an installed package, in this environment or another."""
     installed = not {"site-packages", "dist-packages"}.isdisjoint(Path(filename).parts)
     libraries = {sysconfig.get_path(name) for name in ("stdlib", "purelib", "platlib")}

@@ -715,7 +715,7 @@ def test_a_name_in_a_csv_is_one_cell_that_computes_nothing(call, drop: Path, tmp
 
 def test_a_bug_of_ours_is_not_hidden(call, monkeypatch):
     monkeypatch.setattr("sandbox.report.card", lambda *_: [][0])
-    monkeypatch.setattr("sandbox.tracebacks._is_ours", lambda filename: True)  # this test stands in for our own code
+    monkeypatch.setattr("sandbox.tracebacks.is_ours", lambda filename: True)  # this test stands in for our own code
     with pytest.raises(IndexError):
         call("run", "golf")
 

@@ -43,7 +43,7 @@ _STANDSTILL = 1e-6
 _MOST_IMPACTS = 200_000
 
 #: Most steps in one run, beyond which its forces are too stiff: about 5 s of computing.
-_MOST_STEPS = 100_000
+MOST_STEPS = 100_000
 
 
 class Simulation:
@@ -148,9 +148,9 @@ class Simulation:
             at_once += 1
             if at_once > _MOST_AT_ONCE or self._numerics.impacts > _MOST_IMPACTS:
                 raise self._stalled(t, i)
-            if self._numerics.steps > _MOST_STEPS:
+            if self._numerics.steps > MOST_STEPS:
                 raise RunError(
-                    f"t = {t:.6g} s, ball {track.ball.name!r}: {_MOST_STEPS:,} steps without an end; its forces "
+                    f"t = {t:.6g} s, ball {track.ball.name!r}: {MOST_STEPS:,} steps without an end; its forces "
                     "are very stiff: raise accuracy.tolerance, or shorten the duration"
                 )
             if kind == "touch":

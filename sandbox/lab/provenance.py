@@ -150,11 +150,11 @@ def _is_users(file: Path) -> bool:
     return (
         file.suffix == ".py"
         and {"site-packages", "dist-packages"}.isdisjoint(file.parts)
-        and not any(file.is_relative_to(place) for place in (resources.PACKAGE, *_libraries()))
+        and not any(file.is_relative_to(place) for place in (resources.PACKAGE, *libraries()))
     )
 
 
 @cache
-def _libraries() -> frozenset[Path]:
+def libraries() -> frozenset[Path]:
     """The folders of Python and of installed packages."""
     return frozenset(Path(sysconfig.get_path(name)) for name in ("stdlib", "purelib", "platlib"))

@@ -32,7 +32,7 @@ def runs(
     Similar shots are computed together. ``finer`` halves the steps, to estimate errors. If only some facts are
     ``asked`` for, each run ends when these are settled, and its result contains only these.
     """
-    build, read, varied = _builder(scene, asked), scene.reader(asked), Varied(scene, keys)
+    build, read, varied = builder(scene, asked), scene.reader(asked), Varied(scene, keys)
     parameters: dict[int, Any] = {}
     found: dict[int, Iterator[Run | Exception]] = {}
     for places, many in varied.together(points):
@@ -58,7 +58,7 @@ def _outcomes(build: Callable[[Any], Setup], many: Any, each: Sequence[Any], fin
         accuracy = _resolved(many.accuracy, finer)
     except Exception as error:
         return repeat(error)
-    stack = _stack(build, many, each)
+    stack = built_at_once(build, many, each)
     if stack is not None:
         return simulate_many(stack, accuracy)
     setups = [_or_error(build, parameters) for parameters in each]
@@ -73,7 +73,7 @@ def _or_error(work: Callable[[Any], Any], values: Any) -> Any:
         return error
 
 
-def _builder(scene: Scene, asked: Sequence[str]) -> Callable[[Any], Setup]:
+def builder(scene: Scene, asked: Sequence[str]) -> Callable[[Any], Setup]:
     """The scene's ``build``, whose runs end as soon as the requested facts are settled."""
     settled = scene.settles(asked) if asked else None
 
@@ -87,7 +87,7 @@ def _builder(scene: Scene, asked: Sequence[str]) -> Callable[[Any], Setup]:
     return build
 
 
-def _stack(build: Callable[[Any], Setup], many: Any, each: Sequence[Any]) -> Stack | None:
+def built_at_once(build: Callable[[Any], Setup], many: Any, each: Sequence[Any]) -> Stack | None:
     """The setups of many points, built once with arrays for the numbers that differ; None if the scene can be built
     only with single numbers. Some are compared with what is built for them alone."""
     if len(each) < FEWEST:

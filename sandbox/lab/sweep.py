@@ -25,7 +25,7 @@ from sandbox.scene import Scene, as_scene
 from sandbox.workers import Call, Cluster, InTurn, Processes, WorkerLost, Workers, cores
 
 #: Target time in s of one call to a worker, so that progress is shown and Ctrl-C handled a few times a second.
-_CALL = 0.3
+CALL = 0.3
 
 #: Most points in one call.
 _MOST = 1_000
@@ -286,7 +286,7 @@ class RowsInOrder:
 
 
 class _Pace:
-    """Number of points per call: whole blocks that take about ``_CALL`` s."""
+    """Number of points per call: whole blocks that take about ``CALL`` s."""
 
     def __init__(self, plan: Plan, width: int) -> None:
         self._block = plan.block
@@ -295,7 +295,7 @@ class _Pace:
 
     def note(self, points: int, seconds: float) -> None:
         """Record the number of points of a call and its time."""
-        fitting = int(min(points * _CALL / max(seconds, 1e-6), 4 * self.points, self._most))
+        fitting = int(min(points * CALL / max(seconds, 1e-6), 4 * self.points, self._most))
         self.points = max(self._block, fitting - fitting % self._block)
 
 
@@ -307,7 +307,7 @@ def _computed(payload: bytes, start: int, stop: int, alone: bool = False) -> tup
     if alone:
         return records(plan, start, stop, alone), perf_counter() - began
     rows: list[Record] = []
-    while start + len(rows) < stop and (not rows or perf_counter() - began < _CALL):
+    while start + len(rows) < stop and (not rows or perf_counter() - began < CALL):
         first = start + len(rows)
         rows += records(plan, first, min(stop, first - first % plan.block + plan.block))
     return rows, perf_counter() - began

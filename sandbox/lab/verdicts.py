@@ -18,10 +18,10 @@ from sandbox.scene import Scene
 _SPEED, _ANGLE = 0.1, 5.0
 
 #: Time in s to spend on the finest runs, and the shots along one side of the map.
-_PATIENCE, _FEWEST, _MOST = 2.0, 5, 15
+PATIENCE, FEWEST, MOST = 2.0, 5, 15
 
 #: A method that would take longer than this, in s, is left out.
-_TOO_LONG = 10.0
+TOO_LONG = 10.0
 
 #: Results whose value is clear without its name.
 _WITHOUT_NAME = ("verdict", "ended")
@@ -92,13 +92,13 @@ def shot_map(scene: Scene) -> ShotMap | None:
     own = [(speed.value, angle.value)]
     if not verdicts(own, _WAYS["precise"], finer=True)[0]:
         return None
-    side = int((_PATIENCE / (perf_counter() - started)) ** 0.5)
-    points = shots(max(_FEWEST, min(_MOST, side)))
+    side = int((PATIENCE / (perf_counter() - started)) ** 0.5)
+    points = shots(max(FEWEST, min(MOST, side)))
     truth = verdicts(points, _WAYS["precise"], finer=True)
     changed = {}
     for name, how in _WAYS.items():
         started = perf_counter()
         verdicts(own, how)
-        if len(points) * (perf_counter() - started) <= _TOO_LONG:
+        if len(points) * (perf_counter() - started) <= TOO_LONG:
             changed[name] = sum(a != b for a, b in zip(truth, verdicts(points, how), strict=True)) / len(points)
     return ShotMap(keys, len(points), changed)

@@ -151,7 +151,7 @@ def energy_chart(run: Run, size: tuple[int, int] = (1280, 720)) -> pygame.Surfac
     sheet = Sheet(size, on_dark=True)
     sheet.surface.fill(ENERGY["ground"])
     energy = course(run)
-    bands, given = _bands(energy), _given(energy)
+    bands, given = bands_of(energy), _given(energy)
     titles = [sheet.lettering.height(name) for name in (sheet.head, "small")]
     top, bottom = sheet.frame.top + sum(titles) + 4 * sheet.gap, sheet.frame.bottom - sheet.card_height()
     names = (f"{name} {joules(values[-1])}" for name, values, _ in [*bands, *given])
@@ -208,7 +208,7 @@ def _entries(energy: Course, bands: Sequence[Band], given: Sequence[Band]) -> li
     return entries
 
 
-def _bands(energy: Course) -> list[Band]:
+def bands_of(energy: Course) -> list[Band]:
     """What the balls have, and what the largest causes took, the largest first."""
     least, colours = _least(energy), _colours(energy)
     bands = [(name, values, ENERGY[name]) for name, values in energy.has.items() if values.max() > least]

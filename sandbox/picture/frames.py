@@ -145,7 +145,7 @@ def save_frames(picture: Picture, run: Run, folder: Path | str, fps: float, prog
             return name
 
         drawn = ((i, to_image(frame_of(picture, t))) for i, t in enumerate(times))
-        names = list(_in_threads(keep, drawn, len(times), progress))
+        names = list(in_threads(keep, drawn, len(times), progress))
         for name in names:
             (Path(part) / name).replace(folder / name)
     for old in folder.glob(FRAMES):
@@ -181,7 +181,7 @@ def save_gif(picture: Picture, run: Run, path: Path | str, fps: float, progress:
     Raises OSError where it cannot be written.
     """
     times = frame_times(run.duration, min(fps, FASTEST_GIF))
-    colours = _shared_palette(picture, times)
+    colours = shared_palette(picture, times)
     durations = _durations([round(100 * t) for t in times], 10)
 
     def encoded(image: Image.Image, box: Box, before: Image.Image | None) -> bytes:
@@ -262,7 +262,7 @@ def _parts(
 ) -> list[tuple[Box, bytes]]:
     """Of each frame the rectangle that differs from the frame before, and what is in it, encoded."""
     changed = _with_changes(to_image(frame_of(picture, t)) for t in times)
-    return list(_in_threads(lambda item: (item[1], encoded(*item)), changed, len(times), progress))
+    return list(in_threads(lambda item: (item[1], encoded(*item)), changed, len(times), progress))
 
 
 def _with_changes(images: Iterator[Image.Image]) -> Iterator[tuple[Image.Image, Box, Image.Image | None]]:
@@ -309,7 +309,7 @@ def frame_times(duration: float, fps: float) -> list[float]:
     return [t for t in times if t < duration - 0.1 / fps] + [duration] if duration > 0 else [0.0]
 
 
-def _shared_palette(picture: Picture, times: list[float]) -> Image.Image:
+def shared_palette(picture: Picture, times: list[float]) -> Image.Image:
     """255 colours for all frames, chosen from some of them.
 
     A colour counts by the square root of its area: small things such as ball and trace matter more than their size.
@@ -328,7 +328,7 @@ def _shared_palette(picture: Picture, times: list[float]) -> Image.Image:
     )
 
 
-def _in_threads(work: Callable[[T], R], items: Iterator[T], total: int, progress: Progress | None) -> Iterator[R]:
+def in_threads(work: Callable[[T], R], items: Iterator[T], total: int, progress: Progress | None) -> Iterator[R]:
     """``work`` on each item, on all cores, results in order; Pillow packs and reduces without holding Python up."""
     workers = os.cpu_count() or 1
     waiting: deque[Future[R]] = deque()

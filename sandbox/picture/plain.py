@@ -58,7 +58,7 @@ class Picture(View[Group]):
             if isinstance(shape, Circle):
                 painter.disc(camera.pixel(*shape.center), thick, COLOURS["surface"])
                 continue
-            seen = _clipped(camera.pixel(*shape.a), camera.pixel(*shape.b), self.size)
+            seen = clipped(camera.pixel(*shape.a), camera.pixel(*shape.b), self.size)
             if seen is not None:
                 painter.line(seen, 2 * thick, COLOURS["surface"])
 
@@ -72,7 +72,7 @@ def view_of(run: Run, size: tuple[int, int], ghosts: Mapping[str, Run] | None = 
     return picture if isinstance(picture, View) else Picture(run, run.scene.parameters, size, ghosts)
 
 
-def _clipped(
+def clipped(
     a: tuple[float, float], b: tuple[float, float], size: tuple[int, int], edge: float = 50.0
 ) -> list[tuple[float, float]] | None:
     """The part of a line that is on a picture of ``size`` px, or no more than ``edge`` px outside; None if none is."""

@@ -30,7 +30,7 @@ def save(shot: Shot, path: Path) -> None:
         "parameters": shot.scene.parameters.model_dump(mode="json"),
         "run": _through_json(data_of(shot.run)),
     }
-    record = {"format": FORMAT, "version": VERSION, "check": _sum(body), "body": body}
+    record = {"format": FORMAT, "version": VERSION, "check": checksum(body), "body": body}
     try:
         with written_whole(path) as file:
             json.dump(record, file)
@@ -43,7 +43,7 @@ def _through_json(values: dict[str, Any]) -> Any:
     return json.loads(json.dumps(values, default=str))
 
 
-def _sum(body: dict[str, Any]) -> str:
+def checksum(body: dict[str, Any]) -> str:
     text = json.dumps(body, sort_keys=True, separators=(",", ":"))
     return hashlib.sha256(text.encode()).hexdigest()
 
@@ -65,7 +65,7 @@ def read(path: Path, scene: str | None = None, running: Path | None = None) -> t
     if record.get("version") != VERSION:
         raise RequestError(f"{path}: a replay of version {record.get('version')}, but this program reads {VERSION}")
     body = record.get("body")
-    if not isinstance(body, dict) or _sum(body) != record.get("check"):
+    if not isinstance(body, dict) or checksum(body) != record.get("check"):
         raise RequestError(f"{path}: damaged: its contents do not match its checksum")
     if not all(isinstance(body.get(part), dict) for part in ("changes", "parameters", "run")):
         raise RequestError(f"{path}: damaged: a part of it is missing")

@@ -9,7 +9,7 @@ import sandbox
 from sandbox import parameters as declared
 from sandbox.engine.stacking import FEWEST, agree
 from sandbox.lab.axes import Varied
-from sandbox.lab.runs import _builder, _stack, runs
+from sandbox.lab.runs import builder, built_at_once, runs
 from sandbox.scene import listings, load
 
 SCENES = [listing.name for listing in listings() if "/" not in listing.name]
@@ -18,7 +18,7 @@ SCENES = [listing.name for listing in listings() if "/" not in listing.name]
 @pytest.mark.parametrize("name", SCENES)
 def test_what_is_built_at_once_is_what_is_built_for_each(name: str):
     scene = load(name, {"zero.distance": 0.0} if name == "bullet" else {})  # a zero is found by runs, one for each
-    build = _builder(scene, ())
+    build = builder(scene, ())
     at_once = set()
     for parameter in declared.walk(scene.parameters):
         if not isinstance(parameter.value, float) or parameter.low is None or parameter.high is None:
@@ -27,7 +27,7 @@ def test_what_is_built_at_once_is_what_is_built_for_each(name: str):
         varied, points = Varied(scene, [parameter.key]), [(value,) for value in values.tolist()]
         each = [varied.parameters(point) for point in points]
         ((_, many),) = varied.together(points)
-        stack = _stack(build, many, each)
+        stack = built_at_once(build, many, each)
         if stack is not None:
             at_once.add(parameter.key)
             assert all(agree(one, build(alone)) for one, alone in zip(stack, each, strict=True)), parameter.key
@@ -41,11 +41,11 @@ def test_a_build_that_is_another_between_the_points_compared_is_not_trusted():
     varied = Varied(scene, ["launch.angle"])
     each = [varied.parameters(point) for point in points]
     ((_, many),) = varied.together(points)
-    build = _builder(scene, ())
-    assert _stack(build, many, each) is not None
-    assert _stack(build, many, each[::-1]) is None  # what is built alone differs
+    build = builder(scene, ())
+    assert built_at_once(build, many, each) is not None
+    assert built_at_once(build, many, each[::-1]) is None  # what is built alone differs
     only_floats = lambda given: build(given if isinstance(given.launch.angle, float) else each[0])  # noqa: E731
-    assert _stack(only_floats, many, each) is None
+    assert built_at_once(only_floats, many, each) is None
 
 
 def test_the_accuracy_may_differ_from_shot_to_shot():

@@ -7,12 +7,12 @@ import re
 from dataclasses import replace
 from math import nan
 
-import numpy as np
 import pytest
 
 from sandbox.cli import main
 from sandbox.engine import simulate
 from sandbox.engine.accuracy import LEVELS, resolve
+from sandbox.engine.run import Run
 from sandbox.engine.setup import Ball, Circle, Segment, Setup, Surface
 from sandbox.lab import stress as lab
 from sandbox.lab.extremes import Extreme, bare, of_scene
@@ -109,31 +109,44 @@ def test_an_exception_of_another_kind_is_a_failure():
     assert outcome.message == "ZeroDivisionError: somebody's bug"
 
 
-def test_a_path_through_a_wall_is_seen():
-    wall = Surface("wall", Segment((0.0, -1.0), (0.0, 1.0)), 1.0, 0.0)
-    assert lab._crosses(np.array([[-1.0, 0.0], [1.0, 0.5]]), wall)
-    assert not lab._crosses(np.array([[-1.0, 0.0], [-0.1, 0.5], [-1.0, 1.0]]), wall)
-    assert not lab._crosses(np.array([[-1.0, 3.0], [1.0, 3.0]]), wall)  # over it
+def examined(monkeypatch: pytest.MonkeyPatch, run: Run) -> Outcome:
+    """What is said of a run that the engine would not give."""
+    monkeypatch.setattr(lab, "simulate", lambda setup, accuracy: run)
+    return one(Extreme("forged", lambda: run.setup), LEVEL_METHOD)
 
 
-def test_overlaps_are_measured():
-    post = Surface("post", Circle((0.0, 0.0), 0.1), 1.0, 0.0)
-    assert lab._clearance(np.array([[0.0, 0.3], [0.05, 0.0]]), post) == pytest.approx([0.2, -0.05])
-    wall = Surface("wall", Segment((0.0, -1.0), (0.0, 1.0), 0.05), 1.0, 0.0)
-    assert lab._clearance(np.array([[0.2, 0.0], [0.0, 1.5]]), wall) == pytest.approx([0.15, 0.45])
+@pytest.mark.parametrize(
+    ("start", "velocity", "shape", "overlap", "through"),
+    [
+        ((-1.0, 0.0), (2.0, 0.5), Segment((0.0, -1.0), (0.0, 1.0)), 0.1, True),
+        ((-1.0, 0.0), (0.8, 0.5), Segment((0.0, -1.0), (0.0, 1.0)), 0.0, False),
+        ((-1.0, 3.0), (2.0, 0.0), Segment((0.0, -1.0), (0.0, 1.0)), 0.0, False),
+        ((0.12, 0.0), (0.0, 0.1), Segment((0.0, -1.0), (0.0, 1.0), 0.05), 0.03, False),
+        ((0.0, 1.13), (0.0, 0.1), Segment((0.0, -1.0), (0.0, 1.0), 0.05), 0.02, False),
+        ((0.15, 0.0), (0.1, 0.0), Circle((0.0, 0.0), 0.1), 0.05, False),
+    ],
+)
+def test_a_path_through_a_wall_and_an_overlap_are_seen(monkeypatch, start, velocity, shape, overlap, through):
+    """The path of a ball of 0.1 m for a second, as it is without the surface."""
+    run = simulate(Setup([Ball("ball", 1.0, 0.1, start, velocity)], duration=1.0), resolve())
+    run.setup = replace(run.setup, surfaces=[Surface("wall", shape, 1.0, 0.0)])
+    outcome = examined(monkeypatch, run)
+    assert outcome.penetration_m == pytest.approx(overlap, abs=5e-3)
+    assert outcome.left is through
+    assert ("passed through wall" in outcome.message) is through
+    assert outcome.outcome == (FAILED if overlap else HELD)
 
 
-def test_a_state_that_is_no_number_is_seen():
+def test_a_state_that_is_no_number_is_seen(monkeypatch: pytest.MonkeyPatch):
     run = simulate(dropped(), resolve())
-    arc = run.arcs["ball"][-1]
-    arc.end = (nan, 0.0, 0.0, 0.0, 0.0)
-    assert not lab._is_finite(run)
+    run.arcs["ball"][-1].end = (nan, 0.0, 0.0, 0.0, 0.0)
+    assert "NaN" in examined(monkeypatch, run).message
 
 
-def test_two_balls_in_each_other_are_seen():
+def test_two_balls_in_each_other_are_seen(monkeypatch: pytest.MonkeyPatch):
     balls = [Ball("one", 1.0, 0.1, (0.0, 0.0)), Ball("other", 1.0, 0.1, (0.15, 0.0))]
     run = simulate(Setup(balls, duration=0.01), resolve(method="plain", step=1e-3))
-    assert lab._overlap(run)[0] > 0.01
+    assert examined(monkeypatch, run).penetration_m > 0.01
 
 
 def test_a_run_that_ends_with_all_balls_potted_is_looked_at_too():

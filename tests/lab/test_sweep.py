@@ -418,8 +418,8 @@ def test_all_that_rows_depend_on_makes_another_sweep(tmp_path, monkeypatch):
     (folder / "itself").symlink_to(folder)
     package = tmp_path / "package"
     shutil.copytree(resources.PACKAGE / "physics", package / "physics")
-    its_place = frozenset({*provenances._libraries(), resources.PACKAGE})  # the program that runs has not moved
-    monkeypatch.setattr(provenances, "_libraries", lambda: its_place)
+    its_place = frozenset({*provenances.libraries(), resources.PACKAGE})  # the program that runs has not moved
+    monkeypatch.setattr(provenances, "libraries", lambda: its_place)
     monkeypatch.setattr(resources, "PACKAGE", package)
 
     def found() -> str:
@@ -550,7 +550,7 @@ def one_at_a_time(monkeypatch):
 
 def test_what_is_done_is_handed_in_by_time(tmp_path, monkeypatch, one_at_a_time):
     """However long a point takes after quick ones: an interrupt loses what the last moments computed, no more."""
-    monkeypatch.setattr("sandbox.lab.sweep._CALL", 0.05)
+    monkeypatch.setattr("sandbox.lab.sweep.CALL", 0.05)
     slow = "    if parameters.launch.height > 1.0:\n        import time\n        time.sleep(0.03)\n"
     plan = grid(load(own_scene(tmp_path, slow)), "launch.height=0.5:1.2:60")
     with workers(1) as pool:

@@ -39,8 +39,8 @@ def fewer_settings() -> Iterator[None]:
         patch.setattr(lab, "RATES", (2, 60, 240))
         patch.setattr(lab, "TOLERANCES", (1e-1, 1e-3, 1e-6))
         patch.setattr(timing, "REPEATS", 2)
-        patch.setattr(verdicts, "_PATIENCE", 0.01)
-        patch.setattr(verdicts, "_TOO_LONG", 1e9)  # this machine may be busy
+        patch.setattr(verdicts, "PATIENCE", 0.01)
+        patch.setattr(verdicts, "TOO_LONG", 1e9)  # this machine may be busy
         yield
 
 
@@ -149,13 +149,14 @@ def test_the_levels_are_on_or_near_the_front(scene: str, monkeypatch: pytest.Mon
     """By force evaluations, which repeat: no method and setting as accurate needs less than half of them."""
     monkeypatch.setattr(lab, "RATES", (2, 5, 10, 20, 60))
     monkeypatch.setattr(lab, "TOLERANCES", (1.0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6))
-    monkeypatch.setattr(lab, "_PATIENCE", 0.0)
-    found = list(lab._measured(converge(load(scene)), lambda done, total: None))
-    points = [point for point in found if point.method not in ("level", "plain")]
-    levels = {point.setting: point for point in found if point.method == "level"}
-    assert set(levels) == set(LEVELS)
-    for level in levels.values():
-        as_good = [point.force_evaluations for point in points if point.error_m <= level.error_m]
+    monkeypatch.setattr(lab, "repeat", lambda *arguments: None)
+    monkeypatch.setattr(lab, "ablation", lambda reference: [])
+    monkeypatch.setattr(lab, "shot_map", lambda scene: None)
+    found = lab.trade(load(scene))
+    assert set(found.levels) == set(LEVELS)
+    for level in found.levels.values():
+        exact = [point for point in found.points if point.method != "plain"]
+        as_good = [point.force_evaluations for point in exact if point.error_m <= level.error_m]
         assert level.force_evaluations <= 2 * min(as_good), level
         assert level.error_m <= level.accuracy.tolerance
 

@@ -105,11 +105,11 @@ def test_a_caught_ball_leaves_the_table_and_lies_in_the_row():
 def test_a_ball_turns_by_its_way_over_its_radius():
     """Rolling without english, its own axes turn about the axis across its way, by way / radius."""
     picture = picture_of("bank")
-    run, turning = picture.run, picture._turnings["cue"]
+    run = picture.run
     t0, t1 = 4.0, 4.03  # s, rolling by now
     (x0, y0, *_, spin), (x1, y1, *_) = run.state("cue", t0), run.state("cue", t1)
     assert abs(spin) < 1e-9
-    turn = turning.at(t1) @ turning.at(t0).T
+    turn = picture.turn("cue", t1) @ picture.turn("cue", t0).T
     angle = np.arccos((np.trace(turn) - 1) / 2)
     way = hypot(x1 - x0, y1 - y0) / picture.radius
     assert 0.1 < way < pi
@@ -121,10 +121,10 @@ def test_a_ball_turns_by_its_way_over_its_radius():
 def test_the_marks_move_with_the_ball():
     """A ball's top goes the way the ball goes."""
     picture = picture_of("bank")
-    run, turning = picture.run, picture._turnings["cue"]
+    run = picture.run
     t = run.duration - 1.0
     x, y, vx, vy, _ = run.state("cue", t)
-    before, after = turning.at(t), turning.at(t + 0.001)
+    before, after = (picture.turn("cue", at) for at in (t, t + 0.001))
     top = before.T @ (0, 0, 1)  # in the ball's own axes
     assert (after @ top)[:2] == pytest.approx(np.array([vx, vy]) * 0.001 / picture.radius, rel=1e-2)
 

@@ -127,7 +127,7 @@ def test_a_chart_says_what_was_put_in_and_its_shares_are_of_one_whole(sheets):
 
 def test_a_cause_has_its_words_and_its_own_colour_in_every_chart():
     bands = {
-        name: {band[0]: band[2] for band in energy._bands(course(run_of(name)))}
+        name: {band[0]: band[2] for band in energy.bands_of(course(run_of(name)))}
         for name in ("golf/pond", "golf/splash")
     }
     assert bands["golf/pond"]["spin decay"] == bands["golf/splash"]["spin decay"]

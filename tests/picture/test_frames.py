@@ -261,7 +261,7 @@ class TestMemory:
                 drawn.append(number)
                 yield Image.new("RGB", (96, 54))
 
-        for done, _ in enumerate(frames._in_threads(lambda image: image, images(), 30, None), 1):
+        for done, _ in enumerate(frames.in_threads(lambda image: image, images(), 30, None), 1):
             assert len(drawn) - done <= 3
 
     def test_a_palette_takes_no_more_memory_for_more_frames(self):
@@ -271,7 +271,7 @@ class TestMemory:
 
         tracemalloc.start()
         try:
-            frames._shared_palette(Large(), [t / 10 for t in range(200)])
+            frames.shared_palette(Large(), [t / 10 for t in range(200)])
             assert tracemalloc.get_traced_memory()[1] < 20e6  # bytes; the pixels of 16 such frames alone are 25e6
         finally:
             tracemalloc.stop()

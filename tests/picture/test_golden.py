@@ -11,7 +11,7 @@ import pytest
 from PIL import Image
 
 import sandbox
-from sandbox.golden import LOWEST, NEIGHBOURHOOD, ROUNDING_LEVELS, _coarser, compare
+from sandbox.golden import LOWEST, NEIGHBOURHOOD, ROUNDING_LEVELS, coarser, compare
 from sandbox.picture.frames import to_image
 from sandbox.picture.painter import Painter, blank
 from sandbox.record import (
@@ -70,7 +70,7 @@ def test_rounding_of_every_pixel_passes():
 
 def test_what_a_golden_picture_keeps_of_the_colours_is_no_change():
     noise = np.random.default_rng(2).integers(0, 256, (90, 160, 3), np.uint8)
-    other = _coarser(Image.fromarray(noise))
+    other = coarser(Image.fromarray(noise))
     difference = compare(Image.fromarray(noise), other)
     assert (difference.largest, difference.share) == (2, 0.0)
 
@@ -81,17 +81,17 @@ def test_a_sky_or_a_line_of_another_colour_fails(level: int, shift: int):
     """By so few levels, wherever in a golden level's range the colour lies; and in one channel alone."""
     before = Image.new("RGB", (160, 90), (level, 90, 200))
     sky = Image.new("RGB", (160, 90), (level + shift, 90, 200))
-    assert compare(_coarser(before), sky).matters
+    assert compare(coarser(before), sky).matters
     trace = before.copy()
     trace.paste((level + shift, 90, 200), (20, 45, 140, 46))
-    assert compare(_coarser(before), trace).matters
+    assert compare(coarser(before), trace).matters
 
 
 def test_a_shade_that_is_off_by_four_levels_fails():
     shade = np.broadcast_to(np.linspace(90, 160, 90).round()[:, None, None], (90, 160, 3)).astype(np.uint8)
     for shift in (-4, 4):
         other = (shade.astype(int) + shift).astype(np.uint8)
-        assert compare(_coarser(Image.fromarray(shade)), Image.fromarray(other)).matters
+        assert compare(coarser(Image.fromarray(shade)), Image.fromarray(other)).matters
 
 
 @pytest.mark.parametrize("rounding", [-ROUNDING_LEVELS, -1, 1, ROUNDING_LEVELS])
@@ -99,7 +99,7 @@ def test_rounding_the_other_way_everywhere_passes(rounding: int):
     every = np.arange(2, 254, dtype=np.uint8).reshape(-1, 6)
     image = Image.fromarray(np.repeat(every[:, :, None], 3, axis=2))
     other = Image.fromarray((np.asarray(image).astype(int) + rounding).astype(np.uint8))
-    difference = compare(_coarser(image), other)
+    difference = compare(coarser(image), other)
     assert (difference.share, difference.matters) == (0.0, False)
 
 

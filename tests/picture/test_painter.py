@@ -4,7 +4,7 @@ import numpy as np
 import pygame
 import pytest
 
-from sandbox.picture.painter import Painter, _sprites, blank, from_colours
+from sandbox.picture.painter import Painter, blank, from_colours
 from sandbox.picture.palette import mix, palette
 
 WHITE = (255, 255, 255)
@@ -110,7 +110,9 @@ def test_shapes_that_differ_by_rounding_alone_look_the_same():
     """Either may be kept for the other; an edge just below a whole px used to be drawn one subpixel short."""
     square = np.array([(20.0, 20.0), (60.0, 20.0), (60.0, 40.0), (20.0, 40.0)])
     looks = []
-    for points in (square, square - 1e-9):
-        _sprites.clear()
-        looks.append(drawn(lambda p, points=points: p.polygon(points + 0.5, WHITE)))
+    for points, white in (
+        (square, WHITE),
+        (square - 1e-9, (255, 255, 254)),
+    ):  # another colour, so that it is drawn anew
+        looks.append(drawn(lambda p, points=points, white=white: p.polygon(points + 0.5, white)))
     assert np.array_equal(*looks)

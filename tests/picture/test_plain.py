@@ -85,5 +85,5 @@ def test_surfaces_are_where_they_are(bare):
     ],
 )
 def test_a_line_is_drawn_as_far_as_it_is_seen(a, b, seen):
-    clipped = plain._clipped(a, b, SIZE)
-    assert clipped is None if seen is None else np.allclose(clipped, seen)
+    found = plain.clipped(a, b, SIZE)
+    assert found is None if seen is None else np.allclose(found, seen)

@@ -74,7 +74,7 @@ class TestReplays:
             file.write("\nfrom pathlib import Path\nPath(__file__).with_name('ran').touch()\n")
         record = json.loads(path.read_text("utf-8"))
         record["body"]["scene"] = str(folder)
-        record["check"] = replay._sum(record["body"])
+        record["check"] = replay.checksum(record["body"])
         path.write_text(json.dumps(record), "utf-8")
         return path, folder
 

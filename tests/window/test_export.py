@@ -86,7 +86,7 @@ class TestReplays:
         path = recorded[1]
         record = json.loads(path.read_text("utf-8"))
         forge(record["body"])
-        record["check"] = replay._sum(record["body"])
+        record["check"] = replay.checksum(record["body"])
         path.write_text(json.dumps(record), encoding="utf-8")
         with pytest.raises(RequestError, match="damaged"):
             replay.read(path)

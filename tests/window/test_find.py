@@ -38,7 +38,7 @@ def test_what_is_looked_for_is_a_result_and_may_be_varied(source):
 
 def test_shots_into_the_ring_get_there_and_the_most_forgiving_is_first(monkeypatch):
     monkeypatch.setattr("sandbox.window.find.REFINED", 1)
-    monkeypatch.setattr(sys.modules["sandbox.lab.aim.regions"], "_SCAN_EACH", 21)
+    monkeypatch.setattr(sys.modules["sandbox.lab.aim.regions"], "SCAN_EACH", 21)
     session = Session("basketball")
     (question,) = questions(session, upright=True)
     found = find(session.scene, question.goals)
@@ -52,7 +52,7 @@ def test_shots_into_the_ring_get_there_and_the_most_forgiving_is_first(monkeypat
 class TestInBilliards:
     @pytest.fixture
     def asking(self, player, monkeypatch):
-        monkeypatch.setattr(sys.modules["sandbox.lab.aim.shots"], "_SCAN", 17)
+        monkeypatch.setattr(sys.modules["sandbox.lab.aim.shots"], "SCAN", 17)
         monkeypatch.setattr("sandbox.window.score_map.COARSE", (3, 3))
         player = player("billiards/cut", (900, 560))
         player.game.helper = Here()

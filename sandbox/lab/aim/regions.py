@@ -10,7 +10,7 @@ from sandbox.lab.aim.question import Region, Solution
 from sandbox.lab.aim.shots import Shots
 
 #: Points of the scan along each parameter: regions narrower than this fraction of the range may be missed.
-_SCAN_EACH = 61
+SCAN_EACH = 61
 
 #: Directions in which the border is searched for around the most forgiving point, and the steps of that search, each
 #: of which makes it four times as accurate.
@@ -25,9 +25,9 @@ def regions(shots: Shots) -> list[Solution]:
     """
     from scipy.ndimage import distance_transform_edt, label
 
-    shots.planned = _SCAN_EACH**2
-    axes = [np.linspace(span.low, span.high, _SCAN_EACH).tolist() for span in shots.spans]
-    met = np.array(shots.meets(list(product(*axes)), "scan")).reshape(_SCAN_EACH, _SCAN_EACH)
+    shots.planned = SCAN_EACH**2
+    axes = [np.linspace(span.low, span.high, SCAN_EACH).tolist() for span in shots.spans]
+    met = np.array(shots.meets(list(product(*axes)), "scan")).reshape(SCAN_EACH, SCAN_EACH)
     room = distance_transform_edt(np.pad(met, 1))[1:-1, 1:-1]
     kinds, count = label(met)
     found = []
@@ -60,5 +60,5 @@ def _solution(shots: Shots, point: tuple[float, ...], share: float) -> Solution:
         low, high = low + inside * step, np.minimum(low + (inside + 1) * step, high)
     values = dict(zip([span.key for span in spans], point, strict=True))
     room = dict(zip(values, (float(low.min()) * whole).tolist(), strict=True))
-    spacing = dict(zip(values, (0.5 * whole / (_SCAN_EACH - 1)).tolist(), strict=True))
+    spacing = dict(zip(values, (0.5 * whole / (SCAN_EACH - 1)).tolist(), strict=True))
     return Solution(values, spacing, result, errors, region=Region(share, room))

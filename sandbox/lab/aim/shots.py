@@ -19,7 +19,7 @@ from sandbox.scene import Scene, compare
 from sandbox.tracebacks import one_line_error
 
 #: Points of the scan of one parameter.
-_SCAN = 129
+SCAN = 129
 
 #: Refinements of an interval with a jump, the parts of each, and the most runs for all of them.
 _REFINEMENTS, _PARTS, _MOST_RUNS = 3, 4, 2000
@@ -65,7 +65,7 @@ class Shots:
         return [self._known[point] for point in points]
 
     #: Expected number of runs, for the progress bar.
-    planned = _SCAN
+    planned = SCAN
 
     def numbers(self, point: tuple[float, ...], phase: str, finer: bool = False) -> np.ndarray:
         """The miss of each target at one point; NaN if there is no such result."""
@@ -175,7 +175,7 @@ def _signature(result: Mapping[str, Any] | None) -> Any:
 def scan(shots: Shots) -> list[tuple[float, dict[str, Any] | None]]:
     """Results over the range, with more points where something changes abruptly."""
     span, target = shots.spans[0], shots.targets[0]
-    places = np.linspace(span.low, span.high, _SCAN).tolist()
+    places = np.linspace(span.low, span.high, SCAN).tolist()
     for _ in range(_REFINEMENTS + 1):
         results = shots.results([(place,) for place in places])
         seen = list(zip(places, results, strict=True))
