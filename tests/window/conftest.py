@@ -10,10 +10,13 @@ os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
 os.environ.setdefault("SDL_AUDIODRIVER", "dummy")
 
 import pygame
+import pygame_gui
 import pytest
 
+from sandbox.picture.lettering import Lettering
 from sandbox.scene import simulate
 from sandbox.window.app import App
+from sandbox.window.canvas import Canvas
 from sandbox.window.game import Game
 from sandbox.window.session import Session
 from sandbox.window.shot import Shot
@@ -88,6 +91,15 @@ class Player:
         if let_go:
             self.release((x + by[0], y + by[1]))
 
+    def turn_to(self, group: str) -> None:
+        """Choose a group of the panel's parameters."""
+        self.send(pygame_gui.UI_DROP_DOWN_MENU_CHANGED, ui_element=self.view.panel.chooser, text=group)
+
+    @property
+    def sheet(self) -> Canvas:
+        """What the picture is drawn on."""
+        return Canvas(self.view.canvas.subsurface(self.view.area))
+
     def button(self, command: str) -> None:
         self.click(self.view.bar.buttons[command].center)
 
@@ -103,6 +115,20 @@ def worker():
     one = Processes(1)
     yield one
     one.close(abandon=True)
+
+
+@pytest.fixture
+def written(monkeypatch: pytest.MonkeyPatch) -> list[tuple[str, pygame.Rect]]:
+    """Every text from here on, with where it is written."""
+    texts: list[tuple[str, pygame.Rect]] = []
+    write = Lettering.write
+
+    def noted(self: Lettering, surface: pygame.Surface, text: str, *arguments: Any, **named: Any) -> pygame.Rect:
+        texts.append((text, write(self, surface, text, *arguments, **named)))
+        return texts[-1][1]
+
+    monkeypatch.setattr(Lettering, "write", noted)
+    return texts
 
 
 @pytest.fixture

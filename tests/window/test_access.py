@@ -75,13 +75,13 @@ def test_letters_and_contrast_are_changed_by_key_and_remembered(player, tmp_path
     player = player("golf/putt", (1000, 600))
     player.game.memory = Memory(tmp_path / "window.json")
     player.key(pygame.K_TAB)
-    before = player.view._sheet().lettering.pixels["small"]
+    before = player.sheet.lettering.pixels["small"]
     size = next(row for row in player.view.panel.rows if isinstance(row, Number)).entry.font.get_point_size()
     for _ in range(2):
         player.press_named("alt +")
     player.press_named("alt c")
     player.settle()
-    assert player.view._sheet().lettering.pixels["small"] == pytest.approx(1.3 * before, abs=1)
+    assert player.sheet.lettering.pixels["small"] == pytest.approx(1.3 * before, abs=1)
     assert CARD["background"] == (0, 0, 0)
     entry = next(row for row in player.view.panel.rows if isinstance(row, Number)).entry
     assert entry.font.get_point_size() > size

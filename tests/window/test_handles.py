@@ -83,7 +83,7 @@ def test_the_wind_is_an_arrow(player):
     player = player("golf")
     drag(player, WIND.x, (-40, -8))
     along, up = player.game.session.value("air.wind")
-    scale = 4.0 * player.view._sheet().unit
+    scale = 4.0 * player.sheet.unit
     assert (along, up) == pytest.approx((-40 / scale, 8 / scale), abs=0.3)
     assert player.game.shot.scene is player.game.session.scene
 

@@ -76,7 +76,7 @@ def test_a_shot_is_pinned_deleted_and_gone_back_to(table):
     assert game.session.value("launch.speed") == SPEEDS[-1]
 
 
-def test_a_pinned_path_stays_and_one_that_was_dropped_is_computed_again(table):
+def test_a_pinned_path_stays_and_one_that_was_dropped_is_computed_again(table, monkeypatch):
     game, view = table.game, table.view
     table.key(pygame.K_q)
     first, second = game.table.rows[:2]
@@ -89,7 +89,10 @@ def test_a_pinned_path_stays_and_one_that_was_dropped_is_computed_again(table):
     game.pin(first)
     table.settle()
     assert first.shot.run.result == first.result
-    assert [shot.number for shot in view._ghosts(game.shot)][:2] == [1, 2]
+    drawn = []
+    monkeypatch.setattr(view.stage, "draw_ghosts", lambda sheet, ghosts, around: drawn.append(ghosts))
+    view.draw()
+    assert [shot.number for shot in drawn[-1]][:2] == [1, 2]
     game.pin(first)
     assert first.shot is None
 

@@ -4,12 +4,10 @@ from __future__ import annotations
 
 from concurrent.futures import Future
 from itertools import combinations
-from typing import Any
 
 import pygame
 import pytest
 
-from sandbox.picture.lettering import Lettering
 from sandbox.picture.sheet import rows_of
 from sandbox.scene import listings
 from sandbox.window import commands
@@ -27,20 +25,6 @@ SIZES = [
 TITLES = ("golf", "billiards/three-rail-carom *", "soccer-curl/roberto-carlos-1997 *")
 PUTT = "golf/putt"
 WORDS = ("see", "keep", "more", "panel", "help")
-
-
-@pytest.fixture
-def written(monkeypatch) -> list[tuple[str, pygame.Rect]]:
-    """Every text from here on, with where it is written."""
-    texts: list[tuple[str, pygame.Rect]] = []
-    write = Lettering.write
-
-    def noted(self: Lettering, surface: pygame.Surface, text: str, *arguments: Any, **named: Any) -> pygame.Rect:
-        texts.append((text, write(self, surface, text, *arguments, **named)))
-        return texts[-1][1]
-
-    monkeypatch.setattr(Lettering, "write", noted)
-    return texts
 
 
 def bar_of(size: tuple[int, int], title: str, duration: float, t: float | None = None) -> Bar:
@@ -116,7 +100,7 @@ def test_every_scene_and_every_key_can_be_seen(player, size, written, name):
         for group in over.groups:
             over.turn_to(group)
             for _ in range(0, len(over.rows), over.seen):
-                over.draw(player.view._sheet(), (0, 0), ())
+                over.draw(player.sheet, (0, 0), ())
                 said |= {row.action for _, row in over.places}
                 assert all(area.contains(place) for place, _ in [*over.columns, *over.places])
                 over.scroll(over.seen)
@@ -132,7 +116,7 @@ def test_every_scene_and_every_key_can_be_seen(player, size, written, name):
 def test_the_letters_of_the_panel_fill_its_boxes(player, size):
     player = player("golf", size)
     player.key(pygame.K_TAB)
-    player.view.panel._turn_to("accuracy")
+    player.turn_to("accuracy")
     player.frames(2)
     panel = player.view.panel
     choice = next(row.choice for row in panel.rows if isinstance(row, Word))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from concurrent.futures import Future
+from pathlib import Path
 
 os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
 
@@ -17,6 +18,7 @@ from sandbox.window.app import App
 from sandbox.window.game import Game
 from sandbox.window.pointer import NOTCH
 from sandbox.window.session import Session
+from sandbox.window.stage import Stage
 from sandbox.window.view import View
 
 from .test_game import Here
@@ -42,7 +44,7 @@ ACTIONS = {
     "N": lambda view: commands.do(view, "next_shot"),
     "V": lambda view: commands.do(view, "view"),
     "next preset": lambda view: commands.do(view, "next_preset"),
-    "saved": lambda view: view.game._reload([view.game.session.file]),
+    "saved": lambda view: setattr(view.game, "watch_files", Saved([view.game.session.file])),
     "zoomed": lambda view: commands.do(view, "zoom"),
     "fit": lambda view: commands.do(view, "fit"),
     "pull": lambda view: view.pull_for_test(),
@@ -54,6 +56,15 @@ PLACES = {
     "golf": ({"pin.distance": 60.0}, {"pin.distance": 200.0, "air.wind": [-4.0, 0.0]}),
     "billiards": ({"rack": "eight-ball"}, {"cue.speed": 1.0, "ball.friction": 0.2}),
 }
+
+
+class Saved(list):
+    """Files that somebody has just saved."""
+
+    def saved(self, dt: float) -> list[Path]:
+        files = self[:]
+        self.clear()
+        return files
 
 
 class Watched(View):
@@ -69,16 +80,23 @@ class Watched(View):
             self.game.begin_drag(grip)
             self.game.drag_to((grip.place[0] + 0.1, grip.place[1] + 0.1), 0.01)
 
-    def _draw_shot(self, sheet, stage, shot):
-        if self.game.playback is not None:
-            assert stage.shot.scene.parameters == shot.scene.parameters
-        else:
-            assert stage.shot.place == shot.place == self.game.session.place
-        super()._draw_shot(sheet, stage, shot)
-
     def draw(self):
-        self._draw_picture()  # raises what the window would only report
-        super().draw()
+        draw_path = Stage.draw_path
+
+        def on_its_own(stage, sheet, shot, until):
+            if self.game.playback is not None:
+                assert stage.shot.scene.parameters == shot.scene.parameters
+            else:
+                assert stage.shot.place == shot.place == self.game.session.place
+            draw_path(stage, sheet, shot, until)
+
+        def raised(error):  # what the window would only report
+            raise error
+
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr(Stage, "draw_path", on_its_own)
+            patch.setattr(self.game, "reason", raised)
+            super().draw()
 
 
 @pytest.fixture(scope="module")

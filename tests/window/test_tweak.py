@@ -95,7 +95,7 @@ class TestThePanel:
     def test_a_word_that_brings_other_parameters_changes_the_rows_and_undo_changes_them_back(self, player):
         player = player("golf")
         player.key(pygame.K_TAB)
-        player.view.panel._turn_to("ball.drag")
+        player.turn_to("ball.drag")
         player.frames(2)
         before = [row.parameter.key for row in player.view.panel.rows]
         player.view.panel.set(row(player, "ball.drag.model"), "constant")
