@@ -170,8 +170,8 @@ class Heap:
         found = [
             (obstacle, met, point)
             for obstacle, met in surfaces_met(track.ball, track.obstacles, state, within)
-            for point, (approach, *_) in zip(met.points, met.speeds, strict=True)
-            if stays(track.ball, state, obstacle, met, approach, applied, self._settle)
+            for at, point in enumerate(met.points)
+            if stays(track.ball, state, obstacle, met, at, applied, self._settle)
         ]
         alone = len(found) == 1 and one_point(track.ball, state, *found[0], applied) is not None
         return bool(found) and not alone

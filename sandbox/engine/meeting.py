@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from functools import lru_cache, partial
-from math import hypot
+from math import atan2, hypot
 from typing import NamedTuple
 
 from sandbox.engine.accuracy import SKIN
@@ -21,6 +21,12 @@ Speeds = tuple[float, float, float]
 
 #: Share of the speeds of two bodies that is rounding in that at which they part.
 _ROUNDING = 1e-7
+
+#: Acceleration in m/s^2, or rad/s^2 times the radius, that is rounding.
+PUSH = 1e-9
+
+#: Share of the accelerations that is rounding in what presses a body on a side.
+_SHARE = 1e-9
 
 #: Largest turn in rad in a bounce that is none.
 _TURN = 0.1
@@ -96,15 +102,27 @@ def _later(lasts: float, state: State, applied: Acceleration) -> Pose:
 
 
 def stays(
-    body: Ball, state: State, obstacle: Obstacle, met: Meeting, approach: float, applied: Acceleration, height: float
+    body: Ball, state: State, obstacle: Obstacle, met: Meeting, at: int, applied: Acceleration, height: float
 ) -> bool:
-    """Whether a body that leaves a surface, at a point with this speed of approach (m/s), rises no higher than for a
-    bounce of ``height`` (m), or than the overlap by which a touch is found."""
+    """Whether a body that leaves a surface, at one of the points where they meet, rises no higher than for a bounce of
+    ``height`` (m), or than the overlap by which a touch is found."""
+    approach = met.speeds[at][0]
     height = max(height, obstacle.surface.lowest_bounce, SKIN)
     if -approach <= max(leaves_at(hypot(*applied[:2]), height), rounding(body, state)):
-        return True
+        return approach > STILL or not lifts(body, state, met.points[at], met.normal, applied)
     shapes = outline_of(body), standing(obstacle.surface.shape).shape
     return approach == met.closing and returns(shapes, (state,), (applied,), met, height)
+
+
+def lifts(body: Ball, state: State, point: Vector, normal: Vector, applied: Acceleration) -> bool:
+    """Whether a body that its contact at a point of a straight side did not hold would be accelerated away from it."""
+    (nx, ny), outline = normal, outline_of(body)
+    x, y, (ax, ay, turning) = point[0] - state[0], point[1] - state[1], applied
+    bend = outline.radius + outline.bend(atan2(-ny, -nx) - state[5])
+    spin2 = state[4] ** 2
+    away = ax * nx + ay * ny + (x * ny - y * nx) * turning - spin2 * (x * nx + y * ny + bend)
+    most = abs(ax) + abs(ay) + body.radius * (abs(turning) + spin2)
+    return bool(most > PUSH and away >= -_SHARE * most)
 
 
 def _meeting(shapes: tuple[Shape, Shape], states: Sequence[State], within: float) -> Meeting:

@@ -20,7 +20,7 @@ from math import atan2, cos, inf, remainder, sin
 from typing import NamedTuple
 
 from sandbox.engine.lasting import RESTING, ROLLING, SLIDING, LastingContact
-from sandbox.engine.meeting import Meeting
+from sandbox.engine.meeting import PUSH, Meeting, lifts
 from sandbox.engine.setup import Ball, Vector, outline_of
 from sandbox.engine.shapes import Polygon
 from sandbox.engine.surfaces import STILL
@@ -30,9 +30,6 @@ from sandbox.physics.integrators import Acceleration, State
 #: Share of the inertia against the normal force that friction may take away from a sliding body. Where it takes all of
 #: it (Painleve's paradox: a slim rod on a rough floor) no force keeps the body from entering.
 _JAMS = 0.9
-
-#: Acceleration in m/s^2, and rad/s^2 times the radius, below which a body at rest stays there.
-_PUSH = 1e-9
 
 #: A body that needs all the available grip still rolls.
 _WITHIN_ROUNDING = 1.0 + 1e-9
@@ -146,16 +143,15 @@ def one_point(
     touching = Touching(met.gap, nx, ny, 0.0, core, SIDE)
     rolling = OnePoint(ROLLING, obstacle, touching)
     (ax, ay, turning), normal, spare = rolling.forces(ball, applied, state)
-    arm = rolling.arm(ball, state)
-    if applied[0] * nx + applied[1] * ny + arm.along * applied[2] + state[4] ** 2 * (arm.height - arm.bend) >= -_PUSH:
+    if lifts(ball, state, point, met.normal, applied):
         return None
     slip, speed = rolling.slip(ball, state), abs(state[2] * ny - state[3] * nx) + ball.radius * abs(state[4])
     if abs(slip) > STILL * (1.0 + speed):
-        return _sliding(rolling, ball, arm, 1.0 if slip > 0.0 else -1.0)
+        return _sliding(rolling, ball, rolling.arm(ball, state), 1.0 if slip > 0.0 else -1.0)
     if slips or spare < 0.0 or obstacle.surface.friction == 0.0:
         rub = (ax - applied[0]) * ny - (ay - applied[1]) * nx  # against the way in which it starts to slip
-        return _sliding(rolling, ball, arm, -1.0 if rub > 0.0 else 1.0)
-    if speed <= STILL and abs(ax) + abs(ay) + ball.radius * abs(turning) <= _PUSH:
+        return _sliding(rolling, ball, rolling.arm(ball, state), -1.0 if rub > 0.0 else 1.0)
+    if speed <= STILL and abs(ax) + abs(ay) + ball.radius * abs(turning) <= PUSH:
         return OnePoint(RESTING, obstacle, touching)
     return rolling
 

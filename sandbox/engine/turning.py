@@ -42,8 +42,8 @@ class Turning(InPlane):
         found = [
             (obstacle, met, point)
             for obstacle, met in surfaces_met(self.ball, self.obstacles, self.state, TOUCHING_GAP)
-            for point, (approach, *_) in zip(met.points, met.speeds, strict=True)
-            if stays(self.ball, self.state, obstacle, met, approach, applied, height)
+            for at, point in enumerate(met.points)
+            if stays(self.ball, self.state, obstacle, met, at, applied, height)
         ]
         if len(found) == 1:
             self.contact = one_point(self.ball, self.state, *found[0], applied, slips)
