@@ -147,7 +147,7 @@ class InPlane(Track):
         _, normal, spare = held(arc.t1, last)
         if normal < 0.0:
             ends.append((crossing(arc, lambda t, state: held(t, state)[1]), "leave"))
-        elif spare < 0.0:
+        if spare < 0.0:
             ends.append((crossing(arc, lambda t, state: held(t, state)[2]), "slip"))
         edge = self._reaches_edge(arc, contact)
         if edge is not None:

@@ -14,6 +14,7 @@ import pytest
 from sandbox.engine import simulate
 from sandbox.engine.accuracy import LEVELS
 from sandbox.engine.arc import Arc, through
+from sandbox.engine.lasting import SLIDING
 from sandbox.engine.nearest import Pose, nearest
 from sandbox.engine.run import Run
 from sandbox.engine.setup import Always, Ball, Body, Bounce, Segment, Setup, Surface, kinetic
@@ -322,6 +323,32 @@ def test_an_ellipse_rolls_to_and_fro_with_the_period_of_its_energy():
         assert run.angle("body", (count - 0.5) * period) == pytest.approx(-widest, abs=2e-4)
     lost = kinetic(body, run.state("body", 2.25 * period)) - mass * G * float(height(widest) - height(0.0))
     assert lost == pytest.approx(0.0, abs=1e-3 * mass * G * float(height(widest) - height(0.0)))
+
+
+def test_an_ellipse_slips_and_leaves_where_its_energy_says():
+    """Down a slope from rest, rolling with h(a) and l = -h': w^2 from the energy, the forces N and F from w and its
+    rate. It slips where |F| = mu N, long before N = 0 with some friction, and just before it with very much."""
+    a, b, slope, start, mass = 0.143, 0.12, 0.3, 0.1, 2.0
+    turn = start - np.linspace(0.0, 12.0, 400_001)
+    c, s = np.cos(turn), np.sin(turn)
+    h = np.sqrt((a * s) ** 2 + (b * c) ** 2)
+    h1 = (a * a - b * b) * s * c / h
+    h2 = (a * a - b * b) * (c * c - s * s) / h - h1 * h1 / h
+    inertia = (a * a + b * b) / 4 + h * h + h1 * h1  # over the mass, about the point of contact
+    way = np.concatenate(((0.0,), np.cumsum(0.5 * (h[1:] + h[:-1]) * -np.diff(turn))))
+    spin2 = 2.0 * G * (way * math.sin(slope) - (h - h[0]) * math.cos(slope)) / inertia
+    rate = 0.5 * np.gradient(spin2, turn)
+    push, along = G * math.cos(slope) + h2 * spin2 + h1 * rate, -rate * h - spin2 * h1 - G * math.sin(slope)
+    surface = [(100.0 * way * math.cos(slope), -100.0 * way * math.sin(slope)) for way in (-1, 1)]
+    x, y = h[0] * math.sin(slope), h[0] * math.cos(slope)
+    for friction in (0.4, 3.0):
+        floor = [Surface("slope", Segment(*surface), 0.0, friction)]
+        run = run_of([thrown(Ellipse(a, b), position=(x, y), angle=start - slope, mass=mass)], 1.5, floor)
+        slips = next(arc.t0 for arc in run.arcs["body"] if getattr(arc.contact, "mode", None) == SLIDING)
+        expected = turn[np.argmax(np.abs(along) > friction * push)]
+        assert run.angle("body", slips) + slope == pytest.approx(expected, abs=1e-4)
+        assert run.state("body", slips)[4] ** 2 == pytest.approx(spin2[np.argmax(turn <= expected)], rel=1e-4)
+    assert next(event.t for event in run.events if event.kind == "leave") == pytest.approx(slips, abs=1e-3)
 
 
 def test_a_domino_tips_and_strikes_its_neighbour():
