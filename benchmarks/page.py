@@ -1,7 +1,7 @@
 """Runs the comparisons again and writes their output into docs/benchmarks.md: ``make bench``, or only some of them with
 ``python benchmarks/page.py NAME ...``.
 
-Names are engine, billiards, forces, frames, sweep, start and window. Blocks that are not run stay as they are, so run
+Names are engine, bodies, billiards, forces, frames, sweep, start and window. Blocks that are not run stay as they are, so run
 all on one idle machine before you commit the page. The JSON of each goes to out/benchmarks.
 """
 
@@ -27,6 +27,7 @@ PEER = ROOT / ".venv" / "pooltool" / "bin" / "python"
 #: The script of each block, with its arguments.
 SCRIPTS = {
     "engine": "benchmarks/engine.py",
+    "bodies": "benchmarks/bodies.py",
     "billiards": "benchmarks/billiards_pooltool.py --pooltool .venv/pooltool/bin/python --cold",
     "forces": "benchmarks/forces.py",
     "frames": "benchmarks/frames.py",

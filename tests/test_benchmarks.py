@@ -103,6 +103,14 @@ def test_forces(run: Run):
         assert errors[method] == pytest.approx(errors["plain"], rel=0.01), method
 
 
+def test_bodies(run: Run):
+    for told in run("bodies", "--quick").values():
+        assert told["impacts"] >= 8
+        check(told["rows"], "error_m", "time_s")
+        for row in told["rows"]:
+            assert row["error_m"] < 1e-3 if row["method"].startswith("exact") else row["error_m"] > 1e-2
+
+
 def test_sweep(run: Run):
     told = run("sweep", "--quick")
     check(told["map"]["rows"], "s_per_shot", "shots_per_s", "map_s", "over_limit")
