@@ -1,8 +1,8 @@
 """Runs the comparisons again and writes their output into docs/benchmarks.md: ``make bench``, or only some of them with
 ``python benchmarks/page.py NAME ...``.
 
-Names are engine, bodies, billiards, forces, frames, sweep, start and window. Blocks that are not run stay as they are, so run
-all on one idle machine before you commit the page. The JSON of each goes to out/benchmarks.
+Names are engine, bodies, billiards, forces, frames, sweep, start and window. Blocks that are not run stay as they are,
+so run all on one idle machine before you commit the page. The JSON of each goes to out/benchmarks.
 """
 
 from __future__ import annotations

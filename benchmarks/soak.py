@@ -372,7 +372,7 @@ def forged_replay(draw: random.Random) -> str:
         record = json.loads(content)
         for _ in range(draw.choice((1, 1, 2, 6))):
             forge(draw, record["body"])
-        record["check"] = replay._sum(record["body"])
+        record["check"] = replay.checksum(record["body"])
         content = bytearray(json.dumps(record).encode())
     with tempfile.TemporaryDirectory() as place:
         path = Path(place) / f"shot{replay.SUFFIX}"
