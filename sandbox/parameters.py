@@ -6,7 +6,7 @@ A scene declares its parameters as nested groups::
         speed: float = quantity(76.44, "m/s", low=0, high=340, meaning="ball speed after impact")
         angle: float = quantity(10.4, "deg", low=-90, high=180, meaning="above the horizontal")
 
-    class Parameters(Group):
+    class Parameters(SceneParameters):
         launch: Launch = group(Launch(), "how the ball starts")
 
 That declaration feeds the reading of scene files, ``--set``, the JSON schema, sliders and documentation. A default of
@@ -222,6 +222,12 @@ class Accuracy(Group):
     step: float | None = quantity(None, "s", 1e-6, 0.1, "fixed step, instead of one that follows the tolerance")
 
 
+class SceneParameters(Group):
+    """Base of the Parameters of a scene: what all scenes have."""
+
+    accuracy: Accuracy = group(Accuracy(), "speed against accuracy")
+
+
 # ---------------------------------------------------------------------------------------------------------------------
 # Looking at what was declared
 # ---------------------------------------------------------------------------------------------------------------------
@@ -247,8 +253,9 @@ class Parameter(NamedTuple):
 
 
 def walk(parameters: Group, prefix: str = "") -> Iterator[Parameter]:
-    """All parameters in order of declaration with their values; ``walk(Parameters())`` gives the defaults."""
-    for name, field in type(parameters).model_fields.items():
+    """All parameters in order of declaration with their values, accuracy last; ``walk(Parameters())`` gives the
+    defaults."""
+    for name, field in sorted(type(parameters).model_fields.items(), key=lambda item: item[0] == "accuracy"):
         value, key = getattr(parameters, name), prefix + name
         if isinstance(value, Group):
             yield from walk(value, f"{key}.")

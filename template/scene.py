@@ -10,15 +10,14 @@ from dataclasses import dataclass
 from typing import Any
 
 from sandbox.engine.run import Run
-from sandbox.engine.setup import Segment, Setup, Touches
-from sandbox.parameters import Accuracy, Group, group, quantity
-from sandbox.sport.air import Air
+from sandbox.engine.setup import Setup, Touches
+from sandbox.parameters import Group, group, quantity
 from sandbox.sport.amounts import roughly
 from sandbox.sport.controls import Controls, Handle, Spin
-from sandbox.sport.facts import ENDED, Fact, once
-from sandbox.sport.flight import FlyingBall, Launch, forces_in_flight, launched_ball
-from sandbox.sport.readings import LAUNCH, Moment, at, before
-from sandbox.sport.solids import Solid
+from sandbox.sport.facts import ENDED, Fact
+from sandbox.sport.flight import Flight, FlyingBall, Launch
+from sandbox.sport.readings import LAUNCH, apex, at, coming_to
+from sandbox.sport.solids import Solid, level
 
 
 # Parameters: quantity(default, unit, lowest, highest, meaning). A default of ... is in template.toml.
@@ -36,16 +35,13 @@ class FanParameters(Group):
     push: float = quantity(..., "N", 0, 100, "force on the ball over the middle")
 
 
-class Parameters(Group):
-    """All numbers of a toss."""
+class Parameters(Flight):
+    """All numbers of a toss; a Flight has launch, gravity, air and ball."""
 
     launch: Toss = group(..., "the ball as it leaves the hand")
-    gravity: float = quantity(..., "m/s^2", 0, 30, "gravity")
-    air: Air = group(..., "the air")
     ball: FlyingBall = group(..., "the ball")
     fan: FanParameters = group(..., "the fan")
     floor: Solid = group(..., "the floor")
-    accuracy: Accuracy = group(Accuracy(), "speed against accuracy")
 
 
 CONTROLS = Controls(strongest=20.0, spins=(Spin("launch.spin", 20.0),), handles=(Handle("fan.place"),))
@@ -65,24 +61,19 @@ class Fan:
 
 def build(parameters: Parameters) -> Setup:
     """What the engine simulates: balls with their forces, surfaces, and when the run is over."""
-    launch, ball, fan = parameters.launch, parameters.ball, parameters.fan
-    forces = [*forces_in_flight(ball, parameters.air, parameters.gravity), Fan(fan.place, fan.width, fan.push)]
-    tossed = launched_ball(launch, ball, (0.0, max(launch.height, ball.radius)), forces)
-    floor = parameters.floor.surface("floor", Segment((-1e4, 0.0), (1e4, 0.0)))
+    fan, start = parameters.fan, max(parameters.launch.height, parameters.ball.radius)
+    tossed = parameters.launched((0.0, start), Fan(fan.place, fan.width, fan.push))
+    floor = parameters.floor.surface("floor", level())
     return Setup([tossed], [floor], duration=20.0, until=Touches("floor", 4))
 
 
-@once  # several facts read it
-def landing(run: Run, parameters: Parameters) -> Moment | None:
-    """The ball as it first comes down on the floor."""
-    return next((before(run, event.t) for event in run.events if event.partner == "floor"), None)
-
+landing = coming_to("floor")  # the ball just before it first comes down
 
 #: Fact(key, label, unit, how): what a run says of itself, the most important first; None for what did not happen.
 FACTS = (
-    Fact("distance", "distance", "m", at(landing, lambda ball: ball.x), settled="floor"),
-    Fact("apex", "apex", "m", lambda run, parameters: run.highest("ball")[1][1]),
-    Fact("flight_time", "flight time", "s", at(landing, lambda ball: ball.t), settled="floor"),
+    Fact("distance", "distance", "m", at(landing, "x"), settled="floor"),
+    Fact("apex", "apex", "m", apex),
+    Fact("flight_time", "flight time", "s", at(landing, "t"), settled="floor"),
     *LAUNCH,
     ENDED,
 )

@@ -7,20 +7,21 @@ Leaves out: slopes; the cup's lip, which a fast ball would jump over.
 from __future__ import annotations
 
 from itertools import pairwise
-from math import cos, dist, radians, sin
+from math import dist
 
 from sandbox.engine.run import Run
 from sandbox.engine.setup import Ball, Catch, Segment, Setup, Surface
-from sandbox.parameters import Accuracy, Group, group, quantity
+from sandbox.parameters import Group, SceneParameters, group, quantity
 from sandbox.physics.cloth import Cloth
 from sandbox.sport.controls import Controls, Handle
 from sandbox.sport.facts import ENDED, Fact
+from sandbox.sport.flight import Directed
 
 MASS, RADIUS, FROM_END = 0.0459, 0.02135, 0.4  # of a golf ball, in kg and m; of tee and cup from the ends, in m
 
 
 # Parameters: quantity(default, unit, lowest, highest, meaning). A default of ... is in template_above.toml.
-class Launch(Group):
+class Launch(Directed):
     """The ball as it leaves the putter."""
 
     speed: float = quantity(..., "m/s", 0, 20, "ball speed")
@@ -37,12 +38,11 @@ class Lane(Group):
     felt: float = quantity(..., "", 0.001, 1, "deceleration of a rolling ball over gravity")
 
 
-class Parameters(Group):
+class Parameters(SceneParameters):
     """All parameters of a putt."""
 
     launch: Launch = group(..., "the ball as it leaves the putter")
     lane: Lane = group(..., "the lane")
-    accuracy: Accuracy = group(Accuracy(), "speed against accuracy")
 
 
 CONTROLS = Controls(handles=(Handle(y="lane.block", at=lambda p: (0.0, 0.5 * p.lane.block)),), scores="holed")
@@ -50,9 +50,8 @@ CONTROLS = Controls(handles=(Handle(y="lane.block", at=lambda p: (0.0, 0.5 * p.l
 
 def build(parameters: Parameters) -> Setup:
     """What the engine simulates: the ball, what it meets, what it rolls on, and what takes it."""
-    launch, lane, angle = parameters.launch, parameters.lane, radians(parameters.launch.angle)
+    launch, lane, (vx, vy) = parameters.launch, parameters.lane, parameters.launch.velocity
     x, y = 0.5 * lane.length, 0.5 * lane.width
-    vx, vy = launch.speed * cos(angle), launch.speed * sin(angle)
     roll = (-launch.roll * vy / RADIUS, launch.roll * vx / RADIUS)  # rad/s, about x and about y
     corners = [(-x, -y), (x, -y), (x, y), (-x, y), (-x, -y)]
     shapes = [("board", Segment(a, b)) for a, b in pairwise(corners)]

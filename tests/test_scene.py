@@ -403,9 +403,17 @@ def test_a_file_for_another_scene_is_refused(drop: Path):
     ("old", "new", "expected"),
     [
         ("def build", "def construct", "a scene needs Parameters, build; build is missing"),
-        ("class Parameters(Group)", "class Numbers(Group)", "Parameters is missing"),
-        ("class Parameters(Group)", "class Parameters(dict)", "Parameters must be a sandbox.parameters.Group"),
-        ("    accuracy: Accuracy", "    precision: Accuracy", "Parameters needs a line accuracy: Accuracy"),
+        ("class Parameters(SceneParameters)", "class Numbers(SceneParameters)", "Parameters is missing"),
+        (
+            "class Parameters(SceneParameters)",
+            "class Parameters(dict)",
+            "must be a sandbox.parameters.SceneParameters",
+        ),
+        (
+            "class Parameters(SceneParameters)",
+            "class Parameters(Group)",
+            "must be a sandbox.parameters.SceneParameters",
+        ),
     ],
 )
 def test_a_folder_that_is_no_scene_is_refused(drop: Path, old: str, new: str, expected: str):

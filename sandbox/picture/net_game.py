@@ -9,7 +9,7 @@ from sandbox.picture.view import P
 
 
 class NetView(SideView[P]):
-    """Of a game whose facts are ``net_facts``."""
+    """Of a game whose facts are ``sandbox.sport.net_game.FACTS``."""
 
     def annotate(self, sheet: Sheet, camera: Camera) -> None:
         """How far over the net the ball is as it passes."""

@@ -206,34 +206,28 @@ def _revived(name: str, preset: str | None, folder: Path, values: dict[str, Any]
     return Scene(name, preset, parameters_class(folder).model_validate(values), folder)
 
 
-def parameters_class(folder: Path) -> type[declared.Group]:
-    module = module_in(folder, "scene")
+def parameters_class(folder: Path) -> type[declared.SceneParameters]:
+    """The Parameters of the scene in a folder. Raises RequestError where the scene is not as the sandbox uses it."""
+    file, module = folder / "scene.py", module_in(folder, "scene")
     missing = [name for name in OFFERS if not callable(getattr(module, name, None))]
     if missing:
-        raise RequestError(f"{folder / 'scene.py'}: a scene needs {', '.join(OFFERS)}; {missing[0]} is missing")
-    for name in OFFERS[1:]:
-        _check_calls(folder / "scene.py", name, getattr(module, name))
-    parameters = module.Parameters
-    if not (isinstance(parameters, type) and issubclass(parameters, declared.Group)):
-        raise RequestError(f"{folder / 'scene.py'}: Parameters must be a sandbox.parameters.Group")
-    accuracy = parameters.model_fields.get("accuracy")
-    if accuracy is None or not isinstance(accuracy.default, declared.Accuracy):
-        raise RequestError(
-            f'{folder / "scene.py"}: Parameters needs a line accuracy: Accuracy = group(Accuracy(), "...")'
-        )
-    facts = getattr(module, "FACTS", FALLBACK_FACTS)
-    wrong = mistake_in(facts)
-    if wrong is not None:
-        raise RequestError(f"{folder / 'scene.py'}: FACTS{wrong}")
-    if hasattr(module, "verdict"):
-        _check_calls(folder / "scene.py", "verdict", module.verdict)
-    controls = getattr(module, "CONTROLS", Controls())
-    if not isinstance(controls, Controls):
-        raise RequestError(f"{folder / 'scene.py'}: CONTROLS must be a sandbox.sport.controls.Controls")
-    mistake = controls.mistake(parameters, [fact.key for fact in facts])
-    if mistake is not None:
-        raise RequestError(f"{folder / 'scene.py'}: CONTROLS {mistake}")
-    return parameters
+        raise RequestError(f"{file}: a scene needs {', '.join(OFFERS)}; {missing[0]} is missing")
+    for name in ("build", "verdict"):
+        if hasattr(module, name):
+            _check_calls(file, name, getattr(module, name))
+    parameters: Any = module.Parameters
+    facts, controls = getattr(module, "FACTS", FALLBACK_FACTS), getattr(module, "CONTROLS", Controls())
+    if not (isinstance(parameters, type) and issubclass(parameters, declared.SceneParameters)):
+        wrong = "Parameters must be a sandbox.parameters.SceneParameters"
+    elif mistake := mistake_in(facts):
+        wrong = f"FACTS{mistake}"
+    elif not isinstance(controls, Controls):
+        wrong = "CONTROLS must be a sandbox.sport.controls.Controls"
+    elif mistake := controls.mistake(parameters, [fact.key for fact in facts]):
+        wrong = f"CONTROLS {mistake}"
+    else:
+        return parameters
+    raise RequestError(f"{file}: {wrong}")
 
 
 def _check_calls(file: Path, name: str, function: Any) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import ClassVar, Literal
+from typing import Any, ClassVar, Literal
 
 from sandbox.parameters import Group, choice, quantity, vector
 from sandbox.physics.air import LogWind, UniformWind, moist_density
@@ -18,6 +18,11 @@ class Air(Group):
     viscosity: float = quantity(..., "Pa s", 1e-7, 10, "dynamic viscosity, for the Reynolds number")
     wind: tuple[float, float] = vector(..., "m/s", -100, 100, "along x and y; negative x is a headwind")
 
+    @property
+    def air(self) -> Air:
+        """The air with its density."""
+        return self
+
 
 class OutdoorAir(Air):
     """The air over level ground, and how it moves."""
@@ -27,12 +32,12 @@ class OutdoorAir(Air):
     roughness: float = quantity(..., "m", 0.0001, 2, "roughness length of a log profile")
 
 
-class Weather(Group):
+class Weather(Air):
     """The air, by its weather unless its density is given."""
 
-    density: float | None = quantity(None, "kg/m^3", 0, 1100, "density, if it does not follow from the weather")
-    viscosity: float = quantity(..., "Pa s", 1e-7, 10, "dynamic viscosity, for the Reynolds number")
-    wind: tuple[float, float] = vector(..., "m/s", -100, 100, "along x and y; negative x is a headwind")
+    density: float | None = quantity(  # type: ignore[assignment]
+        None, "kg/m^3", 0, 1100, "density, if it does not follow from the weather"
+    )
     temperature: float = quantity(..., "C", -60, 60, "temperature")
     pressure: float = quantity(..., "hPa", 500, 1100, "pressure reduced to sea level, as in weather reports")
     humidity: float = quantity(..., "", 0, 1, "relative humidity")
@@ -40,7 +45,6 @@ class Weather(Group):
 
     @property
     def air(self) -> Air:
-        """The air of that density."""
         moist = moist_density(self.temperature + 273.15, 100.0 * self.pressure, self.humidity, self.elevation)
         density = moist if self.density is None else self.density
         return Air(density=density, viscosity=self.viscosity, wind=self.wind)
@@ -56,26 +60,22 @@ def wind_in(air: Air) -> Wind | None:
 
 
 class Model(Group):
-    """One model of drag or lift, chosen by the key ``model``; a sport adds the ``LAWS`` of its ball, by name."""
+    """One model of drag or lift, chosen by the key ``model``: one of the ``LAWS`` of a sport's ball, by name."""
 
     LAWS: ClassVar[Mapping[str, Coefficient]] = {}
+    model: str = choice(..., "coefficient by its source")
 
-    def coefficient_law(self) -> Coefficient | None:
-        """The coefficient as a function of Reynolds number and spin ratio; None for no force."""
-        return self.LAWS.get(getattr(self, "model", ""))
+    @classmethod
+    def __pydantic_init_subclass__(cls, **options: Any) -> None:
+        """The names of the laws are the words that ``model`` may be."""
+        super().__pydantic_init_subclass__(**options)
+        if cls.LAWS:
+            words: Any = Literal[tuple(cls.LAWS)]
+            cls.model_fields["model"].annotation = words
+            cls.model_rebuild(force=True)
 
     def coefficient_in(self, air: Air, radius: float) -> Coefficient | None:
-        """The same for a ball of that radius (m), where it depends on more than those two."""
-        return self.coefficient_law()
-
-
-class Measured(Model):
-    """A model of the coefficient as it was measured on a sport's own ball: one of its ``LAWS``, by name."""
-
-    LAWS: ClassVar[Mapping[str, Coefficient]]
-    model: str
-
-    def coefficient_law(self) -> Coefficient:
+        """The coefficient by Reynolds number and spin ratio, of a ball of that radius (m); None for no force."""
         return self.LAWS[self.model]
 
 
@@ -88,39 +88,39 @@ class Lift(Model):
 class ConstantDrag(Model):
     """One drag coefficient for all speeds."""
 
-    model: Literal["constant"] = choice("constant", "drag coefficient by its source")
+    model: Literal["constant"] = choice("constant", "coefficient by its source")
     coefficient: float = quantity(0.47, "", 0, 10, "drag coefficient")
 
-    def coefficient_law(self) -> Coefficient:
+    def coefficient_in(self, air: Air, radius: float) -> Coefficient:
         return Constant(self.coefficient)
-
-
-class NoDrag(Model):
-    """No drag."""
-
-    model: Literal["none"] = choice("none", "drag coefficient by its source")
 
 
 class ConstantLift(Lift):
     """One lift coefficient for all spins."""
 
-    model: Literal["constant"] = choice("constant", "lift coefficient by its source")
+    model: Literal["constant"] = choice("constant", "coefficient by its source")
     coefficient: float = quantity(0.2, "", 0, 10, "lift coefficient")
 
-    def coefficient_law(self) -> Coefficient:
+    def coefficient_in(self, air: Air, radius: float) -> Coefficient:
         return Constant(self.coefficient)
 
 
 class SpinRatioLift(Lift):
     """A lift coefficient equal to the spin ratio r w / v."""
 
-    model: Literal["spin-ratio"] = choice("spin-ratio", "lift coefficient by its source")
-
-    def coefficient_law(self) -> Coefficient:
-        return spin_ratio_lift
+    LAWS = {"spin-ratio": spin_ratio_lift}
+    model: str = choice("spin-ratio", "coefficient by its source")
 
 
-class NoLift(Model):
-    """No lift."""
+class NoForce(Model):
+    """No drag, or no lift."""
 
-    model: Literal["none"] = choice("none", "lift coefficient by its source")
+    model: Literal["none"] = choice("none", "coefficient by its source")
+
+    def coefficient_in(self, air: Air, radius: float) -> None:
+        return None
+
+
+#: What every ball may have, besides the models of its sport: ``GolfDrag | AnyDrag``.
+AnyDrag = ConstantDrag | NoForce
+AnyLift = ConstantLift | SpinRatioLift | NoForce

@@ -5,21 +5,33 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 from math import pi
-from typing import Protocol
+from typing import ClassVar
 
 from sandbox.engine.setup import HOLLOW_SPHERE, Ball, Force, Surface, Vector
 from sandbox.engine.touch import Obstacle
-from sandbox.parameters import Group, either, quantity
+from sandbox.parameters import Group, SceneParameters, either, group, quantity
 from sandbox.physics.coefficients import Scaled
-from sandbox.physics.elementwise import cos, sin
+from sandbox.physics.elementwise import cos, most, sin
 from sandbox.physics.forces import Drag, Gravity, Magnus, SpinDecay
-from sandbox.sport.air import Air, ConstantDrag, ConstantLift, Lift, Model, NoDrag, NoLift, SpinRatioLift, wind_in
+from sandbox.sport.air import Air, AnyDrag, AnyLift, Lift, Model, wind_in
 
 RPM = pi / 30.0  # rad/s
 DEGREE = pi / 180.0  # rad
 
 
-class Launch(Group):
+class Directed(Group):
+    """Something that is sent on its way with a ``speed`` in m/s, at an ``angle`` in deg."""
+
+    speed: float
+    angle: float
+
+    @property
+    def velocity(self) -> Vector:
+        """In m/s."""
+        return self.speed * cos(self.angle * DEGREE), self.speed * sin(self.angle * DEGREE)
+
+
+class Launch(Directed):
     """The ball as it leaves hand, foot or club, seen from the side."""
 
     speed: float = quantity(..., "m/s", 0, 340, "ball speed")
@@ -33,49 +45,55 @@ class Release(Group):
     place: float = quantity(..., "m", -20, 20, "from the player's own line, forward")
     height: float = quantity(..., "m", 0.01, 10, "of the ball's centre above the ground")
 
+    def of(self, ball: Sphere) -> Vector:
+        """That place in m; no lower than where the ball lies on the ground."""
+        return self.place, most(self.height, ball.radius)
+
 
 class Sphere(Group):
-    """A ball."""
+    """A ball; a sport says which models of ``drag`` and ``lift`` its ball may have."""
+
+    #: Moment of inertia over m r^2.
+    INERTIA: ClassVar[float] = HOLLOW_SPHERE
 
     mass: float = quantity(..., "kg", 0.0001, 20, "mass")
     radius: float = quantity(..., "m", 0.0005, 0.5, "radius")
     cross_section: float | None = quantity(None, "m^2", 1e-7, 1, "frontal area, if it does not follow from the radius")
+    drag: Model = group(..., "drag of the air")
+    lift: Model = group(..., "Magnus force")
+
+    @property
+    def inertia_factor(self) -> float:
+        """Moment of inertia over m r^2."""
+        return self.INERTIA
+
+    def decay_in(self, air: Air) -> float:
+        """k of ``dw/dt = -k |u| w / r``, by which the air slows its spin; 0 where a sport leaves that out."""
+        return 0.0
 
 
 class FlyingBall(Sphere):
     """A hollow sphere whose drag and lift have one coefficient for all speeds."""
 
-    drag: ConstantDrag | NoDrag = either(..., "drag of the air")
-    lift: NoLift | ConstantLift | SpinRatioLift = either(..., "Magnus lift")
+    drag: AnyDrag = either(..., "drag of the air")
+    lift: AnyLift = either(..., "Magnus lift")
 
 
-class Flying(Protocol):
-    """A Sphere with the sport's models of drag and lift."""
+class Flight(SceneParameters):
+    """Parameters of a ball that flies, seen from the side; a sport adds its own, and says which ball and air it has."""
 
-    @property
-    def mass(self) -> float: ...
-    @property
-    def radius(self) -> float: ...
-    @property
-    def cross_section(self) -> float | None: ...
-    @property
-    def drag(self) -> Model: ...
-    @property
-    def lift(self) -> Model: ...
+    launch: Launch = group(..., "the ball as it is launched")
+    gravity: float = quantity(..., "m/s^2", 0, 30, "gravity")
+    air: Air = group(..., "the air")
+    ball: Sphere = group(..., "the ball")
 
-
-class Launched(Protocol):
-    """Speed in m/s, angle in deg, spin in rpm."""
-
-    @property
-    def speed(self) -> float: ...
-    @property
-    def angle(self) -> float: ...
-    @property
-    def spin(self) -> float: ...
+    def launched(self, place: Vector, *forces: Force) -> Ball:
+        """The ball ``"ball"`` as it leaves ``place`` (m), with its weight, drag, lift and these forces."""
+        ball, air = self.ball, self.air.air
+        return launched_ball(self.launch, ball, air, place, [*forces_in_flight(ball, air, self.gravity), *forces])
 
 
-def forces_in_flight(ball: Flying, air: Air, gravity: float = 0.0, lift_share: float = 1.0) -> list[Force]:
+def forces_in_flight(ball: Sphere, air: Air, gravity: float = 0.0, lift_share: float = 1.0) -> list[Force]:
     """Weight, drag and Magnus lift; those that are zero are left out.
 
     Only ``lift_share`` of the lift is in the scene's plane, less than 1 if the spin axis is tilted.
@@ -102,25 +120,11 @@ def height_on(surfaces: Sequence[Surface], radius: float, x: float = 0.0, above:
     return y
 
 
-def launched_ball(
-    launch: Launched, ball: Flying, place: Vector, forces: Sequence[Force], inertia_factor: float = HOLLOW_SPHERE
-) -> Ball:
-    """The ball ``"ball"`` as it leaves ``place`` (m)."""
-    angle = launch.angle * DEGREE
-    return Ball(
-        "ball",
-        ball.mass,
-        ball.radius,
-        position=place,
-        velocity=(launch.speed * cos(angle), launch.speed * sin(angle)),
-        spin=launch.spin * RPM,
-        inertia_factor=inertia_factor,
-        forces=forces,
-    )
-
-
-def with_spin_decay(ball: Ball, rate: float, air: Air) -> Ball:
-    """The ball, whose spin the air slows: ``rate`` k of ``dw/dt = -k |u| w / r``."""
+def launched_ball(launch: Launch, ball: Sphere, air: Air, place: Vector, forces: Sequence[Force]) -> Ball:
+    """The ball ``"ball"`` as it leaves ``place`` (m); the air slows its spin where the sport says how."""
+    start = place, launch.velocity, launch.spin * RPM
+    sent = Ball("ball", ball.mass, ball.radius, *start, inertia_factor=ball.inertia_factor, forces=forces)
+    rate = ball.decay_in(air)
     if air.density == 0.0 or rate == 0.0:
-        return ball
-    return replace(ball, torques=[*ball.torques, SpinDecay(ball.inertia, ball.radius, rate, wind_in(air))])
+        return sent
+    return replace(sent, torques=[SpinDecay(sent.inertia, ball.radius, rate, wind_in(air))])

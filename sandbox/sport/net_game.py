@@ -5,28 +5,27 @@ x = 0 is the player's own end line, the net stands in the middle, and y = 0 is t
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
 from sandbox.engine.run import Event, Run
 from sandbox.engine.setup import Bounce, Segment, Surface, Until
-from sandbox.parameters import Group, quantity
+from sandbox.parameters import Group, group, quantity
 from sandbox.physics.court import cross_restitution
 from sandbox.sport.amounts import roughly
 from sandbox.sport.controls import Handle
 from sandbox.sport.facts import Fact, once
-from sandbox.sport.flight import RPM
-from sandbox.sport.readings import Moment, at, before, passing
+from sandbox.sport.flight import Flight
+from sandbox.sport.readings import Moment, apex, at, before, passing
+from sandbox.sport.solids import Solid
 
 
-class Net(Group):
+class Net(Solid):
     """The net across the middle of the court."""
 
     height: float = quantity(..., "m", 0.05, 10, "of its upper edge above the court")
     depth: float = quantity(..., "m", 0.05, 5, "from its upper to its lower edge")
-    restitution: float = quantity(..., "", 0, 1, "of ball and net")
-    friction: float = quantity(..., "", 0, 10, "of ball and net")
 
 
 class Court(Group):
@@ -35,6 +34,23 @@ class Court(Group):
     length: float = quantity(..., "m", 1, 200, "from end line to end line")
     restitution: float = quantity(..., "", 0, 1, "of ball and court")
     friction: float = quantity(..., "", 0, 10, "of ball and court")
+
+
+class NetGame(Flight):
+    """Parameters of a ball that is played over a net; a sport adds its own."""
+
+    net: Net = group(..., "the net")
+    court: Court = group(..., "the court")
+
+    @property
+    def middle(self) -> float:
+        """Where the net is, in m."""
+        return 0.5 * self.court.length
+
+    @property
+    def limit(self) -> tuple[float, str]:
+        """How far from the player's own end line the ball may land, in m, and what is there."""
+        return self.court.length, "end line"
 
 
 class HardCourt(Court):
@@ -57,17 +73,16 @@ class CourtBounce:
 
 
 #: What is dragged of net and court.
-NET_HANDLES = (
-    Handle(y="net.height", at=lambda parameters: (0.5 * parameters.court.length, parameters.net.height)),
+HANDLES = (
+    Handle(y="net.height", at=lambda parameters: (parameters.middle, parameters.net.height)),
     Handle("court.length", goal=True),
 )
 
 
-def net_of(parameters: Any) -> Surface:
+def net_of(parameters: NetGame) -> Surface:
     """The net, as a thing to hit."""
-    net, middle = parameters.net, 0.5 * parameters.court.length
-    mesh = Segment((middle, max(0.0, net.height - net.depth)), (middle, net.height), 0.01)
-    return Surface("net", mesh, net.restitution, net.friction)
+    net, middle = parameters.net, parameters.middle
+    return net.surface("net", Segment((middle, max(0.0, net.height - net.depth)), (middle, net.height), 0.01))
 
 
 def bounces(events: Sequence[Event]) -> list[Event]:
@@ -114,37 +129,32 @@ def at_baseline(run: Run, parameters: Any) -> Moment | None:
 
 def net_clearance(run: Run, parameters: Any) -> float | None:
     """Gap in m between ball and net as it passes over; negative if it passes below the upper edge."""
-    over = passing(run, 0.5 * parameters.court.length)
+    over = passing(run, parameters.middle)
     return None if over is None else over.y - parameters.ball.radius - parameters.net.height
 
 
-def word(run: Run, parameters: Any, limit: float) -> str:
-    """in; long, beyond ``limit`` (m); net, into or under it; short, on the player's own side; gone, never down."""
+def word(run: Run, parameters: Any) -> str:
+    """in; long, beyond the limit; net, into or under it; short, on the player's own side; gone, never down."""
     landed, gap = landing(run, parameters), net_clearance(run, parameters)
     if landed is None:
         return "gone"
-    if landed.x < 0.5 * parameters.court.length:
+    if landed.x < parameters.middle:
         return "net" if any(event.partner == "net" and event.t < landed.t for event in run.events) else "short"
     if gap is None or gap < -parameters.ball.radius:
         return "net"
-    return "in" if landed.x <= limit else "long"
+    return "in" if landed.x <= parameters.limit[0] else "long"
 
 
-def net_facts(limit: Callable[[Any], float]) -> tuple[Fact, ...]:
-    """Whether the ball is in, up to ``limit(parameters)`` m, and how it got there."""
-
-    def said(run: Run, parameters: Any) -> str:
-        return word(run, parameters, limit(parameters))
-
-    return (
-        Fact("in", "", "", lambda run, parameters: said(run, parameters) == "in", is_down),
-        Fact("verdict", "", "", said, is_down),
-        Fact("net_clearance", "over the net", "m", net_clearance, is_down),
-        Fact("landing", "landing", "m", at(landing, lambda ball: ball.x), is_down),
-        Fact("landing_speed", "landing speed", "m/s", at(landing, lambda ball: ball.speed), is_down, also="km/h"),
-        Fact("apex", "apex", "m", lambda run, parameters: run.highest("ball")[1][1], is_down),
-        Fact("flight_time", "flight time", "s", at(landing, lambda ball: ball.t), is_down),
-    )
+#: Whether the ball is in, and how it got there.
+FACTS = (
+    Fact("in", "", "", lambda run, parameters: word(run, parameters) == "in", is_down),
+    Fact("verdict", "", "", word, is_down),
+    Fact("net_clearance", "over the net", "m", net_clearance, is_down),
+    Fact("landing", "landing", "m", at(landing, "x"), is_down),
+    Fact("landing_speed", "landing speed", "m/s", at(landing, "speed"), is_down, also="km/h"),
+    Fact("apex", "apex", "m", apex, is_down),
+    Fact("flight_time", "flight time", "s", at(landing, "t"), is_down),
+)
 
 
 def _kept(run: Run, parameters: Any) -> float | None:
@@ -155,22 +165,22 @@ def _kept(run: Run, parameters: Any) -> float | None:
 
 #: What the bounce makes of the ball, in a game in which it is played after that.
 BOUNCE_FACTS = (
-    Fact("landing_angle", "", "deg", at(landing, lambda ball: ball.descent), is_down),
-    Fact("bounce_speed", "after the bounce", "m/s", at(rebound, lambda ball: ball.speed), is_down),
+    Fact("landing_angle", "", "deg", at(landing, "descent"), is_down),
+    Fact("bounce_speed", "after the bounce", "m/s", at(rebound, "speed"), is_down),
     Fact("bounce_angle", "rises at", "deg", at(rebound, lambda ball: -ball.descent), is_down),
-    Fact("bounce_spin", "", "rpm", at(rebound, lambda ball: ball.spin / RPM), is_down),
+    Fact("bounce_spin", "", "rpm", at(rebound, "rpm"), is_down),
     Fact("speed_kept", "", "", _kept, is_down),
-    Fact("baseline_speed", "", "m/s", at(at_baseline, lambda ball: ball.speed)),
+    Fact("baseline_speed", "", "m/s", at(at_baseline, "speed")),
 )
 
 
-def sentence(run: Run, parameters: Any, limit: float, line: str) -> str:
-    """What happened; the ball may land up to ``limit`` m, which is at the ``line``."""
-    said, landed = run.result["verdict"], run.result["landing"]
+def verdict(run: Run, parameters: Any) -> str:
+    """What happened, in a sentence."""
+    said, landed, (limit, line) = run.result["verdict"], run.result["landing"], parameters.limit
     if said == "in":
         return f"In, {roughly(limit - landed)} before the {line}"
     if said == "long":
         return f"Out, {roughly(landed - limit)} beyond the {line}"
     if said == "short":
-        return f"Comes down on its own side, {roughly(abs(0.5 * parameters.court.length - landed))} from the net"
+        return f"Comes down on its own side, {roughly(abs(parameters.middle - landed))} from the net"
     return "Into the net" if said == "net" else "Did not come down"

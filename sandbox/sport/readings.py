@@ -3,17 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from math import atan2, degrees, hypot
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
+from operator import attrgetter
+from typing import TYPE_CHECKING, Any, NamedTuple
 
+from sandbox.engine.setup import Touches, Vector
+from sandbox.physics.elementwise import least, most
 from sandbox.sport.amounts import amount
 from sandbox.sport.facts import Fact, once
 from sandbox.sport.flight import RPM
 
 if TYPE_CHECKING:
     from sandbox.engine.run import Event, Run
-
-Value = TypeVar("Value")
+    from sandbox.physics.integrators import State
 
 
 class Moment(NamedTuple):
@@ -32,9 +35,23 @@ class Moment(NamedTuple):
         return hypot(self.vx, self.vy)
 
     @property
+    def rpm(self) -> float:
+        """Its spin."""
+        return self.spin / RPM
+
+    @property
+    def direction(self) -> float:
+        """Angle in deg of its velocity, counter-clockwise from +x."""
+        return degrees(atan2(self.vy, self.vx))
+
+    @property
     def descent(self) -> float:
         """Angle below the horizontal in deg, in whichever direction the ball flies."""
         return degrees(atan2(0.0 - self.vy, abs(self.vx)))
+
+
+#: What can be read from a moment.
+MOMENT = (*Moment._fields, *(name for name, what in vars(Moment).items() if isinstance(what, property)))
 
 
 def words_of(run: Run, event: Event, several: bool = True) -> tuple[str, ...]:
@@ -43,12 +60,16 @@ def words_of(run: Run, event: Event, several: bool = True) -> tuple[str, ...]:
     return amount(event.t, "s"), *([event.ball] if several else []), event.kind, event.partner, speed
 
 
-def at(moment: Callable[[Run, Any], Value | None], what: Callable[[Value], Any]) -> Callable[[Run, Any], Any]:
-    """The function that reads a fact from a moment or whatever else was found; it gives None if nothing was."""
+def at(moment: Callable[[Run, Any], Any], what: str | Callable[[Any], Any]) -> Callable[[Run, Any], Any]:
+    """The function that reads a fact from what another function finds, None if that finds nothing: ``at(landing,
+    "speed")`` of a Moment, or ``at(landing, lambda ball: ...)`` of anything."""
+    if isinstance(what, str) and not hasattr(Moment, what):
+        raise ValueError(f'at(..., "{what}"): a Moment has {", ".join(MOMENT)}')
+    read = attrgetter(what) if isinstance(what, str) else what
 
     def how(run: Run, parameters: Any) -> Any:
         found = moment(run, parameters)
-        return None if found is None else what(found)
+        return None if found is None else read(found)
 
     return how
 
@@ -61,6 +82,25 @@ def before(run: Run, t: float) -> Moment:
 def passing(run: Run, x: float) -> Moment | None:
     """The ball as it first passes x (m) on its way forward."""
     return next((Moment(t, *state) for t, state in run.crossings("ball", (x, 0.0), (-1.0, 0.0))), None)
+
+
+@dataclass(frozen=True)
+class Passes(Touches):
+    """Ends a run when the ball passes the line from ``a`` to ``b`` (m) to its right, faster than ``speed`` (m/s) across
+    it; or when ``what`` is touched."""
+
+    a: Vector = (0.0, 0.0)
+    b: Vector = (0.0, 0.0)
+    speed: float = 0.0
+
+    def passed(self, start: State, end: State) -> Any:
+        (ax, ay), (bx, by), (x0, y0, *_), (x1, y1, vx, vy, _) = self.a, self.b, start, end
+        ex, ey = bx - ax, by - ay
+        square = ex * ex + ey * ey
+        along = (x0 - ax) * ex + (y0 - ay) * ey, (x1 - ax) * ex + (y1 - ay) * ey
+        inside = (least(*along) > 0.0) & (most(*along) < square)
+        before, after = ((x - ax) * ey - (y - ay) * ex for x, y in ((x0, y0), (x1, y1)))
+        return inside & (before <= 0.0) & (after > 0.0) & (vx * ey - vy * ex > self.speed * square**0.5)
 
 
 def first_touch(run: Run) -> Event | None:
@@ -81,33 +121,35 @@ def travelled(run: Run, ball: str) -> float:
     )
 
 
-def _launched(what: Callable[[tuple[float, float], float], float]) -> Callable[[Run, Any], float]:
-    def how(run: Run, parameters: Any) -> float:
-        ball = run.setup.balls[0]  # before it touches anything, which it may do at once
-        return what(ball.velocity, ball.spin)
-
-    return how
+def start(run: Run, parameters: Any) -> Moment:
+    """The first ball before it touches anything, which it may do at once."""
+    ball = run.setup.balls[0]
+    return Moment(0.0, *ball.position, *ball.velocity, ball.spin)
 
 
-BALL_SPEED = Fact("ball_speed", "ball speed", "m/s", _launched(lambda velocity, spin: hypot(*velocity)), "start")
-LAUNCH_ANGLE = Fact(
-    "launch_angle", "launch", "deg", _launched(lambda velocity, spin: degrees(atan2(velocity[1], velocity[0]))), "start"
-)
-LAUNCH_SPIN = Fact(
-    "launch_spin", "spin", "rpm", _launched(lambda velocity, spin: spin / RPM), "start", sides=("topspin", "backspin")
-)
+def coming_to(name: str) -> Callable[[Run, Any], Moment | None]:
+    """The function that finds the ball just before it first meets the surface of that name."""
+
+    def how(run: Run, parameters: Any) -> Moment | None:
+        return next((before(run, event.t) for event in run.events if event.partner == name), None)
+
+    return once(how)
 
 
-@once
-def landing(run: Run, parameters: Any) -> Moment | None:
-    """The ball just before it first meets the ground."""
-    return next((before(run, event.t) for event in run.events if event.partner == "ground"), None)
+def apex(run: Run, parameters: Any) -> float:
+    """Greatest height in m of the ball's centre."""
+    return run.highest("ball")[1][1]
 
 
-#: How far and how high it flew, and how it came down on the surface "ground".
-DISTANCE = Fact("distance", "distance", "m", at(landing, lambda ball: ball.x), "ground", also="ft")
-APEX = Fact("apex", "apex", "m", lambda run, parameters: run.highest("ball")[1][1], "ground", also="ft")
-FLIGHT_TIME = Fact("flight_time", "flight time", "s", at(landing, lambda ball: ball.t), "ground")
-LANDING_ANGLE = Fact("landing_angle", "comes down at", "deg", at(landing, lambda ball: ball.descent), "ground")
+BALL_SPEED = Fact("ball_speed", "ball speed", "m/s", at(start, "speed"), "start")
+LAUNCH_ANGLE = Fact("launch_angle", "launch", "deg", at(start, "direction"), "start")
+LAUNCH_SPIN = Fact("launch_spin", "spin", "rpm", at(start, "rpm"), "start", sides=("topspin", "backspin"))
 #: How the ball was launched, seen from the side.
 LAUNCH = (BALL_SPEED, LAUNCH_ANGLE, LAUNCH_SPIN)
+
+landing = coming_to("ground")
+#: How far and how high it flew, and how it came down on the surface "ground".
+DISTANCE = Fact("distance", "distance", "m", at(landing, "x"), "ground", also="ft")
+APEX = Fact("apex", "apex", "m", apex, "ground", also="ft")
+FLIGHT_TIME = Fact("flight_time", "flight time", "s", at(landing, "t"), "ground")
+LANDING_ANGLE = Fact("landing_angle", "comes down at", "deg", at(landing, "descent"), "ground")

@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Any
 
 from sandbox.engine.setup import DISC, Ball, Catch, Vector
 from sandbox.errors import RequestError
-from sandbox.parameters import Group, quantity
+from sandbox.parameters import SceneParameters, group, quantity
 from sandbox.sport.facts import Fact
-from sandbox.sport.flight import DEGREE, RPM
+from sandbox.sport.flight import DEGREE, RPM, Directed
 from sandbox.sport.solids import Solid
 
 if TYPE_CHECKING:
@@ -25,18 +25,13 @@ CHORDS = 64
 _REACH = 2.0
 
 
-class Slide(Group):
+class Slide(Directed):
     """How a body is sent on its way."""
 
     speed: float = quantity(..., "m/s", 0, 80, "speed")
     angle: float = quantity(..., "deg", -180, 180, "direction, to the left of straight ahead")
     spin: float = quantity(..., "rpm", -5000, 5000, "counter-clockwise positive, as seen from above")
     aside: float = quantity(..., "m", -50, 50, "where it starts, to the left of the middle")
-
-    @property
-    def velocity(self) -> Vector:
-        """In m/s."""
-        return self.speed * cos(self.angle * DEGREE), self.speed * sin(self.angle * DEGREE)
 
     @property
     def turning(self) -> float:
@@ -47,6 +42,13 @@ class Slide(Group):
         """Raise RequestError if it starts further aside than ``side`` (m)."""
         if abs(self.aside) > side:
             raise RequestError(f"launch.aside = {self.aside:g} m: must be between {-side:.3g} and {side:.3g} m")
+
+
+class Sliding(SceneParameters):
+    """Parameters of bodies that slide on a plane seen from above; a sport adds its own."""
+
+    launch: Slide = group(..., "the one that is sent on its way")
+    gravity: float = quantity(..., "m/s^2", 0.1, 30, "gravity")
 
 
 class Body(Solid):

@@ -12,6 +12,19 @@ from sandbox.errors import RequestError
 from sandbox.parameters import Group, quantity, walk
 from sandbox.physics.elementwise import anywhere, most
 
+#: The ground reaches so far to either side, in m.
+FAR = 25_000.0
+
+
+def level(y: float = 0.0, reach: float = FAR) -> Segment:
+    """Level ground at a height in m, to either side farther than any ball gets."""
+    return Segment((-reach, y), (reach, y))
+
+
+def around(left: float, bottom: float, right: float, top: float) -> list[Vector]:
+    """The corners of a rectangle, once around it, in m."""
+    return [(left, bottom), (right, bottom), (right, top), (left, top), (left, bottom)]
+
 
 class Solid(Group):
     """What a ball can strike."""
@@ -23,9 +36,9 @@ class Solid(Group):
         """Its surface, of that shape."""
         return Surface(name, shape, self.restitution, self.friction, **more)
 
-    def outline(self, name: str, corners: Sequence[Vector]) -> list[Surface]:
+    def outline(self, name: str, corners: Sequence[Vector], **more: Any) -> list[Surface]:
         """Its surface along a line through the corners, in m."""
-        return [self.surface(name, Segment(a, b)) for a, b in pairwise(corners)]
+        return [self.surface(name, Segment(*ends), **more) for ends in pairwise(corners)]
 
 
 class Extent(NamedTuple):

@@ -7,16 +7,15 @@ Leaves out: everything sideways, with sliders; the wake of the seams; bounces be
 from __future__ import annotations
 
 from sandbox.engine.run import Event, Run
-from sandbox.engine.setup import SOLID_SPHERE, Segment, Setup, Surface
-from sandbox.parameters import Accuracy, Group, group, quantity
-from sandbox.sport.air import Weather
+from sandbox.engine.setup import Segment, Setup, Surface
+from sandbox.parameters import Group, group, quantity
 from sandbox.sport.amounts import roughly
 from sandbox.sport.controls import Controls, Handle, Spin
 from sandbox.sport.facts import ENDED, Fact
-from sandbox.sport.flight import Launch, Release, forces_in_flight, launched_ball, with_spin_decay
 from sandbox.sport.readings import LAUNCH, Moment, at, passing
+from sandbox.sport.solids import level
 
-from ..baseball.ball import Baseball
+from ..baseball.ball import BaseballFlight
 
 MITT = 1.2  # m, behind the front of the plate
 
@@ -29,16 +28,10 @@ class Plate(Group):
     top: float = quantity(..., "m", 0.3, 2, "of the strike zone above the ground")
 
 
-class Parameters(Group):
-    """All parameters of a pitch; x = 0 is where the ball leaves the hand."""
+class Parameters(BaseballFlight):
+    """All parameters of a pitch."""
 
-    launch: Launch = group(..., "the ball as it leaves the hand")
-    release: Release = group(..., "where that is")
-    gravity: float = quantity(..., "m/s^2", 0, 30, "gravity")
-    air: Weather = group(..., "the air")
-    ball: Baseball = group(..., "the ball")
     plate: Plate = group(..., "the plate")
-    accuracy: Accuracy = group(Accuracy(), "speed against accuracy")
 
 
 CONTROLS = Controls(
@@ -56,16 +49,10 @@ CONTROLS = Controls(
 
 def build(parameters: Parameters) -> Setup:
     """The ball, the ground, and the mitt in which it ends."""
-    ball, release, air, plate = parameters.ball, parameters.release, parameters.air.air, parameters.plate
-    place = release.place, max(release.height, ball.radius)
-    forces = forces_in_flight(ball, air, parameters.gravity)
-    pitched = with_spin_decay(launched_ball(parameters.launch, ball, place, forces, SOLID_SPHERE), ball.spin_decay, air)
-    mitt = Segment((plate.distance + MITT, 0.0), (plate.distance + MITT, 1e3))  # wild pitches end there, too
-    surfaces = [
-        Surface("ground", Segment((-1e4, 0.0), (1e4, 0.0)), 0.5, 0.5),
-        Surface("mitt", mitt, 0.0, 0.5),
-    ]
-    return Setup([pitched], surfaces, 20.0, is_over)
+    back = parameters.plate.distance + MITT
+    mitt = Segment((back, 0.0), (back, 1e3))  # wild pitches end there, too
+    surfaces = [Surface("ground", level(), 0.5, 0.5), Surface("mitt", mitt, 0.0, 0.5)]
+    return Setup([parameters.launched(parameters.release.of(parameters.ball))], surfaces, 20.0, is_over)
 
 
 def is_over(event: Event) -> bool:
@@ -93,11 +80,11 @@ def _break(run: Run, parameters: Parameters) -> float | None:
 
 
 FACTS = (
-    Fact("plate_height", "at the plate", "m", at(at_plate, lambda ball: ball.y), settled="mitt"),
-    Fact("plate_speed", "speed there", "m/s", at(at_plate, lambda ball: ball.speed), settled="mitt", also="mph"),
-    Fact("plate_angle", "falls at", "deg", at(at_plate, lambda ball: ball.descent), settled="mitt"),
+    Fact("plate_height", "at the plate", "m", at(at_plate, "y"), settled="mitt"),
+    Fact("plate_speed", "speed there", "m/s", at(at_plate, "speed"), settled="mitt", also="mph"),
+    Fact("plate_angle", "falls at", "deg", at(at_plate, "descent"), settled="mitt"),
     Fact("break", "break", "m", _break, settled="mitt", also="in", sides=("down", "up")),
-    Fact("flight_time", "flight time", "s", at(at_plate, lambda ball: ball.t), settled="mitt"),
+    Fact("flight_time", "flight time", "s", at(at_plate, "t"), settled="mitt"),
     *LAUNCH,
     Fact("strike", "", "", is_strike, settled="mitt"),
     ENDED,

@@ -4,16 +4,17 @@ from __future__ import annotations
 
 from typing import Literal
 
-from sandbox.parameters import choice, either, quantity
+from sandbox.engine.setup import SOLID_SPHERE
+from sandbox.parameters import choice, either, group, quantity
 from sandbox.physics.coefficients import BASEBALL_LIFT, Coefficient, NathanDrag
-from sandbox.sport.air import Air, ConstantDrag, ConstantLift, Lift, Model, NoDrag, NoLift, SpinRatioLift
-from sandbox.sport.flight import RPM, Sphere
+from sandbox.sport.air import Air, AnyDrag, AnyLift, Lift, Model, Weather
+from sandbox.sport.flight import RPM, Flight, Release, Sphere
 
 
 class BaseballDrag(Model):
     """Drag that grows with the spin."""
 
-    model: Literal["nathan"] = choice(..., "drag coefficient by its source")
+    model: Literal["nathan"] = choice(..., "coefficient by its source")
 
     def coefficient_in(self, air: Air, radius: float) -> Coefficient:
         return NathanDrag(air.viscosity / (2.0 * radius**2 * air.density * RPM))
@@ -23,12 +24,23 @@ class BaseballLift(Lift):
     """Lift of a baseball."""
 
     LAWS = BASEBALL_LIFT
-    model: Literal["nathan", "sawicki"] = choice(..., "lift coefficient by its source")
 
 
 class Baseball(Sphere):
     """The ball."""
 
+    INERTIA = SOLID_SPHERE
     spin_decay: float = quantity(..., "", 0, 0.01, "k of dw/dt = -k |u| w / r")
-    drag: BaseballDrag | ConstantDrag | NoDrag = either(..., "drag of the air")
-    lift: BaseballLift | SpinRatioLift | ConstantLift | NoLift = either(..., "Magnus lift")
+    drag: BaseballDrag | AnyDrag = either(..., "drag of the air")
+    lift: BaseballLift | AnyLift = either(..., "Magnus lift")
+
+    def decay_in(self, air: Air) -> float:
+        return self.spin_decay
+
+
+class BaseballFlight(Flight):
+    """Parameters of a baseball in the air; x = 0 is the plate of a hit, and the hand of a pitch."""
+
+    release: Release = group(..., "where the ball leaves bat or hand")
+    air: Weather = group(..., "the air")
+    ball: Baseball = group(..., "the ball")

@@ -12,17 +12,16 @@ from dataclasses import replace
 from typing import Literal
 
 from sandbox.engine.run import Run
-from sandbox.engine.setup import SOLID_SPHERE, Segment, Setup, Surface, Touches
-from sandbox.parameters import Accuracy, Group, choice, group, quantity
-from sandbox.sport.air import Weather
+from sandbox.engine.setup import Setup, Surface, Touches
+from sandbox.parameters import Group, choice, group, quantity
 from sandbox.sport.amounts import roughly
 from sandbox.sport.controls import Controls, Handle, Spin
 from sandbox.sport.facts import ENDED, Fact
-from sandbox.sport.flight import Launch, Release, forces_in_flight, launched_ball, with_spin_decay
 from sandbox.sport.readings import APEX, DISTANCE, FLIGHT_TIME, LANDING_ANGLE, LAUNCH, passing
+from sandbox.sport.solids import level
 from sandbox.sport.swing import Bat, struck_by
 
-from .ball import Baseball
+from .ball import BaseballFlight
 
 
 class Fence(Group):
@@ -32,18 +31,12 @@ class Fence(Group):
     height: float = quantity(..., "m", 0, 30, "height")
 
 
-class Parameters(Group):
-    """All parameters of a fly ball; x = 0 is the plate."""
+class Parameters(BaseballFlight):
+    """All parameters of a fly ball."""
 
     start: Literal["launch", "bat"] = choice(..., "begin with the ball's launch, or with the bat")
-    launch: Launch = group(..., "the ball as it leaves the bat")
     bat: Bat = group(..., "the bat and the pitch")
-    release: Release = group(..., "where the ball is hit")
-    gravity: float = quantity(..., "m/s^2", 0, 30, "gravity")
-    air: Weather = group(..., "the air")
-    ball: Baseball = group(..., "the ball")
     fence: Fence = group(..., "the fence")
-    accuracy: Accuracy = group(Accuracy(), "speed against accuracy")
 
 
 CONTROLS = Controls(
@@ -58,13 +51,11 @@ CONTROLS = Controls(
 
 def build(parameters: Parameters) -> Setup:
     """The ball over level ground."""
-    ball, bat, release, air = parameters.ball, parameters.bat, parameters.release, parameters.air.air
-    forces = forces_in_flight(ball, air, parameters.gravity)
-    place = release.place, max(release.height, ball.radius)
-    hit = with_spin_decay(launched_ball(parameters.launch, ball, place, forces, SOLID_SPHERE), ball.spin_decay, air)
+    ball, bat = parameters.ball, parameters.bat
+    hit = parameters.launched(parameters.release.of(ball))
     if parameters.start == "bat":
-        hit = struck_by(bat, "bat", bat.rebound(ball.mass, SOLID_SPHERE), hit)
-    return Setup([hit], [Surface("ground", Segment((-1e4, 0.0), (1e4, 0.0)), 0.5, 0.5)], 60.0, Touches("ground"))
+        hit = struck_by(bat, "bat", bat.rebound(ball.mass, ball.inertia_factor), hit)
+    return Setup([hit], [Surface("ground", level(), 0.5, 0.5)], 60.0, Touches("ground"))
 
 
 def over_fence(run: Run, parameters: Parameters) -> float | None:

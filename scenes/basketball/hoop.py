@@ -13,7 +13,7 @@ from sandbox.picture.painter import Painter
 from sandbox.picture.palette import mix, palette, scene_colours
 from sandbox.picture.places import Post, Shape, Thing
 
-from .scene import Parameters, board, rims
+from .scene import Parameters
 
 COLOURS, SHADOW = scene_colours(__file__)["hoop"], palette("card")["shadow"]
 
@@ -28,7 +28,7 @@ SWING, SETTLE, SETTLED = 11.0, 3.0, 5.0
 
 def stand(parameters: Parameters) -> list[Thing]:
     """What carries the board: a mast that leans towards the ring, on a heavy foot."""
-    _, bottom, back, top = board(parameters)
+    _, bottom, back, top = parameters.board
     foot, head, height = back + 1.45, back + 0.95, top - bottom
     up = bottom + 0.30 * height
     bars = [((foot + 0.75, 0.25), (head + 0.02, up), 0.04, "strut"), ((foot, 0.2), (head, up), 0.08, "stand")]
@@ -40,8 +40,8 @@ def stand(parameters: Parameters) -> list[Thing]:
 
 def hoop(parameters: Parameters) -> list[Thing]:
     """The glass board with its square, and the ring, whose near half is in front of the ball."""
-    face, bottom, _, top = board(parameters)
-    (front, height), (back, _) = rims(parameters)
+    face, bottom, _, top = parameters.board
+    (front, height), (back, _) = parameters.hoop.rims
     middle, radius, tube = (front + back) / 2, (back - front) / 2, parameters.hoop.tube_radius
     low = max(bottom, height)
     high, shaded = max(low, min(top, low + SQUARE_HEIGHT)), mix(COLOURS["ring"], SHADOW, 0.35)
@@ -67,7 +67,7 @@ class Net:
 
     def __init__(self, run: Run, parameters: Parameters):
         self.run = run
-        (front, self.top), (back, _) = rims(parameters)
+        (front, self.top), (back, _) = parameters.hoop.rims
         self.middle, self.wide = (front + back) / 2, (back - front) / 2
         self.length, self.radius = parameters.net.length, parameters.ball.radius
         self._lines = lru_cache(maxsize=8)(self._strings)  # the same as long as net and camera rest

@@ -23,7 +23,7 @@ from sandbox.picture.side import Length, Place, SideView
 from sandbox.sport.amounts import metres, roughly, times
 
 from .hoop import Net, hoop, stand
-from .scene import Parameters, board
+from .scene import Parameters
 
 CARD, COLOURS = palette("card"), scene_colours(__file__)
 BALL, FLOOR = COLOURS["ball"], COLOURS["floor"]
@@ -107,7 +107,7 @@ class Picture(SideView[Parameters]):
 
     @cached_property
     def place(self) -> Place:
-        face = board(self.parameters)[0]
+        face = self.parameters.board[0]
         end, throw = face + END_LINE, face - KEY_LENGTH
         key = [(throw, 0.0), (throw, KEY_HALF_WIDTH), (end, KEY_HALF_WIDTH), (end, 0.0)]
         ground = Ground(
@@ -140,7 +140,7 @@ class Picture(SideView[Parameters]):
 
     @property
     def target(self) -> Box:
-        face, _, back, top = board(self.parameters)
+        face, _, back, top = self.parameters.board
         return Box(face, 0.0, back + STAND, top)
 
     def lengths(self) -> list[Length]:
@@ -239,7 +239,7 @@ class Picture(SideView[Parameters]):
 
     def _under_lens(self, camera: Camera) -> bool:
         """Whether the lens would hide the ring and board that it shows: the camera has gone along with the ball."""
-        _, bottom, back, top = board(self.parameters)
+        _, bottom, back, top = self.parameters.board
         (left, high), (right, low) = camera.pixel(self.ring[0] - 0.6, top), camera.pixel(back + 1.0, bottom)
         return bool(self.lens.colliderect((round(left), round(high), round(right - left), round(low - high))))
 

@@ -15,23 +15,22 @@ evaluations (524 instead of 298, 60 % more time), and a swish lands 1.6 m nearer
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
 from sandbox.engine.run import Event, Run
-from sandbox.engine.setup import Circle, Patch, Segment, Setup, Surface, Until, Vector
+from sandbox.engine.setup import Circle, Patch, Segment, Setup, Surface, Vector
 from sandbox.errors import RequestError
-from sandbox.parameters import Accuracy, Group, group, quantity, switch
+from sandbox.parameters import Group, group, quantity, switch
 from sandbox.physics.elementwise import anywhere, clip
 from sandbox.physics.integrators import State
-from sandbox.sport.air import Air
 from sandbox.sport.amounts import roughly
 from sandbox.sport.controls import Controls, Handle, Spin, Spread
 from sandbox.sport.facts import ENDED, Fact, once
-from sandbox.sport.flight import FlyingBall, Launch, forces_in_flight, launched_ball
-from sandbox.sport.readings import LAUNCH, Moment, at, before
-from sandbox.sport.solids import Extent, Solid, below, check_apart, disc
+from sandbox.sport.flight import Flight, FlyingBall
+from sandbox.sport.readings import LAUNCH, Moment, Passes, apex, at, before
+from sandbox.sport.solids import Extent, Solid, around, below, check_apart, disc, level
 
 
 class Release(Group):
@@ -47,6 +46,22 @@ class Hoop(Solid):
     height: float = quantity(..., "m", 0.1, 100, "of the tubes' middle above the floor")
     inner_diameter: float = quantity(..., "m", 0.01, 5, "between the inner edges of the tubes")
     tube_radius: float = quantity(..., "m", 0.0005, 0.2, "radius of the tube")
+
+    @property
+    def middle(self) -> Vector:
+        """The middle of the ring, in m."""
+        return self.distance, self.height
+
+    def across(self, below: float = 0.0) -> tuple[Vector, Vector]:
+        """The ring's inner edges, front and back, or places so many m below them."""
+        half, y = 0.5 * self.inner_diameter, self.height - below
+        return (self.distance - half, y), (self.distance + half, y)
+
+    @property
+    def rims(self) -> tuple[Vector, Vector]:
+        """Middles of the front and the back tube, in m."""
+        aside = 0.5 * self.inner_diameter + self.tube_radius
+        return (self.distance - aside, self.height), (self.distance + aside, self.height)
 
 
 class Backboard(Solid):
@@ -66,19 +81,21 @@ class Net(Group):
     damping: float = quantity(..., "1/s", 0, 100, "deceleration over speed of a ball falling through it")
 
 
-class Parameters(Group):
+class Parameters(Flight):
     """All parameters of a shot."""
 
-    launch: Launch = group(..., "the ball just after it leaves the hand")
-    release: Release = group(..., "where it leaves the hand")
-    gravity: float = quantity(..., "m/s^2", 0, 30, "gravity")
-    air: Air = group(..., "the air")
+    release: Release = group(..., "where the ball leaves the hand")
     ball: FlyingBall = group(..., "the ball")
     hoop: Hoop = group(..., "the ring")
     backboard: Backboard = group(..., "the board")
     net: Net = group(..., "the net")
     floor: Solid = group(..., "the floor")
-    accuracy: Accuracy = group(Accuracy(), "speed against accuracy")
+
+    @property
+    def board(self) -> tuple[float, float, float, float]:
+        """Left (the face), bottom, right and top of the board, in m."""
+        (_, (inner, _)), board = self.hoop.across(), self.backboard
+        return inner + board.gap, board.bottom, inner + board.gap + board.thickness, board.top
 
 
 CONTROLS = Controls(
@@ -88,7 +105,7 @@ CONTROLS = Controls(
     handles=(
         Handle("hoop.distance", "hoop.height", goal=True),
         Handle(y="release.height"),
-        Handle("backboard.gap", "backboard.top", at=lambda parameters: board(parameters)[::3]),
+        Handle("backboard.gap", "backboard.top", at=lambda parameters: parameters.board[::3]),
     ),
     scores="made",
     spread=(Spread("launch.speed", 0.01), Spread("launch.angle", least=1.0), Spread("launch.spin", 0.2)),  # assumed
@@ -96,9 +113,6 @@ CONTROLS = Controls(
 
 #: A shot still moving after this time in s is ended.
 LONGEST = 60.0
-
-#: The floor reaches this far in both directions, in m: as far as the fastest ball gets in that time.
-FAR = 25_000.0
 
 #: The run is over when the ball comes down on the floor no faster than this, in m/s: after a few bounces.
 TIRED = 3.0
@@ -154,168 +168,115 @@ def _smooth(x: Any) -> Any:
 
 def build(parameters: Parameters) -> Setup:
     """Ball, ring, board and floor. Raises RequestError if they overlap."""
-    _check(parameters)
-    ball, hoop, net = parameters.ball, parameters.hoop, parameters.net
-    forces = forces_in_flight(ball, parameters.air, parameters.gravity)
-    drag = NetDrag(ball.mass, net.damping, (hoop.distance, hoop.height), 0.5 * hoop.inner_diameter, net.length)
-    if net.slows:
-        forces.append(drag)
-    shot = launched_ball(parameters.launch, ball, (0.0, parameters.release.height), forces)
-    patches = [drag.patch] if net.slows else []
-    return Setup([shot], _court(parameters), duration=LONGEST, until=_is_tired, patches=patches)
+    hoop, net, mass = parameters.hoop, parameters.net, parameters.ball.mass
+    drag = [NetDrag(mass, net.damping, hoop.middle, 0.5 * hoop.inner_diameter, net.length)] if net.slows else []
+    shot = parameters.launched((0.0, parameters.release.height), *drag)
+    return Setup([shot], court(parameters), LONGEST, is_tired, patches=[force.patch for force in drag])
 
 
-def _is_tired(event: Event) -> bool:
+def is_tired(event: Event) -> bool:
+    """Whether the ball hardly bounces any more."""
     return event.partner == "floor" and event.speed <= TIRED
 
 
-def rims(parameters: Parameters) -> tuple[Vector, Vector]:
-    """Middles of the front and the back tube, in m."""
-    hoop = parameters.hoop
-    aside = 0.5 * hoop.inner_diameter + hoop.tube_radius
-    return (hoop.distance - aside, hoop.height), (hoop.distance + aside, hoop.height)
-
-
-def board(parameters: Parameters) -> tuple[float, float, float, float]:
-    """Left (the face), bottom, right and top of the board, in m."""
-    hoop, backboard = parameters.hoop, parameters.backboard
-    face = hoop.distance + 0.5 * hoop.inner_diameter + backboard.gap
-    return face, backboard.bottom, face + backboard.thickness, backboard.top
-
-
-def _check(parameters: Parameters) -> None:
-    """Raise RequestError for what is upside down, or in something else."""
-    hoop, backboard = parameters.hoop, parameters.backboard
-    if backboard.top <= backboard.bottom:
-        raise RequestError(
-            f"backboard.top = {backboard.top:g} m is not above backboard.bottom = {backboard.bottom:g} m: swap them"
-        )
-    place, tube = ("hoop.distance", "hoop.height", "hoop.tube_radius"), hoop.tube_radius
-    front, back = (disc("the ring", place, *rim, tube) for rim in rims(parameters))
-    glass = Extent("the board", ("backboard.gap", "backboard.bottom", "backboard.top"), *board(parameters))
-    release = ("release.height", "ball.radius")
-    ball = disc("the ball", release, 0.0, parameters.release.height, parameters.ball.radius)
-    for others in ((front, glass), (back, glass), (front, below("the floor"))):
+def court(parameters: Parameters) -> list[Surface]:
+    """Floor, ring and board. Raises RequestError for what is upside down, or in something else."""
+    hoop, backboard, (front, back) = parameters.hoop, parameters.backboard, parameters.hoop.rims
+    left, bottom, right, top = parameters.board
+    if top <= bottom:
+        raise RequestError(f"backboard.top = {top:g} m is not above backboard.bottom = {bottom:g} m: swap them")
+    ring = ("hoop.distance", "hoop.height", "hoop.tube_radius")
+    tubes = [disc("the ring", ring, *rim, hoop.tube_radius) for rim in (front, back)]
+    glass = Extent("the board", ("backboard.gap", "backboard.bottom", "backboard.top"), *parameters.board)
+    hand = ("release.height", "ball.radius")
+    ball = disc("the ball", hand, 0.0, parameters.release.height, parameters.ball.radius)
+    for others in ((tubes[0], glass), (tubes[1], glass), (tubes[0], below("the floor"))):
         check_apart(parameters, ball, *others)
-
-
-def _court(parameters: Parameters) -> list[Surface]:
-    hoop, backboard = parameters.hoop, parameters.backboard
-    front, back = rims(parameters)
-    left, bottom, right, top = board(parameters)
-    corners = [(left, bottom), (right, bottom), (right, top), (left, top), (left, bottom)]
     return [
-        parameters.floor.surface("floor", Segment((-FAR, 0.0), (FAR, 0.0))),
+        parameters.floor.surface("floor", level()),
         hoop.surface("rim front", Circle(front, hoop.tube_radius)),
         hoop.surface("rim back", Circle(back, hoop.tube_radius)),
         hoop.surface("bracket", Segment(back, (left, back[1]), BRACKET_SHARE * hoop.tube_radius)),
-        *backboard.outline("backboard", corners),
+        *backboard.outline("backboard", around(left, bottom, right, top)),
     ]
 
 
-@once
-def _through(run: Run, parameters: Parameters) -> float | None:
-    """When the ball left the ring below, in s, having come down through it between its inner edges; None if never."""
-    hoop, radius = parameters.hoop, parameters.ball.radius
-    half = 0.5 * hoop.inner_diameter
-    inside = [t for t, state in _downs(run, parameters) if abs(state[0] - hoop.distance) < half]
-    for t in inside:
-        back_up = next((at for at, _ in run.crossings("ball", (0.0, hoop.height), (0.0, -1.0)) if at > t), run.duration)
-        below = (at for at, _ in run.crossings("ball", (0.0, hoop.height - radius), (0.0, 1.0)) if t < at <= back_up)
-        left = next(below, None)
-        if left is not None:
-            return left
-    return None
-
-
-def _downs(run: Run, parameters: Parameters) -> Iterator[tuple[float, State]]:
-    """Each time and state at which the ball's centre falls to the ring's height."""
-    return run.crossings("ball", (parameters.hoop.distance, parameters.hoop.height), (0.0, 1.0))
-
-
-def _on_floor(run: Run) -> float:
+def on_floor(run: Run) -> float:
     """When the ball reaches the floor, or the run ends."""
     return next((event.t for event in run.events if event.partner == "floor"), run.duration)
+
+
+def falls_to(run: Run, parameters: Parameters, below: float = 0.0) -> Iterator[tuple[float, State]]:
+    """Each time and state at which the ball's centre falls to the ring's height, or so many m below it."""
+    hoop = parameters.hoop
+    return run.crossings("ball", (hoop.distance, hoop.height - below), (0.0, 1.0))
+
+
+@once
+def through(run: Run, parameters: Parameters) -> float | None:
+    """When the ball left the ring below, in s, having come down through it between its inner edges; None if never."""
+    hoop, radius = parameters.hoop, parameters.ball.radius
+    rises = [t for t, _ in run.crossings("ball", hoop.middle, (0.0, -1.0))]
+    out = [t for t, _ in falls_to(run, parameters, radius)]
+    for into, state in falls_to(run, parameters):
+        back_up = next((t for t in rises if t > into), run.duration)
+        left = next((t for t in out if into < t <= back_up), None)
+        if left is not None and abs(state[0] - hoop.distance) < 0.5 * hoop.inner_diameter:
+            return left
+    return None
 
 
 @once
 def entry(run: Run, parameters: Parameters) -> Moment | None:
     """The ball as it first falls to the ring's height, or first touches something there if that is earlier."""
-    down = next((Moment(t, *state) for t, state in _downs(run, parameters)), None)
+    down = next((Moment(t, *state) for t, state in falls_to(run, parameters)), None)
     first = next((event.t for event in run.events if event.partner != "floor"), None)
-    floor = _on_floor(run)
+    floor = on_floor(run)
     if first is not None and first <= floor and (down is None or first < down.t):
         down = before(run, first)
     return down if down is not None and down.t <= floor else None
 
 
-@once
-def _touches(run: Run, parameters: Parameters) -> list[str]:
-    """The surfaces touched until the shot was decided: by leaving the ring below, or by reaching the floor."""
-    through = _through(run, parameters)
-    decided = _on_floor(run) if through is None else through
-    return [event.partner for event in run.events if event.kind in ("impact", "contact") and event.t <= decided]
-
-
-@dataclass(frozen=True)
-class Decided(Until):
-    """The ball is on the floor; or it has left the ring below, falling faster than a ball that rose into the ring from
-    below can."""
-
-    middle: Vector  # m, of the ring
-    half_width: float  # m, between the middle and the inner edges
-    below: float  # m, from the middle
-    fastest: float  # m/s, at which a ball falls that was no higher than the ring
-
-    def over(self, events: Sequence[Event]) -> bool:
-        return events[-1].partner == "floor"
-
-    def passed(self, start: State, end: State) -> Any:
-        (x, height), (x0, y0, *_), (x1, y1, _, vy, _) = self.middle, start, end
-        inside = (abs(x0 - x) < self.half_width) & (abs(x1 - x) < self.half_width)
-        return inside & (y0 >= height - self.below) & (y1 < height - self.below) & (vy < -self.fastest)
-
-
-def decided(parameters: Parameters) -> Decided:
-    """When a shot is decided."""
-    hoop, radius = parameters.hoop, parameters.ball.radius
-    fastest = 1.1 * (2.0 * parameters.gravity * radius) ** 0.5  # drag only slows it; the rest is for lift and wind
-    return Decided((hoop.distance, hoop.height), 0.5 * hoop.inner_diameter, radius, fastest)
-
-
-def _made(run: Run, parameters: Parameters) -> bool:
-    return _through(run, parameters) is not None
-
-
-def _word(run: Run, parameters: Parameters) -> str:
-    """swish; bank, off the board first; rim, off the ring first; miss."""
-    if not _made(run, parameters):
-        return "miss"
-    touches = _touches(run, parameters)
-    if not touches:
-        return "swish"
-    return "bank" if touches[0] == "backboard" else "rim"
-
-
-def _offset(run: Run, parameters: Parameters) -> float | None:
+def offset(run: Run, parameters: Parameters) -> float | None:
+    """How far in m beyond the middle of the ring that is."""
     down = entry(run, parameters)
     return None if down is None else down.x - parameters.hoop.distance
 
 
-def _apex(run: Run, parameters: Parameters) -> float:
-    return run.highest("ball")[1][1] - parameters.release.height
+@once
+def touches(run: Run, parameters: Parameters) -> list[str]:
+    """The surfaces touched until the shot was decided: by leaving the ring below, or by reaching the floor."""
+    left = through(run, parameters)
+    decided = on_floor(run) if left is None else left
+    return [event.partner for event in run.events if event.kind in ("impact", "contact") and event.t <= decided]
+
+
+def decided(parameters: Parameters) -> Passes:
+    """The ball is on the floor; or it has left the ring below, falling faster than a ball that rose into the ring from
+    below can: drag only slows that one; a tenth more is for lift and wind."""
+    radius = parameters.ball.radius
+    fastest = 1.1 * (2.0 * parameters.gravity * radius) ** 0.5
+    return Passes("floor", 1, *parameters.hoop.across(radius), fastest)
+
+
+def word(run: Run, parameters: Parameters) -> str:
+    """swish; bank, off the board first; rim, off the ring first; miss."""
+    if through(run, parameters) is None:
+        return "miss"
+    first = next(iter(touches(run, parameters)), None)
+    return "swish" if first is None else "bank" if first == "backboard" else "rim"
 
 
 FACTS = (
-    Fact("made", "", "", _made, decided),
-    Fact("verdict", "", "", _word, decided),
-    Fact("entry_angle", "entry angle", "deg", at(entry, lambda ball: ball.descent), decided),
-    Fact("entry_speed", "entry speed", "m/s", at(entry, lambda ball: ball.speed), decided),
-    Fact("entry_offset", "from centre", "m", _offset, decided, sides=("short", "long")),
-    Fact("apex", "apex above hand", "m", _apex, decided),
-    Fact("flight_time", "flight time", "s", at(entry, lambda ball: ball.t), decided),
+    Fact("made", "", "", lambda run, it: through(run, it) is not None, decided),
+    Fact("verdict", "", "", word, decided),
+    Fact("entry_angle", "entry angle", "deg", at(entry, "descent"), decided),
+    Fact("entry_speed", "entry speed", "m/s", at(entry, "speed"), decided),
+    Fact("entry_offset", "from centre", "m", offset, decided, sides=("short", "long")),
+    Fact("apex", "apex above hand", "m", lambda run, it: apex(run, it) - it.release.height, decided),
+    Fact("flight_time", "flight time", "s", at(entry, "t"), decided),
     *LAUNCH,
-    Fact("touches", "touches", "", _touches, decided),
+    Fact("touches", "touches", "", touches, decided),
     ENDED,
 )
 

@@ -27,12 +27,13 @@ from sandbox.engine.setup import Always, Ball, Bounce, ContactModel, Setup, Vect
 from sandbox.engine.touch import Obstacle
 from sandbox.engine.track import PRESSED
 from sandbox.errors import RequestError
-from sandbox.parameters import Accuracy, Group, choice, either, group, groups, quantity
+from sandbox.parameters import Group, SceneParameters, choice, either, group, groups, quantity
 from sandbox.physics.cloth import Cloth
 from sandbox.physics.throw import friction_by_speed
 from sandbox.sport.amounts import roughly
 from sandbox.sport.controls import Controls, Goal, Handle, Spin, Spread
 from sandbox.sport.facts import ENDED, Fact, once
+from sandbox.sport.flight import Directed
 from sandbox.sport.readings import at, travelled
 from sandbox.sport.sliding import left, taken
 from sandbox.sport.solids import Solid
@@ -48,7 +49,7 @@ class Spot(Group):
     y: float = quantity(0.0, "m", -10, 10, "across the table")
 
 
-class Cue(Group):
+class Cue(Directed):
     """The stroke, with a level cue."""
 
     ball: str = Field(description="name of the ball that is struck", min_length=1, max_length=40)
@@ -93,7 +94,7 @@ class Contact(Group):
     stiffness: float = quantity(..., "N/m^1.5", 1e5, 1e12, "of a pair of balls")
 
 
-class Parameters(Group):
+class Parameters(SceneParameters):
     """All parameters of a shot."""
 
     rack: Literal["nine-ball", "eight-ball", "none"] | None = choice(
@@ -110,7 +111,6 @@ class Parameters(Group):
     cushion: Cushion = group(..., "the cushions")
     contact: Contact = group(..., "how balls meet")
     gravity: float = quantity(..., "m/s^2", 0, 30, "gravity")
-    accuracy: Accuracy = group(Accuracy(), "speed against accuracy")
 
 
 CONTROLS = Controls(

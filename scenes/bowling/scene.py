@@ -7,14 +7,14 @@ Leaves out: how pins fall (they slide, and are down if pushed so far as to tip: 
 
 from __future__ import annotations
 
-from math import atan2, cos, degrees, dist, sin
+from math import cos, dist, sin
 
 from pydantic import Field
 
 from sandbox.engine.run import Run
 from sandbox.engine.setup import Always, Ball, Bounce, Segment, Setup, Surface
 from sandbox.errors import RequestError
-from sandbox.parameters import Accuracy, Group, group, groups, quantity
+from sandbox.parameters import Group, group, groups, quantity
 from sandbox.physics.cloth import Cloth
 from sandbox.physics.ice import Glide
 from sandbox.physics.plane import Strips
@@ -22,7 +22,7 @@ from sandbox.sport.controls import Controls, Handle, Spin, Spread
 from sandbox.sport.facts import ENDED, Fact
 from sandbox.sport.flight import DEGREE
 from sandbox.sport.readings import Moment, at, before
-from sandbox.sport.sliding import Body, Slide, beside, beyond, end_of, met, taken
+from sandbox.sport.sliding import Body, Slide, Sliding, beside, beyond, end_of, met, taken
 
 #: USBC: from the foul line to the head pin, between pins and between their rows; from the head pin to the pit; half the
 #: widths of lane and lane with gutters; in m.
@@ -64,7 +64,7 @@ class Pins(Body):
     tips: float = quantity(..., "m", 0, 0.1, "a pin that is pushed further than this falls")
 
 
-class Parameters(Group):
+class Parameters(Sliding):
     """All parameters of a shot."""
 
     launch: Launch = group(..., "the ball as it leaves the hand")
@@ -72,8 +72,6 @@ class Parameters(Group):
     dry: float = quantity(..., "", 0, 1, "friction of ball and lane beyond the oil")
     ball: BowlingBall = group(..., "the ball")
     pin: Pins = group(..., "the pins")
-    gravity: float = quantity(..., "m/s^2", 0.1, 30, "gravity")
-    accuracy: Accuracy = group(Accuracy(), "speed against accuracy")
 
 
 CONTROLS = Controls(
@@ -135,10 +133,10 @@ def _entry(run: Run, parameters: Parameters) -> Moment | None:
 FACTS = (
     Fact("pins", "pins", "", lambda run, it: len(run.setup.balls) - 1 - len(_leaves(run, it))),
     Fact("leaves", "leaves", "", _leaves),
-    Fact("entry_angle", "entry", "deg", at(_entry, lambda ball: degrees(atan2(ball.vy, ball.vx))), sides=ASIDE),
-    Fact("offset", "off the centre", "m", at(_entry, lambda ball: ball.y), sides=ASIDE),
-    Fact("entry_speed", "at the pins", "m/s", at(_entry, lambda ball: ball.speed), also="mph"),
-    Fact("time", "to the pins", "s", at(_entry, lambda ball: ball.t)),
+    Fact("entry_angle", "entry", "deg", at(_entry, "direction"), sides=ASIDE),
+    Fact("offset", "off the centre", "m", at(_entry, "y"), sides=ASIDE),
+    Fact("entry_speed", "at the pins", "m/s", at(_entry, "speed"), also="mph"),
+    Fact("time", "to the pins", "s", at(_entry, "t")),
     Fact("release", "release", "m/s", lambda run, it: it.launch.speed, "start", also="mph"),
     Fact("met", "", "", lambda run, it: list(_met(run, it))),
     Fact("strike", "", "", lambda run, it: len(run.setup.balls) > 10 and not _leaves(run, it)),

@@ -14,16 +14,15 @@ from math import dist, log, pi
 
 from sandbox.engine.run import Run
 from sandbox.engine.setup import Ball, Force, Patch, Setup
-from sandbox.parameters import Accuracy, Group, group, quantity
+from sandbox.parameters import Group, SceneParameters, group, quantity
 from sandbox.physics.ballistics import BulletDrag, speed_of_sound
 from sandbox.physics.coefficients import Constant
-from sandbox.physics.elementwise import cos, sin
 from sandbox.physics.forces import Drag, Gravity, Inside
 from sandbox.sport.air import Weather, wind_in
 from sandbox.sport.amounts import metres
 from sandbox.sport.controls import Controls, Handle, Spread
 from sandbox.sport.facts import ENDED, Fact, once
-from sandbox.sport.flight import DEGREE
+from sandbox.sport.flight import Directed
 from sandbox.sport.readings import BALL_SPEED, LAUNCH_ANGLE, Moment, at
 
 from ..bullet.scene import Bullet
@@ -31,7 +30,7 @@ from ..bullet.scene import Bullet
 FINEST = 2**40  # moments in which a speed is looked for
 
 
-class Muzzle(Group):
+class Muzzle(Directed):
     """The bullet as it leaves the barrel."""
 
     speed: float = quantity(..., "m/s", 1, 1700, "muzzle speed")
@@ -46,7 +45,7 @@ class Water(Group):
     coefficient: float = quantity(..., "", 0.01, 5, "drag coefficient of the bullet in it")
 
 
-class Parameters(Group):
+class Parameters(SceneParameters):
     """All parameters of a shot; x = 0 is below the muzzle, y = 0 the surface of the water."""
 
     launch: Muzzle = group(..., "the bullet as it leaves the barrel")
@@ -56,7 +55,6 @@ class Parameters(Group):
     duration: float = quantity(..., "s", 1e-4, 10, "how long it is watched")
     gravity: float = quantity(..., "m/s^2", 0, 30, "gravity")
     air: Weather = group(..., "the air")
-    accuracy: Accuracy = group(Accuracy(), "speed against accuracy")
 
 
 CONTROLS = Controls(
@@ -86,9 +84,7 @@ def build(parameters: Parameters) -> Setup:
         shape, sound = bullet.drag.model, speed_of_sound(parameters.air.temperature + 273.15)
         dry = BulletDrag(bullet.mass, shape, bullet.coefficient, air.density, sound, wind_in(air))
         forces.append(Inside(dry, surface, (0.0, -1.0), bullet.radius, "drag of air"))
-    angle = launch.angle * DEGREE
-    velocity = launch.speed * cos(angle), launch.speed * sin(angle)
-    fired = Ball("ball", bullet.mass, bullet.radius, (0.0, launch.height), velocity, forces=forces)
+    fired = Ball("ball", bullet.mass, bullet.radius, (0.0, launch.height), launch.velocity, forces=forces)
     skin = Patch(-1e4, -bullet.radius, 1e4, bullet.radius, 0.5 * bullet.radius / launch.speed)  # of the water
     return Setup([fired], duration=parameters.duration, patches=[skin])
 
@@ -122,8 +118,8 @@ FACTS = (
     Fact("penetration", "harmless after", "m", _way),
     Fact("depth", "at a depth of", "m", at(harmless, lambda bullet: -bullet.y)),
     Fact("halving", "speed halves every", "m", lambda run, parameters: halving(parameters), settled="start"),
-    Fact("entry_speed", "into the water at", "m/s", at(entry, lambda bullet: bullet.speed)),
-    Fact("flight_time", "", "s", at(harmless, lambda bullet: bullet.t)),
+    Fact("entry_speed", "into the water at", "m/s", at(entry, "speed")),
+    Fact("flight_time", "", "s", at(harmless, "t")),
     BALL_SPEED,
     LAUNCH_ANGLE,
     ENDED,

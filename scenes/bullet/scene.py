@@ -15,7 +15,7 @@ from typing import Literal
 
 from sandbox.engine.run import Run
 from sandbox.engine.setup import Ball, Force, Segment, Setup, Surface, Touches
-from sandbox.parameters import Accuracy, Group, choice, group, quantity
+from sandbox.parameters import Group, SceneParameters, choice, group, quantity
 from sandbox.physics.ballistics import BulletDrag, speed_of_sound
 from sandbox.physics.elementwise import cos, sin
 from sandbox.physics.forces import Gravity
@@ -23,8 +23,8 @@ from sandbox.sport.air import Weather, wind_in
 from sandbox.sport.amounts import amount, metres
 from sandbox.sport.controls import Controls, Handle, Spread
 from sandbox.sport.facts import ENDED, Fact
-from sandbox.sport.flight import DEGREE
-from sandbox.sport.readings import BALL_SPEED, LAUNCH_ANGLE, Moment, at, passing
+from sandbox.sport.flight import DEGREE, Directed
+from sandbox.sport.readings import BALL_SPEED, LAUNCH_ANGLE, Moment, apex, at, passing
 from sandbox.sport.zero import Sight, Zero, zeroed
 
 HUNDRED_YARDS = 91.44  # m
@@ -32,7 +32,7 @@ MOA = 60.0 * degrees(1.0)  # minutes of arc in 1 rad
 SIDES, HOLDS = ("low", "high"), ("under", "over")
 
 
-class Muzzle(Group):
+class Muzzle(Directed):
     """The bullet as it leaves the barrel."""
 
     speed: float = quantity(..., "m/s", 1, 1700, "muzzle speed")
@@ -60,7 +60,7 @@ class Range(Group):
     distance: float = quantity(..., "m", 1, 5000, "from the muzzle to the target")
 
 
-class Parameters(Group):
+class Parameters(SceneParameters):
     """All parameters of a shot; x = 0 is the muzzle, and y = 0 the line of sight."""
 
     launch: Muzzle = group(..., "the bullet as it leaves the barrel")
@@ -70,7 +70,6 @@ class Parameters(Group):
     range: Range = group(..., "the shooting range")
     gravity: float = quantity(..., "m/s^2", 0, 30, "gravity")
     air: Weather = group(..., "the air")
-    accuracy: Accuracy = group(Accuracy(), "speed against accuracy")
 
 
 CONTROLS = Controls(
@@ -124,11 +123,11 @@ def table(run: Run, parameters: Parameters) -> list[dict[str, float]]:
 
 
 FACTS = (
-    Fact("height", "at the target", "m", at(at_target, lambda bullet: bullet.y), settled="target", sides=SIDES),
+    Fact("height", "at the target", "m", at(at_target, "y"), settled="target", sides=SIDES),
     Fact("hold", "hold", "moa", at(at_target, lambda bullet: -MOA * atan2(bullet.y, bullet.x)), "target", sides=HOLDS),
-    Fact("speed", "speed there", "m/s", at(at_target, lambda bullet: bullet.speed), settled="target", also="ft/s"),
-    Fact("flight_time", "flight time", "s", at(at_target, lambda bullet: bullet.t), settled="target"),
-    Fact("apex", "most over sight line", "m", lambda run, parameters: run.highest("ball")[1][1], settled="target"),
+    Fact("speed", "speed there", "m/s", at(at_target, "speed"), settled="target", also="ft/s"),
+    Fact("flight_time", "flight time", "s", at(at_target, "t"), settled="target"),
+    Fact("apex", "most over sight line", "m", apex, settled="target"),
     BALL_SPEED,
     replace(LAUNCH_ANGLE, label=""),
     Fact("elevation", "barrel up", "moa", lambda run, parameters: 60.0 * LAUNCH_ANGLE.how(run, parameters), "start"),

@@ -11,23 +11,24 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import accumulate, pairwise
-from math import cos, dist, hypot, pi, radians, sin
+from math import cos, dist, hypot, pi, sin
 from typing import Any, Literal, NamedTuple
 
 from pydantic import Field
 
 from sandbox.engine.meeting import discs
 from sandbox.engine.run import Run
-from sandbox.engine.setup import Always, Ball, Bounce, ContactModel, Force, Segment, Setup, Surface, Vector, kinetic
+from sandbox.engine.setup import Always, Ball, Bounce, ContactModel, Force, Setup, Vector, kinetic
 from sandbox.engine.track import PRESSED
 from sandbox.errors import RequestError
-from sandbox.parameters import Accuracy, Group, choice, group, groups, quantity
+from sandbox.parameters import Group, SceneParameters, choice, group, groups, quantity
 from sandbox.physics.coefficients import Constant
 from sandbox.physics.forces import Drag, Gravity
 from sandbox.physics.integrators import State
 from sandbox.sport.air import Air, wind_in
 from sandbox.sport.controls import Controls, Handle
 from sandbox.sport.facts import ENDED, Fact, once
+from sandbox.sport.flight import Directed
 from sandbox.sport.readings import at
 from sandbox.sport.solids import Solid
 
@@ -49,7 +50,7 @@ class Body(Group):
     radius: float = quantity(0.028575, "m", 0.001, 1, "radius")
 
 
-class Launch(Group):
+class Launch(Directed):
     """The ball that is played."""
 
     ball: str = Field(description="its name; without a ball of that name none is launched", max_length=40)
@@ -72,7 +73,7 @@ class Floor(Solid):
     resistance: float = quantity(..., "", 0, 1, "to rolling: deceleration over the acceleration that presses it on")
 
 
-class Parameters(Group):
+class Parameters(SceneParameters):
     """All parameters of a collision."""
 
     balls: list[Body] = groups(..., "the balls")
@@ -86,7 +87,6 @@ class Parameters(Group):
     )
     air: Air = group(..., "the air; without density where it does not matter")
     duration: float = quantity(..., "s", 0.01, 60, "shown at most")
-    accuracy: Accuracy = group(Accuracy(), "speed against accuracy")
 
 
 CONTROLS = Controls(
@@ -135,10 +135,9 @@ def build(it: Parameters) -> Setup:
     turns = [pi * part / 40 for part in range(41)]
     rim = [(-floor.radius * cos(turn), floor.radius * (1.0 - sin(turn))) for turn in turns]
     corners = {"none": [], "flat": [(-100.0, 0.0), (100.0, 0.0)], "bowl": rim}[floor.shape]
-    ground = floor.restitution, floor.friction, floor.resistance
     return Setup(
         balls,
-        [Surface("floor", Segment(*ends), *ground) for ends in pairwise(corners)],
+        floor.outline("floor", corners, rolling_resistance=floor.resistance),
         it.duration,
         between_balls=Always(Bounce(it.contact.restitution, it.contact.friction)),
         contact=ContactModel(it.contact.model, it.contact.stiffness),
@@ -148,7 +147,7 @@ def build(it: Parameters) -> Setup:
 def _velocity(it: Body | Box, launch: Launch) -> Vector:
     """The velocity at the start in m/s: as listed, or that of the launch."""
     if it.name == launch.ball and it.vx is None and it.vy is None:
-        return launch.speed * cos(radians(launch.angle)), launch.speed * sin(radians(launch.angle))
+        return launch.velocity
     return it.vx or 0.0, it.vy or 0.0
 
 

@@ -14,14 +14,14 @@ from typing import Any, Literal
 
 from sandbox.engine.run import Run
 from sandbox.engine.setup import Always, Bounce, Setup, Vector
-from sandbox.parameters import Accuracy, Group, choice, group, groups, quantity
+from sandbox.parameters import Group, choice, group, groups, quantity
 from sandbox.physics.ice import CurlingIce
 from sandbox.physics.plane import Strips
 from sandbox.sport.amounts import roughly
 from sandbox.sport.controls import Controls, Handle, Spin, Spread
 from sandbox.sport.facts import ENDED, Fact
 from sandbox.sport.readings import at
-from sandbox.sport.sliding import REST_TIME, Body, Slide, aside, beside, beyond, end_of, left, passes, taken
+from sandbox.sport.sliding import REST_TIME, Body, Sliding, aside, beside, beyond, end_of, left, passes, taken
 
 Team = Literal["red", "yellow"]
 #: The sheet (World Curling, rule R1), in m from the tee: back line, hog line, the one of release; radii of the rings.
@@ -51,18 +51,15 @@ class Spot(Group):
     y: float = quantity(0.0, "m", -2.2, 2.2, "to the left")
 
 
-class Parameters(Group):
+class Parameters(Sliding):
     """All parameters of a throw."""
 
     team: Team = choice(..., "whose stone is thrown")
-    launch: Slide = group(..., "the stone as it is released, at the hog line")
     stones: list[Spot] = groups(..., "those that lie on the sheet")
     sweep: Sweeping = group(..., "sweeping")
     ice: Ice = group(..., "the ice")
     width: float = quantity(..., "m", 2, 6, "of the sheet, between the side lines")
     stone: Body = group(..., "the stones")
-    gravity: float = quantity(..., "m/s^2", 0.1, 30, "gravity")
-    accuracy: Accuracy = group(Accuracy(), "speed against accuracy")
 
 
 CONTROLS = Controls(

@@ -13,23 +13,22 @@ from math import cos, pi, radians, sin
 from typing import Any, Literal
 
 from sandbox.engine.run import Event, Run
-from sandbox.engine.setup import Body, Circle, Segment, Setup, Surface, Torque
+from sandbox.engine.setup import Body, Circle, Setup, Surface, Torque
 from sandbox.engine.shapes import Ellipse
-from sandbox.parameters import Accuracy, Group, choice, group, quantity, switch
+from sandbox.parameters import Group, SceneParameters, choice, group, quantity, switch
 from sandbox.physics.elementwise import hypot
 from sandbox.physics.forces import Gravity
 from sandbox.sport.air import Air, wind_in
 from sandbox.sport.controls import Controls, Handle, Spin, Spread
 from sandbox.sport.facts import ENDED, Fact, once
-from sandbox.sport.flight import DEGREE, RPM
-from sandbox.sport.readings import LAUNCH, Moment, at, before, passing
-from sandbox.sport.solids import Solid
+from sandbox.sport.flight import DEGREE, RPM, Directed
+from sandbox.sport.readings import LAUNCH, Moment, apex, at, before, passing
+from sandbox.sport.solids import Solid, level
 
-#: The grass reaches so far, and a run lasts so long at most: in m, and in s.
-FAR, LONGEST = 1000.0, 15.0
+LONGEST = 15.0  # s, after which a run is ended
 
 
-class Launch(Group):
+class Launch(Directed):
     """The ball as it leaves the foot."""
 
     speed: float = quantity(..., "m/s", 0, 60, "ball speed")
@@ -50,10 +49,6 @@ class Football(Group):
     side_drag: float = quantity(..., "", 0, 2, "drag coefficient, side on, on the same cross-section")
 
 
-class Grass(Solid):
-    """The ground."""
-
-
 class Goal(Group):
     """Bar and uprights; the bar's middle is in the plane of play."""
 
@@ -63,16 +58,15 @@ class Goal(Group):
     restitution: float = quantity(..., "", 0, 1, "of the ball off the bar")
 
 
-class Parameters(Group):
+class Parameters(SceneParameters):
     """All parameters of a kick."""
 
     launch: Launch = group(..., "the ball just after the kick")
     gravity: float = quantity(..., "m/s^2", 0, 30, "gravity")
     air: Air = group(..., "the air")
     ball: Football = group(..., "the ball")
-    ground: Grass = group(..., "the grass")
+    ground: Solid = group(..., "the grass")
     goal: Goal = group(..., "the goal")
-    accuracy: Accuracy = group(Accuracy(), "speed against accuracy")
 
 
 CONTROLS = Controls(
@@ -143,7 +137,7 @@ def build(it: Parameters) -> Setup:
     kicked = Body(
         "ball",
         position=(0.0, launch.height),
-        velocity=(launch.speed * cos(angle), launch.speed * sin(angle)),
+        velocity=launch.velocity,
         spin=0.0 if spiral else launch.spin * RPM,
         angle=angle if spiral else radians(launch.nose),
         shape=Ellipse(half, round_half),
@@ -152,7 +146,7 @@ def build(it: Parameters) -> Setup:
         forces=forces,
         torques=torques,
     )
-    surfaces = [Surface("ground", Segment((-FAR, 0.0), (FAR, 0.0)), it.ground.restitution, it.ground.friction)]
+    surfaces = [it.ground.surface("ground", level(reach=1e3))]
     if it.goal.present:
         bar = Circle((it.goal.distance, it.goal.height - BAR), BAR)
         surfaces.append(Surface("crossbar", bar, it.goal.restitution, 0.3))
@@ -194,13 +188,13 @@ def _rolled(run: Run, parameters: Parameters) -> float | None:
 
 
 FACTS = (
-    Fact("distance", "distance", "m", at(landing, lambda ball: ball.x), settled="ground", also="yd"),
-    Fact("hang_time", "hang time", "s", at(landing, lambda ball: ball.t), settled="ground"),
-    Fact("apex", "apex", "m", lambda run, parameters: run.highest("ball")[1][1]),
+    Fact("distance", "distance", "m", at(landing, "x"), settled="ground", also="yd"),
+    Fact("hang_time", "hang time", "s", at(landing, "t"), settled="ground"),
+    Fact("apex", "apex", "m", apex),
     Fact("bounce", "bounces", "m", _rolled, also="yd"),
     Fact("over", "over the bar", "m", over),
     Fact("good", "", "", good),
-    Fact("landing_angle", "lands at", "deg", at(landing, lambda ball: ball.descent), settled="ground"),
+    Fact("landing_angle", "lands at", "deg", at(landing, "descent"), settled="ground"),
     Fact(
         "nose",
         "nose at landing",

@@ -15,7 +15,7 @@ from sandbox.picture.sheet import Sheet, SideRows, nice
 from sandbox.picture.side import Length, SideView
 from sandbox.sport.amounts import metres, twice
 
-from .course import BALL, COLOURS, Course
+from .drawing import BALL, COLOURS, Course
 from .scene import Parameters
 
 CARD = palette("card")

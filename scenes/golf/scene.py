@@ -12,36 +12,25 @@ moisture of the grass.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from itertools import pairwise
+from dataclasses import replace
+from functools import partial
 from math import hypot, inf, radians
 from typing import Literal
 
-from sandbox.engine.run import Event, Run
-from sandbox.engine.setup import SOLID_SPHERE, Bounce, Bounds, Segment, Setup, Surface
+from sandbox.engine.run import Run
+from sandbox.engine.setup import SOLID_SPHERE, Ball, Bounds, Setup, Touches
 from sandbox.errors import RequestError
-from sandbox.parameters import Accuracy, Group, choice, either, group, groups, quantity, vectors
+from sandbox.parameters import Group, choice, either, group, quantity
 from sandbox.physics.club import Head, strike
-from sandbox.physics.club import Launch as Struck
 from sandbox.physics.coefficients import GOLF_DRAG, GOLF_LIFT
-from sandbox.physics.forces import SpinDecay
-from sandbox.physics.turf import penner_bounce, penner_restitution, stimp_resistance
-from sandbox.sport.air import (
-    ConstantDrag,
-    ConstantLift,
-    Lift,
-    Measured,
-    NoDrag,
-    NoLift,
-    OutdoorAir,
-    SpinRatioLift,
-    wind_in,
-)
+from sandbox.sport.air import Air, AnyLift, ConstantDrag, Lift, Model, NoForce, OutdoorAir
 from sandbox.sport.amounts import roughly
 from sandbox.sport.controls import Controls, Goal, Handle, Spin, Spread
 from sandbox.sport.facts import Fact, once
-from sandbox.sport.flight import RPM, Launch, Sphere, forces_in_flight, height_on, launched_ball
-from sandbox.sport.readings import BALL_SPEED, LAUNCH_ANGLE, LAUNCH_SPIN, Moment, at, before
+from sandbox.sport.flight import Flight, Sphere, height_on
+from sandbox.sport.readings import LAUNCH, LAUNCH_SPIN, Moment, at, before
+
+from .course import FAR, Ground, Pin, surfaces
 
 
 class Club(Group):
@@ -59,13 +48,10 @@ class Club(Group):
     height: float = quantity(..., "m", -0.03, 0.03, "of the impact point above the centre of mass")
 
 
-class GolfDrag(Measured):
+class GolfDrag(Model):
     """Drag by a model of the golf ball."""
 
     LAWS = GOLF_DRAG
-    model: Literal["tour-fit", "smits-smith", "lyu", "usga", "quadratic", "power-law"] = choice(
-        ..., "drag coefficient by its source"
-    )
 
 
 class DimpledDrag(ConstantDrag):
@@ -74,86 +60,34 @@ class DimpledDrag(ConstantDrag):
     coefficient: float = quantity(0.25, "", 0, 10, "drag coefficient")
 
 
-class GolfLift(Measured, Lift):
+class GolfLift(Lift):
     """Lift by a model of the golf ball."""
 
     LAWS = GOLF_LIFT
-    model: Literal["tour-fit", "smits-smith", "lyu", "usga", "quadratic", "power-law"] = choice(
-        ..., "lift coefficient by its source"
-    )
 
 
 class GolfBall(Sphere):
     """The golf ball, a solid sphere."""
 
+    INERTIA = SOLID_SPHERE
     spin_decay: float = quantity(..., "", 0, 0.01, "k of dw/dt = -k |u| w / r, in air of 1.204 kg/m^3")
-    drag: GolfDrag | DimpledDrag | NoDrag = either(..., "drag of the air")
-    lift: GolfLift | SpinRatioLift | ConstantLift | NoLift = either(..., "Magnus lift")
+    drag: GolfDrag | DimpledDrag | NoForce = either(..., "drag of the air")
+    lift: GolfLift | AnyLift = either(..., "Magnus lift")
+
+    def decay_in(self, air: Air) -> float:
+        """Thinner air slows the spin less, in proportion."""
+        return self.spin_decay * air.density / 1.204
 
 
-class Grass(Group):
-    """How a ball bounces on a kind of ground."""
-
-    bounce: float = quantity(..., "", 0, 2, "restitution over that of Penner's green")
-    friction: float = quantity(..., "", 0, 10, "friction of ball and ground")
-    give: float = quantity(..., "", 0, 2, "how far it gives way under a bounce, over Penner's green")
-
-
-class Turf(Grass):
-    """A kind of ground."""
-
-    resistance: float = quantity(..., "", 0, 10, "deceleration of a rolling ball over gravity")
-
-
-class Green(Grass):
-    """The green around the pin."""
-
-    length: float = quantity(..., "m", 0, 200, "length, the pin in its middle")
-    stimp: float = quantity(..., "m", 0.3, 12, "reading of a stimpmeter")
-
-
-class Strip(Group):
-    """A stretch of another kind of ground."""
-
-    kind: Literal["tee", "fairway", "rough", "bunker", "water"] = choice("rough", "kind of ground")
-    start: float = quantity(0.0, "m", -1000, 3000, "where it begins")
-    end: float = quantity(10.0, "m", -1000, 3000, "where it ends")
-
-
-class Ground(Group):
-    """The course, from the side."""
-
-    tee: Turf = group(..., "tee")
-    fairway: Turf = group(..., "fairway")
-    rough: Turf = group(..., "rough")
-    bunker: Turf = group(..., "bunker")
-    green: Green = group(..., "green")
-    strips: list[Strip] = groups(..., "stretches laid over the fairway, later ones on top; the green lies over all")
-    heights: list[tuple[float, float]] = vectors(
-        ..., 2, "m", -1000, 3000, "points (x, height) of the ground's line, level beyond its ends; empty: level at 0"
-    )
-
-
-class Pin(Group):
-    """The flag and its cup."""
-
-    distance: float = quantity(..., "m", -500, 2500, "from the tee to the middle of the cup")
-    cup_width: float = quantity(..., "m", 0, 10, "width of the cup; 0 for none")
-    cup_depth: float = quantity(..., "m", 0.01, 2, "depth of the cup")
-
-
-class Parameters(Group):
+class Parameters(Flight):
     """All numbers of a golf shot."""
 
     start: Literal["launch", "club"] = choice(..., "begin with the ball's launch, or with the club head")
-    launch: Launch = group(..., "the ball just after it was struck")
     club: Club = group(..., "the club head")
-    gravity: float = quantity(..., "m/s^2", 0, 30, "gravity")
     air: OutdoorAir = group(..., "the air")
     ball: GolfBall = group(..., "the ball")
     ground: Ground = group(..., "the course")
     pin: Pin = group(..., "the flag and its cup")
-    accuracy: Accuracy = group(Accuracy(), "speed against accuracy")
 
 
 CONTROLS = Controls(
@@ -161,18 +95,12 @@ CONTROLS = Controls(
     spins=(Spin("launch.spin", 100.0),),
     also={"start": "launch"},
     sliders=("launch.speed", "launch.angle", "launch.spin", "air.wind", "gravity", "pin.distance"),
-    handles=(Handle("pin.distance", at=lambda p: (p.pin.distance, height(p, p.pin.distance))),),
-    goals=lambda parameters: _goals(parameters),
+    handles=(Handle("pin.distance", at=lambda it: it.ground.point(it.pin.distance)),),
+    goals=lambda parameters: goals(parameters),
     scores="holed",
     spread=(Spread("launch.speed", 0.015), Spread("launch.angle", 0.08), Spread("launch.spin", 0.06)),  # assumed
     fan_fact="total",
 )
-
-#: Density in kg/m^3 of the air that the spin decay is given for; thinner air slows the spin less, in proportion.
-STANDARD_DENSITY = 1.204
-
-#: The course extends this far in m, behind and beyond: farther than a shot gets in LONGEST.
-FAR = 2e5
 
 #: A shot that has not come to rest after this time in s is ended.
 LONGEST = 300.0
@@ -180,133 +108,45 @@ LONGEST = 300.0
 #: A ball that ends less than this, in m, short of the farthest place it reached has not come back.
 LEAST_BACK = 0.5
 
-#: Bounces lower than this, in m, are lost in the grass and the ball rolls (Penner 2002, Can. J. Phys. 80:931).
-LOWEST_BOUNCE = 0.005
-
 #: Speed of ball over that of the head for a driver, on the tours (TrackMan: 1.49 for both, of men and of women).
 TOUR_SMASH_FACTOR = 1.49
 
-#: Restitution, friction and rolling resistance of the cup and its rim. Without restitution the fastest putt that it
-#: holds crosses the near edge at 1.64 m/s; Holmes 1991, Am. J. Phys. 59:129, has 1.63 m/s (second-hand). The others are
-#: assumed.
-CUP = (0.0, 0.4, 0.1)
-
 
 def build(parameters: Parameters) -> Setup:
-    """Ball, course, and the forces that this shot needs. Raises RequestError where the course makes no sense."""
-    air, ball, course = parameters.air, parameters.ball, _course(parameters)
-    forces = forces_in_flight(ball, air, parameters.gravity)
-    tee = height_on(course, ball.radius, above=max(y for _, y in _line(parameters)))
-    teed = launched_ball(parameters.launch, ball, (0.0, tee), forces, SOLID_SPHERE)
+    """The ball on the tee, and the course. Raises RequestError where the course makes no sense."""
+    course = surfaces(parameters.ground, parameters.pin, parameters.ball.radius)
+    highest = max(y for _, y in parameters.ground.line)
+    ball = parameters.launched((0.0, height_on(course, parameters.ball.radius, above=highest)))
     if parameters.start == "club":
-        struck = _struck(parameters.club, ball)
-        teed = replace(teed, velocity=(struck.vx, struck.vy), spin=struck.spin)
-    if air.density > 0.0 and ball.spin_decay > 0.0:
-        rate = ball.spin_decay * air.density / STANDARD_DENSITY
-        teed = replace(teed, torques=[SpinDecay(teed.inertia, ball.radius, rate, wind_in(air))])
-    return Setup([teed], course, duration=LONGEST, until=_is_in_water, bounds=Bounds(-FAR, -FAR, FAR, FAR))
+        ball = struck(parameters.club, ball)
+    return Setup([ball], course, LONGEST, Touches("water"), bounds=Bounds(-FAR, -FAR, FAR, FAR))
 
 
-def _goals(parameters: Parameters) -> list[Goal]:
-    """The cup for a putt, which may be hit at several speeds; else where the ball lands, by speed or by angle."""
-    pin, speed = parameters.pin.distance, parameters.launch.speed
-    at = pin, height(parameters, pin)
-    if parameters.launch.angle < 3.0:
-        return [Goal("the cup", {"holed": True}, at, {"launch.speed": (0.2 * speed, 3.0 * speed)})]
-    ways = {"launch.speed": (0.2 * speed, min(2.0 * speed, CONTROLS.strongest)), "launch.angle": (5.0, 80.0)}
-    return [Goal("a landing at the pin", {"carry": pin}, at, {key: ends}) for key, ends in ways.items()]
-
-
-def _struck(club: Club, ball: GolfBall) -> Struck:
+def struck(club: Club, ball: Ball) -> Ball:
     """The ball as it leaves the face."""
     if club.loft - club.attack > 90.0:
         raise RequestError(
             f"club.attack = {club.attack:g} deg: with club.loft = {club.loft:g} deg the face moves away from the ball"
         )
     head = Head(club.mass, club.restitution, club.friction, club.stiffness, club.depth, club.inertia)
-    return strike(head, club.speed, radians(club.loft), radians(club.attack), club.height, ball.mass, ball.radius)
+    angles = radians(club.loft), radians(club.attack)
+    vx, vy, spin = strike(head, club.speed, *angles, club.height, ball.mass, ball.radius)
+    return replace(ball, velocity=(vx, vy), spin=spin)
 
 
-def _is_in_water(event: Event) -> bool:
-    return event.partner == "water"
-
-
-def _line(parameters: Parameters) -> list[tuple[float, float]]:
-    """The ground's line, in m: level beyond the ends of what the file gives."""
-    points = parameters.ground.heights or [(0.0, 0.0)]
-    return [(-FAR, points[0][1]), *points, (FAR, points[-1][1])]
-
-
-def height(parameters: Parameters, x: float) -> float:
-    """Height of the ground in m at x."""
-    (x0, y0), (x1, y1) = next(piece for piece in pairwise(_line(parameters)) if x <= piece[1][0])
-    return y0 + (y1 - y0) * (x - x0) / (x1 - x0)
-
-
-def kind_at(parameters: Parameters, x: float) -> str:
-    """Kind of ground at x: the green around the pin, or the last strip that covers x, or fairway."""
-    if abs(x - parameters.pin.distance) < 0.5 * parameters.ground.green.length:
-        return "green"
-    for strip in reversed(parameters.ground.strips):
-        if strip.start <= x < strip.end:
-            return strip.kind
-    return "fairway"
-
-
-def _course(parameters: Parameters) -> list[Surface]:
-    """The ground in pieces of one kind, and the cup."""
-    ground, pin, radius = parameters.ground, parameters.pin, parameters.ball.radius
-    for (x0, _), (x1, _) in pairwise(ground.heights):
-        if x1 <= x0:
-            raise RequestError(f"ground.heights: x must grow from point to point, but {x1:g} m follows {x0:g} m")
-    for strip in ground.strips:
-        if strip.end <= strip.start:
-            raise RequestError(
-                f"ground.strips: the {strip.kind} from {strip.start:g} m to {strip.end:g} m has no length"
-            )
-    left, right = pin.distance - 0.5 * pin.cup_width, pin.distance + 0.5 * pin.cup_width
-    if left < right and left < radius and right > -radius:
-        raise RequestError(f"pin.distance: the cup at {pin.distance:g} m is where the ball starts, at 0 m")
-    green = pin.distance - 0.5 * ground.green.length, pin.distance + 0.5 * ground.green.length
-    strips = (x for strip in ground.strips for x in (strip.start, strip.end))
-    edges = sorted({left, right, *green, *strips, *(x for x, _ in _line(parameters))})
-    line = [(x, height(parameters, x)) for x in edges]
-    pieces = [(a, b) for a, b in pairwise(line) if not left <= a[0] < right]
-    cup: list[Surface] = []
-    if left < right:
-        top_left, top_right = (left, height(parameters, left)), (right, height(parameters, right))
-        bottom = min(top_left[1], top_right[1]) - pin.cup_depth
-        corners = [top_left, (left, bottom), (right, bottom), top_right]
-        cup = [Surface("cup", Segment(a, b), *CUP) for a, b in pairwise(corners)]
-    return [*cup, *(_turf(parameters, kind_at(parameters, 0.5 * (a[0] + b[0])), a, b) for a, b in pieces)]
-
-
-@dataclass(frozen=True)
-class PennerTurf:
-    """The response of turf to an impact: Penner's restitution times ``bounce``, and a tilt times ``give``."""
-
-    bounce: float
-    friction: float
-    give: float
-
-    def __call__(self, normal_speed: float, tangential_speed: float) -> Bounce:
-        restitution, tilt = penner_bounce(normal_speed, tangential_speed, self.give)
-        return Bounce(min(1.0, self.bounce * restitution), self.friction, tilt)
-
-
-def _turf(parameters: Parameters, kind: str, a: tuple[float, float], b: tuple[float, float]) -> Surface:
-    if kind == "water":
-        return Surface("water", Segment(a, b), 0.0, 0.0)
-    turf: Turf | Green = getattr(parameters.ground, kind)
-    resistance = stimp_resistance(turf.stimp) if isinstance(turf, Green) else turf.resistance
-    law = PennerTurf(turf.bounce, turf.friction, turf.give)
-    slow = min(1.0, turf.bounce * penner_restitution(0.0))
-    return Surface(kind, Segment(a, b), slow, turf.friction, resistance, LOWEST_BOUNCE, law)
+def goals(parameters: Parameters) -> list[Goal]:
+    """The cup for a putt, which may be hit at several speeds; else where the ball lands, by speed or by angle."""
+    pin, speed = parameters.pin.distance, parameters.launch.speed
+    place = parameters.ground.point(pin)
+    if parameters.launch.angle < 3.0:
+        return [Goal("the cup", {"holed": True}, place, {"launch.speed": (0.2 * speed, 3.0 * speed)})]
+    ways = {"launch.speed": (0.2 * speed, min(2.0 * speed, CONTROLS.strongest)), "launch.angle": (5.0, 80.0)}
+    return [Goal("a landing at the pin", {"carry": pin}, place, {key: ends}) for key, ends in ways.items()]
 
 
 @once
 def landing(run: Run, parameters: Parameters) -> Moment | None:
-    """The ball as it returns to launch height, or lands on higher ground before that."""
+    """The ball as it returns to launch height, or lands on higher ground before that: carry is how far that is."""
     touched = next((event.t for event in run.events if event.kind != "leave"), inf)
     back = next(iter(run.crossings("ball", run.setup.balls[0].position, (0.0, 1.0))), None)
     if touched < (inf if back is None else back[0]):
@@ -314,28 +154,28 @@ def landing(run: Run, parameters: Parameters) -> Moment | None:
     return None if back is None else Moment(back[0], *back[1])
 
 
-def _flew(run: Run, parameters: Parameters) -> bool:
+def flew(run: Run, parameters: Parameters) -> bool:
     """Whether the ball flew: a putt does not."""
     landed = landing(run, parameters)
     return landed is not None and landed.t > 0.02
 
 
-def _apex(run: Run, parameters: Parameters) -> float:
+def apex(run: Run, parameters: Parameters) -> float:
     """Greatest height in m above the launch: of the flight, or of the whole run if the flight does not end."""
     landed = landing(run, parameters)
     until = landed.t if landed is not None and landed.t > 0.0 else inf
     return run.highest("ball", until)[1][1] - run.setup.balls[0].position[1]
 
 
-def _smash_factor(run: Run, parameters: Parameters) -> float | None:
+def smash_factor(run: Run, parameters: Parameters) -> float | None:
     """Speed of the ball over that of the head."""
     club = parameters.club.speed
     return hypot(*run.setup.balls[0].velocity) / club if parameters.start == "club" and club > 0.0 else None
 
 
-def _compared_with_tour(run: Run, parameters: Parameters) -> str | None:
+def compared_with_tour(run: Run, parameters: Parameters) -> str | None:
     """How fast the ball of a driver is compared with those of tour players, which the model does not quite meet."""
-    smash = _smash_factor(run, parameters)
+    smash = smash_factor(run, parameters)
     if smash is None or parameters.club.depth == 0.0:  # an iron's centre of mass is in its face
         return None
     apart = 100.0 * (smash / TOUR_SMASH_FACTOR - 1.0)
@@ -343,55 +183,47 @@ def _compared_with_tour(run: Run, parameters: Parameters) -> str | None:
     return f"{abs(apart):.0f} % {how} than TrackMan measures with tour players' drivers" if abs(apart) > 0.5 else None
 
 
-def _total(run: Run, parameters: Parameters) -> float:
+def total(run: Run, parameters: Parameters) -> float:
+    """Where the ball lies in the end, in m."""
     return run.state("ball", run.duration)[0]
 
 
-def _comes_back(run: Run, parameters: Parameters) -> float | None:
+def comes_back(run: Run, parameters: Parameters) -> float | None:
     """How far in m the ball ends short of the farthest place that it reached: spun back, or rolled back down."""
-    end = _total(run, parameters)
+    end = total(run, parameters)
     way = 1.0 if end >= 0.0 else -1.0
     back = max(way * state[0] for _, state in run.ends("ball")) - way * end  # it turns within 1 cm of an arc's end
     return back if back > LEAST_BACK else None
 
 
-def _holed(run: Run, parameters: Parameters) -> bool:
-    x, y = run.state("ball", run.duration)[:2]
-    pin = parameters.pin
-    return abs(x - pin.distance) < 0.5 * pin.cup_width and y < height(parameters, pin.distance)
+def holed(run: Run, parameters: Parameters) -> bool:
+    """Whether the ball lies in the cup."""
+    (x, y), pin = run.state("ball", run.duration)[:2], parameters.pin
+    return abs(x - pin.distance) < 0.5 * pin.cup_width and y < parameters.ground.height(pin.distance)
 
 
-def _ended(run: Run, parameters: Parameters) -> str:
-    if _holed(run, parameters):
-        return "cup"
-    return "water" if any(_is_in_water(event) for event in run.events) else run.ended
+def ended(run: Run, parameters: Parameters) -> str:
+    """cup; water; or how the run ended otherwise."""
+    return "cup" if holed(run, parameters) else "water" if run.ended == "until" else run.ended
 
+
+InFlight = partial(Fact, settled="ball", where=flew)
 
 FACTS = (
-    Fact("carry", "carry", "m", at(landing, lambda ball: ball.x), "ball", also="yd", where=_flew),
-    Fact("total", "total", "m", _total, also="yd"),
-    Fact("apex", "apex", "m", _apex, "ball", where=_flew),
-    Fact("flight_time", "flight time", "s", at(landing, lambda ball: ball.t), "ball", where=_flew),
-    BALL_SPEED,
-    LAUNCH_ANGLE,
-    LAUNCH_SPIN,
-    Fact("smash_factor", "smash factor", "", _smash_factor, "start"),
-    Fact("compared", "compared", "", _compared_with_tour, "start"),
-    Fact("landing_angle", "landing", "deg", at(landing, lambda ball: ball.descent), "ball", where=_flew),
-    Fact("landing_speed", "landing speed", "m/s", at(landing, lambda ball: ball.speed), "ball", where=_flew),
-    Fact(
-        "landing_spin",
-        "landing spin",
-        "rpm",
-        at(landing, lambda ball: ball.spin / RPM),
-        "ball",
-        sides=LAUNCH_SPIN.sides,
-        where=_flew,
-    ),
-    Fact("comes_back", "comes back", "m", _comes_back),
-    Fact("distance_to_pin", "", "m", lambda run, p: abs(_total(run, p) - p.pin.distance)),
-    Fact("holed", "", "", _holed),
-    Fact("ended", "", "", _ended),
+    InFlight("carry", "carry", "m", at(landing, "x"), also="yd"),
+    Fact("total", "total", "m", total, also="yd"),
+    InFlight("apex", "apex", "m", apex),
+    InFlight("flight_time", "flight time", "s", at(landing, "t")),
+    *LAUNCH,
+    Fact("smash_factor", "smash factor", "", smash_factor, "start"),
+    Fact("compared", "compared", "", compared_with_tour, "start"),
+    InFlight("landing_angle", "landing", "deg", at(landing, "descent")),
+    InFlight("landing_speed", "landing speed", "m/s", at(landing, "speed")),
+    InFlight("landing_spin", "landing spin", "rpm", at(landing, "rpm"), sides=LAUNCH_SPIN.sides),
+    Fact("comes_back", "comes back", "m", comes_back),
+    Fact("distance_to_pin", "", "m", lambda run, it: abs(total(run, it) - it.pin.distance)),
+    Fact("holed", "", "", holed),
+    Fact("ended", "", "", ended),
 )
 
 

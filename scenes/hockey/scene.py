@@ -14,12 +14,12 @@ from typing import Literal
 
 from sandbox.engine.run import Run
 from sandbox.engine.setup import Always, Bounce, Catch, Circle, Segment, Setup, Surface, Touches, Vector
-from sandbox.parameters import Accuracy, Group, choice, group, groups, quantity
+from sandbox.parameters import Group, choice, group, groups, quantity
 from sandbox.physics.ice import Glide
 from sandbox.sport.amounts import roughly
 from sandbox.sport.controls import Controls, Handle, Spin, Spread
 from sandbox.sport.facts import ENDED, Fact
-from sandbox.sport.sliding import Body, Slide, check_inside, end_of, met, rounded, speed_before, taken
+from sandbox.sport.sliding import Body, Slide, Sliding, check_inside, end_of, met, rounded, speed_before, taken
 
 DECIDING = {"goal", "goalie", "defender", "receiver"}
 POST, DEPTH = 0.030, 1.0  # m: radius of a post (NHL rule 2.1), depth of the net
@@ -62,7 +62,7 @@ class Player(Group):
     vy: float = quantity(0.0, "m/s", -15, 15, "to the left")
 
 
-class Parameters(Group):
+class Parameters(Sliding):
     """All parameters of a shot."""
 
     launch: Launch = group(..., "the puck as it leaves the stick")
@@ -70,9 +70,7 @@ class Parameters(Group):
     player: Body = group(..., "what they are, and how the puck meets them")
     puck: Body = group(..., "the puck, and how it meets the boards")
     rink: Rink = group(..., "the ice, or the table")
-    gravity: float = quantity(..., "m/s^2", 0.1, 30, "gravity")
     duration: float = quantity(..., "s", 0.1, 60, "shown at most")
-    accuracy: Accuracy = group(Accuracy(), "speed against accuracy")
 
 
 CONTROLS = Controls(

@@ -14,19 +14,20 @@ from math import hypot
 from sandbox.engine.run import Run
 from sandbox.engine.setup import Ball, Force, Segment, Setup, Surface, Touches
 from sandbox.errors import RequestError
-from sandbox.parameters import Accuracy, Group, either, group, quantity, vectors
+from sandbox.parameters import Group, SceneParameters, either, group, quantity, vectors
 from sandbox.physics.elementwise import anywhere, choose, cos, sin
 from sandbox.physics.forces import Gravity, Thinning
 from sandbox.physics.rocket import Motor, Thrust
-from sandbox.sport.air import Air, ConstantDrag, NoDrag, NoLift, wind_in
+from sandbox.sport.air import Air, AnyDrag, NoForce, wind_in
 from sandbox.sport.amounts import roughly
 from sandbox.sport.controls import Controls, Handle, Spread
 from sandbox.sport.facts import ENDED, Fact
-from sandbox.sport.flight import DEGREE, Sphere, forces_in_flight
+from sandbox.sport.flight import DEGREE, Directed, Sphere, forces_in_flight
 from sandbox.sport.readings import Moment, at
+from sandbox.sport.solids import level
 
 
-class Start(Group):
+class Start(Directed):
     """The rocket on its rail, or as it leaves a tube."""
 
     speed: float = quantity(..., "m/s", 0, 270, "speed at the start")
@@ -47,11 +48,11 @@ class Rocket(Sphere):
     """The rocket."""
 
     mass: float = quantity(..., "kg", 0.001, 1000, "mass at the start, propellant included")
-    drag: ConstantDrag | NoDrag = either(..., "drag of the air")
-    lift: NoLift = group(NoLift(), "none")
+    drag: AnyDrag = either(..., "drag of the air")
+    lift: NoForce = group(NoForce(), "none")
 
 
-class Parameters(Group):
+class Parameters(SceneParameters):
     """All parameters of a flight; x = 0 is the start."""
 
     launch: Start = group(..., "rail or tube")
@@ -60,7 +61,6 @@ class Parameters(Group):
     duration: float = quantity(..., "s", 0.01, 300, "longest flight: until ejection or self-destruction")
     gravity: float = quantity(..., "m/s^2", 0, 30, "gravity")
     air: Air = group(..., "the air")
-    accuracy: Accuracy = group(Accuracy(), "speed against accuracy")
 
 
 CONTROLS = Controls(
@@ -92,13 +92,12 @@ def build(parameters: Parameters) -> Setup:
     thrust = Thrust(motor, start, (ex, ey), launch.rail, wind_in(parameters.air))
     weight = Gravity(rocket.mass, parameters.gravity, motor)
     forces: list[Force] = [weight, *map(Thinning, forces_in_flight(rocket, parameters.air)), thrust]
-    velocity = launch.speed * ex, launch.speed * ey
-    flying = Ball("rocket", rocket.mass, rocket.radius, start, velocity, forces=forces, loss=motor)
+    flying = Ball("rocket", rocket.mass, rocket.radius, start, launch.velocity, forces=forces, loss=motor)
     side = choose(launch.angle <= 90.0, rocket.radius, -rocket.radius)
     reach = -0.05, launch.rail  # m; it slides back until its thrust exceeds its weight
     foot, tip = ((side * ey + along * ex, launch.height - side * ex + along * ey) for along in reach)
     rail = Surface("rail", Segment(foot, tip), 0.0, 0.0)
-    ground = Surface("ground", Segment((-2e4, 0.0), (2e4, 0.0)), 0.0, 0.5)
+    ground = Surface("ground", level(), 0.0, 0.5)
     return Setup([flying], [ground, rail], parameters.duration, Touches("ground"), breaks=motor.times)
 
 
@@ -120,8 +119,8 @@ FACTS = (
     Fact("distance", "distance", "m", lambda run, parameters: run.before("rocket", run.duration)[0]),
     Fact("flight_time", "flight time", "s", lambda run, parameters: run.duration),
     Fact("end_speed", "speed at the end", "m/s", lambda run, _: Moment(0.0, *run.before("rocket", run.duration)).speed),
-    Fact("burnout_speed", "at burnout", "m/s", at(burnout, lambda it: it.speed)),
-    Fact("burnout_height", "", "m", at(burnout, lambda it: it.y)),
+    Fact("burnout_speed", "at burnout", "m/s", at(burnout, "speed")),
+    Fact("burnout_height", "", "m", at(burnout, "y")),
     Fact("impulse", "impulse", "N s", lambda run, parameters: motor_of(parameters).impulse, settled="start"),
     ENDED,
 )

@@ -17,22 +17,21 @@ from math import cos, inf, radians, tan
 
 from sandbox.engine.run import Event, Run
 from sandbox.engine.setup import Always, Ball, Bounce, Circle, Segment, Setup, Surface, Vector
-from sandbox.parameters import Accuracy, Group, group, quantity, switch
+from sandbox.parameters import SceneParameters, group, quantity, switch
+from sandbox.sport import flight
 from sandbox.sport.air import Air
 from sandbox.sport.amounts import roughly
 from sandbox.sport.controls import Controls, Handle, Spin
 from sandbox.sport.facts import ENDED, Fact, once
-from sandbox.sport.flight import forces_in_flight, launched_ball
 from sandbox.sport.readings import BALL_SPEED, LAUNCH_ANGLE, LAUNCH_SPIN, Moment, at, first_touch, passing
-from sandbox.sport.solids import Extent, Solid, check_apart, disc
+from sandbox.sport.solids import Extent, Solid, around, check_apart, disc
 
 from ..soccer.kick import SPREAD, Goal, SoccerBall, Wall
 
 
-class Launch(Group):
+class Launch(flight.Launch):
     """The ball just after the kick."""
 
-    speed: float = quantity(..., "m/s", 0, 340, "ball speed")
     angle: float = quantity(..., "deg", -180, 180, "direction, to the left of straight at the goal line")
     spin: float = quantity(..., "rpm", -20000, 20000, "positive bends the ball to the left")
     tilt: float = quantity(
@@ -46,12 +45,24 @@ class WideGoal(Goal):
     offset: float = quantity(..., "m", -40, 40, "middle of the goal to the left of the ball")
     width: float = quantity(..., "m", 0, 20, "between the posts")
 
+    @property
+    def posts(self) -> tuple[Vector, Vector]:
+        """Middles of the right and the left post, in m."""
+        aside = 0.5 * self.width + self.post_radius
+        return (self.distance, self.offset - aside), (self.distance, self.offset + aside)
+
 
 class WideWall(Wall):
     """The wall of players, from above."""
 
     offset: float = quantity(..., "m", -40, 40, "middle of the wall to the left of the ball")
     width: float = quantity(..., "m", 0.1, 40, "from side to side")
+
+    @property
+    def extent(self) -> tuple[float, float, float, float]:
+        """Front, right, back and left, in m."""
+        (front, back), aside = self.sides, 0.5 * self.width
+        return front, self.offset - aside, back, self.offset + aside
 
 
 class Keeper(Solid):
@@ -65,7 +76,7 @@ class Keeper(Solid):
     mass: float = quantity(..., "kg", 1, 1000, "mass")
 
 
-class Parameters(Group):
+class Parameters(SceneParameters):
     """All parameters of a kick."""
 
     launch: Launch = group(..., "the ball just after the kick")
@@ -74,7 +85,11 @@ class Parameters(Group):
     wall: WideWall = group(..., "the wall of players")
     keeper: Keeper = group(..., "the keeper")
     goal: WideGoal = group(..., "the goal")
-    accuracy: Accuracy = group(Accuracy(), "speed against accuracy")
+
+    @property
+    def stand(self) -> Vector:
+        """Where the keeper stands at the kick, in m."""
+        return self.goal.distance - self.keeper.distance, self.goal.offset + self.keeper.offset
 
 
 CONTROLS = Controls(
@@ -83,7 +98,7 @@ CONTROLS = Controls(
     sliders=("launch.speed", "launch.angle", "launch.spin", "launch.tilt", "goal.distance", "air.wind"),
     handles=(
         Handle("wall.distance", "wall.offset", where="wall.present"),
-        Handle("keeper.distance", "keeper.offset", at=lambda p: _keeper(p), where="keeper.present"),
+        Handle("keeper.distance", "keeper.offset", at=lambda it: it.stand, where="keeper.present"),
         Handle("goal.distance", "goal.offset", goal=True),
     ),
     scores="goal",
@@ -99,74 +114,37 @@ BOARDS_BEHIND, BOARDS_BEYOND, BOARDS_ASIDE = -15.0, 8.0, 60.0
 
 
 def build(parameters: Parameters) -> Setup:
-    """Ball, keeper, wall and goal. Raises RequestError if they overlap."""
-    _check(parameters)
-    launch, ball, keeper = parameters.launch, parameters.ball, parameters.keeper
-    forces = forces_in_flight(ball, parameters.air, lift_share=cos(radians(launch.tilt)))
-    balls = [launched_ball(launch, ball, (0.0, 0.0), forces)]
+    """Ball, keeper, wall, goal and boards. Raises RequestError where one is in another, or the wall behind the goal."""
+    launch, air, ball, wall = parameters.launch, parameters.air, parameters.ball, parameters.wall
+    goal, keeper, stand, (right, left) = parameters.goal, parameters.keeper, parameters.stand, parameters.goal.posts
+    start = disc("the ball", ("ball.radius",), 0.0, 0.0, ball.radius)
+    players = [Extent("the wall", ("wall.distance", "wall.offset"), *wall.extent)] if wall.present else []
+    line = Extent("the goal", ("goal.distance",), goal.distance, -inf, inf, inf, goal.post_radius)
+    check_apart(parameters, start, *players, line)
+    forces = flight.forces_in_flight(ball, air, lift_share=cos(radians(launch.tilt)))
+    balls = [flight.launched_ball(launch, ball, air, (0.0, 0.0), forces)]
     if keeper.present:
-        balls.append(Ball("keeper", keeper.mass, keeper.radius, _keeper(parameters), (0.0, keeper.speed)))
-    needed = parameters.goal.distance / max(launch.speed, 0.1)
-    return Setup(
-        balls,
-        _pitch(parameters),
-        duration=min(LONGEST, PATIENCE * needed + MOMENT),
-        until=_is_over,
-        pairs=[("ball", "keeper", Always(Bounce(keeper.restitution, keeper.friction)))],
-    )
-
-
-def _is_over(event: Event) -> bool:
-    return event.ball == "ball" and event.partner in ("net", "boards")
-
-
-def _keeper(parameters: Parameters) -> Vector:
-    """Where the keeper stands at the kick."""
-    goal, keeper = parameters.goal, parameters.keeper
-    return goal.distance - keeper.distance, goal.offset + keeper.offset
-
-
-def _posts(goal: WideGoal) -> tuple[Vector, Vector]:
-    """Middles of the right and the left post."""
-    aside = 0.5 * goal.width + goal.post_radius
-    return (goal.distance, goal.offset - aside), (goal.distance, goal.offset + aside)
-
-
-def _wall(wall: WideWall) -> tuple[float, float, float, float]:
-    """Front, right, back and left of the wall."""
-    deep, aside = 0.5 * wall.thickness, 0.5 * wall.width
-    return wall.distance - deep, wall.offset - aside, wall.distance + deep, wall.offset + aside
-
-
-def _check(parameters: Parameters) -> None:
-    """Raise RequestError where two of ball, wall, keeper and goal are in each other, or the wall behind the goal."""
-    mouth, keeper, wall = parameters.goal, parameters.keeper, parameters.wall
-    ball = disc("the ball", ("ball.radius",), 0.0, 0.0, parameters.ball.radius)
-    players = [Extent("the wall", ("wall.distance", "wall.offset"), *_wall(wall))] if wall.present else []
-    goal = Extent("the goal", ("goal.distance",), mouth.distance, -inf, inf, inf, mouth.post_radius)
-    check_apart(parameters, ball, *players, goal)
-    if keeper.present:
-        stands = disc("the keeper", ("keeper.distance", "keeper.offset"), *_keeper(parameters), keeper.radius)
-        check_apart(parameters, ball, *players, stands)
-        for post in _posts(mouth):
-            check_apart(parameters, stands, disc("a post", ("goal.width",), *post, mouth.post_radius))
-
-
-def _pitch(parameters: Parameters) -> list[Surface]:
-    goal, wall = parameters.goal, parameters.wall
-    (right, left), back = _posts(goal), goal.distance + goal.depth
-    boards = _around(BOARDS_BEHIND, -BOARDS_ASIDE, goal.distance + BOARDS_BEYOND, BOARDS_ASIDE)
-    return [
+        standing = disc("the keeper", ("keeper.distance", "keeper.offset"), *stand, keeper.radius)
+        check_apart(parameters, start, *players, standing)
+        for post in (right, left):
+            check_apart(parameters, standing, disc("a post", ("goal.width",), *post, goal.post_radius))
+        balls.append(Ball("keeper", keeper.mass, keeper.radius, stand, (0.0, keeper.speed)))
+    back, needed = goal.distance + goal.depth, goal.distance / max(launch.speed, 0.1)
+    boards = around(BOARDS_BEHIND, -BOARDS_ASIDE, goal.distance + BOARDS_BEYOND, BOARDS_ASIDE)
+    surfaces = [
         *(Surface("boards", Segment(*ends), 0.0, 0.0) for ends in pairwise(boards)),
         goal.surface("right post", Circle(right, goal.post_radius)),
         goal.surface("left post", Circle(left, goal.post_radius)),
         *goal.net([right, (back, right[1]), (back, left[1]), left]),
-        *(wall.outline("wall", _around(*_wall(wall))) if wall.present else ()),
+        *(wall.outline("wall", around(*wall.extent)) if wall.present else ()),
     ]
+    saved = ("ball", "keeper", Always(Bounce(keeper.restitution, keeper.friction)))
+    return Setup(balls, surfaces, min(LONGEST, PATIENCE * needed + MOMENT), is_over, pairs=[saved])
 
 
-def _around(left: float, bottom: float, right: float, top: float) -> list[Vector]:
-    return [(left, bottom), (right, bottom), (right, top), (left, top), (left, bottom)]
+def is_over(event: Event) -> bool:
+    """Whether the ball is in the net, or out."""
+    return event.ball == "ball" and event.partner in ("net", "boards")
 
 
 @once
@@ -177,81 +155,75 @@ def at_goal(run: Run, parameters: Parameters) -> Moment | None:
 
 
 @once
-def _scored(run: Run, parameters: Parameters) -> bool:
+def scored(run: Run, parameters: Parameters) -> bool:
     """Whether the ball was in the goal, between the posts."""
     goal = parameters.goal
     entries = goal.entries(run, parameters.ball.radius)
     return any(abs(state[1] - goal.offset) < 0.5 * goal.width for _, state in entries)
 
 
-def _deviation(run: Run, parameters: Parameters) -> float | None:
+def deviation(run: Run, parameters: Parameters) -> float | None:
     """Along the goal line in m, from where the straight line of the launch meets it, if it does."""
     passed, angle = at_goal(run, parameters), parameters.launch.angle
     return None if passed is None or abs(angle) >= 90.0 else passed.y - parameters.goal.distance * tan(radians(angle))
 
 
-def _offset(run: Run, parameters: Parameters) -> float | None:
+def offset(run: Run, parameters: Parameters) -> float | None:
+    """Along the goal line in m, from the middle of the goal."""
     passed = at_goal(run, parameters)
     return None if passed is None else passed.y - parameters.goal.offset
 
 
-def _inside_post(run: Run, parameters: Parameters) -> float | None:
+def inside_post(run: Run, parameters: Parameters) -> float | None:
     """Gap in m between the ball and the nearer post; negative if the ball goes wide."""
-    offset = _offset(run, parameters)
-    return None if offset is None else 0.5 * parameters.goal.width - abs(offset) - parameters.ball.radius
+    aside = offset(run, parameters)
+    return None if aside is None else 0.5 * parameters.goal.width - abs(aside) - parameters.ball.radius
 
 
-def _flight_time(run: Run, parameters: Parameters) -> float | None:
+def flight_time(run: Run, parameters: Parameters) -> float | None:
     """Until the goal line or the first touch, in s."""
-    passed, touched = at_goal(run, parameters), first_touch(run)
-    return passed.t if passed else touched.t if touched else None
+    found = at_goal(run, parameters) or first_touch(run)
+    return None if found is None else found.t
 
 
-def _word(run: Run, parameters: Parameters) -> str:
+def word(run: Run, parameters: Parameters) -> str:
     """goal; saved, post or wall, where that was touched and it is no goal; wide; short of the goal line."""
-    if _scored(run, parameters):
+    if scored(run, parameters):
         return "goal"
-    meetings = [event for event in run.events if "ball" in (event.ball, event.partner)]
-    touched = {name for event in meetings for name in (event.ball, event.partner)}
-    for word, names in (("saved", {"keeper"}), ("post", {"left post", "right post"}), ("wall", {"wall"})):
-        if touched & names:
-            return word
+    touched = {e.partner if e.ball == "ball" else e.ball for e in run.events if "ball" in (e.ball, e.partner)}
+    for name, said in (("keeper", "saved"), ("left post", "post"), ("right post", "post"), ("wall", "wall")):
+        if name in touched:
+            return said
     return "short" if passing(run, parameters.goal.distance) is None else "wide"
 
 
 ASIDE = ("right", "left")
 
 FACTS = (
-    Fact("goal", "", "", _scored),
-    Fact("verdict", "", "", _word),
-    Fact("deviation", "bend", "m", _deviation, sides=ASIDE),
-    Fact("inside_post", "nearer post", "m", _inside_post, sides=("outside", "inside")),
-    Fact("speed_at_goal", "speed at goal", "m/s", at(at_goal, lambda ball: ball.speed), also="km/h"),
-    Fact("flight_time", "flight time", "s", _flight_time),
+    Fact("goal", "", "", scored),
+    Fact("verdict", "", "", word),
+    Fact("deviation", "bend", "m", deviation, sides=ASIDE),
+    Fact("inside_post", "nearer post", "m", inside_post, sides=("outside", "inside")),
+    Fact("speed_at_goal", "speed at goal", "m/s", at(at_goal, "speed"), also="km/h"),
+    Fact("flight_time", "flight time", "s", flight_time),
     BALL_SPEED,
     replace(LAUNCH_ANGLE, sides=ASIDE),
     replace(LAUNCH_SPIN, sides=ASIDE),
-    Fact("offset_at_goal", "from the middle", "m", _offset, sides=ASIDE),
+    Fact("offset_at_goal", "from the middle", "m", offset, sides=ASIDE),
     ENDED,
 )
 
 
 def verdict(run: Run, parameters: Parameters) -> str:
     """What happened, in a sentence."""
-    result = run.result
-    bend, inside = result["deviation"], result["inside_post"]
-    if result["verdict"] == "goal":
+    said, bend, inside = (run.result[key] for key in ("verdict", "deviation", "inside_post"))
+    if said == "goal":
         if inside is None:
             return "Goal"
         if bend is not None and abs(bend) >= 0.05:
             return f"Goal, bent {roughly(abs(bend))} to the {ASIDE[bend > 0.0]}"
         return f"Goal, {roughly(max(0.0, inside))} inside the post"
-    if result["verdict"] == "wide":
-        outside = None if inside is None else -inside - parameters.ball.radius
-        return "Wide of the goal" if outside is None else f"Wide by {roughly(max(0.0, outside))}"
-    return {
-        "saved": "Saved by the keeper",
-        "post": "Off the post",
-        "wall": "Into the wall",
-        "short": "Short of the goal line",
-    }[result["verdict"]]
+    if said == "wide" and inside is not None:
+        return f"Wide by {roughly(max(0.0, -inside - parameters.ball.radius))}"
+    ways = {"saved": "Saved by the keeper", "post": "Off the post", "wall": "Into the wall"}
+    return ways.get(said, "Wide of the goal" if said == "wide" else "Short of the goal line")

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
-from typing import Literal
 
 from sandbox.engine.run import Run
 from sandbox.engine.setup import Segment, Surface, Vector
-from sandbox.parameters import choice, either, quantity, switch
+from sandbox.parameters import either, quantity, switch
 from sandbox.physics.coefficients import SOCCER_DRAG, SOCCER_LIFT
 from sandbox.physics.integrators import State
-from sandbox.sport.air import ConstantDrag, ConstantLift, Lift, Measured, NoDrag, NoLift, SpinRatioLift
+from sandbox.sport.air import AnyDrag, AnyLift, Lift, Model
 from sandbox.sport.controls import Spread
 from sandbox.sport.flight import Sphere
 from sandbox.sport.solids import Solid
@@ -19,25 +18,23 @@ from sandbox.sport.solids import Solid
 SPREAD = (Spread("launch.speed", 0.02), Spread("launch.angle", least=1.0), Spread("launch.spin", 0.1))  # assumed
 
 
-class SoccerDrag(Measured):
+class SoccerDrag(Model):
     """Drag of a soccer ball by its source."""
 
     LAWS = SOCCER_DRAG
-    model: Literal["goff-carre", "textbook"] = choice("goff-carre", "drag coefficient by its source")
 
 
-class SoccerLift(Measured, Lift):
+class SoccerLift(Lift):
     """Magnus force on a soccer ball by its source."""
 
     LAWS = SOCCER_LIFT
-    model: Literal["asai", "power-law"] = choice("asai", "lift coefficient by its source")
 
 
 class SoccerBall(Sphere):
     """The soccer ball, a hollow sphere."""
 
-    drag: SoccerDrag | ConstantDrag | NoDrag = either(..., "drag of the air")
-    lift: SoccerLift | ConstantLift | SpinRatioLift | NoLift = either(..., "Magnus force")
+    drag: SoccerDrag | AnyDrag = either(..., "drag of the air")
+    lift: SoccerLift | AnyLift = either(..., "Magnus force")
 
 
 class Wall(Solid):
@@ -46,6 +43,11 @@ class Wall(Solid):
     present: bool = switch(..., "whether there is a wall of players")
     distance: float = quantity(..., "m", 0, 2000, "from the ball straight to the middle of the wall")
     thickness: float = quantity(..., "m", 0.01, 5, "how deep a player is")
+
+    @property
+    def sides(self) -> Vector:
+        """Its front and its back, in m from the ball."""
+        return self.distance - 0.5 * self.thickness, self.distance + 0.5 * self.thickness
 
 
 class Goal(Solid):
@@ -61,6 +63,10 @@ class Goal(Solid):
         """The net along a line through the corners, in m."""
         return [Surface("net", Segment(*ends), self.net_restitution, self.net_friction) for ends in pairwise(corners)]
 
+    def over_line(self, radius: float) -> float:
+        """Where in m a ball of that radius is, the whole of which is over the whole of the line, as in the Laws."""
+        return self.distance + self.post_radius + radius
+
     def entries(self, run: Run, radius: float) -> Iterator[tuple[float, State]]:
-        """Each time and state at which the whole of the ball is over the whole of the line, as in the Laws."""
-        return run.crossings("ball", (self.distance + self.post_radius + radius, 0.0), (-1.0, 0.0))
+        """Each time and state at which the ball comes there."""
+        return run.crossings("ball", (self.over_line(radius), 0.0), (-1.0, 0.0))

@@ -11,22 +11,19 @@ published for soccer), the dipping free kick would reach the goal 1.2 cm higher.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from math import inf
-from typing import Any
 
 from sandbox.engine.run import Event, Run
-from sandbox.engine.setup import Circle, Segment, Setup, Surface, Until
-from sandbox.parameters import Accuracy, Group, group, quantity, switch
-from sandbox.physics.integrators import State
+from sandbox.engine.setup import Circle, Segment, Setup, Surface
+from sandbox.parameters import group, quantity, switch
 from sandbox.sport.air import OutdoorAir
 from sandbox.sport.amounts import roughly
 from sandbox.sport.controls import Controls, Handle, Spin
 from sandbox.sport.facts import ENDED, Fact, once
-from sandbox.sport.flight import Launch, forces_in_flight, launched_ball
-from sandbox.sport.readings import LAUNCH, Moment, at, first_touch, passing
-from sandbox.sport.solids import Extent, Solid, check_apart, disc
+from sandbox.sport.flight import Flight
+from sandbox.sport.readings import LAUNCH, Moment, Passes, apex, at, first_touch, passing
+from sandbox.sport.solids import Extent, Solid, check_apart, disc, level
 
 from .kick import SPREAD, Goal, SoccerBall, Wall
 
@@ -50,17 +47,14 @@ class Grass(Solid):
     rolling_resistance: float = quantity(..., "", 0, 10, "deceleration of a rolling ball over gravity")
 
 
-class Parameters(Group):
+class Parameters(Flight):
     """All parameters of a kick."""
 
-    launch: Launch = group(..., "the ball just after the kick")
-    gravity: float = quantity(..., "m/s^2", 0, 30, "gravity")
     air: OutdoorAir = group(..., "the air")
     ball: SoccerBall = group(..., "the ball")
     wall: HighWall = group(..., "the wall of players")
     goal: HighGoal = group(..., "the goal")
     ground: Grass = group(..., "the grass")
-    accuracy: Accuracy = group(Accuracy(), "speed against accuracy")
 
 
 CONTROLS = Controls(
@@ -78,9 +72,6 @@ CONTROLS = Controls(
 #: A kick still moving after this time in s is ended.
 LONGEST = 60.0
 
-#: The grass reaches this far in both directions, in m: as far as the fastest ball gets in that time.
-FAR = 25_000.0
-
 #: Bounces lower than this, in m, are lost in the grass and the ball rolls; assumed.
 LOWEST_BOUNCE = 0.01
 
@@ -92,63 +83,39 @@ BOARDS_BEHIND, BOARDS_BEYOND, BOARDS_HEIGHT = -30.0, 8.0, 0.9
 
 
 def build(parameters: Parameters) -> Setup:
-    """Ball, pitch, wall and goal. Raises RequestError if they overlap."""
-    _check(parameters)
-    ball = parameters.ball
-    forces = forces_in_flight(ball, parameters.air, parameters.gravity)
-    kicked = launched_ball(parameters.launch, ball, (0.0, ball.radius), forces)
-    return Setup([kicked], _pitch(parameters), duration=LONGEST, until=OutOfPlay(_beyond(parameters)))
+    """Ball, pitch, wall, goal and boards. Raises RequestError where one is in another, or the wall behind the goal."""
+    ball, ground, wall, goal = parameters.ball, parameters.ground, parameters.wall, parameters.goal
+    farthest = max(goal.distance, wall.distance if wall.present else 0.0) + BOARDS_BEYOND
+    grass = {"rolling_resistance": ground.rolling_resistance, "lowest_bounce": LOWEST_BOUNCE}
+    boards = [Segment((x, 0.0), (x, BOARDS_HEIGHT)) for x in (BOARDS_BEHIND, farthest)]
+    surfaces = [ground.surface("ground", level(), **grass), *(Surface("boards", shape, 0.0, 0.0) for shape in boards)]
+    standing = [disc("the ball", ("ball.radius",), 0.0, ball.radius, ball.radius)]
+    if wall.present:
+        front, back = wall.sides
+        standing.append(Extent("the wall", ("wall.distance",), front, 0.0, back, wall.height))
+        surfaces += wall.outline("wall", [(front, 0.0), (front, wall.height), (back, wall.height), (back, 0.0)])
+    if goal.present:
+        bar, back = (goal.distance, goal.height + goal.post_radius), goal.distance + goal.depth
+        standing.append(Extent("the goal", ("goal.distance",), goal.distance, 0.0, inf, inf, goal.post_radius))
+        surfaces += [goal.surface("bar", Circle(bar, goal.post_radius)), *goal.net([bar, (back, bar[1]), (back, 0.0)])]
+    check_apart(parameters, *standing)
+    return Setup([parameters.launched((0.0, ball.radius))], surfaces, LONGEST, OutOfPlay(farthest))
 
 
 @dataclass(frozen=True)
 class OutOfPlay:
     """The ball reaches the boards, or the ground on their other side."""
 
-    beyond: float  # m, place of the boards behind the goal
+    farthest: float  # m, place of the boards behind the goal
 
     def __call__(self, event: Event) -> bool:
-        if event.partner == "boards":
-            return True
-        return event.partner == "ground" and not BOARDS_BEHIND < event.x < self.beyond
-
-
-def _check(parameters: Parameters) -> None:
-    """Raise RequestError where ball, wall and goal are in each other, or the wall behind the goal."""
-    goal, wall, radius = parameters.goal, parameters.wall, parameters.ball.radius
-    standing = [disc("the ball", ("ball.radius",), 0.0, radius, radius)]
-    if wall.present:
-        front, back = wall.distance - 0.5 * wall.thickness, wall.distance + 0.5 * wall.thickness
-        standing.append(Extent("the wall", ("wall.distance",), front, 0.0, back, wall.height))
-    if goal.present:
-        standing.append(Extent("the goal", ("goal.distance",), goal.distance, 0.0, inf, inf, goal.post_radius))
-    check_apart(parameters, *standing)
-
-
-def _beyond(parameters: Parameters) -> float:
-    """Position of the boards beyond the goal, or beyond the wall if that is further."""
-    wall = parameters.wall
-    return max(parameters.goal.distance, wall.distance if wall.present else 0.0) + BOARDS_BEYOND
-
-
-def _pitch(parameters: Parameters) -> list[Surface]:
-    ground, goal, wall = parameters.ground, parameters.goal, parameters.wall
-    grass = {"rolling_resistance": ground.rolling_resistance, "lowest_bounce": LOWEST_BOUNCE}
-    boards = [Segment((x, 0.0), (x, BOARDS_HEIGHT)) for x in (BOARDS_BEHIND, _beyond(parameters))]
-    surfaces = [ground.surface("ground", Segment((-FAR, 0.0), (FAR, 0.0)), **grass)]
-    surfaces += [Surface("boards", shape, 0.0, 0.0) for shape in boards]
-    if wall.present:
-        front, back = wall.distance - 0.5 * wall.thickness, wall.distance + 0.5 * wall.thickness
-        surfaces += wall.outline("wall", [(front, 0.0), (front, wall.height), (back, wall.height), (back, 0.0)])
-    if goal.present:
-        bar, back = (goal.distance, goal.height + goal.post_radius), goal.distance + goal.depth
-        surfaces.append(goal.surface("bar", Circle(bar, goal.post_radius)))
-        surfaces += goal.net([bar, (back, bar[1]), (back, 0.0)])
-    return surfaces
+        inside = BOARDS_BEHIND < event.x < self.farthest
+        return event.partner == "boards" or (event.partner == "ground" and not inside)
 
 
 @once
 def at_wall(run: Run, parameters: Parameters) -> Moment | None:
-    """The ball as it first passes the middle of the wall."""
+    """The ball as it first passes the middle of the wall, if there is one."""
     return passing(run, parameters.wall.distance)
 
 
@@ -166,85 +133,62 @@ def scored(run: Run, parameters: Parameters) -> float | None:
     return next((t for t, state in entries if goal.present and state[1] < goal.height), None)
 
 
-@dataclass(frozen=True)
-class Entered(Until):
-    """The ball has crossed the goal line, well under the bar: a goal, whatever comes later."""
-
-    line: float  # m, of the middle of a ball that is over the line
-    height: float  # m
-
-    def over(self, events: Sequence[Event]) -> bool:
-        return False
-
-    def passed(self, start: State, end: State) -> Any:
-        (x0, y0, *_), (x1, y1, *_) = start, end
-        return (x0 < self.line) & (x1 >= self.line) & (y0 < self.height) & (y1 < self.height)
+def entered(parameters: Parameters) -> Passes:
+    """When it is known that a kick is a goal, well under the bar; that it is none is known at the end."""
+    goal = parameters.goal
+    line, top = goal.over_line(parameters.ball.radius), goal.height - UNDER if goal.present else 0.0
+    return Passes("nothing", 1, (line, 0.0), (line, top))
 
 
-def entered(parameters: Parameters) -> Entered:
-    """When it is known that a kick is a goal; that it is none is known at the end."""
-    goal, under = parameters.goal, parameters.goal.height - UNDER
-    return Entered(goal.distance + goal.post_radius + parameters.ball.radius, under if goal.present else -inf)
-
-
-def _clearance(run: Run, parameters: Parameters) -> float | None:
+def over_wall(run: Run, parameters: Parameters) -> float | None:
     """Gap in m between ball and heads."""
     passed, wall = at_wall(run, parameters), parameters.wall
     return passed.y - parameters.ball.radius - wall.height if passed and wall.present else None
 
 
-def _under_bar(run: Run, parameters: Parameters) -> float | None:
+def under_bar(run: Run, parameters: Parameters) -> float | None:
     """Gap in m between ball and bar; negative if the ball is too high."""
     passed, goal = at_goal(run, parameters), parameters.goal
     return goal.height - passed.y - parameters.ball.radius if passed and goal.present else None
 
 
-def _flight_time(run: Run, parameters: Parameters) -> float | None:
+def flight_time(run: Run, parameters: Parameters) -> float | None:
     """Until the ball first touches anything, or is in the goal, in s."""
     touched = first_touch(run)
     moments = (scored(run, parameters), None if touched is None else touched.t)
     return min((t for t in moments if t is not None), default=None)
 
 
-def _carry(run: Run, parameters: Parameters) -> float | None:
+def carry(run: Run, parameters: Parameters) -> float | None:
     """Where the ball first comes down on the grass; None where something else was in the way."""
     touched = first_touch(run)
     return touched.x if touched is not None and touched.partner == "ground" else None
 
 
-def _apex(run: Run, parameters: Parameters) -> float:
-    """Greatest height in m above the point of the kick."""
-    return run.highest("ball")[1][1] - run.setup.balls[0].position[1]
-
-
-def _word(run: Run, parameters: Parameters) -> str:
+def word(run: Run, parameters: Parameters) -> str:
     """goal; bar or wall, where that was touched and it is no goal; over; short, a ball that stops on the line included;
     past, where there is no goal to hit."""
     if scored(run, parameters) is not None:
         return "goal"
-    touched = {event.partner for event in run.events}
-    for name in ("bar", "wall"):
-        if name in touched:
-            return name
-    passed = at_goal(run, parameters)
-    if passed is None:
-        return "short"
-    if not parameters.goal.present:
+    touched, passed = {event.partner for event in run.events}, at_goal(run, parameters)
+    if touched & {"bar", "wall"}:
+        return "bar" if "bar" in touched else "wall"
+    if passed is not None and not parameters.goal.present:
         return "past"
-    return "over" if passed.y > parameters.goal.height else "short"
+    return "over" if passed is not None and passed.y > parameters.goal.height else "short"
 
 
 FACTS = (
-    Fact("goal", "", "", lambda run, parameters: scored(run, parameters) is not None, entered),
-    Fact("verdict", "", "", _word),
-    Fact("height_at_goal", "height at goal", "m", at(at_goal, lambda ball: ball.y)),
-    Fact("speed_at_goal", "speed at goal", "m/s", at(at_goal, lambda ball: ball.speed), also="km/h"),
-    Fact("under_bar", "under the bar", "m", _under_bar),
-    Fact("height_at_wall", "height at wall", "m", at(at_wall, lambda ball: ball.y), where=lambda _, p: p.wall.present),
-    Fact("over_wall", "over the wall", "m", _clearance),
-    Fact("carry", "carry", "m", _carry),
-    Fact("apex", "apex", "m", _apex),
-    Fact("flight_time", "flight time", "s", _flight_time),
+    Fact("goal", "", "", lambda run, it: scored(run, it) is not None, entered),
+    Fact("verdict", "", "", word),
+    Fact("height_at_goal", "height at goal", "m", at(at_goal, "y")),
+    Fact("speed_at_goal", "speed at goal", "m/s", at(at_goal, "speed"), also="km/h"),
+    Fact("under_bar", "under the bar", "m", under_bar),
+    Fact("height_at_wall", "height at wall", "m", at(at_wall, "y"), where=lambda _, it: it.wall.present),
+    Fact("over_wall", "over the wall", "m", over_wall),
+    Fact("carry", "carry", "m", carry),
+    Fact("apex", "apex", "m", lambda run, it: apex(run, it) - it.ball.radius),
+    Fact("flight_time", "flight time", "s", flight_time),
     *LAUNCH,
     ENDED,
 )

@@ -11,15 +11,16 @@ from typing import Literal
 
 from sandbox.engine.run import Run
 from sandbox.engine.setup import Segment, Setup, Surface
-from sandbox.parameters import Accuracy, Group, choice, either, group, quantity
+from sandbox.parameters import choice, either, group, quantity
 from sandbox.physics.coefficients import TENNIS_DRAG, TENNIS_LIFT
 from sandbox.physics.swing import RUBBER, STRINGS
 from sandbox.sport import net_game
-from sandbox.sport.air import Air, ConstantDrag, ConstantLift, Lift, Model, NoDrag, NoLift, SpinRatioLift
+from sandbox.sport.air import AnyDrag, AnyLift, Lift, Model
 from sandbox.sport.controls import Controls, Handle, Spin, Spread
 from sandbox.sport.facts import ENDED
-from sandbox.sport.flight import Launch, Release, Sphere, forces_in_flight, launched_ball
+from sandbox.sport.flight import Release, Sphere
 from sandbox.sport.readings import LAUNCH
+from sandbox.sport.solids import level
 from sandbox.sport.swing import Swing, struck_by
 
 
@@ -27,22 +28,24 @@ class TennisDrag(Model):
     """Drag of a tennis ball."""
 
     LAWS = TENNIS_DRAG
-    model: Literal["cross-lindsey", "stepanek"] = choice(..., "drag coefficient by its source")
 
 
 class TennisLift(Lift):
     """Lift of a tennis ball."""
 
     LAWS = TENNIS_LIFT
-    model: Literal["stepanek"] = choice(..., "lift coefficient by its source")
 
 
 class TennisBall(Sphere):
     """The ball."""
 
     inertia: float = quantity(..., "", 0.1, 1, "moment of inertia over m r^2")
-    drag: TennisDrag | ConstantDrag | NoDrag = either(..., "drag of the air")
-    lift: TennisLift | SpinRatioLift | ConstantLift | NoLift = either(..., "Magnus lift")
+    drag: TennisDrag | AnyDrag = either(..., "drag of the air")
+    lift: TennisLift | AnyLift = either(..., "Magnus lift")
+
+    @property
+    def inertia_factor(self) -> float:
+        return self.inertia
 
 
 class Racket(Swing):
@@ -59,26 +62,20 @@ class TennisCourt(net_game.HardCourt):
     table: float = quantity(..., "m", 0, 2, "height of the table above the floor; 0 for a court")
 
 
-class Parameters(Group):
+class Parameters(net_game.NetGame):
     """All parameters of a shot."""
 
     start: Literal["launch", "racket"] = choice(..., "begin with the ball's launch, or with the racket")
     shot: Literal["serve", "rally"] = choice(..., "a serve must land before the service line")
-    launch: Launch = group(..., "the ball as it leaves the strings")
     racket: Racket = group(..., "the racket and the incoming ball")
     release: Release = group(..., "where the ball is struck")
-    gravity: float = quantity(..., "m/s^2", 0, 30, "gravity")
-    air: Air = group(..., "the air")
     ball: TennisBall = group(..., "the ball")
-    net: net_game.Net = group(..., "the net")
     court: TennisCourt = group(..., "the court")
-    accuracy: Accuracy = group(Accuracy(), "speed against accuracy")
 
     @property
     def limit(self) -> tuple[float, str]:
-        """How far from the player's own end the ball may land, in m, and what is there."""
         if self.shot == "serve" and self.court.service > 0.0:
-            return 0.5 * self.court.length + self.court.service, "service line"
+            return self.middle + self.court.service, "service line"
         return self.court.length, "end of the table" if self.court.table > 0.0 else "baseline"
 
 
@@ -87,7 +84,7 @@ CONTROLS = Controls(
     spins=(Spin("launch.spin", 100.0),),
     also={"start": "launch"},
     sliders=("release.place", "release.height", "court.restitution", "court.friction", "net.height", "air.wind"),
-    handles=(Handle("release.place", "release.height"), *net_game.NET_HANDLES),
+    handles=(Handle("release.place", "release.height"), *net_game.HANDLES),
     scores="in",
     spread=(Spread("launch.speed", 0.03), Spread("launch.angle", least=0.8), Spread("launch.spin", 0.1)),  # assumed
 )
@@ -95,28 +92,23 @@ CONTROLS = Controls(
 
 def build(parameters: Parameters) -> Setup:
     """Ball, net, and court, or table and floor."""
-    court, ball, release = parameters.court, parameters.ball, parameters.release
-    forces = forces_in_flight(ball, parameters.air, parameters.gravity)
-    place = release.place, max(release.height, ball.radius)
-    played = launched_ball(parameters.launch, ball, place, forces, ball.inertia)
+    court, ball, racket = parameters.court, parameters.ball, parameters.racket
+    played = parameters.launched(parameters.release.of(ball))
     if parameters.start == "racket":
-        face = RUBBER if parameters.racket.face_of == "rubber" else STRINGS
-        played = struck_by(parameters.racket, "racket", face, played)
-    bounce, ends = net_game.CourtBounce(court), (0.0, court.length) if court.table > 0.0 else (-1e4, 1e4)
-    top = Segment((ends[0], 0.0), (ends[1], 0.0))
-    surfaces = [
-        Surface("court", top, bounce(1.0, 0.0).restitution, court.friction, law=bounce),
-        net_game.net_of(parameters),
-    ]
+        played = struck_by(racket, "racket", RUBBER if racket.face_of == "rubber" else STRINGS, played)
+    bounce = net_game.CourtBounce(court)
+    top = Segment((0.0, 0.0), (court.length, 0.0)) if court.table > 0.0 else level()
+    surfaces = [Surface("court", top, bounce(1.0, 0.0).restitution, court.friction, law=bounce)]
+    surfaces.append(net_game.net_of(parameters))
     if court.table > 0.0:
-        surfaces.append(Surface("floor", Segment((-1e4, -court.table), (1e4, -court.table)), 0.7, court.friction))
+        surfaces.append(Surface("floor", level(-court.table), 0.7, court.friction))
     return Setup([played], surfaces, 20.0, net_game.Bounces(2))
 
 
-FACTS = (*net_game.net_facts(lambda parameters: parameters.limit[0]), *net_game.BOUNCE_FACTS, *LAUNCH, ENDED)
+FACTS = (*net_game.FACTS, *net_game.BOUNCE_FACTS, *LAUNCH, ENDED)
 
 
 def verdict(run: Run, parameters: Parameters) -> str:
     """What happened, in a sentence."""
-    said = net_game.sentence(run, parameters, *parameters.limit)
+    said = net_game.verdict(run, parameters)
     return f"Fault: {said[0].lower()}{said[1:]}" if parameters.shot == "serve" and not run.result["in"] else said

@@ -10,33 +10,31 @@ from __future__ import annotations
 from math import atan2, degrees, hypot, sqrt
 
 from sandbox.engine.run import Run
-from sandbox.engine.setup import SOLID_SPHERE, Segment, Setup, Surface, Touches
-from sandbox.parameters import Accuracy, Group, either, group, quantity
-from sandbox.sport.air import Air, ConstantDrag, NoDrag, NoLift
+from sandbox.engine.setup import SOLID_SPHERE, Setup, Surface, Touches
+from sandbox.parameters import either, group, quantity
+from sandbox.sport.air import AnyDrag, NoForce
 from sandbox.sport.amounts import roughly
 from sandbox.sport.controls import Controls, Handle, Spread
 from sandbox.sport.facts import ENDED, Fact
-from sandbox.sport.flight import Launch, Release, Sphere, forces_in_flight, launched_ball
+from sandbox.sport.flight import Flight, Release, Sphere
 from sandbox.sport.readings import APEX, BALL_SPEED, DISTANCE, FLIGHT_TIME, LANDING_ANGLE, LAUNCH_ANGLE, landing
+from sandbox.sport.solids import level
 
 
 class Shot(Sphere):
     """The shot."""
 
-    drag: ConstantDrag | NoDrag = either(..., "drag of the air")
-    lift: NoLift = group(NoLift(), "none")
+    INERTIA = SOLID_SPHERE
+    drag: AnyDrag = either(..., "drag of the air")
+    lift: NoForce = group(NoForce(), "none")
 
 
-class Parameters(Group):
+class Parameters(Flight):
     """All parameters of a throw; x = 0 is the inner edge of the stop board."""
 
-    launch: Launch = group(..., "the shot as it leaves the hand")
-    release: Release = group(..., "where that is")
-    gravity: float = quantity(..., "m/s^2", 0, 30, "gravity")
-    air: Air = group(..., "the air")
+    release: Release = group(..., "where the shot leaves the hand")
     ball: Shot = group(..., "the shot")
     record: float = quantity(..., "m", 0, 200, "the distance to beat, marked in the sector")
-    accuracy: Accuracy = group(Accuracy(), "speed against accuracy")
 
 
 CONTROLS = Controls(
@@ -50,10 +48,8 @@ CONTROLS = Controls(
 
 def build(parameters: Parameters) -> Setup:
     """The shot over level ground; its distance is that of its centre at height 0, so the ground lies a radius lower."""
-    ball, release = parameters.ball, parameters.release
-    forces = forces_in_flight(ball, parameters.air, parameters.gravity)
-    thrown = launched_ball(parameters.launch, ball, (release.place, release.height), forces, SOLID_SPHERE)
-    ground = Surface("ground", Segment((-1e4, -ball.radius), (1e4, -ball.radius)), 0.0, 0.5)
+    thrown = parameters.launched((parameters.release.place, parameters.release.height))
+    ground = Surface("ground", level(-parameters.ball.radius), 0.0, 0.5)
     return Setup([thrown], [ground], 60.0, Touches("ground"))
 
 

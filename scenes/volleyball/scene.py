@@ -7,65 +7,19 @@ the ball; the ball's loss of spin.
 
 from __future__ import annotations
 
-from typing import Any, Literal
+from typing import Any
 
-from sandbox.engine.run import Run
-from sandbox.engine.setup import Segment, Setup, Surface
+from sandbox.engine.setup import Setup, Surface
 from sandbox.errors import RequestError
-from sandbox.parameters import Accuracy, Group, choice, either, group, quantity
-from sandbox.physics.coefficients import Coefficient
-from sandbox.physics.elementwise import clip, exp
-from sandbox.sport.air import Air, ConstantDrag, ConstantLift, Model, NoDrag, NoLift, SpinRatioLift
+from sandbox.parameters import either, group, quantity
+from sandbox.physics.elementwise import clip, exp, most
+from sandbox.sport import net_game
+from sandbox.sport.air import AnyDrag, AnyLift, Model
 from sandbox.sport.controls import Controls, Handle, Spin, Spread
 from sandbox.sport.facts import ENDED
-from sandbox.sport.flight import Launch, Sphere, forces_in_flight, launched_ball
-from sandbox.sport.net_game import NET_HANDLES, Bounces, Court, Net, net_facts, net_of, sentence
+from sandbox.sport.flight import Launch, Sphere
 from sandbox.sport.readings import LAUNCH
-
-
-class Hit(Launch):
-    """The ball as it leaves the hand."""
-
-    place: float = quantity(..., "m", -20, 30, "from the player's own end line towards the net")
-    height: float = quantity(..., "m", 0.2, 10, "of the ball's centre above the floor")
-
-
-class CrisisDrag(Model):
-    """Drag of a volleyball, which falls as its boundary layer turns turbulent."""
-
-    model: Literal["hong"] = choice(..., "drag coefficient by its source")
-
-    def coefficient_law(self) -> Coefficient:
-        return hong_drag
-
-
-class Volleyball(Sphere):
-    """The ball, a hollow sphere."""
-
-    drag: CrisisDrag | ConstantDrag | NoDrag = either(..., "drag of the air")
-    lift: SpinRatioLift | ConstantLift | NoLift = either(..., "Magnus lift")
-
-
-class Parameters(Group):
-    """All parameters of a shot."""
-
-    launch: Hit = group(..., "the ball as it leaves the hand")
-    gravity: float = quantity(..., "m/s^2", 0, 30, "gravity")
-    air: Air = group(..., "the air")
-    ball: Volleyball = group(..., "the ball")
-    net: Net = group(..., "the net")
-    court: Court = group(..., "the court")
-    accuracy: Accuracy = group(Accuracy(), "speed against accuracy")
-
-
-CONTROLS = Controls(
-    strongest=35.0,
-    spins=(Spin("launch.spin", 30.0),),
-    sliders=("launch.place", "launch.height", "net.height", "court.length", "air.wind"),
-    handles=(Handle("launch.place", "launch.height"), *NET_HANDLES),
-    scores="in",
-    spread=(Spread("launch.speed", 0.03), Spread("launch.angle", least=1.0), Spread("launch.spin", 0.1)),  # assumed
-)
+from sandbox.sport.solids import level
 
 
 def hong_drag(reynolds: Any, spin_ratio: Any) -> Any:
@@ -77,21 +31,52 @@ def hong_drag(reynolds: Any, spin_ratio: Any) -> Any:
     return 0.16 + 0.31 / (1.0 + exp(clip((reynolds - 2.3e5) / 0.2e5, -50.0, 50.0)))
 
 
+class CrisisDrag(Model):
+    """Drag of a volleyball, which falls as its boundary layer turns turbulent."""
+
+    LAWS = {"hong": hong_drag}
+
+
+class Volleyball(Sphere):
+    """The ball, a hollow sphere."""
+
+    drag: CrisisDrag | AnyDrag = either(..., "drag of the air")
+    lift: AnyLift = either(..., "Magnus lift")
+
+
+class Hit(Launch):
+    """The ball as it leaves the hand."""
+
+    place: float = quantity(..., "m", -20, 30, "from the player's own end line towards the net")
+    height: float = quantity(..., "m", 0.2, 10, "of the ball's centre above the floor")
+
+
+class Parameters(net_game.NetGame):
+    """All parameters of a shot."""
+
+    launch: Hit = group(..., "the ball as it leaves the hand")
+    ball: Volleyball = group(..., "the ball")
+
+
+CONTROLS = Controls(
+    strongest=35.0,
+    spins=(Spin("launch.spin", 30.0),),
+    sliders=("launch.place", "launch.height", "net.height", "court.length", "air.wind"),
+    handles=(Handle("launch.place", "launch.height"), *net_game.HANDLES),
+    scores="in",
+    spread=(Spread("launch.speed", 0.03), Spread("launch.angle", least=1.0), Spread("launch.spin", 0.1)),  # assumed
+)
+
+
 def build(parameters: Parameters) -> Setup:
     """Ball, net and floor, where the run ends. Raises RequestError if the ball begins in the net."""
-    launch, ball, net, court = parameters.launch, parameters.ball, parameters.net, parameters.court
-    middle, start = 0.5 * court.length, max(launch.height, ball.radius)
-    if abs(launch.place - middle) <= ball.radius + 0.01 and start - ball.radius < net.height:
+    launch, ball, middle = parameters.launch, parameters.ball, parameters.middle
+    start = most(launch.height, ball.radius)
+    if abs(launch.place - middle) <= ball.radius + 0.01 and start - ball.radius < parameters.net.height:
         raise RequestError(f"launch.place = {launch.place:g} m puts the ball on the net, at {middle:g} m: move it away")
-    forces = forces_in_flight(ball, parameters.air, parameters.gravity)
-    hit = launched_ball(launch, ball, (launch.place, start), forces)
-    floor = Surface("floor", Segment((-1e4, 0.0), (1e4, 0.0)), court.restitution, court.friction)
-    return Setup([hit], [floor, net_of(parameters)], 20.0, Bounces())
+    floor = Surface("floor", level(), parameters.court.restitution, parameters.court.friction)
+    hit = parameters.launched((launch.place, start))
+    return Setup([hit], [floor, net_game.net_of(parameters)], 20.0, net_game.Bounces())
 
 
-FACTS = (*net_facts(lambda parameters: parameters.court.length), *LAUNCH, ENDED)
-
-
-def verdict(run: Run, parameters: Parameters) -> str:
-    """What happened, in a sentence."""
-    return sentence(run, parameters, parameters.court.length, "end line")
+FACTS, verdict = (*net_game.FACTS, *LAUNCH, ENDED), net_game.verdict

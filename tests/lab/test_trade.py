@@ -68,7 +68,7 @@ def test_the_error_of_the_reference_counts_the_bounces_that_are_left_out(tmp_pat
     new_scene(tmp_path / "beachvolley")
     scene = tmp_path / "beachvolley" / "scene.py"
     rolling = scene.read_text("utf-8").replace(', until=Touches("floor", 4)', "")
-    scene.write_text(rolling.replace("(1e4, 0.0)))", "(1e4, 0.0)), rolling_resistance=0.1)"), "utf-8")
+    scene.write_text(rolling.replace("level())", "level(), rolling_resistance=0.1)"), "utf-8")
     reference = converge(load(tmp_path / "beachvolley"))
     higher = simulate(reference.setup(), replace(REFERENCE, settle=16.0 * REFERENCE.settle))  # four times as wrong
     assert 1e-8 < reference.error < reference.error_of(higher) < 10.0 * reference.error

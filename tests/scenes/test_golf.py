@@ -25,6 +25,7 @@ from sandbox.physics import coefficients
 from sandbox.physics.club import Head, strike
 from sandbox.physics.forces import Magnus
 from sandbox.physics.turf import STIMPMETER_SPEED
+from scenes.golf.course import kind_at
 
 YARD, FOOT, RPM = 0.9144, 0.3048, pi / 30.0
 RADIUS, G = 0.021335, 9.81
@@ -563,5 +564,5 @@ def test_the_green_reaches_half_its_length_to_either_side_of_the_pin():
     scene = sandbox.load("golf", {"pin.distance": 150.0, "ground.green.length": 30.0, "ground.strips": []})
     greens = [surface.shape for surface in scene.build().surfaces if surface.name == "green"]
     assert (min(green.a[0] for green in greens), max(green.b[0] for green in greens)) == (135.0, 165.0)
-    kinds = [scene.module.kind_at(scene.parameters, x) for x in (134.999, 135.001, 164.999, 165.001)]
+    kinds = [kind_at(scene.parameters.ground, scene.parameters.pin, x) for x in (134.999, 135.001, 164.999, 165.001)]
     assert kinds == ["fairway", "green", "green", "fairway"]

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import Any, Literal
 
 from sandbox.engine.setup import Ball, Segment, Setup, Surface
-from sandbox.parameters import Accuracy, Group, choice, either, group, groups, quantity, switch, vector
+from sandbox.parameters import Group, SceneParameters, choice, either, group, groups, quantity, switch, vector
 from sandbox.sport.facts import Fact
 
 
@@ -50,7 +50,7 @@ class Mark(Group):
     x: float = quantity(0.0, "m", low=-10, high=10, meaning="where it lies")
 
 
-class Parameters(Group):
+class Parameters(SceneParameters):
     gravity: float = quantity(9.81, "m/s^2", low=0, high=30, meaning="downwards")
     duration: float = quantity(1.0, "s", low=0.01, high=100, meaning="of the run")
     launch: Launch = group(Launch(), "how the ball starts")
@@ -58,7 +58,6 @@ class Parameters(Group):
     air: Air = group(Air(), "the air")
     floor: Floor = group(Floor(), "the floor")
     marks: list[Mark] = groups([], "what lies about")
-    accuracy: Accuracy = group(Accuracy(), "speed against accuracy")
 
 
 @dataclass(frozen=True)
