@@ -6,6 +6,7 @@ Coefficients are along the first axis, paths along the last: shape (degree + 1, 
 from __future__ import annotations
 
 from functools import lru_cache
+from math import comb
 
 import numpy as np
 
@@ -18,28 +19,31 @@ _MOST_STEPS = 60
 def evaluate(b: np.ndarray, u: np.ndarray) -> np.ndarray:
     """f(u), shape (..., paths)."""
     n = len(b) - 1
-    return _summed(_scaled(b), _powers(u, n), _powers(1.0 - u, n))
+    weights = _powers(u, n) * _binomials(n)
+    found: np.ndarray = (b * weights.reshape(n + 1, *[1] * (b.ndim - 2), -1)).sum(axis=0)
+    return found
 
 
-def _scaled(b: np.ndarray) -> np.ndarray:
-    """Coefficients times their binomials."""
-    return np.array(binomials(len(b) - 1), float).reshape(-1, *[1] * (b.ndim - 1)) * b
+def until(b: np.ndarray, u: np.ndarray) -> np.ndarray:
+    """Coefficients on [0, u], by de Casteljau."""
+    w, left = 1.0 - u, b.copy()
+    for level in range(1, len(b)):
+        left[level:] = w * left[level - 1 : -1] + u * left[level:]
+    return left
 
 
 def _powers(u: np.ndarray, n: int) -> np.ndarray:
-    """u^0 to u^n, shape (n + 1, paths)."""
-    powers = np.ones((n + 1, len(u)))
-    for k in range(n):
-        np.multiply(powers[k], u, out=powers[k + 1])
-    return powers
-
-
-def _summed(scaled: np.ndarray, powers: np.ndarray, backwards: np.ndarray) -> np.ndarray:
-    """f from scaled coefficients, and the powers of u and of 1 - u at least up to its degree."""
-    n = len(scaled) - 1
-    weights = powers[: n + 1] * backwards[n::-1]
-    found: np.ndarray = (scaled * weights.reshape(n + 1, *[1] * (scaled.ndim - 2), -1)).sum(axis=0)
+    """u^k (1 - u)^(n - k) for k from 0 to n, shape (n + 1, paths)."""
+    powers = np.ones((2, n + 1, len(u)))
+    powers[0, 1:], powers[1, 1:] = u, 1.0 - u
+    np.multiply.accumulate(powers, axis=1, out=powers)
+    found: np.ndarray = powers[0] * powers[1, ::-1]
     return found
+
+
+@lru_cache
+def _binomials(n: int) -> np.ndarray:
+    return np.array(binomials(n), float)[:, None]
 
 
 def squared_length(x: np.ndarray, y: np.ndarray) -> np.ndarray:
@@ -66,48 +70,62 @@ def first_downward_crossing(b: np.ndarray, halvings: int = 4) -> tuple[np.ndarra
     A polynomial is clear if its coefficients change sign at most once and are never exactly zero, on [0, 1] or on its
     pieces after ``halvings`` bisections. ``b`` has shape (degree + 1, paths); both arrays have shape (paths,).
     """
-    u = np.full(b.shape[1], np.inf)
-    positive = b > 0.0
-    changes = (positive[1:] != positive[:-1]).sum(axis=0)
-    unclear = (changes > 1) | ((b == 0.0).any(axis=0) & (changes > 0))
-    falling = np.flatnonzero((changes == 1) & ~positive[-1] & ~unclear)
-    if len(falling):
-        u[falling] = _single_root(b[:, falling])
-    some = np.flatnonzero(unclear)
-    if len(some) and halvings:
-        early, late = _halves(b[:, some])
-        u1, unclear1 = first_downward_crossing(early, halvings - 1)
-        u2, unclear2 = first_downward_crossing(late, halvings - 1)
-        u[some] = np.where(np.isfinite(u1), 0.5 * u1, 0.5 + 0.5 * u2)
-        unclear[some] = unclear1 | (np.isinf(u1) & unclear2)
-    return u, unclear
+    first, unclear = np.full(b.shape[1], np.inf), np.zeros(b.shape[1], dtype=bool)
+    path, start, width = np.arange(b.shape[1]), np.zeros(b.shape[1]), 1.0  # of the pieces
+    falling = []
+    for halving in range(halvings + 1):
+        positive = b > 0.0
+        changes = (positive[1:] != positive[:-1]).sum(axis=0)
+        doubtful = (changes > 1) | ((changes > 0) & (b == 0.0).any(axis=0))
+        falls = np.flatnonzero((changes == 1) & ~positive[-1] & ~doubtful)
+        falling.append((b[:, falls], path[falls], start[falls], np.full(len(falls), width)))
+        some = np.flatnonzero(doubtful)
+        path, start = path[some], start[some]
+        if not len(some) or halving == halvings:
+            break
+        width *= 0.5
+        path, start = np.concatenate((path, path)), np.concatenate((start, start + width))
+        b = (_halving(len(b) - 1) @ b[:, some]).reshape(2, len(b), -1).transpose(1, 0, 2).reshape(len(b), -1)
+    pieces, whose, starts, widths = (np.concatenate(parts, axis=-1) for parts in zip(*falling, strict=True))
+    if len(whose):
+        np.minimum.at(first, whose, starts + widths * _single_root(pieces))
+    unclear[path[start < first[path]]] = True
+    return first, unclear
 
 
-def _halves(b: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Coefficients on [0, 1/2] and on [1/2, 1]."""
-    left, right = np.empty_like(b), np.empty_like(b)
-    left[0], right[-1] = b[0], b[-1]
-    for k in range(1, len(left)):
-        b = 0.5 * (b[:-1] + b[1:])
-        left[k], right[-1 - k] = b[0], b[-1]
-    return left, right
+@lru_cache
+def _halving(n: int) -> np.ndarray:
+    """What makes the coefficients on [0, 1/2] and on [1/2, 1], shape (2 n + 2, n + 1)."""
+    left = np.array([[comb(k, j) * 0.5**k for j in range(n + 1)] for k in range(n + 1)])
+    return np.vstack((left, left[::-1, ::-1]))
+
+
+@lru_cache
+def _value_and_slope(n: int) -> np.ndarray:
+    """What makes the factors of u^k (1 - u)^(n - k) in f and in df/du, shape (2 n + 2, n + 1)."""
+    rise = np.zeros((n + 1, n + 1))
+    for k in range(n + 1):  # the derivative's coefficients n (b[k + 1] - b[k]), elevated to degree n
+        for at, share in ((k, k), (k + 1, n - k)):
+            if share:
+                rise[k, at] += share
+                rise[k, at - 1] -= share
+    return np.vstack((np.diag(np.ones(n + 1)), rise)) * np.tile(_binomials(n), (2, 1))
 
 
 def _single_root(b: np.ndarray) -> np.ndarray:
     """The root of polynomials that fall through zero exactly once in [0, 1]: Newton, kept inside a bracket."""
-    low, high = np.zeros(b.shape[1]), np.ones(b.shape[1])
-    n = len(b) - 1
-    scaled, slope = _scaled(b), _scaled(n * (b[1:] - b[:-1]))
+    n, paths = len(b) - 1, b.shape[1]
+    low, high = np.zeros(paths), np.ones(paths)
+    both = (_value_and_slope(n) @ b).reshape(2, n + 1, paths)
     u = b[0] / (b[0] - b[-1])
-    near = np.zeros(b.shape[1], dtype=bool)
+    near = np.zeros(paths, dtype=bool)
     for _ in range(_MOST_STEPS):
-        powers = _powers(u, n), _powers(1.0 - u, n)
-        value, fall = _summed(scaled, *powers), _summed(slope, *powers)
-        low, high = np.where(value >= 0.0, u, low), np.where(value < 0.0, u, high)
-        before, following = u, u - value / fall
-        falls = fall < 0.0  # where it rises the root is only rounding
-        inside = falls & (low <= following) & (following <= high)
-        u = np.where(near, u, np.where(inside, following, 0.5 * (low + high)))
+        value, fall = (both * _powers(u, n)).sum(axis=1)
+        above = value >= 0.0
+        low, high = np.where(above, u, low), np.where(above, high, u)
+        following = u - value / fall
+        inside = (fall < 0.0) & (low <= following) & (following <= high)  # where it rises the root is only rounding
+        before, u = u, np.where(near, u, np.where(inside, following, 0.5 * (low + high)))
         near |= (inside & (np.abs(following - before) <= CONVERGED)) | (high - low <= 1e-16)
         if near.all():
             break

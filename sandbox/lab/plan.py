@@ -17,7 +17,6 @@ from sandbox.lab.axes import MOST_POINTS, Axis, Span, Values
 from sandbox.lab.provenance import Provenance, provenance
 from sandbox.lab.runs import fly_together, runs
 from sandbox.scene import Scene, compare
-from sandbox.sport.facts import ENDED
 from sandbox.tracebacks import one_line_error
 
 if TYPE_CHECKING:
@@ -89,8 +88,8 @@ class Plan:
 
     @cached_property
     def asked(self) -> list[str]:
-        """The facts of each row. A run ends when they are settled, so how a full run would end is not among them."""
-        return [key for key, fact in self.scene.facts.items() if fact is not ENDED]
+        """The facts of each row."""
+        return self.scene.all_but_the_end
 
     @cached_property
     def block(self) -> int:

@@ -22,7 +22,7 @@ from sandbox import parameters as declared
 from sandbox.errors import RequestError, RunError, no_exit
 from sandbox.scene.modules import module_in
 from sandbox.sport.controls import Controls
-from sandbox.sport.facts import FALLBACK_FACTS, Fact, Settled, fallback_verdict, mistake_in
+from sandbox.sport.facts import ENDED, FALLBACK_FACTS, Fact, Settled, fallback_verdict, mistake_in
 from sandbox.text import shortened
 
 if TYPE_CHECKING:
@@ -113,6 +113,11 @@ class Scene:
         """The facts of a run of this scene, by their names in its result, the most important first."""
         facts: Sequence[Fact] = getattr(self.module, "FACTS", FALLBACK_FACTS)
         return {fact.key: fact for fact in facts}
+
+    @property
+    def all_but_the_end(self) -> list[str]:
+        """The facts that many runs are asked for. They end when these are settled, not as a full run would end."""
+        return [key for key, fact in self.facts.items() if fact is not ENDED]
 
     @property
     def units(self) -> Mapping[str, str]:

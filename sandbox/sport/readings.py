@@ -86,21 +86,18 @@ def passing(run: Run, x: float) -> Moment | None:
 
 @dataclass(frozen=True)
 class Passes(Touches):
-    """Ends a run when the ball passes the line from ``a`` to ``b`` (m) to its right, faster than ``speed`` (m/s) across
-    it; or when ``what`` is touched."""
+    """Ends a run when the ball passes the line from ``a`` to ``b`` (m) to its right, or when ``what`` is touched."""
 
     a: Vector = (0.0, 0.0)
     b: Vector = (0.0, 0.0)
-    speed: float = 0.0
 
     def passed(self, start: State, end: State) -> Any:
-        (ax, ay), (bx, by), (x0, y0, *_), (x1, y1, vx, vy, _) = self.a, self.b, start, end
+        (ax, ay), (bx, by), (x0, y0, *_), (x1, y1, *_) = self.a, self.b, start, end
         ex, ey = bx - ax, by - ay
-        square = ex * ex + ey * ey
         along = (x0 - ax) * ex + (y0 - ay) * ey, (x1 - ax) * ex + (y1 - ay) * ey
-        inside = (least(*along) > 0.0) & (most(*along) < square)
+        inside = (least(*along) > 0.0) & (most(*along) < ex * ex + ey * ey)
         before, after = ((x - ax) * ey - (y - ay) * ex for x, y in ((x0, y0), (x1, y1)))
-        return inside & (before <= 0.0) & (after > 0.0) & (vx * ey - vy * ex > self.speed * square**0.5)
+        return inside & (before <= 0.0) & (after > 0.0)
 
 
 def first_touch(run: Run) -> Event | None:

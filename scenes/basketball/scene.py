@@ -213,17 +213,32 @@ def falls_to(run: Run, parameters: Parameters, below: float = 0.0) -> Iterator[t
 
 
 @once
-def through(run: Run, parameters: Parameters) -> float | None:
-    """When the ball left the ring below, in s, having come down through it between its inner edges; None if never."""
-    hoop, radius = parameters.hoop, parameters.ball.radius
-    rises = [t for t, _ in run.crossings("ball", hoop.middle, (0.0, -1.0))]
-    out = [t for t, _ in falls_to(run, parameters, radius)]
-    for into, state in falls_to(run, parameters):
-        back_up = next((t for t in rises if t > into), run.duration)
-        left = next((t for t in out if into < t <= back_up), None)
-        if left is not None and abs(state[0] - hoop.distance) < 0.5 * hoop.inner_diameter:
-            return left
-    return None
+def out(run: Run, parameters: Parameters) -> float | None:
+    """When the ball left the ring below, between its inner edges, in s; None if it did not before it reached the
+    floor."""
+    return next(
+        (
+            t
+            for t, state in falls_to(run, parameters, parameters.ball.radius)
+            if inside(state, parameters) and t <= on_floor(run)
+        ),
+        None,
+    )
+
+
+@once
+def made(run: Run, parameters: Parameters) -> bool:
+    """Whether it had come down through the ring."""
+    left = out(run, parameters)
+    if left is None:
+        return False
+    up = max((t for t, _ in run.crossings("ball", parameters.hoop.middle, (0.0, -1.0)) if t < left), default=0.0)
+    return any(up < t <= left and inside(state, parameters) for t, state in falls_to(run, parameters))
+
+
+def inside(state: State, parameters: Parameters) -> bool:
+    """Whether the ball's centre is between the inner edges, seen from above."""
+    return abs(state[0] - parameters.hoop.distance) < 0.5 * parameters.hoop.inner_diameter
 
 
 @once
@@ -246,29 +261,26 @@ def offset(run: Run, parameters: Parameters) -> float | None:
 @once
 def touches(run: Run, parameters: Parameters) -> list[str]:
     """The surfaces touched until the shot was decided: by leaving the ring below, or by reaching the floor."""
-    left = through(run, parameters)
+    left = out(run, parameters)
     decided = on_floor(run) if left is None else left
     return [event.partner for event in run.events if event.kind in ("impact", "contact") and event.t <= decided]
 
 
 def decided(parameters: Parameters) -> Passes:
-    """The ball is on the floor; or it has left the ring below, falling faster than a ball that rose into the ring from
-    below can: drag only slows that one; a tenth more is for lift and wind."""
-    radius = parameters.ball.radius
-    fastest = 1.1 * (2.0 * parameters.gravity * radius) ** 0.5
-    return Passes("floor", 1, *parameters.hoop.across(radius), fastest)
+    """The ball is on the floor, or it has left the ring below."""
+    return Passes("floor", 1, *parameters.hoop.across(parameters.ball.radius))
 
 
 def word(run: Run, parameters: Parameters) -> str:
     """swish; bank, off the board first; rim, off the ring first; miss."""
-    if through(run, parameters) is None:
+    if not made(run, parameters):
         return "miss"
     first = next(iter(touches(run, parameters)), None)
     return "swish" if first is None else "bank" if first == "backboard" else "rim"
 
 
 FACTS = (
-    Fact("made", "", "", lambda run, it: through(run, it) is not None, decided),
+    Fact("made", "", "", made, decided),
     Fact("verdict", "", "", word, decided),
     Fact("entry_angle", "entry angle", "deg", at(entry, "descent"), decided),
     Fact("entry_speed", "entry speed", "m/s", at(entry, "speed"), decided),
@@ -293,4 +305,4 @@ def verdict(run: Run, parameters: Parameters) -> str:
     offset = result["entry_offset"]
     if offset is not None:
         return f"Air ball, {roughly(abs(offset))} {'short' if offset < 0 else 'too far'}"
-    return "Air ball, never as high as the ring" if "floor" in result["touches"] else "Did not come down"
+    return "Did not come down" if run.ended == "duration" else "Air ball, never as high as the ring"

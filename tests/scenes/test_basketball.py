@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 import sandbox
 from sandbox.engine.run import Run
 from sandbox.errors import RequestError
+from sandbox.lab.runs import runs
 
 VERDICTS = {
     "basketball": "swish",
@@ -143,6 +144,22 @@ def test_made_from_below_and_down_again():
     assert (result["made"], result["touches"]) == (True, [])
     too_weak = shoot(hoop__distance=0, release__height=1, launch__angle=90, launch__speed=6, launch__spin=0).result
     assert too_weak["made"] is False
+
+
+def test_a_shot_is_decided_as_it_leaves_the_ring_below_however_it_came_there():
+    """Through the ring, slowed by the net, or back down from inside it: then a run asked for its facts ends."""
+    upwards = [
+        ({"hoop.distance": 0.0, "release.height": 1.0, "launch.angle": 90.0, "launch.spin": 0.0}, speed)
+        for speed in (7.0, 7.4, 7.6)
+    ]
+    for changes, speed in [*upwards, ({}, 7.482), ({}, 7.5045)]:
+        scene = sandbox.load("basketball", changes)
+        asked = scene.all_but_the_end
+        run = next(runs(scene, ["launch.speed"], [(speed,)], asked=asked))
+        full = sandbox.simulate(scene.changed({"launch.speed": speed}))
+        assert run.result == {key: full.result[key] for key in asked}
+        assert run.state("ball", run.duration).y > 2.8
+        assert run.ended == "until"
 
 
 @pytest.mark.parametrize("speed", [7.3, 7.44, 7.45, 7.46, 7.5, 7.6])

@@ -33,7 +33,7 @@ def greatest(shots: Shots) -> list[Solution]:
         step, parts = (right - left) / (parts - 1), _CLOSER[len(shots.spans)]
         left, right = np.maximum(best - step, low), np.minimum(best + step, high)
     point = tuple(best.tolist())
-    result, errors, _ = shots.checked(point)
+    result, errors, _ = shots.checked([point])[0]
     values = {span.key: value for span, value in zip(shots.spans, point, strict=True)}
     return [Solution(values, dict(zip(values, (_FINE * whole).tolist(), strict=True)), result, errors)]
 

@@ -27,26 +27,28 @@ def intervals(shots: Shots) -> list[Solution]:
     span, target = shots.spans[0], shots.targets[0]
     seen = [(place, result is not None and target.met(result.get(target.name))) for place, result in scan(shots)]
     changes = [(low, high, met) for (low, met), (high, after) in pairwise(seen) if met != after]
-    ends = _refined(shots, changes, finer=False)
-    finer = _seen_finer(shots, changes, ends)
-    least = _END * (span.high - span.low)
-    borders: list[tuple[float, float | None, bool]] = [
-        (end, None if other is None else max(abs(end - other), least), False)
-        for end, other in zip(ends, finer, strict=True)
-    ]
-    if seen[0][1]:
-        borders.insert(0, (span.low, 0.0, True))
-    if seen[-1][1]:
-        borders.append((span.high, 0.0, True))
-    found = [
-        Interval(low, high, low_error, high_error, open_low, open_high)
-        for (low, low_error, open_low), (high, high_error, open_high) in zip(borders[::2], borders[1::2], strict=True)
-    ]
-    return [_middle(shots, interval) for interval in sorted(found, key=lambda interval: -interval.width)]
+    inner = _refined(shots, changes, finer=False)
+    opens, stays_open = ([0.0] if met else [] for met in (seen[0][1], seen[-1][1]))  # errors of the range's own ends
+    ends = [span.low] * len(opens) + inner + [span.high] * len(stays_open)
+    middles = [0.5 * (low + high) for low, high in zip(ends[::2], ends[1::2], strict=True)]
+    errors = [*opens, *_errors(shots, changes, inner, middles), *stays_open]
+    checked = shots.checked([(middle,) for middle in middles])
+    found = []
+    for place, (result, result_errors, _) in enumerate(checked):
+        low, high = ends[2 * place : 2 * place + 2]
+        low_error, high_error = errors[2 * place : 2 * place + 2]
+        interval = Interval(low, high, low_error, high_error, low == span.low, high == span.high)
+        error = None if low_error is None or high_error is None else 0.5 * (low_error + high_error)
+        solution = Solution({span.key: middles[place]}, {span.key: error}, result, result_errors, interval)
+        found.append((interval.width, solution))
+    return [solution for _, solution in sorted(found, key=lambda each: -each[0])]
 
 
-def _seen_finer(shots: Shots, changes: Sequence[_Change], ends: Sequence[float]) -> list[float | None]:
-    """The same ends from finer runs; None for an end that they do not find, even between the points of the scan."""
+def _errors(
+    shots: Shots, changes: Sequence[_Change], ends: Sequence[float], middles: Sequence[float]
+) -> list[float | None]:
+    """By how much these ends differ from those that finer runs find; None if they find no such end, even between the
+    points of the scan. The ``middles``, which are needed next, are run together with the first of them."""
     least, near = (share * (shots.spans[0].high - shots.spans[0].low) for share in (_END, _NEAR))
     found: list[float | None] = [None] * len(ends)
     for width in (least, near, inf):
@@ -55,7 +57,9 @@ def _seen_finer(shots: Shots, changes: Sequence[_Change], ends: Sequence[float])
             (max(low, ends[number] - width), min(high, ends[number] + width), met)
             for number, (low, high, met) in ((number, changes[number]) for number in missing)
         ]
-        met = shots.meets([(place,) for low, high, _ in tight for place in (low, high)], "solve", finer=True)
+        points = [(place,) for low, high, _ in tight for place in (low, high)]
+        shots.finer([*points, *((middle,) for middle in middles)])
+        met = shots.meets(points, "solve", finer=True)
         seen = [
             number
             for number, change in enumerate(tight)
@@ -63,7 +67,7 @@ def _seen_finer(shots: Shots, changes: Sequence[_Change], ends: Sequence[float])
         ]
         for number, end in zip(seen, _refined(shots, [tight[number] for number in seen], finer=True), strict=True):
             found[missing[number]] = end
-    return found
+    return [None if other is None else max(abs(end - other), least) for end, other in zip(ends, found, strict=True)]
 
 
 def _refined(shots: Shots, changes: Sequence[_Change], finer: bool) -> list[float]:
@@ -84,11 +88,3 @@ def _refined(shots: Shots, changes: Sequence[_Change], finer: bool) -> list[floa
             brackets[number] = (known[change], known[change + 1], before)
         between = _LATER
     return [0.5 * (low + high) for low, high, _ in brackets]
-
-
-def _middle(shots: Shots, interval: Interval) -> Solution:
-    key, middle = shots.spans[0].key, 0.5 * (interval.low + interval.high)
-    result, errors, _ = shots.checked((middle,))
-    ends = interval.low_error, interval.high_error
-    error = None if None in ends else 0.5 * sum(end for end in ends if end is not None)
-    return Solution({key: middle}, {key: error}, result, errors, interval)

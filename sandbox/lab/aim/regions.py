@@ -43,7 +43,7 @@ def regions(shots: Shots) -> list[Solution]:
 
 def _solution(shots: Shots, point: tuple[float, ...], share: float) -> Solution:
     spans = shots.spans
-    result, errors, _ = shots.checked(point)
+    result, errors, _ = shots.checked([point])[0]
     whole = np.array([span.high - span.low for span in spans])
     ends = np.array([(span.low, span.high) for span in spans])
     angles = (np.arange(_DIRECTIONS) + 0.5) * (2.0 * np.pi / _DIRECTIONS)  # none along an axis

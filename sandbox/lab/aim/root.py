@@ -51,14 +51,14 @@ def is_met(shots: Shots, point: tuple[float, ...]) -> bool:
     spreads = np.array([shots.spread(index) for index in range(len(shots.targets))])
     if (misses <= _MET * spreads).all():
         return True
-    _, _, shift = shots.checked(point)
+    _, _, shift = shots.checked([point])[0]
     noise = np.minimum(3.0 * np.abs(shift), _NOISE * spreads)
     return bool((misses <= np.maximum(_MET * spreads, noise)).all())
 
 
 def solution(shots: Shots, point: tuple[float, ...]) -> Solution:
     """The solution at a root, with its numerical errors: the shift of the targets divided by their slopes."""
-    result, errors, shift = shots.checked(point)
+    result, errors, shift = shots.checked([point])[0]
     moved = _moved(shots, point, shift) if np.isfinite(shift).all() else [None] * len(point)
     keys = [span.key for span in shots.spans]
     return Solution(dict(zip(keys, point, strict=True)), dict(zip(keys, moved, strict=True)), result, errors)

@@ -44,22 +44,29 @@ class Shots:
         self.targets = targets
         self.tries: list[Try] = []
         self.failures = 0
-        self._asked = _asked(scene, [target.name for target in targets])
+        self._names = [target.name for target in targets]
+        for target in targets:
+            if target.name not in scene.facts:
+                why = declared.no_such_result(target.name, tuple(scene.facts))
+                raise RequestError(f"{_option(target)} {target.name}: {why}")
         self._progress = progress
         self._first_error: Exception | None = None
         self._known: dict[tuple[float, ...], dict[str, Any] | None] = {}
+        self._finer: dict[tuple[float, ...], Run | Exception] = {}
 
     def results(
-        self, points: Sequence[tuple[float, ...]], phase: str = "scan", finer: bool = False
+        self, points: Sequence[tuple[float, ...]], phase: str = "scan", others: bool = False
     ) -> list[dict[str, Any] | None]:
-        """The results at some points; None if the run failed."""
-        if finer:
-            return [self._result(run) for run in runs(self.scene, self._keys, points, True, self._asked)]
+        """The targeted results at some points, and ``others`` that are settled with them; None if the run failed."""
+        asked = _settled_with(self.scene, self._names) if others else self._names
         new = [point for point in dict.fromkeys(points) if point not in self._known]
-        for point, run in zip(new, runs(self.scene, self._keys, new, False, self._asked), strict=True):
-            result = self._known[point] = self._result(run)
-            self._check_names(result)
-            found = tuple(None if result is None else result.get(target.name) for target in self.targets)
+        for point, run in zip(new, runs(self.scene, self._keys, new, asked=asked), strict=True):
+            if isinstance(run, Exception):
+                self.failures += 1
+                self._first_error = self._first_error or run
+            result = self._known[point] = _result(run)
+            self._check_kinds(result)
+            found = tuple(None if result is None else result.get(name) for name in self._names)
             self.tries.append(Try(point, found, phase))
             self._progress(len(self.tries), max(self.planned, len(self.tries)))
         return [self._known[point] for point in points]
@@ -67,14 +74,21 @@ class Shots:
     #: Expected number of runs, for the progress bar.
     planned = SCAN
 
-    def numbers(self, point: tuple[float, ...], phase: str, finer: bool = False) -> np.ndarray:
+    def finer(self, points: Sequence[tuple[float, ...]]) -> list[Run | Exception]:
+        """Finer runs at some points, with all facts but how a run ends."""
+        new = [point for point in dict.fromkeys(points) if point not in self._finer]
+        found = runs(self.scene, self._keys, new, finer=True, asked=self.scene.all_but_the_end)
+        self._finer |= zip(new, found, strict=True)
+        return [self._finer[point] for point in points]
+
+    def numbers(self, point: tuple[float, ...], phase: str) -> np.ndarray:
         """The miss of each target at one point; NaN if there is no such result."""
-        return self.missed(self.results([point], phase, finer)[0])
+        return self.missed(self.results([point], phase)[0])
 
     def meets(self, points: Sequence[tuple[float, ...]], phase: str, finer: bool = False) -> list[bool]:
         """Whether the target, which is not a number, is met at each of these points."""
         target = self.targets[0]
-        found = self.results(points, phase, finer)
+        found = [_result(run) for run in self.finer(points)] if finer else self.results(points, phase)
         return [result is not None and target.met(result.get(target.name)) for result in found]
 
     def missed(self, result: Mapping[str, Any] | None) -> np.ndarray:
@@ -86,10 +100,15 @@ class Shots:
             ]
         )
 
-    def checked(self, point: tuple[float, ...]) -> tuple[dict[str, Any], dict[str, float], np.ndarray]:
-        """Result at a point, its estimated errors, and the shift of the aimed-at results in a finer run."""
-        run = next(runs(self.scene, self._keys, [point]))
-        finer = next(runs(self.scene, self._keys, [point], finer=True))
+    def checked(self, points: Sequence[tuple[float, ...]]) -> list[tuple[dict[str, Any], dict[str, float], np.ndarray]]:
+        """The whole result at each of some points, its estimated errors, and the shift of the aimed-at results in a
+        finer run."""
+        coarser = runs(self.scene, self._keys, points, asked=self.scene.all_but_the_end)
+        return [self._compared(*each) for each in zip(points, coarser, self.finer(points), strict=True)]
+
+    def _compared(
+        self, point: tuple[float, ...], run: Run | Exception, finer: Run | Exception
+    ) -> tuple[dict[str, Any], dict[str, float], np.ndarray]:
         if isinstance(run, Exception) or isinstance(finer, Exception):
             return dict(self._known.get(point) or {}), {}, np.full(len(self.targets), np.nan)
         shift = self.missed(finer.result) - self.missed(run.result) if all(t.is_number for t in self.targets) else None
@@ -120,21 +139,12 @@ class Shots:
     def _keys(self) -> list[str]:
         return [span.key for span in self.spans]
 
-    def _result(self, run: Run | Exception) -> dict[str, Any] | None:
-        if isinstance(run, Exception):
-            self.failures += 1
-            self._first_error = self._first_error or run
-            return None
-        return dict(run.result)
-
-    def _check_names(self, result: Mapping[str, Any] | None) -> None:
-        """Raise RequestError for a target that the scene does not have, or that is of another kind."""
+    def _check_kinds(self, result: Mapping[str, Any] | None) -> None:
+        """Raise RequestError for a target that is of another kind than the result."""
         if result is None:
             return
         for target in self.targets:
-            option, wanted = ("--maximize", 0.0) if target.value is GREATEST else ("--target", target.value)
-            if target.name not in result:
-                raise RequestError(f"{option} {target.name}: {declared.no_such_result(target.name, tuple(result))}")
+            option, wanted = _option(target), 0.0 if target.value is GREATEST else target.value
             value = result[target.name]
             held = isinstance(value, list | dict) and isinstance(wanted, str)  # a word that a list may hold
             if value is not None and _kind(value) != _kind(wanted) and not held:
@@ -152,9 +162,17 @@ def _kind(value: Any) -> str:
     )
 
 
-def _asked(scene: Scene, names: Sequence[str]) -> list[str]:
-    """The facts that runs must settle, after which they end: the targets, and facts settled with them, since a target
-    may jump where these change. An empty list means all facts, if a target may change until the end."""
+def _result(run: Run | Exception) -> dict[str, Any] | None:
+    return None if isinstance(run, Exception) else run.result
+
+
+def _option(target: Target) -> str:
+    return "--maximize" if target.value is GREATEST else "--target"
+
+
+def _settled_with(scene: Scene, names: Sequence[str]) -> list[str]:
+    """These facts, and those settled with them, since a target may jump where these change. An empty list means all
+    facts, if a target may change until the end."""
     if scene.settles(names) is None:
         return []
     by = [scene.facts[name].settled for name in names]
@@ -177,7 +195,7 @@ def scan(shots: Shots) -> list[tuple[float, dict[str, Any] | None]]:
     span, target = shots.spans[0], shots.targets[0]
     places = np.linspace(span.low, span.high, SCAN).tolist()
     for _ in range(_REFINEMENTS + 1):
-        results = shots.results([(place,) for place in places])
+        results = shots.results([(place,) for place in places], others=True)
         seen = list(zip(places, results, strict=True))
         rough = {index for index, (one, other) in enumerate(pairwise(results)) if _signature(one) != _signature(other)}
         if target.is_number:
