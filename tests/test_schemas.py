@@ -19,7 +19,7 @@ FILES = sorted(
     file
     for name in ("scenes", "template", "template_above")
     for file in resources.folder(name).rglob("*.toml")
-    if file.name != "colours.toml"  # of its picture
+    if file.name not in ("colours.toml", "tables.toml")  # of a picture; of billiards
 )
 
 

@@ -35,7 +35,7 @@ from sandbox.sport.controls import Controls, Goal, Handle, Spin, Spread
 from sandbox.sport.facts import ENDED, Fact, once
 from sandbox.sport.flight import Directed
 from sandbox.sport.readings import at, travelled
-from sandbox.sport.sliding import left, taken
+from sandbox.sport.sliding import REST_TIME, left, taken
 from sandbox.sport.solids import Solid
 
 from .table import AnyTable, catches, check, cushions, on_bed
@@ -86,6 +86,17 @@ class Cushion(Solid):
     model: Literal["nose", "vertical"] = choice(..., "a nose above the ball's centre, or a wall")
     nose_height: float = quantity(..., "m", 0.001, 0.4, "height of the nose above the cloth")
 
+    def nose(self, radius: float) -> float | None:
+        """Height in m of the nose, for balls of that radius; None for walls."""
+        if self.model == "vertical":
+            return None
+        if radius <= self.nose_height < 2.0 * radius:
+            return self.nose_height
+        raise RequestError(
+            f"cushion.nose_height = {self.nose_height:g} m: must be between the centre of a ball, at {radius:g} m, "
+            f"and its top, at {2.0 * radius:g} m"
+        )
+
 
 class Contact(Group):
     """The contact of balls that are pressed together while others can reach them."""
@@ -121,7 +132,7 @@ CONTROLS = Controls(
     ball="cue.ball",
     sliders=("cue.speed", "cue.angle", "cue.follow", "cue.english", "rack", "cloth.rolling_friction", "ball.friction"),
     handles=(Handle("balls[*].x", "balls[*].y", first=lambda parameters: placed(laid_out(parameters))),),
-    goals=lambda parameters: _goals(parameters),
+    goals=lambda parameters: goals(parameters),
     scores="scored",
     spread=(Spread("cue.speed", 0.03), Spread("cue.angle", least=0.2)),  # assumed
     next_start=lambda run, parameters: from_rest(run, parameters),
@@ -155,25 +166,36 @@ def build(parameters: Parameters) -> Setup:
     """Table, balls and the stroke. Raises RequestError for balls that do not fit, and for a miscue."""
     ball, cloth, cushion, table = parameters.ball, parameters.cloth, parameters.cushion, parameters.table
     check(table, ball.radius)
+    surfaces = cushions(table, cushion.restitution, cushion.friction, cushion.nose(ball.radius))
     spots = laid_out(parameters)
-    surfaces = cushions(table, cushion.restitution, cushion.friction, _nose(parameters))
-    _check_spots(spots, parameters, [Obstacle(surface, ball.radius) for surface in surfaces])
-    balls = {name: Ball(name, ball.mass, ball.radius, place) for name, place in spots.items()}
+    check_spots(spots, parameters, [Obstacle(surface, ball.radius) for surface in surfaces])
     velocity, spin, rolling_spin = struck(parameters)
+    balls = {name: Ball(name, ball.mass, ball.radius, place) for name, place in spots.items()}
     cue = balls[parameters.cue.ball]
     balls[cue.name] = replace(cue, velocity=velocity, spin=spin, rolling_spin=rolling_spin)
+    alike = Always(Bounce(ball.restitution, ball.friction or 0.0))
     return Setup(
         list(balls.values()),
         surfaces,
         duration=LONGEST,
-        between_balls=_between_balls(ball),
+        between_balls=SlowerThrowsMore(ball.restitution) if ball.friction is None else alike,
         plane=Cloth(cloth.sliding_friction, cloth.rolling_friction, cloth.spinning_friction, parameters.gravity),
         catches=catches(table),
         contact=ContactModel(parameters.contact.model, parameters.contact.stiffness),
     )
 
 
-def _goals(parameters: Parameters) -> list[Goal]:
+@dataclass(frozen=True)
+class SlowerThrowsMore:
+    """An impact of two balls with friction that falls with their sliding speed."""
+
+    restitution: float
+
+    def __call__(self, normal_speed: float, slip_speed: float) -> Bounce:
+        return Bounce(self.restitution, friction_by_speed(slip_speed))
+
+
+def goals(parameters: Parameters) -> list[Goal]:
     """Each ball, to be potted; and each pocket, by the balls that are nearest to it."""
     spots, table, cue = laid_out(parameters), parameters.table, parameters.cue.ball
     x0, y0 = spots.pop(cue)
@@ -182,24 +204,11 @@ def _goals(parameters: Parameters) -> list[Goal]:
         way, seen = degrees(atan2(y - y0, x - x0)), 2.0 * parameters.ball.radius / hypot(x - x0, y - y0)
         half = degrees(asin(min(1.0, seen)))  # as far to either side as the ball is touched
         ranges[name] = {"cue.angle": (way - half, way + half)}
-    goals = [Goal(f"ball {name}", {"pockets": name}, spots[name], ranges[name]) for name in spots]
+    found = [Goal(f"ball {name}", {"pockets": name}, spots[name], ranges[name]) for name in spots]
     for hole in catches(table):
         near = sorted(spots, key=lambda name: dist(spots[name], hole.center))[:TRIED]
-        goals += [Goal(hole.name, {"pockets": hole.name}, hole.center, ranges[name]) for name in near]
-    return goals
-
-
-def _nose(parameters: Parameters) -> float | None:
-    """Height in m of the cushions' nose; None for walls."""
-    cushion, radius = parameters.cushion, parameters.ball.radius
-    if cushion.model == "vertical":
-        return None
-    if not radius <= cushion.nose_height < 2.0 * radius:
-        raise RequestError(
-            f"cushion.nose_height = {cushion.nose_height:g} m: must be between the centre of a ball, at {radius:g} m, "
-            f"and its top, at {2.0 * radius:g} m"
-        )
-    return cushion.nose_height
+        found += [Goal(hole.name, {"pockets": hole.name}, hole.center, ranges[name]) for name in near]
+    return found
 
 
 def laid_out(parameters: Parameters) -> dict[str, Vector]:
@@ -208,63 +217,57 @@ def laid_out(parameters: Parameters) -> dict[str, Vector]:
 
     Raises RequestError for a name given twice and for a struck ball that is not there.
     """
+    rack = parameters.rack or ("none" if parameters.balls else "nine-ball")
     spots: dict[str, Vector] = {}
     for spot in parameters.balls:
         if spot.name in spots:
             raise RequestError(f'balls: two are named "{spot.name}"')
         spots[spot.name] = (spot.x, spot.y)
-    for name, position in _racked(parameters):
+    for name, position in racked(RACKS[rack], parameters):
         if name in spots:
             raise RequestError(f'balls: "{name}" is in the rack already; rename it, or set rack = "none"')
         spots[name] = position
-    if _rack(parameters) != "none" and "cue" not in spots:
-        spots["cue"] = (-0.25 * parameters.table.length, ASIDE * parameters.ball.radius)
+    if rack != "none":
+        spots.setdefault("cue", (-0.25 * parameters.table.length, ASIDE * parameters.ball.radius))
     if parameters.cue.ball not in spots:
         there = ", ".join(spots) or "none"
         raise RequestError(f'cue.ball = "{parameters.cue.ball}": there is no such ball on the table; there are {there}')
     return spots
 
 
-def _rack(parameters: Parameters) -> str:
-    return parameters.rack or ("none" if parameters.balls else "nine-ball")
-
-
-def _racked(parameters: Parameters) -> Iterator[tuple[str, Vector]]:
-    """The balls of the rack, its foremost on the foot spot.
+def racked(rows: Sequence[Sequence[str]], parameters: Parameters) -> Iterator[tuple[str, Vector]]:
+    """The balls of a rack, its foremost on the foot spot.
 
     Neighbours lie ``rack_gap`` apart: a real rack is never quite tight, and while two balls touch they are pressed
     together by 0.1 mm and more.
     """
-    scatter = parameters.rack_scatter
+    scatter, chance = parameters.rack_scatter, random.Random(int(parameters.rack_seed))
     pitch = 2.0 * parameters.ball.radius + parameters.rack_gap + 2.0 * scatter
-    chance = random.Random(int(parameters.rack_seed))
-    for row, names in enumerate(RACKS[_rack(parameters)]):
+    for row, names in enumerate(rows):
         for place, name in enumerate(names):
             x = 0.25 * parameters.table.length + 0.5 * sqrt(3.0) * pitch * row
             y = pitch * (place - 0.5 * (len(names) - 1))
-            if scatter > 0.0:
-                away, angle = scatter * sqrt(chance.random()), 2.0 * pi * chance.random()
-                x, y = x + away * cos(angle), y + away * sin(angle)
-            yield name, (x, y)
+            away, angle = scatter * sqrt(chance.random()), 2.0 * pi * chance.random()
+            yield name, (x + away * cos(angle), y + away * sin(angle))
 
 
-def _check_spots(spots: Mapping[str, Vector], parameters: Parameters, obstacles: Sequence[Obstacle]) -> None:
-    radius = parameters.ball.radius
-    x_most, y_most = 0.5 * parameters.table.length, 0.5 * parameters.table.width
-    for name, (x, y) in spots.items():
-        where = f'ball "{name}" at ({x:g}, {y:g}) m'
-        if not on_bed(parameters.table, x, y):
+def check_spots(spots: Mapping[str, Vector], parameters: Parameters, obstacles: Sequence[Obstacle]) -> None:
+    """Raise RequestError for a ball that is not on the table, or in a cushion or another ball."""
+    radius, x_most, y_most = parameters.ball.radius, 0.5 * parameters.table.length, 0.5 * parameters.table.width
+    for name, place in spots.items():
+        where = f'ball "{name}" at ({place[0]:g}, {place[1]:g}) m'
+        if not on_bed(parameters.table, *place):
             raise RequestError(
                 f"{where} is off the table, whose noses are at x = +-{x_most:g} m and y = +-{y_most:g} m"
             )
-        gap, cushion = min((obstacle.near(x, y).gap, obstacle.surface.name) for obstacle in obstacles)
+        gap, cushion = min((obstacle.near(*place).gap, obstacle.surface.name) for obstacle in obstacles)
         if gap < -ROUNDING:
             raise RequestError(f"{where} overlaps the {cushion} by {-1000.0 * gap:.3g} mm: its radius is {radius:g} m")
         for hole in catches(parameters.table):
-            if hypot(x - hole.center[0], y - hole.center[1]) < hole.radius:
+            if dist(place, hole.center) < hole.radius:
                 raise RequestError(f"{where} is over the hole of the {hole.name}")
     for (name, a), (other, b) in combinations(spots.items(), 2):
-        overlap = 2.0 * radius - hypot(a[0] - b[0], a[1] - b[1])
+        overlap = 2.0 * radius - dist(a, b)
         if overlap > ROUNDING:
             raise RequestError(
                 f'balls "{name}" at ({a[0]:g}, {a[1]:g}) m and "{other}" at ({b[0]:g}, {b[1]:g}) m overlap by '
@@ -287,78 +290,60 @@ def struck(parameters: Parameters) -> tuple[Vector, float, Vector]:
             f"cue.follow = {cue.follow:g}, cue.english = {cue.english:g}: the tip is {offset:.3g} radii off the ball's "
             f"centre, and beyond {MISCUE:g} it slips off"
         )
-    along, across = cos(radians(cue.angle)), sin(radians(cue.angle))
-    spin = 2.5 * cue.speed / parameters.ball.radius
+    spin, angle = 2.5 * cue.speed / parameters.ball.radius, radians(cue.angle)
     roll = spin * cue.follow
-    return (cue.speed * along, cue.speed * across), spin * cue.english, (-roll * across, roll * along)
-
-
-def _between_balls(ball: BallParameters) -> Callable[[float, float], Bounce]:
-    if ball.friction is None:
-        return SlowerThrowsMore(ball.restitution)
-    return Always(Bounce(ball.restitution, ball.friction))
-
-
-@dataclass(frozen=True)
-class SlowerThrowsMore:
-    """An impact of two balls with friction that falls with their sliding speed."""
-
-    restitution: float
-
-    def __call__(self, normal_speed: float, slip_speed: float) -> Bounce:
-        return Bounce(self.restitution, friction_by_speed(slip_speed))
+    return cue.velocity, spin * cue.english, (-roll * sin(angle), roll * cos(angle))
 
 
 @once
-def _met(run: Run, parameters: Parameters) -> list[Event]:
+def met(run: Run, parameters: Parameters) -> list[Event]:
     """Every meeting of two balls or of a ball with cushion, jaw or pocket. The hops of balls that are pressed together
     count as one meeting."""
     hop = 1.001 * slowest_hop(run.setup, run.accuracy.hop)
     last: dict[str, str] = {}  # what each ball met last
-    met = []
-    for event in run.events:
-        if event.kind not in ("impact", "caught"):
-            continue
+    found = []
+    for event in (event for event in run.events if event.kind in ("impact", "caught")):
         if event.speed > hop or last.get(event.ball) != event.partner:
-            met.append(event)
+            found.append(event)
         last[event.ball], last[event.partner] = event.partner, event.ball
-    return met
+    return found
 
 
 @once
-def _meetings(run: Run, parameters: Parameters) -> list[tuple[str, Event]]:
+def meetings(run: Run, parameters: Parameters) -> list[tuple[str, Event]]:
     """What the struck ball met, in order: other balls, cushions and jaws, and the pocket it fell into."""
-    cue, met = parameters.cue.ball, _met(run, parameters)
-    return [(e.partner if e.ball == cue else e.ball, e) for e in met if cue in (e.ball, e.partner)]
+    cue = parameters.cue.ball
+    return [(e.partner if e.ball == cue else e.ball, e) for e in met(run, parameters) if cue in (e.ball, e.partner)]
 
 
-def _touches(run: Run, parameters: Parameters) -> list[str]:
-    return [name for name, _ in _meetings(run, parameters)]
+def touches(run: Run, parameters: Parameters) -> list[str]:
+    """Their names."""
+    return [name for name, _ in meetings(run, parameters)]
 
 
-def _others(run: Run, parameters: Parameters) -> set[str]:
+def others(run: Run, parameters: Parameters) -> set[str]:
+    """The balls that are not struck."""
     return {ball.name for ball in run.setup.balls} - {parameters.cue.ball}
 
 
-def _first_contact(run: Run, parameters: Parameters) -> tuple[str, Event] | None:
+def first_contact(run: Run, parameters: Parameters) -> tuple[str, Event] | None:
     """The first meeting of the struck ball with another."""
-    others = _others(run, parameters)
-    return next((met for met in _meetings(run, parameters) if met[0] in others), None)
+    return next((meeting for meeting in meetings(run, parameters) if meeting[0] in run.arcs), None)
 
 
-def _contact_speed(run: Run, parameters: Parameters) -> float | None:
+def contact_speed(run: Run, parameters: Parameters) -> float | None:
     """At which the struck ball comes to the first other, along their surfaces included, as pictures say."""
-    met = _first_contact(run, parameters)
-    return None if met is None else run.closing_speed(met[1])
+    meeting = first_contact(run, parameters)
+    return None if meeting is None else run.closing_speed(meeting[1])
 
 
-def _point(run: Run, parameters: Parameters) -> int | None:
+def point(run: Run, parameters: Parameters) -> int | None:
     """A carom's point, on a table without pockets: how many cushions the struck ball met before the last of the other
     balls, of which there must be two at least; None where it did not meet them all."""
-    missing, cushions = _others(run, parameters), 0
+    missing, cushions = others(run, parameters), 0
     if run.setup.catches or len(missing) < 2:
         return None
-    for touched in _touches(run, parameters):
+    for touched in touches(run, parameters):
         missing.discard(touched)
         cushions += touched.endswith(" cushion")
         if not missing:
@@ -366,74 +351,64 @@ def _point(run: Run, parameters: Parameters) -> int | None:
     return None
 
 
-def _scored(run: Run, parameters: Parameters) -> bool:
+def scored(run: Run, parameters: Parameters) -> bool:
     """A point, or a ball potted without a scratch."""
     caught = taken(run)
-    return _point(run, parameters) is not None or (bool(caught) and parameters.cue.ball not in caught)
+    return point(run, parameters) is not None or (bool(caught) and parameters.cue.ball not in caught)
 
 
 @once
-def _leaving(run: Run, parameters: Parameters) -> dict[str, tuple[Vector, Vector]]:
+def leaving(run: Run, parameters: Parameters) -> dict[str, tuple[Vector, Vector]]:
     """The velocities (m/s) with which each ball leaves its first meeting with ball or cushion: just after it, and once
     it rolls, if it meets nothing before: ``v - 2/7 s``, with its slip s over the cloth."""
-    radius, met = parameters.ball.radius, dict[str, tuple[Vector, Vector]]()
-    for event in _met(run, parameters):
-        for name in {event.ball, event.partner} & (run.arcs.keys() - met.keys()):
+    radius, ways = parameters.ball.radius, dict[str, tuple[Vector, Vector]]()
+    for event in met(run, parameters):
+        for name in {event.ball, event.partner} & (run.arcs.keys() - ways.keys()):
             arc = next((arc for arc in run.arcs[name] if arc.t1 > event.t), run.arcs[name][-1])
             t = arc.t1 if arc.contact == PRESSED else event.t
             _, _, vx, vy, _ = run.state(name, t)
             wx, wy = run.rolling_spin(name, t)
-            met[name] = (vx, vy), ((5.0 * vx + 2.0 * radius * wy) / 7.0, (5.0 * vy - 2.0 * radius * wx) / 7.0)
-    return {ball.name: met[ball.name] for ball in run.setup.balls if ball.name in met}
+            ways[name] = (vx, vy), ((5.0 * vx + 2.0 * radius * wy) / 7.0, (5.0 * vy - 2.0 * radius * wx) / 7.0)
+    return {name: ways[name] for name in run.arcs if name in ways}
 
 
-def _speeds(when: int) -> Callable[[Run, Parameters], dict[str, float]]:
-    return lambda run, parameters: {name: hypot(*ways[when]) for name, ways in _leaving(run, parameters).items()}
+def of_leaving(when: int, what: Callable[[float, float], float]) -> Callable[[Run, Parameters], dict[str, float]]:
+    """The function that reads something from the velocities of each ball just after it (0), or once it rolls (1)."""
+    return lambda run, parameters: {name: what(*ways[when]) for name, ways in leaving(run, parameters).items()}
 
 
-def _directions(when: int) -> Callable[[Run, Parameters], dict[str, float]]:
-    return lambda run, parameters: {
-        name: degrees(atan2(*reversed(ways[when]))) for name, ways in _leaving(run, parameters).items()
-    }
+def direction(vx: float, vy: float) -> float:
+    """In deg, counter-clockwise from +x."""
+    return degrees(atan2(vy, vx))
 
 
-def _cushions(run: Run, parameters: Parameters) -> int:
-    return sum(name.endswith(" cushion") for name in _touches(run, parameters))
-
-
-def _rails(run: Run, parameters: Parameters) -> int:
-    """Meetings of all balls with the cushions' noses, without those with the pockets' jaws."""
-    return sum(event.partner.endswith(" cushion") for event in _met(run, parameters))
-
-
-def _tip(run: Run, parameters: Parameters) -> str:
+def tip(run: Run, parameters: Parameters) -> str:
     """Where the tip hits the ball, in radii from its centre."""
     cue = parameters.cue
-    up, aside = f"{abs(cue.follow):.2g} {'follow' if cue.follow > 0 else 'draw'}", f"{abs(cue.english):.2g} "
-    aside += "right" if cue.english > 0 else "left"
-    return ", ".join(text for text, off in ((up, cue.follow), (aside, cue.english)) if off) or "centre"
+    offsets = (cue.follow, ("draw", "follow")), (cue.english, ("left", "right"))
+    return ", ".join(f"{abs(off):.2g} {words[off > 0]}" for off, words in offsets if off) or "centre"
 
 
 FACTS = (
     Fact("pockets", "potted", "", lambda run, parameters: taken(run)),
-    Fact("first_contact", "first contact", "", at(_first_contact, lambda met: met[0])),
+    Fact("first_contact", "first contact", "", at(first_contact, lambda meeting: meeting[0])),
     Fact("stroke", "stroke", "m/s", lambda run, parameters: parameters.cue.speed, "start"),
-    Fact("tip", "tip", "", _tip, "start"),
-    Fact("cushions", "cushions", "", _cushions),
-    Fact("contact_speed", "contact", "m/s", _contact_speed),
+    Fact("tip", "tip", "", tip, "start"),
+    Fact("cushions", "cushions", "", lambda run, it: sum(name.endswith(" cushion") for name in touches(run, it))),
+    Fact("contact_speed", "contact", "m/s", contact_speed),
     Fact("path", "path", "m", lambda run, parameters: travelled(run, parameters.cue.ball)),
-    Fact("rest_time", "at rest after", "s", lambda run, parameters: run.duration if run.ended == "rest" else None),
-    Fact("rails", "cushions, all balls", "", _rails),
+    REST_TIME,
+    Fact("rails", "cushions, all balls", "", lambda run, it: sum(e.partner.endswith(" cushion") for e in met(run, it))),
     Fact("potted", "", "", lambda run, parameters: list(taken(run)), in_order=False),
     Fact("scratch", "", "", lambda run, parameters: parameters.cue.ball in taken(run)),
-    Fact("point", "", "", _point),
-    Fact("scored", "", "", _scored),
+    Fact("point", "", "", point),
+    Fact("scored", "", "", scored),
     Fact("positions", "", "m", lambda run, parameters: {name: [*place] for name, place in left(run).items()}),
-    Fact("leaving_speed", "", "m/s", _speeds(0)),
-    Fact("leaving_direction", "", "deg", _directions(0)),
-    Fact("rolling_speed", "", "m/s", _speeds(1)),
-    Fact("rolling_direction", "", "deg", _directions(1)),
-    Fact("touches", "", "", _touches),
+    Fact("leaving_speed", "", "m/s", of_leaving(0, hypot)),
+    Fact("leaving_direction", "", "deg", of_leaving(0, direction)),
+    Fact("rolling_speed", "", "m/s", of_leaving(1, hypot)),
+    Fact("rolling_direction", "", "deg", of_leaving(1, direction)),
+    Fact("touches", "", "", touches),
     ENDED,
 )
 
@@ -455,10 +430,11 @@ def verdict(run: Run, parameters: Parameters) -> str:
         return f"Still rolling after {run.duration:.0f} s"
     if not run.setup.catches:
         return _carom(run, parameters)
-    if len(_others(run, parameters)) > 5:
+    if len(others(run, parameters)) > 5:
         return f"Break at {parameters.cue.speed:.1f} m/s, nothing potted"
-    farthest = max(_others(run, parameters), key=lambda name: (travelled(run, name), name))
-    return f"Nothing potted, the {farthest} rolls {roughly(travelled(run, farthest))}"
+    ways = {name: travelled(run, name) for name in others(run, parameters)}
+    farthest = max(ways, key=lambda name: (ways[name], name))
+    return f"Nothing potted, the {farthest} rolls {roughly(ways[farthest])}"
 
 
 def _carom(run: Run, parameters: Parameters) -> str:
@@ -466,8 +442,8 @@ def _carom(run: Run, parameters: Parameters) -> str:
     cushions = run.result["point"]
     if cushions is not None:
         return f"Point, after {cushions} cushion{'' if cushions == 1 else 's'}"
-    met = [name for name in dict.fromkeys(run.result["touches"]) if name in _others(run, parameters)]
-    return f"No point: meets {_named(met)} alone"
+    balls = [name for name in dict.fromkeys(run.result["touches"]) if name in run.arcs]
+    return f"No point: meets {_named(balls)} alone"
 
 
 def _named(names: list[str]) -> str:
@@ -478,8 +454,7 @@ def _named(names: list[str]) -> str:
 
 def from_rest(run: Run, parameters: Parameters) -> dict[str, Any]:
     """Positions of the balls for the next shot: a cleared table is racked, a potted cue ball spotted."""
-    spots: dict[str, Vector] = {name: (x, y) for name, (x, y) in run.result["positions"].items()}
-    cue = parameters.cue.ball
+    spots, cue = dict(left(run)), parameters.cue.ball
     if not set(spots) - {cue}:
         return {"rack": "nine-ball", "balls": []}
     if cue not in spots:
