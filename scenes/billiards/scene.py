@@ -454,7 +454,8 @@ def _named(names: list[str]) -> str:
 
 def from_rest(run: Run, parameters: Parameters) -> dict[str, Any]:
     """Positions of the balls for the next shot: a cleared table is racked, a potted cue ball spotted."""
-    spots, cue = dict(left(run)), parameters.cue.ball
+    spots: dict[str, Vector] = {name: (x, y) for name, (x, y) in run.result["positions"].items()}
+    cue = parameters.cue.ball
     if not set(spots) - {cue}:
         return {"rack": "nine-ball", "balls": []}
     if cue not in spots:
