@@ -19,61 +19,70 @@ _SHORT = 1e-3
 class Arc:
     """The path of one ball from t0 to t1.
 
-    The position is the quintic that matches position, velocity and acceleration at both ends (error of order h^6),
-    the velocity is its derivative, and the spin is the cubic that matches spin and its rate at both ends; all stored
-    as Bernstein coefficients in u = (t - t0) / (t1 - t0). ``contact`` is what the ball slides or rolls on, or None in
-    flight; ``rolling_spin`` holds the coefficients of the spin about x and about y of a ball that rolls on a plane, as
-    its state has two more components.
+    ``curves`` has a polynomial for each component of the state, as Bernstein coefficients in u = (t - t0) / (t1 - t0).
+    After a step a coordinate is the quintic that matches it, its velocity and its acceleration at both ends (error of
+    order h^6), and its velocity the derivative; a ball's spin is the cubic that matches spin and its rate at both ends.
+    ``contact`` is what the ball slides or rolls on, or None in flight.
     """
 
     t0: float  # s
     t1: float  # s
     start: State
-    x: Sequence[float]  # m
-    y: Sequence[float]
-    vx: Sequence[float]  # m/s
-    vy: Sequence[float]
-    spin: Sequence[float]  # rad/s
+    curves: tuple[Sequence[float], ...]  # m, m/s, rad/s; the angle of a body in rad
     contact: object = None
-    rolling_spin: tuple[Sequence[float], ...] = ()
     end: State | None = None  # the state at t1, if known without evaluation
     _box: tuple[float, float, float, float] | None = None
     _fastest: float | None = None
 
+    @property
+    def x(self) -> Sequence[float]:
+        return self.curves[0]
+
+    @property
+    def y(self) -> Sequence[float]:
+        return self.curves[1]
+
+    @property
+    def vx(self) -> Sequence[float]:
+        return self.curves[2]
+
+    @property
+    def vy(self) -> Sequence[float]:
+        return self.curves[3]
+
+    @property
+    def spin(self) -> Sequence[float]:
+        return self.curves[4]
+
     def state(self, t: float) -> State:
-        """Position, velocity and spin at time t in [t0, t1]."""
+        """Position, velocity, spin and what else is in its state at time t in [t0, t1]."""
         h = self.t1 - self.t0
         if h <= 0.0 or t <= self.t0:
             return self.start
         if t >= self.t1 and self.end is not None:
             return self.end
         u = (t - self.t0) / h if t < self.t1 else 1.0
-        return (
-            evaluate(self.x, u),
-            evaluate(self.y, u),
-            evaluate(self.vx, u),
-            evaluate(self.vy, u),
-            evaluate(self.spin, u),
-            *[evaluate(curve, u) for curve in self.rolling_spin],
-        )
+        return tuple([evaluate(curve, u) for curve in self.curves])
 
     def position(self, t: float) -> tuple[float, float]:
         """x and y at time t, in m."""
         h = self.t1 - self.t0
-        if h <= 0.0 or len(self.x) == 1:
-            return self.x[0], self.y[0]
+        x, y = self.curves[:2]
+        if h <= 0.0 or len(x) == 1:
+            return x[0], y[0]
         u = min(1.0, max(0.0, (t - self.t0) / h))
-        return evaluate(self.x, u), evaluate(self.y, u)
+        return evaluate(x, u), evaluate(y, u)
 
     @property
     def rests(self) -> bool:
         """Whether the ball neither moves nor spins, for some time."""
-        return len(self.x) == len(self.spin) == 1 and self.t1 > self.t0
+        return len(self.curves[0]) == len(self.curves[4]) == 1 and self.t1 > self.t0
 
     def box(self) -> tuple[float, float, float, float]:
         """Left, bottom, right, top (m) of a rectangle that holds the whole path."""
         if self._box is None:
-            self._box = min(self.x), min(self.y), max(self.x), max(self.y)
+            x, y = self.curves[:2]
+            self._box = min(x), min(y), max(x), max(y)
         return self._box
 
     def fastest(self) -> float:
@@ -89,18 +98,7 @@ class Arc:
         u = max(0.0, (t - self.t0) / (self.t1 - self.t0))
         if u == 0.0:
             return still(self.t0, self.t0, self.start, self.contact)
-        return Arc(
-            self.t0,
-            t,
-            self.start,
-            until(self.x, u),
-            until(self.y, u),
-            until(self.vx, u),
-            until(self.vy, u),
-            until(self.spin, u),
-            self.contact,
-            tuple(until(curve, u) for curve in self.rolling_spin),
-        )
+        return Arc(self.t0, t, self.start, tuple([until(curve, u) for curve in self.curves]), self.contact)
 
 
 def through(
@@ -127,27 +125,21 @@ def through(
     if not isinstance(h, float) or h <= _SHORT:
         mx = choose(h > _SHORT, mx, 0.5 * (vx0 + vx1 + third * (ax0 - ax1)))
         my = choose(h > _SHORT, my, 0.5 * (vy0 + vy1 + third * (ay0 - ay1)))
-    arc = Arc(
-        t,
-        t + h,
-        start,
+    curves: tuple[Sequence[Any], ...] = (
         (x0, x0 + p * vx0, x0 + 2.0 * p * vx0 + q * ax0, x1 - 2.0 * p * vx1 + q * ax1, x1 - p * vx1, x1),
         (y0, y0 + p * vy0, y0 + 2.0 * p * vy0 + q * ay0, y1 - 2.0 * p * vy1 + q * ay1, y1 - p * vy1, y1),
         (vx0, vx0 + quarter * ax0, mx, vx1 - quarter * ax1, vx1),
         (vy0, vy0 + quarter * ay0, my, vy1 - quarter * ay1, vy1),
         (w0, w0 + third * al0, w1 - third * al1, w1),
-        contact,
-        end=end,
     )
-    if len(start) == 6:  # a body's angle changes as a coordinate does
-        turns = [(angle, 0.0, spin, 0.0, 0.0) for *_, spin, angle in (start, end)]
-        turn = through(t, h, turns[0], (al0, 0.0, 0.0), turns[1], (al1, 0.0, 0.0))
-        arc.spin, arc.rolling_spin = turn.vx, (turn.x,)
-    return arc
+    if len(start) == 6:  # the angle is a coordinate, as x is
+        ends = (start[5], 0.0, w0, 0.0, 0.0), (al0, 0.0, 0.0), (end[5], 0.0, w1, 0.0, 0.0), (al1, 0.0, 0.0)
+        angle, _, spin, *_ = through(t, h, *ends).curves
+        curves = (*curves[:4], spin, angle)
+    return Arc(t, t + h, start, curves, contact, end)
 
 
 def still(t: float, until: float, state: State, contact: object = None) -> Arc:
     """A ball that stays in place from t to ``until`` and spins evenly."""
-    x, y, _, _, spin, *rolling_spin = state
-    rolling = tuple((component,) for component in rolling_spin)
-    return Arc(t, until, state, (x,), (y,), (0.0,), (0.0,), (spin,), contact, rolling)
+    x, y, _, _, *spins = state
+    return Arc(t, until, state, ((x,), (y,), (0.0,), (0.0,), *((spin,) for spin in spins)), contact)

@@ -16,8 +16,7 @@ from sandbox.engine.path import Curve, Passage, Path
 #: Positions of an arc's parts in its row: times, state at the start, curves, state at the end.
 T0, T1 = 0, 1
 START = slice(2, 7)
-X, Y, VX, VY, SPIN = slice(7, 13), slice(13, 19), slice(19, 24), slice(24, 29), slice(29, 33)
-CURVES = {"x": X, "y": Y, "vx": VX, "vy": VY, "spin": SPIN}
+CURVES = X, Y, VX, VY, SPIN = slice(7, 13), slice(13, 19), slice(19, 24), slice(24, 29), slice(29, 33)
 END = slice(33, 38)
 COLUMNS = END.stop
 
@@ -60,7 +59,7 @@ class Paths:
         rows, numbers = rows[some], self._numbers(first + some)
         at = np.where(np.isfinite(u), u, 0.0)
         t = (rows[:, T0] + at * (rows[:, T1] - rows[:, T0])).tolist()
-        states = np.array([evaluate(rows[:, part].T, at) for part in CURVES.values()]).T.tolist()
+        states = np.array([evaluate(rows[:, part].T, at) for part in CURVES]).T.tolist()
         for place in np.flatnonzero(np.isfinite(u) | unclear).tolist():
             if numbers[place] in whole:
                 continue
@@ -124,4 +123,4 @@ class ArcRows(Path):
 def arc_of(row: Any) -> Arc:
     """The arc of one row; of many rows as columns, one with arrays."""
     start, end = tuple(row[START]), tuple(row[END])
-    return Arc(row[T0], row[T1], start, row[X], row[Y], row[VX], row[VY], row[SPIN], end=end)
+    return Arc(row[T0], row[T1], start, tuple(row[curve] for curve in CURVES), end=end)

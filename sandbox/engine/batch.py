@@ -245,13 +245,13 @@ class Batch:
         t0, t1 = self._t[lanes], self._t[lanes] + h
         start, after = self._state[:, lanes], after[:, lanes]
         arc = through(t0, h, tuple(start), tuple(acceleration[:, lanes]), tuple(after), tuple(last[:, lanes]))
-        rows = np.vstack((t0, t1, start, *(np.array(getattr(arc, part)) for part in CURVES), after))
+        rows = np.vstack((t0, t1, start, *map(np.array, arc.curves), after))
         u, looked_at = self._outlines.first_touch(shots, rows[X], rows[Y], lambda i: arc_of(rows[:, i].tolist()))
         self._counts[QUERIES, shots] += looked_at
         hits = np.flatnonzero(t0 + u * h <= t1)
         t1[hits] = t0[hits] + u[hits] * h[hits]
         rows[1, hits] = t1[hits]
-        for number, curve in enumerate(CURVES.values()):
+        for number, curve in enumerate(CURVES):
             rows[curve, hits] = until(list(rows[curve, hits]), u[hits])
             rows[END.start + number, hits] = rows[curve.stop - 1, hits]
         self._paths.append((shots, rows))

@@ -19,9 +19,10 @@ import numpy as np
 from sandbox.engine.rubbing import Rubbing
 from sandbox.errors import RunError
 from sandbox.physics.hertz import contact_time, damping
-from sandbox.physics.integrators import DORMAND_PRINCE, DORMAND_PRINCE_ERROR
+from sandbox.physics.integrators import DORMAND_PRINCE
 
-_STAGES, _ERROR = tuple(np.array(weights) for weights in DORMAND_PRINCE), np.array(DORMAND_PRINCE_ERROR)
+_STAGES = [np.array(stage.weights) for stage in DORMAND_PRINCE.stages]
+_ERROR = np.array(DORMAND_PRINCE.error)
 
 #: Largest error of a step by the embedded pair, relative to the fastest speed; if it is larger, all is repeated with
 #: half the step. Steps are otherwise equal, so that the outcome depends smoothly on the input and rounding stays small.

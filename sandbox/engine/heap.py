@@ -259,19 +259,15 @@ class Heap:
         turn = body.angle
         turned = tuple((at, 0.5 * (at + turn) + 0.25 * h * spun, turn + 0.5 * h * spin) for at in angle)
         end = (px + 0.5 * h * vx, py + 0.5 * h * vy, vx, vy, spin, *(curve[-1] for curve in turned))
-        return Arc(
-            t,
-            t + h,
-            member.start,
+        curves = (
             (x, x + 0.5 * (h * ux + dx), end[0]),
             (y, y + 0.5 * (h * uy + dy), end[1]),
             (ux + dx / h, vx + dx / h),
             (uy + dy / h, vy + dy / h),
             (spun, spin),
-            Heaped(dx, dy),
-            turned,
-            end,
+            *turned,
         )
+        return Arc(t, t + h, member.start, curves, Heaped(dx, dy), end)
 
     def keeps_apart(self, index: int, other: Obstacle | int) -> bool:
         """Whether the heap keeps a ball from this obstacle or ball, so that they have no impact of their own: they

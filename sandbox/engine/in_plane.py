@@ -14,17 +14,13 @@ from sandbox.engine.acting import acceleration, checked
 from sandbox.engine.arc import Arc, still, through
 from sandbox.engine.lasting import RESTING, ROLLING, SLIDING, LastingContact, contact_on, wedged
 from sandbox.engine.run import Numerics
-from sandbox.engine.setup import Ball, Setup
+from sandbox.engine.setup import Ball, Body, Setup
 from sandbox.engine.step_control import LONGEST, StepControl, before_break, within
 from sandbox.engine.surfaces import STILL, leaves_at, press
-from sandbox.engine.touch import SIDE, Near, Obstacle, flush
+from sandbox.engine.touch import Near, Obstacle, flush
 from sandbox.engine.track import Track
 from sandbox.errors import RunError
 from sandbox.physics.integrators import Acceleration, Law, State
-
-#: Largest angle in rad that one arc covers around a round feature: a quintic follows a circle to 1e-9 of its radius
-#: for an eighth of a turn or less.
-_LONGEST_TURN = 0.3
 
 #: Acceleration in m/s^2 into a surface below which it is rounding.
 _PUSH = 1e-9
@@ -51,7 +47,7 @@ class InPlane(Track):
         self._accuracy = accuracy
         self._numerics = numerics
         self._law: Law = partial(acceleration, ball)
-        self._control = StepControl(accuracy)
+        self._control = StepControl(accuracy, turns=isinstance(ball, Body))
         self._known: tuple[State, Acceleration] = ((), (0.0, 0.0, 0.0))  # the end of the last step: the next start
         self._slips = False  # it has just lost its grip
         self.next_step = self._control.first  # s, to try
@@ -80,8 +76,8 @@ class InPlane(Track):
         wanted = self.next_step
         h = before_break(self._setup.breaks, t, min(wanted, LONGEST, until - t))
         h = within(self._setup.patches, h, state, acceleration)
-        if contact is not None and contact.touching.feature != SIDE:
-            h = min(h, _LONGEST_TURN / (contact.touching.curvature * (abs(state[2]) + abs(state[3])) + 1e-30))
+        if contact is not None:
+            h = min(h, contact.longest(state))
         ball, control, shortest = self.ball, self._control, max(1e-15, 1e-15 * t)
         while True:
             fits, following, end, last = control.attempt(law, t, state, acceleration, h, wanted, ball.radius)
@@ -116,7 +112,7 @@ class InPlane(Track):
         if self._setup.bounds.hold(state):
             return
         where = f"t = {t:.6g} s, ball {self.ball.name!r}: "
-        names, units = ("x", "y", "vx", "vy", "spin"), ("m", "m", "m/s", "m/s", "rad/s")
+        names, units = ("x", "y", "vx", "vy", "spin", "angle"), ("m", "m", "m/s", "m/s", "rad/s", "rad")
         for quantity, unit, value in zip(names, units, state, strict=False):
             if not isfinite(value):
                 raise RunError(

@@ -12,13 +12,17 @@ from typing import NamedTuple
 
 from sandbox.engine.setup import Ball, Surface
 from sandbox.engine.surfaces import STILL, press
-from sandbox.engine.touch import Obstacle, Touching
+from sandbox.engine.touch import SIDE, Obstacle, Touching
 from sandbox.physics.integrators import Acceleration, State
 
 SLIDING, ROLLING, PINNED, RESTING = "sliding", "rolling", "pinned", "resting"
 
 #: Fraction of the applied force below which a normal force is rounding, as when a ball has just left a round top.
 _PRESSING = 1e-9
+
+#: Largest angle in rad that one arc covers around a round feature: a quintic follows a circle to 1e-9 of its radius
+#: for an eighth of a turn or less.
+_LONGEST_TURN = 0.3
 
 #: A ball that needs all the available grip still rolls.
 _WITHIN_ROUNDING = 1.0 + 1e-9
@@ -32,6 +36,12 @@ class LastingContact(NamedTuple):
     touching: Touching  # at the start of the contact: normal, curvature, feature
     direction: float = 0.0  # sign of the slip if sliding, of the motion if rolling, of the spin if pinned
     spin_rate: float = 0.0  # rad/s^2, at which the spin of a pinned ball decays
+
+    def longest(self, state: State) -> float:
+        """The longest step in s."""
+        if self.touching.feature == SIDE:
+            return inf
+        return _LONGEST_TURN / (self.touching.curvature * (abs(state[2]) + abs(state[3])) + 1e-30)
 
     def progress(self, ball: Ball, state: State) -> float:
         """What ends this motion when it falls to zero: slip or speed in m/s, or the spin of a wedged ball in rad/s."""

@@ -69,19 +69,15 @@ class OnPlane(InPlane):
         x, y, vx, vy, spin, *rolling = state
         half = 0.5 * h
         accelerations = (phase.alpha_x, phase.alpha_y)
-        return Arc(
-            t,
-            t + h,
-            state,
+        curves = (
             (x, x + half * vx, end[0]),
             (y, y + half * vy, end[1]),
             (vx, vx + h * phase.ax),
             (vy, vy + h * phase.ay),
             (spin, spin + h * phase.alpha_z),
-            None,
-            tuple((w, w + h * alpha) for w, alpha in zip(rolling, accelerations, strict=False)),
-            end,
+            *((w, w + h * alpha) for w, alpha in zip(rolling, accelerations, strict=False)),
         )
+        return Arc(t, t + h, state, curves, end=end)
 
     def conclude(self, reason: str) -> None:
         """Make the spin exactly zero where it ends."""

@@ -31,6 +31,9 @@ from sandbox.physics.integrators import Acceleration, State
 #: it (Painleve's paradox: a slim rod on a rough floor) no force keeps the body from entering.
 _JAMS = 0.9
 
+#: Largest turn in rad in one arc, and the spin in rad/s at which a body counts as turning.
+_LONGEST_TURN, _SLOW = 0.35, 0.7
+
 #: A body that needs all the available grip still rolls.
 _WITHIN_ROUNDING = 1.0 + 1e-9
 
@@ -56,6 +59,10 @@ class OnePoint(LastingContact):
         c, s = cos(angle), sin(angle)
         x, y = c * px - s * py, s * px + c * py
         return _Arm(x * ny - y * nx, outline.radius - x * nx - y * ny, outline.radius + outline.bend(down))
+
+    def longest(self, state: State) -> float:
+        """The longest step in s."""
+        return float(_LONGEST_TURN / (abs(state[4]) + _SLOW))
 
     def progress(self, ball: Ball, state: State) -> float:
         """What ends this motion when it falls to zero: the slip in m/s."""

@@ -103,8 +103,7 @@ class _Tracked:
     def record(self, t: float) -> None:
         if t > self.since or not self.path:
             after = self.state()
-            x, y, vx, vy, spin, *rolling_spin = zip(self.start, after, strict=True)
-            self.path.append(Arc(self.since, t, self.start, x, y, vx, vy, spin, None, tuple(rolling_spin), after))
+            self.path.append(Arc(self.since, t, self.start, tuple(zip(self.start, after, strict=True)), end=after))
             self.start = after
             self.since = t
 
@@ -180,7 +179,7 @@ class PlainSimulation:
         for tracked in self._tracked.values():
             if not tracked.caught:
                 tracked.record(self._t)
-                if not self._setup.bounds.hold(tracked.state()[:5]):
+                if not self._setup.bounds.hold(tracked.state()):
                     raise self._diverged(tracked, tracked.state())
                 self._catch(tracked)
                 rest = self._rests(tracked) and rest

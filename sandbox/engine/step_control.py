@@ -46,13 +46,15 @@ _NO_ERROR = 1e-300
 class StepControl:
     """The steps of one method at one accuracy, controlled by its order and its error estimate, if any."""
 
-    def __init__(self, accuracy: Accuracy) -> None:
-        self._method = INTEGRATORS[accuracy.integrator]
-        self._exponent = 1.0 / self._method.order
+    def __init__(self, accuracy: Accuracy, turns: bool = False) -> None:
+        """``turns`` if the state has an angle."""
+        method = INTEGRATORS[accuracy.integrator]
+        self._make_step = method.step_of(turns)
+        self._exponent = 1.0 / method.order
         self._local_error = accuracy.tolerance * LOCAL_SHARE  # m
         self._step = accuracy.step  # s
-        self.evaluations = self._method.evaluations  # of the forces in each step
-        self.first = FIRST_STEP if self._method.controls_error else accuracy.step  # s
+        self.evaluations = method.evaluations  # of the forces in each step
+        self.first = FIRST_STEP if method.controls_error else accuracy.step  # s
 
     def attempt(
         self, law: Law, t: Any, state: State, acceleration: Acceleration, h: Any, wanted: Any, radius: Any
@@ -62,10 +64,7 @@ class StepControl:
         Returns whether it is accepted, the step in s to try next, after it or in its place, and the state and the
         acceleration at its end.
         """
-        if len(state) == 5:
-            end, last, error = self._method.step(law, t, state, acceleration, h)
-        else:
-            end, last, error = self._method.step_turning(law, t, state, acceleration, h, radius)
+        end, last, error = self._make_step(law, t, state, acceleration, h)
         if last is None:
             last = law(t + h, end)
         if error is None:
@@ -80,9 +79,10 @@ class StepControl:
 
 
 def size(error: State, radius: Any) -> Any:
-    """Local error in m: that of the position, plus that of the velocity over a second."""
-    ex, ey, evx, evy, spin = error
-    return abs(ex) + abs(ey) + abs(evx) + abs(evy) + SPIN_WEIGHT * radius * abs(spin)
+    """Local error in m: that of the position, plus that of the velocity over a second; of a body's turning, too."""
+    ex, ey, evx, evy, spin = error[:5]
+    off = abs(ex) + abs(ey) + abs(evx) + abs(evy) + SPIN_WEIGHT * radius * abs(spin)
+    return off if len(error) == 5 else off + radius * (abs(spin) + abs(error[5]))
 
 
 def before_break(breaks: Iterable[Any], t: Any, h: Any) -> Any:

@@ -201,7 +201,8 @@ class Obstacle:
 
     def _side(self, arc: Arc) -> float | None:
         ax, ay, _, _, reach, _, tx, ty = self.outline
-        across = [(y - ay) * tx - (x - ax) * ty for x, y in zip(arc.x, arc.y, strict=True)]
+        xs, ys = arc.curves[:2]
+        across = [(y - ay) * tx - (x - ax) * ty for x, y in zip(xs, ys, strict=True)]
         low, high = min(across), max(across)
         if low > reach or high < -reach:
             return None
@@ -211,10 +212,10 @@ class Obstacle:
             if farthest - reach + self._skin <= -NOISE and side * across[0] <= 0.0:
                 continue  # entirely beyond the line
             gap = [side * d - reach + self._skin for d in across]
-            for u in _closings(gap, side * across[0] > 0.0 and self._within(arc.x[0], arc.y[0], TOUCHING_GAP)):
+            for u in _closings(gap, side * across[0] > 0.0 and self._within(xs[0], ys[0], TOUCHING_GAP)):
                 if first is not None and u >= first:
                     break
-                if self._within(evaluate(arc.x, u), evaluate(arc.y, u)):
+                if self._within(evaluate(xs, u), evaluate(ys, u)):
                     first = u
                     break
         return first

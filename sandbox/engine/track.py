@@ -64,7 +64,7 @@ class Track:
         before = self.arc.state(t)
         arc = through(t, until - t, before[:5], (0.0, 0.0, 0.0), state[:5], (0.0, 0.0, 0.0), PRESSED)
         arc.start, arc.end = before, state
-        arc.rolling_spin = tuple(zip(before[5:], state[5:], strict=True))
+        arc.curves += tuple(zip(before[5:], state[5:], strict=True))
         self.path.append(arc)
         self.arc, self.state = still(until, until, state), state
 

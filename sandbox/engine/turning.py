@@ -1,14 +1,10 @@
-"""A body that moves and turns in the plane of the picture. Its state has the angle as a sixth component, which is
-integrated as its place is: forces may depend on it."""
+"""A body that moves and turns in the plane of the picture. Its state has the angle as a sixth component."""
 
 from __future__ import annotations
 
-from functools import partial
-
-from sandbox.engine.acting import checked
 from sandbox.engine.arc import Arc
 from sandbox.engine.in_plane import InPlane, crossing
-from sandbox.engine.lasting import RESTING, LastingContact
+from sandbox.engine.lasting import LastingContact
 from sandbox.engine.meeting import standing, stays, surfaces_met
 from sandbox.engine.one_point import OnePoint, one_point
 from sandbox.engine.setup import outline_of
@@ -18,20 +14,9 @@ from sandbox.engine.turning_touch import Mover, first_touch
 #: Turn in rad, or way in m, from the next point of contact that is rounding: as when a body leaves what it lay on.
 _FLUSH = 1e-13
 
-#: Largest turn in rad in one arc of a body in contact, and the spin in rad/s at which it counts as turning.
-_LONGEST_TURN, _SLOW = 0.35, 0.7
-
 
 class Turning(InPlane):
     """A body: its path, and when it touches what stands still."""
-
-    def advance(self, t: float, until: float) -> tuple[Arc, str]:
-        """The next arc from t, at most to ``until``, and why it ends: "" if only because of its length."""
-        if self.contact is None:
-            return self._integrate(t, until, partial(checked, self.ball)), ""  # a step keeps only what is real
-        if self.contact.mode != RESTING:
-            until = min(until, t + _LONGEST_TURN / (abs(self.state[4]) + _SLOW))
-        return super().advance(t, until)
 
     def settle(self, t: float, height: float) -> None:
         """Find the contact that lasts after a touch: at one point of a straight side, left no faster than for a bounce

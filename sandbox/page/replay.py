@@ -237,7 +237,7 @@ def _arc(arc: Arc) -> list[Any]:
     if isinstance(arc.contact, Heaped):  # thousands of short steps, whose digits are not those of the physics
         curves[:3] = ([round(value, HEAPED) for value in curve] for curve in curves[:3])
     curves = [arc.t0, *curves]
-    return [*curves, [list(curve) for curve in arc.rolling_spin]] if arc.rolling_spin else curves
+    return [*curves, [list(curve) for curve in arc.curves[5:]]] if arc.curves[5:] else curves
 
 
 def _turned(view: View[Any], name: str, until: float) -> dict[str, Any] | None:

@@ -137,10 +137,7 @@ def _cut(arc: Arc, a: float, b: float) -> Arc:
         return arc.until(arc.t0)
     h = arc.t1 - arc.t0
     u, v = (a - arc.t0) / h, (b - arc.t0) / h
-    x, y, vx, vy, spin, *spins = (
-        piece(curve, u, v) for curve in (arc.x, arc.y, arc.vx, arc.vy, arc.spin, *arc.rolling_spin)
-    )
-    return Arc(a, b, arc.state(a), x, y, vx, vy, spin, arc.contact, tuple(spins))
+    return Arc(a, b, arc.state(a), tuple(piece(curve, u, v) for curve in arc.curves), arc.contact)
 
 
 def energy_chart(run: Run, size: tuple[int, int] = (1280, 720)) -> pygame.Surface:

@@ -56,14 +56,13 @@ def _arc_data(arc: Arc, places: dict[int, int]) -> tuple[Any, ...]:
     if isinstance(arc.contact, LastingContact):
         mode, obstacle, touching, direction, spin_rate = arc.contact
         contact = mode, places[id(obstacle.surface)], tuple(touching), direction, spin_rate
-    curves = arc.x, arc.y, arc.vx, arc.vy, arc.spin
-    return arc.t0, arc.t1, arc.start, *curves, contact, arc.rolling_spin, arc.end
+    return arc.t0, arc.t1, arc.start, arc.curves, contact, arc.end
 
 
 def _arc(item: Any, setup: Setup, ball: Ball) -> Arc:
-    t0, t1, start, x, y, vx, vy, spin, contact, rolling, end = item
-    curves = [start, x, y, vx, vy, spin, *rolling, *([] if end is None else [end])]
-    if not all(map(_is_time, (t0, t1))) or not all(_is_number(part) for curve in curves for part in curve):
+    t0, t1, start, curves, contact, end = item
+    numbers = [start, *curves, *([] if end is None else [end])]
+    if not all(map(_is_time, (t0, t1))) or not all(_is_number(part) for curve in numbers for part in curve):
         raise ValueError("a path contains something that is not a number")
     if contact is not None:
         mode, place, (gap, nx, ny, curvature, center, feature), direction, spin_rate = contact
@@ -71,8 +70,7 @@ def _arc(item: Any, setup: Setup, ball: Ball) -> Arc:
         kind = OnePoint if isinstance(ball, Body) else LastingContact
         contact = kind(mode, Obstacle(setup.surfaces[place], ball.radius), touching, direction, spin_rate)
     last = None if end is None else tuple(end)
-    turning = tuple(map(tuple, rolling))
-    return Arc(t0, t1, tuple(start), tuple(x), tuple(y), tuple(vx), tuple(vy), tuple(spin), contact, turning, last)
+    return Arc(t0, t1, tuple(start), tuple(map(tuple, curves)), contact, last)
 
 
 def _is_number(value: Any) -> bool:

@@ -466,7 +466,7 @@ def test_a_side_that_is_first_passed_beyond_its_end_is_touched_after_all():
     setup = Setup([Ball("ball", 0.6, 0.12, (0.0, 1.0))], [slope])
     arcs = []
     for xs, ys in zip(x.T.tolist(), y.T.tolist(), strict=True):
-        arcs.append(Arc(0.0, 1.0, (xs[0], ys[0], 0.0, 0.0, 0.0), xs, ys, [0.0] * 5, [0.0] * 5, [0.0] * 4))
+        arcs.append(Arc(0.0, 1.0, (xs[0], ys[0], 0.0, 0.0, 0.0), (xs, ys, [0.0] * 5, [0.0] * 5, [0.0] * 4)))
     found, _ = Outlines(Stack(setup, [setup] * count)).first_touch(np.arange(count), x, y, lambda i: arcs[i])
     obstacle = Obstacle(slope, 0.12)
     for arc, u in zip(arcs, found.tolist(), strict=True):

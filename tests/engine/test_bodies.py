@@ -154,10 +154,8 @@ def swinging(rng: random.Random, way: float, h: float) -> Arc:
     vx, vy, spin = -way * rng.uniform(0.0, 12.0), rng.uniform(-2.0, 2.0), rng.uniform(-40.0, 40.0)
     ax, ay, turning = rng.uniform(-5.0, 5.0), rng.uniform(-10.0, 10.0), rng.uniform(-30.0, 30.0)
     end = (x + h * vx + h * h * ax / 2, y + h * vy + h * h * ay / 2, vx + h * ax, vy + h * ay, spin + h * turning)
-    arc = through(0.0, h, (x, y, vx, vy, spin), (ax, ay, turning), end, (ax, ay, turning))
-    turned = angle, *(angle + h * sum(arc.spin[:k]) / len(arc.spin) for k in range(1, len(arc.spin) + 1))
-    arc.start, arc.end, arc.rolling_spin = (*arc.start, angle), (*end, turned[-1]), (turned,)
-    return arc
+    start, end = (x, y, vx, vy, spin, angle), (*end, angle + h * spin + h * h * turning / 2)
+    return through(0.0, h, start, (ax, ay, turning), end, (ax, ay, turning))
 
 
 def test_no_touch_of_spinning_outlines_is_missed():
