@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from math import atan2, cos, degrees, radians, sin
 
 import pytest
@@ -57,6 +58,42 @@ def test_a_gap_that_a_contact_does_not_notice_changes_nothing():
         cue = ball("cue", -0.3 * cos(turn), -0.3 * sin(turn), 2 * cos(turn), 2 * sin(turn))
         ways.append(struck([cue, ball("1", 0.0), ball("2", 2 * R + gap)], duration=0.5).state("1", 0.5)[2:4])
     assert degrees(atan2(*ways[0][::-1])) == pytest.approx(degrees(atan2(*ways[1][::-1])), abs=0.1)
+
+
+def test_what_else_acts_during_a_contact_is_not_forgotten():
+    """a = k t upward, so v = k t^2 / 2, while two of three go through a contact of 0.9 ms half way through a step."""
+    k, t = 1e3, 0.4  # m/s^3, s
+    lifted = [
+        replace(each, forces=[lambda t, position, velocity, spin: (0.0, M * k * t)])
+        for each in (ball("cue", -0.5, vx=2.0), ball("1", 0.0), ball("2", 2 * R))
+    ]
+    setup = Setup(lifted, duration=t, contact=ContactModel("hertz", 1e8))
+    run = simulate(setup, resolve())
+    assert run.numerics.clusters == 1
+    for name in ("cue", "1", "2"):
+        assert run.state(name, t)[3] == pytest.approx(0.5 * k * t**2, abs=2e-3)
+
+
+def test_a_wall_as_hard_as_balls_is_met_at_the_speeds_at_which_it_is_met():
+    """A cue ball that strikes another and a slanting wall at once, at 2 m/s into it and 1 m/s along it."""
+    met = []
+    nx, ny = 0.6, 0.8
+
+    def law(approach, along):
+        met.append((approach, along))
+        return Bounce(0.9, 0.0)
+
+    wall = Surface("wall", Segment((5 * ny, -5 * nx), (-5 * ny, 5 * nx)), 0.9, 0.0, law=law)
+    vx, vy = -2.0 * nx + ny, -2.0 * ny - nx
+    here = (R * nx - 0.1 * vx, R * ny - 0.1 * vy)
+    there = (R * nx + 2 * R * ny, R * ny - 2 * R * nx)
+    setup = Setup([ball("cue", *here, vx, vy), ball("1", *there)], [wall], duration=0.2,
+                  contact=ContactModel("hertz", wall_stiffness=1e9))  # fmt: skip
+    run = simulate(setup, resolve())
+    assert run.numerics.clusters == 1
+    assert met
+    assert {round(approach, 6) for approach, _ in met} <= {2.0, 0.0}
+    assert {round(along, 6) for _, along in met} <= {1.0, 0.0}
 
 
 @pytest.mark.parametrize("gap", [0.0, 1e-10])

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from sandbox.physics.air import VISCOSITY, LogWind, UniformWind, moist_density, viscosity
+from sandbox.physics.air import VISCOSITY, LogWind, UniformWind, density_share, moist_density, viscosity
 
 
 @pytest.mark.parametrize(
@@ -22,6 +22,11 @@ def test_viscosity_of_the_standard_atmosphere(temperature: float, published: flo
 
 def test_viscosity_without_a_word_is_that_of_15_degrees():
     assert viscosity(288.15) == VISCOSITY
+
+
+@pytest.mark.parametrize(("height", "share"), [(0.0, 1.0), (5_000.0, 0.60091), (11_000.0, 0.29707)])
+def test_density_of_the_standard_atmosphere(height: float, share: float):
+    assert density_share(height) == pytest.approx(share, rel=1e-4)
 
 
 def test_uniform_wind_is_the_same_everywhere():
@@ -45,7 +50,7 @@ def test_log_wind_never_falls_with_height(low: float, more: float):
 
 
 def test_log_wind_stands_still_at_the_ground_and_is_even_above_its_ceiling():
-    wind = LogWind((5.0, 0.0), 10.0, 0.03, ceiling=100.0)
+    wind = LogWind((5.0, 0.0), 10.0, 0.03)
     assert wind(0.0, (0.0, 0.0)) == wind(0.0, (0.0, -3.0)) == (0.0, 0.0)
     assert wind(0.0, (0.0, 100.0)) == wind(0.0, (0.0, 5000.0))
 

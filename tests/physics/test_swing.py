@@ -4,15 +4,19 @@ from __future__ import annotations
 
 import pytest
 
-from sandbox.physics.swing import apparent_restitution, gripping, struck
+from sandbox.physics.swing import RUBBER, apparent_restitution, gripping, struck
+
+FACES = {(e, k): (gripping(0.5, e, k), 0.5, e, k) for e in (0.0, 0.3, 1.0) for k in (2 / 5, 0.6)}
+FACES["rubber"] = RUBBER, 0.917 - 20.0 * 0.0217, 2.5 * 0.681 - 1.0, 2 / 3
 
 
-@pytest.mark.parametrize("tangential", [0.0, 0.3, 1.0])
-@pytest.mark.parametrize("factor", [2 / 5, 0.6])
-def test_a_face_that_grips_returns_a_share_of_the_slip(tangential: float, factor: float):
+@pytest.mark.parametrize("name", FACES)
+def test_a_face_that_grips_returns_a_share_of_the_slip(name):
     """Kept: v + k r w, the angular momentum about the point of contact; and v - r w there becomes -e_t times that."""
+    face, restitution, tangential, factor = FACES[name]
     r, speed, spin = 0.0366, 7.0, -150.0
-    (_, after), turning = struck(gripping(0.5, tangential, factor), (0.0, 0.0), 0.0, (-20.0, speed), spin, r)
+    (out, after), turning = struck(face, (0.0, 0.0), 0.0, (-20.0, speed), spin, r)
+    assert out == pytest.approx(20.0 * restitution)
     assert after + factor * r * turning == pytest.approx(speed + factor * r * spin, rel=1e-12)
     assert after - r * turning == pytest.approx(-tangential * (speed - r * spin), rel=1e-12, abs=1e-12)
 
