@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 import random
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import pytest
@@ -27,7 +27,7 @@ G = 9.81  # m/s^2
 OUTLINES = {
     "box": box(0.4, 0.3),
     "rounded box": box(0.4, 0.3, 0.05),
-    "triangle": Polygon(((0.0, 0.0), (0.3, 0.0), (0.1, 0.25))),
+    "triangle": Polygon(((0.1, 0.25), (0.3, 0.0), (0.0, 0.0))),
     "rounded triangle": Polygon(((0.0, 0.0), (0.3, 0.0), (0.1, 0.25)), 0.06),
     "capsule": capsule(0.5, 0.08),
     "disc": disc(0.2),
@@ -47,6 +47,15 @@ def random_outline(rng: random.Random) -> Shape:
         return capsule(2.0 * size, rng.uniform(0.1, 0.9) * size)
     turns = [2.0 * math.pi * (k + rng.uniform(0.0, 0.8)) / 6 for k in range(6)]
     return Polygon([(size * math.cos(turn), size * math.sin(turn)) for turn in turns], rng.choice((0.0, 0.1)))
+
+
+class Push(NamedTuple):
+    """A constant force in N."""
+
+    force: tuple[float, float]
+
+    def __call__(self, *state: Any) -> tuple[float, float]:
+        return self.force
 
 
 def floor(restitution: float, friction: float) -> list[Surface]:
@@ -120,13 +129,28 @@ def test_what_is_not_convex_is_refused(corners: tuple[tuple[float, float], ...])
 # ------------------------------------------------------------------------------------------------ distances
 
 
+def widest(points: np.ndarray, turns: np.ndarray) -> np.ndarray:
+    """How far points reach in each direction."""
+    reach: np.ndarray = np.max(np.outer(np.cos(turns), points[:, 0]) + np.outer(np.sin(turns), points[:, 1]), axis=1)
+    return reach
+
+
 def height(shape: Shape, at: Pose, turns: np.ndarray) -> np.ndarray:
-    """How far an outline reaches in each direction: the widest of its points."""
-    c, s = np.cos(at.angle), np.sin(at.angle)
-    points = np.array(shape.rim(1e-7) if not isinstance(shape, Polygon) else shape.corners)
-    x, y = at.x + c * points[:, 0] - s * points[:, 1], at.y + s * points[:, 0] + c * points[:, 1]
-    reach: np.ndarray = np.max(np.outer(np.cos(turns), x) + np.outer(np.sin(turns), y), axis=1)
-    return reach + shape.radius
+    """How far an outline reaches in each direction."""
+    there = at.x * np.cos(turns) + at.y * np.sin(turns)
+    if isinstance(shape, Ellipse):
+        return there + np.hypot(shape.a * np.cos(turns - at.angle), shape.b * np.sin(turns - at.angle))
+    return there + widest(np.array(shape.corners), turns - at.angle) + shape.radius
+
+
+@pytest.mark.parametrize("name", OUTLINES)
+def test_a_rim_leaves_no_more_out_than_it_may_and_has_no_point_twice(name: str):
+    shape, turns = OUTLINES[name], np.linspace(-np.pi, np.pi, 361)
+    for within in (1e-2, 1e-4):
+        rim = shape.rim(within)
+        left_out = height(shape, Pose(0.0, 0.0, 0.0), turns) - widest(np.array(rim), turns)
+        assert -1e-12 < left_out.min() <= left_out.max() < within
+        assert min(map(math.dist, rim, [*rim[1:], rim[0]])) > 1e-6
 
 
 def test_distances_are_the_widest_strip_between():
@@ -390,6 +414,50 @@ def test_a_rod_tips_over_its_end_as_the_pendulum_says():
     fell = away * (np.cos(start - off) - np.cos(turn - off))
     pace = 1.0 / np.sqrt(2.0 * mass * G * fell / rocking)
     assert lands == pytest.approx(float(np.mean(pace * 2.0 * share * (np.pi / 2 - start))), rel=2e-4)
+
+
+#: What touches the ground, above it: balls and bodies at the start, friction and restitution.
+GROUNDED: dict[str, tuple[list[Ball], float, float]] = {
+    "an ellipse rocks": ([thrown(Ellipse(0.3, 0.2), position=(0.0, 0.25), angle=0.4)], 2.0, 0.0),
+    "a box slides": ([thrown(box(0.4, 0.3), position=(0.0, 0.15), velocity=(2.0, 0.0))], 0.2, 0.3),
+    "a box tumbles": ([thrown(box(0.4, 0.3), position=(0.0, 0.5), velocity=(2.0, 0.0), spin=4.0)], 0.5, 0.5),
+    "a ball rolls off": ([Ball("body", 2.0, 0.2, (4.2, 0.3), (3.0, 0.0), 5.0)], 0.5, 0.3),
+    "a triangle on a box": (
+        [
+            thrown(box(0.4, 0.3), position=(0.0, 0.15)),
+            replace(thrown(OUTLINES["triangle"], position=(0.1, 0.6), spin=2.0), name="on it"),
+        ],
+        0.4,
+        0.2,
+    ),
+}
+
+
+@pytest.mark.parametrize("turn", [math.pi / 2, -2.4])
+@pytest.mark.parametrize("name", GROUNDED)
+def test_it_makes_no_difference_which_way_is_down(name: str, turn: float):
+    """The whole world turned: the same run, turned."""
+    c, s = math.cos(turn), math.sin(turn)
+
+    def turned(x: float, y: float) -> tuple[float, float]:
+        return c * x - s * y, s * x + c * y
+
+    def run_in(way: Callable[[float, float], tuple[float, float]], by: float) -> Run:
+        balls = []
+        for ball in GROUNDED[name][0]:
+            angle = {"angle": ball.angle + by} if isinstance(ball, Body) else {}
+            forces = [Push(way(0.0, -G * ball.mass))]
+            start = {"position": way(*ball.position), "velocity": way(*ball.velocity), **angle}
+            balls.append(replace(ball, forces=forces, **start))
+        ground = [Surface("ground", Segment(way(-5.0, 0.0), way(5.0, 0.0)), restitution, friction)]
+        return run_of(balls, 1.5, ground, between_balls=Always(Bounce(restitution, friction)))
+
+    balls, friction, restitution = GROUNDED[name]
+    level, tilted = run_in(lambda x, y: (x, y), 0.0), run_in(turned, turn)
+    for ball in balls:
+        for t in (0.2, 0.7, 1.5):
+            x, y, vx, vy, spin = level.state(ball.name, t)[:5]
+            assert tilted.state(ball.name, t)[:5] == pytest.approx((*turned(x, y), *turned(vx, vy), spin), abs=1e-6)
 
 
 def test_a_torque_may_depend_on_the_angle():

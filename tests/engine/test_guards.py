@@ -43,6 +43,11 @@ def test_leaving_the_world_stops_the_run(accuracy):
         simulate(Setup([shot()], duration=1.0, bounds=Bounds(-3.0, -9.0, 3.0, 9.0)), accuracy)
 
 
+@pytest.mark.parametrize("way", [(1, 0), (-1, 0), (0, 1), (0, -1)])
+def test_the_world_is_100_km_wide_each_way(way: tuple[int, int]):
+    assert [Bounds().hold((d * way[0], d * way[1], 0.0, 0.0, 0.0)) for d in (9.9e4, 1.01e5)] == [True, False]
+
+
 @pytest.mark.parametrize("accuracy", [resolve(), PLAIN], ids=["exact", "plain"])
 def test_an_error_in_a_users_force_comes_out_with_its_own_traceback(accuracy):
     def broken(t, position, velocity, spin):
