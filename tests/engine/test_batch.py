@@ -126,6 +126,16 @@ def test_radius_mass_and_shapes_may_differ():
         assert_same(run, simulate(setup, resolve()))
 
 
+def test_a_passage_just_where_an_arc_ends_is_found_once():
+    setups = [thrown(4.0 + 0.1 * i) for i in range(30)]
+    for setup, together in zip(setups, simulate_many(setups, resolve()), strict=True):
+        alone = simulate(setup, resolve())
+        point = together.arcs["ball"][1].end[:2]
+        passed = [[t for t, _ in run.crossings("ball", point, (-1.0, 0.0))] for run in (together, alone)]
+        assert passed[0] == pytest.approx(passed[1])
+        assert len(passed[0]) == 1
+
+
 def test_a_patch_is_stepped_through_as_alone():
     def kick(t: Any, position: Any, velocity: Any, spin: Any) -> tuple[Any, Any]:
         return 50.0 * np.exp(-(((position[0] - 2.0) / 0.02) ** 2)), 0.0

@@ -373,6 +373,17 @@ def test_an_ellipse_slips_and_leaves_where_its_energy_says():
     assert next(event.t for event in run.events if event.kind == "leave") == pytest.approx(slips, abs=1e-3)
 
 
+def test_a_torque_works_on_what_rolls():
+    """Kinetic energy, m g y and -T (angle) are one sum, to and fro about where they balance."""
+    body = thrown(Ellipse(0.3, 0.2), position=(0.0, 0.2), torques=[lambda *state: 0.4])
+    run = run_of([body], 2.0, floor(0.0, 2.0))
+    assert max(run.angle("body", t) for t in np.linspace(0.0, 2.0, 50)) > 0.1
+    for t in np.linspace(0.0, 2.0, 9):
+        state = run.state("body", t)
+        gone = kinetic(body, state) + body.mass * G * (state[1] - 0.2)
+        assert gone == pytest.approx(0.4 * run.angle("body", t), abs=1e-4)
+
+
 def test_a_domino_tips_and_strikes_its_neighbour():
     """About its edge, w^2 = w0^2 + 2 m g (h0 - h) / I; then the corner meets the face of the next."""
     width, tall, gap, mass, spin = 0.008, 0.045, 0.02, 0.01, -4.0

@@ -153,11 +153,17 @@ def test_slope_turns_a_bounce_as_a_mirror_does():
 
 @pytest.mark.parametrize(("m1", "m2", "e"), [(1.0, 1.0, 1.0), (1.0, 3.0, 0.8), (5.0, 0.01, 0.5)])
 def test_unequal_masses(m1, m2, e):
-    """v1' = ((m1 - e m2) v1 + (1+e) m2 v2) / (m1 + m2), and the same with 1 and 2 exchanged."""
-    balls = [Ball("a", m1, 0.1, (0.0, 0.0), (2.0, 0.0)), Ball("b", m2, 0.2, (1.0, 0.0), (-1.0, 0.0))]
-    run = simulate(Setup(balls, duration=1.0, between_balls=lambda n, s: Bounce(e, 0.0)), PRECISE)
-    assert run.state("a", 1.0)[2] == pytest.approx(((m1 - e * m2) * 2.0 - (1 + e) * m2) / (m1 + m2), abs=1e-9)
-    assert run.state("b", 1.0)[2] == pytest.approx(((1 + e) * m1 * 2.0 - (m2 - e * m1)) / (m1 + m2), abs=1e-9)
+    """v1' = ((m1 - e m2) v1 + (1+e) m2 v2) / (m1 + m2), and the same with 1 and 2 exchanged. They grip: no slip is left
+    of r1 w1 + r2 w2, and m1 r1 w1 changes as m2 r2 w2 does.
+    """
+    balls = [Ball("a", m1, 0.1, (0.0, 0.0), (2.0, 0.0), 7.0), Ball("b", m2, 0.2, (1.0, 0.0), (-1.0, 0.0), 4.0)]
+    run = simulate(Setup(balls, duration=1.0, between_balls=lambda n, s: Bounce(e, 50.0)), PRECISE)
+    (_, _, v1, u1, w1), (_, _, v2, u2, w2) = (run.state(name, 1.0) for name in "ab")
+    assert v1 == pytest.approx(((m1 - e * m2) * 2.0 - (1 + e) * m2) / (m1 + m2), abs=1e-9)
+    assert v2 == pytest.approx(((1 + e) * m1 * 2.0 - (m2 - e * m1)) / (m1 + m2), abs=1e-9)
+    assert u1 + 0.1 * w1 == pytest.approx(u2 - 0.2 * w2, abs=1e-9)
+    assert m1 * 0.1 * (w1 - 7.0) == pytest.approx(m2 * 0.2 * (w2 - 4.0), abs=1e-9)
+    assert m1 * u1 == pytest.approx(-m2 * u2, abs=1e-9)
 
 
 @pytest.mark.parametrize(("ratio", "count"), [(1, 3), (16, 12), (100, 31), (10_000, 314)])
