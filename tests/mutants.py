@@ -51,7 +51,7 @@ TESTS: dict[str, dict[str, str]] = {
         "run": "run names batch cloth",
         "setup": "guards contact run batch bodies names cloth",
         "setup_errors": "guards",
-        "simulation": "contact guards cloth exact heap bodies",
+        "simulation": "contact guards cloth exact heap bodies batch",
         "stacking": "batch lab/runs",
         "start": "contact guards bodies",
         "step_control": "methods run guards exact batch determinism",

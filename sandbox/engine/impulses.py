@@ -54,7 +54,7 @@ class Lanes:
         self._discs: list[pymunk.Circle] = []
         self._bodies: list[pymunk.Body] = []
         self._places: list[Vector] = []
-        self._pairs = [(1.0, 0.0, 1.0)] * self.COUNT  # restitution, friction and inertia factor now set
+        self._pairs: dict[int, tuple[float, float, float]] = {}  # restitution, friction, inertia factor, of each lane
         for lane in range(self.COUNT):
             x, y = _SPACING * (lane % _SIDE), _SPACING * (lane // _SIDE)
             ground = pymunk.Segment(self._space.static_body, (x - 0.1, y), (x + 0.1, y), 0.0)
@@ -62,7 +62,6 @@ class Lanes:
             body = pymunk.Body(1.0, 1.0)
             body.position = x, y + 1.0 + _PARKED
             disc = pymunk.Circle(body, 1.0)
-            disc.elasticity = 1.0
             self._space.add(ground, body, disc)
             self._discs.append(disc)
             self._bodies.append(body)
@@ -87,7 +86,7 @@ class Lanes:
 
     def _prepare(self, lane: int, pair: tuple[float, float, float]) -> None:
         """Set restitution, friction and inertia factor of a lane; most are those of the contact before."""
-        if self._pairs[lane] != pair:
+        if self._pairs.get(lane) != pair:
             disc, body = self._discs[lane], self._bodies[lane]
             disc.elasticity, disc.friction, body.moment = self._pairs[lane] = pair
 

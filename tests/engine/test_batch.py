@@ -7,6 +7,7 @@ import pickle
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import partial
+from time import perf_counter
 from typing import Any
 
 import numpy as np
@@ -306,7 +307,9 @@ def test_an_end_that_counts_is_asked_once_about_each_event():
 def test_a_batch_without_end_goes_on_one_at_a_time(monkeypatch: pytest.MonkeyPatch):
     setups = [thrown(4.0 + 0.1 * i, duration=1.0) for i in range(30)]
     monkeypatch.setattr(batch, "MOST_PIECES", 100)
+    began = perf_counter()
     for setup, run in zip(setups, simulate_many(setups, resolve()), strict=True):
+        assert 0.0 < run.numerics.wall_s < perf_counter() - began
         assert_same(run, simulate(setup, resolve()))
         assert not isinstance(run.arcs["ball"], ArcRows)
 

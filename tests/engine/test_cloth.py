@@ -88,6 +88,15 @@ def test_a_steady_push_is_a_run_of_even_hops_and_ends():
         assert sum(ledger(run).impacts.values()) <= 10 * hop
 
 
+def test_balls_that_touch_and_barely_close_roll_on():
+    """All that a hop adds is taken back from both, and no more."""
+    balls = [rolling("rear", (-2 * R, 0.0), (1.000001, 0.0)), rolling("front", (0.0, 0.0), (1.0, 0.0))]
+    alone = simulate(Setup([balls[1]], plane=CLOTH, duration=0.5), resolve()).state("front", 0.5)[2]
+    run = simulate(Setup(balls, plane=CLOTH, duration=0.5, between_balls=of(0.95, 0.0)), resolve())
+    assert [run.state(name, 0.5)[2] for name in ("rear", "front")] == pytest.approx([alone, alone], abs=2e-3)
+    assert sum(ledger(run).impacts.values()) == pytest.approx(0.0, abs=1e-9)
+
+
 def test_two_touching_balls_that_barely_close_do_not_stall():
     two = ball("2", (0.6893302035592077, 0.07289367542804442), (-0.0009600413070669939, 0.024262999307600855), 0.0,
                (-0.8490988384112285, -0.03359724609158334))  # fmt: skip
