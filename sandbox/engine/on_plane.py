@@ -60,7 +60,7 @@ class OnPlane(InPlane):
         """The first h s of a phase with constant accelerations."""
         state = self.state
         self._numerics.steps += 1
-        end = law.after(state, phase, h)
+        end = phase.after(h)
         if not all(map(isfinite, end)):
             raise RunError(
                 f"t = {t:.6g} s, ball {self.ball.name!r}: its motion on the {law.name} cannot be computed; "

@@ -230,9 +230,8 @@ class PlainSimulation:
         ax, ay, alpha = acceleration
         after: State = (x, y, vx + h * ax, vy + h * ay, *state[4:])
         if setup.plane is not None:
-            plane = setup.plane_of(tracked.ball.name)
-            phase = plane.phase(after, tracked.ball.radius)
-            after = (x, y, *plane.after(after, phase, min(h, phase.duration))[2:])
+            phase = setup.plane_of(tracked.ball.name).phase(after, tracked.ball.radius)
+            after = (x, y, *phase.after(h)[2:])
         after = (*after[:4], after[4] + h * alpha, *after[5:])
         if not isfinite(sum(after)):
             raise self._diverged(tracked, after)

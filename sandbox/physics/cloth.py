@@ -26,10 +26,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from math import copysign, inf, sqrt
+from math import inf
 from typing import ClassVar
 
-from sandbox.physics.plane import STILL, Phase, PlaneState
+from sandbox.physics.plane import STILL, Phase, PlaneState, not_negative, stopping, until_rest
 
 
 @dataclass(frozen=True)
@@ -62,9 +62,7 @@ class Cloth:
         return self.sliding * self.gravity
 
     def __post_init__(self) -> None:
-        for what in ("sliding", "rolling", "spinning", "gravity"):
-            if not 0.0 <= getattr(self, what) < inf:
-                raise ValueError(f"{self.name}: {what} = {getattr(self, what)} must not be negative")
+        not_negative(self, "sliding", "rolling", "spinning", "gravity")
         if not 0.0 < self.inertia <= 1.0:
             raise ValueError(f"{self.name}: inertia = {self.inertia} must be above 0, and at most 1")
 
@@ -74,49 +72,14 @@ class Cloth:
         Slides for ``2 |u| / (7 mu_s g)``, rolls for ``|v| / (mu_r g)``, spins for ``2 r |wz| / (5 mu_sp g)``.
         """
         turn = 1.0 / self.inertia
-        _, _, vx, vy, wz, wx, wy = state
+        _, _, vx, vy, _, wx, wy = state
         ux, uy = vx - radius * wy, vy + radius * wx
-        slip = sqrt(ux * ux + uy * uy)
-        speed = sqrt(vx * vx + vy * vy)
-        mode, time, ax, ay, alpha_x, alpha_y = "resting", inf, 0.0, 0.0, 0.0, 0.0
-        if slip > STILL:
-            mode, a = "sliding", self.sliding * self.gravity
-            time = slip / ((1.0 + turn) * a) if a > 0.0 else inf
-            ax, ay = -a * ux / slip, -a * uy / slip
+        mode, time, ax, ay, alphas = "resting", inf, 0.0, 0.0, (0.0, 0.0)
+        if ux * ux + uy * uy > STILL * STILL:
+            mode, (time, ax, ay) = "sliding", stopping(ux, uy, self.strongest, 1.0 + turn)  # it turns faster, too
             # torque of the force at the lowest point, over the moment of inertia
-            alpha_x, alpha_y = turn * ay / radius, -turn * ax / radius
-        elif speed > STILL:
-            mode, a = "rolling", self.rolling * self.gravity
-            time = speed / a if a > 0.0 else inf
-            ax, ay = -a * vx / speed, -a * vy / speed
-            alpha_x, alpha_y = -ay / radius, ax / radius
-        alpha_z, spin_time = 0.0, inf
-        if radius * abs(wz) > STILL:
-            mode = "spinning" if mode == "resting" else mode
-            alpha_z = -copysign(turn * self.spinning * self.gravity / radius, wz)
-            spin_time = wz / -alpha_z if alpha_z != 0.0 else inf
-        duration = min(time, spin_time)
-        ends = duration == time < inf, duration == spin_time < inf
-        return Phase(mode, duration, ax, ay, alpha_z, alpha_x, alpha_y, radius, *ends)
-
-    def after(self, state: PlaneState, phase: Phase, t: float) -> PlaneState:
-        """The state ``t`` s into ``phase``, which started at ``state``; t is limited to its duration.
-
-        At the end itself (t = duration) the constraints hold to the last bit: no slip where the ball begins to roll, no
-        speed where it stops, no wz where the spin ends.
-        """
-        x, y, vx, vy, wz, wx, wy = state
-        mode, duration, ax, ay, alpha_z, alpha_x, alpha_y, radius, ends_motion, ends_spin, _ = phase
-        if t > duration:
-            t = duration
-        x += t * (vx + 0.5 * t * ax)
-        y += t * (vy + 0.5 * t * ay)
-        if t < duration:
-            return x, y, vx + t * ax, vy + t * ay, wz + t * alpha_z, wx + t * alpha_x, wy + t * alpha_y
-        wz = 0.0 if ends_spin else wz + t * alpha_z
-        if ends_motion and mode == "rolling":
-            return x, y, 0.0, 0.0, wz, 0.0, 0.0
-        vx, vy = vx + t * ax, vy + t * ay
-        if ends_motion:
-            return x, y, vx, vy, wz, -vy / radius, vx / radius
-        return x, y, vx, vy, wz, wx + t * alpha_x, wy + t * alpha_y
+            alphas = turn * ay / radius, -turn * ax / radius
+        elif vx * vx + vy * vy > STILL * STILL:
+            mode, (time, ax, ay) = "rolling", stopping(vx, vy, self.rolling * self.gravity)
+            alphas = -ay / radius, ax / radius
+        return until_rest(mode, state, time, ax, ay, turn * self.spinning * self.gravity / radius, alphas, radius)

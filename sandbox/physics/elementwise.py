@@ -3,43 +3,25 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import Any
 
 
-def exp(x: Any) -> Any:
-    """e to the x."""
-    if isinstance(x, float):
-        return math.exp(x)
-    import numpy as np
+def _either(name: str) -> Callable[[Any], Any]:
+    """The function of this name in math for a float, in numpy for an array."""
+    of_float = getattr(math, name)
 
-    return np.exp(x)
+    def function(x: Any) -> Any:
+        if isinstance(x, float):
+            return of_float(x)
+        import numpy as np
 
+        return getattr(np, name)(x)
 
-def sin(x: Any) -> Any:
-    """Sine of x in rad."""
-    if isinstance(x, float):
-        return math.sin(x)
-    import numpy as np
-
-    return np.sin(x)
+    return function
 
 
-def cos(x: Any) -> Any:
-    """Cosine of x in rad."""
-    if isinstance(x, float):
-        return math.cos(x)
-    import numpy as np
-
-    return np.cos(x)
-
-
-def log(x: Any) -> Any:
-    """Natural logarithm."""
-    if isinstance(x, float):
-        return math.log(x)
-    import numpy as np
-
-    return np.log(x)
+exp, log, sin, cos = map(_either, ("exp", "log", "sin", "cos"))
 
 
 def clip(x: Any, low: float, high: float) -> Any:

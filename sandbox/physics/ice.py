@@ -23,7 +23,7 @@ from dataclasses import dataclass
 from math import copysign, inf, sqrt
 from typing import Any, ClassVar
 
-from sandbox.physics.plane import STILL, Phase, PlaneState
+from sandbox.physics.plane import STILL, Phase, PlaneState, not_negative, stopping, until_rest
 
 #: Speed in m/s below which a stone comes to rest on a straight line, and below which its spin decays as at this speed.
 _CREEPING, _SPINNING_IN_PLACE = 1e-4, 1e-3
@@ -32,41 +32,12 @@ _CREEPING, _SPINNING_IN_PLACE = 1e-4, 1e-3
 _TURNING = -0.8
 
 
-def _not_negative(law: Any, *names: str) -> None:
-    for name in names:
-        if not 0.0 <= getattr(law, name) < inf:
-            raise ValueError(f"{law.name}: {name} = {getattr(law, name)} must not be negative")
-
-
-def _after(state: PlaneState, phase: Phase, t: float) -> PlaneState:
-    """The state ``t`` s into a phase with constant accelerations, at most at its end."""
-    x, y, vx, vy, wz = state
-    t = min(t, phase.duration)
-    x += t * (vx + 0.5 * t * phase.ax)
-    y += t * (vy + 0.5 * t * phase.ay)
-    ended = t == phase.duration
-    wz = 0.0 if ended and phase.ends_spin else wz + t * phase.alpha_z
-    if ended and phase.ends_motion:
-        return x, y, 0.0, 0.0, wz
-    return x, y, vx + t * phase.ax, vy + t * phase.ay, wz
-
-
-def _straight(state: PlaneState, deceleration: float, spin_deceleration: float) -> Phase:
+def _straight(state: PlaneState, deceleration: float, spin_slows: float) -> Phase:
     """The phase of a body with these constant decelerations (m/s^2, rad/s^2), until its motion or its spin ends."""
-    _, _, vx, vy, wz = state
-    speed = sqrt(vx * vx + vy * vy)
-    mode, time, ax, ay = "resting", inf, 0.0, 0.0
-    if speed > STILL:
-        mode, time = "sliding", speed / deceleration if deceleration > 0.0 else inf
-        ax, ay = -deceleration * vx / speed, -deceleration * vy / speed
-    alpha, spin_time = 0.0, inf
-    if abs(wz) > STILL:
-        mode = "spinning" if mode == "resting" else mode
-        alpha = -copysign(spin_deceleration, wz)
-        spin_time = abs(wz) / spin_deceleration if spin_deceleration > 0.0 else inf
-    duration = min(time, spin_time)
-    ends = duration == time < inf, duration == spin_time < inf
-    return Phase(mode, duration, ax, ay, alpha, ends_motion=ends[0], ends_spin=ends[1])
+    _, _, vx, vy, _ = state
+    if vx * vx + vy * vy > STILL * STILL:
+        return until_rest("sliding", state, *stopping(vx, vy, deceleration), spin_slows)
+    return until_rest("resting", state, inf, 0.0, 0.0, spin_slows)
 
 
 @dataclass(frozen=True)
@@ -83,7 +54,7 @@ class Glide:
     TERMS: ClassVar[Mapping[str, str]] = {"sliding": "sliding friction", "spinning": "spinning friction"}
 
     def __post_init__(self) -> None:
-        _not_negative(self, "sliding", "spinning", "gravity")
+        not_negative(self, "sliding", "spinning", "gravity")
 
     @property
     def strongest(self) -> float:
@@ -93,10 +64,6 @@ class Glide:
     def phase(self, state: PlaneState, radius: float) -> Phase:
         """Slides until it stops or its spin ends."""
         return _straight(state, self.strongest, 2.0 * self.spinning * self.gravity / radius)
-
-    def after(self, state: PlaneState, phase: Phase, t: float) -> PlaneState:
-        """The state ``t`` s into ``phase``."""
-        return _after(state, phase, t)
 
 
 @dataclass(frozen=True)
@@ -121,7 +88,7 @@ class CurlingIce:
     TERMS: ClassVar[Mapping[str, str]] = {"friction": "friction", "curl": "curl"}
 
     def __post_init__(self) -> None:
-        _not_negative(self, "friction", "curl", "a", "b", "c", "k", "s", "gravity")
+        not_negative(self, "friction", "curl", "a", "b", "c", "k", "s", "gravity")
 
     @property
     def strongest(self) -> float:
@@ -148,15 +115,4 @@ class CurlingIce:
             turning = side * self.curl * self.k * speed**_TURNING
             return -slowing * vx - turning * vy, -slowing * vy + turning * vx, -side * self.s / speed
 
-        return Phase("sliding", inf, *law(0.0, state), law=law)
-
-    def after(self, state: PlaneState, phase: Phase, t: float) -> PlaneState:
-        """The state ``t`` s into ``phase``, along its first accelerations; at rest or without spin where they would
-        reverse it."""
-        after = _after(state, phase, t)
-        if phase.law is None:
-            return after
-        x, y, vx, vy, wz = after
-        if vx * state[2] + vy * state[3] <= 0.0:
-            vx = vy = 0.0
-        return x, y, vx, vy, wz if wz * state[4] > 0.0 else 0.0
+        return Phase("sliding", state, inf, *law(0.0, state), law=law)

@@ -9,7 +9,7 @@ from __future__ import annotations
 from bisect import bisect_right
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from math import copysign, inf
+from math import copysign, inf, sqrt
 from typing import Any, NamedTuple, Protocol
 
 #: A body on a plane: (x, y, vx, vy, wz) in m, m/s, rad/s, wz about the vertical, counter-clockwise from above; one that
@@ -24,13 +24,14 @@ _AT_EDGE = 1e-9
 
 
 class Phase(NamedTuple):
-    """A phase of motion, lasting ``duration`` s (infinite if nothing ends it).
+    """A phase of motion from a state on, lasting ``duration`` s (infinite if nothing ends it).
 
     The accelerations are constant, or those at its start if there is a ``law``: then ``law(t, state)`` gives
     (ax, ay, alpha_z).
     """
 
     mode: str  # "sliding", "rolling", "spinning" or "resting"
+    state: PlaneState
     duration: float  # s
     ax: float  # m/s^2
     ay: float
@@ -38,9 +39,68 @@ class Phase(NamedTuple):
     alpha_x: float = 0.0
     alpha_y: float = 0.0
     radius: float = 0.0  # m
-    ends_motion: bool = False  # at its end, sliding becomes rolling, or motion becomes rest
+    ends_motion: bool = False  # at its end, sliding becomes rolling if it rolls, or motion becomes rest
     ends_spin: bool = False  # at its end, the spin about the vertical is zero
     law: Callable[[float, PlaneState], tuple[Any, Any, Any]] | None = None
+
+    def after(self, t: float) -> PlaneState:
+        """The state ``t`` s into the phase with its accelerations constant; t is limited to its duration.
+
+        At the end itself (t = duration) the constraints hold to the last bit: no slip where a ball begins to roll, no
+        speed where it stops, no wz where the spin ends. Under a ``law`` nothing is reversed.
+        """
+        x, y, vx, vy, wz, *rolling = self.state
+        t = min(t, self.duration)
+        x += t * (vx + 0.5 * t * self.ax)
+        y += t * (vy + 0.5 * t * self.ay)
+        ux, uy, spin = vx + t * self.ax, vy + t * self.ay, wz + t * self.alpha_z
+        wx, wy = rolling or (0.0, 0.0)
+        roll = wx + t * self.alpha_x, wy + t * self.alpha_y
+        ended, reversed_by_law = t == self.duration, self.law is not None and ux * vx + uy * vy <= 0.0
+        if (ended and self.ends_spin) or (self.law is not None and spin * wz <= 0.0):
+            spin = 0.0
+        if ended and self.ends_motion and rolling and self.mode == "sliding":
+            roll = -uy / self.radius, ux / self.radius
+        elif (ended and self.ends_motion) or reversed_by_law:
+            ux = uy = 0.0
+            roll = 0.0, 0.0
+        return (x, y, ux, uy, spin, *roll) if rolling else (x, y, ux, uy, spin)
+
+
+def until_rest(
+    mode: str,
+    state: PlaneState,
+    time: float,
+    ax: float,
+    ay: float,
+    spin_slows: float,
+    alphas: tuple[float, float] = (0.0, 0.0),
+    radius: float = 0.0,
+) -> Phase:
+    """The phase of a body whose motion ends after ``time`` s, or that rests, while its spin about the vertical is
+    slowed by ``spin_slows`` (rad/s^2): until one of them ends."""
+    wz, alpha_z, spin_time = state[4], 0.0, inf
+    if abs(wz) > STILL:
+        mode = "spinning" if mode == "resting" else mode
+        alpha_z = -copysign(spin_slows, wz)
+        spin_time = abs(wz) / spin_slows if spin_slows > 0.0 else inf
+    duration = min(time, spin_time)
+    ends = duration == time < inf, duration == spin_time < inf
+    return Phase(mode, state, duration, ax, ay, alpha_z, *alphas, radius, *ends)
+
+
+def stopping(vx: float, vy: float, deceleration: float, sooner: float = 1.0) -> tuple[float, float, float]:
+    """The time in s in which a deceleration (m/s^2) ends a velocity, or a part as much ``sooner``; its components."""
+    speed = sqrt(vx * vx + vy * vy)
+    time = speed / (sooner * deceleration) if deceleration > 0.0 else inf
+    return time, -deceleration * vx / speed, -deceleration * vy / speed
+
+
+def not_negative(law: Any, *names: str) -> None:
+    """Raise ValueError if one of these fields of a law is negative, or not finite."""
+    for name in names:
+        if not 0.0 <= getattr(law, name) < inf:
+            raise ValueError(f"{law.name}: {name} = {getattr(law, name)} must not be negative")
 
 
 class Plane(Protocol):
@@ -68,10 +128,6 @@ class Plane(Protocol):
 
     def phase(self, state: PlaneState, radius: float) -> Phase:
         """The phase that starts at ``state`` for a body of ``radius`` m."""
-
-    def after(self, state: PlaneState, phase: Phase, t: float) -> PlaneState:
-        """The state ``t`` s into ``phase``, which started at ``state``, with its accelerations constant; t is limited
-        to its duration."""
 
 
 def without(plane: Any, term: str) -> Any:
@@ -114,9 +170,6 @@ class Strips:
 
     def phase(self, state: PlaneState, radius: float) -> Phase:
         return strip(self, state)[0].phase(state, radius)
-
-    def after(self, state: PlaneState, phase: Phase, t: float) -> PlaneState:
-        return strip(self, state)[0].after(state, phase, t)
 
 
 def strip(plane: Plane, state: PlaneState) -> tuple[Plane, float, float]:

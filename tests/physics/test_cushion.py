@@ -63,7 +63,7 @@ def test_a_rolling_ball_leaves_as_tracked_ones_do(angle, after, rolling, speed):
     assert degrees(atan2(motion[1], -motion[0])) == pytest.approx(after, abs=0.1)
     cloth, state = Cloth(sliding=0.202, rolling=0.0045), (0.0, 0.0, *motion)
     while (phase := cloth.phase(state, RADIUS)).mode == "sliding":
-        state = cloth.after(state, phase, phase.duration)
+        state = phase.after(phase.duration)
     assert degrees(atan2(state[3], -state[2])) == pytest.approx(rolling, abs=0.1)
     assert hypot(state[2], state[3]) == pytest.approx(speed, abs=2e-3)
 
