@@ -5,7 +5,6 @@ from __future__ import annotations
 from functools import cached_property
 
 from sandbox.picture.ball import Look, seams
-from sandbox.picture.figures import SHOOTING
 from sandbox.picture.places import Ground, Hall, Person
 from sandbox.picture.side import Place, SideView
 
@@ -22,4 +21,4 @@ class Picture(SideView[Parameters]):
         grille = [
             (fan.place + x, z) for x, z in ((-fan.width, 0.0), (fan.width, 0.0), (fan.width, 1.0), (-fan.width, 1.0))
         ]
-        return Place(Hall(), Ground(areas=[(grille, (40, 52, 60))]), [Person(-0.15 * tall, tall, pose=SHOOTING)])
+        return Place(Hall(), Ground(areas=[(grille, (40, 52, 60))]), [Person(-0.15 * tall, tall, pose="shooting")])

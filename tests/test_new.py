@@ -297,9 +297,9 @@ def test_its_golden_test(scene: Path):
         ("picture.py", "launch.height)", "launch.hight)", "AttributeError: 'Toss' object has no"),
         (
             "picture.py",
-            "picture.figures",
-            "picture.figgures",
-            "ModuleNotFoundError: No module named 'sandbox.picture.fig",
+            "picture.places",
+            "picture.plaices",
+            "ModuleNotFoundError: No module named 'sandbox.picture.plai",
         ),
     ],
 )

@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import cached_property
 
 from sandbox.picture.camera import Box
-from sandbox.picture.figures import BATTING, CROUCHING, PITCHED_AT, PITCHING
+from sandbox.picture.figures import pose
 from sandbox.picture.palette import palette
 from sandbox.picture.places import Ground, Landscape, Person, Post, Shape, Stripes, Thing
 from sandbox.picture.side import Length, Place, SideView
@@ -30,7 +30,7 @@ class Picture(SideView[Parameters]):
     @cached_property
     def place(self) -> Place:
         plate, release = self.parameters.plate, self.parameters.release
-        front, low, high, (ahead, up) = plate.distance, plate.bottom, plate.top, PITCHED_AT
+        front, low, high, (ahead, up) = plate.distance, plate.bottom, plate.top, pose("pitching").holds
         dirt = [[(front - 3.2, 0.0), (front + 3.0, 0.0), (front + 3.0, 3.0), (front - 3.2, 3.0)]]
         dirt.append([(-3.0, 0.0), (2.2, 0.0), (1.6, 2.6), (-2.6, 2.6)])
         base = [(front, 0.0), (front + DEEP, 0.0), (front + DEEP, WIDE), (front, WIDE)]
@@ -40,9 +40,9 @@ class Picture(SideView[Parameters]):
         zone: list[Thing] = [Shape(corners, ZONE, 0.25), Post([*corners, corners[0]], 0.012, ZONE)]
         tall = min(2.0, max(1.6, release.height / up))
         lift = max(0.0, release.height - up * tall)
-        pitcher = Person(release.place - ahead * tall, tall, COLOURS["batter"], PITCHING, up=lift)
-        batter = Person(front + 0.1, TALL, COLOURS["visitor"], BATTING, z=0.9, facing=-1)
-        catcher = Person(front + MITT + 0.35, TALL, COLOURS["batter"], CROUCHING, facing=-1)
+        pitcher = Person(release.place - ahead * tall, tall, COLOURS["batter"], "pitching", up=lift)
+        batter = Person(front + 0.1, TALL, COLOURS["visitor"], "batting", z=0.9, facing=-1)
+        catcher = Person(front + MITT + 0.35, TALL, COLOURS["batter"], "crouching", facing=-1)
         return Place(Landscape(**COLOURS["landscape"]), ground, [batter, *zone, catcher, pitcher])
 
     def lengths(self) -> list[Length]:

@@ -6,7 +6,6 @@ from functools import cached_property
 
 from sandbox.picture.ball import Look, seams
 from sandbox.picture.camera import Box, Camera
-from sandbox.picture.figures import BATTING
 from sandbox.picture.palette import scene_colours
 from sandbox.picture.places import Ground, Group, Landscape, Person, Post, Shape, Stripes
 from sandbox.picture.sheet import Sheet
@@ -49,7 +48,7 @@ class Picture(SideView[Parameters]):
             areas=[(dirt, FIELD["infield"]), (track, FIELD["track"])],
         )
         corners = [(foot, 0.0, 0.0), (foot, high, 0.0), (foot, high, DEEP), (foot, 0.0, DEEP)]
-        batter = Group(0.0, [Person(0.0, 1.85, COLOURS["batter"], BATTING)], 1.85, 30)
+        batter = Group(0.0, [Person(0.0, 1.85, COLOURS["batter"], "batting")], 1.85, 30)
         pole = Post([(foot, 0.0, 0.0), (foot, high + POLE, 0.0)], 0.1, COLOURS["fence"]["pole"])
         return Place(
             Landscape(**COLOURS["landscape"]), ground, [Shape(corners, COLOURS["fence"]["wall"]), pole, batter]

@@ -12,7 +12,6 @@ import pygame
 from sandbox.picture.ball import Look, seams
 from sandbox.picture.camera import Box, Camera
 from sandbox.picture.depth import Eye
-from sandbox.picture.figures import REACHING, SHOOTING
 from sandbox.picture.lettering import Labels
 from sandbox.picture.painter import Painter, around_corners
 from sandbox.picture.palette import mix, palette, scene_colours
@@ -102,7 +101,7 @@ class Picture(SideView[Parameters]):
             return []
         low = height <= 2.2
         tall = height / 1.075 if low else min(2.05, height / 1.27)
-        pose, up = (SHOOTING, 0.0) if low else (REACHING, height - 1.27 * tall)
+        pose, up = ("shooting", 0.0) if low else ("reaching", height - 1.27 * tall)
         return [Person(-0.20 * tall, tall, COLOURS["thrower"], pose, up=up)]
 
     @cached_property

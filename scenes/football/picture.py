@@ -6,7 +6,6 @@ from functools import cached_property
 
 from sandbox.picture.ball import Look
 from sandbox.picture.camera import Box
-from sandbox.picture.figures import KICKING
 from sandbox.picture.palette import scene_colours
 from sandbox.picture.places import Ground, Person, Post, Stands, Stripes
 from sandbox.picture.side import Length, Place, SideView
@@ -45,7 +44,7 @@ class Picture(SideView[Parameters]):
             lines=lines,
             line=(FIELD["line"], 0.1),
         )
-        kicker, things = Person(-0.7, TALL, COLOURS["kicker"], KICKING), []
+        kicker, things = Person(-0.7, TALL, COLOURS["kicker"], "kicking"), []
         if goal.present:
             x, bar = goal.distance, goal.height
             ends = [(x, bar, -0.5 * APART), (x, bar, 0.5 * APART)]

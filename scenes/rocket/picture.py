@@ -9,7 +9,6 @@ import numpy as np
 
 from sandbox.picture.ball import Silhouette, turned
 from sandbox.picture.camera import Box, Camera
-from sandbox.picture.figures import STANDING
 from sandbox.picture.painter import Painter
 from sandbox.picture.palette import scene_colours
 from sandbox.picture.places import Ground, Landscape, Person, Post, Stripes
@@ -49,7 +48,7 @@ class Picture(SideView[Parameters]):
         launch, ground = self.parameters.launch, Ground(Stripes(GROUND["grass"], 9.0), GROUND["soil"])
         way = cos(radians(launch.angle)), sin(radians(launch.angle))
         ends = [(along * way[0], launch.height + along * way[1], 0.0) for along in (-launch.height, launch.rail)]
-        held = Person(-0.35, max(1.0, launch.height / 0.85), pose=STANDING)
+        held = Person(-0.35, max(1.0, launch.height / 0.85))
         thing = Post(ends, 0.03, COLOURS["steel"]) if launch.speed == 0.0 else held
         return Place(Landscape(**COLOURS["landscape"]), ground, [thing])
 

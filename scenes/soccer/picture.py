@@ -10,7 +10,6 @@ import numpy as np
 
 from sandbox.engine.setup import Segment
 from sandbox.picture.camera import Box, Camera
-from sandbox.picture.figures import KICKING
 from sandbox.picture.palette import mix
 from sandbox.picture.places import Ground, Group, Person, Shape, Stands, Stripes, Thing, goal
 from sandbox.picture.sheet import Sheet
@@ -82,7 +81,7 @@ class Picture(SideView[Parameters]):
         standing = [
             self._standing_at(mouth.distance, goal(*size, **COLOURS["goal"]) if mouth.present else []),
             self._standing_at(wall.distance, self._wall() if wall.present else []),
-            self._standing_at(0.0, [Person(-0.62, 1.82, COLOURS["kicker"], KICKING)]),
+            self._standing_at(0.0, [Person(-0.62, 1.82, COLOURS["kicker"], "kicking")]),
         ]
         return Place(Stands(**COLOURS["stands"]), ground, [*self._boards(), *standing])
 

@@ -10,7 +10,7 @@ import numpy as np
 from sandbox.picture.ball import Look, seams
 from sandbox.picture.camera import Box, Camera
 from sandbox.picture.depth import Eye
-from sandbox.picture.figures import STROKES
+from sandbox.picture.figures import pose
 from sandbox.picture.net_game import NetView
 from sandbox.picture.palette import scene_colours
 from sandbox.picture.places import COURT_WIDTH, Ground, Hall, Person, Planks, Stands
@@ -24,6 +24,7 @@ from .scene import Parameters
 COLOURS = scene_colours(__file__)
 COURT, TABLE = COLOURS["court"], COLOURS["table"]
 TABLE_WIDTH, TALL = 1.525, 1.85  # m: the table (ITTF law 2.1), and people
+STROKES = (("stroking", "serving"), ("looping", "smashing"))  # on a court and on a table, the usual one first
 LOOKS = [Look(ball["colour"], seams(ball["seam"])) for ball in (COURT["ball"], TABLE["ball"])]
 
 
@@ -55,10 +56,11 @@ class Picture(NetView[Parameters]):
         court, net, release = self.parameters.court, self.parameters.net, self.parameters.release
         end, high, on_table = court.length, release.height + court.table, court.table > 0.0
         strokes = STROKES[on_table]
-        pose, (ahead, up) = min(strokes, key=lambda stroke: abs(high - stroke[1][1] * TALL))
+        stroke = min(strokes, key=lambda name: abs(high - pose(name).holds[1] * TALL))
+        ahead, up = pose(stroke).holds
         tall = min(TALL, max(1.6, high / up))
-        player = Person(release.place - ahead * tall, tall, COLOURS["player"], pose, up=max(0.0, high - up * tall))
-        other = Person(1.1 * end + 0.5, TALL, COLOURS["opponent"], strokes[0][0], z=0.5 * TABLE_WIDTH, facing=-1)
+        player = Person(release.place - ahead * tall, tall, COLOURS["player"], stroke, up=max(0.0, high - up * tall))
+        other = Person(1.1 * end + 0.5, TALL, COLOURS["opponent"], strokes[0], z=0.5 * TABLE_WIDTH, facing=-1)
         hung = 0.5 * end, net.height - net.depth, net.height
         if on_table:
             ground = Ground(Planks(TABLE["wood"]), TABLE["soil"], edges=[(TABLE["edge"], 4)], far=0.5)

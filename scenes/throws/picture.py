@@ -6,7 +6,6 @@ from functools import cached_property
 
 from sandbox.picture.ball import Look
 from sandbox.picture.camera import Box
-from sandbox.picture.figures import REACHING
 from sandbox.picture.palette import scene_colours
 from sandbox.picture.places import Ground, Person, Post, Shape, Stands, Stripes
 from sandbox.picture.side import Length, Place, SideView
@@ -46,7 +45,7 @@ class Picture(SideView[Parameters]):
         )
         board = Shape([(0.0, 0.0, 0.0), (0.11, 0.0, 0.0), (0.11, BOARD, 0.0), (0.0, BOARD, 0.0)], FIELD["board"])
         flag = Post([(record, 0.0, 0.0), (record, 0.9, 0.0)], 0.03, FIELD["mark"])
-        athlete = Person(release.place - 0.165 * tall, tall, COLOURS["athlete"], REACHING)
+        athlete = Person(release.place - 0.165 * tall, tall, COLOURS["athlete"], "reaching")
         return Place(Stands(**COLOURS["stands"]), ground, [flag, board, athlete])
 
     def lengths(self) -> list[Length]:

@@ -6,7 +6,6 @@ from functools import cached_property
 
 from sandbox.picture.ball import Look, seams
 from sandbox.picture.camera import Box
-from sandbox.picture.figures import REACHING
 from sandbox.picture.net_game import NetView
 from sandbox.picture.palette import scene_colours
 from sandbox.picture.places import Ground, Hall, Net, Person, Planks, Post, Shape
@@ -49,5 +48,7 @@ class Picture(NetView[Parameters]):
         mesh = Net([((net, low, 0.0), (0.0, top - low, 0.0), (0.0, 0.0, WIDE))], NET["mesh"], 0.6)
         band = Shape([(net, top - down, z) for down, z in ((0, 0), (0.07, 0), (0.07, WIDE), (0, WIDE))], NET["band"])
         players = [Person(net + x, 1.9, COLOURS["players"], z=z, facing=-1) for x, z in reversed(PLAYERS)]
-        striker = Person(launch.place - 0.2 * tall, tall, COLOURS["players"], REACHING, up=launch.height - 1.27 * tall)
+        striker = Person(
+            launch.place - 0.2 * tall, tall, COLOURS["players"], "reaching", up=launch.height - 1.27 * tall
+        )
         return Place(Hall(**COLOURS["hall"]), ground, [posts[0], mesh, band, *players, striker, posts[1]])

@@ -10,7 +10,7 @@ from typing import Protocol
 import numpy as np
 
 from sandbox.picture.depth import Eye
-from sandbox.picture.figures import STANDING, Stroke, draw_figure
+from sandbox.picture.figures import draw_figure
 from sandbox.picture.painter import Painter
 from sandbox.picture.palette import Colour, palette
 
@@ -91,7 +91,7 @@ class Person:
     x: float
     tall: float
     colours: Mapping[str, Colour] = field(default_factory=PERSON.copy)
-    pose: Sequence[Stroke] = STANDING
+    pose: str = "standing"  # of assets/figures.toml
     z: float = 0.0
     up: float = 0.0
     facing: int = 1
