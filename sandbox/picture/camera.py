@@ -59,6 +59,14 @@ class Camera:
             self.at[1] - (py - self.anchor[1]) / (self.scale * self.stretch),
         )
 
+    def points(self, points: np.ndarray) -> np.ndarray:
+        """From above: points in m on the ground, shape (n, 2), or over it, shape (n, 3), to points in px."""
+        return self.pixels(np.asarray(points)[:, [0, -1]])
+
+    def scale_at(self, points: np.ndarray) -> float:
+        """From above: the same everywhere."""
+        return self.scale
+
     @classmethod
     def fit(cls, box: Box, area: Area, stretch: float = 1.0) -> Camera:
         """The largest scale at which the box is inside the area: in its middle along, standing on its floor."""

@@ -53,6 +53,10 @@ class Eye:
         share = self.share(z)
         return self.centre + (px - self.centre) * share, self.level + (py - self.level) * share
 
+    def scale_at(self, points: np.ndarray) -> float:
+        """How large things at these points (m, shape (n, 3)) are, in px/m."""
+        return self.camera.scale * float(np.mean([self.share(z) for *_, z in points.tolist()]))
+
     def points(self, points: np.ndarray) -> np.ndarray:
         """World points in m, shape (n, 3), to picture points in px, shape (n, 2)."""
         points = np.asarray(points, dtype=float)

@@ -160,13 +160,16 @@ class SideView(View[P]):
         foot = min(place.ground.foot(eye), self.size[1])
         place.scenery.draw(painter.surface, foot, self.moved(camera))
         place.ground.draw(painter, eye)
-        for thing in place.things:
-            thing.draw(painter, eye, near=False)
+        self.draw_things(painter, eye, near=False)
 
     def before(self, painter: Painter, camera: Camera, t: float) -> None:
-        eye = self.eye(camera)
+        self.draw_things(painter, self.eye(camera), near=True)
+
+    def draw_things(self, painter: Painter, eye: Eye, near: bool) -> None:
+        """Those of the place that are before the ball, or those that are not."""
         for thing in self.place.things:
-            thing.draw(painter, eye, near=True)
+            if thing.near == near:
+                thing.draw(painter, eye)
 
     @cached_property
     def home(self) -> Camera:

@@ -7,7 +7,7 @@ from functools import cached_property
 from sandbox.picture.ball import Look, seams
 from sandbox.picture.camera import Box, Camera
 from sandbox.picture.palette import scene_colours
-from sandbox.picture.places import Ground, Group, Landscape, Person, Post, Shape, Stripes
+from sandbox.picture.places import Ground, Landscape, Person, Post, Shape, Size, Stripes
 from sandbox.picture.sheet import Sheet
 from sandbox.picture.side import Length, Place, SideView
 from sandbox.sport.amounts import twice
@@ -48,10 +48,10 @@ class Picture(SideView[Parameters]):
             areas=[(dirt, FIELD["infield"]), (track, FIELD["track"])],
         )
         corners = [(foot, 0.0, 0.0), (foot, high, 0.0), (foot, high, DEEP), (foot, 0.0, DEEP)]
-        batter = Group(0.0, [Person(0.0, 1.85, COLOURS["batter"], "batting")], 1.85, 30)
+        batter = Size(0.0, 1.85, 30).of(Person(0.0, 1.85, COLOURS["batter"], "batting"))
         pole = Post([(foot, 0.0, 0.0), (foot, high + POLE, 0.0)], 0.1, COLOURS["fence"]["pole"])
         return Place(
-            Landscape(**COLOURS["landscape"]), ground, [Shape(corners, COLOURS["fence"]["wall"]), pole, batter]
+            Landscape(**COLOURS["landscape"]), ground, [Shape(corners, COLOURS["fence"]["wall"]), pole, *batter]
         )
 
     def annotate(self, sheet: Sheet, camera: Camera) -> None:

@@ -16,7 +16,7 @@ from sandbox.picture.lettering import Labels
 from sandbox.picture.painter import Painter, around_corners
 from sandbox.picture.palette import mix, palette, scene_colours
 from sandbox.picture.path import Mark, draw_trace, mark_impacts
-from sandbox.picture.places import Ground, Group, Hall, Line, Person, Planks
+from sandbox.picture.places import Ground, Hall, Line, Person, Planks, Size
 from sandbox.picture.sheet import Entry, Sheet
 from sandbox.picture.side import Length, Place, SideView
 from sandbox.sport.amounts import metres, roughly, times
@@ -87,11 +87,10 @@ class Picture(SideView[Parameters]):
     def net(self) -> Net:
         return Net(self.run, self.parameters)
 
-    @cached_property
-    def hoop(self) -> Group:
-        """Ring, board and stand."""
-        height = max(self.ring[1], self.parameters.backboard.top)
-        return Group(self.ring[0], [*stand(self.parameters), *hoop(self.parameters)], height, LEAST_HEIGHT)
+    @property
+    def hoop_size(self) -> Size:
+        """Of ring, board and stand."""
+        return Size(self.ring[0], max(self.ring[1], self.parameters.backboard.top), LEAST_HEIGHT)
 
     @property
     def thrower(self) -> list[Person]:
@@ -118,17 +117,21 @@ class Picture(SideView[Parameters]):
             line=(FLOOR["line"], LINE),
             far=0.44,
         )
-        return Place(Hall(**COLOURS["hall"]), ground, [self.hoop, *self.thrower])
+        return Place(
+            Hall(**COLOURS["hall"]),
+            ground,
+            [*self.hoop_size.of(*stand(self.parameters), *hoop(self.parameters)), *self.thrower],
+        )
 
     def behind(self, painter: Painter, camera: Camera, t: float) -> None:
-        self.net.draw(painter, self.hoop.eye(self.eye(camera)), False, t)
+        self.net.draw(painter, self.hoop_size.eye(self.eye(camera)), False, t)
 
     def before(self, painter: Painter, camera: Camera, t: float) -> None:
-        self.net.draw(painter, self.hoop.eye(self.eye(camera)), True, t)
+        self.net.draw(painter, self.hoop_size.eye(self.eye(camera)), True, t)
         super().before(painter, camera, t)
 
     def remarks(self, camera: Camera) -> list[str]:
-        distance, factor = self.ring[0], self.hoop.enlarged(self.eye(camera))
+        distance, factor = self.ring[0], self.hoop_size.factor(self.eye(camera))
         if not 0 < camera.pixel(distance, 0)[0] < self.size[0]:
             return [f"the ring is {roughly(distance)} away"]
         return [f"ring and board drawn {times(factor)} their size"] if factor > 1 else []
@@ -214,7 +217,7 @@ class Picture(SideView[Parameters]):
         corners = around_corners(sheet.surface, self.lens, 10 * self.unit)
         sheet.surface.fill(COLOURS["lens"], self.lens)
         sheet.surface.set_clip(self.lens)
-        self.hoop.draw(painter, self.eye(near), False)
+        self.draw_things(painter, self.eye(near), near=False)
         self.behind(painter, near, moment)
         outside, sheet.labels = sheet.labels, Labels(self.lens.inflate(-2 * sheet.gap, -2 * sheet.gap), sheet.gap)
         if t is None:

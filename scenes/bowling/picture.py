@@ -11,7 +11,7 @@ from sandbox.picture.ball import Look, Mark, near
 from sandbox.picture.camera import Box
 from sandbox.picture.long import LongView
 from sandbox.picture.palette import Colour, scene_colours
-from sandbox.picture.places import plan
+from sandbox.picture.places import Shape, plan
 
 from .scene import HEAD, KICKBACK, LANE, PIT, ROW, SPOTS, Parameters
 
@@ -50,12 +50,12 @@ class Picture(LongView[Parameters]):
             plan.Ground(Box(-0.7, -KICKBACK, end, KICKBACK), COLOURS["gutter"]),
             plan.Stripes(lane, COLOURS["lane"], BOARD, -LANE, along=True),
             plan.Stripes(lane._replace(left=HEAD - 0.3), COLOURS["deck"], BOARD, -LANE, along=True),
-            *(plan.Shape(part, COLOURS["oil"], dim) for part, dim in zip(oiled, slick, strict=True)),
+            *(Shape(part, COLOURS["oil"], dim) for part, dim in zip(oiled, slick, strict=True)),
             *(plan.Worn((x, 0.2 * LANE), 1.6, 0.5 * LANE, COLOURS["lamp"], 0.3) for x in (1.5, 5.5, 9.5, 13.5)),
             plan.Worn((HEAD + ROW, 0.0), 0.7, 0.45, COLOURS["lamp"], 0.35),
             plan.Ground(Box(end, -KICKBACK, end + 1.0, KICKBACK), COLOURS["pit"]),
             plan.Line(((0.0, -LANE), (0.0, LANE)), 0.03, COLOURS["mark"]),
-            *(plan.Shape(((x, y - 0.02), (x + 0.15, y), (x, y + 0.02)), COLOURS["mark"]) for x, y in arrows),
+            *(Shape(((x, y - 0.02), (x + 0.15, y), (x, y + 0.02)), COLOURS["mark"]) for x, y in arrows),
             *(plan.Spot(spot, 0.028, COLOURS["spot"]) for spot in SPOTS.values()),
         )
 

@@ -17,7 +17,8 @@ from sandbox.picture.ball import Look, Mark, near
 from sandbox.picture.camera import Camera
 from sandbox.picture.painter import Painter
 from sandbox.picture.palette import Colour, palette, scene_colours
-from sandbox.picture.places.plan import Plan, unit_of
+from sandbox.picture.places.plan import Plan
+from sandbox.picture.places.things import unit_of
 from sandbox.picture.sheet import Sheet, nice
 from sandbox.sport.amounts import signed
 

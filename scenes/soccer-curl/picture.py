@@ -12,6 +12,7 @@ from sandbox.picture.camera import Box, Camera
 from sandbox.picture.painter import Painter
 from sandbox.picture.palette import mix, palette, scene_colours
 from sandbox.picture.path import chip
+from sandbox.picture.places import goal as goal_at
 from sandbox.picture.places import plan
 from sandbox.picture.sheet import Entry, Sheet
 from sandbox.sport.amounts import metres, times
@@ -24,8 +25,8 @@ WALL, KICKER, KEEPER = (plan.Kit(shirt=shirt, **COLOURS["person"]) for shirt in 
 
 #: Boards are so thick and so long, in m; behind them there is nothing to see, however far the camera looks.
 BOARD, BOARD_LENGTH, FAR = 0.4, 6.0, 1000.0
-#: The net's mesh, how far behind the ball the kicker stands, and room for him and beside each post, in m.
-MESH, BEHIND, ROOM, ASIDE = 0.12, 0.75, 1.3, 0.4
+#: Height of the goal, how far behind the ball the kicker stands, and room for him and beside each post, in m.
+HEIGHT, BEHIND, ROOM, ASIDE = 2.44, 0.75, 1.3, 0.4
 #: The poster follows a ball that was stopped for so long, in s.
 AFTERMATH = 0.6
 #: The time between balls is chosen for the flight, or for this share of the whole path.
@@ -85,8 +86,16 @@ class Picture(AboveView[Parameters]):
             *(plan.Ground(everywhere._replace(**edge), COLOURS["beyond"]) for edge in sides),
             *(plan.Stripes(box, COLOURS["boards"], BOARD_LENGTH, -BOARDS_ASIDE, along=True) for box in boards),
             plan.Worn((end - 0.3, middle), 1.2, 0.42 * goal.width, COLOURS["worn"], 0.4),
-            plan.Net(Box(end, middle - aside, end + goal.depth, middle + aside), MESH, COLOURS["net"]),
-            plan.Bar((end, middle - aside), (end, middle + aside), goal.post_radius, COLOURS["post"]),
+            *goal_at(
+                end,
+                goal.depth,
+                HEIGHT,
+                goal.width,
+                goal.post_radius,
+                **COLOURS["goal"],
+                side=middle - aside,
+                opacity=0.4,
+            ),
             *(plan.Person((wall.distance, y), 180.0, WALL, wall.width / count) for y in players),
             plan.Person((0.0, 0.0), self.parameters.launch.angle, KICKER, behind=BEHIND),
         )

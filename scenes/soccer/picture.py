@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from functools import cached_property
 from itertools import pairwise
 
@@ -11,7 +10,7 @@ import numpy as np
 from sandbox.engine.setup import Segment
 from sandbox.picture.camera import Box, Camera
 from sandbox.picture.palette import mix
-from sandbox.picture.places import Ground, Group, Person, Shape, Stands, Stripes, Thing, goal
+from sandbox.picture.places import Ground, Person, Shape, Size, Stands, Stripes, goal
 from sandbox.picture.sheet import Sheet
 from sandbox.picture.side import Length, Place, SideView
 from sandbox.sport.amounts import metres, roughly, times
@@ -79,9 +78,9 @@ class Picture(SideView[Parameters]):
         )
         size = mouth.distance, mouth.depth, mouth.height, GOAL_WIDTH, mouth.post_radius
         standing = [
-            self._standing_at(mouth.distance, goal(*size, **COLOURS["goal"]) if mouth.present else []),
-            self._standing_at(wall.distance, self._wall() if wall.present else []),
-            self._standing_at(0.0, [Person(-0.62, 1.82, COLOURS["kicker"], "kicking")]),
+            *_size_at(mouth.distance).of(*(goal(*size, **COLOURS["goal"]) if mouth.present else ())),
+            *_size_at(wall.distance).of(*(self._wall() if wall.present else ())),
+            *_size_at(0.0).of(Person(-0.62, 1.82, COLOURS["kicker"], "kicking")),
         ]
         return Place(Stands(**COLOURS["stands"]), ground, [*self._boards(), *standing])
 
@@ -96,11 +95,6 @@ class Picture(SideView[Parameters]):
                 corners = [(x, low, near), (x, low, far), (x, top, far), (x, top, near)]
                 found.append(Shape(corners, mix(BOARDS[i * 3 % 4], PITCH["far"], 0.25)))
         return found
-
-    @staticmethod
-    def _standing_at(x: float, things: Sequence[Thing]) -> Group:
-        """Things that can be seen in the whole length of a pitch, too."""
-        return Group(x, things, GOAL_HEIGHT, LEAST_HEIGHT)
 
     def _wall(self) -> list[Person]:
         """The wall of players, the nearest in the plane of play, the farther ones darker."""
@@ -124,7 +118,7 @@ class Picture(SideView[Parameters]):
         wall, goal, distance = self.parameters.wall.present, self.parameters.goal.present, self.parameters.goal.distance
         if not 0 < camera.pixel(distance, 0)[0] < self.size[0]:
             return [f"the goal is {roughly(distance)} away"]
-        factor = self._standing_at(distance, ()).enlarged(self.eye(camera))
+        factor = _size_at(distance).factor(self.eye(camera))
         who = "players and goal" if wall and goal else "goal" if goal else "players"
         return [f"{who} drawn {times(factor)} {'its' if who == 'goal' else 'their'} size"] if factor > 1 else []
 
@@ -147,3 +141,8 @@ class Picture(SideView[Parameters]):
             elif low > goal.height:
                 bar = goal.height + 2 * goal.post_radius
                 self.gap(sheet, camera, goal.distance, bar, low, "over the bar")
+
+
+def _size_at(x: float) -> Size:
+    """Of things that can be seen in the whole length of a pitch, too."""
+    return Size(x, GOAL_HEIGHT, LEAST_HEIGHT)

@@ -7,7 +7,7 @@ import pytest
 import sandbox
 from sandbox.picture.camera import Box, Camera
 from sandbox.picture.painter import Painter, blank
-from sandbox.picture.places import plan
+from sandbox.picture.places import Shape, goal, plan
 from sandbox.picture.places.table import cushions
 from scenes.billiards.place import place
 
@@ -23,10 +23,9 @@ PLACE: plan.Plan = (
     plan.Line(plan.arc((2.0, 1.0), 2.5, 20, 300), 0.1, BLACK),
     plan.Spot((5.0, -2.0), 0.4, BLACK),
     plan.Spot((5.0, -2.0), 1.4, BLACK, ring=0.1),
-    plan.Shape(((0.0, 0.0), (3.0, 0.5), (1.0, 3.0)), RED),
+    Shape(((0.0, 0.0), (3.0, 0.5), (1.0, 3.0)), RED),
     plan.Worn((-3.0, -1.0), 2.0, 1.0, BLACK, 0.5),
-    plan.Net(Box(6.0, -3.0, 8.0, 3.0), 0.2, WHITE),
-    plan.Bar((6.0, -3.0), (6.0, 3.0), 0.06, WHITE),
+    *goal(6.0, 2.0, 2.4, 5.88, 0.06, WHITE, WHITE, WHITE, side=-3.0),
     plan.Person((-5.0, 2.0), 200.0, KIT, behind=0.5, arms=0.7),
 )
 
@@ -35,7 +34,7 @@ def pixels(surface: pygame.Surface) -> np.ndarray:
     return pygame.surfarray.array3d(surface).astype(int)
 
 
-def on(part: plan.Part, scale: float = 20.0) -> np.ndarray:
+def on(part, scale: float = 20.0) -> np.ndarray:
     """How much a part changes the middle of a picture."""
     surface = blank(SIZE)
     surface.fill(GROUND)

@@ -3,12 +3,11 @@
 from sandbox.picture.places.ground import COURT_WIDTH, Ground, Line, Planks, Stripes, tennis_court
 from sandbox.picture.places.landscape import Landscape
 from sandbox.picture.places.scenery import Hall, Scenery, Stands
-from sandbox.picture.places.things import Group, Net, Person, Post, Shape, Thing, goal, net_across, standing_table
+from sandbox.picture.places.things import Net, Person, Post, Shape, Size, Thing, goal, net_across, standing_table
 
 __all__ = [
     "COURT_WIDTH",
     "Ground",
-    "Group",
     "Hall",
     "Landscape",
     "Line",
@@ -18,6 +17,7 @@ __all__ = [
     "Post",
     "Scenery",
     "Shape",
+    "Size",
     "Stands",
     "Stripes",
     "Thing",

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 from itertools import product
 from math import ceil, cos, floor, log2, radians, sin
-from typing import NamedTuple, Protocol
+from typing import Any, NamedTuple
 
 import numpy as np
 import pygame
@@ -17,25 +17,16 @@ import pygame
 from sandbox.picture.camera import Box, Camera
 from sandbox.picture.figures import draw_from_above
 from sandbox.picture.painter import Painter, Point, blank
-from sandbox.picture.palette import Colour, palette
-from sandbox.picture.sheet import rows_of
+from sandbox.picture.palette import Colour
+from sandbox.picture.places.things import unit_of
 
-SHADOW = palette("card")["shadow"]
-
-#: What would be smaller is drawn so large, px on 720 rows: width of a line, a bar, a stripe, a mesh, a person.
-LEAST_LINE, LEAST_BAR, LEAST_STRIPE, LEAST_MESH, LEAST_PERSON = 1.3, 2.6, 10.0, 5.0, 9.0
+#: What would be smaller is drawn so large, px on 720 rows: width of a line, a stripe, a person.
+LEAST_LINE, LEAST_STRIPE, LEAST_PERSON = 1.3, 10.0, 9.0
 #: Shoulders are so broad, in m.
 BREADTH = 0.5
 
-
-class Part(Protocol):
-    """What lies or stands in a place: a frozen dataclass, so that what was drawn can be kept."""
-
-    def draw(self, painter: Painter, camera: Camera) -> None:
-        """As the camera sees it."""
-
-
-Plan = tuple[Part, ...]
+#: Parts with ``draw(painter, camera)``: those below, and things that are seen from the side, too.
+Plan = tuple[Any, ...]
 
 
 @lru_cache(maxsize=8)
@@ -57,11 +48,6 @@ def draw_moving(surface: pygame.Surface, plan: Plan, camera: Camera) -> None:
         at = column * width, row * height
         tile = drawn(plan, Camera((0.0, 0.0), (-at[0], -at[1]), camera.scale), size)
         surface.blit(tile, (at[0] - left, at[1] - top))
-
-
-def unit_of(painter: Painter) -> float:
-    """What 1 px is on a picture of 720 rows."""
-    return rows_of(painter.surface.get_size()) / 720
 
 
 def on_pixels(camera: Camera, box: Box) -> pygame.Rect:
@@ -143,18 +129,6 @@ class Spot:
 
 
 @dataclass(frozen=True)
-class Shape:
-    """An outline filled with one colour."""
-
-    points: tuple[Point, ...]
-    colour: Colour
-    opacity: float = 1.0
-
-    def draw(self, painter: Painter, camera: Camera) -> None:
-        painter.polygon(camera.pixels(np.array(self.points)), self.colour, self.opacity)
-
-
-@dataclass(frozen=True)
 class Worn:
     """A place that fades into its ground: where many feet have been, or a light falls."""
 
@@ -176,46 +150,6 @@ def arc(centre: Point, radius: float, start: float, end: float) -> tuple[Point, 
 
 
 # ---------------------------------------------------------------------------------------------------------- what stands
-
-
-@dataclass(frozen=True)
-class Net:
-    """A net over a rectangle, with its shadow."""
-
-    box: Box
-    mesh: float
-    colour: Colour
-
-    def draw(self, painter: Painter, camera: Camera) -> None:
-        (left, bottom, right, top), unit = self.box, unit_of(painter)
-        mesh = max(self.mesh, LEAST_MESH * unit / camera.scale)
-        along = np.linspace(left, right, max(2, round((right - left) / mesh) + 1))
-        across = np.linspace(bottom, top, max(2, round((top - bottom) / mesh) + 1))
-        strings = [[camera.pixel(x, bottom), camera.pixel(x, top)] for x in along]
-        strings += [[camera.pixel(left, y), camera.pixel(right, y)] for y in across]
-        edge = [camera.pixel(*point) for point in ((left, bottom), (right, bottom), (right, top), (left, top))]
-        thin = max(0.6, 0.8 * unit)
-        painter.polygon(edge, SHADOW, 0.12)
-        painter.lines(strings, thin, self.colour, 0.42)
-        painter.lines([edge], 1.6 * thin, self.colour, 0.8)
-
-
-@dataclass(frozen=True)
-class Bar:
-    """A bar over the ground between two posts."""
-
-    a: Point
-    b: Point
-    radius: float
-    colour: Colour
-
-    def draw(self, painter: Painter, camera: Camera) -> None:
-        unit, ends = unit_of(painter), [camera.pixel(*self.a), camera.pixel(*self.b)]
-        width = max(LEAST_BAR * unit, 2 * self.radius * camera.scale)
-        painter.line(ends, width + 1.5 * unit, SHADOW, 0.35)
-        painter.line(ends, width, self.colour)
-        for end in ends:
-            painter.disc(end, 0.5 * width + 1.6 * unit, self.colour)
 
 
 class Kit(NamedTuple):

@@ -7,21 +7,22 @@ NHL rule 1.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from itertools import product
+from itertools import chain, product
 from typing import Any
 
 import numpy as np
 
 from sandbox.picture.camera import Box
-from sandbox.picture.places.plan import Bar, Ground, Line, Net, Plan, Point, Shape, Spot, Worn, arc
+from sandbox.picture.places.plan import Ground, Line, Plan, Point, Spot, Worn, arc
+from sandbox.picture.places.things import Shape, goal
 
 #: From the middle to the blue lines and to the spots of the neutral zone; from the goal lines to the spots of the ends;
 #: across to all of them; radii of circles, creases and spots; widths of the wide and the thin lines; depth of a goal.
 BLUE, NEUTRAL, END, ASIDE, RING, CREASE = 7.62, 6.1, 6.1, 6.706, 4.572, 1.83
 SPOT, WIDE, THIN, DEPTH = 0.3, 0.3, 0.05, 1.0
-#: How thick the boards are, as a share of the rink's width; how far the hall goes on; a post's radius; a net's mesh;
+#: How thick the boards are, as a share of the rink's width; how far the hall goes on; a post's radius; a goal's height;
 #: between the holes of an air table.
-BOARDS, FAR, POST, MESH, HOLES = 0.025, 200.0, 0.03, 0.1, 0.075
+BOARDS, FAR, POST, HEIGHT, HOLES = 0.025, 200.0, 0.03, 1.22, 0.075
 
 BOTH = (-1, 1)
 
@@ -42,9 +43,9 @@ def _across(around: Sequence[Point], x: float) -> tuple[Point, Point]:
 
 def ice_rink(around: Sequence[Point], line: float, goal_width: float, colours: Mapping[str, Any]) -> Plan:
     """A rink inside an outline, with its goals on lines ``line`` m from the middle."""
-    red, blue, half = colours["red"], colours["blue"], 0.5 * goal_width
+    (red, blue, post, net), half = (colours[part] for part in ("red", "blue", "post", "net")), 0.5 * goal_width
+    ends = (-line, -DEPTH), (line, DEPTH)
     end, neutral = ([(sx * x, sy * ASIDE) for sx, sy in product(BOTH, BOTH)] for x in (line - END, NEUTRAL))
-    nets = [Box(line, -half, line + DEPTH, half), Box(-line - DEPTH, -half, -line, half)]
     creases = [arc((side * line, 0.0), CREASE, 90.0 * side, 90.0 * side + 180.0) for side in BOTH]
     return (
         *_walls(around, colours["hall"], colours["boards"], colours["ice"]),
@@ -57,8 +58,7 @@ def ice_rink(around: Sequence[Point], line: float, goal_width: float, colours: M
         *(Spot(spot, RING, red, THIN) for spot in end),
         *(Spot(spot, SPOT, red) for spot in (*end, *neutral)),
         Line((*around, around[0]), 0.15, colours["kick"]),
-        *(Net(net, MESH, colours["net"]) for net in nets),
-        *(Bar((x, -half), (x, half), POST, colours["post"]) for x in (-line, line)),
+        *chain(*(goal(x, deep, HEIGHT, goal_width, POST, post, post, net, -half, 0.5) for x, deep in ends)),
     )
 
 

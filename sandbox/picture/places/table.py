@@ -17,7 +17,8 @@ from sandbox.engine.setup import Segment, Surface
 from sandbox.picture.camera import Box, Camera
 from sandbox.picture.painter import Painter, Point, around_corners, blank, from_colours
 from sandbox.picture.palette import Colour, mix
-from sandbox.picture.places.plan import Line, Shape, on_pixels
+from sandbox.picture.places.plan import Line, on_pixels
+from sandbox.picture.places.things import Shape
 
 #: Light is computed at every so many px and smoothed between.
 COARSE = 4

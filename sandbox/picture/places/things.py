@@ -1,32 +1,56 @@
-"""Things that stand on the ground: nets, posts, people, a goal. Each says what of it is before the ball."""
+"""Things that stand on the ground: nets, posts, people, a goal. Each is described once and seen by an ``Eye``: from the
+side, or from above."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from math import dist
-from typing import Protocol
+from typing import Any, ClassVar, Protocol
 
 import numpy as np
 
-from sandbox.picture.depth import Eye
+from sandbox.picture.depth import Eye as SideEye
 from sandbox.picture.figures import draw_figure
 from sandbox.picture.painter import Painter
 from sandbox.picture.palette import Colour, palette
+from sandbox.picture.sheet import rows_of
 
 PERSON, SHADOW = palette("person"), palette("card")["shadow"]
 
 #: The least that is drawn of a net's mesh and of a post's width, px on 720 rows.
 LEAST_MESH, LEAST_POST = 4.0, 1.8
+#: How dark a net makes what is behind it, as a share of its opacity.
+SHADED = 0.3
 
-#: A point in m: along the plane of play, up, and behind it.
-Point3 = tuple[float, float, float]
+#: A point in m: along the plane of play, up, and behind it or, from above, to the left; two numbers are on the ground.
+Point3 = tuple[float, ...]
+
+
+class Eye(Protocol):
+    """Sees points of the world: ``sandbox.picture.depth.Eye`` from the side, a camera from above."""
+
+    def points(self, points: np.ndarray) -> np.ndarray:
+        """Where in px, shape (n, 2), points in m of shape (n, 3) are, or of shape (n, 2) on the ground."""
+
+    def scale_at(self, points: np.ndarray) -> float:
+        """How large things at these points are, in px/m."""
 
 
 class Thing(Protocol):
-    """Draws what of it is before the ball (``near``), or what is not."""
+    """A frozen dataclass, so that what was drawn can be kept."""
 
-    def draw(self, painter: Painter, eye: Eye, near: bool) -> None: ...
+    @property
+    def near(self) -> bool:
+        """Whether it is before the ball, from the side."""
+
+    def draw(self, painter: Painter, eye: Any) -> None:
+        """As the eye sees it."""
+
+
+def unit_of(painter: Painter) -> float:
+    """What 1 px is on a picture of 720 rows."""
+    return rows_of(painter.surface.get_size()) / 720
 
 
 @dataclass(frozen=True)
@@ -39,19 +63,21 @@ class Net:
     mesh: float = 0.12
     near: bool = False
 
-    def draw(self, painter: Painter, eye: Eye, near: bool) -> None:
-        if near != self.near:
-            return
-        threads = []
+    def draw(self, painter: Painter, eye: Eye) -> None:
+        threads, edges, thin = [], [], max(0.6, 0.8 * unit_of(painter))
         for plane in self.planes:
             corner, one, other = (np.array(vector, float) for vector in plane)
+            corners = eye.points(np.array([corner, corner + one, corner + one + other, corner + other]))
+            painter.polygon(corners, SHADOW, 0.0 if self.near else SHADED * self.opacity)
+            edges.append(corners[[0, 1, 2, 3, 0]])
             for along, across in ((one, other), (other, one)):
-                most = dist(*eye.points(np.array([corner, corner + across]))) / (LEAST_MESH * eye.unit)
+                most = dist(*eye.points(np.array([corner, corner + across]))) / (LEAST_MESH * unit_of(painter))
                 count = 1 + max(1, round(min(most, float(np.linalg.norm(across)) / self.mesh)))
                 starts = [corner + share * across for share in np.linspace(0, 1, count)]
                 threads += [(start, start + along) for start in starts]
         lines = eye.points(np.reshape(threads, (-1, 3))).reshape(-1, 2, 2)
-        painter.lines(lines, max(0.6, 0.8 * eye.unit), self.colour, self.opacity)
+        painter.lines(lines, thin, self.colour, self.opacity)
+        painter.lines(edges, 1.6 * thin, self.colour, min(1.0, 1.6 * self.opacity))
 
 
 @dataclass(frozen=True)
@@ -63,11 +89,10 @@ class Post:
     colour: Colour
     near: bool = False
 
-    def draw(self, painter: Painter, eye: Eye, near: bool) -> None:
-        if near == self.near:
-            share = float(np.mean([eye.share(z) for *_, z in self.points]))
-            width = max(LEAST_POST * eye.unit, 2 * self.radius * eye.camera.scale * share)
-            painter.line(eye.points(np.array(self.points)), width, self.colour)
+    def draw(self, painter: Painter, eye: Eye) -> None:
+        points = np.array(self.points)
+        width = max(LEAST_POST * unit_of(painter), 2 * self.radius * eye.scale_at(points))
+        painter.line(eye.points(points), width, self.colour)
 
 
 @dataclass(frozen=True)
@@ -79,9 +104,8 @@ class Shape:
     opacity: float = 1.0
     near: bool = False
 
-    def draw(self, painter: Painter, eye: Eye, near: bool) -> None:
-        if near == self.near:
-            painter.polygon(eye.points(np.array(self.corners)), self.colour, self.opacity)
+    def draw(self, painter: Painter, eye: Eye) -> None:
+        painter.polygon(eye.points(np.array(self.corners)), self.colour, self.opacity)
 
 
 @dataclass(frozen=True)
@@ -95,55 +119,73 @@ class Person:
     z: float = 0.0
     up: float = 0.0
     facing: int = 1
+    near: ClassVar[bool] = False
 
-    def draw(self, painter: Painter, eye: Eye, near: bool) -> None:
-        if near:
-            return
+    def draw(self, painter: Painter, eye: SideEye) -> None:
         tall, ground = self.tall * eye.camera.scale * eye.share(self.z), eye.camera.at[1]
         painter.shadow(eye.point(self.x, ground, self.z), 0.24 * tall, 0.05 * tall, SHADOW, 0.42)
         draw_figure(painter, eye.point(self.x, ground + self.up, self.z), tall, self.pose, self.colours, self.facing)
 
 
 @dataclass(frozen=True)
-class Group:
-    """Things that stand at x (m), and are drawn larger where ``height`` m of them would be less than ``least`` px."""
+class Size:
+    """Things at x (m) are drawn larger where ``height`` m of them would be less than ``least`` px on 720 rows."""
 
     x: float
-    things: Sequence[Thing]
     height: float
     least: float
 
-    def enlarged(self, eye: Eye) -> float:
+    def factor(self, eye: SideEye) -> float:
         """How many times their size they are drawn."""
         return max(1.0, self.least * eye.unit / (self.height * eye.camera.scale))
 
-    def eye(self, eye: Eye) -> Eye:
+    def eye(self, eye: SideEye) -> SideEye:
         """Sees them so large."""
-        return eye.enlarged(self.x, self.enlarged(eye))
+        return eye.enlarged(self.x, self.factor(eye))
 
-    def draw(self, painter: Painter, eye: Eye, near: bool) -> None:
-        for thing in self.things:
-            thing.draw(painter, self.eye(eye), near)
+    def of(self, *things: Thing) -> list[Enlarged]:
+        """Things of this size."""
+        return [Enlarged(thing, self) for thing in things]
+
+
+@dataclass(frozen=True)
+class Enlarged:
+    """A thing that is drawn larger where it would be too small to see."""
+
+    thing: Thing
+    size: Size
+
+    @property
+    def near(self) -> bool:
+        return self.thing.near
+
+    def draw(self, painter: Painter, eye: SideEye) -> None:
+        self.thing.draw(painter, self.size.eye(eye))
 
 
 def goal(
-    front: float, depth: float, height: float, width: float, radius: float, post: Colour, shade: Colour, net: Colour
-) -> list[Thing]:
-    """A goal whose near post stands in the plane of play, seen from aside: its mouth at x = ``front``, lengths in m."""
-    bar, far, back = height + radius, width + 2 * radius, front + depth
-    behind = [
-        ((back, 0.0, 0.0), (0.0, bar, 0.0), (0.0, 0.0, far)),
-        ((front, bar, 0.0), (depth, 0.0, 0.0), (0.0, 0.0, far)),
-        ((front, 0.0, far), (depth, 0.0, 0.0), (0.0, bar, 0.0)),
-    ]
-    before = [((front, 0.0, 0.0), (depth, 0.0, 0.0), (0.0, bar, 0.0))]
-    return [
-        Net(behind, net, 0.20),
-        Post([(front, 0.0, far), (front, bar, far)], radius, shade),
-        Post([(front, bar, far), (front, bar, 0.0)], radius, shade),
-        Net(before, net, 0.42, near=True),
-        Post([(front, bar, 0.0), (front, 0.0, 0.0)], radius, post, near=True),
-    ]
+    front: float,
+    depth: float,
+    height: float,
+    width: float,
+    radius: float,
+    post: Colour,
+    shade: Colour,
+    net: Colour,
+    side: float = 0.0,
+    opacity: float = 0.20,
+) -> tuple[Thing, ...]:
+    """A goal with its mouth at x = ``front``, from z = ``side`` on, where its near post stands; lengths in m."""
+    bar, near, far, back = height + radius, side, side + width + 2 * radius, front + depth
+    along, up, across = (depth, 0.0, 0.0), (0.0, bar, 0.0), (0.0, 0.0, far - near)
+    behind = ((back, 0.0, near), up, across), ((front, bar, near), along, across), ((front, 0.0, far), along, up)
+    return (
+        Net(behind, net, opacity),
+        Post(((front, 0.0, far), (front, bar, far)), radius, shade),
+        Post(((front, bar, far), (front, bar, near)), radius, shade),
+        Net((((front, 0.0, near), along, up),), net, 0.42, near=True),
+        Post(((front, bar, near), (front, 0.0, near)), radius, post, near=True),
+    )
 
 
 def net_across(
