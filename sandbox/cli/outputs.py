@@ -81,7 +81,7 @@ def _strip(drawn: Drawn, path: Path) -> None:
 
 
 def _energy(drawn: Drawn, path: Path) -> None:
-    from sandbox.picture.energy import energy_chart
+    from sandbox.picture.energy_chart import energy_chart
     from sandbox.picture.frames import save_png
 
     save_png(energy_chart(drawn.run, drawn.size or USUAL), path)

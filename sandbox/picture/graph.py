@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from itertools import pairwise
-from math import ceil, floor, hypot, pi
+from math import ceil, hypot, pi
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -16,18 +16,19 @@ import pygame
 from sandbox.engine.bernstein import evaluate
 from sandbox.engine.run import Run
 from sandbox.engine.track import PRESSED
-from sandbox.picture.energy import course, hard_impacts
+from sandbox.picture.energy import course
 from sandbox.picture.palette import Colour, mix, palette
-from sandbox.picture.path import instants
+from sandbox.picture.path import hardest, instants
 from sandbox.picture.plain import view_of
-from sandbox.picture.sheet import CARD, Sheet, nice
+from sandbox.picture.plot import CHART, plotted
+from sandbox.picture.sheet import CARD, Sheet
 from sandbox.picture.side import SideView
 from sandbox.picture.vectors import Vectors, colour_of
 from sandbox.picture.view import View
-from sandbox.sport.amounts import ladder, signed
+from sandbox.sport.amounts import ladder
 from sandbox.units import convert
 
-GROUND, TRACES = palette("energy"), palette("trace")["colours"]
+TRACES = palette("trace")["colours"]
 #: A run is sampled at so many even times.
 PIECES = 300
 #: Panels next to each other; on a picture narrower than so many px per row, fewer.
@@ -155,68 +156,38 @@ def draw_panel(
     """
     unit, gap, letters, painter = sheet.unit, sheet.gap, sheet.lettering, sheet.painter
     panel = panel.shown
-    small = letters.height("small")
     known = np.concatenate([curve.values[np.isfinite(curve.values)] for curve in panel.curves] or [np.zeros(1)])
     low, high = min(0.0, float(known.min(initial=0.0))), float(known.max(initial=0.0))
     high = high if high - low > 1e-9 else low + 1.0
-    step = nice(max(1.9 * small / max(1, rect.height - 2 * small - 3 * gap), 0.15) * (high - low))
-    levels = [i * step for i in range(ceil(low / step - 1e-9), floor(high / step + 1e-9) + 1)]
-    if len(levels) == 1:  # a low panel: round numbers near its ends
-        levels = [_rounded(end) for end in (low, high)]
-    texts = [signed(f"{level:.10g}") for level in levels]
-    left = max(letters.width(text, "small") for text in ["0000", *texts]) + gap  # mostly the same: panels in line
-    plot = pygame.Rect(rect.left + left, rect.top + small + 2 * gap, rect.width - left - gap, 0)
-    plot.height = rect.bottom - small - 2 * gap - plot.top
-    thin = max(1, round(unit))
-
-    def row(value: float) -> float:
-        return plot.bottom - plot.height * (value - low) / (high - low)
-
-    for level, text in zip(levels, texts, strict=True):
-        sheet.surface.fill(GROUND["rule"], (plot.left, round(row(level)), plot.width, thin))
-        letters.write(sheet.surface, text, "small", (plot.left - gap, row(level)), CARD["quiet"], "midright")
-    every = nice(letters.width("00.0 s  ", "small") / plot.width * until)
-    for i in range(floor(until / every + 1e-9) + 1):
-        at = plot.left + plot.width * i * every / until
-        words = f"{i * every:g} s" if i == 0 else f"{i * every:g}"
-        letters.write(
-            sheet.surface, words, "small", (at, plot.bottom + gap / 2), CARD["quiet"], "midtop" if i else "topleft"
-        )
-    for hit in hits:
-        at = plot.left + plot.width * hit / until
-        painter.dashes([(at, plot.top), (at, plot.bottom)], thin, CARD["text"], 4 * unit, 4 * unit, 0.3)
+    title = letters.height("small") + 2 * gap
+    place = pygame.Rect(rect.left, rect.top + title, rect.width, rect.height - title)
+    plot = plotted(sheet, place, until, low, high)
+    plot.mark(sheet, hits)
     for curve in panel.curves:
-        rows = plot.bottom - plot.height * (curve.values - low) / (high - low)
-        points = np.column_stack([plot.left + plot.width * curve.times / until, rows])
-        gone = np.flatnonzero(~np.isfinite(rows))
-        for piece in np.split(points, gone):
+        points = np.column_stack([plot.column(curve.times), plot.row(curve.values)])
+        for piece in np.split(points, np.flatnonzero(~np.isfinite(curve.values))):
             line = piece[np.isfinite(piece[:, 1])]
             if len(line) > 1:
                 painter.line(line, max(1.2, 2.0 * unit), curve.colour, curve.opacity)
         if t is not None and len(curve.times):
-            value = float(np.interp(t, curve.times, rows))
+            value = float(np.interp(t, curve.times, curve.values))
             if np.isfinite(value):
-                painter.disc((plot.left + plot.width * min(t, until) / until, value), 4 * unit, curve.colour)
+                painter.disc((plot.column(min(t, until)), plot.row(value)), 4 * unit, curve.colour)
     if t is not None:
-        sheet.surface.fill(CARD["quiet"], (round(plot.left + plot.width * t / until), plot.top, thin, plot.height))
+        thin = max(1, round(unit))
+        sheet.surface.fill(CARD["quiet"], (round(plot.column(t)), plot.rect.top, thin, plot.rect.height))
     letters.write(sheet.surface, said, "small", rect.topright, CARD["text"], "topright", bold=True)
-    title = f"{panel.title} ({panel.unit})"
-    end = letters.write(sheet.surface, title, "small", (rect.left, rect.top), CARD["text"], bold=True).right
+    heading = f"{panel.title} ({panel.unit})"
+    end = letters.write(sheet.surface, heading, "small", (rect.left, rect.top), CARD["text"], bold=True).right
     for name, colour in {curve.name: curve.colour for curve in panel.curves if panel.named}.items():
         if end + 2 * gap + letters.width(name, "small") <= rect.right:
             end = letters.write(sheet.surface, name, "small", (end + 2 * gap, rect.top), colour).right
 
 
-def _rounded(value: float) -> float:
-    """The last number of a nice step before a value, at least half of it."""
-    step = nice(abs(value) / 2.5) if value else 1.0
-    return int(value / step) * step
-
-
 def graph(run: Run, size: tuple[int, int] = (1280, 720), others: Mapping[str, Run] | None = None) -> pygame.Surface:
     """All graphs of a run, with other runs by name laid over them."""
     sheet = Sheet(size, on_dark=True)
-    sheet.surface.fill(GROUND["ground"])
+    sheet.surface.fill(CHART["ground"])
     scene = run.scene
     title = "over time" if scene is None else scene.title
     runs = {title: run, **(others or {})}
@@ -232,7 +203,7 @@ def graph(run: Run, size: tuple[int, int] = (1280, 720), others: Mapping[str, Ru
     rows = ceil(len(panels) / columns)
     top = row + letters.height("small") + 3 * gap
     wide, tall = (sheet.frame.width + 3 * gap) / columns, (sheet.frame.bottom - top + 2 * gap) / rows
-    hits = hard_impacts(run, view_of(run, size).ball)
+    hits = [event.t for event in hardest(run, [view_of(run, size).ball])]
     for i, panel in enumerate(panels):
         rect = pygame.Rect(
             round(sheet.frame.left + i % columns * wide), round(top + i // columns * tall),

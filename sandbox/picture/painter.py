@@ -155,13 +155,12 @@ class Painter:
         self._shape(points, width, colour, opacity, _lines, max(1, round(width * OVERSAMPLING)), ends)
 
     def thread(self, points: Points, width: float, colour: Colour) -> None:
-        """A line of whole px, at least one, without round joints: quick enough for every frame."""
-        places, thick = np.asarray(points, dtype=float).tolist(), max(1, round(width))
-        if thick == 1 and len(places) > 1:
-            pygame.draw.aalines(self.surface, colour, False, places)
-        elif thick > 1:
-            for a, b in pairwise(places):
-                pygame.draw.aaline(self.surface, colour, a, b, thick)
+        """A line of whole px, at least one, without round joints: quick enough for every frame.
+
+        Piece by piece: what pygame's ``aalines`` draws is not the same each time.
+        """
+        for a, b in pairwise(np.asarray(points, dtype=float).tolist()):
+            pygame.draw.aaline(self.surface, colour, a, b, max(1, round(width)))
 
     def trace(self, points: Points, width: float, colour: Colour, rim: Colour, rim_width: float) -> None:
         """A line with a thin edge of another colour, so that it stands out on any ground."""

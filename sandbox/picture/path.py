@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator
 from dataclasses import dataclass
-from math import ceil, cos, dist, floor, hypot, pi, sin
+from math import ceil, cos, dist, floor, hypot, inf, pi, sin
 
 import numpy as np
 import pygame
@@ -30,20 +30,26 @@ BALLS = 14
 FARTHER = (25, 36, 50)
 
 
-#: s before an impact at which what jumps there is taken.
-BEFORE = 1e-9
+#: What jumps at an impact is taken so many s before it; at most at so many impacts.
+BEFORE, JUMPS = 1e-9, 200
 
 
-def instants(run: Run, pieces: int, names: Collection[str] = (), most: int = 200) -> np.ndarray:
+def hardest(
+    run: Run, names: Collection[str] = (), most: int = 12, share: float = 0.15, until: float = inf
+) -> list[Event]:
+    """The impacts of the balls with these ``names`` or of all, the hardest first: at most so many, and none at less
+    than a share of the hardest; only those before the time ``until`` in s."""
+    impacts = (event for event in run.events if event.kind == "impact" and BEFORE < event.t < until)
+    own = (event for event in impacts if not names or event.ball in names or event.partner in names)
+    hits = sorted(own, key=lambda event: -event.speed)[:most]
+    return [event for event in hits if event.speed >= share * hits[0].speed]
+
+
+def instants(run: Run, pieces: int, names: Collection[str] = ()) -> np.ndarray:
     """Times in s at which to sample a run: evenly spread over so many pieces and, so that what jumps at an impact does,
     just before and at the hardest impacts, of the balls with these ``names`` or of all."""
-    hits = sorted(
-        (-event.speed, event.t)
-        for event in run.events
-        if event.kind == "impact" and event.t > BEFORE and (not names or {event.ball, event.partner} & set(names))
-    )
-    jumps = [t for _, hit in hits[:most] for t in (hit - BEFORE, hit)]
-    return np.union1d(np.linspace(0.0, run.duration, pieces + 1), jumps)
+    hits = (event.t for event in hardest(run, names, JUMPS, 0.0))
+    return np.union1d(np.linspace(0.0, run.duration, pieces + 1), [t for hit in hits for t in (hit - BEFORE, hit)])
 
 
 @dataclass(frozen=True)

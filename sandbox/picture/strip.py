@@ -9,14 +9,14 @@ from sandbox.engine.run import Run
 from sandbox.picture.frames import Picture, frame_of
 from sandbox.picture.painter import Painter, blank
 from sandbox.picture.palette import palette
+from sandbox.picture.path import hardest
 
 FILM = palette("film")
 
 #: Frames along the way, and samples by which they are spread.
 FRAMES, SAMPLES = 5, 400
-#: So many touches have a frame of their own: the hardest, at least so hard as a share of the hardest of all, and so far
-#: apart in time as a share of the run.
-TOUCHES, HARD, APART = 8, 0.15, 0.005
+#: So many of the hardest touches have a frame of their own, so far apart in time as a share of the run.
+TOUCHES, APART = 8, 0.005
 #: A frame along the way is left out where a touch is nearer than this share of the way between two of them.
 NEAR = 0.4
 #: Heights over a frame's: of the margin with the holes, of a hole; and the gap between frames.
@@ -33,11 +33,9 @@ def strip_times(run: Run, until: float) -> list[float]:
         places = np.array([run.state(ball.name, float(t))[:2] for t in times])
         way[1:] += np.cumsum(np.hypot(*np.diff(places, axis=0).T))
     even = np.interp(np.linspace(0.0, way[-1], FRAMES), way, times) if way[-1] > 0.0 else times[:: SAMPLES // FRAMES]
-    impacts = [event for event in run.events if event.kind == "impact" and 0.0 < event.t < until]
     shown: list[float] = []
-    for event in sorted(impacts, key=lambda event: -event.speed)[:TOUCHES]:
-        hard = event.speed >= HARD * max(impact.speed for impact in impacts)
-        if hard and all(abs(event.t - t) > APART * until for t in shown):
+    for event in hardest(run, most=TOUCHES, until=until):
+        if all(abs(event.t - t) > APART * until for t in shown):
             shown.append(event.t)
     near = NEAR * way[-1] / (FRAMES - 1)
     touched = np.interp(shown, times, way)

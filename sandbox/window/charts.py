@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pygame
 
-from sandbox.picture.energy import hard_impacts
 from sandbox.picture.graph import Curve, Panel, draw_panel, motion
 from sandbox.picture.palette import palette
+from sandbox.picture.path import hardest
 from sandbox.picture.sheet import Sheet
 from sandbox.picture.view import View
 from sandbox.sport.amounts import amount
@@ -30,7 +30,7 @@ class Charts:
 
     def __init__(self, shot: Shot, picture: View) -> None:
         self.shot = shot
-        self.hits = hard_impacts(shot.run, shot.ball)
+        self.hits = [event.t for event in hardest(shot.run, [shot.ball])]
         times, moves = motion(shot.run, picture)
         self.strips = [
             Panel(name, unit, [Curve("", times, values, CARD["accent"])])

@@ -250,7 +250,7 @@ def _energy(view: View, by: float) -> None:
 
 
 def _energy_chart(shot: Shot, size: tuple[int, int]) -> pygame.Surface:
-    from sandbox.picture.energy import energy_chart
+    from sandbox.picture.energy_chart import energy_chart
 
     return energy_chart(shot.run, size)
 

@@ -7,8 +7,9 @@ import pytest
 
 import sandbox
 from sandbox.engine.ledger import ledger
-from sandbox.picture import energy
-from sandbox.picture.energy import course, energy_chart, joules
+from sandbox.picture import energy_chart as chart
+from sandbox.picture.energy import course
+from sandbox.picture.energy_chart import bands_of, energy_chart, joules
 from tests.picture.legible import assert_legible
 
 RUNS = ["golf", "golf/putt", "basketball", "billiards/bank", "billiards/nine-ball-break", "soccer"]
@@ -20,12 +21,12 @@ def sheets(monkeypatch):
     """The sheets of the charts that are drawn."""
     drawn = []
 
-    class Kept(energy.Sheet):
+    class Kept(chart.Sheet):
         def __init__(self, *args, **kwargs):
             super().__init__(*args, **kwargs)
             drawn.append(self)
 
-    monkeypatch.setattr(energy, "Sheet", Kept)
+    monkeypatch.setattr(chart, "Sheet", Kept)
     return drawn
 
 
@@ -127,8 +128,7 @@ def test_a_chart_says_what_was_put_in_and_its_shares_are_of_one_whole(sheets):
 
 def test_a_cause_has_its_words_and_its_own_colour_in_every_chart():
     bands = {
-        name: {band[0]: band[2] for band in energy.bands_of(course(run_of(name)))}
-        for name in ("golf/pond", "golf/splash")
+        name: {band[0]: band[2] for band in bands_of(course(run_of(name)))} for name in ("golf/pond", "golf/splash")
     }
     assert bands["golf/pond"]["spin decay"] == bands["golf/splash"]["spin decay"]
     assert bands["golf/pond"]["spin decay"] != bands["golf/pond"]["green"]
