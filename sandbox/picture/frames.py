@@ -30,12 +30,11 @@ from sandbox.files import written_whole
 FRAME_LEVEL = 1
 #: Pillow's level for a poster, which is kept.
 POSTER_LEVEL = 6
-#: Smaller than a GIF, in all colours; "method" is the encoder's effort, from 0 to 6: 3 takes twice the time for 2 %.
-WEBP = {"quality": 82, "method": 2}
+#: Smaller than a GIF, in all colours. Each frame is whole: parts, as Pillow writes them, leave traces of what has moved on,
+#: and take no less room. "method" is the effort of the encoder, from 0 to 6: 3 takes twice the time for 2 %.
+WEBP = {"quality": 82, "method": 2, "kmin": 0, "kmax": 1}
 #: ffmpeg's options: quality (lower is better, 18 looks as drawn), colours that all players know, and even sides.
 VIDEO = ["-crf", "18", "-pix_fmt", "yuv420p", "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-movflags", "+faststart"]
-#: As far as this, in px, WebP lets colours run: what has moved on leaves nothing behind.
-BLEED = 16
 #: Of so many frames the colours of a GIF are chosen.
 PALETTE_FRAMES = 16
 #: The index of what stays as it was, after all colours.
@@ -53,8 +52,6 @@ PAUSE = 2.0
 OURS = b"Software\0sports sandbox, one of the frames of a run"
 FRAMES = "frame_[0-9][0-9][0-9][0-9][0-9].png"
 
-#: Left, top, right and bottom in px.
-Box = tuple[int, int, int, int]
 Progress = Callable[[int, int], object]
 T = TypeVar("T")
 R = TypeVar("R")
@@ -182,45 +179,60 @@ def save_gif(picture: Picture, run: Run, path: Path | str, fps: float, progress:
     """
     times = frame_times(run.duration, min(fps, FASTEST_GIF))
     colours = shared_palette(picture, times)
-    durations = _durations([round(100 * t) for t in times], 10)
 
-    def encoded(image: Image.Image, box: Box, before: Image.Image | None) -> bytes:
+    def encoded(images: tuple[Image.Image | None, ...]) -> tuple[tuple[int, int], bytes]:
+        before, image = images
+        assert image is not None
+        box = (0, 0, *image.size) if before is None else ImageChops.difference(before, image).getbbox() or (0, 0, 1, 1)
         part = image.crop(box).quantize(palette=colours, dither=Image.Dither.NONE)
         if before is not None:  # long runs of one colour take no room
             there = before.crop(box).quantize(palette=colours, dither=Image.Dither.NONE)
             colour, old = np.asarray(part), np.asarray(there)
-            part = Image.frombytes(
-                "P", part.size, np.where(colour == old, SEE_THROUGH, colour).astype(np.uint8).tobytes()
-            )
-        return b"".join(GifImagePlugin.getdata(part, box[:2]))
+            kept = np.where(colour == old, SEE_THROUGH, colour).astype(np.uint8)
+            part = Image.frombytes("P", part.size, kept.tobytes())
+        return image.size, b"".join(GifImagePlugin.getdata(part, box[:2]))
 
-    parts = _parts(picture, times, encoded, progress)
-    width, height = parts[0][0][2:]
+    images = (to_image(frame_of(picture, t)) for t in times)
+    parts = list(in_threads(encoded, pairwise(chain([None], images)), len(times), progress))
     palette = bytes(colours.getpalette("RGB") or []).ljust(3 * 256, b"\0")
-    head = b"GIF89a" + struct.pack("<HHBBB", width, height, 0b11110111, 0, 0) + palette  # 256 colours for all frames
+    head = b"GIF89a" + struct.pack("<HHBBB", *parts[0][0], 0b11110111, 0, 0) + palette  # 256 colours for all frames
     repeat = b"!\xff\x0bNETSCAPE2.0\x03\x01" + struct.pack("<H", 0) + b"\0"
     frames = (  # each stays so long, and what it drew stays where the next one draws nothing
         b"!\xf9\x04" + struct.pack("<BHBB", 0b101, stay // 10, SEE_THROUGH, 0) + data
-        for (_, data), stay in zip(parts, durations, strict=True)
+        for (_, data), stay in zip(parts, _durations(times, 10), strict=True)
     )
     _write(Path(path), head + repeat + b"".join(frames) + b";")
     return len(times)
 
 
-def save_webp(picture: Picture, run: Run, path: Path | str, fps: float, progress: Progress | None = None) -> int:
-    """Write the run as an animated WebP that repeats, in all colours; returns the number of frames.
+class _Film(Image.Image):
+    """All frames as one image of Pillow's, each drawn when it is asked for."""
 
-    Of each frame only the rectangle that differs from the frame before is kept. Pillow would encode one frame after the
-    other; here all cores do. Raises OSError where it cannot be written.
+    def __init__(self, picture: Picture, times: list[float], progress: Progress | None):
+        super().__init__()
+        self.picture, self.times, self.progress = picture, times, progress
+        self.n_frames, self.shown = len(times), -1
+        self.seek(0)
+        self._mode, self._size = self.im.mode, self.im.size
+
+    def seek(self, frame: int) -> None:
+        if frame != self.shown:
+            self.im, self.shown = to_image(frame_of(self.picture, self.times[frame])).im, frame
+            if self.progress:
+                self.progress(frame + 1, self.n_frames)
+
+    def tell(self) -> int:
+        return self.shown
+
+
+def save_webp(picture: Picture, run: Run, path: Path | str, fps: float, progress: Progress | None = None) -> int:
+    """Write the run as an animated WebP that repeats, in all colours; returns the number of frames, of which equal ones
+    are written as one. Raises OSError where it cannot be written.
     """
-    times = frame_times(run.duration, fps)
-    durations = _durations([round(1000 * t) for t in times], 1)
-    parts = _parts(picture, times, _webp_part, progress)
-    frames = b"".join(_webp_frame(*part, stay) for part, stay in zip(parts, durations, strict=True))
-    width, height = parts[0][0][2:]
-    canvas = bytes([0b10, 0, 0, 0]) + struct.pack("<I", width - 1)[:3] + struct.pack("<I", height - 1)[:3]
-    body = b"WEBP" + _chunk(b"VP8X", canvas) + _chunk(b"ANIM", struct.pack("<IH", 0, 0)) + frames
-    _write(Path(path), _chunk(b"RIFF", body))
+    times, data = frame_times(run.duration, fps), io.BytesIO()
+    film = _Film(picture, times, progress)
+    film.save(data, "WEBP", save_all=True, duration=_durations(times, 1), loop=0, **WEBP)
+    _write(Path(path), data.getvalue())
     return len(times)
 
 
@@ -254,51 +266,9 @@ def save_video(picture: Picture, run: Run, path: Path | str, fps: float, progres
     return len(times)
 
 
-def _parts(
-    picture: Picture,
-    times: list[float],
-    encoded: Callable[[Image.Image, Box, Image.Image | None], bytes],
-    progress: Progress | None,
-) -> list[tuple[Box, bytes]]:
-    """Of each frame the rectangle that differs from the frame before, and what is in it, encoded."""
-    changed = _with_changes(to_image(frame_of(picture, t)) for t in times)
-    return list(in_threads(lambda item: (item[1], encoded(*item)), changed, len(times), progress))
-
-
-def _with_changes(images: Iterator[Image.Image]) -> Iterator[tuple[Image.Image, Box, Image.Image | None]]:
-    """Each image with the rectangle that differs from the one before, and BLEED px around it, and the one before; left
-    and top are even."""
-    before = None
-    for image in images:
-        changed = (0, 0, *image.size) if before is None else ImageChops.difference(before, image).getbbox()
-        left, top, right, bottom = changed or (0, 0, 2, 2)
-        far = min(right + BLEED, image.width), min(bottom + BLEED, image.height)
-        yield image, (max(0, left - BLEED) & ~1, max(0, top - BLEED) & ~1, *far), before
-        before = image
-
-
-def _webp_part(image: Image.Image, box: Box, before: Image.Image | None) -> bytes:
-    """The rectangle's picture as a WebP's chunk, without the file's header."""
-    data = io.BytesIO()
-    image.crop(box).save(data, "WEBP", **WEBP)
-    return data.getvalue()[12:]
-
-
-def _webp_frame(box: Box, data: bytes, stay: int) -> bytes:
-    """One frame that is put over the last and stays so many ms."""
-    left, top, right, bottom = box
-    numbers = (left // 2, top // 2, right - left - 1, bottom - top - 1, stay)
-    head = b"".join(struct.pack("<I", number)[:3] for number in numbers) + bytes([0b10])  # do not blend
-    return _chunk(b"ANMF", head + data)
-
-
-def _chunk(name: bytes, data: bytes) -> bytes:
-    return name + struct.pack("<I", len(data)) + data + bytes(len(data) % 2)
-
-
-def _durations(ticks: list[int], tick: int) -> list[int]:
-    """How long each frame stays, in ms, for times in ticks of so many ms."""
-    return [tick * (b - a) for a, b in pairwise(ticks)] + [round(1000 * PAUSE)]
+def _durations(times: list[float], tick: int) -> list[int]:
+    """How long each frame stays, in ms, where a format knows ticks of so many ms."""
+    return [tick * (b - a) for a, b in pairwise(round(1000 / tick * t) for t in times)] + [round(1000 * PAUSE)]
 
 
 def frame_times(duration: float, fps: float) -> list[float]:

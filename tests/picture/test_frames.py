@@ -227,22 +227,25 @@ class TestWebp:
                 image.seek(i)
                 image.load()
                 stays.append(image.info["duration"])
-                # Only the part that changed is kept, and what was there before stays.
                 assert ball_at(image.convert("RGB")) == pytest.approx(10 + 70 * i / fps, abs=0.6)
         assert count == fps + 1
         assert (sum(stays[:-1]), stays[-1]) == (1000, 1000 * PAUSE)
 
     def test_frames_that_are_alike(self, tmp_path):
+        """Are one that stays as long."""
         run = Run(1.0)
 
         class Still(Picture):
             def frame(self, t):
-                return super().frame(0.0)
+                return super().frame(0.0 if t < 0.5 else 1.0)
 
-        assert save_webp(Still(run), run, tmp_path / "run.webp", 5) == 6
+        assert save_webp(Still(run), run, tmp_path / "run.webp", 10) == 11
         with Image.open(tmp_path / "run.webp") as image:
-            image.seek(5)
-            assert ball_at(image.convert("RGB")) == pytest.approx(10, abs=0.6)
+            assert image.n_frames == 2
+            image.seek(1)
+            image.load()
+            assert image.info["duration"] == 500 + 1000 * PAUSE
+            assert ball_at(image.convert("RGB")) == pytest.approx(80, abs=0.6)
 
     def test_all_or_nothing(self, tmp_path):
         run = Run(1.0)
