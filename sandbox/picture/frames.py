@@ -30,8 +30,8 @@ from sandbox.files import written_whole
 FRAME_LEVEL = 1
 #: Pillow's level for a poster, which is kept.
 POSTER_LEVEL = 6
-#: Smaller than a GIF, in all colours. Each frame is whole: parts of frames leave traces of what has moved on, and take no
-#: less room. "method" is the effort of the encoder, from 0 to 6: 3 takes twice the time for 2 %.
+#: Smaller than a GIF, in all colours. Each frame is whole: parts of frames leave traces of what has moved on, and take
+#: no less room. "method" is the effort of the encoder, from 0 to 6: 3 takes twice the time for 2 %.
 WEBP = {"quality": 82, "method": 2, "kmin": 0, "kmax": 1}
 #: ffmpeg's options: quality (lower is better, 18 looks as drawn), colours that all players know, and even sides.
 VIDEO = ["-crf", "18", "-pix_fmt", "yuv420p", "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-movflags", "+faststart"]
