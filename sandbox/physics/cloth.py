@@ -26,10 +26,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from math import inf
 from typing import ClassVar
 
-from sandbox.physics.plane import STILL, Phase, PlaneState, not_negative, stopping, until_rest
+from sandbox.physics.elementwise import not_negative
+from sandbox.physics.plane import STILL, Phase, PlaneState
 
 
 @dataclass(frozen=True)
@@ -74,12 +74,12 @@ class Cloth:
         turn = 1.0 / self.inertia
         _, _, vx, vy, _, wx, wy = state
         ux, uy = vx - radius * wy, vy + radius * wx
-        mode, time, ax, ay, alphas = "resting", inf, 0.0, 0.0, (0.0, 0.0)
+        mode, stop, alphas = "resting", Phase.stopping(0.0, 0.0, 0.0), (0.0, 0.0)
         if ux * ux + uy * uy > STILL * STILL:
-            mode, (time, ax, ay) = "sliding", stopping(ux, uy, self.strongest, 1.0 + turn)  # it turns faster, too
+            mode, stop = "sliding", Phase.stopping(ux, uy, self.strongest, 1.0 + turn)  # as it also turns
             # torque of the force at the lowest point, over the moment of inertia
-            alphas = turn * ay / radius, -turn * ax / radius
+            alphas = turn * stop[2] / radius, -turn * stop[1] / radius
         elif vx * vx + vy * vy > STILL * STILL:
-            mode, (time, ax, ay) = "rolling", stopping(vx, vy, self.rolling * self.gravity)
-            alphas = -ay / radius, ax / radius
-        return until_rest(mode, state, time, ax, ay, turn * self.spinning * self.gravity / radius, alphas, radius)
+            mode, stop = "rolling", Phase.stopping(vx, vy, self.rolling * self.gravity)
+            alphas = -stop[2] / radius, stop[1] / radius
+        return Phase.slowed(mode, state, stop, turn * self.spinning * self.gravity / radius, alphas, radius)

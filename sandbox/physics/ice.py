@@ -23,7 +23,8 @@ from dataclasses import dataclass
 from math import copysign, inf, sqrt
 from typing import Any, ClassVar
 
-from sandbox.physics.plane import STILL, Phase, PlaneState, not_negative, stopping, until_rest
+from sandbox.physics.elementwise import not_negative
+from sandbox.physics.plane import STILL, Phase, PlaneState
 
 #: Speed in m/s below which a stone comes to rest on a straight line, and below which its spin decays as at this speed.
 _CREEPING, _SPINNING_IN_PLACE = 1e-4, 1e-3
@@ -35,9 +36,8 @@ _TURNING = -0.8
 def _straight(state: PlaneState, deceleration: float, spin_slows: float) -> Phase:
     """The phase of a body with these constant decelerations (m/s^2, rad/s^2), until its motion or its spin ends."""
     _, _, vx, vy, _ = state
-    if vx * vx + vy * vy > STILL * STILL:
-        return until_rest("sliding", state, *stopping(vx, vy, deceleration), spin_slows)
-    return until_rest("resting", state, inf, 0.0, 0.0, spin_slows)
+    mode = "sliding" if vx * vx + vy * vy > STILL * STILL else "resting"
+    return Phase.slowed(mode, state, Phase.stopping(vx, vy, deceleration), spin_slows)
 
 
 @dataclass(frozen=True)

@@ -43,6 +43,37 @@ class Phase(NamedTuple):
     ends_spin: bool = False  # at its end, the spin about the vertical is zero
     law: Callable[[float, PlaneState], tuple[Any, Any, Any]] | None = None
 
+    @classmethod
+    def slowed(
+        cls,
+        mode: str,
+        state: PlaneState,
+        stop: tuple[float, float, float],
+        spin_slows: float,
+        alphas: tuple[float, float] = (0.0, 0.0),
+        radius: float = 0.0,
+    ) -> Phase:
+        """The phase of a body that stops so (``stopping``), while its spin about the vertical is slowed by
+        ``spin_slows`` (rad/s^2): until one of them ends."""
+        time, wz, alpha_z, spin_time = stop[0], state[4], 0.0, inf
+        if abs(wz) > STILL:
+            mode = "spinning" if mode == "resting" else mode
+            alpha_z = -copysign(spin_slows, wz)
+            spin_time = abs(wz) / spin_slows if spin_slows > 0.0 else inf
+        duration = min(time, spin_time)
+        ends = duration == time < inf, duration == spin_time < inf
+        return cls(mode, state, duration, *stop[1:], alpha_z, *alphas, radius, *ends)
+
+    @staticmethod
+    def stopping(vx: float, vy: float, deceleration: float, sooner: float = 1.0) -> tuple[float, float, float]:
+        """The time in s in which a deceleration (m/s^2) ends a velocity, or so many times ``sooner``, and its
+        components; for a body at rest, never."""
+        speed = sqrt(vx * vx + vy * vy)
+        if speed <= STILL:
+            return inf, 0.0, 0.0
+        time = speed / (sooner * deceleration) if deceleration > 0.0 else inf
+        return time, -deceleration * vx / speed, -deceleration * vy / speed
+
     def after(self, t: float) -> PlaneState:
         """The state ``t`` s into the phase with its accelerations constant; t is limited to its duration.
 
@@ -65,42 +96,6 @@ class Phase(NamedTuple):
             ux = uy = 0.0
             roll = 0.0, 0.0
         return (x, y, ux, uy, spin, *roll) if rolling else (x, y, ux, uy, spin)
-
-
-def until_rest(
-    mode: str,
-    state: PlaneState,
-    time: float,
-    ax: float,
-    ay: float,
-    spin_slows: float,
-    alphas: tuple[float, float] = (0.0, 0.0),
-    radius: float = 0.0,
-) -> Phase:
-    """The phase of a body whose motion ends after ``time`` s, or that rests, while its spin about the vertical is
-    slowed by ``spin_slows`` (rad/s^2): until one of them ends."""
-    wz, alpha_z, spin_time = state[4], 0.0, inf
-    if abs(wz) > STILL:
-        mode = "spinning" if mode == "resting" else mode
-        alpha_z = -copysign(spin_slows, wz)
-        spin_time = abs(wz) / spin_slows if spin_slows > 0.0 else inf
-    duration = min(time, spin_time)
-    ends = duration == time < inf, duration == spin_time < inf
-    return Phase(mode, state, duration, ax, ay, alpha_z, *alphas, radius, *ends)
-
-
-def stopping(vx: float, vy: float, deceleration: float, sooner: float = 1.0) -> tuple[float, float, float]:
-    """The time in s in which a deceleration (m/s^2) ends a velocity, or a part as much ``sooner``; its components."""
-    speed = sqrt(vx * vx + vy * vy)
-    time = speed / (sooner * deceleration) if deceleration > 0.0 else inf
-    return time, -deceleration * vx / speed, -deceleration * vy / speed
-
-
-def not_negative(law: Any, *names: str) -> None:
-    """Raise ValueError if one of these fields of a law is negative, or not finite."""
-    for name in names:
-        if not 0.0 <= getattr(law, name) < inf:
-            raise ValueError(f"{law.name}: {name} = {getattr(law, name)} must not be negative")
 
 
 class Plane(Protocol):
