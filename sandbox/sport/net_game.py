@@ -17,7 +17,7 @@ from sandbox.sport.amounts import roughly
 from sandbox.sport.controls import Handle
 from sandbox.sport.facts import Fact, once
 from sandbox.sport.flight import Flight
-from sandbox.sport.readings import Moment, apex, at, before, passing
+from sandbox.sport.readings import Moment, apex, at, before, passing_at
 from sandbox.sport.solids import Solid
 
 
@@ -116,21 +116,16 @@ def rebound(run: Run, parameters: Any) -> Moment | None:
     return next((Moment(event.t, *run.state("ball", event.t)) for event in bounces(run.events)), None)
 
 
+#: The ball as it passes the far end line; as it passes the net; and the gap in m between the two there, negative if it
+#: passes below the upper edge.
+at_baseline, at_net = passing_at(lambda it: it.court.length), passing_at(lambda it: it.middle)
+net_clearance = at(at_net, lambda ball, it: ball.y - it.ball.radius - it.net.height)
+
+
 def taken(run: Run, parameters: Any) -> float:
     """When the other player takes the ball, in s: a little beyond the end line; at the end if it does not get there."""
     passed = at_baseline(run, parameters)
     return run.duration if passed is None else min(run.duration, passed.t + 0.15)
-
-
-def at_baseline(run: Run, parameters: Any) -> Moment | None:
-    """The ball as it passes the far end line."""
-    return passing(run, parameters.court.length)
-
-
-def net_clearance(run: Run, parameters: Any) -> float | None:
-    """Gap in m between ball and net as it passes over; negative if it passes below the upper edge."""
-    over = passing(run, parameters.middle)
-    return None if over is None else over.y - parameters.ball.radius - parameters.net.height
 
 
 def word(run: Run, parameters: Any) -> str:
@@ -167,7 +162,7 @@ def _kept(run: Run, parameters: Any) -> float | None:
 BOUNCE_FACTS = (
     Fact("landing_angle", "", "deg", at(landing, "descent"), is_down),
     Fact("bounce_speed", "after the bounce", "m/s", at(rebound, "speed"), is_down),
-    Fact("bounce_angle", "rises at", "deg", at(rebound, lambda ball: -ball.descent), is_down),
+    Fact("bounce_angle", "rises at", "deg", at(rebound, lambda ball, _: -ball.descent), is_down),
     Fact("bounce_spin", "", "rpm", at(rebound, "rpm"), is_down),
     Fact("speed_kept", "", "", _kept, is_down),
     Fact("baseline_speed", "", "m/s", at(at_baseline, "speed")),

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from math import atan2, degrees, hypot
-from operator import attrgetter
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from sandbox.engine.setup import Touches, Vector
@@ -60,16 +59,17 @@ def words_of(run: Run, event: Event, several: bool = True) -> tuple[str, ...]:
     return amount(event.t, "s"), *([event.ball] if several else []), event.kind, event.partner, speed
 
 
-def at(moment: Callable[[Run, Any], Any], what: str | Callable[[Any], Any]) -> Callable[[Run, Any], Any]:
+def at(moment: Callable[[Run, Any], Any], what: str | Callable[[Any, Any], Any]) -> Callable[[Run, Any], Any]:
     """The function that reads a fact from what another function finds, None if that finds nothing: ``at(landing,
-    "speed")`` of a Moment, or ``at(landing, lambda ball: ...)`` of anything."""
+    "speed")`` of a Moment, or ``at(landing, lambda ball, parameters: ...)`` of anything."""
     if isinstance(what, str) and not hasattr(Moment, what):
         raise ValueError(f'at(..., "{what}"): a Moment has {", ".join(MOMENT)}')
-    read = attrgetter(what) if isinstance(what, str) else what
 
     def how(run: Run, parameters: Any) -> Any:
         found = moment(run, parameters)
-        return None if found is None else read(found)
+        if found is None:
+            return None
+        return getattr(found, what) if isinstance(what, str) else what(found, parameters)
 
     return how
 
@@ -82,6 +82,11 @@ def before(run: Run, t: float) -> Moment:
 def passing(run: Run, x: float) -> Moment | None:
     """The ball as it first passes x (m) on its way forward."""
     return next((Moment(t, *state) for t, state in run.crossings("ball", (x, 0.0), (-1.0, 0.0))), None)
+
+
+def passing_at(place: Callable[[Any], float]) -> Callable[[Run, Any], Moment | None]:
+    """The function that finds the ball as it first passes the x (m) that the parameters say."""
+    return once(lambda run, parameters: passing(run, place(parameters)))
 
 
 @dataclass(frozen=True)

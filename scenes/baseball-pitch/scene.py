@@ -12,7 +12,7 @@ from sandbox.parameters import Group, group, quantity
 from sandbox.sport.amounts import roughly
 from sandbox.sport.controls import Controls, Handle, Spin
 from sandbox.sport.facts import ENDED, Fact
-from sandbox.sport.readings import LAUNCH, Moment, at, passing
+from sandbox.sport.readings import LAUNCH, at, passing_at
 from sandbox.sport.solids import level
 
 from ..baseball.ball import BaseballFlight
@@ -60,9 +60,7 @@ def is_over(event: Event) -> bool:
     return event.partner in ("mitt", "ground")
 
 
-def at_plate(run: Run, parameters: Parameters) -> Moment | None:
-    """The ball as it passes the front of the plate."""
-    return passing(run, parameters.plate.distance)
+at_plate = passing_at(lambda it: it.plate.distance)  # the ball as it passes the front of the plate
 
 
 def is_strike(run: Run, parameters: Parameters) -> bool:
@@ -71,7 +69,7 @@ def is_strike(run: Run, parameters: Parameters) -> bool:
     return passed is not None and plate.bottom - radius <= passed.y <= plate.top + radius
 
 
-def _break(run: Run, parameters: Parameters) -> float | None:
+def rise(run: Run, parameters: Parameters) -> float | None:
     """How far in m the ball is over where gravity alone would have it at that time."""
     passed, start = at_plate(run, parameters), run.setup.balls[0]
     if passed is None:
@@ -83,7 +81,7 @@ FACTS = (
     Fact("plate_height", "at the plate", "m", at(at_plate, "y"), settled="mitt"),
     Fact("plate_speed", "speed there", "m/s", at(at_plate, "speed"), settled="mitt", also="mph"),
     Fact("plate_angle", "falls at", "deg", at(at_plate, "descent"), settled="mitt"),
-    Fact("break", "break", "m", _break, settled="mitt", also="in", sides=("down", "up")),
+    Fact("break", "break", "m", rise, settled="mitt", also="in", sides=("down", "up")),
     Fact("flight_time", "flight time", "s", at(at_plate, "t"), settled="mitt"),
     *LAUNCH,
     Fact("strike", "", "", is_strike, settled="mitt"),

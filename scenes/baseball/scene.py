@@ -17,7 +17,7 @@ from sandbox.parameters import Group, choice, group, quantity
 from sandbox.sport.amounts import roughly
 from sandbox.sport.controls import Controls, Handle, Spin
 from sandbox.sport.facts import ENDED, Fact
-from sandbox.sport.readings import APEX, DISTANCE, FLIGHT_TIME, LANDING_ANGLE, LAUNCH, passing
+from sandbox.sport.readings import APEX, DISTANCE, FLIGHT_TIME, LANDING_ANGLE, LAUNCH, at, passing_at
 from sandbox.sport.solids import level
 from sandbox.sport.swing import Bat, struck_by
 
@@ -58,11 +58,8 @@ def build(parameters: Parameters) -> Setup:
     return Setup([hit], [Surface("ground", level(), 0.5, 0.5)], 60.0, Touches("ground"))
 
 
-def over_fence(run: Run, parameters: Parameters) -> float | None:
-    """Gap in m between the ball and the top of the fence as it passes; negative if it would hit it."""
-    passed = passing(run, parameters.fence.distance)
-    return None if passed is None else passed.y - parameters.ball.radius - parameters.fence.height
-
+#: Gap in m between the ball and the top of the fence as it passes; negative if it would hit it.
+over_fence = at(passing_at(lambda it: it.fence.distance), lambda ball, it: ball.y - it.ball.radius - it.fence.height)
 
 FACTS = (
     DISTANCE,

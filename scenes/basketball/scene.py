@@ -252,10 +252,9 @@ def entry(run: Run, parameters: Parameters) -> Moment | None:
     return down if down is not None and down.t <= floor else None
 
 
-def offset(run: Run, parameters: Parameters) -> float | None:
-    """How far in m beyond the middle of the ring that is."""
-    down = entry(run, parameters)
-    return None if down is None else down.x - parameters.hoop.distance
+def beyond_middle(ball: Moment, it: Parameters) -> float:
+    """How far in m beyond the middle of the ring the ball is."""
+    return ball.x - it.hoop.distance
 
 
 @once
@@ -284,7 +283,7 @@ FACTS = (
     Fact("verdict", "", "", word, decided),
     Fact("entry_angle", "entry angle", "deg", at(entry, "descent"), decided),
     Fact("entry_speed", "entry speed", "m/s", at(entry, "speed"), decided),
-    Fact("entry_offset", "from centre", "m", offset, decided, sides=("short", "long")),
+    Fact("entry_offset", "from centre", "m", at(entry, beyond_middle), decided, sides=("short", "long")),
     Fact("apex", "apex above hand", "m", lambda run, it: apex(run, it) - it.release.height, decided),
     Fact("flight_time", "flight time", "s", at(entry, "t"), decided),
     *LAUNCH,

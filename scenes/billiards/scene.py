@@ -391,7 +391,7 @@ def tip(run: Run, parameters: Parameters) -> str:
 
 FACTS = (
     Fact("pockets", "potted", "", lambda run, parameters: taken(run)),
-    Fact("first_contact", "first contact", "", at(first_contact, lambda meeting: meeting[0])),
+    Fact("first_contact", "first contact", "", at(first_contact, lambda meeting, it: meeting[0])),
     Fact("stroke", "stroke", "m/s", lambda run, parameters: parameters.cue.speed, "start"),
     Fact("tip", "tip", "", tip, "start"),
     Fact("cushions", "cushions", "", lambda run, it: sum(name.endswith(" cushion") for name in touches(run, it))),

@@ -116,7 +116,7 @@ def _way(run: Run, parameters: Parameters) -> float | None:
 
 FACTS = (
     Fact("penetration", "harmless after", "m", _way),
-    Fact("depth", "at a depth of", "m", at(harmless, lambda bullet: -bullet.y)),
+    Fact("depth", "at a depth of", "m", at(harmless, lambda bullet, _: -bullet.y)),
     Fact("halving", "speed halves every", "m", lambda run, parameters: halving(parameters), settled="start"),
     Fact("entry_speed", "into the water at", "m/s", at(entry, "speed")),
     Fact("flight_time", "", "s", at(harmless, "t")),

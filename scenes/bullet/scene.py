@@ -124,7 +124,7 @@ def table(run: Run, parameters: Parameters) -> list[dict[str, float]]:
 
 FACTS = (
     Fact("height", "at the target", "m", at(at_target, "y"), settled="target", sides=SIDES),
-    Fact("hold", "hold", "moa", at(at_target, lambda bullet: -MOA * atan2(bullet.y, bullet.x)), "target", sides=HOLDS),
+    Fact("hold", "hold", "moa", at(at_target, lambda it, _: -MOA * atan2(it.y, it.x)), "target", sides=HOLDS),
     Fact("speed", "speed there", "m/s", at(at_target, "speed"), settled="target", also="ft/s"),
     Fact("flight_time", "flight time", "s", at(at_target, "t"), settled="target"),
     Fact("apex", "most over sight line", "m", apex, settled="target"),

@@ -234,10 +234,10 @@ def _sums(what: str) -> tuple[Fact, Fact]:
 
 FACTS = (
     Fact("lost", "energy lost", "%", _lost),
-    Fact("approach", "approach", "m/s", at(blow, lambda met: met.closing(met.before))),
-    Fact("separation", "separation", "m/s", at(blow, lambda met: -met.closing(met.after))),
-    Fact("first_after", "first ball", "m/s", at(blow, lambda met: hypot(*next(iter(met.after.values()))[2:4]))),
-    Fact("fastest", "fastest", "m/s", at(blow, lambda met: max(hypot(*state[2:4]) for state in met.after.values()))),
+    Fact("approach", "approach", "m/s", at(blow, lambda met, _: met.closing(met.before))),
+    Fact("separation", "separation", "m/s", at(blow, lambda met, _: -met.closing(met.after))),
+    Fact("first_after", "first ball", "m/s", at(blow, lambda met, _: hypot(*next(iter(met.after.values()))[2:4]))),
+    Fact("fastest", "fastest", "m/s", at(blow, lambda met, _: max(hypot(*state[2:4]) for state in met.after.values()))),
     Fact("falls", "blows of the floor", "", _falls),
     Fact("positions", "", "m", _at_end(lambda state: list(state[:2]))),
     Fact("velocities", "", "m/s", _at_end(lambda state: list(state[2:4]))),

@@ -117,7 +117,7 @@ def _score(run: Run, parameters: Parameters) -> tuple[str, int]:
 FACTS = (
     Fact("scores", "scores", "", lambda run, it: _score(run, it)[0]),
     Fact("points", "points", "", lambda run, it: _score(run, it)[1]),
-    Fact("to_tee", "to the tee", "m", at(lambda run, it: _lie(run, it).get(DELIVERED), lambda place: hypot(*place))),
+    Fact("to_tee", "to the tee", "m", at(lambda run, it: _lie(run, it).get(DELIVERED), lambda at, _: hypot(*at))),
     Fact("curl", "curl", "m", lambda run, it: aside(run, DELIVERED, it.launch), sides=("right", "left")),
     Fact("distance", "way up the sheet", "m", lambda run, it: end_of(run, DELIVERED)[0] - RELEASE),
     Fact("hog_to_hog", "hog to hog", "s", lambda run, it: passes(run, DELIVERED, HOG)),

@@ -162,22 +162,15 @@ def scored(run: Run, parameters: Parameters) -> bool:
     return any(abs(state[1] - goal.offset) < 0.5 * goal.width for _, state in entries)
 
 
-def deviation(run: Run, parameters: Parameters) -> float | None:
+def deviation(ball: Moment, it: Parameters) -> float | None:
     """Along the goal line in m, from where the straight line of the launch meets it, if it does."""
-    passed, angle = at_goal(run, parameters), parameters.launch.angle
-    return None if passed is None or abs(angle) >= 90.0 else passed.y - parameters.goal.distance * tan(radians(angle))
+    angle = it.launch.angle
+    return None if abs(angle) >= 90.0 else ball.y - it.goal.distance * tan(radians(angle))
 
 
-def offset(run: Run, parameters: Parameters) -> float | None:
-    """Along the goal line in m, from the middle of the goal."""
-    passed = at_goal(run, parameters)
-    return None if passed is None else passed.y - parameters.goal.offset
-
-
-def inside_post(run: Run, parameters: Parameters) -> float | None:
+def inside_post(ball: Moment, it: Parameters) -> float:
     """Gap in m between the ball and the nearer post; negative if the ball goes wide."""
-    aside = offset(run, parameters)
-    return None if aside is None else 0.5 * parameters.goal.width - abs(aside) - parameters.ball.radius
+    return 0.5 * it.goal.width - abs(ball.y - it.goal.offset) - it.ball.radius
 
 
 def flight_time(run: Run, parameters: Parameters) -> float | None:
@@ -202,14 +195,14 @@ ASIDE = ("right", "left")
 FACTS = (
     Fact("goal", "", "", scored),
     Fact("verdict", "", "", word),
-    Fact("deviation", "bend", "m", deviation, sides=ASIDE),
-    Fact("inside_post", "nearer post", "m", inside_post, sides=("outside", "inside")),
+    Fact("deviation", "bend", "m", at(at_goal, deviation), sides=ASIDE),
+    Fact("inside_post", "nearer post", "m", at(at_goal, inside_post), sides=("outside", "inside")),
     Fact("speed_at_goal", "speed at goal", "m/s", at(at_goal, "speed"), also="km/h"),
     Fact("flight_time", "flight time", "s", flight_time),
     BALL_SPEED,
     replace(LAUNCH_ANGLE, sides=ASIDE),
     replace(LAUNCH_SPIN, sides=ASIDE),
-    Fact("offset_at_goal", "from the middle", "m", offset, sides=ASIDE),
+    Fact("offset_at_goal", "from the middle", "m", at(at_goal, lambda ball, it: ball.y - it.goal.offset), sides=ASIDE),
     ENDED,
 )
 

@@ -22,7 +22,7 @@ from sandbox.sport.amounts import roughly
 from sandbox.sport.controls import Controls, Handle, Spin
 from sandbox.sport.facts import ENDED, Fact, once
 from sandbox.sport.flight import Flight
-from sandbox.sport.readings import LAUNCH, Moment, Passes, apex, at, first_touch, passing
+from sandbox.sport.readings import LAUNCH, Moment, Passes, apex, at, first_touch, passing_at
 from sandbox.sport.solids import Extent, Solid, check_apart, disc, level
 
 from .kick import SPREAD, Goal, SoccerBall, Wall
@@ -113,16 +113,8 @@ class OutOfPlay:
         return event.partner == "boards" or (event.partner == "ground" and not inside)
 
 
-@once
-def at_wall(run: Run, parameters: Parameters) -> Moment | None:
-    """The ball as it first passes the middle of the wall, if there is one."""
-    return passing(run, parameters.wall.distance)
-
-
-@once
-def at_goal(run: Run, parameters: Parameters) -> Moment | None:
-    """The ball as it first passes the middle of the goal line."""
-    return passing(run, parameters.goal.distance)
+#: The ball as it first passes the middle of the wall, and that of the goal line.
+at_wall, at_goal = passing_at(lambda it: it.wall.distance), passing_at(lambda it: it.goal.distance)
 
 
 @once
@@ -138,18 +130,6 @@ def entered(parameters: Parameters) -> Passes:
     goal = parameters.goal
     line, top = goal.over_line(parameters.ball.radius), goal.height - UNDER if goal.present else 0.0
     return Passes("nothing", 1, (line, 0.0), (line, top))
-
-
-def over_wall(run: Run, parameters: Parameters) -> float | None:
-    """Gap in m between ball and heads."""
-    passed, wall = at_wall(run, parameters), parameters.wall
-    return passed.y - parameters.ball.radius - wall.height if passed and wall.present else None
-
-
-def under_bar(run: Run, parameters: Parameters) -> float | None:
-    """Gap in m between ball and bar; negative if the ball is too high."""
-    passed, goal = at_goal(run, parameters), parameters.goal
-    return goal.height - passed.y - parameters.ball.radius if passed and goal.present else None
 
 
 def flight_time(run: Run, parameters: Parameters) -> float | None:
@@ -178,14 +158,24 @@ def word(run: Run, parameters: Parameters) -> str:
     return "over" if passed is not None and passed.y > parameters.goal.height else "short"
 
 
+def over_wall(ball: Moment, it: Parameters) -> float | None:
+    """Gap in m between ball and heads."""
+    return ball.y - it.ball.radius - it.wall.height if it.wall.present else None
+
+
+def under_bar(ball: Moment, it: Parameters) -> float | None:
+    """Gap in m between ball and bar; negative if the ball is too high."""
+    return it.goal.height - ball.y - it.ball.radius if it.goal.present else None
+
+
 FACTS = (
     Fact("goal", "", "", lambda run, it: scored(run, it) is not None, entered),
     Fact("verdict", "", "", word),
     Fact("height_at_goal", "height at goal", "m", at(at_goal, "y")),
     Fact("speed_at_goal", "speed at goal", "m/s", at(at_goal, "speed"), also="km/h"),
-    Fact("under_bar", "under the bar", "m", under_bar),
+    Fact("under_bar", "under the bar", "m", at(at_goal, under_bar)),
     Fact("height_at_wall", "height at wall", "m", at(at_wall, "y"), where=lambda _, it: it.wall.present),
-    Fact("over_wall", "over the wall", "m", over_wall),
+    Fact("over_wall", "over the wall", "m", at(at_wall, over_wall)),
     Fact("carry", "carry", "m", carry),
     Fact("apex", "apex", "m", lambda run, it: apex(run, it) - it.ball.radius),
     Fact("flight_time", "flight time", "s", flight_time),
