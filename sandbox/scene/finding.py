@@ -131,7 +131,10 @@ def is_installed(folder: Path) -> bool:
 
 def installed_folder(name: str) -> Path | None:
     """The folder of a scene that came with the sandbox or an installed package; None for any other name."""
-    return _built_in(name) or _from_package(name)
+    if not _is_word(name):
+        return None
+    folder = resources.folder("scenes") / name
+    return folder if (folder / "scene.py").is_file() else _offered(name).get(name)
 
 
 def reference(folder: Path, place: Path) -> str:
@@ -264,24 +267,6 @@ def _unknown(name: str) -> str:
     return f"unknown scene {shortened(name)}; " + (f"did you mean {near}?" if near else "sandbox list shows them all")
 
 
-def _built_in(name: str) -> Path | None:
-    if not _is_word(name):
-        return None
-    folder = resources.folder("scenes") / name
-    return folder if (folder / "scene.py").is_file() else None
-
-
-def _from_package(name: str) -> Path | None:
-    """The folder of a scene that another installed package offers."""
-    if not _is_word(name):
-        return None
-    from importlib.metadata import entry_points
-
-    for point in entry_points(group=ENTRY_POINTS, name=name):
-        return _folder_of(point.value)
-    return None
-
-
 def _folder_of(module_name: str) -> Path | None:
     """The folder of the module ``package.scene`` of an installed package."""
     try:
@@ -291,12 +276,18 @@ def _folder_of(module_name: str) -> Path | None:
     return Path(spec.origin).resolve().parent if spec is not None and spec.origin else None
 
 
-def _named_folders() -> dict[str, Path]:
+def _offered(name: str = "") -> dict[str, Path]:
+    """The folders of all scenes that other installed packages offer, or of one, by their names."""
     from importlib.metadata import entry_points
 
-    folders = {point.name: _folder_of(point.value) for point in entry_points(group=ENTRY_POINTS)}
-    built_in = {path.parent.name: path.parent for path in resources.folder("scenes").glob("*/scene.py")}
-    return {name: folder for name, folder in (folders | built_in).items() if folder is not None}
+    points = entry_points(group=ENTRY_POINTS, name=name) if name else entry_points(group=ENTRY_POINTS)
+    folders = {point.name: _folder_of(point.value) for point in points}
+    return {found: folder for found, folder in folders.items() if folder is not None}
+
+
+def _named_folders() -> dict[str, Path]:
+    """The folders of all installed scenes, by their names."""
+    return _offered() | {path.parent.name: path.parent for path in resources.folder("scenes").glob("*/scene.py")}
 
 
 def _default_file(folder: Path) -> Path | None:
