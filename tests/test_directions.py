@@ -44,7 +44,6 @@ SHARED_FLOORS = (3, 6)  # single modules, which may import each other
 OWNERS = {
     "pymunk": {"engine"},
     "pygame": {"picture", "window"},
-    "pygame_gui": {"window"},
     "PIL": {"picture", "page", "golden"},
 }
 

@@ -1,11 +1,11 @@
-"""The window's loop: passes events to panel, commands and pointer, time to the game, and has the view drawn."""
+"""The window's loop: passes events to commands and pointer, time to the game, and has the view drawn."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
 from time import perf_counter, sleep
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import pygame
 
@@ -20,9 +20,6 @@ from sandbox.window.session import Session
 from sandbox.window.sound import Sound
 from sandbox.window.view import SIZE, View
 from sandbox.workers import Processes
-
-if TYPE_CHECKING:
-    from sandbox.window.panel import Panel
 
 MODIFIED = pygame.KMOD_CTRL | pygame.KMOD_ALT
 
@@ -67,8 +64,9 @@ class App:
             sleep(1 / FRAMES)
 
     def close(self) -> None:
-        """End the background thread."""
+        """End the background threads."""
         self.view.background.close()
+        self.view.writer.close()
 
     @property
     def busy(self) -> bool:
@@ -84,7 +82,7 @@ class App:
             self.handle(event)
         game, view = self.game, self.view
         start, end = game.advance(dt, hold=self.hidden or not view.up_to_date)
-        view.tick(dt, bool(events))
+        view.tick(dt)
         self._sound(start, end)
         if self.hidden or not view.needs_drawing(bool(events)):
             return False
@@ -108,12 +106,14 @@ class App:
         """One event of the window, the mouse or the keyboard."""
         view = self.view
         if event.type == pygame.KEYDOWN:
-            if not self._fresh(event):
+            typing = view.has_panel and view.panel.typing is not None and view.over is None
+            if not self._fresh(event, typing):
+                return
+            if typing and event.key != pygame.K_TAB:
+                view.panel.type(event)
                 return
         elif event.type == pygame.KEYUP:
             self.held.discard(event.key)
-        if view.panel is not None and view.over is None and self._for_panel(view.panel, event):
-            return
         match event.type:
             case pygame.QUIT:
                 self.game.running = False
@@ -137,34 +137,18 @@ class App:
             case _:
                 self.pointer.handle(event)
 
-    def _fresh(self, event: pygame.event.Event) -> bool:
-        """Whether a key was pressed, or is held for a command that repeats, at most once a frame: after a slow frame
-        its repeats have piled up."""
+    def _fresh(self, event: pygame.event.Event, typing: bool) -> bool:
+        """Whether a key was pressed, or is held to type or for a command that repeats, at most once a frame: after a
+        slow frame its repeats have piled up."""
         repeats = event.key in self.held
         self.held.add(event.key)
-        if not repeats:
-            return True
-        panel = self.view.panel
-        if panel is not None and panel.typing:
+        if not repeats or typing:
             return True
         found = pressed(event.key, event.mod)
         if found is None or not found[0].repeats or event.key in self._repeated:
             return False
         self._repeated.add(event.key)
         return True
-
-    def _for_panel(self, panel: Panel, event: pygame.event.Event) -> bool:
-        """Pass an event to the panel; returns whether it is for the panel alone."""
-        typing, view = panel.typing, self.view
-        used = panel.handle(event)
-        if event.type == pygame.KEYDOWN:
-            return typing and event.key not in (pygame.K_ESCAPE, pygame.K_TAB)
-        if event.type == pygame.MOUSEWHEEL:
-            return panel.rect.collidepoint(view.at)
-        if event.type == pygame.MOUSEMOTION and panel.rect.collidepoint(event.pos) and not self.pointer.dragging:
-            view.at = event.pos
-            return True
-        return used or (event.type == pygame.MOUSEBUTTONDOWN and panel.rect.collidepoint(event.pos))
 
 
 def play(source: str, changes: Mapping[str, Any] | None = None, scene: str | None = None) -> None:

@@ -40,29 +40,27 @@ class Choice(Board):
         foot: pygame.Rect,
         marks: Callable[[], Sequence[Mark]],
     ) -> None:
-        super().__init__("", [[Row("", title, heading=True), *rows]], choose, foot, chosen=rows[0].action)
+        super().__init__("", [[Row("", title), *rows]], choose, foot, chosen=rows[0].action)
         self.marks, self.near = marks, NEAR
 
     def at(self, position: tuple[int, int]) -> str | None:
-        found = super().at(position)
-        if found is not None:
-            return found
-        marks = [(away_from(mark.line, position)[0], mark.action) for mark in self.marks()]
-        least, action = min(marks, default=(np.inf, ""))
-        return action if least <= self.near else None
+        found: str | None = super().at(position)
+        marks = [] if found else [(away_from(mark.line, position)[0], mark.action) for mark in self.marks()]
+        least, action = min(marks, default=(np.inf, found))
+        return action if least <= self.near else found
 
     def draw(self, sheet: Sheet, mouse: tuple[int, int], on: Collection[str]) -> None:
-        self.near = NEAR * sheet.unit
+        unit, painter = sheet.unit, sheet.painter
+        self.near = NEAR * unit
         hovered = self.at(mouse) or self.chosen
         for mark in sorted(self.marks(), key=lambda mark: mark.action == hovered):
-            here, unit = mark.action == hovered, sheet.unit
+            here, middle = mark.action == hovered, tuple(mark.line[len(mark.line) // 2])
             colour = mark.colour if here else mix(mark.colour, CARD["background"], 0.25)
             if len(mark.line) > 1:
                 width = (4.0 if here else 2.5) * unit
                 draw_line(sheet.surface, mark.line, width + 2, TRACE["rim"])
                 draw_line(sheet.surface, mark.line, width, colour)
-            middle = mark.line[len(mark.line) // 2]
-            sheet.painter.disc(tuple(middle), 12 * unit, CARD["background"], 0.85)
-            sheet.painter.ring(tuple(middle), 11 * unit, 2.2 * unit, CARD["accent"] if here else colour)
-            sheet.lettering.write(sheet.surface, mark.name, "small", tuple(middle), CARD["text"], "center", bold=True)
+            painter.disc(middle, 12 * unit, CARD["background"], 0.85)
+            painter.ring(middle, 11 * unit, 2.2 * unit, CARD["accent"] if here else colour)
+            sheet.lettering.write(sheet.surface, mark.name, "small", middle, CARD["text"], "center", bold=True)
         super().draw(sheet, mouse, on)

@@ -6,7 +6,6 @@ from collections.abc import Callable, Sequence
 from concurrent.futures import Future
 from functools import partial
 from pathlib import Path
-from threading import Thread
 from typing import Any
 
 import numpy as np
@@ -21,6 +20,7 @@ from sandbox.window.choice import Choice, Mark
 from sandbox.window.find import Found, Question, find, questions
 from sandbox.window.game import WIDEST
 from sandbox.window.keys import GROUPS, LISTED, of_groups
+from sandbox.window.measure import Tape
 from sandbox.window.menu import Menu, thumbnail
 from sandbox.window.overlay import Board, Chart, Overlay, Row
 from sandbox.window.run_data import run_of
@@ -34,11 +34,13 @@ CARD = palette("card")
 #: How much larger than usual letters can be.
 TEXT_SIZES = (1.0, 1.15, 1.3, 1.5)
 #: What can be shown or hidden: the command of the same name switches it.
-SWITCHES = ("view", "pad", "ghosts", "arrows", "charts", "cost", "tape", "fan", "map")
+SWITCHES = ("view", "pad", "ghosts", "arrows", "charts", "cost", "fan", "map", "panel")
 #: Earlier shots in the graphs over time.
 MOST_GRAPHS = 5
 #: One step enlarges the picture by this factor, or moves it by this many px.
 ZOOM, PAN = 1.25, 60.0
+#: One step moves the end of the tape by this many px.
+STEP = 12.0
 
 NO_SHOTS = "no shots yet: pull back and let go"
 
@@ -48,14 +50,11 @@ def do(view: View, command: str, by: float = 1) -> None:
     view.changed = True
     name = command.removeprefix("-")
     by = by if name == command else -by
-    panel = view.panel
-    if name in PANEL and panel is None:
-        view.open_panel(True)
-    elif name in PANEL and panel is not None:
-        if not view.game.trying(lambda: PANEL[name](panel, by)):
-            panel.refresh(everything=True)
-    elif name in SWITCHES:
+    if name in SWITCHES:
         view.on ^= {name}
+        view.lay_out()
+    elif name in PANEL and not view.has_panel:
+        do(view, "panel")
     else:
         COMMANDS[name](view, by)
 
@@ -77,7 +76,10 @@ def _go(view: View, by: float) -> None:
 
 
 def _pick(view: View, by: float) -> None:
-    """Take hold of the next handle by key."""
+    """Take hold of the next handle by key, or of the other end of the tape."""
+    if view.tape is not None and "tape" in view.on:
+        view.tape = Tape(view.tape.end, view.tape.start)
+        return
     found = [grip for grip, _ in view.spots]
     if not found:
         view.game.tell("nothing can be moved while a shot is watched" if view.game.playback else "nothing can be moved")
@@ -88,7 +90,12 @@ def _pick(view: View, by: float) -> None:
 
 
 def _move(view: View, across: float, up: float) -> bool:
-    """Move what was picked by key; returns whether there is anything."""
+    """Move the tape's end or what was picked by key; returns whether there is anything."""
+    camera = view.camera
+    if view.tape is not None and "tape" in view.on and camera is not None:
+        x, y = camera.pixel(*view.tape.end)
+        view.tape = Tape(view.tape.start, camera.world(x + STEP * across, y - STEP * up))
+        return True
     grip = next((grip for grip, _ in view.spots if grip.keys == view.picked), None)
     if grip is None:
         return False
@@ -113,8 +120,7 @@ def _with_shot(view: View, action: Callable[[Shot], object]) -> None:
 
 def _open(view: View, name: str, make: Callable[[], Overlay]) -> None:
     """Open an overlay, or close it if it is open."""
-    again = view.over is not None and view.over.name == name
-    view.over = None if again else make()
+    view.open(None if view.over is not None and view.over.name == name else make())
     if view.over is not None:
         view.over.name = name
 
@@ -124,7 +130,7 @@ def _rows(view: View, groups: tuple[str, ...], headings: bool) -> list[list[Row]
     meanings = {"accuracy": f"accuracy: {view.game.session.value('accuracy.level')}, and the next",
                 "predict": f"path while aiming: {view.ahead}, and the next"}  # fmt: skip
     return [
-        [Row("", group, heading=True)] * headings
+        [Row("", group)] * headings
         + [Row(command.name, meanings.get(command.name, command.meaning), command.shown) for command in commands]
         for group, commands in of_groups(groups)
     ]
@@ -145,16 +151,16 @@ def _shots(view: View, by: float) -> None:
     """The table of the shots of this scene."""
     game, stage = view.game, view.stage
 
-    def rows() -> list[Played]:
+    def played() -> list[Played]:
         return [row for row in game.table.rows if row.start[:2] == (game.session.base.folder, game.session.source)]
 
-    if not rows():
+    if not played():
         game.tell(NO_SHOTS)
     elif stage is not None:
-        _open(view, "shots", lambda: Table(rows, partial(_with_row, view, rows), stage.colour_of))
+        _open(view, "shots", lambda: Table(played, partial(_with_row, view, played), stage.colour_of))
 
 
-def _with_row(view: View, rows: Callable[[], list[Played]], action: str, row: Played) -> None:
+def _with_row(view: View, played: Callable[[], list[Played]], action: str, row: Played) -> None:
     """An action of the table of shots."""
     game = view.game
     match action:
@@ -165,7 +171,7 @@ def _with_row(view: View, rows: Callable[[], list[Played]], action: str, row: Pl
         case "delete":
             game.table.rows.remove(row)
         case "csv":
-            _export(view, lambda: export.shots(rows(), game.session.title))
+            _export(view, lambda: export.shots(played(), game.session.title))
 
 
 def _find(view: View, by: float) -> None:
@@ -214,7 +220,6 @@ def _find_one(view: View, question: Question) -> None:
         foot, title = view.bar.places["see"], f"shots at {question.name}, the most forgiving first"
         if game.session.controls.scores:
             view.on.add("map")
-        view.over = None
         _open(view, "found", lambda: Choice(title, rows, choose, foot, marks))
 
     work = game.helper.submit(find, game.session.scene, question.goals)
@@ -285,6 +290,16 @@ def _predict(view: View, by: float) -> None:
     view.game.tell(f"path while aiming: {view.ahead}")
 
 
+def _tape(view: View, by: float) -> None:
+    """Lay the tape from the ball, to be dragged or moved by key; or put it away."""
+    shot, camera, playback = view.game.shot, view.camera, view.game.playback
+    view.on ^= {"tape"}
+    view.tape = None
+    if "tape" in view.on and shot is not None and camera is not None:
+        x, y, *_ = shot.run.state(shot.ball, playback.t if playback is not None else 0.0)
+        view.tape = Tape((x, y), camera.world(*view.area.center))
+
+
 def _accuracy(view: View, by: float) -> None:
     """Go to the next level, and report its cost and errors."""
     game, levels = view.game, list(LEVELS)
@@ -298,9 +313,9 @@ def _accuracy(view: View, by: float) -> None:
 def _back(view: View, by: float) -> None:
     """Close what is open, or stop what is going on."""
     game = view.game
-    if view.close_overlay() or (view.panel is not None and view.panel.close_lists()):
-        return
-    if game.holding:
+    if view.over is not None:
+        view.open(None)
+    elif game.holding:
         game.give_up_pull()
         view.free()
     elif view.picked is not None:
@@ -352,13 +367,9 @@ def _open_replay(view: View, by: float) -> None:
 
 
 def _animate(view: View, shot: Shot) -> None:
-    if view.exporter is not None and view.exporter.is_alive():
-        view.game.tell("the previous animation is still being written")
-        return
-    view.game.tell("writing the animation ...")
-    title = view.game.session.title
-    view.exporter = Thread(target=lambda: _export(view, lambda: export.animation(shot, title)), daemon=True)
-    view.exporter.start()
+    game = view.game
+    work = view.writer.submit(export.animation, shot, game.session.title)
+    game.ask(work, lambda path: game.tell(f"wrote {path}"), "writing the animation ...")
 
 
 def _copy(view: View, by: float) -> None:
@@ -397,12 +408,7 @@ def _quit(view: View, by: float) -> None:
 
 
 #: Commands for the panel, which they open if it is closed.
-PANEL: dict[str, Callable[[Any, float], object]] = {
-    "row": lambda panel, by: panel.choose(int(by)),
-    "value": lambda panel, by: panel.nudge(by),
-    "row_reset": lambda panel, by: panel.reset_row(),
-    "group": lambda panel, by: panel.turn(int(by)),
-}
+PANEL = ("row", "value", "row_reset", "group")
 
 COMMANDS: dict[str, Callable[[View, float], object]] = {
     "go": _go,
@@ -422,6 +428,7 @@ COMMANDS: dict[str, Callable[[View, float], object]] = {
     "shots": _shots,
     "find": _find,
     "predict": _predict,
+    "tape": _tape,
     "accuracy": lambda view, by: view.game.trying(lambda: _accuracy(view, by)),
     "zoom": _zoom,
     "pan_across": lambda view, by: view.pan(PAN * by, 0),
@@ -436,7 +443,6 @@ COMMANDS: dict[str, Callable[[View, float], object]] = {
     "open_replay": _open_replay,
     "menu": _menu,
     "next_preset": _other_preset,
-    "panel": lambda view, by: view.open_panel(not view.panel_wanted),
     "reset": lambda view, by: view.game.reset(),
     "undo": lambda view, by: view.game.undo() if by > 0 else view.game.redo(),
     "rack": lambda view, by: view.game.begin_again(),
@@ -447,5 +453,9 @@ COMMANDS: dict[str, Callable[[View, float], object]] = {
     "help": _help,
     "back": _back,
     "quit": _quit,
+    "row": lambda view, by: view.panel.choose(int(by)),
+    "value": lambda view, by: view.panel.nudge(by),
+    "row_reset": lambda view, by: view.panel.reset_row(),
+    "group": lambda view, by: view.panel.turn(int(by)),
     **{group.lower(): partial(_list, group=group) for group in LISTED},
 }

@@ -11,6 +11,7 @@ from sandbox.picture.camera import Camera
 from sandbox.picture.palette import palette
 from sandbox.window.canvas import Canvas
 from sandbox.window.handles import Grip
+from sandbox.window.overlay import card
 from sandbox.window.stage import Stage
 
 CARD, FORCE = palette("card"), palette("force")
@@ -79,14 +80,9 @@ def draw_handles(
 def label(sheet: Canvas, text: str, at: tuple[float, float], below: bool) -> None:
     """A text on a card above or below a place in px."""
     text = sheet.ended(text, "small", sheet.frame.width - 4 * sheet.gap)
-    rect = sheet.lettering.rect(
-        text, "small", (at[0], at[1] + (20 if below else -20) * sheet.unit), "midtop" if below else "midbottom"
-    )
-    room = sheet.frame.copy()
-    room.height -= sheet.card_height() + sheet.gap
-    rect = rect.inflate(4 * sheet.gap, 2 * sheet.gap).clamp(room)
-    sheet.painter.panel(rect, CARD["background"], 0.85, 6 * sheet.unit)
-    sheet.lettering.write(sheet.surface, text, "small", rect.center, CARD["text"], "center")
+    room = pygame.Rect(sheet.frame.topleft, (sheet.frame.width, sheet.card_row() - sheet.gap - sheet.frame.top))
+    away, anchor = (20 * sheet.unit, "midtop") if below else (-20 * sheet.unit, "midbottom")
+    card(sheet, [(text, CARD["text"])], anchor, (at[0], at[1] + away), room)
 
 
 def draw_pull(sheet: Canvas, start: tuple[float, float], pull: tuple[float, float], text: str) -> None:

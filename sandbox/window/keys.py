@@ -64,7 +64,7 @@ TABLE = (
     Command("charts", ("w",), "charts over time", "See"),
     Command("graphs", ("alt w",), "charts over time, large, with earlier shots", "See"),
     Command("energy", ("j",), "where the energy goes", "See"),
-    Command("tape", ("t",), "tape", "See", "right drag"),
+    Command("tape", ("t",), "tape; arrows move its end, K the other", "See", "right drag"),
     Command("accuracy", ("a",), "accuracy: fast, balanced, precise", "See"),
     Command("save_scene", ("s",), "a scene file with what was changed", "Keep"),
     Command("copy", ("c",), "copy the command line of this shot", "Keep"),

@@ -7,12 +7,12 @@ from dataclasses import dataclass
 from math import atan2, degrees, hypot, pi
 
 import numpy as np
-import pygame
 
 from sandbox.picture.camera import Camera
 from sandbox.picture.palette import palette
 from sandbox.picture.sheet import Entry, Sheet
 from sandbox.sport.amounts import metres, signed
+from sandbox.window.overlay import card
 from sandbox.window.shot import Shot
 
 CARD = palette("card")
@@ -76,28 +76,15 @@ def draw_reading(sheet: Sheet, shot: Shot, read: Reading, entries: Sequence[Entr
     rows = [("time", f"{read.t:.3f} s"), *((e[0], e[1]) for e in entries if e[0] != "time")]
     if len(shot.movers) > 1:
         rows.insert(0, ("ball", read.ball))
-    draw_rows(sheet, rows, read.at)
+    beside(sheet, rows, read.at)
 
 
-def draw_rows(sheet: Sheet, rows: Sequence[tuple[str, str]], at: tuple[float, float]) -> None:
-    """A small card of labels and values next to a point in px, where there is room."""
-    letters, gap = sheet.lettering, sheet.gap
-    left = max(letters.width(label, "small") for label, _ in rows)
-    right = max(letters.width(value, "small", bold=True) for _, value in rows)
-    row = letters.height("small") + gap // 2
-    rect = pygame.Rect(0, 0, left + right + 7 * gap, len(rows) * row + 3 * gap)
-    away = round(16 * sheet.unit)
-    rect.bottomleft = round(at[0]) + away, round(at[1]) - away
-    if rect.right > sheet.size[0] - gap:
-        rect.right = round(at[0]) - away
-    if rect.top < gap:
-        rect.top = round(at[1]) + away
-    rect.clamp_ip(sheet.surface.get_rect())
-    sheet.painter.panel(rect, CARD["background"], 0.92, 8 * sheet.unit)
-    for number, (label, value) in enumerate(rows):
-        top = rect.top + 1.5 * gap + number * row
-        letters.write(sheet.surface, label, "small", (rect.left + 2 * gap, top), CARD["quiet"])
-        letters.write(sheet.surface, value, "small", (rect.right - 2 * gap, top), CARD["text"], "topright", bold=True)
+def beside(sheet: Sheet, rows: Sequence[tuple[str, str]], at: tuple[float, float]) -> None:
+    """A card of labels and values next to a place in px, on the side where there is room."""
+    middle, away = sheet.surface.get_rect().center, 16 * sheet.unit
+    right, below = at[0] > 1.3 * middle[0], at[1] < middle[1]
+    anchor = ("top" if below else "bottom") + ("right" if right else "left")
+    card(sheet, rows, anchor, (at[0] + (-away if right else away), at[1] + (away if below else -away)))
 
 
 @dataclass
@@ -122,6 +109,6 @@ class Tape:
             sheet.painter.disc(at, 3.6 * unit, CARD["accent"])
         along, across = self.end[0] - self.start[0], self.end[1] - self.start[1]
         names = ("along", "up") if upright else ("x", "y")
-        draw_rows(
+        beside(
             sheet, [("tape", metres(self.length, 2)), (names[0], metres(along, 2)), (names[1], metres(across, 2))], b
         )

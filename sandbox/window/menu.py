@@ -11,11 +11,11 @@ from sandbox.errors import SandboxError
 from sandbox.picture.palette import palette
 from sandbox.picture.sheet import Sheet
 from sandbox.scene import load, simulate
-from sandbox.window.overlay import ARROWS, Row
+from sandbox.window.overlay import Row, Scrolled, item
 
 CARD = palette("card")
 
-#: Size of a thumbnail in px, and of the column of scenes in px on 720 rows.
+#: Size of a thumbnail in px, and width of the column of scenes in px on 720 rows.
 THUMBNAIL, COLUMN = (160, 90), 170
 TITLE = "What shall we play?"
 
@@ -26,140 +26,101 @@ def thumbnail(source: str) -> bytes:
         scene = load(source)
         large = scene.picture(simulate(scene), (4 * THUMBNAIL[0], 4 * THUMBNAIL[1])).poster()
         return pygame.image.tobytes(pygame.transform.smoothscale(large, THUMBNAIL), "RGB")
-    except (
-        SandboxError,
-        ArithmeticError,
-        AttributeError,
-        LookupError,
-        TypeError,
-        ValueError,
-    ):
+    except (SandboxError, ArithmeticError, AttributeError, LookupError, TypeError, ValueError):
         return b""
 
 
-class Menu:
+class Menu(Scrolled):
     """A column of scenes, and the presets of the one that is chosen."""
-
-    name = "menu"
 
     def __init__(
         self,
         groups: Mapping[str, Sequence[Row]],
-        choose: Callable[[str], object],
+        play: Callable[[str], object],
         picture_of: Callable[[str], Future[bytes]],
-        chosen: str,
+        now: str,
     ) -> None:
-        self.groups, self.choose, self.picture_of = dict(groups), choose, picture_of
-        last = [name for name, rows in self.groups.items() if any(row.action == chosen for row in rows)]
-        self.group = last[-1] if last else next(iter(self.groups))
-        self.chosen = chosen if last else self.groups[self.group][0].action
-        self.first, self.seen = 0, 1  # of the rows that are seen, and how many
-        self.places: list[tuple[pygame.Rect, Row]] = []
-        self.columns: list[tuple[pygame.Rect, str]] = []
+        """``now`` is the source of what is played."""
+        super().__init__()
+        self.groups, self.play, self.picture_of = dict(groups), play, picture_of
         self.pictures: dict[str, Future[bytes]] = {}
+        self.turn_to(next(iter(self.groups)))
+        for group, row in ((group, row) for group, rows in self.groups.items() for row in rows if row.action == now):
+            self.group, self.chosen = group, row
 
     @property
     def rows(self) -> Sequence[Row]:
-        """The rows of the group that is shown."""
         return self.groups[self.group]
 
     @property
-    def progress(self) -> int:
+    def progress(self) -> int:  # type: ignore[override]
         """How many thumbnails there are."""
         return sum(picture.done() for picture in self.pictures.values())
 
     @property
-    def waiting(self) -> bool:
-        """Whether thumbnails are still being made."""
+    def waiting(self) -> bool:  # type: ignore[override]
         return self.progress < len(self.pictures)
-
-    # Choosing
-
-    def pressed(self, at: tuple[int, int]) -> bool:
-        for rect, group in self.columns:
-            if rect.collidepoint(at):
-                self.turn_to(group)
-                return True
-        row = next((row for rect, row in self.places if rect.collidepoint(at)), None)
-        if row is not None:
-            self.choose(row.action)
-        return False
-
-    def key(self, key: int) -> bool | None:
-        if key == pygame.K_RETURN:
-            self.choose(self.chosen)
-            return False
-        if key not in ARROWS:
-            return None
-        across, down = ARROWS[key]
-        names, actions = list(self.groups), [row.action for row in self.rows]
-        if across:
-            self.turn_to(names[(names.index(self.group) + across) % len(names)])
-        else:
-            now = (actions.index(self.chosen) + down) % len(actions)
-            self.chosen = actions[now]
-            self.first = min(max(self.first, now - self.seen + 1), now)
-        return True
 
     def turn_to(self, group: str) -> None:
         """Show another group."""
         self.group, self.first = group, 0
-        self.chosen = self.rows[0].action
+        self.chosen = self.rows[0]
 
-    def scroll(self, by: int) -> None:
-        self.first = min(max(self.first + by, 0), max(0, len(self.rows) - self.seen))
+    def do(self, what: Row | str) -> bool:
+        if isinstance(what, str):
+            self.turn_to(what)
+        else:
+            self.play(what.action)
+        return isinstance(what, str)
 
-    # Drawing
+    def move(self, across: int, down: int) -> None:
+        if across:
+            names = list(self.groups)
+            self.turn_to(names[(names.index(self.group) + across) % len(names)])
+        else:
+            place = (self.rows.index(self.chosen) + down) % len(self.rows)
+            self.chosen = self.rows[place]
+            self.show(place)
 
     def draw(self, sheet: Sheet, mouse: tuple[int, int], on: Collection[str]) -> None:
         letters, gap, unit = sheet.lettering, sheet.gap, sheet.unit
         rect = sheet.surface.get_rect().inflate(-4 * gap, -4 * gap)
         sheet.painter.panel(rect, CARD["background"], 0.97, 10 * unit)
-        small, head = letters.height("small"), letters.height("medium") + 3 * gap
-        at = rect.left + 3 * gap, rect.top + 2 * gap
-        letters.write(
-            sheet.surface, letters.cut(TITLE, "medium", rect.width, True), "medium", at, CARD["text"], bold=True
-        )
-        self.columns.clear()
+        small, top = letters.height("small"), rect.top + letters.height("medium") + 3 * gap
+        at, title = (rect.left + 3 * gap, rect.top + 2 * gap), letters.cut(TITLE, "medium", rect.width, bold=True)
+        letters.write(sheet.surface, title, "medium", at, CARD["text"], bold=True)
         self.places.clear()
         wide = max(round(COLUMN * unit), max(letters.width(name, "small", True) for name in self.groups) + 4 * gap)
         wide = min(wide, rect.width // 3)
-        tall = min(small + gap, (rect.height - head - gap) // len(self.groups))
+        tall = min(small + gap, (rect.bottom - top - gap) // len(self.groups))
         for number, name in enumerate(self.groups):
-            place = pygame.Rect(rect.left + gap, rect.top + head + number * tall, wide, tall)
-            self.columns.append((place, name))
+            place = pygame.Rect(rect.left + gap, top + number * tall, wide, tall)
+            self.places.append((place, name))
             here = name == self.group
-            if here or place.collidepoint(mouse):
-                sheet.painter.panel(place, CARD["quiet"], 0.3 if here else 0.15, 5 * unit)
-            colour = CARD["accent"] if here else CARD["quiet"]
-            text = letters.cut(name, "small", wide - 3 * gap, bold=here)
-            letters.write(sheet.surface, text, "small", (place.left + 2 * gap, place.centery), colour, "midleft", here)
-        width, height = (round(length * max(0.6, min(1.0, unit))) for length in THUMBNAIL)
-        left, row_height = rect.left + wide + 3 * gap, max(height + 2 * gap, 3 * small)
-        self.seen = max(1, (rect.height - head - gap) // row_height)
-        self.scroll(0)
-        for number, row in enumerate(self.rows[self.first : self.first + self.seen]):
-            place = pygame.Rect(left, rect.top + head + number * row_height, rect.right - gap - left, row_height - gap)
+            lit = 0.3 if here else 0.15 * place.collidepoint(mouse)
+            item(sheet, place, name, CARD["accent" if here else "quiet"], lit, here, place.left + 2 * gap)
+        frame = pygame.Rect((0, 0), [round(length * max(0.6, min(1.0, unit))) for length in THUMBNAIL])
+        left, row_height = rect.left + wide + 3 * gap, max(frame.height + 2 * gap, 3 * small)
+        self.seen = max(1, (rect.bottom - top - gap) // row_height)
+        for number, row in enumerate(self.shown):
+            place = pygame.Rect(left, top + number * row_height, rect.right - gap - left, row_height - gap)
             self.places.append((place, row))
-            if row.action == self.chosen or place.collidepoint(mouse):
+            if row == self.chosen or place.collidepoint(mouse):
                 sheet.painter.panel(place, CARD["quiet"], 0.25, 6 * unit)
-            frame = pygame.Rect(place.left + gap, place.centery - height // 2, width, height)
+            frame.midleft = place.left + gap, place.centery
             self._picture(sheet, row.action, frame)
-            at = frame.right + 2 * gap, place.top + gap
-            room = place.right - at[0] - gap
-            colour = CARD["accent"] if row.action in on else CARD["text"]
-            letters.write(sheet.surface, letters.cut(row.text, "small", room, True), "small", at, colour, bold=True)
-            lines = letters.wrapped(row.about, "small", room) if row.about else []
-            most = max(1, (place.height - gap) // small - 1)
+            x, y, room = frame.right + 2 * gap, place.top + gap, place.right - frame.right - 3 * gap
+            colour = CARD["accent" if row.action in on else "text"]
+            letters.write(sheet.surface, letters.cut(row.text, "small", room, True), "small", (x, y), colour, bold=True)
+            lines, most = letters.wrapped(row.about, "small", room), max(1, (place.height - gap) // small - 1)
             if len(lines) > most:
                 lines = [*lines[: most - 1], letters.cut(" ".join(lines[most - 1 :]), "small", room)]
             for line, text in enumerate(lines, 1):
-                letters.write(sheet.surface, text, "small", (at[0], at[1] + line * small), CARD["quiet"])
+                letters.write(sheet.surface, text, "small", (x, y + line * small), CARD["quiet"])
         if len(self.rows) > self.seen:
-            text = f"{self.first + 1} to {self.first + len(self.places)} of {len(self.rows)}"
-            letters.write(
-                sheet.surface, text, "small", (rect.right - 2 * gap, rect.top + 2 * gap), CARD["quiet"], "topright"
-            )
+            text = f"{self.first + 1} to {self.first + len(self.shown)} of {len(self.rows)}"
+            at = rect.right - 2 * gap, rect.top + 2 * gap
+            letters.write(sheet.surface, text, "small", at, CARD["quiet"], "topright")
 
     def _picture(self, sheet: Sheet, source: str, frame: pygame.Rect) -> None:
         """A thumbnail, asked for once it is seen."""

@@ -1,10 +1,10 @@
-"""What lies over the picture for a while, one at a time: rows to choose from, or a picture; and the messages."""
+"""What lies over the picture for a while, one at a time; small cards of text, and the messages."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Collection, Iterable, Sequence
 from concurrent.futures import Future
-from typing import NamedTuple, Protocol
+from typing import Any, NamedTuple
 
 import pygame
 
@@ -13,67 +13,67 @@ from sandbox.picture.sheet import Sheet
 
 CARD = palette("card")
 
-
 #: The step of each in columns and rows.
 ARROWS = {pygame.K_LEFT: (-1, 0), pygame.K_RIGHT: (1, 0), pygame.K_UP: (0, -1), pygame.K_DOWN: (0, 1)}
 
 
-class Row(NamedTuple):
-    """A row of a board: what it does, its words, and the key at its right end; ``about`` is shown at the top."""
+class Overlay:
+    """What lies over the picture: by default nothing in it can be chosen, and a click closes it."""
 
-    action: str  # "" for a heading that does nothing
-    text: str
-    key: str = ""
-    about: str = ""
-    heading: bool = False
+    name = ""  # of the command that opens and closes it
+    waiting = False  # whether something of it is still being made
+    progress: object = 0  # changes when it must be drawn again
 
-
-class Overlay(Protocol):
-    """What lies over the picture."""
-
-    name: str  # of the command that opens and closes it
-
-    @property
-    def progress(self) -> object:
-        """Changes when it must be drawn again."""
-        ...
-
-    @property
-    def waiting(self) -> bool:
-        """Whether something of it is still being made."""
-        ...
+    def __init__(self) -> None:
+        self.places: list[tuple[pygame.Rect, Any]] = []  # of what can be chosen
+        self.chosen: Any = None  # by key
 
     def draw(self, sheet: Sheet, mouse: tuple[int, int], on: Collection[str]) -> None:
         """Draw it; ``on`` are the actions that are switched on."""
-        ...
+        raise NotImplementedError
+
+    def at(self, position: tuple[int, int]) -> Any:
+        """What can be chosen at a place."""
+        return next((what for rect, what in self.places if rect.collidepoint(position)), None)
 
     def pressed(self, at: tuple[int, int]) -> bool:
         """Do what a click does; returns whether the overlay stays."""
-        ...
+        what = self.at(at)
+        return what is not None and self.do(what)
 
     def key(self, key: int) -> bool | None:
         """Do what a key does; returns whether the overlay stays, or None if the key does nothing here."""
-        ...
+        if not self.places or (key not in ARROWS and key != pygame.K_RETURN):
+            return None
+        if key in ARROWS:
+            self.move(*ARROWS[key])
+            return True
+        return self.chosen is None or self.do(self.chosen)
+
+    def do(self, what: Any) -> bool:
+        """Do what was chosen; returns whether the overlay stays."""
+        raise NotImplementedError
+
+    def move(self, across: int, down: int) -> None:
+        """Choose by key: so many columns and rows on."""
 
     def scroll(self, by: int) -> None:
         """Show other rows, if there are more."""
-        ...
 
 
-class Chart:
+class Chart(Overlay):
     """A picture that is made in the background."""
 
-    name = ""
-
     def __init__(self, work: Future[pygame.Surface]) -> None:
+        super().__init__()
         self.work = work
 
     @property
-    def waiting(self) -> bool:
+    def waiting(self) -> bool:  # type: ignore[override]
         return not self.work.done()
 
     @property
-    def progress(self) -> bool:
+    def progress(self) -> bool:  # type: ignore[override]
         return self.work.done()
 
     def draw(self, sheet: Sheet, mouse: tuple[int, int], on: Collection[str]) -> None:
@@ -81,20 +81,48 @@ class Chart:
             surface = self.work.result()
             sheet.surface.blit(surface, surface.get_rect(center=sheet.surface.get_rect().center))
 
-    def pressed(self, at: tuple[int, int]) -> bool:
-        return False
 
-    def key(self, key: int) -> bool | None:
-        return None
+class Scrolled(Overlay):
+    """Rows of which some are seen."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.first, self.seen = 0, 1  # of the rows that are seen, and how many
+
+    @property
+    def rows(self) -> Sequence[Any]:
+        """All rows, in order."""
+        raise NotImplementedError
+
+    @property
+    def shown(self) -> Sequence[Any]:
+        """Those that are seen."""
+        self.scroll(0)
+        return self.rows[self.first : self.first + self.seen]
 
     def scroll(self, by: int) -> None:
-        pass
+        self.first = min(max(self.first + by, 0), max(0, len(self.rows) - self.seen))
+
+    def show(self, place: int) -> None:
+        """Make a row one that is seen."""
+        self.first = min(max(self.first, place - self.seen + 1), place)
 
 
-class Board:
+class Row(NamedTuple):
+    """A row of a board or a menu: what it does, its words, the key at its right end, and what the menu says of it."""
+
+    action: str  # "" for a heading, or a gap
+    text: str
+    key: str = ""
+    about: str = ""
+
+    @property
+    def heading(self) -> bool:
+        return not self.action
+
+
+class Board(Overlay):
     """Groups of rows in as many columns as they need, to be chosen by mouse, or by arrows and Enter."""
-
-    name, waiting, progress = "", False, 0
 
     def __init__(
         self,
@@ -103,48 +131,29 @@ class Board:
         choose: Callable[[str], object],
         foot: pygame.Rect | None = None,
         stays: bool = False,
-        chosen: str = "",
+        chosen: str | None = None,
     ) -> None:
         """With ``foot``, the button that opened it, it is a list above that; ``stays`` keeps it open after a choice."""
+        super().__init__()
         self.title, self.groups, self.choose, self.foot, self.stays = title, groups, choose, foot, stays
-        self.chosen = chosen  # by key
-        self.places: list[tuple[pygame.Rect, Row]] = []  # of what can be chosen
+        self.chosen = chosen
 
-    # Choosing
-
-    def at(self, position: tuple[int, int]) -> str | None:
-        """The action at a place."""
-        return next((row.action for rect, row in self.places if rect.collidepoint(position)), None)
-
-    def pressed(self, at: tuple[int, int]) -> bool:
-        action = self.at(at)
-        if action is not None:
-            self.choose(action)
-        return action is not None and self.stays
-
-    def key(self, key: int) -> bool | None:
-        if key in ARROWS:
-            self.move(*ARROWS[key])
-        elif key != pygame.K_RETURN:
-            return None
-        elif self.chosen:
-            self.choose(self.chosen)
-            return self.stays
-        return True
+    def do(self, what: str) -> bool:
+        self.choose(what)
+        return self.stays
 
     def scroll(self, by: int) -> None:
         self.move(0, by)
 
     def move(self, across: int, down: int) -> None:
-        """Choose by key: so many columns and rows on."""
-        rects = {row.action: rect for rect, row in self.places}
-        here = rects.get(self.chosen)
-        if here is None:
-            self.chosen = next(iter(rects), "")
+        rects = {action: rect for rect, action in self.places}
+        if self.chosen not in rects:
+            self.chosen = next(iter(rects), None)
         elif down:
             names = list(rects)
             self.chosen = names[(names.index(self.chosen) + down) % len(names)]
         else:
+            here = rects[self.chosen]
             columns = sorted({rect.left for rect in rects.values()})
             left = columns[(columns.index(here.left) + across) % len(columns)]
             there = [name for name, rect in rects.items() if rect.left == left]
@@ -154,26 +163,10 @@ class Board:
 
     def draw(self, sheet: Sheet, mouse: tuple[int, int], on: Collection[str]) -> None:
         letters, gap = sheet.lettering, sheet.gap
-        small = letters.height("small")
-        abouts = any(row.about for rows in self.groups for row in rows)
-        head = letters.height("medium") + 2 * gap + (small + gap) * abouts if self.title else 0
-        most = min((self.foot.top if self.foot else sheet.size[1]) - 2 * gap, sheet.size[1]) - 2 * gap
-        for row in (round(small + 1.3 * gap), round(small + 0.7 * gap), small):
-            columns = self._columns((most - head) // row)
-            widths = [max(self._width(sheet, each) for each in column) for column in columns]
-            if sum(widths) <= sheet.size[0] - 4 * gap:
-                break
-            if row == small and head:  # a small window: the title makes room
-                head = 0
-                columns = self._columns(most // row)
-        room = (sheet.size[0] - 4 * gap) // len(columns)
-        if sum(widths) > sheet.size[0] - 4 * gap:
-            widths = [room] * len(columns)
+        head, row, columns, widths = self._fitted(sheet)
         rect = pygame.Rect(0, 0, sum(widths) + 2 * gap, head + row * max(map(len, columns)) + 2 * gap)
         if self.foot is None:
-            veil = pygame.Surface(sheet.size, pygame.SRCALPHA)
-            veil.fill((*CARD["background"], 110))
-            sheet.surface.blit(veil, (0, 0))
+            veil(sheet.surface, 110)
             rect.center = sheet.surface.get_rect().center
         else:
             rect.midbottom = self.foot.centerx, sheet.size[1] - gap
@@ -183,33 +176,39 @@ class Board:
         if head:
             at = rect.left + 3 * gap, rect.top + gap
             letters.write(sheet.surface, self.title, "medium", at, CARD["text"], bold=True)
-            about = next((r.about for _, r in self.places if r.action == hovered), "")
-            about = letters.cut(about, "small", rect.width - 6 * gap)
-            letters.write(sheet.surface, about, "small", (at[0], at[1] + letters.height("medium")), CARD["quiet"])
         self.places.clear()
         left = rect.left + gap
         for column, width in zip(columns, widths, strict=True):
             for number, each in enumerate(column):
                 place = pygame.Rect(left, rect.top + gap + head + number * row, width, row)
-                self._row(sheet, each, place, each.action == hovered, each.action in on)
+                if each.action:
+                    self.places.append((place, each.action))
+                self._row(sheet, each, place, bool(each.action) and each.action == hovered, each.action in on)
             left += width
 
-    def _row(self, sheet: Sheet, row: Row, place: pygame.Rect, hovered: bool, on: bool) -> None:
+    def _fitted(self, sheet: Sheet) -> tuple[int, int, list[list[Row]], list[int]]:
+        """Heights of the title and of a row, the columns and their widths: the first that fit; in a small window the
+        rows are lower, and the title makes room."""
         letters, gap = sheet.lettering, sheet.gap
-        colour: Colour = CARD["text"] if row.heading or hovered else CARD["quiet"]
-        if row.action:
-            self.places.append((place, row))
-            if hovered:
-                sheet.painter.panel(place, CARD["quiet"], 0.25, 5 * sheet.unit)
-        elif row.heading:
-            colour = CARD["accent"]
+        small, title = letters.height("small"), letters.height("medium") + 2 * gap if self.title else 0
+        room, tall = (length - 4 * gap for length in sheet.size)
+        rows = [(title, round(small + 1.3 * gap)), (title, round(small + 0.7 * gap)), (title, small), (0, small)]
+        for head, row in rows:
+            columns = self._columns((tall - head) // row)
+            widths = [max(self._width(sheet, each) for each in column) for column in columns]
+            if sum(widths) <= room:
+                return head, row, columns, widths
+        return head, row, columns, [room // len(columns)] * len(columns)
+
+    @staticmethod
+    def _row(sheet: Sheet, row: Row, place: pygame.Rect, hovered: bool, on: bool) -> None:
+        letters, gap = sheet.lettering, sheet.gap
+        colour = CARD["accent" if on or row.heading else "text" if hovered else "quiet"]
         if on:
             sheet.painter.disc((place.left + gap, place.centery), 3.5 * sheet.unit, CARD["accent"])
-            colour = CARD["accent"]
         key = letters.width(row.key, "small", bold=True) + 2 * gap if row.key else 0
-        text = letters.cut(row.text, "small", place.width - 4 * gap - key, bold=row.heading)
-        at = place.left + 2 * gap, place.centery
-        letters.write(sheet.surface, text, "small", at, colour, "midleft", row.heading)
+        lit = 0.25 if hovered else 0.0
+        item(sheet, place, row.text, colour, lit, row.heading, place.left + 2 * gap, place.right - 2 * gap - key)
         if row.key:
             at = place.right - 2 * gap, place.centery
             letters.write(sheet.surface, row.key, "small", at, CARD["text"], "midright", bold=True)
@@ -236,38 +235,80 @@ class Board:
         return columns
 
 
+# What they are drawn with
+
+
+def item(
+    sheet: Sheet,
+    place: pygame.Rect,
+    text: str,
+    colour: Colour,
+    lit: float = 0.0,
+    bold: bool = False,
+    left: float | None = None,
+    right: float | None = None,
+) -> None:
+    """One line of text in the middle of ``place``, cut to what is between ``left`` and ``right`` px; on a pale panel
+    of the opacity ``lit``."""
+    if lit:
+        sheet.painter.panel(place, CARD["quiet"], lit, 5 * sheet.unit)
+    left, right = place.left + sheet.gap if left is None else left, place.right if right is None else right
+    text = sheet.lettering.cut(text, "small", right - left, bold)
+    sheet.lettering.write(sheet.surface, text, "small", (left, place.centery), colour, "midleft", bold)
+
+
+def veil(surface: pygame.Surface, opacity: int) -> None:
+    """Dim what is drawn; the opacity is from 0 to 255."""
+    dark = pygame.Surface(surface.get_size(), pygame.SRCALPHA)
+    dark.fill((*CARD["background"], opacity))
+    surface.blit(dark, (0, 0))
+
+
+def card(
+    sheet: Sheet,
+    lines: Iterable[tuple[str, Any]],
+    anchor: str,
+    at: tuple[float, float],
+    within: pygame.Rect | None = None,
+    avoid: pygame.Rect | None = None,
+) -> pygame.Rect:
+    """A small card, whose side or corner ``anchor`` (named as by pygame.Rect) is at a place in px; returns its place.
+
+    Each line is a text with its colour, or a label and a value. The card is moved inside ``within``, and below
+    ``avoid`` if they overlap.
+    """
+    letters, gap, lines = sheet.lettering, sheet.gap, list(lines)
+    row = letters.height("small") + gap // 2
+    values = [letters.width(value, "small", bold=True) + 3 * gap for _, value in lines if isinstance(value, str)]
+    wide = max(letters.width(text, "small") for text, _ in lines) + max(values, default=0) + 4 * gap
+    rect = pygame.Rect(0, 0, wide, len(lines) * row + 2 * gap - gap // 2)
+    setattr(rect, anchor, (round(at[0]), round(at[1])))
+    if avoid is not None and rect.colliderect(avoid):
+        rect.top = avoid.bottom + gap
+    rect.clamp_ip(within or sheet.surface.get_rect())
+    sheet.painter.panel(rect, CARD["background"], 0.9, 8 * sheet.unit)
+    for number, (text, value) in enumerate(lines):
+        left, right, top = rect.left + 2 * gap, rect.right - 2 * gap, rect.top + gap + number * row
+        is_value = isinstance(value, str)
+        letters.write(sheet.surface, text, "small", (left, top), CARD["quiet"] if is_value else value)
+        if is_value:
+            letters.write(sheet.surface, value, "small", (right, top), CARD["text"], "topright", bold=True)
+    return rect
+
+
 def draw_note(sheet: Sheet, lines: Sequence[tuple[str, Colour]], top: float, avoid: pygame.Rect) -> float:
     """A small card at the right, below ``avoid`` if they overlap; returns the row below it."""
-    letters, gap = sheet.lettering, sheet.gap
-    row = letters.height("small") + gap // 2
-    room = sheet.frame.width - 4 * gap
-    lines = [(part, colour) for text, colour in lines for part in letters.wrapped(text, "small", room)]
-    width = max(letters.width(text, "small") for text, _ in lines)
-    rect = pygame.Rect(0, 0, width + 4 * gap, len(lines) * row + 2 * gap)
-    rect.topright = sheet.frame.right, round(top)
-    if rect.colliderect(avoid):
-        rect.top = avoid.bottom + gap
-    sheet.painter.panel(rect, CARD["background"], 0.85, 8 * sheet.unit)
-    for number, (text, colour) in enumerate(lines):
-        at = (rect.left + 2 * gap, rect.top + gap + number * row)
-        letters.write(sheet.surface, text, "small", at, colour)
-    return float(rect.bottom + gap)
+    room = sheet.frame.width - 4 * sheet.gap
+    parts = [(part, colour) for text, colour in lines for part in sheet.lettering.wrapped(text, "small", room)]
+    return float(card(sheet, parts, "topright", (sheet.frame.right, top), avoid=avoid).bottom + sheet.gap)
 
 
 def draw_messages(sheet: Sheet, messages: Sequence[tuple[str, bool]]) -> None:
     """Messages over the bottom of the picture, each with whether it is bad, in up to ten lines."""
-    letters, gap = sheet.lettering, sheet.gap
-    room, row = round(0.8 * sheet.size[0]), letters.height("small") + gap // 2
-    foot = sheet.frame.bottom - sheet.card_height() - 2 * gap
+    room, foot = round(0.8 * sheet.size[0]), sheet.frame.bottom - sheet.card_height() - 2 * sheet.gap
     for text, bad in reversed(messages):
-        lines = [line for part in text.splitlines() for line in letters.wrapped(part, "small", room)][-10:]
-        width = max(letters.width(line, "small") for line in lines)
-        rect = pygame.Rect(0, 0, width + 6 * gap, row * len(lines) + 3 * gap)
-        rect.midbottom = sheet.size[0] // 2, foot
-        sheet.painter.panel(rect, CARD["background"], 0.95, 8 * sheet.unit)
-        stripe = pygame.Rect(rect.left, rect.top + gap, max(3, gap // 2), rect.height - 2 * gap)
-        sheet.surface.fill(CARD["bad"] if bad else CARD["good"], stripe)
-        for number, line in enumerate(lines):
-            at = (rect.left + 3 * gap, rect.top + 1.5 * gap + number * row)
-            letters.write(sheet.surface, line, "small", at, CARD["text"])
-        foot = rect.top - gap
+        lines = [line for part in text.splitlines() for line in sheet.lettering.wrapped(part, "small", room)][-10:]
+        rect = card(sheet, [(line, CARD["text"]) for line in lines], "midbottom", (sheet.size[0] // 2, foot))
+        stripe = pygame.Rect(rect.left, rect.top + sheet.gap, max(3, sheet.gap // 2), rect.height - 2 * sheet.gap)
+        sheet.surface.fill(CARD["bad" if bad else "good"], stripe)
+        foot = rect.top - sheet.gap

@@ -1,146 +1,101 @@
-"""The panel: a slider, a choice or a switch for every parameter, made from its declaration."""
+"""The panel: a slider, a list of words or a switch for every parameter, made from its declaration."""
 
 from __future__ import annotations
 
-import warnings
+from collections.abc import Callable
+from dataclasses import dataclass
 from typing import Any
 
 import pygame
-import pygame_gui
-from pygame_gui.core import UIContainer
-from pygame_gui.elements import (
-    UIButton,
-    UIDropDownMenu,
-    UIHorizontalSlider,
-    UILabel,
-    UIPanel,
-    UIScrollingContainer,
-    UITextEntryLine,
-)
 
-from sandbox.parameters import Group, Parameter, walk
-from sandbox.picture.lettering import Lettering
-from sandbox.picture.sheet import rows_of
+from sandbox.parameters import Parameter, walk
+from sandbox.picture.palette import mix, palette
+from sandbox.picture.sheet import Sheet
+from sandbox.window.background import Once
 from sandbox.window.game import Game
-from sandbox.window.session import Session
-from sandbox.window.theme import CARD, theme
+from sandbox.window.overlay import Board, Row, Scrolled, card, item
+
+CARD = palette("card")
 
 WIDTH, NARROWEST = 320, 280  # px on 720 rows; px
-#: Smallest scale, so that text in a small window can still be read.
-LEAST_UNIT = 0.8
 #: A slider reaches this many times the value in the file to either side, and at least this share of the bounds.
 REACH, LEAST_REACH = 1.5, 0.02
-FAVOURITES = "this shot"
-#: Layers from the panel up to the knobs of its sliders.
-OVER = 6
+#: Width of the field of a number in px where a line has 24, and radius of a slider's knob in px on 720 rows.
+FIELD, KNOB = 84, 7
+FAVOURITES, RESET_ALL = "this shot", "reset all"
+#: Parts of a row.
+FIELD_OF, SLIDER_OF, RESET_OF = "field", "slider", "reset"
 
 
-class Row:
-    """The elements of one number, word or switch: its name, what changes it, and a button that resets it."""
+@dataclass(frozen=True)
+class Setting:
+    """One number, word or switch."""
 
-    def __init__(self, panel: Panel, parameter: Parameter, index: int | None, top: int) -> None:
-        """``index`` is the place of a number within a vector; ``top`` is in px."""
-        self.parameter, self.index = parameter, index
-        self.place: dict[str, Any] = {"manager": panel.manager, "container": panel.container}
-        self.unit, self.height, self.wide = panel.unit, panel.row, panel.wide
-        self.shown = self.part(parameter.value)
-        self.tip = f"{parameter.key}: {parameter.meaning}"
-        if parameter.low is not None and parameter.high is not None:
-            self.tip += f"; from {parameter.low:g} to {parameter.high:g} {parameter.unit}".rstrip()
-        small, field = round(24 * self.unit), round(84 * self.unit)
-        left = self.wide - field - small - 4
-        self.label = UILabel(pygame.Rect(0, top, left, self.height), self._name(panel, left), **self.place)
-        self.label.set_tooltip(self.tip)
-        at = pygame.Rect(self.wide - small, top, small, self.height)
-        self.reset = UIButton(at, "×", tool_tip_text="as in the scene file", **self.place)
-        self.field = pygame.Rect(left, top, field, self.height)
-        self.foot = self._make(panel.session)
+    parameter: Parameter
+    index: int | None  # of a number within a vector
+    base: Any  # the parameter's value in the scene file
 
-    def _name(self, panel: Panel, room: int) -> str:
-        """The parameter's name with its unit, shortened to fit."""
-        key, unit = self.parameter.key, self.parameter.unit
-        part = "" if self.index is None else f" {'xyz'[self.index]}"
-        ending = f"  [{unit}]" if unit else ""
-        names = [key, key.rpartition(".")[2]] if panel.group == FAVOURITES else [key.rpartition(".")[2]]
-        texts = [name.replace("_", " ").replace(".", " ") + part for name in names]
-        texts = [*(text + ending for text in texts), texts[-1]]
-        return next((text for text in texts if panel.lettering.width(text, "small") <= room - 6), texts[-1])
+    @property
+    def at(self) -> tuple[str, int | None]:
+        """What it is the row of."""
+        return self.parameter.key, self.index
 
-    def part(self, value: Any) -> Any:
-        """This row's part of the parameter's value."""
+    @property
+    def value(self) -> Any:
+        return self._part(self.parameter.value)
+
+    def _part(self, value: Any) -> Any:
         return value if self.index is None or value is None else value[self.index]
 
-    def changed(self, session: Session, value: Any) -> dict[str, Any]:
-        """The change of the session that gives this part another value."""
-        if self.index is not None:
-            values = list(session.value(self.parameter.key))
-            values[self.index] = value
-            value = values
-        return {self.parameter.key: value}
+    @property
+    def written(self) -> str:
+        """The value as it is shown and typed."""
+        if isinstance(self.value, bool):
+            return "on" if self.value else "off"
+        if self.value is None and self.parameter.choices:
+            return "as the level says" if self.parameter.key.startswith("accuracy.") else "left out"
+        return "" if self.value is None else f"{self.value:.6g}" if isinstance(self.value, float) else str(self.value)
 
-    # What its kinds differ in
+    @property
+    def is_number(self) -> bool:
+        return self.parameter.unit is not None
 
-    def _make(self, session: Session) -> int:
-        """Make what changes it; returns where the row ends, in px."""
-        raise NotImplementedError
+    @property
+    def words(self) -> list[Any]:
+        """What it can be, unless it is a number; None is for left out."""
+        if not self.parameter.choices:
+            return [False, True]
+        return [None] * (self.parameter.optional or self.value is None) + list(self.parameter.choices)
 
-    def show(self, value: Any) -> bool:
-        """Show a value; returns whether that is possible without making the row anew."""
-        raise NotImplementedError
-
-    def taken(self, event: pygame.event.Event) -> tuple[Any] | None:
-        """The value that an event gives it, if it does."""
-        raise NotImplementedError
-
-    def nudged(self, value: Any, by: float) -> Any:
-        """The value after a step up or down."""
-        raise NotImplementedError
-
-
-class Number(Row):
-    """A number: a field, and a slider unless it is left out."""
-
-    slider: UIHorizontalSlider | None = None
-
-    def _make(self, session: Session) -> int:
-        self.entry = UITextEntryLine(self.field, **self.place)
-        self.entry.set_text(_written(self.shown))
-        if self.shown is None:
-            return self.field.bottom
-        low, high = span = self._span(session)
-        rect = pygame.Rect(0, self.field.bottom + 3, self.wide, round(16 * self.unit))
-        value = min(max(self.shown, low), high)
-        self.slider = UIHorizontalSlider(rect, value, span, click_increment=(high - low) / 100, **self.place)
-        return rect.bottom
-
-    def _span(self, session: Session) -> tuple[float, float]:
-        """The ends of the slider: around the value of the file, within the bounds."""
-        parameter = self.parameter
-        low, high = parameter.low or 0.0, parameter.high if parameter.high is not None else 1.0
-        base = self.part(session.base_value(parameter.key))
-        value = self.shown if base is None else base
+    @property
+    def span(self) -> tuple[float, float] | None:
+        """The ends of the slider: around the value of the file, within the bounds; None for what has none."""
+        if self.parameter.low is None or self.parameter.high is None or self.value is None:
+            return None
+        low, high = self.parameter.low, self.parameter.high
+        base = self._part(self.base)
+        value = self.value if base is None else base
         reach = max(REACH * abs(value), LEAST_REACH * (high - low))
         if high - low <= 4 * reach:
-            return float(low), float(high)
-        return float(max(low, value - reach)), float(min(high, value + reach))
+            return low, high
+        return max(low, value - reach), min(high, value + reach)
 
-    def show(self, value: Any) -> bool:
-        if (value is None) != (self.slider is None):
-            return False
-        if not self.entry.is_focused:
-            self.entry.set_text(_written(value))
-        if self.slider is not None and not self.slider.has_moved_recently:
-            low, high = self.slider.value_range
-            self.slider.set_current_value(min(max(value, low), high))
-        return True
+    def changed(self, value: Any) -> dict[str, Any]:
+        """The change that gives it another value."""
+        if self.index is not None:
+            parts = list(self.parameter.value)
+            parts[self.index] = value
+            value = parts
+        return {self.parameter.key: value}
 
-    def taken(self, event: pygame.event.Event) -> tuple[Any] | None:
-        if event.type == pygame_gui.UI_HORIZONTAL_SLIDER_MOVED and event.ui_element is self.slider:
-            return (float(f"{event.value:.4g}"),)
-        if event.type == pygame_gui.UI_TEXT_ENTRY_FINISHED and event.ui_element is self.entry:
-            self.entry.unfocus()
-            return (self.typed(event.text.strip()),)
-        return None
+    def nudged(self, by: float) -> Any:
+        """The value a hundredth of the slider on, the next word, on or off."""
+        if not self.is_number:
+            return self.words[(self.words.index(self.value) + (1 if by > 0 else -1)) % len(self.words)]
+        if self.span is None:
+            return self.value
+        low, high = self.span
+        return float(f"{self.parameter.within(self.value + by * (high - low) / 100):.5g}")
 
     def typed(self, text: str) -> Any:
         """A number, or text with a unit; an empty field leaves an optional number out."""
@@ -149,236 +104,228 @@ class Number(Row):
         except ValueError:
             return None if not text and self.parameter.optional else text
 
-    def nudged(self, value: Any, by: float) -> Any:
-        if self.slider is None:
-            return value
-        low, high = self.slider.value_range
-        value += by * (high - low) / 100
-        bounds = self.parameter.low, self.parameter.high
-        if bounds[0] is not None and bounds[1] is not None:
-            value = min(max(value, bounds[0]), bounds[1])
-        return float(f"{value:.5g}")
+
+def _can_be_shown(parameter: Parameter) -> bool:
+    number = parameter.unit is not None and not isinstance(parameter.value, list)
+    return bool(parameter.choices) or isinstance(parameter.value, bool) or number
 
 
-class Word(Row):
-    """One of several words."""
+class Panel(Scrolled):
+    """The rows of one group of parameters, in ``rect`` of the window; ``open_list`` shows a list over it."""
 
-    def _make(self, session: Session) -> int:
-        unset = "as the level says" if self.parameter.key.startswith("accuracy.") else "left out"
-        values = [None] * (self.parameter.optional or self.shown is None) + list(self.parameter.choices)
-        self.words = {unset if value is None else str(value): value for value in values}
-        rect = pygame.Rect(0, self.field.bottom, self.wide, self.height)
-        chosen, most = unset if self.shown is None else str(self.shown), round(200 * self.unit)
-        self.choice = UIDropDownMenu(list(self.words), chosen, rect, expansion_height_limit=most, **self.place)
-        return rect.bottom
-
-    def show(self, value: Any) -> bool:
-        text, _ = self.choice.selected_option
-        return bool(self.words[text] == value)
-
-    def taken(self, event: pygame.event.Event) -> tuple[Any] | None:
-        if event.type == pygame_gui.UI_DROP_DOWN_MENU_CHANGED and event.ui_element is self.choice:
-            return (self.words[event.text],)
-        return None
-
-    def nudged(self, value: Any, by: float) -> Any:
-        values = list(self.words.values())
-        return values[(values.index(value) + (1 if by > 0 else -1)) % len(values)]
-
-
-class Switch(Row):
-    """On or off."""
-
-    def _make(self, session: Session) -> int:
-        self.switch = UIButton(self.field, "on" if self.shown else "off", tool_tip_text=self.tip, **self.place)
-        return self.field.bottom
-
-    def show(self, value: Any) -> bool:
-        self.switch.set_text("on" if value else "off")
-        return True
-
-    def taken(self, event: pygame.event.Event) -> tuple[Any] | None:
-        pressed = event.type == pygame_gui.UI_BUTTON_PRESSED and event.ui_element is self.switch
-        return (not self.shown,) if pressed else None
-
-    def nudged(self, value: Any, by: float) -> Any:
-        return not value
-
-
-def _kind(parameter: Parameter) -> type[Row] | None:
-    """What a parameter's row is; None if it cannot be shown."""
-    if parameter.choices:
-        return Word
-    if isinstance(parameter.value, bool):
-        return Switch
-    return Number if parameter.unit is not None and not isinstance(parameter.value, list) else None
-
-
-class Over(UIContainer):
-    """A layer over the rows for lists that open there; it lets the mouse through to the rows."""
-
-    def check_hover(self, time_delta: float, hovered_higher_element: bool) -> bool:
-        return False
-
-
-class Panel:
-    """The rows of one group of parameters, in ``rect`` of a window of ``size``. It is made anew for another group, or
-    where rows must change: see ``outdated``."""
-
-    def __init__(
-        self,
-        size: tuple[int, int],
-        rect: pygame.Rect,
-        game: Game,
-        group: str = FAVOURITES,
-        chosen: int | None = None,
-    ) -> None:
-        """``chosen`` is the row that keys change."""
-        self.game, self.rect = game, rect
-        self.scene, self.base = game.session.scene, game.session.base
-        self.unit = Lettering.larger * max(LEAST_UNIT, rows_of(size) / 720)
-        self.lettering = Lettering(rows_of(size))
-        self.manager = pygame_gui.UIManager(size, theme(self.unit))
-        self.groups = self._groups()
-        self.group = self.wanted = group if group in self.groups else FAVOURITES
-        self.chosen, self.outdated = chosen, False
-        self.row, gap = round(26 * self.unit), round(10 * self.unit)
-        frame = UIPanel(rect, manager=self.manager, margins=dict.fromkeys(("left", "right", "top", "bottom"), 0))
-        inner = rect.width - 2 * gap
-        half, self.wide = (inner - gap) * 6 // 10, inner - gap
-        over = Over(pygame.Rect((0, 0), rect.size), self.manager, container=frame, starting_height=OVER)
-        at = pygame.Rect(gap, gap, half, self.row)
-        self.chooser = UIDropDownMenu(list(self.groups), self.group, at, self.manager, container=over)
-        at = pygame.Rect(2 * gap + half, gap, inner - half - gap, self.row)
-        tip = "every parameter as in the scene file (Backspace)"
-        self.reset_all = UIButton(at, "reset all", self.manager, container=frame, tool_tip_text=tip)
-        top = 2 * gap + self.row
-        at = pygame.Rect(gap, top, rect.width - gap, rect.height - top)
-        self.container = UIScrollingContainer(at, self.manager, container=frame, allow_scroll_x=False)
-        self.rows: list[Row] = []
-        foot = 0
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", UserWarning)  # a long name is cut; its tooltip has all of it
-            for parameter in self.groups[self.group]:
-                kind, value = _kind(parameter), parameter.value
-                for index in range(len(value)) if isinstance(value, tuple) else (None,):
-                    if kind is not None:
-                        self.rows.append(kind(self, parameter, index, foot))
-                        foot = self.rows[-1].foot + gap
-        self.container.set_scrollable_area_dimensions((self.wide, foot))
+    def __init__(self, game: Game, open_list: Callable[[Board], object]) -> None:
+        super().__init__()
+        self.game, self.open_list = game, open_list
+        self.rect = pygame.Rect(0, 0, 0, 0)
+        self.wanted = FAVOURITES
+        self.typing: tuple[str, int | None] | None = None  # the row that keys go into
+        self.text, self.whole = "", True  # of its field, and whether the next letter replaces it
+        self._once = Once()
 
     @property
-    def session(self) -> Session:
-        return self.game.session
+    def groups(self) -> dict[str, list[Parameter]]:
+        """Parameters by heading, those with a slider in the scene's controls first."""
+        scene = self.game.session.scene
+        groups: dict[str, list[Parameter]] = self._once("groups", (scene,), self._groups)
+        return groups
 
     def _groups(self) -> dict[str, list[Parameter]]:
-        """Parameters by heading, those with a slider in the scene's controls first."""
-        by_key = {p.key: p for p in walk(self.scene.parameters) if _kind(p) is not None}
-        groups = {FAVOURITES: [by_key[key] for key in self.session.controls.sliders if key in by_key]}
+        session = self.game.session
+        by_key = {p.key: p for p in walk(session.scene.parameters) if _can_be_shown(p)}
+        groups = {FAVOURITES: [by_key[key] for key in session.controls.sliders if key in by_key]}
         for parameter in by_key.values():
-            groups.setdefault(parameter.key.rpartition(".")[0] or self.scene.name, []).append(parameter)
+            groups.setdefault(parameter.key.rpartition(".")[0] or session.scene.name, []).append(parameter)
         groups[FAVOURITES] = groups[FAVOURITES] or groups.get("launch", [])
         return groups
 
-    # What happens
+    @property
+    def group(self) -> str:
+        """The group that is shown."""
+        return self.wanted if self.wanted in self.groups else FAVOURITES
 
     @property
-    def typing(self) -> bool:
-        """Whether keys go into a field."""
-        return any(isinstance(row, Number) and row.entry.is_focused for row in self.rows)
+    def rows(self) -> list[Setting]:
+        session = self.game.session
+        return [
+            Setting(parameter, index, session.base_value(parameter.key))
+            for parameter in self.groups[self.group]
+            for index in (range(len(parameter.value)) if isinstance(parameter.value, tuple) else (None,))
+        ]
 
-    def handle(self, event: pygame.event.Event) -> bool:
-        """Handle an event; returns whether it was the panel's."""
-        used = self.manager.process_events(event)
-        element = getattr(event, "ui_element", None)
-        if element is not None:
-            if event.type == pygame_gui.UI_DROP_DOWN_MENU_CHANGED and element is self.chooser:
-                self._turn_to(event.text)
-            elif event.type == pygame_gui.UI_BUTTON_PRESSED and element is self.reset_all:
-                self.game.reset()
-            for row in self.rows:
-                if (value := row.taken(event)) is not None:
-                    self.set(row, value[0])
-                elif event.type == pygame_gui.UI_BUTTON_PRESSED and element is row.reset:
-                    self.game.reset(row.parameter.key)
-        return bool(used)
+    # What is done
 
-    def set(self, row: Row, value: Any) -> None:
-        """Give a row another value; an invalid one is reported, and the row shows the valid one again."""
-        self.game.change(row.changed(self.session, value))
-        self.refresh(everything=True)
+    def set(self, row: Setting, value: Any) -> None:
+        """Give a row another value; an invalid one is reported."""
+        self.game.change(row.changed(value))
 
-    def _turn_to(self, group: str) -> None:
-        self.wanted, self.outdated, self.chosen = group, True, None
+    def turn_to(self, group: str) -> None:
+        """Show another group."""
+        self.wanted, self.first, self.chosen, self.typing = group, 0, None, None
 
-    def refresh(self, everything: bool = False) -> None:
-        """Show the current parameters."""
-        if self.session.scene is self.scene and not everything:
-            return
-        known, self.scene = self.scene, self.session.scene
-        self.outdated |= self.session.base is not self.base
-        self.outdated |= _shape(self.scene.parameters) != _shape(known.parameters)
-        for row in self.rows if not self.outdated else ():
-            value = row.part(self.session.value(row.parameter.key))
-            if value != row.shown or everything:
-                row.shown = value
-                self.outdated |= not row.show(value)
+    def do(self, what: Any) -> bool:
+        """Do what a click on a part of it does."""
+        if what == RESET_ALL:
+            self.game.reset()
+        elif what == FAVOURITES:
+            self._offer([(name, name) for name in self.groups], self.group, self.turn_to)
+        else:
+            row, part = what
+            if part == RESET_OF:
+                self.game.reset(row.parameter.key)
+            elif row.is_number:
+                self.typing, self.text, self.whole = row.at, row.written, True
+            elif isinstance(row.value, bool):
+                self.set(row, not row.value)
+            else:
+                words = [(Setting(row.parameter._replace(value=word), None, None).written, word) for word in row.words]
+                self._offer(words, row.written, lambda word: self.set(row, word))
+        return True
 
-    def close_lists(self) -> bool:
-        """Close a list of words that is open; whether one was."""
-        lists = [self.chooser, *(row.choice for row in self.rows if isinstance(row, Word))]
-        opened = [choice for choice in lists if choice.current_state is choice.menu_states["expanded"]]
-        for choice in opened:
-            if choice.current_state is not None:
-                choice.current_state.target_state, choice.current_state.should_transition = "closed", True
-        return bool(opened)
+    def _offer(self, words: list[tuple[str, Any]], now: str, choose: Callable[[Any], object]) -> None:
+        """A list of words to choose from."""
+        values = dict(words)
+        lines = [Row(text, text) for text in values]
+        self.open_list(Board("", [lines], lambda text: choose(values[text]), self.rect, chosen=now))
+
+    def slider_at(self, at: tuple[int, int]) -> Setting | None:
+        """The row of the slider at a place in px."""
+        what = self.at(at)
+        return what[0] if isinstance(what, tuple) and what[1] == SLIDER_OF else None
+
+    def slide(self, row: Setting, at: tuple[int, int]) -> None:
+        """Drag the knob of a row's slider to a place in px."""
+        ((rect, _),) = [place for place in self.places if isinstance(place[1], tuple) and place[1][1] == SLIDER_OF and
+                        place[1][0].at == row.at]  # fmt: skip
+        if row.span is not None:
+            low, high = row.span
+            share = min(max((at[0] - rect.left - self.knob) / max(1, rect.width - 2 * self.knob), 0.0), 1.0)
+            self.set(row, float(f"{low + share * (high - low):.4g}"))
+
+    def type(self, event: pygame.event.Event) -> None:
+        """A key that goes into a field: a letter, Backspace, Ctrl V; Enter takes the text, Escape leaves it."""
+        if event.key == pygame.K_RETURN:
+            self.enter()
+        elif event.key == pygame.K_ESCAPE:
+            self.typing = None
+        elif event.key == pygame.K_BACKSPACE:
+            self.text, self.whole = "" if self.whole and self.text else self.text[:-1], False
+        else:
+            pasted = event.key == pygame.K_v and event.mod & pygame.KMOD_CTRL
+            text = pygame.scrap.get_text() if pasted else event.unicode
+            if text.isprintable() and text:
+                self.text, self.whole = text if self.whole else self.text + text, False
+
+    def enter(self) -> None:
+        """Take what was typed, if something was."""
+        row = next((row for row in self.rows if row.at == self.typing), None)
+        text, self.typing = self.text.strip(), None
+        if row is not None and text != row.written:
+            self.set(row, row.typed(text))
 
     # By key
 
     def choose(self, by: int) -> None:
         """Go to another row, ``by`` rows on."""
-        self.chosen = (self.chosen + by if self.chosen is not None else min(by, 0)) % max(1, len(self.rows))
-        bar = self.container.vert_scroll_bar
-        if bar is not None:
-            top = self.rows[self.chosen].label.rect.top - self.rows[0].label.rect.top
-            bar.set_scroll_from_start_percentage(top / self.container.scrollable_container.rect.height)
+        names = [row.at for row in self.rows]
+        now = names.index(self.chosen) if self.chosen in names else -1 if by > 0 else 0
+        place = (now + by) % len(names)
+        self.chosen = names[place]
+        self.show(place)
 
     def nudge(self, by: float) -> None:
         """More or less of the chosen row: a hundredth of its slider, the next word, on or off."""
         if self.chosen is None:
-            self.choose(0)
-        row = self.rows[self.chosen or 0]
-        self.set(row, row.nudged(row.part(self.session.value(row.parameter.key)), by))
+            self.choose(1)
+        for row in self.rows:
+            if row.at == self.chosen:
+                self.set(row, row.nudged(by))
 
     def turn(self, by: int) -> None:
         """Go to another group, ``by`` groups on."""
         groups = list(self.groups)
-        self._turn_to(groups[(groups.index(self.wanted) + by) % len(groups)])
+        self.turn_to(groups[(groups.index(self.group) + by) % len(groups)])
 
     def reset_row(self) -> None:
         """The chosen row as in the file."""
         if self.chosen is not None:
-            self.game.reset(self.rows[self.chosen].parameter.key)
+            self.game.reset(self.chosen[0])
 
-    # In the window
+    # Drawing
 
-    def update(self, dt: float) -> None:
-        self.refresh()
-        self.manager.update(dt)
+    def lay_out(self, sheet: Sheet, height: int) -> None:
+        """Its place at the right of the window."""
+        wide = min(max(NARROWEST, round(WIDTH * sheet.unit)), sheet.size[0] // 2)
+        self.rect = pygame.Rect(sheet.size[0] - wide, 0, wide, height)
 
-    def draw(self, surface: pygame.Surface) -> None:
-        surface.fill(CARD["background"], self.rect)
-        self.manager.draw_ui(surface)
-        if self.chosen is not None and self.chosen < len(self.rows):
-            label = self.rows[self.chosen].label.rect
-            surface.fill(CARD["accent"], (self.rect.left + 3, label.top + 3, 3, label.height - 6))
+    def draw_on(self, sheet: Sheet, mouse: tuple[int, int]) -> None:
+        """The group's name, and its rows."""
+        gap, self.knob = sheet.gap, round(KNOB * sheet.unit)
+        line = sheet.lettering.height("small") + gap
+        sheet.surface.fill(CARD["background"], self.rect)
+        self.places.clear()
+        inner = self.rect.inflate(-4 * gap, -3 * gap)
+        half = (inner.width - gap) * 6 // 10
+        self._box(sheet, pygame.Rect(inner.topleft, (half, line)), f"{self.group}  ▾", FAVOURITES, mouse)
+        place = pygame.Rect(inner.left + half + gap, inner.top, inner.width - half - gap, line)
+        self._box(sheet, place, RESET_ALL, RESET_ALL, mouse)
+        top, tall = inner.top + line + 2 * gap, 2 * line + gap // 2
+        self.seen = max(1, (inner.bottom - top) // tall)
+        rows = self.rows
+        hovered = None
+        for number, row in enumerate(self.shown):
+            place = pygame.Rect(inner.left, top + number * tall, inner.width - gap, tall)
+            self._row(sheet, row, place, line, mouse)
+            hovered = row if place.collidepoint(mouse) else hovered
+        if len(rows) > self.seen:
+            bar = pygame.Rect(inner.right - gap // 2, top, max(2, gap // 2), self.seen * tall)
+            sheet.surface.fill(mix(CARD["background"], CARD["quiet"], 0.2), bar)
+            bar.top, bar.height = bar.top + bar.height * self.first // len(rows), bar.height * self.seen // len(rows)
+            sheet.surface.fill(CARD["quiet"], bar)
+        if hovered is not None:
+            self._tip(sheet, hovered.parameter, mouse[1])
 
+    def _box(self, sheet: Sheet, place: pygame.Rect, text: str, what: Any, mouse: tuple[int, int]) -> None:
+        """A button or a field with a text."""
+        self.places.append((place, what))
+        item(sheet, place, text, CARD["text"], 0.3 if place.collidepoint(mouse) else 0.16)
 
-def _shape(parameters: Group) -> list[Any]:
-    """The groups of the parameters, by which it is known what parameters there are."""
-    inner = [_shape(value) for value in vars(parameters).values() if isinstance(value, Group)]
-    return [type(parameters), *inner]
+    def _row(self, sheet: Sheet, row: Setting, place: pygame.Rect, line: int, mouse: tuple[int, int]) -> None:
+        gap, words = sheet.gap, bool(row.parameter.choices)
+        top = pygame.Rect(place.topleft, (place.width, line))
+        below = top.move(0, line)
+        reset = pygame.Rect(top.right - line, top.top, line, line)
+        field = pygame.Rect(reset.left - gap // 2 - FIELD * line // 24, top.top, FIELD * line // 24, line)
+        right = (reset.left if words else field.left) - gap
+        colour = CARD["accent" if row.at == self.chosen else "text"]
+        item(sheet, top, self._name(sheet, row, right - top.left), colour, left=top.left, right=right)
+        if row.parameter.value != row.base:
+            self._box(sheet, reset, "×", (row, RESET_OF), mouse)
+        typed = row.at == self.typing
+        text = f"{self.text}|" if typed else f"{row.written}  ▾" if words else row.written
+        self._box(sheet, below if words else field, text, (row, FIELD_OF), mouse)
+        if typed:
+            pygame.draw.rect(sheet.surface, CARD["accent"], field, 1, border_radius=gap)
+        if row.span is not None:
+            low, high = row.span
+            self.places.append((below, (row, SLIDER_OF)))
+            groove = pygame.Rect(below.left + self.knob, below.centery - 2, below.width - 2 * self.knob, 4)
+            sheet.surface.fill(mix(CARD["background"], CARD["quiet"], 0.35), groove)
+            share = min(max((row.value - low) / ((high - low) or 1.0), 0.0), 1.0)
+            sheet.painter.disc((groove.left + share * groove.width, groove.centery), self.knob, CARD["accent"])
 
+    def _name(self, sheet: Sheet, row: Setting, room: int) -> str:
+        """The parameter's name with its unit, as much of it as fits."""
+        key, unit = row.parameter.key, row.parameter.unit
+        part = "" if row.index is None else f" {'xyz'[row.index]}"
+        names = [key, key.rpartition(".")[2]] if self.group == FAVOURITES else [key.rpartition(".")[2]]
+        texts = [name.replace("_", " ").replace(".", " ") + part for name in names]
+        texts = [*(f"{text}  [{unit}]" if unit else text for text in texts), texts[-1]]
+        return next((text for text in texts if sheet.lettering.width(text, "small") <= room), texts[-1])
 
-def _written(value: Any) -> str:
-    return "" if value is None else f"{value:.6g}"
+    def _tip(self, sheet: Sheet, parameter: Parameter, row: int) -> None:
+        """What a parameter means, and its bounds, next to the panel."""
+        text = f"{parameter.key}: {parameter.meaning}"
+        if parameter.low is not None and parameter.high is not None:
+            text += f"; from {parameter.low:g} to {parameter.high:g} {parameter.unit}".rstrip()
+        lines = sheet.lettering.wrapped(text, "small", self.rect.width)
+        card(sheet, [(each, CARD["text"]) for each in lines], "topright", (self.rect.left - sheet.gap, row))

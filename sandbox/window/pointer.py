@@ -1,13 +1,15 @@
-"""The mouse: pull, drag the time line or the tape, zoom and move the picture, press buttons."""
+"""The mouse: pull, drag handles, sliders, the time line or the tape, zoom and move the picture, press buttons."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from math import dist
 
 import numpy as np
 import pygame
 
 from sandbox.window import aim, commands
+from sandbox.window.handles import Grip
 from sandbox.window.measure import Tape
 from sandbox.window.view import View
 
@@ -22,25 +24,12 @@ class Pointer:
 
     def __init__(self, view: View) -> None:
         self.view = view
-        self.scrubbing = False  # the time line is dragged
-        self.laying = False  # the tape is dragged
-        self.panning = False  # the picture is dragged
-        self.spinning = False  # the ball of spins is dragged
+        self.drag: Callable[[Place], object] | None = None  # what the next place of a drag does
         self.fingers: dict[int, tuple[float, float]] = {}  # on a touch screen, px
-        self.grabbed: Place = (0, 0)  # where the button was pressed on a handle
-        self.pressed: Place | None = None  # where the button was pressed on a shot that is over
-
-    @property
-    def at(self) -> Place:
-        return self.view.at
-
-    @property
-    def dragging(self) -> bool:
-        """Whether a drag is in progress, which may leave the area where it began."""
-        return self.scrubbing or self.laying or self.panning or self.spinning or self.view.game.holding
 
     def handle(self, event: pygame.event.Event) -> None:
         """One event of the mouse, or of fingers on a screen: one is a mouse, two zoom and move the picture."""
+        view = self.view
         if event.type in (pygame.FINGERDOWN, pygame.FINGERMOTION, pygame.FINGERUP):
             self._touched(event)
             return
@@ -48,18 +37,21 @@ class Pointer:
             return
         match event.type:
             case pygame.MOUSEMOTION:
-                self._moved(self.view.at, event.pos)
+                if self.drag is not None:
+                    self.drag(event.pos)
+                view.at = event.pos
             case pygame.MOUSEBUTTONDOWN if event.button == pygame.BUTTON_LEFT:
-                self.view.at = event.pos
-                self._pressed(event.pos)
+                view.at = event.pos
+                self.drag = self._pressed(event.pos)
             case pygame.MOUSEBUTTONDOWN if event.button == pygame.BUTTON_RIGHT:
-                self._lay(event.pos)
+                self.drag = self._lay(event.pos)
             case pygame.MOUSEBUTTONDOWN if event.button == pygame.BUTTON_MIDDLE:
-                self.view.at, self.panning = event.pos, self.view.area.collidepoint(event.pos)
+                view.at = event.pos
+                self.drag = self._pan if view.area.collidepoint(event.pos) else None
             case pygame.MOUSEBUTTONUP if event.button == pygame.BUTTON_LEFT:
                 self._released()
             case pygame.MOUSEBUTTONUP if event.button in (pygame.BUTTON_RIGHT, pygame.BUTTON_MIDDLE):
-                self.laying = self.panning = False
+                self.drag = None
             case pygame.MOUSEWHEEL:
                 self._turned(event)
 
@@ -82,19 +74,22 @@ class Pointer:
 
     def _turned(self, event: pygame.event.Event) -> None:
         """The wheel, or a trackpad: the size of the picture with Ctrl, or while a shot is watched; else spin."""
-        held = pygame.key.get_mods()
-        if self.view.over is not None:
-            self.view.over.scroll(-event.y)
-        elif held & pygame.KMOD_CTRL or self.view.game.playback is not None:
-            self.view.zoom(NOTCH ** getattr(event, "precise_y", event.y), self.at)
+        held, view = pygame.key.get_mods(), self.view
+        if view.over is not None:
+            view.over.scroll(-event.y)
+        elif view.on_panel(view.at):
+            view.panel.scroll(-event.y)
+        elif held & pygame.KMOD_CTRL or view.game.playback is not None:
+            view.zoom(NOTCH ** getattr(event, "precise_y", event.y), view.at)
         else:
             other = bool(held & pygame.KMOD_SHIFT) or event.x != 0
-            session = self.view.game.session
-            self.view.game.nudge(aim.spun(session, int(other), event.y or event.x))
+            view.game.nudge(aim.spun(view.game.session, int(other), event.y or event.x))
 
-    def _pressed(self, at: Place) -> None:
+    def _pressed(self, at: Place) -> Callable[[Place], object] | None:
+        """Do what a press does; returns what dragging from there does."""
         view, game = self.view, self.view.game
         button = view.bar.command_at(at)
+        view.panel.enter()
         if button is not None:
             commands.do(view, button)
         elif view.over is not None:
@@ -102,77 +97,87 @@ class Pointer:
             if over.pressed(at):
                 view.over = over
         elif view.bar.share_at(at) is not None and game.playback is not None:
-            self.scrubbing = True
             game.playback.playing = False
-            self._scrub(at)
+            return self._begun(self._scrub, at)
+        elif view.on_panel(at):
+            slider = view.panel.slider_at(at)
+            if slider is not None:
+                return self._begun(lambda to: view.panel.slide(slider, to), at)
+            view.panel.pressed(at)
         elif view.area.collidepoint(at):
-            aimed = view.aim_on_map(at)
-            if "tape" in view.on:
-                self._lay(at)
-            elif pygame.key.get_mods() & pygame.KMOD_CTRL:
-                self.panning = True
-            elif aimed is not None:
-                game.nudge(aim.aimed(game.session, *aimed))
-            elif view.on_charts(at):
-                commands.do(view, "graphs")
-            elif (grip := view.handle_at(at)) is not None:
-                view.hold()
-                game.begin_drag(grip)
-                self.grabbed = at
-            elif (pad := view.pad) is not None and pad.rect.collidepoint(at):
-                self.spinning = True
-                game.nudge(pad.changes(at))
-            elif game.playback is None:
-                self._begin_pull(at)
-            elif game.playback.over:
-                self.pressed = at
-            else:
-                self.panning = True
-                game.tell("Enter to aim again, Space to pause")
+            return self._on_picture(at)
+        return None
 
-    def _begin_pull(self, at: Place) -> None:
-        stage = self.view.stage
-        stretch = stage.camera.stretch if stage is not None else 1.0
-        self.view.game.begin_pull(at, self.view.area.height, stretch)
+    def _on_picture(self, at: Place) -> Callable[[Place], object] | None:
+        view, game = self.view, self.view.game
+        if "tape" in view.on:
+            return self._lay(at)
+        if pygame.key.get_mods() & pygame.KMOD_CTRL:
+            return self._pan
+        if (aimed := view.aim_on_map(at)) is not None:
+            game.nudge(aim.aimed(game.session, *aimed))
+        elif view.on_charts(at):
+            commands.do(view, "graphs")
+        elif (grip := view.handle_at(at)) is not None:
+            view.hold()
+            game.begin_drag(grip)
+            return lambda to: self._drag_handle(grip, at, to)
+        elif (pad := view.pad) is not None and pad.rect.collidepoint(at):
+            return self._begun(lambda to: game.nudge(pad.changes(to)), at)
+        elif game.playback is None:
+            return self._pull(at)
+        elif game.playback.over:
+            return lambda to: self._perhaps_pull(at, to)
+        else:
+            game.tell("Enter to aim again, Space to pause")
+            return self._pan
+        return None
 
-    def _scrub(self, at: Place) -> None:
+    @staticmethod
+    def _begun(drag: Callable[[Place], object], at: Place) -> Callable[[Place], object]:
+        """A drag that does something at once."""
+        drag(at)
+        return drag
+
+    def _pan(self, to: Place) -> None:
+        self.view.pan(to[0] - self.view.at[0], to[1] - self.view.at[1])
+
+    def _scrub(self, to: Place) -> None:
         playback = self.view.game.playback
         if playback is not None:
-            playback.seek(self.view.bar.share(at) * playback.duration)
+            playback.seek(self.view.bar.share(to) * playback.duration)
             self.view.changed = True
 
-    def _lay(self, at: Place) -> None:
-        camera = self.view.camera
-        if camera is not None and self.view.area.collidepoint(at):
-            place = camera.world(*at)
-            self.view.tape, self.laying = Tape(place, place), True
+    def _drag_handle(self, grip: Grip, start: Place, to: Place) -> None:
+        view, snap = self.view, bool(pygame.key.get_mods() & pygame.KMOD_SHIFT)
+        if view.game.grip is not None:
+            view.game.drag_to(view.dragged(grip, start, to), view.step_of(grip, snap))
 
-    def _moved(self, before: Place, at: Place) -> None:
-        view, game = self.view, self.view.game
-        camera, view.at = view.camera if self.laying else None, at
-        if camera is not None and view.tape is not None:
-            view.tape.end = camera.world(*at)
-        elif self.scrubbing:
-            self._scrub(at)
-        elif self.panning:
-            view.pan(at[0] - before[0], at[1] - before[1])
-        elif self.pressed is not None:
-            # a pull ends the watching of a shot that is over, a click does not
-            if abs(at[0] - self.pressed[0]) + abs(at[1] - self.pressed[1]) >= aim.LEAST:
-                game.aim_again(from_rest=True)
-                self._begin_pull(self.pressed)
-                self.pressed = None
-                game.pull_to(at)
-        elif self.spinning and (pad := view.pad) is not None:
-            game.nudge(pad.changes(at))
-        elif game.grip is not None:
-            snap = bool(pygame.key.get_mods() & pygame.KMOD_SHIFT)
-            game.drag_to(view.dragged(game.grip, self.grabbed, at), view.step_of(game.grip, snap))
-        else:
-            game.pull_to(at)
+    def _pull(self, at: Place) -> Callable[[Place], object]:
+        view = self.view
+        view.game.begin_pull(at, view.area.height, view.stage.camera.stretch if view.stage is not None else 1.0)
+        return view.game.pull_to
+
+    def _perhaps_pull(self, start: Place, to: Place) -> None:
+        """A pull ends the watching of a shot that is over; a click does not."""
+        if abs(to[0] - start[0]) + abs(to[1] - start[1]) >= aim.LEAST:
+            self.view.game.aim_again(from_rest=True)
+            self.drag = self._pull(start)
+            self.drag(to)
+
+    def _lay(self, at: Place) -> Callable[[Place], object] | None:
+        view = self.view
+        if view.camera is None or not view.area.collidepoint(at):
+            return None
+        start = view.camera.world(*at)
+
+        def lay(to: Place) -> None:
+            if view.camera is not None:
+                view.tape = Tape(start, view.camera.world(*to))
+
+        return self._begun(lay, at)
 
     def _released(self) -> None:
-        self.scrubbing = self.laying = self.panning = self.spinning = False
-        self.pressed = None
+        self.drag = None
         self.view.game.release()
         self.view.free()

@@ -1,4 +1,4 @@
-"""The map of a shot: which speeds and angles around it score, everything else being equal."""
+"""The map of a shot: which speeds and angles around it score, everything else being equal; and its card."""
 
 from __future__ import annotations
 
@@ -6,19 +6,26 @@ from time import perf_counter
 from typing import NamedTuple
 
 import numpy as np
+import pygame
 
 from sandbox import parameters as declared
 from sandbox.errors import RequestError
 from sandbox.lab.runs import runs
+from sandbox.picture.palette import Colour, mix, palette
+from sandbox.picture.sheet import Sheet
 from sandbox.scene import Scene
 from sandbox.sport.controls import Spread
 from sandbox.window.fan import ANGLE, SPEED, within
+
+CARD = palette("card")
 
 #: Half of each side, in standard deviations of what a player hits.
 REACH = 15.0
 #: Cells along speed and angle: at first, and three times as many, if the first took less than this time in s. Odd, so
 #: that the shot itself is the middle of a cell.
 COARSE, FINER, QUICK = (13, 9), 3, 0.5
+#: Size of the map's cells together, in px on 720 rows.
+MAP = (210, 150)
 #: A cell's value.
 MISSED, SCORED, FAILED = 0, 1, 2
 
@@ -78,3 +85,42 @@ def score_map(scene: Scene, finer: int = 1) -> ScoreMap:
     units = known[controls.speed].unit or "", known[controls.angle].unit or ""
     shape = finer * COARSE[0], finer * COARSE[1]
     return ScoreMap(ends[0], ends[1], units, np.array(cells, np.uint8).reshape(shape), perf_counter() - started)
+
+
+def draw_map(
+    sheet: Sheet, found: ScoreMap, aim: tuple[float, float], top: float, avoid: pygame.Rect
+) -> tuple[pygame.Rect, float]:
+    """The map on a card at the right below ``top``, with a cross at the aim; returns where its cells are, and the row
+    below the card."""
+    letters, gap, unit = sheet.lettering, sheet.gap, sheet.unit
+    row, (wide, tall) = letters.height("small"), (round(length * unit) for length in MAP)
+    (slow, fast), (low, high) = found.speeds, found.angles
+    up = max(letters.width(f"{angle:.3g}", "small") for angle in (low, high))
+    card = pygame.Rect(0, 0, wide + up + 6 * gap, tall + 2 * row + 4 * gap)
+    card.topright = sheet.frame.right, round(top)
+    if card.colliderect(avoid):
+        card.top = avoid.bottom + gap
+    sheet.painter.panel(card, CARD["background"], 0.9, 8 * unit)
+    cells = pygame.Rect(card.right - 2 * gap - wide, card.top + row + 2 * gap, wide, tall)
+    colours = np.array([mix(CARD["background"], CARD["quiet"], 0.3), CARD["good"], CARD["bad"]], np.uint8)
+    image = pygame.surfarray.make_surface(colours[found.cells[:, ::-1]])
+    sheet.surface.blit(pygame.transform.scale(image, cells.size), cells)
+    across, along = found.place(*aim)
+    if 0 <= across <= 1 and 0 <= along <= 1:
+        at = cells.left + across * wide, cells.bottom - along * tall
+        for radius, colour in ((6.5, CARD["background"]), (5.0, CARD["accent"])):
+            sheet.painter.ring(at, radius * unit, 2.5 * unit, colour)
+
+    def write(text: str, at: tuple[float, float], anchor: str, colour: Colour = CARD["quiet"]) -> None:
+        letters.write(sheet.surface, text, "small", at, colour, anchor)
+
+    write(f"{100 * found.share:.0f} % of these score", (cells.left, card.top + gap), "topleft", CARD["text"])
+    speed, angle = found.units
+    foot = cells.bottom + gap // 2
+    write(f"{slow:.3g}", (cells.left, foot), "topleft")
+    write(speed, (cells.centerx, foot), "midtop")
+    write(f"{fast:.3g}", (cells.right, foot), "topright")
+    write(f"{high:.3g}", (cells.left - gap, cells.top), "topright")
+    write(angle, (cells.left - gap, cells.centery), "midright")
+    write(f"{low:.3g}", (cells.left - gap, cells.bottom), "bottomright")
+    return cells, float(card.bottom + gap)

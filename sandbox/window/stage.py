@@ -19,7 +19,6 @@ from sandbox.picture.plain import view_of
 from sandbox.picture.sheet import Sheet
 from sandbox.window.background import Once
 from sandbox.window.canvas import Canvas
-from sandbox.window.score_map import ScoreMap
 from sandbox.window.shot import Shot
 
 CARD, TRACE = palette("card"), palette("trace")
@@ -39,8 +38,6 @@ NEARER = 1.35
 #: Opacity of earlier shots (of 255), how much lighter a label is than its line, and how many places
 #: on its line are tried for a label.
 EARLIER, LIGHTER, PLACES = 215, 0.45, 9
-#: Size of the map's cells together, in px on 720 rows.
-MAP = (210, 150)
 #: Contacts closer together than this, in px, are marked once; and the largest number of marks.
 NEAR, MOST_CONTACTS = 14, 24
 
@@ -234,42 +231,3 @@ def headline(sheet: Canvas, text: str, notes: Sequence[str], colour: Colour) -> 
     at = sheet.write(text, size, (rect.left + inset, rect.top + sheet.gap), colour, bold=True)
     sheet.write(note, "small", (at.left, at.bottom + sheet.gap), CARD["quiet"])
     return rect
-
-
-def draw_map(
-    sheet: Sheet, found: ScoreMap, aim: tuple[float, float], top: float, avoid: pygame.Rect
-) -> tuple[pygame.Rect, float]:
-    """The map on a card at the right below ``top``, with a cross at the aim; returns where its cells are, and the row
-    below the card."""
-    letters, gap, unit = sheet.lettering, sheet.gap, sheet.unit
-    row, (wide, tall) = letters.height("small"), (round(length * unit) for length in MAP)
-    (slow, fast), (low, high) = found.speeds, found.angles
-    up = max(letters.width(f"{angle:.3g}", "small") for angle in (low, high))
-    card = pygame.Rect(0, 0, wide + up + 6 * gap, tall + 2 * row + 4 * gap)
-    card.topright = sheet.frame.right, round(top)
-    if card.colliderect(avoid):
-        card.top = avoid.bottom + gap
-    sheet.painter.panel(card, CARD["background"], 0.9, 8 * unit)
-    cells = pygame.Rect(card.right - 2 * gap - wide, card.top + row + 2 * gap, wide, tall)
-    colours = np.array([mix(CARD["background"], CARD["quiet"], 0.3), CARD["good"], CARD["bad"]], np.uint8)
-    image = pygame.surfarray.make_surface(colours[found.cells[:, ::-1]])
-    sheet.surface.blit(pygame.transform.scale(image, cells.size), cells)
-    across, along = found.place(*aim)
-    if 0 <= across <= 1 and 0 <= along <= 1:
-        at = cells.left + across * wide, cells.bottom - along * tall
-        for radius, colour in ((6.5, CARD["background"]), (5.0, CARD["accent"])):
-            sheet.painter.ring(at, radius * unit, 2.5 * unit, colour)
-
-    def write(text: str, at: tuple[float, float], anchor: str, colour: Colour = CARD["quiet"]) -> None:
-        letters.write(sheet.surface, text, "small", at, colour, anchor)
-
-    write(f"{100 * found.share:.0f} % of these score", (cells.left, card.top + gap), "topleft", CARD["text"])
-    speed, angle = found.units
-    foot = cells.bottom + gap // 2
-    write(f"{slow:.3g}", (cells.left, foot), "topleft")
-    write(speed, (cells.centerx, foot), "midtop")
-    write(f"{fast:.3g}", (cells.right, foot), "topright")
-    write(f"{high:.3g}", (cells.left - gap, cells.top), "topright")
-    write(angle, (cells.left - gap, cells.centery), "midright")
-    write(f"{low:.3g}", (cells.left - gap, cells.bottom), "bottomright")
-    return cells, float(card.bottom + gap)

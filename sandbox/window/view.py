@@ -9,8 +9,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from concurrent.futures import Future
 from dataclasses import replace
-from functools import partial
-from threading import Thread
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -34,12 +32,12 @@ from sandbox.window.handles import Grip, grips
 from sandbox.window.measure import NEAR, Tape, draw_reading, reading, state_entries
 from sandbox.window.overlay import Overlay
 from sandbox.window.pad import Pad
-from sandbox.window.score_map import FINER, QUICK, ScoreMap, score_map
+from sandbox.window.panel import Panel
+from sandbox.window.score_map import FINER, QUICK, ScoreMap, draw_map, score_map
 from sandbox.window.shot import Shot
-from sandbox.window.stage import Stage, draw_map, headline
+from sandbox.window.stage import Stage, headline
 
 if TYPE_CHECKING:
-    from sandbox.window.panel import Panel
     from sandbox.window.sound import Sound
 
 CARD = palette("card")
@@ -51,9 +49,6 @@ SMALLEST = (480, 400)
 STEADY = 0.3
 #: An aim that has not changed for this time, in s, gets a stage and a map of its own.
 AT_REST = 0.15
-#: The panel, for its tooltips and blinking cursor, is drawn in every frame until the first time, in s, after an event;
-#: later at intervals of the second while somebody types.
-LIVELY, BLINK = 1.5, 0.25
 #: A fan that takes longer than this, in s, is taken for one that never ends once the aim has changed.
 HUNG = 10.0
 #: Largest and smallest zoom, compared with a view of the whole shot.
@@ -70,20 +65,17 @@ class View:
     """Draws a game on a screen; ``tick`` passes time, ``draw`` makes the current picture."""
 
     def __init__(self, game: Game, screen: pygame.Surface, sound: Sound | None = None, patience: float = 0.0) -> None:
-        """A frame waits up to ``patience`` s for a stage or the panel; in a window, where the last picture stays until
-        then, it does not wait."""
+        """A frame waits up to ``patience`` s for a stage; in a window, where the last picture stays until then, it does
+        not wait."""
         self.patience = patience
         self.game, self.screen, self.sound = game, screen, sound
-        self.background = Background()
+        self.background, self.writer = Background(), Background()  # for what is seen, and for files
         self.on = {"ghosts"}  # which of commands.SWITCHES
         self.at = (-1, -1)  # px, the mouse
         self.over: Overlay | None = None
         self.ahead = AHEAD[0]
         self.tape: Tape | None = None
-        self.panel: Panel | None = None
-        self.panel_wanted = False
-        self.panels: Latest[Panel] = Latest()  # while they are built
-        self.group = ""  # that the panel shows
+        self.panel = Panel(game, self.open)
         self.area = pygame.Rect(0, 0, 0, 0)  # of the picture
         self.stages: Latest[Stage] = Latest()
         self.stage: Stage | None = None  # the last one that could be composed
@@ -100,11 +92,9 @@ class View:
         self.frame_cost = 0.0  # s, smoothed
         self.changed = True  # something other than the game
         self.thumbnails: dict[str, Future[bytes]] = {}  # of the menu
-        self.exporter: Thread | None = None  # writes an animation, which takes seconds
         self.windowed = SIZE  # its size before full screen
         self.caption = ""
         self._seen: Any = None  # what was drawn last
-        self._lively = 0.0  # s since the last event
         self._picture: pygame.Surface | None = None  # what was drawn last above the bar
         self._once = Once()
         self.lay_out()
@@ -112,45 +102,27 @@ class View:
     # ------------------------------------------------------------------------------------------------------- places
 
     def lay_out(self) -> None:
-        """Places for everything, for the window's size."""
-        self.laid_out = self.screen.get_size()
+        """Places for everything, for the window's size and what is switched on."""
+        self.laid_out, self.changed = self.screen.get_size(), True
         width, height = (max(a, b) for a, b in zip(self.laid_out, SMALLEST, strict=True))
         fits = (width, height) == self.laid_out
         self.canvas: pygame.Surface = self.screen if fits else pygame.Surface((width, height))
         rows = rows_of((width, height))
         tall = round(HEIGHT * rows / 720)
         self.bar = Bar(pygame.Rect(0, height - tall, width, tall), rows)
-        self.group = self.panel.wanted if self.panel is not None else self.group
-        self.panels.forget()
-        self._make_room(None)
-
-    def _make_room(self, panel: Panel | None) -> None:
-        """Give the picture the width that the panel leaves."""
-        self.panel, self.changed = panel, True
-        wide = panel.rect.width if panel is not None else 0
-        area = pygame.Rect(0, 0, self.canvas.get_width() - wide, self.bar.rect.top)
+        self.panel.lay_out(Canvas(self.canvas), self.bar.rect.top)
+        area = pygame.Rect(0, 0, self.panel.rect.left if self.has_panel else width, self.bar.rect.top)
         if area != self.area:
             self.area, self.chosen = area, None
 
-    def _follow_panel(self) -> None:
-        """Build the panel if it is wanted, or outdated, and show it once it is built."""
-        panel = self.panel
-        if self.panel_wanted and (panel is None or panel.outdated):
-            wanted = (panel.wanted, panel.chosen) if panel is not None else (self.group, None)
-            size, height = self.canvas.get_size(), self.bar.rect.top
-            work = partial(self.background.submit, _panel, self.game, size, height, *wanted)
-            self.panels.follow((size, panel), work)
-        if self.panels.take(self.patience):
-            if self.panels.error is not None:
-                self.panel_wanted = False
-                self.game.tell(self.game.reason(self.panels.error), bad=True)
-            elif self.panel_wanted and self.panels.key[0] == self.canvas.get_size():
-                self._make_room(self.panels.value)
+    @property
+    def has_panel(self) -> bool:
+        """Whether the panel is open."""
+        return "panel" in self.on
 
-    def open_panel(self, wanted: bool) -> None:
-        """Show the panel of parameters, or close it."""
-        self.panel_wanted = wanted
-        self.lay_out()
+    def on_panel(self, at: tuple[int, int]) -> bool:
+        """Whether a place (px) is on the panel."""
+        return self.has_panel and self.panel.rect.collidepoint(at)
 
     def set_look(self, larger: float, contrast: bool) -> None:
         """Draw everything anew with other letters or colours, now and next time."""
@@ -160,8 +132,6 @@ class View:
         self.game.memory.save()
         self.stages.forget()
         self.stage, self._once = None, Once()
-        if self.panel is not None:
-            self.panel.outdated = True
         self.lay_out()
 
     def resized(self) -> None:
@@ -180,18 +150,15 @@ class View:
             pygame.display.set_mode((0, 0), pygame.FULLSCREEN)
         self.resized()
 
-    def close_overlay(self) -> bool:
-        """Close what lies over the picture; returns whether there was anything."""
-        was, self.over = self.over, None
-        self.changed |= was is not None
-        return was is not None
+    def open(self, over: Overlay | None) -> None:
+        """Show something over the picture, in place of what is there."""
+        self.over, self.changed = over, True
 
     @property
     def switched(self) -> set[str]:
         """The commands whose switches are on, and the scene that is played."""
-        sound = self.sound is not None and self.sound.on
-        others = {"panel": self.panel_wanted, "sound": sound, self.game.session.source: True}
-        return self.on | {command for command, on in others.items() if on}
+        sound = {"sound"} if self.sound is not None and self.sound.on else set()
+        return self.on | sound | {self.game.session.source}
 
     # ------------------------------------------------------------------------------------------------------- cameras
 
@@ -305,51 +272,39 @@ class View:
     @property
     def up_to_date(self) -> bool:
         """Whether the stage belongs to the shot, so that the current picture is drawn."""
-        shot, stage = self.game.shot, self.stage
-        return shot is None or (stage is not None and self._may_draw(stage, shot))
+        return self.game.shot is None or self._may_draw(self.game.shot)
 
     @property
     def complete(self) -> bool:
         """Whether the shot is drawn, or cannot be."""
-        game = self.game
-        if game.failure is not None or self.undrawable is not None:
-            return True
-        return game.shot is not None and self.stage is not None and self.up_to_date
+        failed = self.game.failure is not None or self.undrawable is not None
+        return failed or (self.game.shot is not None and self.up_to_date)
 
     @property
     def busy(self) -> bool:
         """Whether something is being prepared that will have to be drawn."""
         over = self.over is not None and self.over.waiting
-        lively = self.panel is not None and self._lively < LIVELY
-        exporting = self.exporter is not None and self.exporter.is_alive()
-        coming = any(latest.work is not None for latest in (self.stages, self.clouds, self.maps, self.panels))
-        wanted = self._stage_wanted() or bool(self._cloud_wanted() or self._map_wanted())
-        wanted |= self.panel is not None and self.panel.outdated
-        return coming or wanted or over or lively or exporting
+        coming = any(latest.work is not None for latest in (self.stages, self.clouds, self.maps))
+        return bool(over or coming or self._stage_wanted() or self._cloud_wanted() or self._map_wanted())
 
-    def _may_draw(self, stage: Stage, shot: Shot) -> bool:
-        """Whether a shot may be drawn on a stage: when watched only on its own, when aimed on one of the same place."""
-        if stage.size != self.area.size:
+    def _may_draw(self, shot: Shot) -> bool:
+        """Whether a shot may be drawn on the stage: when watched only on its own, when aimed on one of its place."""
+        stage, code = self.stage, self.game.code
+        if stage is None or stage.size != self.area.size:
             return False
-        if stage.shows(shot, self.game.code, stage.chosen):
-            return True
-        return self.game.playback is None and stage.is_place_of(shot, self.game.code)
+        return stage.shows(shot, code, stage.chosen) or (self.game.playback is None and stage.is_place_of(shot, code))
 
-    def tick(self, dt: float, happened: bool) -> None:
-        """``dt`` s have passed, and something may have happened in the window."""
+    def tick(self, dt: float) -> None:
+        """``dt`` s have passed."""
         game = self.game
-        self._lively = 0.0 if happened else self._lively + dt
         self.composed += dt
         followed = {"shoot": game.table.count, "drag": game.grip, "menu": self.over and self.over.name == "menu"}
         for hint, done in followed.items():
             if done:
                 game.memory.follow(hint)
-        self._follow_panel()
         self._follow_stage()
         self._follow_cloud()
         self._follow_map()
-        if self.panel is not None:
-            self.panel.update(dt)
 
     # What follows the shot, computed elsewhere
 
@@ -383,7 +338,7 @@ class View:
         game, stage, shot = self.game, self.stage, self.game.shot
         if shot is None or not self._stage_wanted():
             return
-        if stage is not None and game.playback is None and self._may_draw(stage, shot) and stage.chosen == self.chosen:
+        if stage is not None and game.playback is None and self._may_draw(shot) and stage.chosen == self.chosen:
             moving = game.pull is not None or not game.settled or game.still < AT_REST
             if moving and game.grip is None and (stage.holds(shot) or self.composed < STEADY):
                 return
@@ -444,13 +399,18 @@ class View:
 
     def needs_drawing(self, happened: bool) -> bool:
         """Whether what would be drawn differs from what was drawn last."""
-        lively = self.panel is not None and self._lively < LIVELY
-        blink = self._lively // BLINK if self.panel is not None and self.panel.typing else 0
-        playback = self.game.playback
+        playback, over = self.game.playback, self.over
         clock = (playback.t, playback.playing, playback.rate) if playback is not None else None
-        over = (self.over, self.over and self.over.progress, self.tape, frozenset(self.on))
-        seen = (self.game.revision, self.game.failure, clock, over, self.panel, blink)
-        needed = happened or self.changed or lively or seen != self._seen
+        seen = (
+            self.game.revision,
+            self.game.failure,
+            clock,
+            over,
+            over and over.progress,
+            self.tape,
+            frozenset(self.on),
+        )
+        needed = happened or self.changed or seen != self._seen
         self._seen, self.changed = seen, False
         return needed
 
@@ -459,12 +419,12 @@ class View:
         try:
             self._draw_picture()
         except Exception as error:  # a scene's own code
-            sheet = Canvas(self.canvas.subsurface(self.area))
+            sheet = self._sheet()
             sheet.surface.fill(CARD["background"])
             text = f"{self.game.session.title} cannot be drawn: {self.game.reason(error)}"
             overlay.draw_messages(sheet, [(text, True)])
-        if self.panel is not None:
-            self.panel.draw(self.canvas)
+        if self.has_panel:
+            self.panel.draw_on(Canvas(self.canvas), self.at if self.over is None else (-1, -1))
         self.bar.draw(self.canvas, self._bar_shown(), self.at)
         if self.over is not None:
             sheet = Canvas(self.canvas.subsurface((0, 0), (self.canvas.get_width(), self.area.height)))
@@ -477,44 +437,43 @@ class View:
 
     def _draw_picture(self) -> None:
         """Everything above the bar."""
-        game, shot, stage = self.game, self.game.shot, self.stage
-        sheet = Canvas(self.canvas.subsurface(self.area))
-        drawn = False
-        if shot is not None and stage is not None and self.undrawable is None and self._may_draw(stage, shot):
-            drawn = True
-            if game.failure is not None or game.late:
-                self._draw_no_path(sheet, stage)
-            elif game.playback is not None or game.same_place:
-                self._draw_shot(sheet, stage, shot)
-                self._draw_cards(sheet, stage, shot)
-            else:
-                drawn = False
+        game, shot, stage, sheet = self.game, self.game.shot, self.stage, self._sheet()
+        no_path = game.failure is not None or game.late
+        drawn = shot is not None and self.undrawable is None and self._may_draw(shot)
+        if drawn and no_path:
+            self._draw_no_path(sheet)
+        elif drawn and (game.playback is not None or game.same_place):
+            assert shot is not None
+            assert stage is not None
+            self._draw_shot(sheet, stage, shot)
+            self._draw_cards(sheet, stage, shot)
+        else:
+            drawn = False
         if drawn:
             if self._picture is None or self._picture.get_size() != self.area.size:
                 self._picture = pygame.Surface(self.area.size)
             self._picture.blit(sheet.surface, (0, 0))
-        elif self._picture is not None:
-            sheet.surface.fill(CARD["background"])
-            sheet.surface.blit(self._picture, (0, 0))
-            if self.undrawable is not None or game.failure is not None or game.late:
-                _darken(sheet.surface)
         else:
             sheet.surface.fill(CARD["background"])
-        pad = self.pad if drawn and self.over is None and game.failure is None and game.pull is None else None
-        if pad is not None:
-            pad.draw(sheet)
-        spots = self.spots if self.over is None and game.failure is None else []
-        if spots and stage is not None:
-            held = self._held()
-            mouse = self.at if self.area.collidepoint(self.at) and game.grip is None else None
-            hand.draw_handles(sheet, spots, stage, mouse, held, held.said(game.session) if held is not None else "")
+            if self._picture is not None:
+                sheet.surface.blit(self._picture, (0, 0))
+            if self.undrawable is not None or no_path:
+                overlay.veil(sheet.surface, 150)
+        if self.over is None and game.failure is None:
+            pad, spots, held = self.pad if drawn and game.pull is None else None, self.spots, self._held()
+            if pad is not None:
+                pad.draw(sheet)
+            if spots and stage is not None:
+                mouse = self.at if self.area.collidepoint(self.at) and game.grip is None else None
+                hand.draw_handles(sheet, spots, stage, mouse, held, held.said(game.session) if held is not None else "")
         undrawable = [(self.undrawable, True)] if self.undrawable is not None else []
         overlay.draw_messages(sheet, [*undrawable, *game.notices])
 
-    def _draw_no_path(self, sheet: Canvas, stage: Stage) -> None:
+    def _draw_no_path(self, sheet: Canvas) -> None:
         """The place, dark and without a path: the current parameters have none, or none yet."""
-        sheet.surface.blit(stage.backdrop, (0, 0))
-        _darken(sheet.surface)
+        assert self.stage is not None
+        sheet.surface.blit(self.stage.backdrop, (0, 0))
+        overlay.veil(sheet.surface, 150)
         if self.game.failure is not None:
             self.head = headline(sheet, "No path", ["the run of these parameters failed"], CARD["bad"])
         else:
@@ -665,9 +624,6 @@ class View:
     def _bar_shown(self) -> Shown:
         """The contents of the bar."""
         game, playback, shot = self.game, self.game.playback, self.game.shot if not self.hidden else None
-        opened = {"panel"} if self.panel is not None else set()
-        if self.over is not None:
-            opened.add(self.over.name)
         return Shown(
             title=game.session.title + (" *" if game.session.changes.values else ""),
             playing=playback is not None and playback.playing,
@@ -676,16 +632,8 @@ class View:
             ticks=tuple(e.t for e in shot.run.events if e.kind == "impact")[:200] if shot else (),
             rate=playback.rate if playback is not None else 1.0,
             texts=("see", "keep", "more", "panel", "help"),
-            on=frozenset(opened),
+            on=frozenset(self.on | ({self.over.name} if self.over is not None else set())),
         )
-
-
-def _panel(game: Game, size: tuple[int, int], height: int, group: str, chosen: int | None) -> Panel:
-    """The panel of a window of ``size`` px."""
-    from sandbox.window.panel import NARROWEST, WIDTH, Panel  # imports pygame_gui, which is slow
-
-    wide = min(max(NARROWEST, round(WIDTH * rows_of(size) / 720)), size[0] // 2)
-    return Panel(size, pygame.Rect(size[0] - wide, 0, wide, height), game, group, chosen)
 
 
 def _zoomed(camera: Camera, factor: float, ball: Sequence[float]) -> Camera:
@@ -694,10 +642,3 @@ def _zoomed(camera: Camera, factor: float, ball: Sequence[float]) -> Camera:
     across, down = camera.anchor
     return replace(camera, anchor=(round(x + (across - x) * factor), round(y + (down - y) * factor)),
                    scale=camera.scale * factor)  # fmt: skip
-
-
-def _darken(surface: pygame.Surface) -> None:
-    """Dim what is drawn."""
-    veil = pygame.Surface(surface.get_size(), pygame.SRCALPHA)
-    veil.fill((*CARD["background"], 150))
-    surface.blit(veil, (0, 0))
