@@ -133,7 +133,7 @@ class Board(Overlay):
         stays: bool = False,
         chosen: str | None = None,
     ) -> None:
-        """With ``foot``, the button that opened it, it is a list above that; ``stays`` keeps it open after a choice."""
+        """With ``foot``, the button that opened it, it is a list beside it; ``stays`` keeps it open after a choice."""
         super().__init__()
         self.title, self.groups, self.choose, self.foot, self.stays = title, groups, choose, foot, stays
         self.chosen = chosen
@@ -169,7 +169,9 @@ class Board(Overlay):
             veil(sheet.surface, 110)
             rect.center = sheet.surface.get_rect().center
         else:
-            rect.midbottom = self.foot.centerx, sheet.size[1] - gap
+            rect.midtop = self.foot.centerx, self.foot.bottom + gap // 2
+            if self.foot.top > sheet.size[1] // 2:
+                rect.bottom = min(self.foot.top, sheet.size[1]) - gap
         rect.clamp_ip(sheet.surface.get_rect())
         sheet.painter.panel(rect, CARD["background"], 0.97, 10 * sheet.unit)
         hovered = self.at(mouse) or self.chosen
@@ -247,14 +249,19 @@ def item(
     bold: bool = False,
     left: float | None = None,
     right: float | None = None,
+    mark: int = 0,
 ) -> None:
     """One line of text in the middle of ``place``, cut to what is between ``left`` and ``right`` px; on a pale panel
-    of the opacity ``lit``."""
+    of the opacity ``lit``, and before a triangle that points down or, with a ``mark`` of -1, up."""
     if lit:
         sheet.painter.panel(place, CARD["quiet"], lit, 5 * sheet.unit)
     left, right = place.left + sheet.gap if left is None else left, place.right if right is None else right
     text = sheet.lettering.cut(text, "small", right - left, bold)
-    sheet.lettering.write(sheet.surface, text, "small", (left, place.centery), colour, "midleft", bold)
+    rect = sheet.lettering.write(sheet.surface, text, "small", (left, place.centery), colour, "midleft", bold)
+    if mark:
+        x, y, half = rect.right + 1.6 * sheet.gap, place.centery, 0.7 * sheet.gap
+        points = [(x - half, y - 0.6 * mark * half), (x + half, y - 0.6 * mark * half), (x, y + 0.6 * mark * half)]
+        sheet.painter.polygon(points, colour)
 
 
 def veil(surface: pygame.Surface, opacity: int) -> None:

@@ -167,7 +167,7 @@ class Panel(Scrolled):
         if what == RESET_ALL:
             self.game.reset()
         elif what == FAVOURITES:
-            self._offer([(name, name) for name in self.groups], self.group, self.turn_to)
+            self._offer(what, [(name, name) for name in self.groups], self.group, self.turn_to)
         else:
             row, part = what
             if part == RESET_OF:
@@ -178,14 +178,15 @@ class Panel(Scrolled):
                 self.set(row, not row.value)
             else:
                 words = [(Setting(row.parameter._replace(value=word), None, None).written, word) for word in row.words]
-                self._offer(words, row.written, lambda word: self.set(row, word))
+                self._offer(what, words, row.written, lambda word: self.set(row, word))
         return True
 
-    def _offer(self, words: list[tuple[str, Any]], now: str, choose: Callable[[Any], object]) -> None:
-        """A list of words to choose from."""
-        values = dict(words)
-        lines = [Row(text, text) for text in values]
-        self.open_list(Board("", [lines], lambda text: choose(values[text]), self.rect, chosen=now))
+    def _offer(self, what: Any, words: list[tuple[str, Any]], now: str, choose: Callable[[Any], object]) -> None:
+        """A list of words to choose from, next to the field of ``what``."""
+        values = {f"={text}": value for text, value in words}
+        lines = [Row(action, action[1:]) for action in values]
+        foot = next(rect for rect, other in self.places if other == what)
+        self.open_list(Board("", [lines], lambda action: choose(values[action]), foot, chosen=f"={now}"))
 
     def slider_at(self, at: tuple[int, int]) -> Setting | None:
         """The row of the slider at a place in px."""
@@ -265,7 +266,7 @@ class Panel(Scrolled):
         self.places.clear()
         inner = self.rect.inflate(-4 * gap, -3 * gap)
         half = (inner.width - gap) * 6 // 10
-        self._box(sheet, pygame.Rect(inner.topleft, (half, line)), f"{self.group}  ▾", FAVOURITES, mouse)
+        self._box(sheet, pygame.Rect(inner.topleft, (half, line)), self.group, FAVOURITES, mouse, mark=1)
         place = pygame.Rect(inner.left + half + gap, inner.top, inner.width - half - gap, line)
         self._box(sheet, place, RESET_ALL, RESET_ALL, mouse)
         top, tall = inner.top + line + 2 * gap, 2 * line + gap // 2
@@ -284,10 +285,12 @@ class Panel(Scrolled):
         if hovered is not None:
             self._tip(sheet, hovered.parameter, mouse[1])
 
-    def _box(self, sheet: Sheet, place: pygame.Rect, text: str, what: Any, mouse: tuple[int, int]) -> None:
-        """A button or a field with a text."""
+    def _box(
+        self, sheet: Sheet, place: pygame.Rect, text: str, what: Any, mouse: tuple[int, int], mark: int = 0
+    ) -> None:
+        """A button or a field with a text; one that opens a list has a mark."""
         self.places.append((place, what))
-        item(sheet, place, text, CARD["text"], 0.3 if place.collidepoint(mouse) else 0.16)
+        item(sheet, place, text, CARD["text"], 0.3 if place.collidepoint(mouse) else 0.16, mark=mark)
 
     def _row(self, sheet: Sheet, row: Setting, place: pygame.Rect, line: int, mouse: tuple[int, int]) -> None:
         gap, words = sheet.gap, bool(row.parameter.choices)
@@ -301,8 +304,8 @@ class Panel(Scrolled):
         if row.parameter.value != row.base:
             self._box(sheet, reset, "×", (row, RESET_OF), mouse)
         typed = row.at == self.typing
-        text = f"{self.text}|" if typed else f"{row.written}  ▾" if words else row.written
-        self._box(sheet, below if words else field, text, (row, FIELD_OF), mouse)
+        text = f"{self.text}|" if typed else row.written
+        self._box(sheet, below if words else field, text, (row, FIELD_OF), mouse, mark=words)
         if typed:
             pygame.draw.rect(sheet.surface, CARD["accent"], field, 1, border_radius=gap)
         if row.span is not None:

@@ -114,12 +114,12 @@ class Table(Scrolled):
         left, usual = inner.left, round(COLUMN * unit)
         for key in self.columns:
             label = self._label(key, rows)
-            wide = max(usual if key else round(0.7 * usual), letters.width(f"{label} ↓", "small", bold=True) + 2 * gap)
+            wide = max(usual if key else round(0.7 * usual), letters.width(label, "small", bold=True) + 4 * gap)
             if len(columns) > 1 and left + wide > inner.right - 3 * usual:
                 break
             columns[key] = left, wide
-            mark = "" if key != self.by else " ↓" if self.falling else " ↑"
-            self._button(sheet, pygame.Rect(left, top, wide, row), label + mark, f"={key}", mouse, key == self.by)
+            mark = 0 if key != self.by else 1 if self.falling else -1
+            self._button(sheet, pygame.Rect(left, top, wide, row), label, f"={key}", mouse, mark)
             left += wide
         foot = inner.bottom - round(TALL * unit) - 2 * gap
         self.seen = max(1, (foot - top - row) // row)
@@ -131,10 +131,11 @@ class Table(Scrolled):
         self._statistics(sheet, rows, pygame.Rect(inner.left, foot + gap, inner.width, inner.bottom - foot - gap))
 
     def _button(
-        self, sheet: Sheet, place: pygame.Rect, text: str, action: str, mouse: tuple[int, int], on: bool = False
+        self, sheet: Sheet, place: pygame.Rect, text: str, action: str, mouse: tuple[int, int], mark: int = 0
     ) -> None:
         self.places.append((place, action))
-        item(sheet, place, text, CARD["accent" if on else "quiet"], 0.25 * place.collidepoint(mouse), bold=True)
+        colour, lit = CARD["accent" if mark else "quiet"], 0.25 * place.collidepoint(mouse)
+        item(sheet, place, text, colour, lit, bold=True, mark=mark)
 
     def _row(
         self,

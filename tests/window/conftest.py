@@ -68,7 +68,6 @@ class Player:
         self.send(pygame.KEYUP, key=pygame.key.key_code(plain), mod=modifiers, unicode="", scancode=0)
 
     def move(self, at: tuple[int, int]) -> None:
-        pygame.mouse.set_pos(at)  # pygame_gui asks for it
         self.send(pygame.MOUSEMOTION, pos=at, rel=(0, 0), buttons=(0, 0, 0), touch=False)
 
     def press(self, at: tuple[int, int]) -> None:

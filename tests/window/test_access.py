@@ -12,7 +12,6 @@ from sandbox.picture.lettering import Lettering
 from sandbox.picture.palette import mix, palette, set_contrast
 from sandbox.window.keys import TABLE
 from sandbox.window.memory import Memory
-from sandbox.window.panel import Number
 
 CARD, TRACE = palette("card"), palette("trace")["colours"]
 
@@ -76,15 +75,14 @@ def test_letters_and_contrast_are_changed_by_key_and_remembered(player, tmp_path
     player.game.memory = Memory(tmp_path / "window.json")
     player.key(pygame.K_TAB)
     before = player.sheet.lettering.pixels["small"]
-    size = next(row for row in player.view.panel.rows if isinstance(row, Number)).entry.font.get_point_size()
+    line = player.view.panel.places[0][0].height
     for _ in range(2):
         player.press_named("alt +")
     player.press_named("alt c")
     player.settle()
     assert player.sheet.lettering.pixels["small"] == pytest.approx(1.3 * before, abs=1)
     assert CARD["background"] == (0, 0, 0)
-    entry = next(row for row in player.view.panel.rows if isinstance(row, Number)).entry
-    assert entry.font.get_point_size() > size
+    assert player.view.panel.places[0][0].height > line
     assert Memory(player.game.memory.file).look == (1.3, True)
     player.press_named("alt c")
     player.settle()

@@ -116,8 +116,8 @@ class TestWhatIsOpen:
         player.settle()
         assert "soccer" in pygame.display.get_caption()[0]
         player.button("menu")
-        player.click(next(rect.center for rect, group in player.view.over.columns if group == "recent"))
-        rect = next(rect for rect, row in player.view.over.places if row.action == str(file))
+        player.click(next(rect.center for rect, what in player.view.over.places if what == "recent"))
+        rect = next(rect for rect, what in player.view.over.places if getattr(what, "action", None) == str(file))
         player.click(rect.center)
         assert player.game.session.title == "mine.toml"
 
@@ -128,19 +128,6 @@ class TestWhatIsOpen:
             assert player.view.over.name == name
         player.key(pygame.K_ESCAPE)
         assert player.view.over is None
-
-    def test_escape_closes_a_list_of_the_panel_first(self, player):
-        player = player("golf")
-        player.key(pygame.K_TAB)
-        chooser = player.view.panel.chooser
-        player.click(chooser.rect.center)
-        player.frames(3)
-        assert chooser.current_state is chooser.menu_states["expanded"]
-        player.key(pygame.K_SPACE)
-        player.key(pygame.K_ESCAPE)
-        player.frames(3)
-        assert chooser.current_state is chooser.menu_states["closed"]
-        assert player.game.playback is not None
 
     def test_a_click_on_a_shot_that_is_watched_leaves_it(self, player):
         player = player("billiards")

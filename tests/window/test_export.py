@@ -152,7 +152,7 @@ def test_pictures_and_animations(player, elsewhere):
         assert image.size == (1280, 720)
     player.key(pygame.K_SPACE)
     player.key(pygame.K_F9)
-    player.view.exporter.join(60)
+    player.settle()
     with Image.open(elsewhere / "out" / "golf-putt-1.gif") as image:
         assert image.n_frames > 10
 

@@ -69,7 +69,7 @@ def test_the_menu_has_thumbnails_descriptions_and_what_is_in_the_folder(remember
     assert all(len(picture.result()) == 3 * THUMBNAIL[0] * THUMBNAIL[1] for picture in menu.pictures.values())
     about = next(listing.about for listing in listings() if listing.name == "golf")
     assert any(about.startswith(text.removesuffix(" ...")) and len(text) > 20 for text in said(remembering))
-    remembering.click(next(rect.center for rect, group in menu.columns if group == "in this folder"))
+    remembering.click(next(rect.center for rect, what in menu.places if what == "in this folder"))
     remembering.settle()
     assert menu.pictures["./ours"].result() == b""  # no code runs only because it lies here
 

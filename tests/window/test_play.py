@@ -187,10 +187,11 @@ class TestScenes:
     def test_the_menu_opens_another_scene_by_mouse(self, player):
         player = player("golf")
         player.button("menu")
-        player.click(next(rect.center for rect, group in player.view.over.columns if group == "billiards"))
-        player.move(player.view.over.places[0][0].center)
+        player.click(next(rect.center for rect, what in player.view.over.places if what == "billiards"))
+        rows = [place for place in player.view.over.places if not isinstance(place[1], str)]
+        player.move(rows[0][0].center)
         player.send(pygame.MOUSEWHEEL, x=0, y=-1, flipped=False)
-        rect, row = player.view.over.places[1]
+        rect, row = [place for place in player.view.over.places if not isinstance(place[1], str)][1]
         player.click(rect.center)
         assert row.action.startswith("billiards/")
         assert player.game.session.title == row.action
@@ -202,12 +203,12 @@ class TestScenes:
         player.key(pygame.K_DOWN)
         names = [listing.name for listing in listings()]
         golf = [name for name in names if name.startswith("golf/")]
-        assert player.view.over.chosen == golf[0]
+        assert player.view.over.chosen.action == golf[0]
         player.key(pygame.K_UP)
         player.key(pygame.K_UP)
-        assert player.view.over.chosen == golf[-1]
+        assert player.view.over.chosen.action == golf[-1]
         player.key(pygame.K_LEFT)
-        chosen = player.view.over.chosen
+        chosen = player.view.over.chosen.action
         assert not chosen.startswith("golf")
         player.key(pygame.K_RETURN)
         assert player.game.session.title == chosen

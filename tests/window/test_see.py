@@ -310,6 +310,24 @@ class TestTheTape:
         assert player.view.tape is None
         assert "tape" not in player.view.on
 
+    def test_arrows_move_one_end_and_k_takes_the_other(self, player):
+        player = player("basketball")
+        aimed = player.game.session.changes
+        player.key(pygame.K_t)
+        start, end = player.view.tape.start, player.view.tape.end
+        assert start == player.game.shot.run.state("ball", 0.0)[:2]
+        player.key(pygame.K_RIGHT)
+        player.key(pygame.K_UP)
+        along, up = np.subtract(player.view.tape.end, end)
+        assert along == pytest.approx(up)
+        assert up == pytest.approx(commands.STEP / player.view.stage.camera.scale)
+        player.key(pygame.K_k)
+        player.key(pygame.K_LEFT)
+        assert player.view.tape.end[0] < start[0]
+        player.key(pygame.K_t)
+        assert player.view.tape is None
+        assert player.game.session.changes == aimed
+
     def test_the_right_button_lays_it_without_a_key(self, player):
         player = player("basketball")
         player.send(pygame.MOUSEBUTTONDOWN, pos=(300, 300), button=3, touch=False)
@@ -407,7 +425,7 @@ def test_where_the_energy_goes_lies_over_the_picture_until_a_click(player):
 
 class TestTheLists:
     def test_every_command_is_known_and_every_key_has_one(self):
-        known = {*commands.COMMANDS, *commands.PANEL, *commands.SWITCHES}
+        known = {*commands.COMMANDS, *commands.SWITCHES}
         assert {command.name for command in TABLE} | {group.lower() for group in LISTED} == known
         keys = [key for command in TABLE for key in command.keys]
         assert len(keys) == len(set(keys))
@@ -440,7 +458,7 @@ class TestTheLists:
         player = player(PUTT)
         player.button("more")
         player.key(pygame.K_TAB)
-        assert player.view.panel is not None
+        assert player.view.has_panel
         player.screen = pygame.display.set_mode((900, 600), pygame.RESIZABLE)
         player.send(pygame.VIDEORESIZE, size=(900, 600), w=900, h=600)
         foot = max(place.bottom for place, _ in player.view.over.places)
@@ -449,7 +467,7 @@ class TestTheLists:
     def test_what_is_shown_is_switched_by_mouse(self, player):
         player = player(PUTT)
         player.button("see")
-        place = next(rect for rect, row in player.view.over.places if row.action == "charts")
+        place = next(rect for rect, row in player.view.over.places if row == "charts")
         player.click(place.center)
         assert "charts" in player.view.on
         player.click((300, 100))

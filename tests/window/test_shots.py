@@ -29,7 +29,7 @@ def table(player):
 
 
 def numbers(player) -> list[int]:
-    return [row.number for row in player.view.over.sorted]
+    return [row.number for row in player.view.over.rows]
 
 
 def place(player, what):

@@ -256,7 +256,7 @@ def test_the_picture_stays_until_the_stage_next_to_the_panel_is_composed(player)
     before = pygame.surfarray.array3d(player.screen)[:600, :600]
     player.view.patience, player.view.stages.work = 0.0, Future()  # a stage that takes for ever
     player.key(pygame.K_TAB)
-    while player.view.panel is None:
+    while not player.view.has_panel:
         player.frames(1)
     assert (pygame.surfarray.array3d(player.screen)[:600, :600] == before).mean() > 0.9
 
@@ -280,7 +280,7 @@ def test_only_nudges_and_steps_repeat(player):
     player = player("golf")
     for _ in range(3):
         player.send(pygame.KEYDOWN, key=pygame.K_TAB, mod=0, unicode="", scancode=0)
-    assert player.view.panel is not None
+    assert player.view.has_panel
     player.send(pygame.KEYUP, key=pygame.K_TAB, mod=0, unicode="", scancode=0)
     before = player.game.session.value("launch.angle")
     for _ in range(3):

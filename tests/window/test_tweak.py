@@ -5,7 +5,8 @@ from __future__ import annotations
 import pygame
 import pytest
 
-from sandbox.window.panel import Switch, Word
+from sandbox.picture.lettering import Lettering
+from sandbox.window.panel import FAVOURITES, FIELD_OF, RESET_ALL, RESET_OF, SLIDER_OF
 
 SCENE = """# A putt of mine.
 scene = "golf"
@@ -27,92 +28,114 @@ def row(player, key: str):
     return next(row for row in player.view.panel.rows if row.parameter.key == key)
 
 
+def place(player, key: str, part: str) -> pygame.Rect:
+    """Where a part of a parameter's row is."""
+    parts = {what: rect for rect, what in player.view.panel.places if isinstance(what, tuple)}
+    return next(rect for (row, name), rect in parts.items() if row.parameter.key == key and name == part)
+
+
 def write(player, key: str, text: str) -> None:
     """Type a text into the field of a parameter, and Enter."""
-    entry = row(player, key).entry
-    player.click(entry.rect.center)
-    entry.set_text(text)
+    player.click(place(player, key, FIELD_OF).center)
+    for letter in text:
+        player.send(pygame.KEYDOWN, key=ord(letter.lower()), mod=0, unicode=letter, scancode=0)
+        player.send(pygame.KEYUP, key=ord(letter.lower()), mod=0, unicode=letter, scancode=0)
     player.key(pygame.K_RETURN)
-    player.frames(2)
 
 
-def drag(player, element, by: int) -> None:
-    x, y = element.sliding_button.rect.center
-    player.move((x, y))
-    player.press((x, y))
-    for part in (by // 2, by):
-        player.move((x + part, y))
-        player.frames(2)
-    player.release((x + by, y))
-    player.frames(2)
+def turn_to(player, group: str) -> None:
+    """Another group, by key."""
+    for _ in player.view.panel.groups:
+        if player.view.panel.group != group:
+            player.key(pygame.K_PAGEDOWN, pygame.KMOD_CTRL)
+    assert player.view.panel.group == group
 
 
 class TestThePanel:
-    def test_a_slider_changes_the_shot_at_once(self, player):
+    @pytest.fixture
+    def player(self, player):
         player = player("golf")
         player.key(pygame.K_TAB)
+        return player
+
+    def test_a_slider_changes_the_shot_at_once(self, player):
         before = player.game.shot.run.result["carry"]
-        drag(player, row(player, "launch.speed").slider, 40)
-        assert player.game.session.value("launch.speed") > 80
+        slider = place(player, "launch.speed", SLIDER_OF)
+        player.press(slider.center)
+        at_middle = player.game.session.value("launch.speed")
+        player.move((slider.right - 30, slider.top - 40))
+        assert player.game.session.value("launch.speed") > at_middle + 40
+        player.release((slider.right - 30, slider.top - 40))
         assert player.game.shot.run.result["carry"] > before + 5
         assert not player.game.shots
 
     def test_one_reset_takes_back_one_parameter_and_the_other_all(self, player):
-        player = player("golf")
-        player.key(pygame.K_TAB)
         player.game.change({"launch.speed": 50.0, "launch.angle": 20.0})
         player.frames(2)
-        player.click(row(player, "launch.speed").reset.rect.center)
+        player.click(place(player, "launch.speed", RESET_OF).center)
         player.frames(2)
         assert player.game.session.changes.values == {"launch.angle": 20.0}
-        player.click(player.view.panel.reset_all.rect.center)
-        player.frames(2)
+        player.click(next(rect.center for rect, what in player.view.panel.places if what == RESET_ALL))
         assert player.game.session.changes.values == {}
         assert player.game.session.value("launch.angle") == pytest.approx(10.4)
 
     def test_a_field_takes_units_and_says_what_is_wrong(self, player):
-        player = player("golf")
-        player.key(pygame.K_TAB)
         write(player, "launch.speed", "100 mph")
         assert player.game.session.value("launch.speed") == pytest.approx(44.704)
         write(player, "launch.speed", "9000")
         assert player.game.session.value("launch.speed") == pytest.approx(44.704)
         assert "from 0 to 340 m/s" in player.game.notices[-1][0]
-        assert row(player, "launch.speed").entry.get_text() == "44.704"
+        assert row(player, "launch.speed").written == "44.704"
+
+    def test_a_field_can_be_mended_left_and_taken_by_a_click_elsewhere(self, player):
+        player.click(place(player, "launch.speed", FIELD_OF).center)
+        before = player.view.panel.text
+        player.key(pygame.K_SPACE)  # no command, and no letter
+        assert player.game.playback is None
+        for letter in "123":
+            player.send(pygame.KEYDOWN, key=ord(letter), mod=0, unicode=letter, scancode=0)
+        player.key(pygame.K_BACKSPACE)
+        assert player.view.panel.text == "12"
+        player.key(pygame.K_ESCAPE)
+        assert row(player, "launch.speed").written == before
+        player.click(place(player, "launch.speed", FIELD_OF).center)
+        player.send(pygame.KEYDOWN, key=ord("9"), mod=0, unicode="9", scancode=0)
+        player.click(place(player, "launch.angle", FIELD_OF).center)
+        assert player.game.session.value("launch.speed") == 9.0
 
     def test_every_group_of_every_kind_of_parameter_can_be_shown(self, player):
-        player = player("golf")
-        player.key(pygame.K_TAB)
         panel = player.view.panel
         assert {"launch", "air", "ball.drag", "ground.green", "accuracy"} <= set(panel.groups)
+        seen = []
         for _ in panel.groups:
+            seen.append(panel.group)
+            assert {what[0].at for _, what in panel.places if isinstance(what, tuple)} <= {row.at for row in panel.rows}
+            assert panel.places
             player.key(pygame.K_PAGEDOWN, pygame.KMOD_CTRL)
-            player.frames(2)
-            assert player.view.panel.rows
-        assert player.view.panel.group == panel.group
-        assert player.view.panel is not panel
+        assert seen == list(panel.groups)
+        assert panel.group == seen[0]
+
+    def test_a_group_is_chosen_from_a_list(self, player):
+        player.click(next(rect.center for rect, what in player.view.panel.places if what == FAVOURITES))
+        player.frames(1)
+        player.click(next(rect.center for rect, what in player.view.over.places if what == "=launch"))
+        assert player.view.panel.group == "launch"
+        assert player.view.over is None
 
     def test_a_word_that_brings_other_parameters_changes_the_rows_and_undo_changes_them_back(self, player):
-        player = player("golf")
-        player.key(pygame.K_TAB)
-        player.turn_to("ball.drag")
-        player.frames(2)
+        turn_to(player, "ball.drag")
         before = [row.parameter.key for row in player.view.panel.rows]
         player.view.panel.set(row(player, "ball.drag.model"), "constant")
-        player.frames(2)
         assert "ball.drag.coefficient" in {row.parameter.key for row in player.view.panel.rows}
         player.key(pygame.K_z, pygame.KMOD_CTRL)
-        player.frames(2)
         assert [row.parameter.key for row in player.view.panel.rows] == before
-        assert row(player, "ball.drag.model").shown == player.game.session.value("ball.drag.model")
 
-    def test_keys_typed_into_a_field_are_no_commands(self, player):
-        player = player("golf")
-        player.key(pygame.K_TAB)
-        player.click(row(player, "launch.speed").entry.rect.center)
-        assert player.view.panel.typing
-        player.key(pygame.K_SPACE)
-        assert player.game.playback is None
+    def test_what_a_parameter_means_is_said_under_the_mouse(self, player):
+        turn_to(player, "ball.drag")
+        player.move(place(player, "ball.drag.model", FIELD_OF).center)
+        from .test_see import said
+
+        assert any(text.startswith("ball.drag.model: ") for text in said(player))
 
 
 class TestThePanelByKey:
@@ -121,7 +144,7 @@ class TestThePanelByKey:
     def test_the_first_key_opens_it(self, player):
         player = player("golf")
         player.key(pygame.K_DOWN, pygame.KMOD_CTRL)
-        assert player.view.panel is not None
+        assert player.view.has_panel
         assert player.game.session.changes.values == {}
 
     def test_a_row_is_chosen_and_changed_and_taken_back(self, player):
@@ -129,46 +152,41 @@ class TestThePanelByKey:
         player.key(pygame.K_TAB)
         for _ in range(2):
             player.key(pygame.K_DOWN, pygame.KMOD_CTRL)
-        row = player.view.panel.rows[player.view.panel.chosen]
-        assert row.parameter.key == "launch.angle"
-        low, high = row.slider.value_range
+        assert player.view.panel.chosen == ("launch.angle", None)
+        low, high = row(player, "launch.angle").span
         player.key(pygame.K_RIGHT, pygame.KMOD_CTRL)
         player.key(pygame.K_LEFT, pygame.KMOD_CTRL | pygame.KMOD_SHIFT)
         assert player.game.session.value("launch.angle") == pytest.approx(10.4 + 0.009 * (high - low), rel=1e-3)
-        assert float(row.entry.get_text()) == player.game.session.value("launch.angle")
         player.key(pygame.K_BACKSPACE, pygame.KMOD_CTRL)
-        player.frames(2)
         assert player.game.session.changes.values == {}
-        assert player.view.panel.chosen == 1
+        assert player.view.panel.chosen == ("launch.angle", None)
 
     def test_switches_and_words_too(self, player):
         player = player("soccer")
         player.key(pygame.K_TAB)
         panel = player.view.panel
-        panel.chosen = next(i for i, row in enumerate(panel.rows) if isinstance(row, Switch))
-        key = panel.rows[panel.chosen].parameter.key
-        before = player.game.session.value(key)
-        player.key(pygame.K_RIGHT, pygame.KMOD_CTRL)
-        assert player.game.session.value(key) is not before
-        while panel.group != "ball.drag":
-            player.key(pygame.K_PAGEDOWN, pygame.KMOD_CTRL)
-            player.frames(2)
-            panel = player.view.panel
-        panel.chosen = next(i for i, row in enumerate(panel.rows) if isinstance(row, Word))
-        parameter = panel.rows[panel.chosen].parameter
-        player.key(pygame.K_RIGHT, pygame.KMOD_CTRL)
-        after = player.game.session.value(parameter.key)
-        assert after != parameter.value
-        assert after in parameter.choices
+        for group, kind in ((panel.group, bool), ("ball.drag", str)):
+            turn_to(player, group)
+            panel.chosen = next(row.at for row in panel.rows if isinstance(row.value, kind))
+            before = player.game.session.value(panel.chosen[0])
+            player.key(pygame.K_RIGHT, pygame.KMOD_CTRL)
+            assert player.game.session.value(panel.chosen[0]) != before
+        assert row(player, panel.chosen[0]).value in row(player, panel.chosen[0]).parameter.choices
 
-    def test_a_row_out_of_sight_is_scrolled_to(self, player):
+    def test_a_row_out_of_sight_is_scrolled_to(self, player, monkeypatch):
+        monkeypatch.setattr(Lettering, "larger", 1.5)
         player = player("golf", (640, 400))
         player.key(pygame.K_TAB)
+        turn_to(player, "club")
+        panel = player.view.panel
         player.key(pygame.K_UP, pygame.KMOD_CTRL)
-        player.frames(3)
-        label = player.view.panel.rows[player.view.panel.chosen].label
-        assert player.view.panel.chosen == len(player.view.panel.rows) - 1
-        assert label.rect.bottom <= player.view.panel.rect.bottom
+        assert panel.chosen == panel.rows[-1].at
+        assert panel.seen < len(panel.rows)
+        shown = {what[0].at: rect for rect, what in panel.places if isinstance(what, tuple)}
+        assert shown[panel.chosen].bottom <= panel.rect.bottom
+        player.move(shown[panel.chosen].center)
+        player.send(pygame.MOUSEWHEEL, x=0, y=1, flipped=False)
+        assert panel.first == len(panel.rows) - panel.seen - 1
 
 
 class TestSaving:
