@@ -7,7 +7,7 @@ from itertools import combinations
 from math import dist, hypot
 from typing import NamedTuple
 
-from sandbox.engine.impulses import Contact, Lanes, exchange_at_once, lanes
+from sandbox.engine.impulses import Contact, Lanes, exchange_alone, exchange_at_once, lanes
 from sandbox.engine.meeting import discs, meeting, speeds_at, surfaces_met
 from sandbox.engine.run import Numerics
 from sandbox.engine.setup import Ball, Body, Bounce, Setup, kinetic
@@ -250,7 +250,10 @@ class Impacts:
         friction = restitution = 1.0
         while True:
             bounces = [Bounce(restitution * e, friction * mu) for e, mu in wanted]
-            after, pushes = exchange_at_once(balls, states, found, bounces)
+            if len(found) == 1:
+                after, pushes = exchange_alone(balls, states, found[0], bounces[0])
+            else:
+                after, pushes = exchange_at_once(balls, states, found, bounces)
             self._numerics.pymunk_steps += 1
             if (self._energy(after) <= most and self._parted(after, found)) or restitution == 0.0:
                 break

@@ -2,13 +2,15 @@
 Coulomb friction.
 
 A single contact does not depend on place, direction or size: in units of the reduced mass it is the impact of a disc
-of radius 1 and mass 1 on level ground. For contacts that close together the balls are placed as they are.
+of radius 1 and mass 1 on level ground, whose centre of mass is elsewhere if bodies meet. For contacts that close
+together the balls are placed as they are.
 """
 
 from __future__ import annotations
 
 import threading
 from collections.abc import Sequence
+from math import copysign, hypot, log, sqrt
 from typing import Any, NamedTuple, TypeVar
 
 import pymunk
@@ -31,6 +33,9 @@ _ITERATIONS, _ITERATIONS_TURNING = 200, 2_000
 #: Distance between lanes, how many lie side by side, and the height of a disc that is not in use.
 _SPACING, _SIDE, _PARKED = 4.0, 8, 1.5
 
+#: From a disc's centre to the ground.
+_DOWN: Vector = (0.0, -1.0)
+
 
 def still_space(iterations: int) -> pymunk.Space:
     """A Space that never corrects positions and forgets a contact in the step after it."""
@@ -39,6 +44,16 @@ def still_space(iterations: int) -> pymunk.Space:
     space.collision_persistence = 1
     space.iterations = iterations
     return space
+
+
+def _enough(factor: float, arm: Vector, friction: float) -> int:
+    """Iterations after which a contact that sticks or slides is known to rounding: each leaves a share of the error, as
+    pushing makes a body slip."""
+    (along, down), both = arm, abs(arm[0] * arm[1])
+    left = max(both / sqrt((factor + along**2) * (factor + down**2)), friction * both / (factor + along**2))
+    if left == 0.0:
+        return 1
+    return min(_ITERATIONS_TURNING, int(-36.0 / log(left)) + 2) if left < 1.0 else _ITERATIONS_TURNING
 
 
 L = TypeVar("L", bound="Lanes")
@@ -55,6 +70,7 @@ class Lanes:
         self._bodies: list[pymunk.Body] = []
         self._places: list[Vector] = []
         self._pairs: dict[int, tuple[float, float, float]] = {}  # restitution, friction, inertia factor, of each lane
+        self._arm = _DOWN  # of the first lane, from the centre of mass to the ground
         for lane in range(self.COUNT):
             x, y = _SPACING * (lane % _SIDE), _SPACING * (lane // _SIDE)
             ground = pymunk.Segment(self._space.static_body, (x - 0.1, y), (x + 0.1, y), 0.0)
@@ -68,14 +84,21 @@ class Lanes:
             self._places.append((x, y + 1.0 - _OVERLAP))
 
     def exchange(
-        self, approach: float, slip: float, factor: float, restitution: float, friction: float
+        self, approach: float, slip: float, factor: float, restitution: float, friction: float, arm: Vector = _DOWN
     ) -> tuple[float, float]:
         """The impulses away from the ground and along it, of a disc that approaches at this speed and whose surface
-        slips at that speed; all in m/s. ``factor`` is its moment of inertia.
+        slips at that speed; all in m/s. ``factor`` is its moment of inertia, ``arm`` leads from its centre of mass to
+        the ground.
         """
         body, (x, y) = self._bodies[0], self._places[0]
         self._prepare(0, (restitution, friction, factor))
+        if arm != self._arm:
+            self._arm = arm
+            self._discs[0].unsafe_set_offset((arm[0], arm[1] + 1.0))
+            self._space.iterations = _enough(factor, arm, friction)
+        x, y = x - arm[0], y - arm[1] - 1.0
         try:
+            body.angle = 0.0
             body.position, body.velocity, body.angular_velocity = (x, y), (slip, -approach), 0.0
             self._space.step(INSTANT)
             along, away = body.velocity
@@ -121,6 +144,37 @@ class Contact(NamedTuple):
     speed: float  # m/s, at which the centres approach, positive when closing
     speeds: tuple[float, float, float]  # m/s, where they touch: of approach, and of the slip along and upward
     point: Vector  # m, where they touch
+
+
+def exchange_alone(
+    balls: Sequence[Ball], states: dict[int, State], contact: Contact, bounce: Bounce
+) -> tuple[dict[int, State], list[float]]:
+    """The states after a single contact of bodies, and its normal impulse in N s.
+
+    A push at the contact makes it move by ``K P``, with a symmetric matrix K. One body with the smaller eigenvalue of K
+    as 1/m, and its centre of mass at the right place, moves as all of them do.
+    """
+    nx, ny = contact.nx, contact.ny
+    arms = [(contact.point[0] - states[index][0], contact.point[1] - states[index][1]) for index in contact.balls]
+    away = along = both = 0.0  # K, in 1/kg
+    for index, (x, y) in zip(contact.balls, arms, strict=True):
+        across, down = x * ny - y * nx, x * nx + y * ny
+        away += 1.0 / balls[index].mass + across * across / balls[index].inertia
+        along += 1.0 / balls[index].mass + down * down / balls[index].inertia
+        both -= across * down / balls[index].inertia
+    larger = 0.5 * (away + along + hypot(away - along, 2.0 * both))
+    smaller = (away * along - both * both) / larger
+    arm = sqrt(max(0.0, away / smaller - 1.0)), -sqrt(max(0.0, along / smaller - 1.0))
+    approach, slip, _ = contact.speeds
+    arm = copysign(arm[0], both), arm[1]
+    push, rub = lanes(Lanes).exchange(approach, slip, 1.0, bounce.restitution, bounce.friction, arm)
+    px, py = (push * nx + rub * ny) / smaller, (push * ny - rub * nx) / smaller
+    after = dict(states)
+    for index, (x, y), way in zip(contact.balls, arms, (1.0, -1.0), strict=False):
+        u, v, vx, vy, spin, *more = states[index]
+        share, turn = way / balls[index].mass, way / balls[index].inertia
+        after[index] = (u, v, vx + share * px, vy + share * py, spin + turn * (x * py - y * px), *more)
+    return after, [push / smaller]
 
 
 def exchange_at_once(

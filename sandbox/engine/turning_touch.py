@@ -53,12 +53,13 @@ class Mover(NamedTuple):
         arc = self.arc
         h = arc.t1 - arc.t0
         if h <= 0.0:
-            return _Bounds(0.0, (), 0.0, 0.0)
+            return _Bounds(0.0, (), 0.0, 0.0, 0.0)
         ax, ay, turning = (
             [(b - a) * (len(curve) - 1) / h for a, b in pairwise(curve)] for curve in (arc.vx, arc.vy, arc.spin)
         )
-        accelerations = tuple(zip(ax, ay, strict=True))
-        return _Bounds(arc.fastest(), accelerations, max(map(abs, arc.spin)), max(map(abs, turning), default=0.0))
+        largest = max(map(hypot, ax, ay), default=0.0)
+        fastest_turn, turning_up = max(map(abs, arc.spin)), max(map(abs, turning), default=0.0)
+        return _Bounds(arc.fastest(), tuple(zip(ax, ay, strict=True)), largest, fastest_turn, turning_up)
 
 
 class _Bounds(NamedTuple):
@@ -66,16 +67,13 @@ class _Bounds(NamedTuple):
 
     speed: float  # m/s
     accelerations: tuple[tuple[float, float], ...]  # m/s^2; it is always between these
+    largest: float  # m/s^2, of these
     spin: float  # rad/s
     turning: float  # rad/s^2
 
     def acceleration(self, nx: float, ny: float) -> float:
         """The largest along a fixed normal, in m/s^2."""
-        return max((abs(ax * nx + ay * ny) for ax, ay in self.accelerations), default=0.0)
-
-    def any_acceleration(self) -> float:
-        """The largest in any direction."""
-        return max((hypot(ax, ay) for ax, ay in self.accelerations), default=0.0)
+        return max([abs(ax * nx + ay * ny) for ax, ay in self.accelerations], default=0.0)
 
 
 def fixed(shape: Shape) -> Mover:
@@ -139,7 +137,7 @@ def _apart_for(
     forward = (vx - ux) * nx + (vy - uy) * ny + frame_spin * ((y - v) * nx - (x - u) * ny)
     turns = spin - frame_spin
     ahead = [(px * bx + py * by, px * by - py * bx) for px, py in shape.candidates(atan2(by, bx))]
-    front = max(distance for distance, _ in ahead)
+    front = max(ahead)[0]
 
     own, others = bounds
     size = max(shape.reach, shape.straightest)
@@ -148,7 +146,7 @@ def _apart_for(
     if others.spin == 0.0:  # the normal does not turn
         hurry += own.acceleration(nx, ny) + others.acceleration(nx, ny)
     else:
-        hurry += own.any_acceleration() + others.any_acceleration()
+        hurry += own.largest + others.largest
         hurry += 2.0 * others.spin * (own.speed + others.speed + size * own.spin)
         hurry += (others.spin**2 + others.turning) * (apart + size)
 
