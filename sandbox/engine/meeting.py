@@ -61,12 +61,20 @@ def rounding(body: Ball, state: State) -> float:
 def meeting(one: Ball, state: State, other: Ball, other_state: State, within: float = 0.0) -> Meeting:
     """How two bodies, or a body and a ball, meet: at points where they are no farther apart than ``within`` (m), or
     else where they are nearest."""
-    return _meeting((outline_of(one), outline_of(other)), (state, other_state), within)
+    return _meeting(outline_of(one), outline_of(other), (state, other_state), within)
 
 
 def surface_met(body: Ball, state: State, obstacle: Obstacle, within: float = 0.0) -> Meeting:
     """How a body meets a surface."""
-    return _meeting((outline_of(body), standing(obstacle.surface.shape).shape), (state,), within)
+    return _meeting(
+        outline_of(body), standing(obstacle.surface.shape).shape, (state,), within, direction_to(obstacle, state)
+    )
+
+
+def direction_to(obstacle: Obstacle, state: State) -> float:
+    """The direction of the normal in rad from a surface to the centre of a body: a guess of that to its outline."""
+    touching = obstacle.near(state[0], state[1])
+    return atan2(touching.ny, touching.nx)
 
 
 def surfaces_met(
@@ -125,12 +133,22 @@ def lifts(body: Ball, state: State, point: Vector, normal: Vector, applied: Acce
     return bool(most > PUSH and away >= -_SHARE * most)
 
 
-def _meeting(shapes: tuple[Shape, Shape], states: Sequence[State], within: float) -> Meeting:
-    (one, other), (here, there) = shapes, [*map(pose_of, states), _IN_PLACE][:2]
-    found = nearest(one, here, other, there)
+def _meeting(
+    one: Shape, other: Shape, states: Sequence[State], within: float, direction: float | None = None
+) -> Meeting:
+    here, there = [*map(pose_of, states), _IN_PLACE][:2]
+    gap, normal, points = _touching(one, here, other, there, within, direction)
+    return Meeting(gap, normal, points, [speeds_at(states, point, normal) for point in points])
+
+
+@lru_cache(maxsize=64)
+def _touching(
+    one: Shape, here: Pose, other: Shape, there: Pose, within: float, direction: float | None
+) -> tuple[float, Vector, list[Vector]]:
+    """Gap, normal and points; asked for before and after each impact."""
+    found = nearest(one, here, other, there, direction)
     normal = found.nx, found.ny
-    points = meeting_points(one, here, other, there, normal, max(0.0, within - found.gap))
-    return Meeting(found.gap, normal, points, [speeds_at(states, point, normal) for point in points])
+    return found.gap, normal, meeting_points(one, here, other, there, normal, max(0.0, within - found.gap))
 
 
 def speeds_at(states: Sequence[State], point: Vector, normal: Vector) -> Speeds:

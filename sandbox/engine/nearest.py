@@ -76,9 +76,9 @@ def _climbed(one: Shape, here: Pose, other: Shape, there: Pose, at: float) -> Ne
     i, j = one.corner_towards(at - turned), other.corner_towards(at - turn)
     way, low, high = 0.0, -inf, inf  # the way to turn; directions between which the best is, where a side is curved
     for _ in range(_MOST):
-        _, _, apart, slope = strip(at)
-        if slope * way < 0.0 or slope == 0.0:
-            break  # past a straight side, whose normal this is; or parallel
+        nx, ny, apart, slope = strip(at)
+        if slope * way < 0.0 or slope == 0.0:  # past a straight side, whose normal this is; or parallel
+            return Nearest(apart - one.radius - other.radius, nx, ny, at)
         way = 1.0 if slope > 0.0 else -1.0
         left, right = one.to_next(i, at - turned, way), other.to_next(j, at - turn, way)
         room, bend = min(left, right), one.bend(at - turned) + other.bend(at - turn)
@@ -90,7 +90,7 @@ def _climbed(one: Shape, here: Pose, other: Shape, there: Pose, at: float) -> Ne
         else:
             low, high = (at, high) if way > 0.0 else (low, at)
             by = min(abs(slope) / max(apart + bend, abs(slope)), high - at if way > 0.0 else at - low)
-            if by < room or strip(at + way * room)[3] * way <= 0.0:
+            if by < room or (room > 0.0 and strip(at + way * room)[3] * way <= 0.0):
                 if by >= room:
                     low, high = (low, at + way * room) if way > 0.0 else (at + way * room, high)
                 best = at + way * by

@@ -5,7 +5,7 @@ from __future__ import annotations
 from sandbox.engine.arc import Arc
 from sandbox.engine.in_plane import InPlane, crossing
 from sandbox.engine.lasting import LastingContact
-from sandbox.engine.meeting import standing, stays, surfaces_met
+from sandbox.engine.meeting import direction_to, standing, stays, surfaces_met
 from sandbox.engine.one_point import OnePoint, one_point
 from sandbox.engine.setup import outline_of
 from sandbox.engine.touch import TOUCHING_GAP, Obstacle
@@ -56,6 +56,5 @@ class Turning(InPlane):
             if u is None:
                 return None
             start += u * (arc.t1 - arc.t0)
-        return first_touch(
-            Mover(outline_of(self.ball), arc), standing(obstacle.surface.shape), start, arc.t1, self._accuracy.skin
-        )
+        one, other = Mover(outline_of(self.ball), arc), standing(obstacle.surface.shape)
+        return first_touch(one, other, start, arc.t1, self._accuracy.skin, direction_to(obstacle, arc.state(start)))

@@ -86,16 +86,18 @@ def pose_of(state: State) -> Pose:
     return Pose(state[0], state[1], state[5] if len(state) == 6 else 0.0)
 
 
-def first_touch(one: Mover, other: Mover, t: float, until: float, skin: float = SKIN) -> float | None:
+def first_touch(
+    one: Mover, other: Mover, t: float, until: float, skin: float = SKIN, direction: float | None = None
+) -> float | None:
     """The first time from t on at which two outlines overlap by ``skin`` (m), or None. Where they overlap by more at
-    t, it is when they come to overlap by more than then."""
+    t, it is when they come to overlap by more than then. ``direction`` is a guess of that of the normal, in rad."""
     bounds, found = (one.bounds(), other.bounds()), None
     for _ in range(_MOST):
         motion, way = one.arc.state(t), other.arc.state(t)
         here, there = pose_of(motion), pose_of(way)
         noise = _NOISE * (1.0 + 0.1 * (abs(here.x) + abs(here.y)))
         if found is None:
-            found = nearest(one.shape, here, other.shape, there)
+            found = nearest(one.shape, here, other.shape, there, direction)
             skin = max(skin, noise - found.gap)
         else:
             found = nearest(one.shape, here, other.shape, there, found.direction)

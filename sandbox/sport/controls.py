@@ -88,6 +88,7 @@ class Controls:
     scores: str = ""  # the fact that is true, or not empty, if the shot scored
     spread: tuple[Spread, ...] = ()  # of a fan of shots; where empty, of speed and angle
     fan_fact: str = ""  # the fact whose mean and spread a fan reports
+    fan_shots: int = 0  # more than usual, where they differ much
     #: From a run and its parameters to the changes with which the next shot begins; without it, every shot begins the
     #: same way.
     next_start: Callable[[Any, Any], Mapping[str, Any]] | None = None

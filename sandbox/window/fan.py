@@ -75,7 +75,8 @@ def cloud(
     spread = spread_of(scene, width)
     if not spread:
         return Cloud((0, 0), (0, 0), b"", ("no fan: this shot does not begin as a player's does", ""), 0, 0, True)
-    draws = np.random.default_rng(1).standard_normal((SHOTS, len(spread)))
+    most = scene.controls.fan_shots or SHOTS
+    draws = np.random.default_rng(1).standard_normal((most, len(spread)))
     columns = [within(p, p.value + sigma * draw) for (p, sigma), draw in zip(spread.values(), draws.T, strict=True)]
     controls = scene.controls
     asked = [fact for fact in (controls.scores, controls.fan_fact) if fact]
@@ -95,14 +96,14 @@ def cloud(
     sigmas = [f"{key.rpartition('.')[2]} ± {short(sigma)} {p.unit or ''}" for key, (p, sigma) in spread.items()]
     said = _said(scene, asked, shots), ", ".join(map(str.rstrip, sigmas))
     scored = sum(shot.scored for shot in shots)
-    return Cloud(*_drawn(good, others, colours), said, len(shots), scored, in_full and count == SHOTS)
+    return Cloud(*_drawn(good, others, colours), said, len(shots), scored, in_full and count == most)
 
 
 def _said(scene: Scene, asked: Sequence[str], shots: Sequence[Shot]) -> str:
     """How many score, and the mean and spread of the last number that was asked for."""
     count = len(shots)
     text = f"{count} shots" if count else "no such shot could be computed"
-    if scene.controls.scores in asked and count:
+    if any(shot.run.result.get(scene.controls.scores) is not None for shot in shots):
         scored = sum(shot.scored for shot in shots)
         p = scored / count
         text = f"{scored} of {count} score: {100 * p:.0f} ± {max(1.0, 100 * sqrt(p * (1 - p) / count)):.0f} %"

@@ -8,10 +8,13 @@ deform; how it rolls once it has stopped bouncing, where the run ends. Not valid
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import cos, pi, radians, sin
+from statistics import NormalDist, pstdev
 from typing import Any, Literal
 
+from sandbox.engine import simulate
+from sandbox.engine.accuracy import LEVELS
 from sandbox.engine.run import Event, Run
 from sandbox.engine.setup import Body, Circle, Setup, Surface, Torque
 from sandbox.engine.shapes import Ellipse
@@ -26,6 +29,9 @@ from sandbox.sport.readings import LAUNCH, Moment, apex, at, before, passing
 from sandbox.sport.solids import Solid, level
 
 LONGEST = 15.0  # s, after which a run is ended
+
+#: Bounces lower than this, in m, are lost in the grass; assumed.
+LOWEST_BOUNCE = 0.01
 
 
 class Launch(Directed):
@@ -80,9 +86,14 @@ CONTROLS = Controls(
         Spread("launch.angle", least=0.5),
         Spread("launch.nose", least=3.0),
     ),  # assumed
+    fan_fact="bounce",
+    fan_shots=200,
 )
 
 BAR = 0.08  # m, half the bar's thickness; assumed
+
+#: Landings whose bounces are compared, and how accurately each is computed: to a tenth of what they differ by.
+LANDINGS, ROUGH = 12, replace(LEVELS["fast"], tolerance=1.0)
 
 
 @dataclass(frozen=True)
@@ -146,7 +157,7 @@ def build(it: Parameters) -> Setup:
         forces=forces,
         torques=torques,
     )
-    surfaces = [it.ground.surface("ground", level(reach=1e3))]
+    surfaces = [it.ground.surface("ground", level(reach=1e3), lowest_bounce=LOWEST_BOUNCE)]
     if it.goal.present:
         bar = Circle((it.goal.distance, it.goal.height - BAR), BAR)
         surfaces.append(Surface("crossbar", bar, it.goal.restitution, 0.3))
@@ -182,16 +193,38 @@ def good(run: Run, parameters: Parameters) -> bool | None:
     return gap is not None and gap > 0.0
 
 
-def _rolled(run: Run, parameters: Parameters) -> float | None:
+def _bounced(run: Run, parameters: Parameters) -> float | None:
     down = landing(run, parameters)
     return None if down is None else run.state("ball", run.duration)[0] - down.x
+
+
+def _spread(run: Run, parameters: Parameters) -> float | None:
+    """How much the bounces of a kick without a goal differ, in m, as a standard deviation: of landings that differ in
+    the angle of the nose alone. End over end no kicker controls it; a spiral's is his to a few degrees."""
+    down = landing(run, parameters)
+    if down is None or parameters.goal.present:
+        return None
+    ball, sigma = run.setup.balls[0], radians(CONTROLS.spread[2].least)
+    assert isinstance(ball, Body)
+    noses = [pi * (k + 0.5) / LANDINGS for k in range(LANDINGS)]
+    if parameters.launch.turns == "spiral":
+        nose = run.angle("ball", down.t)
+        noses = [nose + sigma * NormalDist().inv_cdf((k + 0.5) / LANDINGS) for k in range(LANDINGS)]
+    ways = []
+    for nose in noses:
+        high = 0.5 * hypot(parameters.ball.length * sin(nose), parameters.ball.width * cos(nose))
+        start = replace(ball, position=(down.x, high), velocity=(down.vx, down.vy), spin=down.spin, angle=nose)
+        bounces = simulate(replace(run.setup, balls=[start]), ROUGH)
+        ways.append(bounces.state("ball", bounces.duration).x)
+    return pstdev(ways)
 
 
 FACTS = (
     Fact("distance", "distance", "m", at(landing, "x"), settled="ground", also="yd"),
     Fact("hang_time", "hang time", "s", at(landing, "t"), settled="ground"),
     Fact("apex", "apex", "m", apex),
-    Fact("bounce", "bounces", "m", _rolled, also="yd"),
+    Fact("bounce", "bounces", "m", _bounced, also="yd"),
+    Fact("bounce_spread", "bounce spread", "m", _spread),
     Fact("over", "over the bar", "m", over),
     Fact("good", "", "", good),
     Fact("landing_angle", "lands at", "deg", at(landing, "descent"), settled="ground"),
@@ -220,4 +253,5 @@ def verdict(run: Run, parameters: Parameters) -> str:
     if said["distance"] is None:
         return "Did not come down"
     bounce, way = abs(said["bounce"]) / 0.9144, "on" if said["bounce"] >= 0.0 else "back"
-    return f"{said['distance'] / 0.9144:.0f} yd in {said['hang_time']:.1f} s, then {bounce:.0f} yd {way}"
+    spread = said["bounce_spread"] / 0.9144
+    return f"{said['distance'] / 0.9144:.0f} yd in {said['hang_time']:.1f} s, then {bounce:.0f} ± {spread:.0f} yd {way}"

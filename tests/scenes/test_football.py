@@ -48,9 +48,20 @@ def test_a_spiral_lands_nose_first_and_goes_farther():
     assert spiral.result["nose"] == pytest.approx(-spiral.result["landing_angle"], abs=12.0)
 
 
-def test_bounces_spread_by_metres_though_the_kick_differs_by_degrees():
-    bounces = [run_of("football/bounce", launch__nose=nose).result["bounce"] for nose in np.linspace(15.0, 25.0, 6)]
-    assert max(bounces) - min(bounces) > 5.0
+def test_bounces_spread_as_those_of_kicks_that_differ_by_degrees():
+    """End over end the hang time of such kicks differs by enough for any angle of the nose at the landing."""
+    kicks = [(nose, 52.0 + 0.1 * (nose - 20.0)) for nose in np.linspace(14.0, 26.0, 12)]
+    bounces = [run_of("football/bounce", launch__nose=nose, launch__angle=angle).result for nose, angle in kicks]
+    apart = np.std([result["bounce"] for result in bounces])
+    assert apart > 3.0
+    assert 0.5 * apart < np.mean([result["bounce_spread"] for result in bounces]) < 2.0 * apart
+
+
+def test_a_spirals_bounces_spread_less_and_those_of_a_ball_not_at_all():
+    punt, ball = run_of("football/punt"), run_of("football/bounce", ball__width=0.286, ball__nose_drag=0.5)
+    assert 0.1 < punt.result["bounce_spread"] < 3.0
+    assert ball.result["bounce_spread"] == pytest.approx(0.0, abs=1e-6)
+    assert run_of().result["bounce_spread"] is None
 
 
 def test_a_disc_in_a_gale_comes_to_lie_on_the_grass():
