@@ -10,7 +10,7 @@ from typing import Any, overload
 import numpy as np
 
 from sandbox.engine.arc import Arc
-from sandbox.engine.bernstein_many import evaluate, first_downward_crossing
+from sandbox.engine.bernstein_many import evaluate, first_downward_crossing, until
 from sandbox.engine.path import Curve, Passage, Path
 
 #: Positions of an arc's parts in its row: times, state at the start, curves, state at the end.
@@ -118,6 +118,16 @@ class ArcRows(Path):
     def passages(self, curve: Curve) -> list[Passage]:
         """Each time and state at which a curve becomes negative."""
         return self.paths.passages(self, curve)
+
+
+def cut(rows: np.ndarray, t: np.ndarray, u: np.ndarray) -> np.ndarray:
+    """Arcs as columns that end at t (s), where their parameter is u."""
+    rows[T1] = t
+    for first, last in ((X, Y), (VX, VY), (SPIN, SPIN)):  # of the same degree
+        curves = rows[first.start : last.stop].reshape(-1, first.stop - first.start, len(u)).swapaxes(0, 1)
+        curves[...] = until(curves, u)
+    rows[END] = rows[[curve.stop - 1 for curve in CURVES]]
+    return rows
 
 
 def arc_of(row: Any) -> Arc:

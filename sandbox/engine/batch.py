@@ -16,8 +16,7 @@ import numpy as np
 from sandbox.engine.accuracy import Accuracy
 from sandbox.engine.acting import acceleration, by_cause
 from sandbox.engine.arc import through
-from sandbox.engine.arc_rows import COLUMNS, CURVES, END, ArcRows, Paths, X, Y, arc_of
-from sandbox.engine.bernstein import until
+from sandbox.engine.arc_rows import COLUMNS, CURVES, END, ArcRows, Paths, X, Y, arc_of, cut
 from sandbox.engine.event import Event
 from sandbox.engine.impulses import lanes
 from sandbox.engine.lanes import ManyLanes
@@ -250,10 +249,8 @@ class Batch:
         self._counts[QUERIES, shots] += looked_at
         hits = np.flatnonzero(t0 + u * h <= t1)
         t1[hits] = t0[hits] + u[hits] * h[hits]
-        rows[1, hits] = t1[hits]
-        for number, curve in enumerate(CURVES):
-            rows[curve, hits] = until(list(rows[curve, hits]), u[hits])
-            rows[END.start + number, hits] = rows[curve.stop - 1, hits]
+        if len(hits):
+            rows[:, hits] = cut(rows[:, hits], t1[hits], u[hits])
         self._paths.append((shots, rows))
         self._t[lanes], self._state[:, lanes] = t1, rows[END]
         leaving = t1 >= np.broadcast_to(self._now.duration, self._t.shape)[lanes]

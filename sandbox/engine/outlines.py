@@ -33,14 +33,14 @@ class Outlines:
         radii = np.broadcast_to(setups.whole.balls[0].radius, len(setups))
         outlines = [Outline.of(surface.shape, radii) for surface in setups.whole.surfaces]
         rows = [[np.broadcast_to(part, radii.shape) for part in outline] for outline in outlines]
-        self._table = Outline(*np.array(rows).transpose(1, 0, 2))
-        self._boxes = self._table.box()
+        self._table = np.array(rows).transpose(1, 0, 2)  # shape (parts of an outline, surfaces, shots)
+        self._boxes = np.array(Outline(*self._table).box())
         self._obstacles: dict[tuple[int, int], Obstacle] = {}
 
     def near(self, shots: np.ndarray, x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray, Touching]:
         """How many surfaces touch the balls of these shots, centred at x and y (m), of which flush ones count as one;
         the index of the first that does, or else of the nearest; and its Touching."""
-        touching = Outline(*(part[:, shots] for part in self._table)).near(x, y)
+        touching = Outline(*self._table[:, :, shots]).near(x, y)
         touches = touching.gap <= TOUCHING_GAP
         first = np.where(touches.any(axis=0), touches.argmax(axis=0), touching.gap.argmin(axis=0))
         pick = (first, np.arange(len(shots)))
@@ -59,20 +59,24 @@ class Outlines:
         ``x`` and ``y`` are coefficients in m, shape (6, paths), and ``arc(i)`` is the i-th of these paths.
         """
         touch = np.full(len(shots), np.inf)
-        left, bottom, right, top = (side[:, shots] for side in self._boxes)
+        left, bottom, right, top = self._boxes[:, :, shots]
         level = (x.min(axis=0) <= right) & (x.max(axis=0) >= left)
         what, path = np.nonzero(level & (y.min(axis=0) <= top) & (y.max(axis=0) >= bottom))
         if len(path):
             xs, ys = x[:, path], y[:, path]
-            outline = Outline(*(part[what, shots[path]] for part in self._table))
-            u, unclear = _first_within(xs - outline.ax, ys - outline.ay, outline.reach - self._skin)
+            outlines = self._table[:, what, shots[path]]
+            outline = Outline(*outlines)
             straight = np.flatnonzero(outline.length > 0.0)
+            u, unclear = _first_within(
+                np.concatenate((xs - outline.ax, xs[:, straight] - outline.bx[straight]), axis=1),
+                np.concatenate((ys - outline.ay, ys[:, straight] - outline.by[straight]), axis=1),
+                np.concatenate((outline.reach, outline.reach[straight])) - self._skin,
+            )
+            (u, u_b), (unclear, unclear_b) = np.split(u, [len(path)]), np.split(unclear, [len(path)])
             if len(straight):
-                xs, ys, outline = xs[:, straight], ys[:, straight], Outline(*(part[straight] for part in outline))
-                corner = _first_within(xs - outline.bx, ys - outline.by, outline.reach - self._skin)
-                for other, doubtful in (corner, _side(outline, xs, ys, self._skin)):
-                    u[straight] = np.minimum(u[straight], other)
-                    unclear[straight] |= doubtful
+                u_side, unclear_side = _side(Outline(*outlines[:, straight]), xs[:, straight], ys[:, straight], self._skin)
+                u[straight] = np.minimum(np.minimum(u[straight], u_b), u_side)
+                unclear[straight] |= unclear_b | unclear_side
             for pair in np.flatnonzero(unclear).tolist():
                 found = self._obstacle(int(what[pair]), int(shots[path[pair]])).first_touch(arc(int(path[pair])))
                 u[pair] = np.inf if found is None else found
@@ -88,29 +92,30 @@ class Outlines:
 
 
 def _side(outline: Outline, x: np.ndarray, y: np.ndarray, skin: float) -> Crossings:
-    """Where paths come to touch a side."""
+    """Where paths come to touch a side, from either side of its line."""
     across, along = outline.across(x, y), outline.along(x, y)
-    reach, length = outline.reach, outline.length
-    first, unclear = np.full(len(reach), np.inf), np.zeros(len(reach), dtype=bool)
+    count = len(outline.reach)
+    first, unclear = np.full(count, np.inf), np.zeros(count, dtype=bool)
+    reached = (across.min(axis=0) <= outline.reach) & (across.max(axis=0) >= -outline.reach)
+    gap = np.concatenate((across, -across), axis=1)
+    beside = gap[0] > 0.0
+    gap = gap - (np.tile(outline.reach, 2) - skin)
+    some = np.flatnonzero(np.tile(reached, 2) & (beside | (gap.max(axis=0) > -NOISE)))
+    if not len(some):
+        return first, unclear
+    gap, path = gap[:, some], some % count
+    along, length = along[:, path], outline.length[path]
     within = (along[0] >= -TOUCHING_GAP) & (along[0] <= length + TOUCHING_GAP)
-    reached = (across.min(axis=0) <= reach) & (across.max(axis=0) >= -reach)
-    for side in (1.0, -1.0):
-        gap = side * across - reach + skin
-        beside = side * across[0] > 0.0
-        some = np.flatnonzero(reached & ((gap.max(axis=0) > -NOISE) | beside))
-        if not len(some):
-            continue
-        gap = gap[:, some]
-        u, doubtful = _closing(gap, (within & beside)[some])
-        there = evaluate(along[:, some], np.where(np.isfinite(u), u, 0.0))
-        missed = np.isfinite(u) & ((there < 0.0) | (there > length[some]))
+    u, doubtful = _closing(gap, within & beside[some])
+    there = evaluate(along, np.where(np.isfinite(u), u, 0.0))
+    missed = np.isfinite(u) & ((there < 0.0) | (there > length))
+    if missed.any():  # it may touch later, after passing beyond the side's end
         u[missed] = np.inf
         positive = gap > 0.0
-        again = (positive[1:] != positive[:-1]).sum(
-            axis=0
-        ) > 1  # it may touch later, after passing beyond the side's end
-        first[some] = np.minimum(first[some], u)
-        unclear[some] |= doubtful | (missed & (again | (gap[0] <= NOISE)))
+        again = (positive[1:] != positive[:-1]).sum(axis=0) > 1
+        doubtful |= missed & (again | (gap[0] <= NOISE))
+    np.minimum.at(first, path, u)
+    np.logical_or.at(unclear, path, doubtful)
     return first, unclear
 
 
