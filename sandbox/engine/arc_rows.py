@@ -5,13 +5,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from functools import cached_property
+from math import inf
 from typing import Any, overload
 
 import numpy as np
 
 from sandbox.engine.arc import Arc
 from sandbox.engine.bernstein_many import evaluate, first_downward_crossing, until
-from sandbox.engine.path import Curve, Passage, Path
+from sandbox.engine.path import Curve, Passage, Path, climb
 
 #: Positions of an arc's parts in its row: times, state at the start, curves, state at the end.
 T0, T1 = 0, 1
@@ -114,6 +115,14 @@ class ArcRows(Path):
     def ends(self) -> list[Passage]:
         """Time and state at the end of each arc."""
         return list(zip(self.stops, map(tuple, self._rows[:, END].tolist()), strict=True))
+
+    def highest(self, until: float = inf) -> Passage:
+        """Time and state where it is highest, up to a time at which it is not."""
+        rows = self._rows
+        at = int(np.where(rows[:, T1] <= until, rows[:, END.start + 1], -inf).argmax())  # of the ends
+        turns = [(rows[0, T0], rows[0, START]), (rows[at, T1], rows[at, END]), *self.passages(climb)]
+        t, state = max((turn for turn in turns if turn[0] <= until), key=lambda turn: turn[1][1])
+        return float(t), tuple(map(float, state))
 
     def passages(self, curve: Curve) -> list[Passage]:
         """Each time and state at which a curve becomes negative."""

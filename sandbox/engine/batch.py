@@ -16,7 +16,7 @@ import numpy as np
 from sandbox.engine.accuracy import Accuracy
 from sandbox.engine.acting import acceleration, by_cause
 from sandbox.engine.arc import through
-from sandbox.engine.arc_rows import COLUMNS, CURVES, END, ArcRows, Paths, X, Y, arc_of, cut
+from sandbox.engine.arc_rows import COLUMNS, END, ArcRows, Paths, X, Y, arc_of, cut
 from sandbox.engine.event import Event
 from sandbox.engine.impulses import lanes
 from sandbox.engine.lanes import ManyLanes

@@ -74,7 +74,8 @@ class Outlines:
             )
             (u, u_b), (unclear, unclear_b) = np.split(u, [len(path)]), np.split(unclear, [len(path)])
             if len(straight):
-                u_side, unclear_side = _side(Outline(*outlines[:, straight]), xs[:, straight], ys[:, straight], self._skin)
+                sides = Outline(*outlines[:, straight])
+                u_side, unclear_side = _side(sides, xs[:, straight], ys[:, straight], self._skin)
                 u[straight] = np.minimum(np.minimum(u[straight], u_b), u_side)
                 unclear[straight] |= unclear_b | unclear_side
             for pair in np.flatnonzero(unclear).tolist():

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from bisect import bisect_left, bisect_right
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, overload
+from math import inf
+from typing import Any, NamedTuple, overload
 
 from sandbox.engine.arc import Arc
 from sandbox.engine.bernstein import downward_crossings
@@ -19,8 +19,7 @@ Passage = tuple[float, State]
 Curve = Callable[[Arc], Sequence[Any]]
 
 
-@dataclass(frozen=True)
-class Above:
+class Above(NamedTuple):
     """How far a ball's centre is beyond the line through a point with this normal, in m."""
 
     x: float  # m
@@ -35,6 +34,10 @@ class Above:
 def climb(arc: Arc) -> Sequence[Any]:
     """The upward velocity, in m/s."""
     return arc.vy
+
+
+def _height(passage: Passage) -> Any:
+    return passage[1][1]
 
 
 class Path(Sequence[Arc]):
@@ -75,6 +78,11 @@ class Path(Sequence[Arc]):
     def ends(self) -> Iterable[Passage]:
         """Time and state at the end of each arc."""
         return ((arc.t1, arc.state(arc.t1)[:5]) for arc in self)
+
+    def highest(self, until: float = inf) -> Passage:
+        """Time and state where it is highest, up to a time at which it is not."""
+        turns = [(self[0].t0, self[0].start[:5]), *self.passages(climb), *self.ends()]
+        return max((turn for turn in turns if turn[0] <= until), key=_height)
 
     def passages(self, curve: Curve) -> Iterable[Passage]:
         """Each time and state at which a curve becomes negative: within an arc, or where one arc ends and the next

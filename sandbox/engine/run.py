@@ -9,7 +9,7 @@ from math import dist, inf
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from sandbox.engine.event import Event
-from sandbox.engine.path import Above, Path, climb
+from sandbox.engine.path import Above, Path
 from sandbox.errors import RequestError
 from sandbox.physics.integrators import State
 
@@ -174,9 +174,7 @@ class Run:
 
     def highest(self, ball: str, until: float = inf) -> tuple[float, State]:
         """Time and state at which a ball's centre is highest, up to a time at which it is not."""
-        path = self._path(ball)
-        turns = [(0.0, self.state(ball, 0.0)), *path.passages(climb), *path.ends()]
-        return max((turn for turn in turns if turn[0] <= until), key=lambda turn: turn[1][1])
+        return self._path(ball).highest(until)
 
     def ends(self, ball: str) -> Iterator[tuple[float, State]]:
         """Time and state at the end of each arc of a ball's path."""
