@@ -5,9 +5,8 @@ from __future__ import annotations
 from functools import cached_property
 
 from sandbox.picture.camera import Box
-from sandbox.picture.figures import pose
 from sandbox.picture.palette import palette
-from sandbox.picture.places import Ground, Landscape, Person, Post, Shape, Stripes, Thing
+from sandbox.picture.places import Landscape, Person, Post, Shape, Thing, turf
 from sandbox.picture.side import Length, Place, SideView
 from sandbox.sport.amounts import metres
 
@@ -30,17 +29,15 @@ class Picture(SideView[Parameters]):
     @cached_property
     def place(self) -> Place:
         plate, release = self.parameters.plate, self.parameters.release
-        front, low, high, (ahead, up) = plate.distance, plate.bottom, plate.top, pose("pitching").holds
+        front, low, high = plate.distance, plate.bottom, plate.top
         dirt = [[(front - 3.2, 0.0), (front + 3.0, 0.0), (front + 3.0, 3.0), (front - 3.2, 3.0)]]
         dirt.append([(-3.0, 0.0), (2.2, 0.0), (1.6, 2.6), (-2.6, 2.6)])
         base = [(front, 0.0), (front + DEEP, 0.0), (front + DEEP, WIDE), (front, WIDE)]
         areas = [*((area, FIELD["infield"]) for area in dirt), (base, FIELD["line"])]
-        ground = Ground(Stripes(FIELD["grass"], 2.0), FIELD["soil"], edges=[(FIELD["edge"], 6)], areas=areas)
+        ground = turf(FIELD, 2.0, 6, areas=areas)
         corners = [(front, low, 0.0), (front + DEEP, low, 0.0), (front + DEEP, high, 0.0), (front, high, 0.0)]
         zone: list[Thing] = [Shape(corners, ZONE, 0.25), Post([*corners, corners[0]], 0.012, ZONE)]
-        tall = min(2.0, max(1.6, release.height / up))
-        lift = max(0.0, release.height - up * tall)
-        pitcher = Person(release.place - ahead * tall, tall, COLOURS["batter"], "pitching", up=lift)
+        pitcher = Person.holding((release.place, release.height), "pitching", COLOURS["batter"], shortest=1.6)
         batter = Person(front + 0.1, TALL, COLOURS["visitor"], "batting", z=0.9, facing=-1)
         catcher = Person(front + MITT + 0.35, TALL, COLOURS["batter"], "crouching", facing=-1)
         return Place(Landscape(**COLOURS["landscape"]), ground, [batter, *zone, catcher, pitcher])

@@ -7,7 +7,7 @@ from functools import cached_property
 from sandbox.picture.ball import Look, seams
 from sandbox.picture.camera import Box, Camera
 from sandbox.picture.palette import scene_colours
-from sandbox.picture.places import Ground, Landscape, Person, Post, Shape, Size, Stripes
+from sandbox.picture.places import Landscape, Person, Post, Shape, Size, turf
 from sandbox.picture.sheet import Sheet
 from sandbox.picture.side import Length, Place, SideView
 from sandbox.sport.amounts import twice
@@ -41,12 +41,7 @@ class Picture(SideView[Parameters]):
         foot, high = self.parameters.fence.distance, self.parameters.fence.height
         dirt = [(-6.0, 0.0), (INFIELD, 0.0), (0.7 * INFIELD, INFIELD), (-6.0, INFIELD)]
         track = [(foot - TRACK, 0.0), (foot, 0.0), (foot, DEEP), (foot - TRACK, DEEP)]
-        ground = Ground(
-            Stripes(FIELD["grass"], 8.0),
-            FIELD["soil"],
-            edges=[(FIELD["edge"], 6)],
-            areas=[(dirt, FIELD["infield"]), (track, FIELD["track"])],
-        )
+        ground = turf(FIELD, 8.0, 6, areas=[(dirt, FIELD["infield"]), (track, FIELD["track"])])
         corners = [(foot, 0.0, 0.0), (foot, high, 0.0), (foot, high, DEEP), (foot, 0.0, DEEP)]
         batter = Size(0.0, 1.85, 30).of(Person(0.0, 1.85, COLOURS["batter"], "batting"))
         pole = Post([(foot, 0.0, 0.0), (foot, high + POLE, 0.0)], 0.1, COLOURS["fence"]["pole"])

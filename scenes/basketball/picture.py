@@ -16,7 +16,7 @@ from sandbox.picture.lettering import Labels
 from sandbox.picture.painter import Painter, around_corners
 from sandbox.picture.palette import mix, palette, scene_colours
 from sandbox.picture.path import Mark, draw_trace, mark_impacts
-from sandbox.picture.places import Ground, Hall, Line, Person, Planks, Size
+from sandbox.picture.places import Hall, Line, Person, Size, boards
 from sandbox.picture.sheet import Entry, Sheet
 from sandbox.picture.side import Length, Place, SideView
 from sandbox.sport.amounts import metres, roughly, times
@@ -98,25 +98,16 @@ class Picture(SideView[Parameters]):
         height = self.parameters.release.height
         if not 1.6 <= height <= 3.1 or abs(self.parameters.launch.angle - 45) > 50:
             return []
-        low = height <= 2.2
-        tall = height / 1.075 if low else min(2.05, height / 1.27)
-        pose, up = ("shooting", 0.0) if low else ("reaching", height - 1.27 * tall)
-        return [Person(-0.20 * tall, tall, COLOURS["thrower"], pose, up=up)]
+        pose = "shooting" if height <= 2.2 else "reaching"
+        return [Person.holding((0.0, height), pose, COLOURS["thrower"], 2.05)]
 
     @cached_property
     def place(self) -> Place:
         face = self.parameters.board[0]
         end, throw = face + END_LINE, face - KEY_LENGTH
         key = [(throw, 0.0), (throw, KEY_HALF_WIDTH), (end, KEY_HALF_WIDTH), (end, 0.0)]
-        ground = Ground(
-            Planks(FLOOR["wood"]),
-            FLOOR["beneath"],
-            edges=[(FLOOR["lit"], 2), (FLOOR["cut"], 7)],
-            areas=[(key, FLOOR["key"])],
-            lines=_markings(self.ring[0], throw, end),
-            line=(FLOOR["line"], LINE),
-            far=0.44,
-        )
+        markings = _markings(self.ring[0], throw, end)
+        ground = boards(FLOOR, LINE, areas=[(key, FLOOR["key"])], lines=markings)
         return Place(
             Hall(**COLOURS["hall"]),
             ground,

@@ -10,7 +10,7 @@ import numpy as np
 from sandbox.picture.ball import Look
 from sandbox.picture.camera import Box, Camera
 from sandbox.picture.palette import scene_colours
-from sandbox.picture.places import Ground, Landscape, Post, Stripes
+from sandbox.picture.places import Landscape, Post, turf
 from sandbox.picture.sheet import ROWS_FOR_LENGTHS, YARD, Entry, Sheet
 from sandbox.picture.side import Place, SideView
 from sandbox.sport.amounts import amount
@@ -45,7 +45,7 @@ class Picture(SideView[Parameters]):
         starts = far * np.arange(-0.05, 1.0, 2.0 * DASH)
         sight = [Post([(x, 0.0, 0.0), (x + DASH * far, 0.0, 0.0)], 0.0, GROUND["sight"]) for x in starts]
         face = Post([(far, self.target.bottom, 0.0), (far, 0.0, 0.0)], 0.0, GROUND["target"])
-        ground = Ground(Stripes(GROUND["grass"], 60.0), GROUND["soil"], edges=[(GROUND["edge"], 5)])
+        ground = turf(GROUND, 60.0)
         return Place(Landscape(**COLOURS["landscape"]), ground, [face, *sight])
 
     def annotate(self, sheet: Sheet, camera: Camera) -> None:

@@ -7,7 +7,7 @@ from functools import cached_property
 from sandbox.picture.ball import Look
 from sandbox.picture.camera import Box
 from sandbox.picture.palette import scene_colours
-from sandbox.picture.places import Ground, Person, Post, Stands, Stripes
+from sandbox.picture.places import Person, Post, Stands, turf
 from sandbox.picture.side import Length, Place, SideView
 from sandbox.sport.amounts import metres
 
@@ -37,13 +37,7 @@ class Picture(SideView[Parameters]):
         goal, end = self.parameters.goal, float(self.points[:, 0].max()) + 20.0
         count = int(end / (5.0 * YARD)) + 2
         lines = [[(5.0 * YARD * i, 0.0), (5.0 * YARD * i, DEEP)] for i in range(-3, count)]
-        ground = Ground(
-            Stripes(FIELD["grass"], 10.0 * YARD),
-            FIELD["soil"],
-            edges=[(FIELD["edge"], 5)],
-            lines=lines,
-            line=(FIELD["line"], 0.1),
-        )
+        ground = turf(FIELD, 10.0 * YARD, line=0.1, lines=lines)
         kicker, things = Person(-0.7, TALL, COLOURS["kicker"], "kicking"), []
         if goal.present:
             x, bar = goal.distance, goal.height

@@ -10,7 +10,7 @@ import numpy as np
 from sandbox.engine.setup import Segment
 from sandbox.picture.camera import Box, Camera
 from sandbox.picture.palette import mix
-from sandbox.picture.places import Ground, Person, Shape, Size, Stands, Stripes, goal
+from sandbox.picture.places import Person, Shape, Size, Stands, goal, turf
 from sandbox.picture.sheet import Sheet
 from sandbox.picture.side import Length, Place, SideView
 from sandbox.sport.amounts import metres, roughly, times
@@ -67,15 +67,8 @@ class Picture(SideView[Parameters]):
     @cached_property
     def place(self) -> Place:
         mouth, wall = self.parameters.goal, self.parameters.wall
-        ground = Ground(
-            Stripes(PITCH["grass"], STRIPE, mouth.distance),
-            PITCH["soil"],
-            edges=[(PITCH["edge"], 6)],
-            lines=markings(mouth.distance, GOAL_WIDTH / 2),
-            line=(PITCH["line"], LINE),
-            far=FAR,
-            haze=PITCH["far"],
-        )
+        lines = markings(mouth.distance, GOAL_WIDTH / 2)
+        ground = turf(PITCH, STRIPE, 6, LINE, start=mouth.distance, lines=lines, far=FAR, haze=PITCH["far"])
         size = mouth.distance, mouth.depth, mouth.height, GOAL_WIDTH, mouth.post_radius
         standing = [
             *_size_at(mouth.distance).of(*(goal(*size, **COLOURS["goal"]) if mouth.present else ())),

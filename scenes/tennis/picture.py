@@ -13,9 +13,17 @@ from sandbox.picture.depth import Eye
 from sandbox.picture.figures import pose
 from sandbox.picture.net_game import NetView
 from sandbox.picture.palette import scene_colours
-from sandbox.picture.places import COURT_WIDTH, Ground, Hall, Person, Planks, Stands
-from sandbox.picture.places.ground import tennis_court
-from sandbox.picture.places.things import net_across, standing_table
+from sandbox.picture.places import (
+    COURT_WIDTH,
+    Ground,
+    Hall,
+    Person,
+    Planks,
+    Stands,
+    net_across,
+    standing_table,
+    tennis_court,
+)
 from sandbox.picture.side import Place
 from sandbox.sport.net_game import taken
 
@@ -57,9 +65,7 @@ class Picture(NetView[Parameters]):
         end, high, on_table = court.length, release.height + court.table, court.table > 0.0
         strokes = STROKES[on_table]
         stroke = min(strokes, key=lambda name: abs(high - pose(name).holds[1] * TALL))
-        ahead, up = pose(stroke).holds
-        tall = min(TALL, max(1.6, high / up))
-        player = Person(release.place - ahead * tall, tall, COLOURS["player"], stroke, up=max(0.0, high - up * tall))
+        player = Person.holding((release.place, high), stroke, COLOURS["player"], TALL, 1.6)
         other = Person(1.1 * end + 0.5, TALL, COLOURS["opponent"], strokes[0], z=0.5 * TABLE_WIDTH, facing=-1)
         hung = 0.5 * end, net.height - net.depth, net.height
         if on_table:

@@ -7,7 +7,7 @@ from functools import cached_property
 from sandbox.picture.ball import Look
 from sandbox.picture.camera import Box
 from sandbox.picture.palette import scene_colours
-from sandbox.picture.places import Ground, Person, Post, Shape, Stands, Stripes
+from sandbox.picture.places import Person, Post, Shape, Stands, turf
 from sandbox.picture.side import Length, Place, SideView
 from sandbox.sport.amounts import metres
 
@@ -35,14 +35,9 @@ class Picture(SideView[Parameters]):
         count = int((record + EVERY) / EVERY) + 1
         arcs = [[(i * EVERY, 0.0), (i * EVERY, 2.0 * SLOPE * i * EVERY)] for i in range(1, count + 1)]
         end = count * EVERY
-        ground = Ground(
-            Stripes(FIELD["grass"], 2.5),
-            FIELD["soil"],
-            edges=[(FIELD["edge"], 5)],
-            areas=[([(-CIRCLE, 0.0), (0.0, 0.0), (0.0, 1.2), (-CIRCLE, 1.2)], FIELD["circle"])],
-            lines=[*arcs, [(0.0, 0.0), (end, 0.0)], [(0.0, 0.0), (end, 2.0 * SLOPE * end)]],
-            line=(FIELD["line"], 0.05),
-        )
+        circle = [(-CIRCLE, 0.0), (0.0, 0.0), (0.0, 1.2), (-CIRCLE, 1.2)]
+        sides = [[(0.0, 0.0), (end, slope * end)] for slope in (0.0, 2.0 * SLOPE)]
+        ground = turf(FIELD, 2.5, areas=[(circle, FIELD["circle"])], lines=[*arcs, *sides])
         board = Shape([(0.0, 0.0, 0.0), (0.11, 0.0, 0.0), (0.11, BOARD, 0.0), (0.0, BOARD, 0.0)], FIELD["board"])
         flag = Post([(record, 0.0, 0.0), (record, 0.9, 0.0)], 0.03, FIELD["mark"])
         athlete = Person(release.place - 0.165 * tall, tall, COLOURS["athlete"], "reaching")

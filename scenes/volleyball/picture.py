@@ -8,7 +8,7 @@ from sandbox.picture.ball import Look, seams
 from sandbox.picture.camera import Box
 from sandbox.picture.net_game import NetView
 from sandbox.picture.palette import scene_colours
-from sandbox.picture.places import Ground, Hall, Net, Person, Planks, Post, Shape
+from sandbox.picture.places import Hall, Net, Person, Post, Shape, boards
 from sandbox.picture.side import Place
 
 from .scene import Parameters
@@ -33,22 +33,12 @@ class Picture(NetView[Parameters]):
         """What the ball flies through: parts in m, x along the court, z across it, the farthest first."""
         court, launch, top = self.parameters.court, self.parameters.launch, self.parameters.net.height
         end, net, low = court.length, 0.5 * court.length, top - self.parameters.net.depth
-        tall = min(2.0, launch.height / 1.27)
         across = [[(x, 0.0), (x, WIDE)] for x in (0.0, net - ATTACK, net, net + ATTACK, end)]
-        ground = Ground(
-            Planks(FLOOR["wood"]),
-            FLOOR["beneath"],
-            edges=[(FLOOR["lit"], 2), (FLOOR["cut"], 7)],
-            areas=[([(0.0, 0.0), (end, 0.0), (end, WIDE), (0.0, WIDE)], FLOOR["court"])],
-            lines=[*across, [(0.0, WIDE), (end, WIDE)]],
-            line=(FLOOR["line"], 0.05),
-            far=0.44,
-        )
+        inside = [(0.0, 0.0), (end, 0.0), (end, WIDE), (0.0, WIDE)]
+        ground = boards(FLOOR, areas=[(inside, FLOOR["court"])], lines=[*across, inside[2:]])
         posts = [Post([(net, 0.0, z), (net, top + 0.1, z)], 0.05, NET["post"], near=z == 0.0) for z in (WIDE, 0.0)]
         mesh = Net([((net, low, 0.0), (0.0, top - low, 0.0), (0.0, 0.0, WIDE))], NET["mesh"], 0.6)
         band = Shape([(net, top - down, z) for down, z in ((0, 0), (0.07, 0), (0.07, WIDE), (0, WIDE))], NET["band"])
         players = [Person(net + x, 1.9, COLOURS["players"], z=z, facing=-1) for x, z in reversed(PLAYERS)]
-        striker = Person(
-            launch.place - 0.2 * tall, tall, COLOURS["players"], "reaching", up=launch.height - 1.27 * tall
-        )
+        striker = Person.holding((launch.place, launch.height), "reaching", COLOURS["players"])
         return Place(Hall(**COLOURS["hall"]), ground, [posts[0], mesh, band, *players, striker, posts[1]])

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import pairwise
 from math import ceil, floor, hypot, log2
+from typing import Any
 
 import numpy as np
 import pygame
@@ -15,7 +16,7 @@ from sandbox.picture.depth import Eye
 from sandbox.picture.painter import Painter, blank, soil
 from sandbox.picture.palette import Colour, mix, palette
 
-FLOOR = palette("floor")
+FLOOR, WHITE = palette("floor"), (255, 255, 255)
 
 #: The ground differs little from place to place, so a lower factor than for other shapes will do.
 OVERSAMPLING = 2
@@ -90,7 +91,7 @@ class Ground:
     edges: Sequence[tuple[Colour, float]] = ()  # thin layers at the top of the cut, how deep they go, px on 720 rows
     areas: Sequence[tuple[Line, Colour]] = ()
     lines: Sequence[Line] = ()
-    line: tuple[Colour, float] = ((255, 255, 255), 0.05)  # their colour, and width in m
+    line: tuple[Colour, float] = (WHITE, 0.05)  # their colour, and width in m
     far: float = 0.4
     haze: Colour | None = None
     beyond: tuple[Colour, Colour] | None = None
@@ -142,6 +143,21 @@ class Ground:
             seen = hypot(0.35 * along, 0.5 * away) / (hypot(along, away) or 1.0)
             thick = width * eye.camera.scale * eye.share(a[1]) * seen * OVERSAMPLING
             pygame.draw.lines(drawn, colour, False, project([a, b]), max(2, round(thick)))
+
+
+def turf(
+    colours: Mapping[str, Any], stripe: float, edge: float = 5, line: float = 0.05, start: float = 0.0, **more: Any
+) -> Ground:
+    """Mown grass in a scene's colours ``grass``, ``soil``, ``edge`` and ``line``: widths of stripes and lines in m."""
+    kinds = Stripes(colours["grass"], stripe, start), colours["soil"], [(colours["edge"], edge)]
+    return Ground(*kinds, line=(colours.get("line", WHITE), line), **more)
+
+
+def boards(colours: Mapping[str, Any], line: float = 0.05, **more: Any) -> Ground:
+    """The floor of a hall in a scene's colours ``wood``, ``beneath``, ``lit``, ``cut`` and ``line``, lines so many m
+    wide."""
+    edges = [(colours["lit"], 2), (colours["cut"], 7)]
+    return Ground(Planks(colours["wood"]), colours["beneath"], edges, line=(colours["line"], line), far=0.44, **more)
 
 
 def tennis_court(

@@ -12,7 +12,8 @@ import numpy as np
 
 from sandbox.picture.depth import Eye as SideEye
 from sandbox.picture.figures import draw_figure
-from sandbox.picture.painter import Painter
+from sandbox.picture.figures import pose as pose_of
+from sandbox.picture.painter import Painter, Point
 from sandbox.picture.palette import Colour, palette
 from sandbox.picture.sheet import rows_of
 
@@ -120,6 +121,15 @@ class Person:
     up: float = 0.0
     facing: int = 1
     near: ClassVar[bool] = False
+
+    @classmethod
+    def holding(
+        cls, at: Point, pose: str, colours: Mapping[str, Colour], tallest: float = 2.0, shortest: float = 0.0
+    ) -> Person:
+        """Somebody who holds something at (x, height), all in m: as tall as that takes, and in the air if need be."""
+        (x, high), (ahead, up) = at, pose_of(pose).holds
+        tall = min(tallest, max(shortest, high / up))
+        return cls(x - ahead * tall, tall, colours, pose, up=max(0.0, high - up * tall))
 
     def draw(self, painter: Painter, eye: SideEye) -> None:
         tall, ground = self.tall * eye.camera.scale * eye.share(self.z), eye.camera.at[1]
