@@ -15,6 +15,7 @@ from sandbox.picture.ball import enlarged, mark_radius
 from sandbox.picture.camera import Area, Box, Camera
 from sandbox.picture.chase import Chase
 from sandbox.picture.depth import Eye
+from sandbox.picture.overview import Overview
 from sandbox.picture.painter import Painter
 from sandbox.picture.palette import Colour
 from sandbox.picture.path import chip, draw_mark, label_mark
@@ -94,10 +95,23 @@ class SideView(View[P]):
         """Height of the ground in m, at places in m."""
         return np.zeros_like(x)
 
+    def profile(self, left: float, right: float) -> np.ndarray:
+        """The ground's line from one place to another, in m."""
+        return np.array([(x, self._under(x)) for x in (left, right)])
+
     @cached_property
     def place(self) -> Place:
         """What the ball flies through; without one a view draws its own backdrop."""
         raise NotImplementedError
+
+    @property
+    def turf(self) -> Colour:
+        """The colour of the ground on the map of frames."""
+        ground = self.place.ground
+        return next((colour for colour, _ in ground.edges), ground.surface.colours[0])
+
+    def on_map(self, painter: Painter, camera: Camera) -> None:
+        """Draw what is aimed at on the map of frames."""
 
     def lengths(self) -> Sequence[Length]:
         """Distances to be drawn along the ground; the first is drawn lowest."""
@@ -193,6 +207,15 @@ class SideView(View[P]):
         if self.home != self.camera and not self._forward:
             low, high = 1 - high, 1 - low
         return low * self.size[0], high * self.size[0]
+
+    @cached_property
+    def overview(self) -> Overview:
+        """The map of frames."""
+        return Overview(self)
+
+    def inset(self, sheet: Sheet, camera: Camera, t: float | None) -> pygame.Rect | None:
+        """A map, in frames from nearer than the poster."""
+        return None if t is None or self.camera in (self.home, camera) else self.overview.draw(sheet.painter, t)
 
     @cached_property
     def chase(self) -> Chase:

@@ -5,12 +5,11 @@ from __future__ import annotations
 from functools import cached_property
 
 import numpy as np
-import pygame
 
-from sandbox.picture.camera import Area, Box, Camera
+from sandbox.picture.camera import Box, Camera
 from sandbox.picture.painter import Painter
-from sandbox.picture.palette import palette
-from sandbox.picture.path import FINEST, apart, chip
+from sandbox.picture.palette import Colour, palette
+from sandbox.picture.path import chip
 from sandbox.picture.sheet import Sheet, SideRows, nice
 from sandbox.picture.side import Length, SideView
 from sandbox.sport.amounts import metres, twice
@@ -28,8 +27,6 @@ LEAST_GRAVITY = 5.0
 STRIPE, LEAST_APEX = 70, 44
 #: Frames show at most this much of the world's length, in m.
 WIDEST_VIEW = 64.0
-#: Size of the map in frames, as shares of the picture's width and height.
-MAP = 0.24, 0.15
 
 
 class Picture(SideView[Parameters]):
@@ -79,6 +76,9 @@ class Picture(SideView[Parameters]):
 
     def ground(self, x: np.ndarray) -> np.ndarray:
         return self.course.heights(x)
+
+    def profile(self, left: float, right: float) -> np.ndarray:
+        return self.course.between(left, right)
 
     def base(self, rows: SideRows, scale: float) -> int:
         """Higher where the cup can be seen, for lengths and ruler are below it."""
@@ -153,37 +153,13 @@ class Picture(SideView[Parameters]):
 
     # Frames
 
-    def inset(self, sheet: Sheet, camera: Camera, t: float | None) -> pygame.Rect | None:
-        """A map in frames: the whole path, small, and where on it the ball is."""
-        if t is None:
-            return None
-        (rect, small, ground, kept), painter = self._map, sheet.painter
-        thin, hole = max(1, round(1.6 * self.unit)), COLOURS["hole"]
-        painter.panel(rect, CARD["background"], CARD["opacity"], 8 * self.unit)
-        painter.thread(ground, thin, self.course.turf["fairway"])
-        for ghost in self.ghosts:
-            points = small.pixels(ghost.points)
-            painter.thread(points[apart(points, FINEST)], 1, ghost.light)
-        path, past = small.pixels(self.path.points[kept]), self.path.samples[kept, 0] <= t
-        at, pin = small.pixel(*self.run.state(self.ball, t)[:2]), self.parameters.pin.distance
-        painter.thread(path, 1, CARD["quiet"])
-        painter.thread([*path[past], at], thin + 1, self.TRACE)
-        (px, py), tall = small.pixel(pin, self._under(pin)), 24 * self.unit
-        painter.thread([(px, py), (px, py - tall)], thin, hole["pole"])
-        painter.polygon([(px, py - tall), (px + 0.6 * tall, py - 0.8 * tall), (px, py - 0.6 * tall)], hole["flag"])
-        painter.disc(at, max(2.5, 4 * self.unit), CARD["accent"])
-        return rect
+    @property
+    def turf(self) -> Colour:
+        return self.course.turf["fairway"]
 
-    @cached_property
-    def _map(self) -> tuple[pygame.Rect, Camera, np.ndarray, list[int]]:
-        """The map's place, its camera, the ground in px, and which points of the path can be told apart."""
-        sheet, inset, pin = self.sheet, 2.4 * self.sheet.gap, self.parameters.pin.distance
-        rect = pygame.Rect(0, 0, *(round(share * side) for share, side in zip(MAP, self.size, strict=True)))
-        rect.topright = sheet.frame.topright
-        (left, _), (right, top) = self.points.min(axis=0), self.points.max(axis=0)
-        left, right = min(left, pin), max(right, pin, left + 60 * self.radius)
-        heights = self.course.between(left, right)[:, 1]
-        area = Area(rect.left + inset, rect.top + inset, rect.right - 2 * inset, rect.bottom - inset)
-        camera = Camera.fit(Box(left, heights.min(), right, max(top, heights.max())), area, self.camera.stretch)
-        edges = (camera.world(px, 0)[0] for px in (rect.left + sheet.gap, rect.right - sheet.gap))
-        return rect, camera, camera.pixels(self.course.between(*edges)), apart(camera.pixels(self.path.points), FINEST)
+    def on_map(self, painter: Painter, camera: Camera) -> None:
+        """The flag."""
+        pin, tall = self.parameters.pin.distance, 24 * self.unit
+        (x, y), hole = camera.pixel(pin, self._under(pin)), COLOURS["hole"]
+        painter.thread([(x, y), (x, y - tall)], max(1, round(1.6 * self.unit)), hole["pole"])
+        painter.polygon([(x, y - tall), (x + 0.6 * tall, y - 0.8 * tall), (x, y - 0.6 * tall)], hole["flag"])
