@@ -111,7 +111,7 @@ def written_whole(path: Path) -> Iterator[TextIO]:
 
 @contextmanager
 def writing(option: str, path: Path) -> Iterator[None]:
-    """Report a full disk, or a folder that was removed, in one line."""
+    """Report a full disk, or a folder that was removed, in one line; without an ``option`` it names only the file."""
     from sandbox.tracebacks import of_user_code
 
     try:
@@ -119,7 +119,7 @@ def writing(option: str, path: Path) -> Iterator[None]:
     except OSError as error:
         if of_user_code(error) is not None:
             raise
-        raise RunError(f"{option} {path}: cannot be written: {reason(error)}") from None
+        raise RunError(f"{option} {path}: cannot be written: {reason(error)}".lstrip()) from None
 
 
 @contextmanager

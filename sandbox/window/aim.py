@@ -69,7 +69,7 @@ class Pull:
         # More than proportional, for finer control of soft shots.
         return {
             **controls.also,
-            controls.speed: _within(speed, float(f"{self.strongest * self.share**1.5:.4g}")),
+            controls.speed: speed.within(float(f"{self.strongest * self.share**1.5:.4g}")),
             controls.angle: _turned(angle, round(degrees(atan2(down / self.stretch, -along)), 2)),
         }
 
@@ -95,7 +95,7 @@ def nudged(session: Session, turn: float = 0.0, push: float = 0.0) -> dict[str, 
         changes[controls.angle] = _turned(angle, round(angle.value + turn * TURN, 3))
     if push and speed is not None:
         step = float(f"{PUSH * strongest(session):.1g}")
-        changes[controls.speed] = _within(speed, round(speed.value + push * step, 6))
+        changes[controls.speed] = speed.within(round(speed.value + push * step, 6))
     return {**controls.also, **changes} if changes else {}
 
 
@@ -108,7 +108,7 @@ def spun(session: Session, which: int, notches: float) -> dict[str, Any]:
     if parameter is None:
         return {}
     value = round(parameter.value + notches * spin.step, 6)
-    return {**session.controls.also, spin.key: _within(parameter, value)}
+    return {**session.controls.also, spin.key: parameter.within(value)}
 
 
 def aimed(session: Session, speed: float, angle: float) -> dict[str, Any]:
@@ -117,14 +117,9 @@ def aimed(session: Session, speed: float, angle: float) -> dict[str, Any]:
     return {**controls.also, controls.speed: float(f"{speed:.4g}"), controls.angle: round(angle, 2)}
 
 
-def _within(parameter: Parameter, value: float) -> float:
-    low, high = parameter.low, parameter.high
-    return value if low is None or high is None else min(max(value, low), high)
-
-
 def _turned(parameter: Parameter, angle: float) -> float:
     """An angle within the parameter's bounds, by whole turns where that helps."""
     for turned in (angle, angle - 360.0, angle + 360.0):
-        if turned == _within(parameter, turned):
+        if turned == parameter.within(turned):
             return turned
-    return _within(parameter, angle)
+    return parameter.within(angle)

@@ -49,6 +49,8 @@ class Background:
     def _work(self) -> None:
         while (item := self.queue.get()) is not None:
             future, work = item
+            if not future.set_running_or_notify_cancel():
+                continue
             try:
                 future.set_result(work())
             except Exception as error:  # reported where the result is asked for

@@ -210,7 +210,7 @@ def _find_one(view: View, question: Question) -> None:
         def marks() -> list[Mark]:
             stage = view.stage
             return [] if stage is None else [
-                Mark(str(shot.number), stage.line_of(shot), str(shot.number), stage.colour_of(shot.number))
+                Mark(str(shot.number), stage.line(shot), str(shot.number), stage.colour_of(shot.number))
                 for shot in shots]  # fmt: skip
 
         def choose(number: str) -> None:
@@ -323,10 +323,7 @@ def _back(view: View, by: float) -> None:
     elif view.tape is not None or "tape" in view.on:
         view.on.discard("tape")
         view.tape = None
-    elif any(said for _, _, said in game.jobs):
-        game.jobs.clear()
-        view.end_helper()
-    elif not game.stop():
+    elif not game.stop_jobs() and not game.stop():
         game.aim_again()
 
 

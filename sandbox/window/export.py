@@ -10,12 +10,12 @@ from typing import Any
 import pygame
 
 from sandbox.errors import RunError
-from sandbox.files import reason, written_whole
+from sandbox.files import reason, writing, written_whole
 from sandbox.picture.frames import save_gif, save_png
 from sandbox.scene import reference
 from sandbox.window.session import Session
 from sandbox.window.shot import Shot
-from sandbox.window.shots import Played, save_csv
+from sandbox.window.shots import Played, write_csv
 
 FOLDER = Path("out")
 FPS = 25
@@ -38,27 +38,24 @@ def free(stem: str, suffix: str) -> Path:
 def screenshot(surface: pygame.Surface, stem: str) -> Path:
     """The window as it is, as a PNG file."""
     path = free(stem, ".png")
-    try:
+    with writing("", path):
         save_png(surface, path)
-    except OSError as error:
-        raise RunError(f"{path}: cannot be written: {reason(error)}") from None
     return path
 
 
 def animation(shot: Shot, stem: str) -> Path:
     """A shot as an animated GIF."""
     path = free(stem, ".gif")
-    try:
+    with writing("", path):
         save_gif(shot.scene.picture(shot.run, GIF_SIZE), shot.run, path, FPS)
-    except OSError as error:
-        raise RunError(f"{path}: cannot be written: {reason(error)}") from None
     return path
 
 
 def shots(rows: Sequence[Played], stem: str) -> Path:
     """The table of shots, as a CSV file."""
     path = free(f"{stem}-shots", ".csv")
-    save_csv(rows, path)
+    with writing("", path), written_whole(path) as file:
+        write_csv(rows, file)
     return path
 
 
@@ -77,11 +74,8 @@ def scene_file(session: Session) -> Path:
     document["scene"] = _named(session, str(document["scene"]), path.parent)
     for key, value in session.changes.values.items():
         _put(document, key.split("."), value)
-    try:
-        with written_whole(path) as file:
-            file.write(tomlkit.dumps(document))
-    except OSError as error:
-        raise RunError(f"{path}: cannot be written: {reason(error)}") from None
+    with writing("", path), written_whole(path) as file:
+        file.write(tomlkit.dumps(document))
     return path
 
 

@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from concurrent.futures import Future
 from pathlib import Path
-from time import sleep
 from typing import Any, NamedTuple
 
 from sandbox.errors import RunError, SandboxError
@@ -83,7 +82,6 @@ class Game:
         self.unreadable: str | None = None  # what is wrong with the files as last saved
         self.memory = memory or Memory()
         self.memory.opened(session.source)
-        self.dropped: list[Future[Any]] = []  # work that the worker still has to abandon
         self._waited = 0  # s that were reported last
         self.jobs: list[tuple[Future[Any], Callable[[Any], object], str]] = []  # and what they are
         self.watch_files = Watch(session.files)
@@ -196,7 +194,6 @@ class Game:
         if files:
             self._reload(files)
         self.still += dt
-        self._end_dropped()
         self._compute(self.patience)
         self._finish_jobs()
         waited = self.late + (int(self.runs.takes) if self.runs.takes >= LONG else 0)  # s, as the player is told
@@ -212,9 +209,6 @@ class Game:
 
     def settle(self) -> None:
         """Wait until the shot is that of the parameters: for tests and programs, never in a window."""
-        while self.dropped:
-            self._end_dropped()
-            sleep(0.01)
         while not self.settled:
             self._compute(None)
 
@@ -227,6 +221,15 @@ class Game:
         """Do something with a result once it is there; until then the player is told what is being done."""
         self.jobs.append((result, then, said))
         self.revision += 1
+
+    def stop_jobs(self) -> bool:
+        """Stop what the player is told is being done; returns whether there was anything."""
+        stopped = [job for job in self.jobs if job[2]]
+        for job in stopped:
+            self.jobs.remove(job)
+            self.helper.abandon(job[0])
+        self.revision += bool(stopped)
+        return bool(stopped)
 
     def _finish_jobs(self) -> None:
         for job in [job for job in self.jobs if job[0].done()]:
@@ -273,17 +276,8 @@ class Game:
 
     def _abandon(self, why: RunError | None) -> None:
         """Give up a run, and end its process."""
-        work = self.runs.give_up(why)
-        if not work.cancel():
-            self.dropped.append(work)
-        self._end_dropped()
+        self.worker.abandon(self.runs.give_up(why))
         self.revision += 1
-
-    def _end_dropped(self) -> None:
-        """End abandoned work: repeatedly, if its process had not started yet."""
-        self.dropped = [result for result in self.dropped if not result.done()]
-        if self.dropped:
-            self.worker.kill()
 
     def stop(self) -> bool:
         """Stop a long run; returns whether there was one."""

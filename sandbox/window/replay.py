@@ -7,8 +7,8 @@ import json
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from sandbox.errors import RequestError, RunError
-from sandbox.files import reason, written_whole
+from sandbox.errors import RequestError
+from sandbox.files import reason, writing, written_whole
 from sandbox.scene import load
 from sandbox.scene.finding import folder_of, is_installed
 from sandbox.window.run_data import data_of, run_of
@@ -31,11 +31,8 @@ def save(shot: Shot, path: Path) -> None:
         "run": _through_json(data_of(shot.run)),
     }
     record = {"format": FORMAT, "version": VERSION, "check": checksum(body), "body": body}
-    try:
-        with written_whole(path) as file:
-            json.dump(record, file)
-    except OSError as error:
-        raise RunError(f"{path}: cannot be written: {reason(error)}") from None
+    with writing("", path), written_whole(path) as file:
+        json.dump(record, file)
 
 
 def _through_json(values: dict[str, Any]) -> Any:

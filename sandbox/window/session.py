@@ -10,6 +10,7 @@ from sandbox import parameters as declared
 from sandbox.scene import Scene, load
 from sandbox.scene.modules import read_again
 from sandbox.sport.controls import Controls
+from sandbox.window.background import Once
 from sandbox.window.history import Changes
 from sandbox.window.shot import Shot, place_of, value_at
 
@@ -18,7 +19,7 @@ class Session:
     """One scene file with changes. Raises SandboxError for an invalid scene or change."""
 
     def __init__(self, source: str, changes: Mapping[str, Any] | None = None) -> None:
-        self._declared: dict[str, declared.Parameter] = {}  # listing them takes longer than a frame
+        self._once = Once()
         self.open(source, changes)
 
     def open(self, source: str, changes: Mapping[str, Any] | None = None) -> None:
@@ -28,8 +29,6 @@ class Session:
         scene.build()  # reports values that are invalid together
         self.base, self.scene = base, scene
         self.changes = Changes(source, dict(changes or {}))
-        self._place: tuple[Scene | None, tuple[Any, ...]] = (None, ())
-        self._declared.clear()
 
     @property
     def source(self) -> str:
@@ -75,17 +74,13 @@ class Session:
 
     def parameter(self, key: str) -> declared.Parameter | None:
         """A parameter with its current value."""
-        if key not in self._declared:
-            self._declared = {p.key: p for p in declared.walk(self.scene.parameters)}
-        found = self._declared.get(key)
-        return found._replace(value=self.value(key)) if found is not None else None
+        return next((found for found in declared.walk(self.scene.parameters) if found.key == key), None)
 
     @property
     def place(self) -> tuple[Any, ...]:
         """What the scene is apart from what a player aims with."""
-        if self._place[0] is not self.scene:
-            self._place = self.scene, place_of(self.scene)
-        return self._place[1]
+        place: tuple[Any, ...] = self._once("place", (self.scene,), lambda: place_of(self.scene))
+        return place
 
     # Changing
 
@@ -146,7 +141,6 @@ class Session:
             self.base = before
             raise
         self.scene = scene
-        self._declared.clear()
 
     def command(self) -> str:
         """The command line that runs this."""

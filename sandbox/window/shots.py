@@ -4,18 +4,13 @@ from __future__ import annotations
 
 import csv
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from math import sqrt
-from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple, TextIO
 
 import numpy as np
 
-from sandbox.errors import RunError
-from sandbox.files import reason, written_whole
-from sandbox.scene import Scene
-from sandbox.window.history import Changes
 from sandbox.window.shot import Shot
 
 #: So many paths are kept, apart from those that are pinned; and so many shots without their paths.
@@ -24,21 +19,16 @@ PATHS, MOST = 20, 5000
 Z = 1.96
 
 
-@dataclass(eq=False)
 class Played:
-    """A shot that was made."""
+    """A shot that was made, with its path for as long as that is kept."""
 
-    scene: Scene
-    changes: Changes
-    start: tuple[Any, ...]  # where it began: see Shot.start
-    number: int
-    title: str  # of its scene file
-    verdict: str
-    scored: bool | None  # None for a scene that does not score
-    aim: tuple[float, float]  # speed and angle, in their units
-    result: dict[str, Any]
-    shot: Shot | None  # with its path
-    pinned: bool = False
+    def __init__(self, shot: Shot, title: str) -> None:
+        """``title`` is that of its scene file."""
+        self.shot: Shot | None = shot
+        self.scene, self.changes, self.start, self.number = shot.scene, shot.changes, shot.start, shot.number
+        self.title, self.verdict, self.aim, self.result = title, shot.verdict, shot.aim, shot.run.result
+        self.scored = shot.scored if shot.scene.controls.scores else None  # None for a scene that does not score
+        self.pinned = False
 
     @cached_property
     def numbers(self) -> dict[str, float]:
@@ -78,11 +68,7 @@ class Shots:
         """Number a shot and keep it."""
         self.count += 1
         shot = replace(shot, number=self.count)
-        scored = shot.scored if shot.scene.controls.scores else None
-        self.rows.append(
-            Played(shot.scene, shot.changes, shot.start, self.count, title, shot.verdict, scored, shot.aim,
-                   shot.run.result, shot)
-        )  # fmt: skip
+        self.rows.append(Played(shot, title))
         del self.rows[:-MOST]
         self._drop_paths()
         return shot
@@ -119,18 +105,14 @@ def values_of(rows: Sequence[Played], key: str) -> np.ndarray:
     return np.array([row.numbers[key] for row in rows if key in row.numbers])
 
 
-def save_csv(rows: Sequence[Played], path: Path) -> None:
+def write_csv(rows: Sequence[Played], file: TextIO) -> None:
     """A row for each shot: what was changed in its scene file, speed and angle, and its results."""
     changed = list(dict.fromkeys(key for row in rows for key in row.changes.values))
     numbers = list(dict.fromkeys(key for row in rows for key in row.numbers if key not in changed))
-    try:
-        with written_whole(path) as file:
-            writer = csv.writer(file, lineterminator="\n")
-            writer.writerow(["shot", "scene", *changed, *numbers, "scored", "verdict"])
-            for row in rows:
-                values = [row.changes.values.get(key, "") for key in changed]
-                values += [row.numbers.get(key, "") for key in numbers]
-                scored = "" if row.scored is None else str(row.scored).lower()
-                writer.writerow([row.number, row.title, *values, scored, row.verdict])
-    except OSError as error:
-        raise RunError(f"{path}: cannot be written: {reason(error)}") from None
+    writer = csv.writer(file, lineterminator="\n")
+    writer.writerow(["shot", "scene", *changed, *numbers, "scored", "verdict"])
+    for row in rows:
+        values = [row.changes.values.get(key, "") for key in changed]
+        values += [row.numbers.get(key, "") for key in numbers]
+        scored = "" if row.scored is None else str(row.scored).lower()
+        writer.writerow([row.number, row.title, *values, scored, row.verdict])

@@ -112,9 +112,9 @@ class Stage:
     def _ghost_lines(self, shown: Sequence[Shot]) -> pygame.Surface:
         layer = blank(self.size, transparent=True)
         for shot in shown:
-            line = self._line(shot, shot.ball)
+            line = self.line(shot)
             draw_line(layer, line, 4, TRACE["rim"])
-            draw_line(layer, line, 2, self._colour_of(shot))
+            draw_line(layer, line, 2, self.colour_of(shot.number))
         layer.set_alpha(EARLIER)
         return layer
 
@@ -123,19 +123,16 @@ class Stage:
         labels = Sheet(self.size, surface=blank(self.size, transparent=True))
         labels.labels.frame.height -= sheet.card_height() + sheet.gap
         labels.labels.take(pygame.Rect(sheet.frame.topleft, (round(0.66 * sheet.size[0]), sheet.top_row)))
-        labels.labels.take_path(self._line(around, around.ball).tolist(), 5 * sheet.unit)
+        labels.labels.take_path(self.line(around).tolist(), 5 * sheet.unit)
         for shot in shown:
             name = str(shot.number) if shot.number else "before saving"
             text = sheet.ended(f"{name}:  {shot.verdict}", "small", 0.3 * sheet.size[0])
-            line = self._line(shot, shot.ball)
+            line = self.line(shot)
             places = line[np.linspace(len(line) - 1, 0, PLACES).round().astype(int)]
             beyond = ((1.0, -1.0), (-1.0, -1.0), (1.0, 1.0), (-1.0, 1.0))
             spots = [(x + 9 * a, y + 9 * d, a, d) for x, y in places.tolist() for a, d in beyond]
-            chip(labels, text, spots, mix(self._colour_of(shot), CARD["text"], LIGHTER))
+            chip(labels, text, spots, mix(self.colour_of(shot.number), CARD["text"], LIGHTER))
         return labels.surface
-
-    def _colour_of(self, shot: Shot) -> Colour:
-        return self.colour_of(shot.number)
 
     def colour_of(self, number: int) -> Colour:
         """The colour of an earlier shot, which stays the same."""
@@ -147,22 +144,19 @@ class Stage:
         colour_of = self.picture.colour_of
         thin = max(1, round(1.4 * sheet.unit))
         for ball in shot.movers[:-1]:
-            draw_line(sheet.surface, self._line(shot, ball, until), thin, colour_of(ball))
-        width, line = max(3, round(3.6 * sheet.unit)), self._line(shot, shot.ball, until)
+            draw_line(sheet.surface, self.line(shot, ball, until), thin, colour_of(ball))
+        width, line = max(3, round(3.6 * sheet.unit)), self.line(shot, shot.ball, until)
         draw_line(sheet.surface, line, width + 2, TRACE["rim"])
         draw_line(sheet.surface, line, width, colour_of(shot.ball))
         self._contacts(sheet, shot, until)
-
-    def line_of(self, shot: Shot) -> np.ndarray:
-        """The path of the played ball in px, shape (n, 2)."""
-        return self._drawn(shot.track(shot.ball))
 
     def draw_balls(self, sheet: Canvas, t: float) -> None:
         """The balls of the composed shot at time t in s."""
         self.picture.draw_balls(sheet.painter, self.camera, t)
 
-    def _line(self, shot: Shot, ball: str, until: float | None = None) -> np.ndarray:
-        """Points of a ball's path in px, shape (n, 2); up to the time ``until`` (s), or all of it."""
+    def line(self, shot: Shot, ball: str = "", until: float | None = None) -> np.ndarray:
+        """Points in px of the path of a ball, by default the played one, shape (n, 2); up to the time ``until`` (s)."""
+        ball = ball or shot.ball
         if until is None:
             line: np.ndarray = self._once(ball, shot, lambda: self._drawn(shot.track(ball)))
             return line

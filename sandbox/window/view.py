@@ -365,16 +365,11 @@ class View:
         key = self._cloud_wanted()
         if key is not None:
             if self.clouds.takes > HUNG and self.clouds.work_for[:3] != key[:3]:
-                self.end_helper()
+                for latest in (self.clouds, self.maps):
+                    if latest.work is not None:
+                        self.game.helper.abandon(latest.give_up(None))
             asked = key[0].scene, *key[1:], key[0].early, self.area.size, (CARD["good"], CARD["text"])
             self.clouds.follow(key, lambda: self.game.helper.submit(cloud, *asked))
-
-    def end_helper(self) -> None:
-        """End the work that does not end, and what waits for it, which will be asked for again."""
-        for latest in (self.clouds, self.maps):
-            if latest.work is not None:
-                latest.give_up(None).cancel()
-        self.game.helper.kill()
 
     def _map_wanted(self) -> tuple[Any, ...] | None:
         """What a map is still to be computed of: the scene apart from the aim, which stays in its middle for as long as

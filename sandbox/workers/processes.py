@@ -18,6 +18,7 @@ from multiprocessing.connection import Connection
 from queue import Empty, SimpleQueue
 from threading import Lock, Thread
 from typing import Any
+from weakref import WeakSet
 
 from sandbox.workers.pool import WorkerLost
 
@@ -35,7 +36,8 @@ class Processes:
     def __init__(self, jobs: int) -> None:
         self.width = jobs
         self._asked: SimpleQueue[_Asked | None] = SimpleQueue()
-        self._processes = [_Process(self._asked) for _ in range(jobs)]
+        self._abandoned: WeakSet[Future[Any]] = WeakSet()
+        self._processes = [_Process(self._asked, self._abandoned) for _ in range(jobs)]
 
     def submit(self, work: Callable[..., Any], *args: Any) -> Future[Any]:
         future: Future[Any] = Future()
@@ -46,6 +48,12 @@ class Processes:
         """Kill the processes: running calls raise WorkerLost, later ones get new processes."""
         for process in self._processes:
             process.kill()
+
+    def abandon(self, call: Future[Any]) -> None:
+        """Cancel a call, or kill the processes if one of them computes it."""
+        if not call.cancel() and not call.done():
+            self._abandoned.add(call)
+            self.kill()
 
     def close(self, abandon: bool) -> None:
         if abandon:
@@ -65,8 +73,8 @@ class Processes:
 class _Process:
     """One process, and the thread that sends it one call after the other."""
 
-    def __init__(self, asked: SimpleQueue[_Asked | None]) -> None:
-        self._asked = asked
+    def __init__(self, asked: SimpleQueue[_Asked | None], abandoned: WeakSet[Future[Any]]) -> None:
+        self._asked, self._abandoned = asked, abandoned
         self._process: Any = None
         self._line: Connection | None = None
         self._is_over = False
@@ -87,7 +95,7 @@ class _Process:
             if not future.set_running_or_notify_cancel():
                 continue
             try:
-                succeeded, reply = self._reply((work, args))
+                succeeded, reply = self._reply(future, (work, args))
             except Exception as error:
                 succeeded, reply = False, error
             if succeeded:
@@ -96,19 +104,25 @@ class _Process:
                 future.set_exception(reply)
         self._end()
 
-    def _reply(self, call: tuple[Callable[..., Any], tuple[Any, ...]]) -> tuple[bool, Any]:
+    def _reply(self, future: Future[Any], call: tuple[Callable[..., Any], tuple[Any, ...]]) -> tuple[bool, Any]:
         """The process' reply: whether the call succeeded, and its result or exception."""
         try:
-            self._connection().send(call)
+            self._send(future, call)
         except OSError:  # it was killed while idle: this call is the first to notice
             self._end()
-            self._connection().send(call)
+            self._send(future, call)
         try:
             reply: tuple[bool, Any] = self._connection().recv()
             return reply
         except (EOFError, OSError):
             code = self._end()
             raise WorkerLost(f"its process ended with {code}") from None
+
+    def _send(self, future: Future[Any], call: tuple[Callable[..., Any], tuple[Any, ...]]) -> None:
+        line = self._connection()
+        if future in self._abandoned:  # before this process was there to be killed
+            raise WorkerLost("abandoned")
+        line.send(call)
 
     def _connection(self) -> Connection:
         with self._changing:

@@ -34,7 +34,7 @@ def edit(player: Player, name: str, before: str, after: str) -> None:
 class TestSaving:
     def test_the_physics_changes_with_scene_py(self, own):
         before = own.game.shot.run.result
-        edit(own, "scene.py", "parameters.air, parameters.gravity)", "parameters.air, 0.5 * parameters.gravity)")
+        edit(own, "scene.py", "fan.push))", "10 * fan.push))")
         assert own.game.shot.run.result["apex"] > before["apex"] + 1
         assert own.game.before_save.run.result == before
 

@@ -46,7 +46,7 @@ class Here:
             future.set_exception(error)
         return future
 
-    def kill(self) -> None:
+    def abandon(self, call) -> None:
         self.stopped, self.never = self.stopped + 1, False
         while self.stuck:
             self.stuck.pop().set_exception(WorkerLost("killed"))
@@ -67,8 +67,8 @@ def own(tmp_path):
         new_scene(tmp_path / "own")
         file = tmp_path / "own" / "scene.py"
         code = file.read_text("utf-8")
-        assert "    forces = [" in code
-        file.write_text(code.replace("    forces = [", "    forces = [stuck, ") + force, "utf-8")
+        assert "fan.push))" in code
+        file.write_text(code.replace("fan.push))", "fan.push), stuck)") + force, "utf-8")
         return Game(Session(str(file.parent), {"launch.speed": 8.0}), Here())
 
     return make
@@ -177,7 +177,7 @@ class TestARunThatNeverEnds:
         game.advance(0.0)
         assert game.late
         assert game.revision > revision
-        game.worker.kill()
+        game.worker.abandon(None)
         game.advance(0.0)
         assert not game.late
 

@@ -156,4 +156,4 @@ def test_dragging_never_waits_for_a_run(player):
     player.frames(2)
     assert player.game.session.value("pin.distance") == 200.0
     assert not player.game.settled
-    player.game.worker.kill()
+    player.game.worker.abandon(None)
