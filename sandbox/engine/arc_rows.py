@@ -12,7 +12,7 @@ import numpy as np
 
 from sandbox.engine.arc import Arc
 from sandbox.engine.bernstein_many import evaluate, first_downward_crossing, until
-from sandbox.engine.path import Curve, Passage, Path, climb
+from sandbox.engine.path import Curve, Passage, Path, climb, height
 
 #: Positions of an arc's parts in its row: times, state at the start, curves, state at the end.
 T0, T1 = 0, 1
@@ -120,9 +120,9 @@ class ArcRows(Path):
         """Time and state where it is highest, up to a time at which it is not."""
         rows = self._rows
         at = int(np.where(rows[:, T1] <= until, rows[:, END.start + 1], -inf).argmax())  # of the ends
-        turns = [(rows[0, T0], rows[0, START]), (rows[at, T1], rows[at, END]), *self.passages(climb)]
-        t, state = max((turn for turn in turns if turn[0] <= until), key=lambda turn: turn[1][1])
-        return float(t), tuple(map(float, state))
+        ends = [(float(rows[at, T1]), tuple(rows[at, END].tolist()))]
+        turns = [(float(rows[0, T0]), tuple(rows[0, START].tolist())), *ends, *self.passages(climb)]
+        return max((turn for turn in turns if turn[0] <= until), key=height)
 
     def passages(self, curve: Curve) -> list[Passage]:
         """Each time and state at which a curve becomes negative."""

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from bisect import bisect_left, bisect_right
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from functools import cached_property
 from math import inf
-from typing import Any, NamedTuple, overload
+from typing import Any, NamedTuple, Protocol, overload
 
 from sandbox.engine.arc import Arc
 from sandbox.engine.bernstein import downward_crossings
@@ -15,8 +15,11 @@ from sandbox.physics.integrators import State
 #: Time in s, and state.
 Passage = tuple[float, State]
 
-#: A polynomial along an arc. It is asked of arrays, too, for many arcs at once.
-Curve = Callable[[Arc], Sequence[Any]]
+
+class Curve(Protocol):
+    """A polynomial along an arc. It is asked of arrays, too, for many arcs at once."""
+
+    def __call__(self, arc: Arc, /) -> Sequence[Any]: ...
 
 
 class Above(NamedTuple):
@@ -36,7 +39,8 @@ def climb(arc: Arc) -> Sequence[Any]:
     return arc.vy
 
 
-def _height(passage: Passage) -> Any:
+def height(passage: Passage) -> float:
+    """In m."""
     return passage[1][1]
 
 
@@ -82,7 +86,7 @@ class Path(Sequence[Arc]):
     def highest(self, until: float = inf) -> Passage:
         """Time and state where it is highest, up to a time at which it is not."""
         turns = [(self[0].t0, self[0].start[:5]), *self.passages(climb), *self.ends()]
-        return max((turn for turn in turns if turn[0] <= until), key=_height)
+        return max((turn for turn in turns if turn[0] <= until), key=height)
 
     def passages(self, curve: Curve) -> Iterable[Passage]:
         """Each time and state at which a curve becomes negative: within an arc, or where one arc ends and the next
