@@ -25,7 +25,7 @@ import pymunk
 from sandbox.engine.accuracy import Accuracy
 from sandbox.engine.acting import checked
 from sandbox.engine.arc import Arc, still
-from sandbox.engine.meeting import discs, meeting, returns, rounding, stays, surface_met, surfaces_met
+from sandbox.engine.meeting import Meeting, discs, meeting, returns, rounding, stays, surface_met, surfaces_met
 from sandbox.engine.one_point import one_point
 from sandbox.engine.real_space import RealSpace, speeds_at
 from sandbox.engine.run import Numerics
@@ -126,10 +126,21 @@ class Heap:
                 self._pressed[frozenset((i,))] = self._steps
         forced = {index: self._forced_in_a_step(index, t, state) for index, state in states.items()}
         for (i, a), (j, b) in combinations(states.items(), 2):
-            if self._parting(i, a, j, b) < max(forced[i], forced[j]) or self._come_back(t, i, a, j, b):
+            balls = self._tracks[i].ball, self._tracks[j].ball
+            met = meeting(balls[0], a, balls[1], b, self.margin)
+            if met.gap <= self.margin and (
+                -met.closing < max(forced[i], forced[j])
+                or (not discs(*balls) and self._come_back(t, (i, j), (a, b), met))
+            ):
                 found = True
                 self._pressed[frozenset((i, j))] = self._steps
         return found
+
+    def _come_back(self, t: float, indices: Sequence[int], states: Sequence[State], met: Meeting) -> bool:
+        """Whether bodies that touch and part touch again at once, as they turn."""
+        applied = [self._applied(index, t, state) for index, state in zip(indices, states, strict=True)]
+        one, other = (outline_of(self._tracks[index].ball) for index in indices)
+        return returns((one, other), states, applied, met, self._settle)
 
     def _forced_in_a_step(self, index: int, t: float, state: State) -> float:
         """The speed in m/s that forces give in a step: for a body at least what is rounding, while rounding does not
@@ -138,26 +149,6 @@ class Heap:
         least = -inf if discs(ball) else rounding(ball, state)
         speed = hypot(*self._applied(index, t, state)[:2]) * self._longest
         return max(speed, least) if speed > STILL else least
-
-    def _parting(self, i: int, a: State, j: int, b: State) -> float:
-        """The speed in m/s at which two balls or bodies part; infinite if they do not touch."""
-        one, other = self._tracks[i].ball, self._tracks[j].ball
-        if discs(one, other):
-            dx, dy = b[0] - a[0], b[1] - a[1]
-            distance = hypot(dx, dy)
-            near = distance <= one.radius + other.radius + self.margin
-            return ((b[2] - a[2]) * dx + (b[3] - a[3]) * dy) / distance if near else inf
-        found = meeting(one, a, other, b, self.margin)
-        return -found.closing if found.gap <= self.margin else inf
-
-    def _come_back(self, t: float, i: int, a: State, j: int, b: State) -> bool:
-        """Whether bodies that touch and part touch again at once, as they turn."""
-        one, other = self._tracks[i].ball, self._tracks[j].ball
-        if discs(one, other):
-            return False
-        met = meeting(one, a, other, b, self.margin)
-        shapes, applied = (outline_of(one), outline_of(other)), (self._applied(i, t, a), self._applied(j, t, b))
-        return met.gap <= self.margin and returns(shapes, (a, b), applied, met, self._settle)
 
     def _lies(self, index: int, t: float, state: State) -> bool:
         """Whether a body leaves surfaces too slowly for a bounce that counts: at two points or more, or at one that its
@@ -282,19 +273,10 @@ class Heap:
     def _approach(self, index: int, other: Obstacle | int) -> float:
         """The speed in m/s at which a member comes nearer to an obstacle or another member."""
         ball, state = self._members[index].ball, self._members[index].start
-        x, y, vx, vy, *_ = state
         if isinstance(other, Obstacle):
-            if not discs(ball):
-                return surface_met(ball, state, other).closing
-            _, nx, ny, *_ = other.near(x, y)
-        else:
-            neighbour = self._members[other]
-            if not discs(ball, neighbour.ball):
-                return meeting(ball, state, neighbour.ball, neighbour.start).closing
-            u, v, wx, wy, _ = neighbour.start
-            distance = hypot(x - u, y - v)
-            nx, ny, vx, vy = (x - u) / distance, (y - v) / distance, vx - wx, vy - wy
-        return -(vx * nx + vy * ny)
+            return surface_met(ball, state, other).closing
+        neighbour = self._members[other]
+        return meeting(ball, state, neighbour.ball, neighbour.start).closing
 
     # ------------------------------------------------------------------ callbacks
 

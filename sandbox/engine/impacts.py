@@ -8,9 +8,9 @@ from math import dist, hypot
 from typing import NamedTuple
 
 from sandbox.engine.impulses import Contact, Lanes, exchange_alone, exchange_at_once, lanes
-from sandbox.engine.meeting import discs, meeting, speeds_at, surfaces_met
+from sandbox.engine.meeting import Speeds, discs, meeting, speeds_at, surfaces_met
 from sandbox.engine.run import Numerics
-from sandbox.engine.setup import Ball, Body, Bounce, Setup, kinetic
+from sandbox.engine.setup import Ball, Body, Bounce, Setup, Surface, Vector, kinetic
 from sandbox.engine.surfaces import (
     CLOSING,
     after_impulses,
@@ -21,7 +21,7 @@ from sandbox.engine.surfaces import (
     speeds_where_touching,
     tilted,
 )
-from sandbox.engine.touch import TOUCHING_GAP, Touching, flush
+from sandbox.engine.touch import TOUCHING_GAP
 from sandbox.engine.track import Track
 from sandbox.physics.cushion import raised
 from sandbox.physics.integrators import State
@@ -36,9 +36,8 @@ _TURNS = 9
 #: Share of the fastest approach that an impact may leave.
 _LEFT = 1e-6
 
-#: Distance in m of two points of contact that are one, where two surfaces join.
-_SAME_POINT = 1e-9
-
+#: Share of the radius by which two contacts that are one differ in place and normal, where flush surfaces join.
+_SAME_POINT = 2e-6
 
 #: Share of the fastest approach in an impact below which another is rounding: of a body that has been lying.
 _FAINT = 1e-4
@@ -153,61 +152,43 @@ class Impacts:
     # ------------------------------------------------------------------ contacts
 
     def _with_surfaces(self, states: dict[int, State], softness: Sequence[bool]) -> Iterator[Contact]:
-        """The contacts with hard or soft walls, or both, each from the states when it is asked for."""
+        """The contacts with hard or soft walls, or both, each from the states when it is asked for. Where surfaces
+        join, a point of both counts once."""
         for index in states:
-            ball, met = self._tracks[index].ball, list[Touching]()
-            x, y, *_ = states[index]
-            if isinstance(ball, Body):
-                yield from self._of_body_with_surfaces(index, states[index])
-                continue
-            for obstacle, touching in self._tracks[index].near(x, y, self.gap):
-                surface, nx, ny = obstacle.surface, touching.nx, touching.ny
-                if (self._all_soft or surface.nose_height is not None) not in softness:
+            track, met = self._tracks[index], list[tuple[float, ...]]()
+            for obstacle, found in surfaces_met(track.ball, track.obstacles, states[index], self.gap):
+                if (self._all_soft or obstacle.surface.nose_height is not None) not in softness:
                     continue
-                if any(flush(touching, other) for other in met):
-                    continue
-                met.append(touching)
-                _, _, vx, vy, *_ = states[index]
-                speed, along = -(vx * nx + vy * ny), vx * ny - vy * nx
-                bounce = bounce_off(surface, speed, along)
-                if bounce.tilt != 0.0:
-                    nx, ny = tilted(nx, ny, bounce.tilt, along)
-                height = surface.nose_height
-                sine = 0.0 if height is None else raised(ball.radius, height)
-                speeds = speeds_where_touching([ball], [states[index]], nx, ny, sine)
-                point = x - ball.radius * nx, y - ball.radius * ny
-                yield Contact((index,), surface.name, nx, ny, sine, bounce, speed, speeds, point)
+                for point, speeds in zip(found.points, found.speeds, strict=True):
+                    place = *point, *(track.ball.radius * part for part in found.normal)
+                    if all(dist(place, other) > _SAME_POINT * track.ball.radius for other in met):
+                        met.append(place)
+                        yield self._with_surface(index, states[index], obstacle.surface, found.normal, point, speeds)
 
-    def _of_body_with_surfaces(self, index: int, state: State) -> Iterator[Contact]:
-        """One or two for each surface; where surfaces join, a point of both counts once."""
-        ball, met = self._tracks[index].ball, list[tuple[float, ...]]()
-        for obstacle, found in surfaces_met(ball, self._tracks[index].obstacles, state, self.gap):
-            surface, normal = obstacle.surface, found.normal
-            for point, speeds in zip(found.points, found.speeds, strict=True):
-                place = *point, *(ball.radius * part for part in normal)
-                if all(dist(place, other) > _SAME_POINT for other in met):
-                    met.append(place)
-                    bounce = _once(bounce_off(surface, *speeds[:2]), speeds[0])
-                    yield Contact((index,), surface.name, *normal, 0.0, bounce, speeds[0], speeds, point)
+    def _with_surface(
+        self, index: int, state: State, surface: Surface, normal: Vector, point: Vector, speeds: Speeds
+    ) -> Contact:
+        ball, (nx, ny), (approach, along, _), sine = self._tracks[index].ball, normal, speeds, 0.0
+        if discs(ball):
+            approach, along = -(state[2] * nx + state[3] * ny), state[2] * ny - state[3] * nx  # of the centre
+            bounce = bounce_off(surface, approach, along)
+            if bounce.tilt != 0.0:
+                nx, ny = tilted(nx, ny, bounce.tilt, along)
+            if surface.nose_height is not None:
+                sine = raised(ball.radius, surface.nose_height)
+            speeds = speeds_where_touching([ball], [state], nx, ny, sine)
+        else:
+            bounce = _once(bounce_off(surface, approach, along), approach)
+        return Contact((index,), surface.name, nx, ny, sine, bounce, approach, speeds, point)
 
     def _with_balls(self, states: dict[int, State]) -> Iterator[Contact]:
         for i, j in combinations(states, 2):
             a, b = self._tracks[i].ball, self._tracks[j].ball
-            if not discs(a, b):
-                found = meeting(a, states[i], b, states[j], self.gap)
-                for point, speeds in zip(found.points, found.speeds, strict=True) if found.gap <= self.gap else ():
-                    bounce = bounce_of_balls(self._setup, speeds[0], abs(speeds[1]), a.name, b.name)
-                    bounce = _once(bounce, speeds[0])
-                    yield Contact((i, j), b.name, *found.normal, 0.0, bounce, speeds[0], speeds, point)
-                continue
-            dx, dy = states[i][0] - states[j][0], states[i][1] - states[j][1]
-            distance = (dx**2 + dy**2) ** 0.5
-            if distance <= a.radius + b.radius + self.gap:
-                nx, ny = dx / distance, dy / distance
-                speeds = speeds_where_touching([a, b], [states[i], states[j]], nx, ny)
+            found = meeting(a, states[i], b, states[j], self.gap)
+            for point, speeds in zip(found.points, found.speeds, strict=True) if found.gap <= self.gap else ():
                 bounce = bounce_of_balls(self._setup, speeds[0], hypot(*speeds[1:]), a.name, b.name)
-                point = states[i][0] - a.radius * nx, states[i][1] - a.radius * ny
-                yield Contact((i, j), b.name, nx, ny, 0.0, bounce, speeds[0], speeds, point)
+                bounce = bounce if discs(a, b) else _once(bounce, speeds[0])
+                yield Contact((i, j), b.name, *found.normal, 0.0, bounce, speeds[0], speeds, point)
 
     # ------------------------------------------------------------------ impulses
 

@@ -1,4 +1,4 @@
-"""Where bodies touch each other and what stands still, and how fast they move there; when two first do."""
+"""Where balls and bodies touch each other and what stands still, and how fast they move there; when two first do."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from sandbox.engine.accuracy import SKIN
 from sandbox.engine.nearest import Pose, meeting_points, nearest
 from sandbox.engine.setup import Ball, Body, Circle, Segment, Vector, outline_of
 from sandbox.engine.shapes import Polygon, Shape
-from sandbox.engine.surfaces import STILL, leaves_at
+from sandbox.engine.surfaces import STILL, leaves_at, speeds_where_touching
 from sandbox.engine.touch import Obstacle, balls_touch, touched
 from sandbox.engine.track import Track
 from sandbox.engine.turning_touch import Mover, first_touch, fixed, pose_of
@@ -35,12 +35,12 @@ _IN_PLACE = Pose(0.0, 0.0, 0.0)
 
 
 class Meeting(NamedTuple):
-    """What is between two bodies, or a body and a surface, that touch or nearly do."""
+    """What is between two balls or bodies, or one and a surface, that touch or nearly do."""
 
     gap: float  # m
     normal: Vector  # unit vector to the first
     points: list[Vector]  # one or two, m, halfway between the two
-    speeds: list[Speeds]  # m/s, at each: of approach, of the slip along (ny, -nx), and none upward
+    speeds: list[Speeds]  # m/s, at each: of approach, and of the slip along (ny, -nx) and upward
 
     @property
     def closing(self) -> float:
@@ -59,16 +59,26 @@ def rounding(body: Ball, state: State) -> float:
 
 
 def meeting(one: Ball, state: State, other: Ball, other_state: State, within: float = 0.0) -> Meeting:
-    """How two bodies, or a body and a ball, meet: at points where they are no farther apart than ``within`` (m), or
-    else where they are nearest."""
-    return _meeting(outline_of(one), outline_of(other), (state, other_state), within)
+    """How two balls or bodies meet: at points where they are no farther apart than ``within`` (m), or else where they
+    are nearest."""
+    if not discs(one, other):
+        return _meeting(outline_of(one), outline_of(other), (state, other_state), within)
+    dx, dy = state[0] - other_state[0], state[1] - other_state[1]
+    distance = (dx**2 + dy**2) ** 0.5
+    nx, ny = (dx / distance, dy / distance) if distance else (0.0, 0.0)  # centres may coincide at the start
+    speeds = speeds_where_touching([one, other], [state, other_state], nx, ny)
+    point = state[0] - one.radius * nx, state[1] - one.radius * ny
+    return Meeting(distance - one.radius - other.radius, (nx, ny), [point], [speeds])
 
 
-def surface_met(body: Ball, state: State, obstacle: Obstacle, within: float = 0.0) -> Meeting:
-    """How a body meets a surface."""
-    return _meeting(
-        outline_of(body), standing(obstacle.surface.shape).shape, (state,), within, direction_to(obstacle, state)
-    )
+def surface_met(ball: Ball, state: State, obstacle: Obstacle, within: float = 0.0) -> Meeting:
+    """How a ball or body meets a surface that is prepared for its radius."""
+    if not discs(ball):
+        shape = standing(obstacle.surface.shape).shape
+        return _meeting(outline_of(ball), shape, (state,), within, direction_to(obstacle, state))
+    gap, nx, ny, *_ = obstacle.near(state[0], state[1])
+    point = state[0] - ball.radius * nx, state[1] - ball.radius * ny
+    return Meeting(gap, (nx, ny), [point], [speeds_where_touching([ball], [state], nx, ny)])
 
 
 def direction_to(obstacle: Obstacle, state: State) -> float:
@@ -78,12 +88,11 @@ def direction_to(obstacle: Obstacle, state: State) -> float:
 
 
 def surfaces_met(
-    body: Ball, obstacles: Sequence[Obstacle], state: State, within: float
+    ball: Ball, obstacles: Sequence[Obstacle], state: State, within: float
 ) -> Iterator[tuple[Obstacle, Meeting]]:
-    """How a body meets those of these surfaces that are not farther than ``within`` (m); they are prepared for a ball
-    around it."""
+    """How a ball or body meets those of these surfaces that are not farther than ``within`` (m)."""
     for obstacle, _ in touched(obstacles, state[0], state[1], within):
-        found = surface_met(body, state, obstacle, within)
+        found = surface_met(ball, state, obstacle, within)
         if found.gap <= within:
             yield obstacle, found
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 
-from sandbox.engine.meeting import discs, meeting, surfaces_met
+from sandbox.engine.meeting import meeting, surfaces_met
 from sandbox.engine.setup import Ball, Body
-from sandbox.engine.touch import TOUCHING_GAP, Obstacle, touched
+from sandbox.engine.touch import TOUCHING_GAP, Obstacle
 from sandbox.errors import RequestError
 from sandbox.physics.integrators import State
 
@@ -50,27 +50,14 @@ def _overlaps(
     of what the first overlaps, the sum of the radii and the depth in m, and the normal to the first."""
     for i, ball in enumerate(balls):
         for j, other in enumerate(balls[:i]):
-            if not discs(ball, other):
-                found = meeting(ball, _placed(ball, places[i]), other, _placed(other, places[j]))
-                if found.gap < -TOUCHING_GAP:
-                    yield i, j, other.name, ball.radius + other.radius, -found.gap, *found.normal
-                continue
-            dx, dy = places[i][0] - places[j][0], places[i][1] - places[j][1]
-            distance, reach = (dx * dx + dy * dy) ** 0.5, ball.radius + other.radius
-            if distance < reach - TOUCHING_GAP:
-                over = distance or 1.0  # their centres may coincide
-                yield i, j, other.name, reach, reach - distance, dx / over, dy / over
+            found = meeting(ball, _placed(ball, places[i]), other, _placed(other, places[j]))
+            if found.gap < -TOUCHING_GAP:
+                yield i, j, other.name, ball.radius + other.radius, -found.gap, *found.normal
     for i, ball in enumerate(balls):
-        if not discs(ball):
-            for obstacle, met in surfaces_met(ball, obstacles[ball.radius], _placed(ball, places[i]), -_ROUNDING):
-                yield i, None, obstacle.surface.name, ball.radius, -met.gap, *met.normal
-            continue
-        for obstacle in obstacles[ball.radius]:
-            x, y = places[i]
-            for _, (gap, nx, ny, *_) in touched([obstacle], x, y, -_ROUNDING):
-                yield i, None, obstacle.surface.name, ball.radius, -gap, nx, ny
+        for obstacle, met in surfaces_met(ball, obstacles[ball.radius], _placed(ball, places[i]), -_ROUNDING):
+            yield i, None, obstacle.surface.name, ball.radius, -met.gap, *met.normal
 
 
 def _placed(ball: Ball, place: Sequence[float]) -> State:
     """The state of a ball or body there; its motion does not matter."""
-    return (*place, 0.0, 0.0, 0.0, ball.angle if isinstance(ball, Body) else 0.0)
+    return (*place, 0.0, 0.0, 0.0, *((ball.angle,) if isinstance(ball, Body) else ()))
