@@ -142,4 +142,4 @@ def cut(rows: np.ndarray, t: np.ndarray, u: np.ndarray) -> np.ndarray:
 def arc_of(row: Any) -> Arc:
     """The arc of one row; of many rows as columns, one with arrays."""
     start, end = tuple(row[START]), tuple(row[END])
-    return Arc(row[T0], row[T1], start, tuple(row[curve] for curve in CURVES), end=end)
+    return Arc(row[T0], row[T1], start, (row[X], row[Y], row[VX], row[VY], row[SPIN]), end=end)
