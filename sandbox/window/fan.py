@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from math import sqrt
 from time import process_time
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from sandbox import parameters as declared
-from sandbox.lab.runs import runs
+from sandbox.lab.runs import fly_together, runs
 from sandbox.picture.camera import Camera
 from sandbox.picture.lines import points
 from sandbox.picture.palette import Colour
@@ -19,7 +19,7 @@ from sandbox.sport.controls import Spread
 from sandbox.window.shot import Shot
 
 SHOTS = 100
-#: So many are computed at least, and no more after this time, in s, where the fan must be quick.
+#: So many more are computed at least before a fan is shown, and no more after this time in s.
 FEWEST, QUICK = 8, 0.3
 #: Spread if the scene gives none: of the speed, as a share of it, and of the angle, in deg.
 SPEED, ANGLE = 0.01, 0.5
@@ -38,7 +38,7 @@ class Cloud(NamedTuple):
     said: tuple[str, str]  # how many score, and by how much the shots differ
     shots: int
     scored: int
-    complete: bool  # whether it has all shots to their end
+    left: int  # shots that are still to be computed, to their end
 
 
 def spread_of(scene: Scene, width: float) -> dict[str, tuple[declared.Parameter, float]]:
@@ -57,6 +57,40 @@ def within(parameter: declared.Parameter, values: np.ndarray) -> np.ndarray:
     return np.clip(values, parameter.low, parameter.high)
 
 
+class Fan:
+    """The shots of a fan, computed a few at a time. Where they are computed one by one, as balls on a table are, they
+    have the accuracy of pictures."""
+
+    def __init__(self, scene: Scene, spread: Mapping[str, tuple[declared.Parameter, float]], asked: Sequence[str]):
+        self._of = scene.folder, scene.parameters, spread, asked
+        self.left = scene.controls.fan_shots or SHOTS
+        draws = np.random.default_rng(1).standard_normal((self.left, len(spread)))
+        columns = [within(p, p.value + sigma * draw) for (p, sigma), draw in zip(spread.values(), draws.T, strict=True)]
+        points = np.column_stack(columns).tolist()
+        if not fly_together(scene, list(spread), points[0]):
+            scene = scene.changed({"accuracy.level": "fast"})
+        self.shots: list[Shot] = []
+        self._scene, self._runs = scene, runs(scene, list(spread), points, asked=asked)
+
+    def is_of(self, scene: Scene, *how: Any) -> bool:
+        """Whether it is the fan of this scene with this spread and these facts."""
+        return self._of == (scene.folder, scene.parameters, *how)
+
+    def go_on(self) -> None:
+        """Compute more shots."""
+        started, fewest = process_time(), self.left - FEWEST
+        for run in self._runs:
+            self.left -= 1
+            if not isinstance(run, Exception):
+                self.shots.append(Shot(self._scene, run))
+            if self.left <= fewest and process_time() - started > QUICK:
+                break
+
+
+#: The fan that this process has begun.
+_begun: Fan | None = None
+
+
 def cloud(
     scene: Scene,
     width: float,
@@ -66,29 +100,24 @@ def cloud(
     size: tuple[int, int],
     colours: tuple[Colour, Colour],
 ) -> Cloud:
-    """The fan of a scene as a camera sees it, in the colours of shots that score and that do not.
+    """The fan of a scene as a camera sees it, in the colours of shots that score and that do not; asked again, it has
+    more shots.
 
     A ``quick`` one, for an aim that changes, ends where the fact ``early`` is known, such as at the landing, if it is
-    known only at the end which shots score; and after QUICK s of work where they are computed one by one.
+    known only at the end which shots score.
     """
-    started = process_time()
+    global _begun
     spread = spread_of(scene, width)
     if not spread:
-        return Cloud((0, 0), (0, 0), b"", ("no fan: this shot does not begin as a player's does", ""), 0, 0, True)
-    most = scene.controls.fan_shots or SHOTS
-    draws = np.random.default_rng(1).standard_normal((most, len(spread)))
-    columns = [within(p, p.value + sigma * draw) for (p, sigma), draw in zip(spread.values(), draws.T, strict=True)]
+        return Cloud((0, 0), (0, 0), b"", ("no fan: this shot does not begin as a player's does", ""), 0, 0, 0)
     controls = scene.controls
     asked = [fact for fact in (controls.scores, controls.fan_fact) if fact]
     in_full = not quick or not early or scene.settles(asked) is not None
     asked = asked if in_full else [early]
-    found = runs(scene, list(spread), np.column_stack(columns).tolist(), asked=asked)
-    shots, count = [], 0
-    for count, run in enumerate(found, 1):
-        if not isinstance(run, Exception):
-            shots.append(Shot(scene, run))
-        if quick and count >= FEWEST and process_time() - started > QUICK:
-            break
+    if _begun is None or not _begun.is_of(scene, spread, asked):
+        _begun = Fan(scene, spread, asked)
+    _begun.go_on()
+    shots = _begun.shots
     paths = points([(shot.run, shot.ball) for shot in shots]) if shots else []
     lines = [np.clip(camera.pixels(path[:, 1:]), -FAR, max(size) + FAR) for path in paths]
     good = density([line for line, shot in zip(lines, shots, strict=True) if shot.scored], size)
@@ -96,7 +125,7 @@ def cloud(
     sigmas = [f"{key.rpartition('.')[2]} ± {short(sigma)} {p.unit or ''}" for key, (p, sigma) in spread.items()]
     said = _said(scene, asked, shots), ", ".join(map(str.rstrip, sigmas))
     scored = sum(shot.scored for shot in shots)
-    return Cloud(*_drawn(good, others, colours), said, len(shots), scored, in_full and count == most)
+    return Cloud(*_drawn(good, others, colours), said, len(shots), scored, _begun.left if in_full else SHOTS)
 
 
 def _said(scene: Scene, asked: Sequence[str], shots: Sequence[Shot]) -> str:

@@ -347,7 +347,7 @@ class View:
         self._take_stage()
 
     def _cloud_wanted(self) -> tuple[Any, ...] | None:
-        """What a fan is still to be computed of: the shot; a quick one while it changes."""
+        """What a fan is still to be computed of: the shot; a quick one while it changes. Last, how many are left."""
         game, stage, known = self.game, self.stage, self.clouds
         shown = game.failure is None and self.up_to_date
         if "fan" not in self.on or not shown or stage is None or game.shot is None:
@@ -355,9 +355,8 @@ class View:
         now = game.shot, game.fan_width, stage.camera
         moving = game.pull is not None or game.still < AT_REST
         if known.key is None or known.key[:3] != now:
-            return (*now, moving)
-        incomplete = known.value is not None and not known.value.complete
-        return (*now, False) if incomplete and not moving else None
+            return (*now, moving, 0)
+        return (*now, False, known.value.left) if known.value is not None and known.value.left and not moving else None
 
     def _follow_cloud(self) -> None:
         """Compute a fan of the shot, one after the other while the shot changes."""
@@ -368,7 +367,7 @@ class View:
                 for latest in (self.clouds, self.maps):
                     if latest.work is not None:
                         self.game.helper.abandon(latest.give_up(None))
-            asked = key[0].scene, *key[1:], key[0].early, self.area.size, (CARD["good"], CARD["text"])
+            asked = key[0].scene, *key[1:4], key[0].early, self.area.size, (CARD["good"], CARD["text"])
             self.clouds.follow(key, lambda: self.game.helper.submit(cloud, *asked))
 
     def _map_wanted(self) -> tuple[Any, ...] | None:

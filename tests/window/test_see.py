@@ -84,13 +84,17 @@ class TestTheFan:
             found = cloud(session.scene, 1.0, camera, False, "", (640, 360), ((0, 255, 0), (255, 255, 255)))
         assert 0 < found.scored == made < 30
 
-    def test_a_quick_one_has_only_its_first_shots_where_they_take_long(self, monkeypatch):
+    def test_it_shows_its_first_shots_and_then_more_where_they_take_long(self, monkeypatch):
         session, camera = Session("billiards/cut"), Camera((0.0, 0.0), (300.0, 200.0), 150.0)
         monkeypatch.setattr("sandbox.window.fan.QUICK", 0.0)
-        few = cloud(session.scene, 1.0, camera, True, "", (640, 360), ((0, 255, 0), (255, 255, 255)))
-        assert not few.complete
-        assert few.shots == FEWEST
-        assert few.said[0].startswith(f"{few.scored} of {FEWEST} score")
+        monkeypatch.setattr("sandbox.window.fan._begun", None)
+        asked = 1.0, camera, False, "", (640, 360), ((0, 255, 0), (255, 255, 255))
+        clouds = [cloud(session.scene, *asked) for _ in range(2)]
+        other = cloud(session.scene.changed({"cue.speed": 2.0}), *asked)
+        assert [(one.shots, one.left) for one in (*clouds, other)] == [
+            (count, SHOTS - count) for count in (FEWEST, 2 * FEWEST, FEWEST)
+        ]
+        assert clouds[1].said[0].startswith(f"{clouds[1].scored} of {2 * FEWEST} score")
 
     def test_while_the_aim_changes_it_ends_where_something_is_known_and_at_rest_it_is_complete(self, player):
         player = player("golf")
