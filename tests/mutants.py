@@ -37,7 +37,6 @@ TESTS: dict[str, dict[str, str]] = {
         "heap": "heap bodies scenes/collisions",
         "impacts": "contact cloth clusters bodies",
         "impulses": "contact cloth batch bodies",
-        "in_plane": "guards contact exact run bodies",
         "lanes": "batch",
         "lasting": "contact exact run",
         "ledger": "run cloth guards",
@@ -57,7 +56,7 @@ TESTS: dict[str, dict[str, str]] = {
         "step_control": "methods run guards exact batch determinism",
         "surfaces": "contact guards plain cloth",
         "touch": "contact exact batch cloth",
-        "track": "contact cloth clusters heap",
+        "track": "guards contact exact run bodies cloth clusters heap",
         "": "bodies heap cloth scenes/football",
     },
     "sandbox/physics": {

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from math import hypot
 from typing import Any
@@ -143,3 +143,28 @@ def still(t: float, until: float, state: State, contact: object = None) -> Arc:
     """A ball that stays in place from t to ``until`` and spins evenly."""
     x, y, _, _, *spins = state
     return Arc(t, until, state, ((x,), (y,), (0.0,), (0.0,), *((spin,) for spin in spins)), contact)
+
+
+def crossing(arc: Arc, value: Callable[[float, State], float], rounding: float = 0.0) -> float:
+    """The time at which ``value``, negative at the end of the arc, falls to zero; the start if it is never positive
+    and more than ``rounding``."""
+    low, high = arc.t0, arc.t1
+    at_low, at_high = value(low, arc.start), value(high, arc.state(high))
+    for halvings in range(1, 40):  # it may start at zero, as slip does when a rolling ball loses its grip
+        if at_low > rounding:
+            break
+        low = arc.t0 + (high - arc.t0) * 0.5**halvings
+        at_low = value(low, arc.state(low))
+    else:
+        return arc.t0
+    for _ in range(60):  # regula falsi with the Illinois weights: high is the latest point, low on the other side
+        t = low + (high - low) * at_low / (at_low - at_high)
+        here = value(t, arc.state(t))
+        if here == 0.0 or abs(t - high) <= 1e-15 * (1.0 + t):
+            return t
+        if here * at_high < 0.0:
+            low, at_low = high, at_high
+        else:
+            at_low *= 0.5
+        high, at_high = t, here
+    return high

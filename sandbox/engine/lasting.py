@@ -10,6 +10,7 @@ from __future__ import annotations
 from math import inf
 from typing import NamedTuple
 
+from sandbox.engine.arc import Arc
 from sandbox.engine.setup import Ball, Surface
 from sandbox.engine.surfaces import STILL, press
 from sandbox.engine.touch import SIDE, Obstacle, Touching
@@ -76,6 +77,11 @@ class LastingContact(NamedTuple):
         speed = state[2] * tx + state[3] * ty
         centripetal = curvature * speed * speed
         return (a * tx - centripetal * nx, a * ty - centripetal * ny, alpha), normal, spare
+
+    def edge(self, ball: Ball, arc: Arc) -> float | None:
+        """The time in s at which the ball reaches the end of what it is on, or None."""
+        u = self.obstacle.edge(self.touching.feature, arc)
+        return None if u is None else arc.t0 + u * (arc.t1 - arc.t0)
 
     def placed(self, ball: Ball, state: State) -> State:
         """The state exactly on the surface, without speed away from it; exactly rolling or at rest if the ball is."""

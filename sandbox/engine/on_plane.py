@@ -7,8 +7,8 @@ from math import hypot, isfinite
 
 from sandbox.engine.arc import Arc, still
 from sandbox.engine.bernstein import downward_crossings
-from sandbox.engine.in_plane import InPlane
 from sandbox.engine.setup import Setup
+from sandbox.engine.track import Track
 from sandbox.errors import RunError
 from sandbox.physics.plane import Phase, Plane, strip
 
@@ -26,7 +26,7 @@ def slowest_hop(setup: Setup, hop: float) -> float:
     return float((2.0 * max(setup.plane_of(ball.name).strongest for ball in setup.balls) * hop) ** 0.5)
 
 
-class OnPlane(InPlane):
+class OnPlane(Track):
     """A body on a plane, where there is no lasting contact with a cushion."""
 
     _ends_spin = False  # with its current arc

@@ -19,6 +19,7 @@ from __future__ import annotations
 from math import atan2, cos, inf, remainder, sin
 from typing import NamedTuple
 
+from sandbox.engine.arc import Arc, crossing
 from sandbox.engine.lasting import RESTING, ROLLING, SLIDING, LastingContact
 from sandbox.engine.meeting import PUSH, Meeting, lifts
 from sandbox.engine.setup import Ball, Vector, outline_of
@@ -33,6 +34,9 @@ _JAMS = 0.9
 
 #: Largest turn in rad in one arc, and the spin in rad/s at which a body counts as turning.
 _LONGEST_TURN, _SLOW = 0.35, 0.7
+
+#: Turn in rad, or way in m, from the next point of contact that is rounding: as when a body leaves what it lay on.
+_FLUSH = 1e-13
 
 #: A body that needs all the available grip still rolls.
 _WITHIN_ROUNDING = 1.0 + 1e-9
@@ -109,6 +113,12 @@ class OnePoint(LastingContact):
             for side, way in ((corner, 1.0), (corner - 1, -1.0)):
                 room = min(room, way * remainder(outline.normals[side] - down, 6.283185307179586))
         return room
+
+    def edge(self, ball: Ball, arc: Arc) -> float | None:
+        """The time in s at which the point of contact changes, or None."""
+        if self.room(ball, arc.state(arc.t1)) >= 0.0:
+            return None
+        return crossing(arc, lambda t, state: self.room(ball, state), _FLUSH)
 
     def _way(self) -> float:
         """1 if the side runs along t, -1 if against it."""

@@ -18,7 +18,6 @@ from sandbox.engine.arc import Arc, still
 from sandbox.engine.event import Event
 from sandbox.engine.heap import Heap
 from sandbox.engine.impacts import Impacts, Outcome
-from sandbox.engine.in_plane import InPlane
 from sandbox.engine.lasting import RESTING, LastingContact
 from sandbox.engine.meeting import discs, pair_touches
 from sandbox.engine.on_plane import OnPlane, slowest_hop
@@ -87,7 +86,7 @@ class Simulation:
                 state = (*state, *map(float, ball.rolling_spin))
             elif isinstance(ball, Body):
                 state = (*state, float(ball.angle))
-            kind = OnPlane if setup.plane is not None else Turning if isinstance(ball, Body) else InPlane
+            kind = OnPlane if setup.plane is not None else Turning if isinstance(ball, Body) else Track
             places = obstacles[ball.radius], [catch for catch, only in catches if not only or ball.name in only]
             tracks.append(kind(ball, state, *places, setup, self._accuracy, self._numerics))
         return tracks
@@ -120,7 +119,6 @@ class Simulation:
         started = perf_counter()
         track = self._tracks[0]
         track.arc, track.state, track.path = still(t, t, state), state, arcs
-        assert isinstance(track, InPlane)  # only this class has steps
         track.next_step = step
         self._events = events
         if how == "after" and events:

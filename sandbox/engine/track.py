@@ -1,14 +1,26 @@
-"""One ball during a run: its state, current arc and path."""
+"""One ball during a run: its state, its path, and how it moves in the plane of the picture.
+
+It flies under its forces, and slides, rolls and rests on surfaces. Both are the same integration: in lasting contact
+the surface adds a force, so a roll is as accurate as a flight.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
+from math import hypot, isfinite
 
-from sandbox.engine.arc import Arc, still, through
-from sandbox.engine.lasting import LastingContact
-from sandbox.engine.setup import Ball
-from sandbox.engine.touch import TOUCHING_GAP, Near, Obstacle, touched
-from sandbox.physics.integrators import State
+from sandbox.engine.accuracy import Accuracy
+from sandbox.engine.acting import acceleration, checked
+from sandbox.engine.arc import Arc, crossing, still, through
+from sandbox.engine.lasting import RESTING, ROLLING, SLIDING, LastingContact, contact_on, wedged
+from sandbox.engine.run import Numerics
+from sandbox.engine.setup import Ball, Body, Setup
+from sandbox.engine.step_control import LONGEST, StepControl, before_break, within
+from sandbox.engine.surfaces import STILL, leaves_at, press
+from sandbox.engine.touch import TOUCHING_GAP, Near, Obstacle, flush, touched
+from sandbox.errors import RunError
+from sandbox.physics.integrators import Acceleration, Law, State
 
 #: Value of ``Arc.contact`` for a ball in a simulated contact with others.
 PRESSED = "pressed"
@@ -16,11 +28,26 @@ PRESSED = "pressed"
 #: Difference in m/s and rad/s below which it is rounding.
 _SAME = 1e-9
 
+#: Acceleration in m/s^2 into a surface below which it is rounding.
+_PUSH = 1e-9
+
+#: How a ball moves exactly at the end of an arc that ended for one of these reasons.
+_BECOMES = {"grip": ROLLING, "stop": RESTING}
+
 
 class Track:
-    """A ball's state, the arc it is on, and the path behind it; a subclass has how it moves."""
+    """A ball's state, the arc it is on, and the path behind it; a subclass is for bodies, another for planes."""
 
-    def __init__(self, ball: Ball, state: State, obstacles: Sequence[Obstacle], catches: Sequence[Obstacle]) -> None:
+    def __init__(
+        self,
+        ball: Ball,
+        state: State,
+        obstacles: Sequence[Obstacle],
+        catches: Sequence[Obstacle],
+        setup: Setup,
+        accuracy: Accuracy,
+        numerics: Numerics,
+    ) -> None:
         self.ball = ball
         self.obstacles = obstacles
         self.catches = catches
@@ -31,18 +58,14 @@ class Track:
         self.version = 0  # of the arc: predictions for an earlier one are invalid
         self.at_rest = False  # as noted in the events
         self.caught = False
-
-    # ------------------------------------------------------------------ how the ball moves
-
-    def advance(self, t: float, until: float) -> tuple[Arc, str]:
-        """The next arc from t, at most to ``until``, and why it ends: "" if only because of its length."""
-        raise NotImplementedError
-
-    def conclude(self, reason: str) -> None:
-        """Make the state at the end of an arc that ended for ``reason`` exact."""
-
-    def settle(self, t: float, height: float) -> None:
-        """Find the contact that lasts after a touch: of a ball that would not bounce higher than ``height`` (m)."""
+        self._setup = setup
+        self._accuracy = accuracy
+        self._numerics = numerics
+        self._law: Law = partial(acceleration, ball)
+        self._control = StepControl(accuracy, turns=isinstance(ball, Body))
+        self._known: tuple[State, Acceleration] = ((), (0.0, 0.0, 0.0))  # the end of the last step: the next start
+        self._slips = False  # it has just lost its grip
+        self.next_step = self._control.first  # s, to try
 
     # ------------------------------------------------------------------ its path
 
@@ -81,3 +104,187 @@ class Track:
     def near(self, x: float, y: float, gap: float = TOUCHING_GAP) -> list[Near]:
         """The surfaces that the ball touches at (x, y), up to a ``gap`` in m, each at its nearest feature."""
         return touched(self.obstacles, x, y, gap)
+
+    # ------------------------------------------------------------------ one piece of path
+
+    def advance(self, t: float, until: float) -> tuple[Arc, str]:
+        """The next arc from t, at most to ``until``, and why it ends: "" if only because of its length.
+
+        Raises RunError with the time, the ball and the quantity if the state is not finite or out of bounds.
+        """
+        contact, ball = self.contact, self.ball
+        if contact is None:
+            return self._integrate(t, until, self._law), ""
+        if contact.mode == RESTING:
+            return still(t, until, self.state, contact), ""
+        arc = self._integrate(t, until, lambda at, state: contact.forces(ball, checked(ball, at, state), state)[0])
+        return self._cut_where_contact_changes(arc, contact)
+
+    def _integrate(self, t: float, until: float, law: Law) -> Arc:
+        state, contact = self.state, self.contact
+        known, acceleration = self._known
+        if known is not state:
+            acceleration = law(t, state)
+            self._numerics.force_evaluations += 1
+        wanted = self.next_step
+        h = before_break(self._setup.breaks, t, min(wanted, LONGEST, until - t))
+        h = within(self._setup.patches, h, state, acceleration)
+        if contact is not None:
+            h = min(h, contact.longest(state))
+        ball, control, shortest = self.ball, self._control, max(1e-15, 1e-15 * t)
+        while True:
+            fits, following, end, last = control.attempt(law, t, state, acceleration, h, wanted, ball.radius)
+            self._numerics.steps += 1
+            self._numerics.force_evaluations += control.evaluations
+            if not isinstance(acceleration[0] + last[0] + last[1] + last[2], float):
+                exact = partial(checked, ball)  # raises the error, with its cause
+                control.attempt(exact, t, state, exact(t, state), h, wanted, ball.radius)
+            if fits:
+                break
+            if following < shortest:
+                raise self._too_short(t, h, end, last)
+            self._numerics.refined_steps += 1
+            h = wanted = following
+        self.next_step = following
+        self._check(t + h, end)
+        self._known = (end, last)
+        return through(t, h, state, acceleration, end, last, contact)
+
+    def _too_short(self, t: float, h: float, after: State, acceleration: Acceleration) -> RunError:
+        self._check(t + h, after)
+        if not all(map(isfinite, acceleration)):
+            return RunError(
+                f"t = {t + h:.6g} s, ball {self.ball.name!r}: a force or torque is not finite; check the scene's forces"
+            )
+        return RunError(
+            f"t = {t:.6g} s, ball {self.ball.name!r}: the velocity changes too fast for any step "
+            f"(down to {h:.1e} s); look for a force that is not smooth, or raise accuracy.tolerance"
+        )
+
+    def _check(self, t: float, state: State) -> None:
+        if self._setup.bounds.hold(state):
+            return
+        where = f"t = {t:.6g} s, ball {self.ball.name!r}: "
+        names, units = ("x", "y", "vx", "vy", "spin", "angle"), ("m", "m", "m/s", "m/s", "rad/s", "rad")
+        for quantity, unit, value in zip(names, units, state, strict=False):
+            if not isfinite(value):
+                raise RunError(
+                    f"{where}{quantity} is {value} {unit}; "
+                    "check the forces, or lower accuracy.step or accuracy.tolerance"
+                )
+        x, y = state[:2]
+        left, bottom, right, top = self._setup.bounds
+        quantity, value, low, high = ("x", x, left, right) if not left <= x <= right else ("y", y, bottom, top)
+        raise RunError(
+            f"{where}{quantity} = {value:.6g} m is outside the world ({low:g} to {high:g} m); shorten the duration, or "
+            "widen the scene's bounds"
+        )
+
+    # ------------------------------------------------------------------ lasting contact
+
+    def _cut_where_contact_changes(self, arc: Arc, contact: LastingContact) -> tuple[Arc, str]:
+        def progress(t: float, state: State) -> float:
+            return contact.progress(self.ball, state)
+
+        def held(t: float, state: State) -> tuple[Acceleration, float, float]:
+            return contact.forces(self.ball, self._applied(t, state), state)
+
+        ends: list[tuple[float, str]] = []
+        last = arc.state(arc.t1)
+        if progress(arc.t1, last) < 0.0:
+            ends.append((crossing(arc, progress), "grip" if contact.mode == SLIDING else "stop"))
+        _, normal, spare = held(arc.t1, last)
+        if normal < 0.0:
+            ends.append((crossing(arc, lambda t, state: held(t, state)[1]), "leave"))
+        if spare < 0.0:
+            ends.append((crossing(arc, lambda t, state: held(t, state)[2]), "slip"))
+        edge = contact.edge(self.ball, arc)
+        if edge is not None:
+            ends.append((edge, "edge"))
+        t, reason = min(ends, default=(arc.t1, ""))
+        return arc.until(t), reason
+
+    def conclude(self, reason: str) -> None:
+        """Move the ball exactly onto its surface, which the arc follows only closely; make it exactly rolling, or
+        exactly at rest, if that is why the arc ended."""
+        if self.contact is not None:
+            mode = _BECOMES.get(reason, self.contact.mode)
+            self.state = self.contact._replace(mode=mode).placed(self.ball, self.state)
+        self._slips = reason == "slip"
+
+    def settle(self, t: float, height: float) -> None:
+        """Find the contact that lasts after a touch, or None for flight.
+
+        A ball stays on a surface if it is pressed on it and would not bounce higher than ``height`` (m). A lower
+        bounce is removed from the state, as is the overlap, of at most TOUCHING_GAP, at which the surface was found.
+        """
+        self.contact = None
+        slips, self._slips = self._slips, False
+        near = self.near(*self.state[:2])
+        if not near:
+            return
+        x, y, vx, vy, spin = self.state
+        applied = self._applied(t, self.state)
+        pressed = [press(self.state, applied, touch.nx, touch.ny, touch.curvature) for _, touch in near]
+        kept, hardest = list[Near](), 0.0
+        for (obstacle, touch), by in zip(near, pressed, strict=True):
+            if vx * touch.nx + vy * touch.ny <= leaves_at(by, max(height, obstacle.surface.lowest_bounce)):
+                kept.append((obstacle, touch))
+                hardest = max(hardest, by)
+        if not kept:
+            self._known = self.state, applied
+            return
+        first = min(kept, key=lambda near: vx * near[1].nx + vy * near[1].ny)[1]
+        together = [(obstacle, touch) for obstacle, touch in kept if flush(touch, first)]
+        if len(together) < len(kept) and hypot(vx, vy) <= leaves_at(hardest, height):
+            vx = vy = 0.0  # held in two directions
+        else:  # along the surface that the ball leaves most slowly; it may leave the others, but not enter them
+            kept = together
+            for _, touch in kept:
+                leaving = vx * touch.nx + vy * touch.ny
+                vx, vy = vx - leaving * touch.nx, vy - leaving * touch.ny
+            if any(vx * other.nx + vy * other.ny < -STILL and not flush(other, first) for _, other in near):
+                return
+        self.state = (x, y, vx, vy, spin)
+        self._hold(kept, near, applied, slips, height)
+
+    def _hold(
+        self, kept: Sequence[Near], near: Sequence[Near], applied: Acceleration, slips: bool, height: float
+    ) -> None:
+        """Choose the contact among the surfaces that the ball stays on; a ball that ``slips`` has lost its grip.
+
+        Friction on one may press the ball on another that is ``near``: then it is wedged between the two.
+        """
+        ball, state = self.ball, self.state
+        x, y, vx, vy, spin = state
+        mx, my = (vx, vy) if vx or vy else applied[:2]  # direction in which it will move
+        places = [(obstacle, obstacle.next_feature(touching, x, y, mx, my)) for obstacle, touching in kept]
+        found = [contact_on(ball, state, obstacle, touching, applied, slips) for obstacle, touching in places]
+        held = [contact for contact in found if contact is not None]
+        held.sort(key=lambda contact: contact.touching.curvature)  # the next piece's side before this one's corner
+        two = None
+        for contact in held:
+            (ax, ay, _), _, _ = contact.forces(ball, applied, state)
+            against = [
+                (obstacle, other)
+                for obstacle, other in near
+                if not flush(other, contact.touching)
+                and (by := -(ax * other.nx + ay * other.ny)) > _PUSH
+                and vx * other.nx + vy * other.ny <= leaves_at(by, max(height, obstacle.surface.lowest_bounce))
+            ]
+            if not against:
+                self.state, self.contact = contact.placed(ball, state), contact
+                return
+            two = two or against[0]
+        if two:
+            one = held[0].obstacle, held[0].touching
+            self.contact = wedged(ball, spin, one, two, applied)
+            for obstacle, touching in (one, two):
+                gap = obstacle.on_feature(touching.feature, x, y).gap
+                x, y = x - gap * touching.nx, y - gap * touching.ny
+            self.state = (x, y, 0.0, 0.0, 0.0 if self.contact.mode == RESTING else spin)
+
+    def _applied(self, t: float, state: State) -> Acceleration:
+        """Acceleration from the applied forces, without the contact's; m/s^2, rad/s^2. Counts evaluations."""
+        self._numerics.force_evaluations += 1
+        return checked(self.ball, t, state)

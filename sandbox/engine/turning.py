@@ -2,20 +2,15 @@
 
 from __future__ import annotations
 
-from sandbox.engine.arc import Arc
-from sandbox.engine.in_plane import InPlane, crossing
-from sandbox.engine.lasting import LastingContact
 from sandbox.engine.meeting import direction_to, standing, stays, surfaces_met
-from sandbox.engine.one_point import OnePoint, one_point
+from sandbox.engine.one_point import one_point
 from sandbox.engine.setup import outline_of
 from sandbox.engine.touch import TOUCHING_GAP, Obstacle
+from sandbox.engine.track import Track
 from sandbox.engine.turning_touch import Mover, first_touch
 
-#: Turn in rad, or way in m, from the next point of contact that is rounding: as when a body leaves what it lay on.
-_FLUSH = 1e-13
 
-
-class Turning(InPlane):
+class Turning(Track):
     """A body: its path, and when it touches what stands still."""
 
     def settle(self, t: float, height: float) -> None:
@@ -34,13 +29,6 @@ class Turning(InPlane):
             self.contact = one_point(self.ball, self.state, *found[0], applied, slips)
         if self.contact is not None:
             self.state = self.contact.placed(self.ball, self.state)
-
-    def _reaches_edge(self, arc: Arc, contact: LastingContact) -> float | None:
-        """The time in s at which the point of contact changes, or None."""
-        assert isinstance(contact, OnePoint)
-        if contact.room(self.ball, arc.state(arc.t1)) >= 0.0:
-            return None
-        return crossing(arc, lambda t, state: contact.room(self.ball, state), _FLUSH)
 
     def first_touch(self, obstacle: Obstacle) -> float | None:
         """The time in s at which the body starts to touch on its current arc, or None.
