@@ -28,7 +28,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from math import isfinite
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NoReturn
+from typing import TYPE_CHECKING, NoReturn
 
 import pytest
 
@@ -38,7 +38,12 @@ from sandbox.text import printable
 
 if TYPE_CHECKING:
     import numpy as np
+    import pygame
     from PIL import Image
+
+    from sandbox.engine.run import Run
+
+    Subject = Run | pygame.Surface | Image.Image
 
 #: Bits per colour channel in a golden picture; a stored level stands for the levels from LOWEST to HIGHEST around it.
 COLOUR_BITS = 6
@@ -158,18 +163,20 @@ class Golden:
         self.folder, self.report, self.update, self.note, self.with_page = folder, report, update, note, with_page
         self.checked: set[str] = set()
 
-    def check(self, name: str, subject: Any, until: float | None = None) -> None:
+    def check(self, name: str, subject: Subject, until: float | None = None) -> None:
         """Fail unless the subject matches the golden one of that name.
 
         The subject is a picture, or a run of a scene: its poster is drawn, or with ``until`` the frame at that time in
         s.
         """
+        from sandbox.engine.run import Run
+
         if until is not None and not (isfinite(until) and until > 0.0):
             _fail(f"{name}: until = {until}: must be a time greater than 0 s")
         self.note(CHECKED, str(self.folder / name))
         update = self.update and name not in self.checked  # a second check in one test must match the first
         self.checked.add(name)
-        run = subject if hasattr(subject, "setup") else None
+        run = subject if isinstance(subject, Run) else None
         image = _as_image(subject, until)
         png, text = self.folder / f"{name}.png", self.folder / f"{name}.json"
         self._check_damage(name, {png: _damaged_picture(png), text: None if run is None else _damaged_run(text)})
@@ -179,7 +186,7 @@ class Golden:
         if drawing is None and physics is None:
             return
         if update:
-            if physics is not None:
+            if run is not None and physics is not None:
                 self._write_run(name, text, run, until, physics)
             if drawing is not None:
                 self._write(png, _png(coarser(image)), drawing)
@@ -205,7 +212,7 @@ class Golden:
             elif what is not None:
                 _fail(f"{name}: {path} is damaged: {what}", "fetch it again, or make it again: pytest --golden-update")
 
-    def _write_run(self, name: str, path: Path, run: Any, until: float | None, change: str) -> None:
+    def _write_run(self, name: str, path: Path, run: Run, until: float | None, change: str) -> None:
         chaos = record.diverges(run, until)
         if chaos is not None:
             _fail(
@@ -228,7 +235,7 @@ class Golden:
 
 
 def _kind_of_change(
-    name: str, path: Path, run: Any, until: float | None, physics: str | None, drawing: str | None
+    name: str, path: Path, run: Run | None, until: float | None, physics: str | None, drawing: str | None
 ) -> Iterator[str]:
     """What kind of change it is, one line each."""
     if physics is not None:
@@ -244,7 +251,7 @@ def _kind_of_change(
         yield f"{name} differs from its golden picture: {'same physics, the drawing changed: ' if run else ''}{drawing}"
 
 
-def _difference_below_tolerance(path: Path, run: Any, until: float | None) -> str | None:
+def _difference_below_tolerance(path: Path, run: Run, until: float | None) -> str | None:
     """The first event or result whose digits differ from those of the golden run, in words; None if there is none.
 
     States are left out: their times are rounded, which moves a fast ball by a few nanometres.
@@ -271,7 +278,7 @@ def _changed_drawing(expected: Image.Image | None, actual: Image.Image) -> str |
     return str(difference) if difference.matters else None
 
 
-def _changed_physics(path: Path, run: Any, until: float | None) -> str | None:
+def _changed_physics(path: Path, run: Run, until: float | None) -> str | None:
     """How the run differs from the golden one, in words; None if it is the same."""
     if not path.exists():
         return NEW
@@ -292,7 +299,7 @@ def _changed_physics(path: Path, run: Any, until: float | None) -> str | None:
     return "; ".join(shown)
 
 
-def _all_changes(path: Path, run: Any, until: float | None) -> list[str]:
+def _all_changes(path: Path, run: Run, until: float | None) -> list[str]:
     """How each ball, the events and the results differ from the golden run, in words."""
     expected = json.loads(path.read_text("utf-8"))
     actual = record.record(run, until, record.times_of(expected))
@@ -319,14 +326,15 @@ def _damaged_run(path: Path) -> str | None:
     return record.damage(found)
 
 
-def _as_image(subject: Any, until: float | None) -> Image.Image:
+def _as_image(subject: Subject, until: float | None) -> Image.Image:
     from PIL import Image
+
+    from sandbox.engine.run import Run
+    from sandbox.picture.frames import frame_of, poster_of, to_image
 
     if isinstance(subject, Image.Image):
         return subject.convert("RGB")
-    from sandbox.picture.frames import frame_of, poster_of, to_image
-
-    if not hasattr(subject, "setup"):
+    if not isinstance(subject, Run):
         return to_image(subject)
     if subject.scene is None:
         raise TypeError("only a run of a scene has a picture: check what sandbox.simulate(scene) returns")
@@ -447,7 +455,7 @@ def _write_page(config: pytest.Config, path: Path) -> str:
     return f"golden failures as a page: {path}"
 
 
-def pytest_terminal_summary(terminalreporter: Any, config: pytest.Config) -> None:
+def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter, config: pytest.Config) -> None:
     if config.getoption("--golden-report"):
         terminalreporter.write_line(_write_page(config, Path(config.getoption("--golden-report"))))
     for title, lines in (

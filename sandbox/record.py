@@ -5,10 +5,13 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from sandbox.files import json_ready
 from sandbox.text import shortened
+
+if TYPE_CHECKING:
+    from sandbox.engine.run import Run
 
 #: Two numbers are the same when they differ by no more than this, in s, m, m/s or rad/s, or by this share of
 #: themselves. Rounding on another processor stays below 1e-9, unless the scene is chaotic; a force that is wrong by one
@@ -31,7 +34,7 @@ UNITS = {"t": "s", "x": "m", "y": "m", "vx": "m/s", "vy": "m/s", "spin": "rad/s"
 Record = dict[str, Any]
 
 
-def record(run: Any, until: float | None = None, times: Sequence[float] | None = None) -> Record:
+def record(run: Run, until: float | None = None, times: Sequence[float] | None = None) -> Record:
     """What happened, in JSON's types: up to ``until`` s, or to the end and with the results.
 
     ``times`` are those of the states, in s; without them they are spread evenly.
@@ -136,7 +139,7 @@ def changed_results(expected: Record, actual: Record, tolerance: float = TOLERAN
     return found
 
 
-def diverges(run: Any, until: float | None = None) -> float | None:
+def diverges(run: Run, until: float | None = None) -> float | None:
     """The time in s at which a run and one that begins ``NUDGE`` away differ; None if they never do."""
     from sandbox.engine import simulate
 

@@ -13,12 +13,21 @@ import ast
 import os
 import random
 import shutil
-import subprocess
 import sys
 import tempfile
 from collections.abc import Iterator, Sequence
+from itertools import count
+from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
+
+import hypothesis  # noqa: F401  (this and the next three: loaded once, for all mutants)
+import numpy  # noqa: F401
+import pydantic  # noqa: F401
+import pymunk  # noqa: F401
+import pytest
+
+os.environ["SDL_VIDEODRIVER"] = "dummy"
 
 ROOT = Path(__file__).resolve().parent.parent
 
@@ -111,6 +120,9 @@ TESTS: dict[str, dict[str, str]] = {
         for file in sorted(ROOT.glob("scenes/*/scene.py"))
     },
 }
+
+#: In s, for files that are written.
+MOMENTS = count(1_000_000_000)
 
 #: Not looked into: what holds names only, and shapes of types.
 LEFT_OUT = {"__init__"}
@@ -218,19 +230,40 @@ def tests_of(tree: Path, module: str) -> list[str]:
     return found
 
 
+def written(file: Path, source: str) -> None:
+    """Write a source with a time of its own, so that nothing compiled before is taken for it."""
+    file.write_text(source, "utf-8")
+    moment = next(MOMENTS)
+    os.utime(file, (moment, moment))
+
+
 def noticed(tree: Path, module: str, source: str, timeout: float) -> bool:
     """Whether a test fails, or none ends in time, when the module has this source."""
     original = (tree / module).read_text("utf-8")
-    (tree / module).write_text(source, "utf-8")
-    tests = tests_of(tree, module)
-    command = [sys.executable, "-m", "pytest", "-x", "-q", "-n", "0", "-p", "no:cacheprovider", *tests]
-    variables = {**os.environ, "PYTHONDONTWRITEBYTECODE": "1", "SDL_VIDEODRIVER": "dummy"}
-    try:
-        return subprocess.run(command, cwd=tree, env=variables, capture_output=True, timeout=timeout).returncode != 0
-    except subprocess.TimeoutExpired:
-        return True
-    finally:
-        (tree / module).write_text(original, "utf-8")
+    written(tree / module, source)
+    passed = pass_in(tree, tests_of(tree, module), timeout)
+    written(tree / module, original)
+    return not passed
+
+
+def pass_in(tree: Path, tests: Sequence[str], timeout: float | None = None) -> bool:
+    """Whether tests pass in a tree within ``timeout`` s."""
+    process = get_context("fork").Process(target=_tested, args=(tree, tests))
+    process.start()
+    process.join(timeout)
+    process.kill()
+    process.join()
+    return process.exitcode == 0
+
+
+def _tested(tree: Path, tests: Sequence[str]) -> None:
+    """Run the tests in a tree, and end as pytest does."""
+    os.chdir(tree)
+    sys.path.insert(0, str(tree))
+    for stream in (1, 2):
+        os.dup2(os.open(os.devnull, os.O_WRONLY), stream)
+    loaded = "ignore::pytest.PytestAssertRewriteWarning"
+    os._exit(pytest.main(["-x", "-q", "-n", "0", "-p", "no:cacheprovider", "-W", loaded, *tests]))
 
 
 def main() -> None:
@@ -248,7 +281,10 @@ def main() -> None:
     with tempfile.TemporaryDirectory() as folder:
         tree = Path(folder) / "tree"
         shutil.copytree(ROOT, tree, ignore=shutil.ignore_patterns(".git", ".venv", "__pycache__", "dist"))
-        for module, place in drawn(tree, arguments.room, arguments.number, arguments.seed)[part - 1 :: parts]:
+        chosen = drawn(tree, arguments.room, arguments.number, arguments.seed)[part - 1 :: parts]
+        if not pass_in(tree, sorted({test for module, _ in chosen for test in tests_of(tree, module)})):
+            sys.exit("some of their tests fail without any mutant")
+        for module, place in chosen:
             source, what = mutant((tree / module).read_text("utf-8"), place)
             tried += 1
             if not noticed(tree, module, source, arguments.timeout):

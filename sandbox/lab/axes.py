@@ -10,7 +10,7 @@ import numpy as np
 
 from sandbox import parameters as declared
 from sandbox.errors import RequestError
-from sandbox.parameters import Group, Quantity, path_of, toml_value
+from sandbox.parameters import Group, Quantity, SceneParameters, path_of, toml_value
 from sandbox.scene import Scene
 
 #: Most values along one axis, and most points of a sweep: more is taken as a mistake in the request.
@@ -161,9 +161,9 @@ class Varied:
         self._paths = [path_of("over", key) for key in keys]
         self._keys = list(keys)
         self._quick = [_can_set_unchecked(scene.parameters, path) for path in self._paths]
-        self._bases: dict[str, Group] = {}
+        self._bases: dict[str, SceneParameters] = {}
 
-    def parameters(self, values: Sequence[Any]) -> Any:
+    def parameters(self, values: Sequence[Any]) -> SceneParameters:
         """The scene's parameters with ``values`` at the keys, in their order. Raises RequestError."""
         slow = {key: value for key, value, quick in zip(self._keys, values, self._quick, strict=True) if not quick}
         parameters = self._base(slow) if slow else self._scene.parameters
@@ -176,7 +176,7 @@ class Varied:
                 node[path[-1]] = value
         return _changed(parameters, changes)
 
-    def together(self, points: Sequence[Sequence[Any]]) -> Iterator[tuple[list[int], Any]]:
+    def together(self, points: Sequence[Sequence[Any]]) -> Iterator[tuple[list[int], SceneParameters | Exception]]:
         """The places of points that differ only in numbers, and their parameters in one, with arrays for the numbers
         that differ; or the exception that explains why there are none."""
         groups: dict[str, list[int]] = {}
@@ -194,7 +194,7 @@ class Varied:
             except RequestError as error:
                 yield places, error
 
-    def _base(self, changes: Mapping[str, Any]) -> Any:
+    def _base(self, changes: Mapping[str, Any]) -> SceneParameters:
         name = repr(changes)
         if name not in self._bases:
             if len(self._bases) >= _CACHED:

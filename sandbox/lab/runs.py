@@ -21,7 +21,10 @@ from sandbox.scene import Scene
 if TYPE_CHECKING:
     from sandbox.engine.event import Event
     from sandbox.engine.run import Run
+    from sandbox.parameters import SceneParameters
     from sandbox.physics.integrators import State
+
+    Build = Callable[[SceneParameters], Setup]
 
 
 def runs(
@@ -33,7 +36,7 @@ def runs(
     ``asked`` for, each run ends when these are settled, and its result contains only these.
     """
     build, read, varied = builder(scene, asked), scene.reader(asked), Varied(scene, keys)
-    parameters: dict[int, Any] = {}
+    parameters: dict[int, SceneParameters] = {}
     found: dict[int, Iterator[Run | Exception]] = {}
     for places, many in varied.together(points):
         each = [] if isinstance(many, Exception) else [varied.parameters(points[place]) for place in places]
@@ -49,7 +52,9 @@ def runs(
         yield run
 
 
-def _outcomes(build: Callable[[Any], Setup], many: Any, each: Sequence[Any], finer: bool) -> Iterator[Run | Exception]:
+def _outcomes(
+    build: Build, many: SceneParameters | Exception, each: Sequence[SceneParameters], finer: bool
+) -> Iterator[Run | Exception]:
     """The outcomes of runs that differ only in numbers: ``many`` has the parameters of all in one, or is the error that
     explains why there are none."""
     try:
@@ -66,18 +71,18 @@ def _outcomes(build: Callable[[Any], Setup], many: Any, each: Sequence[Any], fin
     return (setup if isinstance(setup, Exception) else next(found) for setup in setups)
 
 
-def _or_error(work: Callable[[Any], Any], values: Any) -> Any:
+def _or_error(build: Build, values: SceneParameters) -> Setup | Exception:
     try:
-        return work(values)
+        return build(values)
     except Exception as error:
         return error
 
 
-def builder(scene: Scene, asked: Sequence[str]) -> Callable[[Any], Setup]:
+def builder(scene: Scene, asked: Sequence[str]) -> Build:
     """The scene's ``build``, whose runs end as soon as the requested facts are settled."""
     settled = scene.settles(asked) if asked else None
 
-    def build(parameters: Any) -> Setup:
+    def build(parameters: SceneParameters) -> Setup:
         setup = replace(scene, parameters=parameters).build()
         if settled is None:
             return setup
@@ -87,7 +92,7 @@ def builder(scene: Scene, asked: Sequence[str]) -> Callable[[Any], Setup]:
     return build
 
 
-def built_at_once(build: Callable[[Any], Setup], many: Any, each: Sequence[Any]) -> Stack | None:
+def built_at_once(build: Build, many: SceneParameters, each: Sequence[SceneParameters]) -> Stack | None:
     """The setups of many points, built once with arrays for the numbers that differ; None if the scene can be built
     only with single numbers. Some are compared with what is built for them alone."""
     if len(each) < FEWEST:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pygame
 
@@ -28,7 +30,7 @@ PEAK = "peak "
 class Charts:
     """The strips of one shot."""
 
-    def __init__(self, shot: Shot, picture: View) -> None:
+    def __init__(self, shot: Shot, picture: View[Any]) -> None:
         self.shot = shot
         self.hits = [event.t for event in hardest(shot.run, [shot.ball])]
         times, moves = motion(shot.run, picture)
