@@ -55,7 +55,7 @@ from sandbox.physics.forces import Gravity
 from sandbox.scene import listings
 from sandbox.window import replay
 from sandbox.window.history import Changes
-from sandbox.window.shot import Shot
+from sandbox.window.shots import Shot
 from sandbox.workers import Processes, WorkerLost, cores
 
 #: Processor time in s after which a case counts as endless; by the clock, this many times as long.

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import os
+import sys
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
 from time import perf_counter, sleep
 from typing import Any
@@ -28,6 +31,11 @@ FRAMES = 60  # per second
 IDLE = 0.25
 #: The window is shown with its first shot, but after this time, in s, in any case.
 FIRST = 1.5
+#: What SDL falls back to if there is no display.
+UNSEEN = ("offscreen", "dummy")
+#: Variables of which one names the display or the driver.
+SEEN_BY = ("DISPLAY", "WAYLAND_DISPLAY", "SDL_VIDEODRIVER")
+NO_DISPLAY = "no display to open a window on; without one use sandbox run SCENE with --poster F.png or --gif F.gif"
 
 
 class App:
@@ -154,8 +162,6 @@ class App:
 def play(source: str, changes: Mapping[str, Any] | None = None, scene: str | None = None) -> None:
     """Open the window on a scene or a replay, until it is closed; ``scene`` is that of the replay. Raises RequestError
     if there is no display."""
-    from sandbox.window.display import opened
-
     recorded = source.endswith(replay.SUFFIX)
     if scene is not None and not recorded:
         raise RequestError(f"--scene {scene}: says which scene a replay is of, and {source} is not a replay")
@@ -173,3 +179,24 @@ def play(source: str, changes: Mapping[str, Any] | None = None, scene: str | Non
     finally:
         worker.close(abandon=True)
         helper.close(abandon=True)
+
+
+@contextmanager
+def opened(size: tuple[int, int], title: str) -> Iterator[pygame.Surface]:
+    """A window that can be resized. Raises RequestError if there is no display."""
+    os.environ.setdefault("SDL_WINDOWS_DPI_AWARENESS", "permonitorv2")  # no scaling on high-resolution displays
+    if sys.platform == "linux" and not any(os.environ.get(name) for name in SEEN_BY):
+        raise RequestError(NO_DISPLAY)
+    try:
+        try:
+            pygame.display.init()
+            if "SDL_VIDEODRIVER" not in os.environ and pygame.display.get_driver() in UNSEEN:
+                raise RequestError(NO_DISPLAY)
+            screen = pygame.display.set_mode(size, pygame.RESIZABLE)
+        except pygame.error:
+            raise RequestError(NO_DISPLAY) from None
+        pygame.display.set_caption(title)
+        pygame.key.set_repeat(350, 40)
+        yield screen
+    finally:
+        pygame.display.quit()  # but not the fonts, which the next window uses again

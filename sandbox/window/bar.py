@@ -8,8 +8,9 @@ from functools import lru_cache
 import pygame
 
 from sandbox.picture.lettering import Lettering
-from sandbox.picture.painter import OVERSAMPLING, Painter, scratch
+from sandbox.picture.painter import OVERSAMPLING, scratch
 from sandbox.picture.palette import Colour, mix, palette
+from sandbox.window.canvas import Canvas
 from sandbox.window.keys import named
 
 CARD, TRACE = palette("card"), palette("trace")
@@ -27,7 +28,6 @@ SPARED = (
     frozenset({"-faster", "rate", "faster"}),
     frozenset({"-step", "step"}),
 )
-RAISED = mix(CARD["background"], CARD["quiet"], 0.22)
 GROOVE = mix(CARD["background"], CARD["quiet"], 0.35)
 
 _RIGHT = [(0.22, 0.1), (0.86, 0.5), (0.22, 0.9)]
@@ -177,57 +177,32 @@ class Bar:
 
     # Drawing
 
-    def draw(self, surface: pygame.Surface, shown: Shown, mouse: tuple[int, int]) -> None:
-        surface.fill(CARD["background"], self.rect)
+    def draw(self, sheet: Canvas, shown: Shown, mouse: tuple[int, int]) -> None:
+        """Draw it on the window's sheet, with a hint at the button under the mouse."""
+        sheet.surface.fill(CARD["background"], self.rect)
         self._lay_out(shown)
-        for name in self.buttons:
-            if name == "menu":
-                self._word(surface, name, self.title, mouse, bold=True)
-            elif name in shown.texts:
-                self._word(surface, name, name, mouse, on=name in shown.on)
-            else:
-                icon = ("pause" if shown.playing else "play") if name == "go" else name
-                self._picture(surface, name, icon, mouse, CARD["accent"] if name == "go" else CARD["text"])
+        for name, rect in self.buttons.items():
+            here, on, bold = rect.collidepoint(mouse), name in shown.on, name == "menu"
+            if bold or name in shown.texts:
+                text, lit = self.title if bold else name, 0.22 if on or bold or here else 0.0
+                sheet.item(rect, text, CARD["accent" if on else "text"], lit, bold, rect.left + 8 * self.unit)
+                continue
+            if here:
+                sheet.painter.panel(rect, CARD["quiet"], 0.22, 6 * self.unit)
+            icon = ("pause" if shown.playing else "play") if name == "go" else name
+            image = _icon(icon, round(0.5 * rect.height), CARD["accent" if name == "go" else "text"])
+            sheet.surface.blit(image, image.get_rect(center=rect.center))
         if "rate" in self.places:
             rate = f"×{shown.rate:g}" if shown.rate >= 1 else f"×1/{round(1 / shown.rate)}"
-            self.lettering.write(surface, rate, "small", self.places["rate"].center, CARD["text"], "center")
-        self._time(surface, shown)
+            sheet.lettering.write(sheet.surface, rate, "small", self.places["rate"].center, CARD["text"], "center")
+        self._time(sheet, shown)
         hovered = self.command_at(mouse)
         if hovered is not None and hovered not in shown.on:
-            self._hint(surface, hint_of(hovered), self.places[hovered])
+            at = self.places[hovered].centerx, self.rect.top - sheet.gap
+            sheet.card([(hint_of(hovered), CARD["text"])], "midbottom", at)
 
-    def _hint(self, surface: pygame.Surface, text: str, button: pygame.Rect) -> None:
-        rect = self.lettering.rect(text, "small", (button.centerx, self.rect.top - 8 * self.unit), "midbottom")
-        rect = rect.inflate(round(16 * self.unit), round(8 * self.unit))
-        rect.bottom = self.rect.top - round(6 * self.unit)
-        rect.clamp_ip(surface.get_rect())
-        Painter(surface).panel(rect, CARD["background"], 0.92, 6 * self.unit)
-        self.lettering.write(surface, text, "small", rect.center, CARD["text"], "center")
-
-    def _picture(self, surface: pygame.Surface, name: str, icon: str, mouse: tuple[int, int], colour: Colour) -> None:
-        rect = self.places[name]
-        if rect.collidepoint(mouse):
-            Painter(surface).panel(rect, RAISED, 1.0, 6 * self.unit)
-        image = _icon(icon, round(0.5 * rect.height), colour)
-        surface.blit(image, image.get_rect(center=rect.center))
-
-    def _word(
-        self,
-        surface: pygame.Surface,
-        name: str,
-        text: str,
-        mouse: tuple[int, int],
-        bold: bool = False,
-        on: bool = False,
-    ) -> None:
-        rect = self.places[name]
-        if on or bold or rect.collidepoint(mouse):
-            Painter(surface).panel(rect, RAISED, 1.0, 6 * self.unit)
-        colour = CARD["accent"] if on else CARD["text"]
-        self.lettering.write(surface, text, "small", rect.center, colour, "center", bold)
-
-    def _time(self, surface: pygame.Surface, shown: Shown) -> None:
-        room, thick = self.places["time"], self.line.height
+    def _time(self, sheet: Canvas, shown: Shown) -> None:
+        surface, room, thick = sheet.surface, self.places["time"], self.line.height
         times = [f"{shown.duration:.2f} s"]
         if shown.t is not None:
             times = [f"{shown.t:.2f} / {times[0]}", f"{shown.t:.2f} s"]
@@ -246,4 +221,4 @@ class Bar:
         if shown.t is not None:
             at = column(shown.t)
             surface.fill(TRACE["colours"][0], (self.line.left, self.line.top, at - self.line.left, thick))
-            Painter(surface).disc((at, self.rect.centery), 7 * self.unit, CARD["text"])
+            sheet.painter.disc((at, self.rect.centery), 7 * self.unit, CARD["text"])

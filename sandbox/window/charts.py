@@ -13,7 +13,7 @@ from sandbox.picture.path import hardest
 from sandbox.picture.sheet import Sheet
 from sandbox.picture.view import View
 from sandbox.sport.amounts import amount
-from sandbox.window.shot import Shot
+from sandbox.window.shots import Shot
 
 CARD = palette("card")
 

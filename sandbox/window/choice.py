@@ -9,7 +9,7 @@ import numpy as np
 import pygame
 
 from sandbox.picture.palette import Colour, mix, palette
-from sandbox.picture.sheet import Sheet
+from sandbox.window.canvas import Canvas
 from sandbox.window.measure import away_from
 from sandbox.window.overlay import Board, Row
 from sandbox.window.stage import draw_line
@@ -49,7 +49,7 @@ class Choice(Board):
         least, action = min(marks, default=(np.inf, found))
         return action if least <= self.near else found
 
-    def draw(self, sheet: Sheet, mouse: tuple[int, int], on: Collection[str]) -> None:
+    def draw(self, sheet: Canvas, mouse: tuple[int, int], on: Collection[str]) -> None:
         unit, painter = sheet.unit, sheet.painter
         self.near = NEAR * unit
         hovered = self.at(mouse) or self.chosen

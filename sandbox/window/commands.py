@@ -23,9 +23,8 @@ from sandbox.window.keys import GROUPS, LISTED, of_groups
 from sandbox.window.measure import Tape
 from sandbox.window.menu import Menu, thumbnail
 from sandbox.window.overlay import Board, Chart, Overlay, Row
-from sandbox.window.run_data import run_of
-from sandbox.window.shot import Shot
-from sandbox.window.shots import Played
+from sandbox.window.replay import run_of
+from sandbox.window.shots import Played, Shot
 from sandbox.window.table import Table
 from sandbox.window.view import AHEAD, View
 from sandbox.window.worker import cost_and_errors

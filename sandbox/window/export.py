@@ -14,8 +14,7 @@ from sandbox.files import reason, writing, written_whole
 from sandbox.picture.frames import save_gif, save_png
 from sandbox.scene import reference
 from sandbox.window.session import Session
-from sandbox.window.shot import Shot
-from sandbox.window.shots import Played, write_csv
+from sandbox.window.shots import Played, Shot, write_csv
 
 FOLDER = Path("out")
 FPS = 25

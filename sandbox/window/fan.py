@@ -16,7 +16,7 @@ from sandbox.picture.lines import points
 from sandbox.picture.palette import Colour
 from sandbox.scene import Scene
 from sandbox.sport.controls import Spread
-from sandbox.window.shot import Shot
+from sandbox.window.shots import Shot
 
 SHOTS = 100
 #: So many more are computed at least before a fan is shown, and no more after this time in s.

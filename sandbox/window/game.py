@@ -19,10 +19,9 @@ from sandbox.window.handles import Grip
 from sandbox.window.history import Changes, History
 from sandbox.window.memory import Memory
 from sandbox.window.playback import Playback
-from sandbox.window.run_data import run_of
+from sandbox.window.replay import run_of
 from sandbox.window.session import Session
-from sandbox.window.shot import Shot
-from sandbox.window.shots import Played, Shots
+from sandbox.window.shots import Played, Shot, Shots
 from sandbox.window.watch import Watch
 from sandbox.window.worker import computed, described, reread, warm_up
 from sandbox.workers import Processes, WorkerLost

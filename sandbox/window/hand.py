@@ -11,7 +11,6 @@ from sandbox.picture.camera import Camera
 from sandbox.picture.palette import palette
 from sandbox.window.canvas import Canvas
 from sandbox.window.handles import Grip
-from sandbox.window.overlay import card
 from sandbox.window.stage import Stage
 
 CARD, FORCE = palette("card"), palette("force")
@@ -82,7 +81,7 @@ def label(sheet: Canvas, text: str, at: tuple[float, float], below: bool) -> Non
     text = sheet.ended(text, "small", sheet.frame.width - 4 * sheet.gap)
     room = pygame.Rect(sheet.frame.topleft, (sheet.frame.width, sheet.card_row() - sheet.gap - sheet.frame.top))
     away, anchor = (20 * sheet.unit, "midtop") if below else (-20 * sheet.unit, "midbottom")
-    card(sheet, [(text, CARD["text"])], anchor, (at[0], at[1] + away), room)
+    sheet.card([(text, CARD["text"])], anchor, (at[0], at[1] + away), room)
 
 
 def draw_pull(sheet: Canvas, start: tuple[float, float], pull: tuple[float, float], text: str) -> None:

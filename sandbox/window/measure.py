@@ -10,10 +10,10 @@ import numpy as np
 
 from sandbox.picture.camera import Camera
 from sandbox.picture.palette import palette
-from sandbox.picture.sheet import Entry, Sheet
+from sandbox.picture.sheet import Entry
 from sandbox.sport.amounts import metres, signed
-from sandbox.window.overlay import card
-from sandbox.window.shot import Shot
+from sandbox.window.canvas import Canvas
+from sandbox.window.shots import Shot
 
 CARD = palette("card")
 
@@ -68,7 +68,7 @@ def state_entries(shot: Shot, ball: str, t: float) -> list[tuple[str, str]]:
     return [("speed", f"{speed:.2f} m/s"), *places, ("direction", way), ("spin", turning)]
 
 
-def draw_reading(sheet: Sheet, shot: Shot, read: Reading, entries: Sequence[Entry]) -> None:
+def draw_reading(sheet: Canvas, shot: Shot, read: Reading, entries: Sequence[Entry]) -> None:
     """A mark on the trace, and next to it the ball's state there."""
     unit = sheet.unit
     sheet.painter.disc(read.at, 7 * unit, CARD["background"], 0.9)
@@ -79,12 +79,12 @@ def draw_reading(sheet: Sheet, shot: Shot, read: Reading, entries: Sequence[Entr
     beside(sheet, rows, read.at)
 
 
-def beside(sheet: Sheet, rows: Sequence[tuple[str, str]], at: tuple[float, float]) -> None:
+def beside(sheet: Canvas, rows: Sequence[tuple[str, str]], at: tuple[float, float]) -> None:
     """A card of labels and values next to a place in px, on the side where there is room."""
     middle, away = sheet.surface.get_rect().center, 16 * sheet.unit
     right, below = at[0] > 1.3 * middle[0], at[1] < middle[1]
     anchor = ("top" if below else "bottom") + ("right" if right else "left")
-    card(sheet, rows, anchor, (at[0] + (-away if right else away), at[1] + (away if below else -away)))
+    sheet.card(rows, anchor, (at[0] + (-away if right else away), at[1] + (away if below else -away)))
 
 
 @dataclass
@@ -98,7 +98,7 @@ class Tape:
     def length(self) -> float:
         return hypot(self.end[0] - self.start[0], self.end[1] - self.start[1])
 
-    def draw(self, sheet: Sheet, camera: Camera, upright: bool) -> None:
+    def draw(self, sheet: Canvas, camera: Camera, upright: bool) -> None:
         a, b = camera.pixel(*self.start), camera.pixel(*self.end)
         unit = sheet.unit
         if hypot(b[0] - a[0], b[1] - a[1]) > 1:

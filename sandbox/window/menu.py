@@ -9,9 +9,9 @@ import pygame
 
 from sandbox.errors import SandboxError
 from sandbox.picture.palette import palette
-from sandbox.picture.sheet import Sheet
 from sandbox.scene import load, simulate
-from sandbox.window.overlay import Row, Scrolled, item
+from sandbox.window.canvas import Canvas
+from sandbox.window.overlay import Row, Scrolled
 
 CARD = palette("card")
 
@@ -82,7 +82,7 @@ class Menu(Scrolled):
             self.chosen = self.rows[place]
             self.show(place)
 
-    def draw(self, sheet: Sheet, mouse: tuple[int, int], on: Collection[str]) -> None:
+    def draw(self, sheet: Canvas, mouse: tuple[int, int], on: Collection[str]) -> None:
         letters, gap, unit = sheet.lettering, sheet.gap, sheet.unit
         rect = sheet.surface.get_rect().inflate(-4 * gap, -4 * gap)
         sheet.painter.panel(rect, CARD["background"], 0.97, 10 * unit)
@@ -98,7 +98,7 @@ class Menu(Scrolled):
             self.places.append((place, name))
             here = name == self.group
             lit = 0.3 if here else 0.15 * place.collidepoint(mouse)
-            item(sheet, place, name, CARD["accent" if here else "quiet"], lit, here, place.left + 2 * gap)
+            sheet.item(place, name, CARD["accent" if here else "quiet"], lit, here, place.left + 2 * gap)
         frame = pygame.Rect((0, 0), [round(length * max(0.6, min(1.0, unit))) for length in THUMBNAIL])
         left, row_height = rect.left + wide + 3 * gap, max(frame.height + 2 * gap, 3 * small)
         self.seen = max(1, (rect.bottom - top - gap) // row_height)
@@ -122,7 +122,7 @@ class Menu(Scrolled):
             at = rect.right - 2 * gap, rect.top + 2 * gap
             letters.write(sheet.surface, text, "small", at, CARD["quiet"], "topright")
 
-    def _picture(self, sheet: Sheet, source: str, frame: pygame.Rect) -> None:
+    def _picture(self, sheet: Canvas, source: str, frame: pygame.Rect) -> None:
         """A thumbnail, asked for once it is seen."""
         if source not in self.pictures:
             self.pictures[source] = self.picture_of(source)

@@ -1,15 +1,15 @@
-"""What lies over the picture for a while, one at a time; small cards of text, and the messages."""
+"""What lies over the picture for a while, one at a time."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from concurrent.futures import Future
 from typing import Any, NamedTuple
 
 import pygame
 
-from sandbox.picture.palette import Colour, palette
-from sandbox.picture.sheet import Sheet
+from sandbox.picture.palette import palette
+from sandbox.window.canvas import Canvas
 
 CARD = palette("card")
 
@@ -28,7 +28,7 @@ class Overlay:
         self.places: list[tuple[pygame.Rect, Any]] = []  # of what can be chosen
         self.chosen: Any = None  # by key
 
-    def draw(self, sheet: Sheet, mouse: tuple[int, int], on: Collection[str]) -> None:
+    def draw(self, sheet: Canvas, mouse: tuple[int, int], on: Collection[str]) -> None:
         """Draw it; ``on`` are the actions that are switched on."""
         raise NotImplementedError
 
@@ -76,7 +76,7 @@ class Chart(Overlay):
     def progress(self) -> bool:  # type: ignore[override]
         return self.work.done()
 
-    def draw(self, sheet: Sheet, mouse: tuple[int, int], on: Collection[str]) -> None:
+    def draw(self, sheet: Canvas, mouse: tuple[int, int], on: Collection[str]) -> None:
         if self.work.done():
             surface = self.work.result()
             sheet.surface.blit(surface, surface.get_rect(center=sheet.surface.get_rect().center))
@@ -161,12 +161,12 @@ class Board(Overlay):
 
     # Drawing
 
-    def draw(self, sheet: Sheet, mouse: tuple[int, int], on: Collection[str]) -> None:
+    def draw(self, sheet: Canvas, mouse: tuple[int, int], on: Collection[str]) -> None:
         letters, gap = sheet.lettering, sheet.gap
         head, row, columns, widths = self._fitted(sheet)
         rect = pygame.Rect(0, 0, sum(widths) + 2 * gap, head + row * max(map(len, columns)) + 2 * gap)
         if self.foot is None:
-            veil(sheet.surface, 110)
+            sheet.veil(110)
             rect.center = sheet.surface.get_rect().center
         else:
             rect.midtop = self.foot.centerx, self.foot.bottom + gap // 2
@@ -188,7 +188,7 @@ class Board(Overlay):
                 self._row(sheet, each, place, bool(each.action) and each.action == hovered, each.action in on)
             left += width
 
-    def _fitted(self, sheet: Sheet) -> tuple[int, int, list[list[Row]], list[int]]:
+    def _fitted(self, sheet: Canvas) -> tuple[int, int, list[list[Row]], list[int]]:
         """Heights of the title and of a row, the columns and their widths: the first that fit; in a small window the
         rows are lower, and the title makes room."""
         letters, gap = sheet.lettering, sheet.gap
@@ -203,20 +203,20 @@ class Board(Overlay):
         return head, row, columns, [room // len(columns)] * len(columns)
 
     @staticmethod
-    def _row(sheet: Sheet, row: Row, place: pygame.Rect, hovered: bool, on: bool) -> None:
+    def _row(sheet: Canvas, row: Row, place: pygame.Rect, hovered: bool, on: bool) -> None:
         letters, gap = sheet.lettering, sheet.gap
         colour = CARD["accent" if on or row.heading else "text" if hovered else "quiet"]
         if on:
             sheet.painter.disc((place.left + gap, place.centery), 3.5 * sheet.unit, CARD["accent"])
         key = letters.width(row.key, "small", bold=True) + 2 * gap if row.key else 0
         lit = 0.25 if hovered else 0.0
-        item(sheet, place, row.text, colour, lit, row.heading, place.left + 2 * gap, place.right - 2 * gap - key)
+        sheet.item(place, row.text, colour, lit, row.heading, place.left + 2 * gap, place.right - 2 * gap - key)
         if row.key:
             at = place.right - 2 * gap, place.centery
             letters.write(sheet.surface, row.key, "small", at, CARD["text"], "midright", bold=True)
 
     @staticmethod
-    def _width(sheet: Sheet, row: Row) -> int:
+    def _width(sheet: Canvas, row: Row) -> int:
         letters, gap = sheet.lettering, sheet.gap
         key = letters.width(row.key, "small", bold=True) + 4 * gap if row.key else 0
         return letters.width(row.text, "small", bold=row.heading) + key + 4 * gap
@@ -235,87 +235,3 @@ class Board(Overlay):
                     columns.append([])
                 columns[-1].append(row)
         return columns
-
-
-# What they are drawn with
-
-
-def item(
-    sheet: Sheet,
-    place: pygame.Rect,
-    text: str,
-    colour: Colour,
-    lit: float = 0.0,
-    bold: bool = False,
-    left: float | None = None,
-    right: float | None = None,
-    mark: int = 0,
-) -> None:
-    """One line of text in the middle of ``place``, cut to what is between ``left`` and ``right`` px; on a pale panel
-    of the opacity ``lit``, and before a triangle that points down or, with a ``mark`` of -1, up."""
-    if lit:
-        sheet.painter.panel(place, CARD["quiet"], lit, 5 * sheet.unit)
-    left, right = place.left + sheet.gap if left is None else left, place.right if right is None else right
-    text = sheet.lettering.cut(text, "small", right - left, bold)
-    rect = sheet.lettering.write(sheet.surface, text, "small", (left, place.centery), colour, "midleft", bold)
-    if mark:
-        x, y, half = rect.right + 1.6 * sheet.gap, place.centery, 0.7 * sheet.gap
-        points = [(x - half, y - 0.6 * mark * half), (x + half, y - 0.6 * mark * half), (x, y + 0.6 * mark * half)]
-        sheet.painter.polygon(points, colour)
-
-
-def veil(surface: pygame.Surface, opacity: int) -> None:
-    """Dim what is drawn; the opacity is from 0 to 255."""
-    dark = pygame.Surface(surface.get_size(), pygame.SRCALPHA)
-    dark.fill((*CARD["background"], opacity))
-    surface.blit(dark, (0, 0))
-
-
-def card(
-    sheet: Sheet,
-    lines: Iterable[tuple[str, Any]],
-    anchor: str,
-    at: tuple[float, float],
-    within: pygame.Rect | None = None,
-    avoid: pygame.Rect | None = None,
-) -> pygame.Rect:
-    """A small card, whose side or corner ``anchor`` (named as by pygame.Rect) is at a place in px; returns its place.
-
-    Each line is a text with its colour, or a label and a value. The card is moved inside ``within``, and below
-    ``avoid`` if they overlap.
-    """
-    letters, gap, lines = sheet.lettering, sheet.gap, list(lines)
-    row = letters.height("small") + gap // 2
-    values = [letters.width(value, "small", bold=True) + 3 * gap for _, value in lines if isinstance(value, str)]
-    wide = max(letters.width(text, "small") for text, _ in lines) + max(values, default=0) + 4 * gap
-    rect = pygame.Rect(0, 0, wide, len(lines) * row + 2 * gap - gap // 2)
-    setattr(rect, anchor, (round(at[0]), round(at[1])))
-    if avoid is not None and rect.colliderect(avoid):
-        rect.top = avoid.bottom + gap
-    rect.clamp_ip(within or sheet.surface.get_rect())
-    sheet.painter.panel(rect, CARD["background"], 0.9, 8 * sheet.unit)
-    for number, (text, value) in enumerate(lines):
-        left, right, top = rect.left + 2 * gap, rect.right - 2 * gap, rect.top + gap + number * row
-        is_value = isinstance(value, str)
-        letters.write(sheet.surface, text, "small", (left, top), CARD["quiet"] if is_value else value)
-        if is_value:
-            letters.write(sheet.surface, value, "small", (right, top), CARD["text"], "topright", bold=True)
-    return rect
-
-
-def draw_note(sheet: Sheet, lines: Sequence[tuple[str, Colour]], top: float, avoid: pygame.Rect) -> float:
-    """A small card at the right, below ``avoid`` if they overlap; returns the row below it."""
-    room = sheet.frame.width - 4 * sheet.gap
-    parts = [(part, colour) for text, colour in lines for part in sheet.lettering.wrapped(text, "small", room)]
-    return float(card(sheet, parts, "topright", (sheet.frame.right, top), avoid=avoid).bottom + sheet.gap)
-
-
-def draw_messages(sheet: Sheet, messages: Sequence[tuple[str, bool]]) -> None:
-    """Messages over the bottom of the picture, each with whether it is bad, in up to ten lines."""
-    room, foot = round(0.8 * sheet.size[0]), sheet.frame.bottom - sheet.card_height() - 2 * sheet.gap
-    for text, bad in reversed(messages):
-        lines = [line for part in text.splitlines() for line in sheet.lettering.wrapped(part, "small", room)][-10:]
-        rect = card(sheet, [(line, CARD["text"]) for line in lines], "midbottom", (sheet.size[0] // 2, foot))
-        stripe = pygame.Rect(rect.left, rect.top + sheet.gap, max(3, sheet.gap // 2), rect.height - 2 * sheet.gap)
-        sheet.surface.fill(CARD["bad" if bad else "good"], stripe)
-        foot = rect.top - sheet.gap

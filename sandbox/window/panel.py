@@ -10,10 +10,10 @@ import pygame
 
 from sandbox.parameters import Parameter, walk
 from sandbox.picture.palette import mix, palette
-from sandbox.picture.sheet import Sheet
 from sandbox.window.background import Once
+from sandbox.window.canvas import Canvas
 from sandbox.window.game import Game
-from sandbox.window.overlay import Board, Row, Scrolled, card, item
+from sandbox.window.overlay import Board, Row, Scrolled
 
 CARD = palette("card")
 
@@ -253,12 +253,12 @@ class Panel(Scrolled):
 
     # Drawing
 
-    def lay_out(self, sheet: Sheet, height: int) -> None:
+    def lay_out(self, sheet: Canvas, height: int) -> None:
         """Its place at the right of the window."""
         wide = min(max(NARROWEST, round(WIDTH * sheet.unit)), sheet.size[0] // 2)
         self.rect = pygame.Rect(sheet.size[0] - wide, 0, wide, height)
 
-    def draw_on(self, sheet: Sheet, mouse: tuple[int, int]) -> None:
+    def draw_on(self, sheet: Canvas, mouse: tuple[int, int]) -> None:
         """The group's name, and its rows."""
         gap, self.knob = sheet.gap, round(KNOB * sheet.unit)
         line = sheet.lettering.height("small") + gap
@@ -286,13 +286,13 @@ class Panel(Scrolled):
             self._tip(sheet, hovered.parameter, mouse[1])
 
     def _box(
-        self, sheet: Sheet, place: pygame.Rect, text: str, what: Any, mouse: tuple[int, int], mark: int = 0
+        self, sheet: Canvas, place: pygame.Rect, text: str, what: Any, mouse: tuple[int, int], mark: int = 0
     ) -> None:
         """A button or a field with a text; one that opens a list has a mark."""
         self.places.append((place, what))
-        item(sheet, place, text, CARD["text"], 0.3 if place.collidepoint(mouse) else 0.16, mark=mark)
+        sheet.item(place, text, CARD["text"], 0.3 if place.collidepoint(mouse) else 0.16, mark=mark)
 
-    def _row(self, sheet: Sheet, row: Setting, place: pygame.Rect, line: int, mouse: tuple[int, int]) -> None:
+    def _row(self, sheet: Canvas, row: Setting, place: pygame.Rect, line: int, mouse: tuple[int, int]) -> None:
         gap, words = sheet.gap, bool(row.parameter.choices)
         top = pygame.Rect(place.topleft, (place.width, line))
         below = top.move(0, line)
@@ -300,7 +300,7 @@ class Panel(Scrolled):
         field = pygame.Rect(reset.left - gap // 2 - FIELD * line // 24, top.top, FIELD * line // 24, line)
         right = (reset.left if words else field.left) - gap
         colour = CARD["accent" if row.at == self.chosen else "text"]
-        item(sheet, top, self._name(sheet, row, right - top.left), colour, left=top.left, right=right)
+        sheet.item(top, self._name(sheet, row, right - top.left), colour, left=top.left, right=right)
         if row.parameter.value != row.base:
             self._box(sheet, reset, "×", (row, RESET_OF), mouse)
         typed = row.at == self.typing
@@ -316,7 +316,7 @@ class Panel(Scrolled):
             share = min(max((row.value - low) / ((high - low) or 1.0), 0.0), 1.0)
             sheet.painter.disc((groove.left + share * groove.width, groove.centery), self.knob, CARD["accent"])
 
-    def _name(self, sheet: Sheet, row: Setting, room: int) -> str:
+    def _name(self, sheet: Canvas, row: Setting, room: int) -> str:
         """The parameter's name with its unit, as much of it as fits."""
         key, unit = row.parameter.key, row.parameter.unit
         part = "" if row.index is None else f" {'xyz'[row.index]}"
@@ -325,10 +325,10 @@ class Panel(Scrolled):
         texts = [*(f"{text}  [{unit}]" if unit else text for text in texts), texts[-1]]
         return next((text for text in texts if sheet.lettering.width(text, "small") <= room), texts[-1])
 
-    def _tip(self, sheet: Sheet, parameter: Parameter, row: int) -> None:
+    def _tip(self, sheet: Canvas, parameter: Parameter, row: int) -> None:
         """What a parameter means, and its bounds, next to the panel."""
         text = f"{parameter.key}: {parameter.meaning}"
         if parameter.low is not None and parameter.high is not None:
             text += f"; from {parameter.low:g} to {parameter.high:g} {parameter.unit}".rstrip()
         lines = sheet.lettering.wrapped(text, "small", self.rect.width)
-        card(sheet, [(each, CARD["text"]) for each in lines], "topright", (self.rect.left - sheet.gap, row))
+        sheet.card([(each, CARD["text"]) for each in lines], "topright", (self.rect.left - sheet.gap, row))

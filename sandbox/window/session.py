@@ -12,7 +12,7 @@ from sandbox.scene.modules import read_again
 from sandbox.sport.controls import Controls
 from sandbox.window.background import Once
 from sandbox.window.history import Changes
-from sandbox.window.shot import Shot, place_of, value_at
+from sandbox.window.shots import Shot, place_of, value_at
 
 
 class Session:

@@ -19,7 +19,7 @@ from sandbox.picture.plain import view_of
 from sandbox.picture.sheet import Sheet
 from sandbox.window.background import Once
 from sandbox.window.canvas import Canvas
-from sandbox.window.shot import Shot
+from sandbox.window.shots import Shot
 
 CARD, TRACE = palette("card"), palette("trace")
 

@@ -8,9 +8,9 @@ import numpy as np
 import pygame
 
 from sandbox.picture.palette import Colour, palette
-from sandbox.picture.sheet import Sheet
 from sandbox.sport.amounts import amount
-from sandbox.window.overlay import Scrolled, item
+from sandbox.window.canvas import Canvas
+from sandbox.window.overlay import Scrolled
 from sandbox.window.shots import Played, share_of, values_of
 
 CARD = palette("card")
@@ -94,7 +94,7 @@ class Table(Scrolled):
 
     # Drawing
 
-    def draw(self, sheet: Sheet, mouse: tuple[int, int], on: Collection[str]) -> None:
+    def draw(self, sheet: Canvas, mouse: tuple[int, int], on: Collection[str]) -> None:
         gap, unit, letters = sheet.gap, sheet.unit, sheet.lettering
         rows, row = self.rows, letters.height("small") + gap
         rect = pygame.Rect(0, 0, *(round(share * side) for share, side in zip(SHARE, sheet.size, strict=True)))
@@ -131,15 +131,15 @@ class Table(Scrolled):
         self._statistics(sheet, rows, pygame.Rect(inner.left, foot + gap, inner.width, inner.bottom - foot - gap))
 
     def _button(
-        self, sheet: Sheet, place: pygame.Rect, text: str, action: str, mouse: tuple[int, int], mark: int = 0
+        self, sheet: Canvas, place: pygame.Rect, text: str, action: str, mouse: tuple[int, int], mark: int = 0
     ) -> None:
         self.places.append((place, action))
         colour, lit = CARD["accent" if mark else "quiet"], 0.25 * place.collidepoint(mouse)
-        item(sheet, place, text, colour, lit, bold=True, mark=mark)
+        sheet.item(place, text, colour, lit, bold=True, mark=mark)
 
     def _row(
         self,
-        sheet: Sheet,
+        sheet: Canvas,
         played: Played,
         place: pygame.Rect,
         columns: dict[str, tuple[int, int]],
@@ -148,7 +148,7 @@ class Table(Scrolled):
         gap, unit = sheet.gap, sheet.unit
         lit = 0.35 if played is self.chosen else 0.15 * place.collidepoint(mouse)
         left = sum(list(columns.values())[-1])
-        item(sheet, place, played.verdict, CARD["good" if played.scored else "quiet"], lit, left=left + gap)
+        sheet.item(place, played.verdict, CARD["good" if played.scored else "quiet"], lit, left=left + gap)
         if played.shot is not None:  # its path is kept
             spot, colour = (place.left + 2 * gap, place.centery), self.colour_of(played.number)
             if played.pinned:
@@ -159,9 +159,9 @@ class Table(Scrolled):
             value = played.numbers.get(key)
             text = str(played.number) if not key else "" if value is None else self._amount(key, [played], value)
             cell = pygame.Rect(left, place.top, wide, place.height)
-            item(sheet, cell, text, CARD["text"], left=left + (gap if key else 4 * gap))
+            sheet.item(cell, text, CARD["text"], left=left + (gap if key else 4 * gap))
 
-    def _statistics(self, sheet: Sheet, rows: Sequence[Played], room: pygame.Rect) -> None:
+    def _statistics(self, sheet: Canvas, rows: Sequence[Played], room: pygame.Rect) -> None:
         """Mean and standard deviation of the column that the table is sorted by, its histogram, and who scores."""
         letters, unit, small = sheet.lettering, sheet.unit, sheet.lettering.height("small")
         lines, share, values = [], share_of(rows), values_of(rows, self.by)

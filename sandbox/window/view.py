@@ -21,7 +21,7 @@ from sandbox.picture.plain import view_of
 from sandbox.picture.sheet import Entry, nice, rows_of
 from sandbox.picture.vectors import Vectors
 from sandbox.picture.view import View as Picture
-from sandbox.window import hand, overlay
+from sandbox.window import hand
 from sandbox.window.background import Background, Latest, Once
 from sandbox.window.bar import HEIGHT, Bar, Shown
 from sandbox.window.canvas import Canvas
@@ -34,7 +34,7 @@ from sandbox.window.overlay import Overlay
 from sandbox.window.pad import Pad
 from sandbox.window.panel import Panel
 from sandbox.window.score_map import FINER, QUICK, ScoreMap, draw_map, score_map
-from sandbox.window.shot import Shot
+from sandbox.window.shots import Shot
 from sandbox.window.stage import Stage, headline
 
 if TYPE_CHECKING:
@@ -416,10 +416,11 @@ class View:
             sheet = self._sheet()
             sheet.surface.fill(CARD["background"])
             text = f"{self.game.session.title} cannot be drawn: {self.game.reason(error)}"
-            overlay.draw_messages(sheet, [(text, True)])
+            sheet.messages([(text, True)])
+        whole = Canvas(self.canvas)
         if self.has_panel:
-            self.panel.draw_on(Canvas(self.canvas), self.at if self.over is None else (-1, -1))
-        self.bar.draw(self.canvas, self._bar_shown(), self.at)
+            self.panel.draw_on(whole, self.at if self.over is None else (-1, -1))
+        self.bar.draw(whole, self._bar_shown(), self.at)
         if self.over is not None:
             sheet = Canvas(self.canvas.subsurface((0, 0), (self.canvas.get_width(), self.area.height)))
             self.over.draw(sheet, self.at, self.switched)
@@ -452,7 +453,7 @@ class View:
             if self._picture is not None:
                 sheet.surface.blit(self._picture, (0, 0))
             if self.undrawable is not None or no_path:
-                overlay.veil(sheet.surface, 150)
+                sheet.veil(150)
         if self.over is None and game.failure is None:
             pad, spots, held = self.pad if drawn and game.pull is None else None, self.spots, self._held()
             if pad is not None:
@@ -461,13 +462,13 @@ class View:
                 mouse = self.at if self.area.collidepoint(self.at) and game.grip is None else None
                 hand.draw_handles(sheet, spots, stage, mouse, held, held.said(game.session) if held is not None else "")
         undrawable = [(self.undrawable, True)] if self.undrawable is not None else []
-        overlay.draw_messages(sheet, [*undrawable, *game.notices])
+        sheet.messages([*undrawable, *game.notices])
 
     def _draw_no_path(self, sheet: Canvas) -> None:
         """The place, dark and without a path: the current parameters have none, or none yet."""
         assert self.stage is not None
         sheet.surface.blit(self.stage.backdrop, (0, 0))
-        overlay.veil(sheet.surface, 150)
+        sheet.veil(150)
         if self.game.failure is not None:
             self.head = headline(sheet, "No path", ["the run of these parameters failed"], CARD["bad"])
         else:
@@ -566,21 +567,21 @@ class View:
         if "cost" in self.on:
             level = game.session.value("accuracy.level")
             text = f"frame {1e3 * self.frame_cost:.1f} ms; run {1e3 * game.cost:.1f} ms, {level}"
-            top = overlay.draw_note(sheet, [(text, CARD["accent"])], top, self.head)
+            top = sheet.note([(text, CARD["accent"])], top, self.head)
         hints = [(text, CARD["accent"]) for text in game.memory.hints.values()]
         if hints and game.pull is None:
-            top = overlay.draw_note(sheet, hints, top, self.head)
+            top = sheet.note(hints, top, self.head)
         if self.hidden:
             return
         if "fan" in self.on:
             found = self._cloud_of(shot)
             share, spread = found.said if found is not None else (self._why(self.clouds, "the fan"), "")
             lines = [(share, CARD["text"]), *([(spread, CARD["quiet"])] if spread else [])]
-            top = overlay.draw_note(sheet, lines, top, self.head)
+            top = sheet.note(lines, top, self.head)
         if "map" in self.on:
             known = self._map_of(shot)
             if known is None:
-                top = overlay.draw_note(sheet, [(self._why(self.maps, "the map"), CARD["text"])], top, self.head)
+                top = sheet.note([(self._why(self.maps, "the map"), CARD["text"])], top, self.head)
             else:
                 self.map_at, top = draw_map(sheet, known, shot.aim, top, self.head)
         if "charts" in self.on:

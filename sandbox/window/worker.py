@@ -11,7 +11,7 @@ from typing import Any
 from sandbox.errors import RunError, SandboxError
 from sandbox.scene import Scene, check, load, simulate
 from sandbox.scene.modules import forget
-from sandbox.window.run_data import data_of
+from sandbox.window.replay import data_of
 
 
 def warm_up(source: str) -> None:

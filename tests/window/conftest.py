@@ -19,7 +19,7 @@ from sandbox.window.app import App
 from sandbox.window.canvas import Canvas
 from sandbox.window.game import Game
 from sandbox.window.session import Session
-from sandbox.window.shot import Shot
+from sandbox.window.shots import Shot
 from sandbox.workers import Processes
 
 FRAME = 1 / 60  # s

@@ -29,9 +29,9 @@ WORDS = ("see", "keep", "more", "panel", "help")
 
 def bar_of(size: tuple[int, int], title: str, duration: float, t: float | None = None) -> Bar:
     """The bar of such a window, drawn."""
-    surface = pygame.Surface((size[0], round(HEIGHT * rows_of(size) / 720)))
-    bar = Bar(surface.get_rect(), rows_of(size))
-    bar.draw(surface, Shown(title, False, t, duration, (0.5, 1.0), 1 / 16, WORDS), (-1, -1))
+    tall = round(HEIGHT * rows_of(size) / 720)
+    bar = Bar(pygame.Rect(0, size[1] - tall, size[0], tall), rows_of(size))
+    bar.draw(Canvas(pygame.Surface(size)), Shown(title, False, t, duration, (0.5, 1.0), 1 / 16, WORDS), (-1, -1))
     return bar
 
 
