@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from time import perf_counter
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -22,10 +22,10 @@ from sandbox.engine.impulses import lanes
 from sandbox.engine.lanes import ManyLanes
 from sandbox.engine.outlines import Outlines
 from sandbox.engine.run import Numerics, Run
-from sandbox.engine.setup import Ball, Bounds, Patch, Setup, Until
+from sandbox.engine.setup import Setup, Until
 from sandbox.engine.setup_errors import setup_errors_named
 from sandbox.engine.simulation import Simulation
-from sandbox.engine.stacking import FEWEST, Stack, chosen
+from sandbox.engine.stacking import FEWEST, Stack, selector
 from sandbox.engine.step_control import LONGEST, StepControl, before_break, within
 from sandbox.engine.surfaces import CLOSING, bounce_off, leaves_at, press, tilted
 from sandbox.physics.impulse import after_impulse, surface_speeds
@@ -90,17 +90,6 @@ class _OnlyFloats(Exception):
     """Forces that cannot take arrays, or that return other values for arrays than for floats."""
 
 
-class FlightTerms(NamedTuple):
-    """The parts of the stacked setup that a step needs, of the shots still in flight."""
-
-    ball: Ball
-    patches: Sequence[Patch]
-    bounds: Bounds
-    duration: float  # s
-    until: Any
-    breaks: Sequence[Any]  # s
-
-
 class _Left(NamedTuple):
     """How a shot left the batch: at its end (``how`` is "until" or "duration"), or to be continued by simulation.py."""
 
@@ -118,7 +107,8 @@ class Batch:
         self._accuracy = accuracy
         self._control = StepControl(accuracy)
         whole = setups.whole
-        self._all = FlightTerms(whole.balls[0], whole.patches, whole.bounds, whole.duration, whole.until, whole.breaks)
+        self._select = selector(whole)
+        self._until = selector(whole.until)
         self._outlines = Outlines(setups, accuracy.skin)
         self._lanes = lanes(ManyLanes)
         self._events: list[list[Event]] = [[] for _ in setups]
@@ -135,7 +125,7 @@ class Batch:
         self._state = np.array([np.broadcast_to(part, len(setups)) for part in start], float)
         self._wanted = np.full(len(setups), self._control.first)  # s, the next step
         self._again = np.zeros(len(setups), dtype=bool)  # the last step was too long and is repeated
-        self._now: FlightTerms = self._all
+        self._now: Setup = whole
 
     def fly(self) -> None:
         """Fly all shots to their end, or until they leave the batch."""
@@ -168,7 +158,7 @@ class Batch:
         for array in (t := t.view(), *state):
             array.flags.writeable = False  # ``vx -= wind`` in a force leaves a float as it was, but not an array
         try:
-            ax, ay, alpha = acceleration(self._now.ball, t, state)
+            ax, ay, alpha = acceleration(self._now.balls[0], t, state)
             every = np.broadcast_to(ax, t.shape), np.broadcast_to(ay, t.shape), np.broadcast_to(alpha, t.shape)
             if any(map(np.iscomplexobj, every)):
                 raise TypeError("complex numbers")
@@ -216,7 +206,7 @@ class Batch:
         h = before_break(self._now.breaks, self._t, h)
         h = np.where(self._again, self._wanted, within(self._now.patches, h, before, tuple(known)))
         fits, following, after, last = self._control.attempt(
-            self._acceleration, self._t, before, tuple(known), h, self._wanted, self._now.ball.radius
+            self._acceleration, self._t, before, tuple(known), h, self._wanted, self._now.balls[0].radius
         )
         self._again = ~fits
         self._counts[STEPS, self._shot] += 1
@@ -256,7 +246,7 @@ class Batch:
         leaving = t1 >= np.broadcast_to(self._now.duration, self._t.shape)[lanes]
         how = np.where(leaving, "duration", "until")
         if isinstance(self._now.until, Until):
-            leaving = leaving | chosen(self._now.until, lanes).passed(tuple(start), tuple(rows[END]))
+            leaving = leaving | self._until(shots).passed(tuple(start), tuple(rows[END]))
         leaving[hits] = False
         for place in np.flatnonzero(leaving).tolist():
             self._leave(lanes[place], str(how[place]))
@@ -301,7 +291,7 @@ class Batch:
 
     def _exchange(self, lanes: np.ndarray, nx: np.ndarray, ny: np.ndarray, bounces: np.ndarray) -> None:
         """Change velocities and spins by impacts on surfaces with these normals."""
-        motion, ball = tuple(self._state[2:, lanes]), self._now.ball
+        motion, ball = tuple(self._state[2:, lanes]), self._now.balls[0]
         r, factor = (np.broadcast_to(part, self._t.shape)[lanes] for part in (ball.radius, ball.inertia_factor))
         approach, slip, _ = surface_speeds(motion, nx, ny, r)
         push, rub = self._lanes.exchange_all(
@@ -339,7 +329,7 @@ class Batch:
         self._wanted, self._again = self._wanted[staying], self._again[staying]
         self._touched = self._touched[staying]
         self._normal = self._normal[:, staying]
-        self._now = chosen(self._all, self._shot)
+        self._now = self._select(self._shot)
 
     def _leave(self, lane: int, how: str) -> None:
         state = tuple(self._state[:, lane].tolist())

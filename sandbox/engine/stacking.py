@@ -51,21 +51,6 @@ def stacked(things: Sequence[Any]) -> Any:
     raise Unlike
 
 
-def chosen(stack: Any, places: np.ndarray) -> Any:
-    """The stack restricted to these indices."""
-    kind: Any = type(stack)
-    if kind is np.ndarray:
-        return stack[places]
-    if isinstance(stack, tuple | list):
-        items = [chosen(item, places) for item in stack]
-        return stack if all(new is old for new, old in zip(items, stack, strict=True)) else _tuple(kind, items)
-    if names := _fields(kind):
-        held = {name: getattr(stack, name) for name in names}
-        parts = {name: chosen(part, places) for name, part in held.items()}
-        return stack if all(parts[name] is held[name] for name in names) else _changed(stack, parts)
-    return stack
-
-
 class Stack(Sequence[Any]):
     """Things that differ only in numbers: ``whole`` combines them."""
 
@@ -82,8 +67,7 @@ class Stack(Sequence[Any]):
     @classmethod
     def split(cls, whole: Any, count: int) -> Stack:
         """A stack of which only the combination was made."""
-        one = _one(whole)
-        return cls(whole, [whole] * count if one is None else list(map(one, range(count))))
+        return cls(whole, list(map(selector(whole, single=True), range(count))))
 
     def __len__(self) -> int:
         return len(self._each)
@@ -93,22 +77,27 @@ class Stack(Sequence[Any]):
         return self._each[place]
 
 
-def _one(stack: Any) -> Callable[[int], Any] | None:
-    """A function of the place that gives one thing of the stack; None if they are all the same."""
+def selector(stack: Any, single: bool = False) -> Callable[[Any], Any]:
+    """A function that restricts the stack to some indices; or, if ``single``, that gives the thing at one index."""
+    selects = _selector(stack, single)
+    return (lambda places: stack) if selects is None else selects
+
+
+def _selector(stack: Any, single: bool) -> Callable[[Any], Any] | None:
+    """The same; None if the stack is the same everywhere."""
     kind: Any = type(stack)
     if kind is np.ndarray:
-        numbers: list[Any] = stack.tolist()
-        return numbers.__getitem__
+        return stack.tolist().__getitem__ if single else stack.__getitem__
     if isinstance(stack, tuple | list):
-        ones = [(_one(item), item) for item in stack]
-        if all(one is None for one, _ in ones):
+        items = [(_selector(item, single), item) for item in stack]
+        if all(selects is None for selects, _ in items):
             return None
-        return lambda place: _tuple(kind, [item if one is None else one(place) for one, item in ones])
-    parts = {name: _one(getattr(stack, name)) for name in _fields(kind)}
-    differing = [(name, one) for name, one in parts.items() if one is not None]
+        return lambda at: _tuple(kind, [item if selects is None else selects(at) for selects, item in items])
+    parts = {name: _selector(getattr(stack, name), single) for name in _fields(kind)}
+    differing = [(name, selects) for name, selects in parts.items() if selects is not None]
     if not differing:
         return None
-    return lambda place: _changed(stack, {name: one(place) for name, one in differing})
+    return lambda at: _changed(stack, {name: selects(at) for name, selects in differing})
 
 
 def agree(one: Any, other: Any) -> bool:

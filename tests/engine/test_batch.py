@@ -28,7 +28,7 @@ from sandbox.engine.path import Above, Path, climb
 from sandbox.engine.run import Run
 from sandbox.engine.setup import Ball, Body, Bounce, Bounds, Circle, Patch, Segment, Setup, Surface
 from sandbox.engine.shapes import box
-from sandbox.engine.stacking import Stack, Unlike, chosen, stacked
+from sandbox.engine.stacking import Stack, Unlike, selector, stacked
 from sandbox.engine.touch import TOUCHING_GAP, Obstacle
 from sandbox.errors import RunError
 from sandbox.physics.coefficients import Constant
@@ -515,18 +515,18 @@ def test_data_is_stacked_field_by_field_and_unstacked_again():
     springs = [Spring(1.0 + i, Power(2.0 * i), (1.0, 0.1 * i)) for i in range(5)]
     stack = stacked(springs)
     x = np.array([0.5, 0.7])
-    some = chosen(stack, np.array([3, 1]))
+    some = selector(stack)(np.array([3, 1]))
     assert some(x).tolist() == [springs[3](0.5), springs[1](0.7)]
     assert stack.far[0] == 1.0  # the same everywhere: a number still
     for place, spring in enumerate(springs):
-        assert chosen(stack, np.intp(place)) == spring
+        assert selector(stack, single=True)(place) == spring
 
 
 def test_what_does_not_differ_is_not_copied():
     one = Spring(1.0, Power(2.0), (1.0, 3.0))
     assert stacked([one, Spring(1.0, one.law, (1.0, 3.0))]).law is one.law
     assert stacked([one, one]) is one
-    assert chosen(one, np.array([0])) is one
+    assert selector(one)(np.array([0])) is one
 
 
 class Pull:
