@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import replace
 from functools import cached_property
-from typing import ClassVar, NamedTuple
+from typing import ClassVar
 
 import numpy as np
 import pygame
 
 from sandbox.picture.ball import Flat
-from sandbox.picture.camera import Camera, Follow
-from sandbox.picture.chase import sampled, settling
+from sandbox.picture.camera import Area, Camera
+from sandbox.picture.chase import Follow, sampled
 from sandbox.picture.painter import Painter
 from sandbox.picture.palette import Colour, palette
 from sandbox.picture.places.plan import BREADTH, Person, Plan, draw_moving, drawn, dusk, enlarged
@@ -23,24 +23,16 @@ CARD = palette("card")
 
 #: Balls are lit from the left above, so their shadows lie to the right below; in radii.
 SHADOW = (0.4, 0.5)
+#: The picture shows at least so many radii of the ball.
+LEAST = 10
 #: The camera of frames keeps the ball in so much of the picture's middle.
 MIDDLE = 0.72
-
-
-class Margins(NamedTuple):
-    """What is left free around what must be seen: a share of the width, and px on 720 rows."""
-
-    aside: float
-    below_headline: float
-    above_card: float
 
 
 class AboveView(View[P]):
     """One run seen from above; a scene says what its ``plan`` is."""
 
     SPINS = ("right", "left")
-    #: Room around what must be seen.
-    MARGINS: ClassVar[Margins] = Margins(0.085, 16, 38)
     #: Frames go with the ball and show so much of the world's length in m, where the poster shows more.
     NEAREST: ClassVar[float | None] = None
     #: The colour of the darkness at the picture's edges.
@@ -56,35 +48,33 @@ class AboveView(View[P]):
         """Places in m that the poster must show, shape (n, 2): the paths, and the surfaces around them."""
         return self.surroundings
 
+    @property
+    def area(self) -> Area:
+        """Where in the picture all that must be seen is, in px: over the scale bar."""
+        aside, foot = 0.085 * self.size[0], self.sheet.lettering.height("small") + 3.4 * self.sheet.gap
+        return Area(aside, self.sheet.top_row + 16 * self.unit, self.size[0] - aside, self.card_row - foot)
+
     @cached_property
     def camera(self) -> Camera:
-        """Shows all that must be seen in the middle between headline and card."""
-        low, high = self.seen.min(axis=0), self.seen.max(axis=0)
-        wide, tall = np.maximum(high - low, 20 * self.radius)
-        (left, top), (right, bottom) = self._area
-        scale = min((right - left) / wide, (bottom - top) / tall)
+        """Shows all that must be seen in the middle of its area."""
+        low, high, area = self.seen.min(axis=0), self.seen.max(axis=0), self.area
+        wide, tall = np.maximum(high - low, LEAST * self.radius)
+        scale = min((area.right - area.left) / wide, (area.bottom - area.top) / tall)
         x, y = (low + high) / 2
-        return Camera((float(x), float(y)), ((left + right) / 2, (top + bottom) / 2), float(scale))
-
-    @property
-    def _area(self) -> tuple[tuple[float, float], tuple[float, float]]:
-        """Upper left and lower right corner in px of the part of the picture in which all that must be seen is."""
-        aside, above, below = self.MARGINS.aside * self.size[0], *(self.unit * px for px in self.MARGINS[1:])
-        return (aside, self.sheet.top_row + above), (self.size[0] - aside, self.card_row - below)
+        return Camera((float(x), float(y)), area.middle, float(scale))
 
     @cached_property
     def follow(self) -> Follow | None:
         """The camera of frames that goes with the ball, near enough to see it; None where it stands still."""
-        home, width = self.camera, self.size[0]
+        home, width, area = self.camera, self.size[0], self.area
         if self.NEAREST is None:
             return None
         scale = max(home.scale, width / self.NEAREST)
-        moments, states = sampled(self.run, self.ball)
-        (left, top), (right, bottom) = self._area
-        reach = MIDDLE / 2 * np.array([width, bottom - top]) / scale
+        moments, states, settle = sampled(self.run, self.ball, width / scale)
+        reach = MIDDLE / 2 * np.array([width, area.bottom - area.top]) / scale
         at = np.clip(home.at, states[:, :2] - reach, states[:, :2] + reach)
-        anchor = float(round((left + right) / 2)), float(round((top + bottom) / 2))
-        return Follow(moments, at, np.full(len(moments), scale), anchor, settling(states, width / scale))
+        anchor = float(round(area.middle[0])), float(round(area.middle[1]))
+        return Follow(moments, at, np.full(len(moments), scale), anchor, settle)
 
     def view(self, t: float) -> Camera:
         """The camera of ``frame(t)``, on whole px."""

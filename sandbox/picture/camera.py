@@ -25,6 +25,10 @@ class Area(NamedTuple):
     right: float
     bottom: float
 
+    @property
+    def middle(self) -> tuple[float, float]:
+        return (self.left + self.right) / 2, (self.top + self.bottom) / 2
+
 
 @dataclass(frozen=True)
 class Camera:
@@ -75,31 +79,3 @@ class Camera:
         scale = min(pixels / metres for pixels, metres in spans if metres > 0)
         middle = (box.left + box.right) / 2
         return cls((middle, box.bottom), ((area.left + area.right) / 2, area.bottom), scale, stretch)
-
-
-class Follow:
-    """A camera that goes with something, smoothly, and may be asked for any time in any order.
-
-    ``times`` (s) are evenly spaced, ``at`` (m, shape (n, 2)) is where to look and ``scales`` (px/m, shape (n,)) how
-    near. Both are averaged over about ``settle`` s before and after, the scale in its logarithm: so a zoom looks even.
-    """
-
-    def __init__(
-        self, times: np.ndarray, at: np.ndarray, scales: np.ndarray, anchor: tuple[float, float], settle: float = 0.25
-    ):
-        self.times, self.anchor = times, anchor
-        step = (times[1] - times[0]) or 1.0
-        self.paths = [_smooth(path, settle / step) for path in (at[:, 0], at[:, 1], np.log(scales))]
-
-    def camera(self, t: float) -> Camera:
-        """The camera at time t in s."""
-        x, y, log_scale = (float(np.interp(t, self.times, path)) for path in self.paths)
-        return Camera((x, y), self.anchor, float(np.exp(log_scale)))
-
-
-def _smooth(values: np.ndarray, spread: float) -> np.ndarray:
-    """Weighted with a bell of ``spread`` samples; the ends are held."""
-    reach = int(3 * spread) + 1
-    bell = np.exp(-0.5 * (np.arange(-reach, reach + 1) / max(spread, 1e-9)) ** 2)
-    padded = np.concatenate([np.full(reach, values[0]), values, np.full(reach, values[-1])])
-    return np.convolve(padded, bell / bell.sum(), mode="valid")

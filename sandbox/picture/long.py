@@ -63,9 +63,8 @@ class LongView(AboveView[P]):
     @cached_property
     def camera(self) -> Camera:
         """Of the strip."""
-        (_, top), (_, bottom) = self._area
         left, right = self.sheet.frame.left, self.sheet.frame.right
-        box, most = self.whole, STRIP * (bottom - top)
+        box, top, most = self.whole, self.area.top, STRIP * (self.area.bottom - self.area.top)
         scale = min((right - left) / (box.right - box.left), most / (box.top - box.bottom) / self.WIDER)
         tall = scale * self.WIDER * (box.top - box.bottom)
         middle = (box.left + box.right) / 2, (box.bottom + box.top) / 2
@@ -108,15 +107,16 @@ class LongView(AboveView[P]):
         return Camera((box.right, across), (lens.right, lens.centery), scale)
 
     def before(self, painter: Painter, camera: Camera, t: float) -> None:
-        """The near part, with the paths up to time t in s; and where in the strip it is."""
+        """The near part, with the paths up to time t in s or farther ``ahead``; and where in the strip it is."""
+        until = max(t, self.ahead)
         lens, near = self.lens, self.near_camera
         left, right = (near.world(x, 0.0)[0] for x in (lens.left, lens.right))
         (x, top), (end, bottom) = camera.pixel(left, self.whole.top), camera.pixel(right, self.whole.bottom)
         part = pygame.Rect(round(x), round(top), round(end - x), round(bottom - top))
         pygame.draw.rect(painter.surface, CARD["quiet"], part, max(1, round(self.unit)))
         around = pygame.Rect(lens).inflate(2, 2)
-        for a, b in ((part.bottomleft, around.topleft), (part.bottomright, around.topright)):
-            painter.line([a, b], max(1.0, self.unit), CARD["quiet"], 0.5)
+        beam = [part.bottomleft, part.bottomright, around.topright, around.topleft]
+        painter.polygon(beam, CARD["quiet"], 0.12)
         surface = painter.surface.subsurface(lens)
         local = Camera(near.at, (near.anchor[0] - lens.left, near.anchor[1] - lens.top), near.scale)
         surface.blit(drawn(self.plan, local, lens.size), (0, 0))
@@ -127,9 +127,9 @@ class LongView(AboveView[P]):
                 at = local.pixel(*ball.position)
                 inside.ring(at, ball.radius * local.scale, 1.5 * self.unit, self.colour_of(ball.name), 0.8)
         for name, path in self.paths.items():
-            some = path.points[path.samples[:, 0] <= t]
+            some = path.points[path.samples[:, 0] <= until]
             if len(some) and np.ptp(some, axis=0).max() > LEAST_WAY:
-                points = local.pixels(np.vstack([some, self.run.state(name, t)[:2]]))
+                points = local.pixels(np.vstack([some, self.run.state(name, min(until, path.until))[:2]]))
                 inside.line(points, (3.4 if name == self.ball else 2.2) * self.unit, self.colour_of(name), 0.8)
         for ghost in self.ghosts:
             inside.line(local.pixels(ghost.points), 2.4 * self.unit, ghost.colour, 0.8)

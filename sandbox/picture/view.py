@@ -239,6 +239,7 @@ class View(Generic[P]):
         self.radii = {ball.name: ball.radius for ball in run.setup.balls}  # m
         self.radius = self.radii[self.ball]
         self.ghosts = [self._ghost(i, *other) for i, other in enumerate((ghosts or {}).items())]
+        self.ahead = 0.0  # s; until then paths are shown that balls are still to go
         self._standing: tuple[Camera, pygame.Surface] | None = None
         self._tracks: dict[str, tuple[int, np.ndarray, np.ndarray]] = {}
 
@@ -303,8 +304,9 @@ class View(Generic[P]):
         self.backdrop(sheet.painter, self.camera)
         return sheet.surface
 
-    def draw_balls(self, painter: Painter, camera: Camera, t: float) -> None:
-        """All that moves, at time t in s, on the stage that the camera sees."""
+    def draw_balls(self, painter: Painter, camera: Camera, t: float, ahead: float = 0.0) -> None:
+        """All that moves, at time t in s, on the stage that the camera sees; paths in a lens until ``ahead`` in s."""
+        self.ahead = ahead
         self.behind(painter, camera, t)
         self._strings(painter, camera, t)
         self._balls(painter, camera, t)

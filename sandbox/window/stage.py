@@ -150,9 +150,10 @@ class Stage:
         draw_line(sheet.surface, line, width, colour_of(shot.ball))
         self._contacts(sheet, shot, until)
 
-    def draw_balls(self, sheet: Canvas, t: float) -> None:
-        """The balls of the composed shot at time t in s."""
-        self.picture.draw_balls(sheet.painter, self.camera, t)
+    def draw_balls(self, sheet: Canvas, t: float, until: float | None = None) -> None:
+        """The balls of the composed shot at time t in s; in a lens their paths until a time in s, or all of them."""
+        ahead = self.picture.run.duration if until is None else until
+        self.picture.draw_balls(sheet.painter, self.camera, t, ahead)
 
     def line(self, shot: Shot, ball: str = "", until: float | None = None) -> np.ndarray:
         """Points in px of the path of a ball, by default the played one, shape (n, 2); up to the time ``until`` (s)."""

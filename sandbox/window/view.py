@@ -486,7 +486,7 @@ class View:
             stage.draw_ghosts(sheet, self._ghosts(shot), shot if game.pull is None else None)
         self._draw_cloud(sheet, stage, shot)
         stage.draw_path(sheet, shot, self.until(shot))
-        stage.draw_balls(sheet, t or 0.0)
+        stage.draw_balls(sheet, t or 0.0, self.until(shot))
         forces = []
         if "arrows" in self.on:
             vectors: Vectors = self._once("vectors", shot, lambda: Vectors(shot.run, shot.ball))

@@ -8,9 +8,9 @@ from math import floor, hypot
 import numpy as np
 import pygame
 
-from sandbox.picture.above import AboveView, Margins
+from sandbox.picture.above import AboveView
 from sandbox.picture.ball import Look
-from sandbox.picture.camera import Camera
+from sandbox.picture.camera import Area, Camera
 from sandbox.picture.painter import Painter
 from sandbox.picture.palette import Colour, mix, palette, scene_colours
 from sandbox.picture.path import Mark
@@ -34,7 +34,6 @@ class Picture(AboveView[Parameters]):
 
     EARLIER = COLOURS["earlier"]
     SPINS = ("left", "right")  # counter-clockwise is what a tip to the right gives
-    MARGINS = Margins(0.05, 6, 12)
 
     @property
     def ball(self) -> str:
@@ -48,6 +47,12 @@ class Picture(AboveView[Parameters]):
     def seen(self) -> np.ndarray:
         """The table with its rails, which no ball leaves."""
         return np.array([outside(self.run.setup, self.parameters.table)]) * [[1], [-1]]
+
+    @property
+    def area(self) -> Area:
+        """All but the frame: the scale bar is next to the table."""
+        side, gap = 0.05 * self.size[0], self.sheet.gap
+        return Area(side, self.sheet.top_row + gap, self.size[0] - side, self.card_row - 2 * gap)
 
     # Balls
 

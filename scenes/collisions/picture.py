@@ -14,9 +14,10 @@ import pygame
 from sandbox.engine.setup import Body, Segment
 from sandbox.picture.above import AboveView
 from sandbox.picture.ball import Look, Mark, near
-from sandbox.picture.camera import Camera
+from sandbox.picture.camera import Area, Camera
 from sandbox.picture.painter import Painter
 from sandbox.picture.palette import Colour, palette, scene_colours
+from sandbox.picture.path import chip
 from sandbox.picture.places.plan import Plan
 from sandbox.picture.places.things import unit_of
 from sandbox.picture.sheet import Sheet, nice
@@ -28,7 +29,8 @@ from .scene import AMOUNTS, Blow, Parameters, blow, hangs, shares
 CARD, COLOURS = palette("card"), scene_colours(__file__)
 SPOTS = near(np.array(list(product((-1.0, 1.0), repeat=3))) / 3**0.5, 0.25)  # so that one sees them turn
 LOOKS = [Look(colour, Mark(COLOURS["spot"], SPOTS), gloss=0.7) for colour in COLOURS["balls"]]
-BARS, LONGEST = 0.27, 90.0  # share of the width that bars take; px on 720 rows of the longest arrow
+#: The share of the width that bars take, the rows of letters that two take with their title; px of the longest arrow.
+BARS, BLOCK, LONGEST = 0.27, 3.75, 90.0
 
 
 @dataclass(frozen=True)
@@ -62,9 +64,15 @@ class Picture(AboveView[Parameters]):
         return named if named in self.balls else self.balls[0]
 
     @property
-    def _area(self) -> tuple[tuple[float, float], tuple[float, float]]:
-        (left, top), (right, bottom) = super()._area
-        return (left, top), (right - BARS * self.size[0], bottom)
+    def area(self) -> Area:
+        """Left of the bars, if there are any."""
+        area = super().area
+        return area if self.met is None else area._replace(right=area.right - BARS * self.size[0])
+
+    @cached_property
+    def met(self) -> Blow | None:
+        """The blow."""
+        return blow(self.run, self.parameters)
 
     def look_of(self, name: str) -> Look:
         place = self.balls.index(name)
@@ -94,7 +102,7 @@ class Picture(AboveView[Parameters]):
 
     def annotate(self, sheet: Sheet, camera: Camera) -> None:
         """The line of action, and the velocities that the blow changes, before (pale) and after it."""
-        met = blow(self.run, self.parameters)
+        met = self.met
         if met is None:
             return
         self._sums(sheet, met)
@@ -139,30 +147,37 @@ class Picture(AboveView[Parameters]):
                 painter.line([camera.pixel(*place) for place in pair], 2 * unit, CARD["accent"])
             for place in pair:
                 painter.disc(camera.pixel(*place), 3.5 * unit, CARD["accent"])
-        above = self.card_row - 4.5 * self.sheet.gap
-        self.sheet.write(between.why, "small", (self.sheet.frame.right, above), CARD["text"], "bottomright")
+        spot = self.sheet.frame.right, self.card_row - 2 * self.sheet.gap, -1.0, -1.0
+        chip(self.sheet, between.why, [spot])
 
     def frame(self, t: float) -> pygame.Surface:
         """With the sums, from the blow on."""
-        picture, met = super().frame(t), blow(self.run, self.parameters)
+        picture, met = super().frame(t), self.met
         if met is not None and t >= met.t:
             self._sums(self.sheet, met)
         return picture
 
     def _sums(self, sheet: Sheet, met: Blow) -> None:
         """The sums that have to stay."""
-        top = sheet.top_row + 1.2 * sheet.lettering.height("small")
+        small, right, room = sheet.lettering.height("small"), sheet.frame.right, BARS * self.size[0]
         sums = {what: [shares(self.run, states, what) for states in (met.before, met.after)] for what in AMOUNTS}
         sums["energy"][1].append(max(0.0, sum(sums["energy"][0]) - sum(sums["energy"][1])))  # what is lost
         largest = {what: max(map(abs, chain(*parts))) for what, parts in sums.items()}
-        for what, parts in sums.items():
-            unit, _ = AMOUNTS[what]
-            if largest[what] > 0.02 * max(size for other, size in largest.items() if AMOUNTS[other][0] == unit):
-                top = self._bars(sheet, top, f"{what}: {signed(f'{round(sum(parts[0]), 9):.3g}')} {unit}", parts)
+        of_unit = {
+            unit: max(largest[what] for what in sums if AMOUNTS[what][0] == unit) for unit, _ in AMOUNTS.values()
+        }
+        shown = [what for what in sums if largest[what] > 0.02 * of_unit[AMOUNTS[what][0]]]
+        top, tall = sheet.top_row + 1.5 * small, len(shown) * BLOCK * small
+        board = pygame.Rect(round(right - room), round(top - 1.3 * small), round(room), round(tall + 0.2 * small))
+        sheet.painter.panel(board.inflate(2 * sheet.gap, 0), CARD["background"], CARD["opacity"], 10 * self.unit)
+        for i, what in enumerate(shown):
+            unit, total = AMOUNTS[what][0], sum(sums[what][0])
+            words = signed(f"{total if abs(total) > 1e-4 * largest[what] else 0.0:.3g}")
+            self._bars(sheet, top + i * BLOCK * small, f"{what}: {words} {unit}", sums[what])
 
-    def _bars(self, sheet: Sheet, top: float, title: str, sums: Sequence[Sequence[float]]) -> float:
+    def _bars(self, sheet: Sheet, top: float, title: str, sums: Sequence[Sequence[float]]) -> None:
         """Two bars of shares in the balls' colours, negative ones to the left, with a tick at their sum; what is lost
-        comes last. Returns the row below."""
+        comes last."""
         unit, right, small = self.unit, sheet.frame.right, sheet.lettering.height("small")
         room, thick, colours = (BARS - 0.06) * self.size[0], 0.75 * small, [*map(self.colour_of, self.balls)]
         least = min(float(np.minimum(parts, 0.0).sum()) for parts in sums)
@@ -180,4 +195,3 @@ class Picture(AboveView[Parameters]):
             sheet.painter.line([(total, top - 3 * unit), (total, top + thick + 3 * unit)], 2 * unit, CARD["accent"])
             sheet.write(word, "small", (left - 8 * unit, top + thick / 2), CARD["quiet"], "midright")
             top += thick
-        return top + 2.4 * thick

@@ -5,7 +5,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from sandbox.picture.camera import Area, Box, Camera, Follow
+from sandbox.picture.camera import Area, Box, Camera
+from sandbox.picture.chase import Follow
 
 metres = st.floats(-1e4, 1e4)
 cameras = st.builds(

@@ -7,6 +7,7 @@ from math import dist, hypot
 from types import SimpleNamespace
 
 import numpy as np
+import pygame
 import pytest
 
 import sandbox
@@ -177,3 +178,13 @@ def test_the_net_moves_with_a_swish_in_frames_and_in_the_window():
         picture.draw_balls(Painter(stage), picture.camera, t)
         seen.append([stage.get_at((round(box[0]) + x, round(box[1]) + 25))[:3] for x in range(-30, 30)])
     assert seen[0] != seen[1]
+
+
+def test_a_lens_shows_the_path_of_a_ball_that_is_aimed():
+    picture = picture_of("bowling")
+    seen = []
+    for ahead in (0.0, picture.run.duration):
+        stage = picture.stage()
+        picture.draw_balls(Painter(stage), picture.camera, 0.0, ahead)
+        seen.append(pygame.surfarray.array3d(stage.subsurface(picture.lens)).astype(int))
+    assert (np.abs(seen[0] - seen[1]).max(axis=2) > 40).sum() > 1000
