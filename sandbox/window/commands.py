@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from concurrent.futures import Future
 from functools import partial
 from pathlib import Path
@@ -12,6 +12,8 @@ import numpy as np
 import pygame
 
 from sandbox.engine.accuracy import LEVELS
+from sandbox.picture.energy_chart import energy_chart
+from sandbox.picture.graph import graph
 from sandbox.picture.palette import palette
 from sandbox.scene import listings, listings_in, scene_files_in
 from sandbox.scene.finding import folder_of, is_installed
@@ -135,10 +137,6 @@ def _rows(view: View, groups: tuple[str, ...], headings: bool) -> list[list[Row]
     ]
 
 
-def _help(view: View, by: float) -> None:
-    _open(view, "help", lambda: Board("Keys", _rows(view, GROUPS, headings=True), partial(do, view)))
-
-
 def _list(view: View, by: float, group: str) -> None:
     """The commands of a group, above its button; several can be switched in turn."""
     name = group.lower()
@@ -246,41 +244,25 @@ def _menu(view: View, by: float) -> None:
     _open(view, "menu", lambda: Menu(groups, game.open, picture_of, game.session.source))
 
 
-def _energy(view: View, by: float) -> None:
-    """The energy chart of the current shot."""
+def _chart(view: View, name: str, draw: Callable[[Shot, tuple[int, int]], pygame.Surface]) -> None:
+    """A chart of the current shot, drawn in the background."""
     shot, size = view.game.shot, view.area.size
     if shot is not None:
-        _open(view, "energy", lambda: Chart(view.background.submit(_energy_chart, shot, size)))
-
-
-def _energy_chart(shot: Shot, size: tuple[int, int]) -> pygame.Surface:
-    from sandbox.picture.energy_chart import energy_chart
-
-    return energy_chart(shot.run, size)
+        _open(view, name, lambda: Chart(view.background.submit(draw, shot, size)))
 
 
 def _graphs(view: View, by: float) -> None:
     """The graphs of the current shot with the earlier ones that began from the same place."""
-    shot, size = view.game.shot, view.area.size
-    if shot is not None:
-        earlier = [other for other in view.game.earlier(shot.start, but=shot) if other.number][-MOST_GRAPHS:]
-        _open(view, "graphs", lambda: Chart(view.background.submit(_graph, shot, earlier, size)))
-
-
-def _graph(shot: Shot, earlier: Sequence[Shot], size: tuple[int, int]) -> pygame.Surface:
-    from sandbox.picture.graph import graph
-
-    return graph(shot.run, size, {f"shot {other.number}": other.run for other in reversed(earlier)})
+    shot = view.game.shot
+    earlier = view.game.earlier(shot.start, but=shot) if shot is not None else []
+    others = {f"shot {other.number}": other.run for other in earlier[::-1][:MOST_GRAPHS] if other.number}
+    _chart(view, "graphs", lambda shot, size: graph(shot.run, size, others))
 
 
 def _wider(view: View, by: float) -> None:
     game = view.game
     game.fan_width = min(max(game.fan_width * 2.0**by, 1 / WIDEST), WIDEST)
     view.on.add("fan")
-
-
-def _zoom(view: View, by: float) -> None:
-    view.zoom(ZOOM**by, view.at if view.area.collidepoint(view.at) else view.area.center)
 
 
 def _predict(view: View, by: float) -> None:
@@ -394,15 +376,6 @@ def _text_size(view: View, by: float) -> None:
     view.set_look(TEXT_SIZES[min(max(place, 0), len(TEXT_SIZES) - 1)], contrast)
 
 
-def _contrast(view: View, by: float) -> None:
-    larger, contrast = view.game.memory.look
-    view.set_look(larger, not contrast)
-
-
-def _quit(view: View, by: float) -> None:
-    view.game.running = False
-
-
 #: Commands for the panel, which they open if it is closed.
 PANEL = ("row", "value", "row_reset", "group")
 
@@ -419,14 +392,14 @@ COMMANDS: dict[str, Callable[[View, float], object]] = {
     "faster": lambda view, by: _watching(view, "change_rate", int(by)),
     "next_shot": lambda view, by: view.game.watch_other(int(by)),
     "wider": _wider,
-    "energy": _energy,
+    "energy": lambda view, by: _chart(view, "energy", lambda shot, size: energy_chart(shot.run, size)),
     "graphs": _graphs,
     "shots": _shots,
     "find": _find,
     "predict": _predict,
     "tape": _tape,
     "accuracy": lambda view, by: view.game.trying(lambda: _accuracy(view, by)),
-    "zoom": _zoom,
+    "zoom": lambda view, by: view.zoom(ZOOM**by, view.at if view.area.collidepoint(view.at) else view.area.center),
     "pan_across": lambda view, by: view.pan(PAN * by, 0),
     "pan_down": lambda view, by: view.pan(0, PAN * by),
     "fit": lambda view, by: view.look(None),
@@ -444,11 +417,11 @@ COMMANDS: dict[str, Callable[[View, float], object]] = {
     "rack": lambda view, by: view.game.begin_again(),
     "sound": _sound,
     "text_size": _text_size,
-    "contrast": _contrast,
+    "contrast": lambda view, by: view.set_look(view.game.memory.look[0], not view.game.memory.look[1]),
     "fullscreen": lambda view, by: view.toggle_full_screen(),
-    "help": _help,
+    "help": lambda view, by: _open(view, "help", lambda: Board("Keys", _rows(view, GROUPS, True), partial(do, view))),
     "back": _back,
-    "quit": _quit,
+    "quit": lambda view, by: setattr(view.game, "running", False),
     "row": lambda view, by: view.panel.choose(int(by)),
     "value": lambda view, by: view.panel.nudge(by),
     "row_reset": lambda view, by: view.panel.reset_row(),

@@ -24,7 +24,7 @@ ACTIONS = {
 }
 STEPS = {pygame.K_UP: -1, pygame.K_DOWN: 1, pygame.K_PAGEUP: -10, pygame.K_PAGEDOWN: 10}
 SIDES = {pygame.K_LEFT: -1, pygame.K_RIGHT: 1}
-#: Share of the picture that it takes; width of a column of numbers, and height of the histogram, in px on 720 rows.
+#: Share of the picture that it takes at most; width of a column, and height of the histogram, in px on 720 rows.
 SHARE, COLUMN, TALL = (0.92, 0.86), 104, 74
 BINS = 24
 
@@ -97,7 +97,9 @@ class Table(Scrolled):
     def draw(self, sheet: Canvas, mouse: tuple[int, int], on: Collection[str]) -> None:
         gap, unit, letters = sheet.gap, sheet.unit, sheet.lettering
         rows, row = self.rows, letters.height("small") + gap
-        rect = pygame.Rect(0, 0, *(round(share * side) for share, side in zip(SHARE, sheet.size, strict=True)))
+        wide, most = (round(share * side) for share, side in zip(SHARE, sheet.size, strict=True))
+        tall = letters.height("medium") + (1 + len(rows)) * row + round(TALL * unit) + 7 * gap
+        rect = pygame.Rect(0, 0, wide, min(tall, most))
         rect.center = sheet.surface.get_rect().center
         sheet.painter.panel(rect, CARD["background"], 1.0, 10 * unit)
         inner = rect.inflate(-4 * gap, -3 * gap)

@@ -563,7 +563,8 @@ class View:
         """Cards down the right side, what the mouse reads, the tape."""
         game, top = self.game, float(sheet.frame.top)
         if not self.follows:
-            top = max(top, float(stage.foot_of_wind))
+            handle = any(grip.is_wind for grip, _ in self.spots)
+            top = max(top, float(stage.foot_of_wind), top + 2 * hand.FOOT[1] * sheet.unit * handle)
         if "cost" in self.on:
             level = game.session.value("accuracy.level")
             text = f"frame {1e3 * self.frame_cost:.1f} ms; run {1e3 * game.cost:.1f} ms, {level}"
