@@ -27,7 +27,7 @@ from sandbox.engine.acting import checked
 from sandbox.engine.arc import Arc, still
 from sandbox.engine.meeting import Meeting, discs, meeting, returns, rounding, stays, surface_met, surfaces_met
 from sandbox.engine.one_point import one_point
-from sandbox.engine.real_space import RealSpace, speeds_at
+from sandbox.engine.real_space import RealSpace, rolls, speeds_at
 from sandbox.engine.run import Numerics
 from sandbox.engine.setup import Ball, Setup, Surface, outline_of
 from sandbox.engine.surfaces import STILL, bounce_of_balls, bounce_off, press
@@ -78,9 +78,10 @@ class _Member:
         self.before: set[Obstacle | int] = set()  # the same in the step before
         real.space.add(self.brake)
 
-    def resist(self, surface: Surface, push: float) -> None:
-        """Add the torque of rolling resistance on a surface that presses with ``push`` (N)."""
-        self.resistance += surface.rolling_resistance * push * self.ball.radius * (1.0 + self.ball.inertia_factor)
+    def resist(self, surface: Surface, push: float, height: float) -> None:
+        """Add the torque of rolling resistance on a surface that presses with ``push`` (N) and is ``height`` (m) from
+        the centre."""
+        self.resistance += surface.rolling_resistance * push * (height + self.ball.inertia / (self.ball.mass * height))
 
 
 class Heap:
@@ -184,7 +185,8 @@ class Heap:
             if index in fresh and not angle:
                 for obstacle, touching in self._tracks[index].near(x, y, self.margin):
                     pushed = press(states[index], applied[index], touching.nx, touching.ny, touching.curvature)
-                    self._members[index].resist(obstacle.surface, self._tracks[index].ball.mass * max(0.0, pushed))
+                    ball = self._tracks[index].ball
+                    self._members[index].resist(obstacle.surface, ball.mass * max(0.0, pushed), ball.radius)
         self._forced = max(hypot(*applied[index][:2]) + self._swing(index, state) for index, state in states.items())
         self._fastest = _SLOW * self._forced * self._longest
         for index, (x, y, vx, vy, spin, *angle) in states.items():
@@ -309,9 +311,12 @@ class Heap:
         here = self._members[i]
         push = abs(arbiter.total_impulse.dot(arbiter.normal))
         on_surface = second in self._real.surface_of
-        if on_surface and discs(here.ball):
-            here.resist(self._setup.surfaces[self._real.surface_of[second]], push / self._h)
-        elif push > _PRESSURE * here.ball.mass * self._forced * self._h:
+        if on_surface and rolls(here.ball, arbiter):
+            height = here.ball.radius
+            if not discs(here.ball):
+                height = abs(arbiter.normal.dot(arbiter.contact_point_set.points[0].point_a - here.body.position))
+            here.resist(self._setup.surfaces[self._real.surface_of[second]], push / self._h, height)
+        if not (on_surface and discs(here.ball)) and push > _PRESSURE * here.ball.mass * self._forced * self._h:
             self._pressed[frozenset((i,) if on_surface else (i, self._of_disc[second]))] = self._steps
 
 

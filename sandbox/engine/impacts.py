@@ -8,9 +8,9 @@ from math import dist, hypot
 from typing import NamedTuple
 
 from sandbox.engine.impulses import Contact, Lanes, exchange_alone, exchange_at_once, lanes
-from sandbox.engine.meeting import Speeds, discs, meeting, speeds_at, surfaces_met
+from sandbox.engine.meeting import Meeting, discs, farthest, meeting, speeds_at, surfaces_met
 from sandbox.engine.run import Numerics
-from sandbox.engine.setup import Ball, Body, Bounce, Setup, Surface, Vector, kinetic
+from sandbox.engine.setup import Ball, Body, Bounce, Setup, Surface, kinetic
 from sandbox.engine.surfaces import (
     CLOSING,
     after_impulses,
@@ -159,26 +159,26 @@ class Impacts:
             for obstacle, found in surfaces_met(track.ball, track.obstacles, states[index], self.gap):
                 if (self._all_soft or obstacle.surface.nose_height is not None) not in softness:
                     continue
-                for point, speeds in zip(found.points, found.speeds, strict=True):
+                for number, point in enumerate(found.points):
                     place = *point, *(track.ball.radius * part for part in found.normal)
                     if all(dist(place, other) > _SAME_POINT * track.ball.radius for other in met):
                         met.append(place)
-                        yield self._with_surface(index, states[index], obstacle.surface, found.normal, point, speeds)
+                        yield self._with_surface(index, states[index], obstacle.surface, found, number)
 
-    def _with_surface(
-        self, index: int, state: State, surface: Surface, normal: Vector, point: Vector, speeds: Speeds
-    ) -> Contact:
-        ball, (nx, ny), (approach, along, _), sine = self._tracks[index].ball, normal, speeds, 0.0
+    def _with_surface(self, index: int, state: State, surface: Surface, found: Meeting, number: int) -> Contact:
+        """At one of the points where they meet; what depends on the speed along takes that of the centre."""
+        ball, (nx, ny), point, sine = self._tracks[index].ball, found.normal, found.points[number], 0.0
+        approach, along = found.speeds[number][0], state[2] * ny - state[3] * nx
+        bounce = bounce_off(surface, approach, along)
+        if bounce.tilt != 0.0:
+            nx, ny = tilted(nx, ny, bounce.tilt, along)
+            point = farthest(ball, state, (nx, ny)) if len(found.points) == 1 else point
         if discs(ball):
-            approach, along = -(state[2] * nx + state[3] * ny), state[2] * ny - state[3] * nx  # of the centre
-            bounce = bounce_off(surface, approach, along)
-            if bounce.tilt != 0.0:
-                nx, ny = tilted(nx, ny, bounce.tilt, along)
-            if surface.nose_height is not None:
-                sine = raised(ball.radius, surface.nose_height)
+            sine = 0.0 if surface.nose_height is None else raised(ball.radius, surface.nose_height)
             speeds = speeds_where_touching([ball], [state], nx, ny, sine)
         else:
-            bounce = _once(bounce_off(surface, approach, along), approach)
+            bounce = _once(bounce, approach)
+            speeds = speeds_at((state,), point, (nx, ny))
         return Contact((index,), surface.name, nx, ny, sine, bounce, approach, speeds, point)
 
     def _with_balls(self, states: dict[int, State]) -> Iterator[Contact]:

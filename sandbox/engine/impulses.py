@@ -166,6 +166,7 @@ def exchange_alone(
     smaller = (away * along - both * both) / larger
     arm = sqrt(max(0.0, away / smaller - 1.0)), -sqrt(max(0.0, along / smaller - 1.0))
     approach, slip, _ = contact.speeds
+    slip *= 1.0 + contact.bounce.tangential  # ending that much is reversing a share of what there is
     arm = copysign(arm[0], both), arm[1]
     push, rub = lanes(Lanes).exchange(approach, slip, 1.0, bounce.restitution, bounce.friction, arm)
     px, py = (push * nx + rub * ny) / smaller, (push * ny - rub * nx) / smaller

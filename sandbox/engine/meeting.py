@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from functools import lru_cache, partial
-from math import atan2, hypot
+from math import atan2, cos, hypot, sin
 from typing import NamedTuple
 
 from sandbox.engine.accuracy import SKIN
@@ -129,6 +129,14 @@ def stays(
         return approach > STILL or not lifts(body, state, met.points[at], met.normal, applied)
     shapes = outline_of(body), standing(obstacle.surface.shape).shape
     return approach == met.closing and returns(shapes, (state,), (applied,), met, height)
+
+
+def farthest(ball: Ball, state: State, normal: Vector) -> Vector:
+    """The point of a ball or body that is farthest against a normal, in m."""
+    outline, (u, v, angle), (nx, ny) = outline_of(ball), pose_of(state), normal
+    down, c, s = atan2(-ny, -nx) - angle, cos(angle), sin(angle)
+    x, y = outline.support(outline.corner_towards(down), down)
+    return u + c * x - s * y - outline.radius * nx, v + s * x + c * y - outline.radius * ny
 
 
 def lifts(body: Ball, state: State, point: Vector, normal: Vector, applied: Acceleration) -> bool:

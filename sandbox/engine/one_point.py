@@ -11,12 +11,13 @@ as unknowns, are two linear equations:
     An + N/m + l (A + (l N + h F) / I) + w^2 (h - r) = 0,        At + F/m + h (A + (l N + h F) / I) - w^2 l = 0
 
 with A the acceleration by other forces. Sliding has ``F = -mu N`` against the slip in place of the second. So a body
-tips over, rocks and rolls as accurately as it flies. Left out: resistance to rolling.
+tips over, rocks and rolls as accurately as it flies. A curved side that rolls on a surface with resistance c has N act
+``c (h + I / (m h))`` ahead of the point: a disc is slowed by c N / m, as a ball is.
 """
 
 from __future__ import annotations
 
-from math import atan2, cos, inf, remainder, sin
+from math import atan2, copysign, cos, inf, remainder, sin
 from typing import NamedTuple
 
 from sandbox.engine.arc import Arc, crossing
@@ -69,9 +70,12 @@ class OnePoint(LastingContact):
         return float(_LONGEST_TURN / (abs(state[4]) + _SLOW))
 
     def progress(self, ball: Ball, state: State) -> float:
-        """What ends this motion when it falls to zero: the slip in m/s."""
-        sticks = self.mode == SLIDING and self.obstacle.surface.friction > 0.0
-        return self.direction * self.slip(ball, state) if sticks else inf
+        """What ends this motion when it falls to zero: the slip in m/s, or a spin in rad/s that is resisted."""
+        surface = self.obstacle.surface
+        if self.mode == SLIDING:
+            return self.direction * self.slip(ball, state) if surface.friction > 0.0 else inf
+        resisted = surface.rolling_resistance > 0.0 and self.arm(ball, state).bend > 0.0
+        return self.direction * float(state[4]) if resisted else inf
 
     def slip(self, ball: Ball, state: State) -> float:
         """Speed in m/s of the body along the side where it touches."""
@@ -85,20 +89,23 @@ class OnePoint(LastingContact):
             return (0.0, 0.0, 0.0), inf, inf
         nx, ny = self.touching.nx, self.touching.ny
         (ax, ay, turning), (along, height, bend) = applied, self.arm(ball, state)
-        spin2, inertia, friction = state[4] * state[4], ball.inertia / ball.mass, self.obstacle.surface.friction
+        surface, spin2, inertia = self.obstacle.surface, state[4] * state[4], ball.inertia / ball.mass
+        friction, pressing = surface.friction, along
         into = -(ax * nx + ay * ny + along * turning + spin2 * (height - bend))
         across, lever = 1.0 + along * along / inertia, along * height / inertia
         if self.mode == SLIDING:
             normal = into / (across - self.direction * friction * lever)
             rub, spare = -self.direction * friction * normal, 0.0
         else:
+            if bend > 0.0:
+                pressing -= self.direction * surface.rolling_resistance * (height + inertia / height)
             against = -(ax * ny - ay * nx + height * turning - spin2 * along)
-            level = 1.0 + height * height / inertia
-            determinant = across * level - lever * lever
+            across, level = 1.0 + along * pressing / inertia, 1.0 + height * height / inertia
+            determinant = across * level - lever * pressing * height / inertia
             normal = (into * level - against * lever) / determinant
-            rub = (against * across - into * lever) / determinant
+            rub = (against * across - into * pressing * height / inertia) / determinant
             spare = friction * normal * _WITHIN_ROUNDING - abs(rub)
-        turning += (along * normal + height * rub) / inertia
+        turning += (pressing * normal + height * rub) / inertia
         return (ax + normal * nx + rub * ny, ay + normal * ny - rub * nx, turning), normal, spare
 
     def room(self, ball: Ball, state: State) -> float:
@@ -159,16 +166,19 @@ def one_point(
     core = min(shape.candidates(down), key=lambda place: _off(place, state, point, shape.radius, met.normal))
     touching = Touching(met.gap, nx, ny, 0.0, core, SIDE)
     rolling = OnePoint(ROLLING, obstacle, touching)
-    (ax, ay, turning), normal, spare = rolling.forces(ball, applied, state)
     if lifts(ball, state, point, met.normal, applied):
         return None
     slip, speed = rolling.slip(ball, state), abs(state[2] * ny - state[3] * nx) + ball.radius * abs(state[4])
     if abs(slip) > STILL * (1.0 + speed):
         return _sliding(rolling, ball, rolling.arm(ball, state), 1.0 if slip > 0.0 else -1.0)
+    at_rest = speed <= STILL
+    starts = rolling.forces(ball, applied, state)[0][2] if at_rest else state[4]
+    rolling = rolling._replace(direction=copysign(1.0, starts))
+    (ax, ay, turning), _, spare = rolling.forces(ball, applied, state)
     if slips or spare < 0.0 or obstacle.surface.friction == 0.0:
         rub = (ax - applied[0]) * ny - (ay - applied[1]) * nx  # against the way in which it starts to slip
         return _sliding(rolling, ball, rolling.arm(ball, state), -1.0 if rub > 0.0 else 1.0)
-    if speed <= STILL and abs(ax) + abs(ay) + ball.radius * abs(turning) <= PUSH:
+    if at_rest and ball.radius * rolling.direction * turning <= PUSH:
         return OnePoint(RESTING, obstacle, touching)
     return rolling
 

@@ -21,9 +21,10 @@ from sandbox.engine.acting import checked
 from sandbox.engine.arc import Arc
 from sandbox.engine.event import Event
 from sandbox.engine.path import Path
-from sandbox.engine.real_space import ONLY_SURFACES, RealSpace, speeds_at
+from sandbox.engine.real_space import ONLY_SURFACES, RealSpace, rolls, speeds_at
 from sandbox.engine.run import Numerics, Run
 from sandbox.engine.setup import Ball, Body, Setup, Surface
+from sandbox.engine.shapes import Ellipse
 from sandbox.engine.step_control import JUMP, stiff
 from sandbox.engine.surfaces import (
     bounce_of_balls,
@@ -33,7 +34,7 @@ from sandbox.engine.surfaces import (
     speeds_where_touching,
 )
 from sandbox.engine.touch import Outline
-from sandbox.errors import RunError
+from sandbox.errors import RequestError, RunError
 from sandbox.physics.cushion import rebound
 from sandbox.physics.integrators import Acceleration, State
 
@@ -133,6 +134,12 @@ class PlainSimulation:
             body.position, body.velocity, body.angular_velocity = ball.position, ball.velocity, ball.spin
             if isinstance(ball, Body):
                 body.angle = ball.angle
+                resists = next((surface.name for surface in setup.surfaces if surface.rolling_resistance > 0.0), None)
+                if resists is not None and isinstance(ball.shape, Ellipse):
+                    raise RequestError(
+                        f"body {ball.name!r} is an ellipse, whose rolling the plain method cannot resist: set the "
+                        f'rolling_resistance of {resists!r} to 0, or use accuracy.method = "exact"'
+                    )
             body.velocity_func = self._real.guarded(self._move)
             self._tracked[body] = _Tracked(ball, body, setup.plane is not None and setup.plane_of(ball.name).rolls)
 
@@ -261,7 +268,7 @@ class PlainSimulation:
             arbiter.restitution, arbiter.friction = bounce.restitution, friction_in_plane(bounce.friction, *slip)
             first.pending[arbiter.shapes[1]] = _Pending(bounce.friction, slip)
             return
-        along = slip[0] if first.turns else states[0][2] * ny - states[0][3] * nx
+        along = states[0][2] * ny - states[0][3] * nx
         acceleration = (0.0, 0.0) if first.last is None else first.last[1]
         press = max(0.0, -acceleration[0] * nx - acceleration[1] * ny)  # m/s^2
         lasts = abs(approach) <= 2.0 * press * self._accuracy.step  # the speed that weight alone adds in a step or two
@@ -274,8 +281,6 @@ class PlainSimulation:
         elif approach > 0.0 or lasts:
             restitution, friction, tilt, tangential = bounce_off(surface, approach, along)
             arbiter.restitution, arbiter.friction = 0.0 if lasts else restitution, friction_in_plane(friction, *slip)
-            if first.turns:
-                return
             back = 0.0 if lasts else tangential * slip[0]
             arbiter.surface_velocity = -back * ny, back * nx
             # a tilted surface is equivalent to a level one that meets a velocity rotated the other way; it is rotated
@@ -283,7 +288,7 @@ class PlainSimulation:
             turned = 0.0 if lasts or any(pending.turned for pending in first.pending.values()) else tilt
             turned = turned if along >= 0.0 else -turned
             first.body.velocity = first.body.velocity.rotated(-turned)
-            resistance = surface.rolling_resistance if lasts else 0.0
+            resistance = surface.rolling_resistance if lasts and rolls(first.ball, arbiter) else 0.0
             lowest = (2.0 * press * surface.lowest_bounce) ** 0.5
             first.pending[arbiter.shapes[1]] = _Pending(friction, slip, resistance, lowest, turned)
 
@@ -298,9 +303,11 @@ class PlainSimulation:
         if surface is not None:
             body = first.body
             body.velocity = body.velocity.rotated(pending.turned)
-            approach, slip, _ = speeds_where_touching([first.ball], [first.state()], nx, ny)
+            approach, slip = speeds_at(arbiter)
             if 0.0 < -approach <= pending.lowest:  # a bounce that the surface absorbs
-                body.velocity += (approach * nx, approach * ny)
+                point = arbiter.contact_point_set.points[0].point_a
+                moved = 1.0 / body.mass + arbiter.normal.cross(point - body.position) ** 2 / body.moment
+                body.apply_impulse_at_world_point(-approach / moved * arbiter.normal, point)
             speed = body.velocity.length
             if pending.resistance > 0.0 and abs(slip) <= _GRIP * speed:
                 slower = max(0.0, 1.0 - pending.resistance * push / first.ball.mass / (speed + 1e-30))

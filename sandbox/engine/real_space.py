@@ -8,6 +8,7 @@ from typing import Any, cast
 import pymunk
 
 from sandbox.engine.setup import Ball, Circle, Surface, outline_of
+from sandbox.engine.shapes import Ellipse
 
 _BALL, _SURFACE = 1, 2
 
@@ -92,3 +93,9 @@ def speeds_at(arbiter: pymunk.Arbiter) -> tuple[float, float]:
         vx, vy = one.velocity_at_world_point(contact.point_a) - other.velocity_at_world_point(contact.point_b)
         found.append((vx * nx + vy * ny, vy * nx - vx * ny))
     return max(found)
+
+
+def rolls(ball: Ball, arbiter: pymunk.Arbiter) -> bool:
+    """Whether it touches with a curved side."""
+    outline = outline_of(ball)
+    return isinstance(outline, Ellipse) or (outline.radius > 0.0 and len(arbiter.contact_point_set.points) == 1)

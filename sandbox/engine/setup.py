@@ -120,6 +120,8 @@ class Body(Ball):
             raise ValueError(f"body {self.name!r}: center = {self.center} m must be inside its shape")
         if not finite(self.angle):
             raise ValueError(f"body {self.name!r}: angle = {self.angle} must be finite")
+        if self.rolling_spin != (0.0, 0.0):
+            raise ValueError(f"body {self.name!r}: rolling_spin = {self.rolling_spin} rad/s is only for balls")
         about = mass * (moment / area + (center[0] - x) ** 2 + (center[1] - y) ** 2)
         about = about if self.moment is None else self.moment
         given = {"mass": mass, "density": 0.0, "outline": outline, "radius": outline.reach}
@@ -377,6 +379,11 @@ class Setup:
             raise ValueError("a setup with planes for some balls needs a plane for all others")
         if self.plane is not None and any(isinstance(ball, Body) for ball in self.balls):
             raise ValueError("bodies cannot move on a plane seen from above: only balls can")
+        if any(isinstance(ball, Body) for ball in self.balls):
+            if self.contact.name == "hertz":
+                raise ValueError('contact model "hertz" is for balls: bodies meet as rigid ones')
+            if cushion := next((surface.name for surface in self.surfaces if surface.nose_height is not None), None):
+                raise ValueError(f"surface {cushion!r} has a nose_height: only balls can meet it, no bodies")
         if len(names) > 1 and (losing := next((ball.name for ball in self.balls if ball.loss is not None), None)):
             raise ValueError(f"ball {losing!r} loses mass, so it must be the only ball")
         if not 0.0 < self.duration < inf:

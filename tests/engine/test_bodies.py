@@ -17,11 +17,12 @@ from sandbox.engine.arc import Arc, through
 from sandbox.engine.lasting import SLIDING
 from sandbox.engine.nearest import Pose, nearest
 from sandbox.engine.run import Run
-from sandbox.engine.setup import Always, Ball, Body, Bounce, Segment, Setup, Surface, kinetic
+from sandbox.engine.setup import Always, Ball, Body, Bounce, ContactModel, Segment, Setup, Surface, kinetic
 from sandbox.engine.shapes import Ellipse, Polygon, Shape, box, capsule, disc, regular
 from sandbox.engine.turning_touch import Mover, first_touch, pose_of
-from sandbox.errors import RunError
+from sandbox.errors import RequestError, RunError
 from sandbox.physics.forces import Gravity
+from sandbox.physics.ice import Glide
 
 G = 9.81  # m/s^2
 OUTLINES = {
@@ -110,6 +111,7 @@ def test_mass_follows_from_density_and_center_and_moment_may_be_given():
         ({"shape": box(1.0, 1.0), "mass": 1.0, "center": (0.6, 0.0)}, "inside"),
         ({"shape": box(1.0, 1.0), "mass": 1.0, "angle": math.nan}, "finite"),
         ({"shape": box(1.0, 1.0), "mass": 1.0, "moment": -1.0}, "positive"),
+        ({"shape": box(1.0, 1.0), "mass": 1.0, "rolling_spin": (1.0, 0.0)}, "rolling_spin"),
     ],
 )
 def test_a_wrong_body_is_refused_with_its_reason(wrong: dict[str, Any], said: str):
@@ -276,6 +278,73 @@ def test_a_disc_as_body_is_a_ball(friction: float):
     runs = [run_of([one], 1.6, floor(0.8, friction)) for one in (ball, thrown(disc(0.2), **start))]
     assert len(runs[0].events) == len(runs[1].events) >= 2
     assert runs[1].state("body", 1.6) == pytest.approx(runs[0].state("body", 1.6), abs=1e-9)
+
+
+def grass(normal_speed: float, slip_speed: float) -> Bounce:
+    """A law of both speeds, whose surface tilts and gives back some of the slip."""
+    return Bounce(0.7 - 0.01 * normal_speed, 0.3 + 0.02 * slip_speed, 0.05, 0.2)
+
+
+LEVEL, STEEP, SLIGHT = (Segment((-50.0, rise), (50.0, -rise)) for rise in (0.0, 20.0, 2.0))
+
+
+@pytest.mark.parametrize(
+    "surface",
+    [
+        Surface("floor", LEVEL, 0.7, 0.4, law=grass),
+        Surface("floor", LEVEL, 0.7, 0.4, lowest_bounce=0.2),
+        Surface("floor", LEVEL, 0.0, 0.8, rolling_resistance=0.1),
+        Surface("floor", STEEP, 0.0, 0.8, rolling_resistance=0.1),
+        Surface("floor", SLIGHT, 0.0, 0.8, rolling_resistance=0.1),
+    ],
+)
+def test_what_a_surface_does_to_a_ball_it_does_to_a_disc(surface: Surface):
+    start: dict[str, Any] = {"position": (0.0, 0.9), "velocity": (2.0, 0.5), "spin": -7.0}
+    ball = Ball("body", 2.0, 0.2, inertia_factor=0.5, forces=(Gravity(2.0, G),), **start)
+    runs = [run_of([body], 4.0, [surface]) for body in (ball, thrown(disc(0.2), **start))]
+    without = run_of([ball], 4.0, [Surface("floor", surface.shape, surface.restitution, surface.friction)])
+    assert (len(runs[0].events), *runs[0].state("body", 4.0)) != pytest.approx(
+        (len(without.events), *without.state("body", 4.0)), abs=0.05
+    )
+    assert runs[1].state("body", 4.0) == pytest.approx(runs[0].state("body", 4.0), abs=2e-8)
+    assert [event.kind for event in runs[1].events] == [event.kind for event in runs[0].events]
+    assert runs[1].ended == runs[0].ended
+    plain = replace(LEVELS["balanced"], method="plain", step=5e-4)
+    stepped = [simulate(Setup([body], [surface], 1.5), plain) for body in (ball, thrown(disc(0.2), **start))]
+    assert stepped[1].state("body", 1.5) == pytest.approx(stepped[0].state("body", 1.5), abs=1e-6)
+    assert stepped[1].state("body", 1.5) == pytest.approx(runs[1].state("body", 1.5), abs=0.3)
+
+
+def test_an_ellipse_rocks_to_rest_where_rolling_is_resisted():
+    """It stops where the lever of its own weight is less than that of the resistance."""
+    start: dict[str, Any] = {"position": (0.0, 0.2), "velocity": (-0.8, 0.0), "spin": 4.0}
+    surface = Surface("floor", LEVEL, 0.0, 2.0, rolling_resistance=0.05)
+    run = run_of([thrown(Ellipse(0.3, 0.2), **start)], 20.0, [surface])
+    turn = run.angle("body", 20.0)
+    h = math.sqrt((0.3 * math.sin(turn)) ** 2 + (0.2 * math.cos(turn)) ** 2)
+    lever = abs(0.05 * math.sin(turn) * math.cos(turn)) / h
+    assert run.ended == "rest"
+    assert run.duration > 1.0
+    assert lever <= 0.05 * (h + 0.25 * (0.09 + 0.04) / h)
+
+
+@pytest.mark.parametrize(
+    ("more", "said"),
+    [
+        ({"contact": ContactModel("hertz")}, "hertz.*bodies"),
+        ({"surfaces": [Surface("cushion", LEVEL, 0.5, 0.1, nose_height=0.1)]}, "'cushion'.*bodies"),
+        ({"plane": Glide(0.1)}, "bodies cannot move on a plane"),
+    ],
+)
+def test_what_bodies_do_not_know_is_refused(more: dict[str, Any], said: str):
+    with pytest.raises(ValueError, match=said):
+        Setup([Body("body", position=(0.0, 0.0), shape=box(1.0, 1.0), mass=1.0)], **more)
+
+
+def test_the_plain_method_refuses_what_it_cannot_do():
+    setup = Setup([thrown(Ellipse(0.3, 0.2), position=(0.0, 1.0))], [Surface("grass", LEVEL, 0.5, 0.5, 0.1)])
+    with pytest.raises(RequestError, match="rolling_resistance of 'grass'"):
+        simulate(setup, replace(LEVELS["balanced"], method="plain"))
 
 
 def test_a_64_gon_converges_to_its_ellipse():
