@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from functools import cached_property
 from math import inf
-from typing import Any, overload
+from typing import Any
 
 import numpy as np
 
@@ -53,7 +53,7 @@ class Paths:
         values = np.array(curve(arc_of(rows.T)))
         whole = set(self._numbers(first + np.flatnonzero(values[-1] == 0.0)))  # it may pass just where an arc ends
         for number in whole:
-            for passage in Path(self[number]).passages(curve):
+            for passage in Path(list(self[number])).passages(curve):
                 yield number, passage
         some = np.flatnonzero((values.min(axis=0) <= 0.0) & (values.max(axis=0) > 0.0))
         u, unclear = first_downward_crossing(values[:, some], halvings=0)
@@ -84,13 +84,7 @@ class ArcRows(Path):
     def __len__(self) -> int:
         return self.last - self.first
 
-    @overload
-    def __getitem__(self, index: int) -> Arc: ...
-    @overload
-    def __getitem__(self, index: slice) -> list[Arc]: ...
-    def __getitem__(self, index: int | slice) -> Arc | list[Arc]:
-        if isinstance(index, slice):
-            return [arc_of(row) for row in self._rows[index].tolist()]
+    def __getitem__(self, index: int) -> Arc:
         return arc_of(self._rows[index].tolist())
 
     def __iter__(self) -> Iterator[Arc]:

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from bisect import bisect_left, bisect_right
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from functools import cached_property
 from math import inf
-from typing import Any, NamedTuple, Protocol, overload
+from typing import Any, NamedTuple, Protocol
 
 from sandbox.engine.arc import Arc
 from sandbox.engine.bernstein import downward_crossings
@@ -44,7 +44,7 @@ def height(passage: Passage) -> float:
     return passage[1][1]
 
 
-class Path(Sequence[Arc]):
+class Path:
     """Arcs in order of time, without gaps; at least one."""
 
     def __init__(self, arcs: Sequence[Arc]) -> None:
@@ -53,12 +53,11 @@ class Path(Sequence[Arc]):
     def __len__(self) -> int:
         return len(self._arcs)
 
-    @overload
-    def __getitem__(self, index: int) -> Arc: ...
-    @overload
-    def __getitem__(self, index: slice) -> Sequence[Arc]: ...
-    def __getitem__(self, index: int | slice) -> Arc | Sequence[Arc]:
+    def __getitem__(self, index: int) -> Arc:
         return self._arcs[index]
+
+    def __iter__(self) -> Iterator[Arc]:
+        return iter(self._arcs)
 
     @cached_property
     def starts(self) -> Sequence[float]:

@@ -13,6 +13,7 @@ from PIL import Image
 
 from sandbox.engine.arc import Arc
 from sandbox.engine.heap import Heaped
+from sandbox.engine.path import Path
 from sandbox.engine.run import Run
 from sandbox.engine.track import PRESSED
 from sandbox.errors import RequestError
@@ -216,9 +217,9 @@ def _static(view: View[Any], run: Run) -> dict[str, Any]:
     }
 
 
-def _path(arcs: Sequence[Arc]) -> dict[str, Any]:
+def _path(arcs: Path) -> dict[str, Any]:
     """The arcs of a ball, each until the next begins where it does not say otherwise."""
-    ends = [*(arc.t0 for arc in arcs[1:]), arcs[-1].t1]
+    ends = [*arcs.starts[1:], arcs[-1].t1]
     rows = [_arc(arc) for arc in arcs]
     for arc, row, end in zip(arcs, rows, ends, strict=True):
         if arc.t1 != end:
