@@ -2,23 +2,19 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from functools import cached_property
 from math import asin, atan2, cos, pi, sin
 
 import numpy as np
-import pygame
 
 from sandbox.picture.ball import Look, seams
 from sandbox.picture.camera import Box, Camera
-from sandbox.picture.depth import Eye
-from sandbox.picture.lettering import Labels
-from sandbox.picture.painter import Painter, around_corners
+from sandbox.picture.lens import LensView
+from sandbox.picture.painter import Painter
 from sandbox.picture.palette import mix, palette, scene_colours
-from sandbox.picture.path import Mark, draw_trace, mark_impacts
 from sandbox.picture.places import Hall, Line, Person, Size, boards
 from sandbox.picture.sheet import Entry, Sheet
-from sandbox.picture.side import Length, Place, SideView
+from sandbox.picture.side import Length, Place
 from sandbox.sport.amounts import metres, roughly, times
 
 from .hoop import Net, hoop, stand
@@ -29,10 +25,6 @@ BALL, FLOOR = COLOURS["ball"], COLOURS["floor"]
 
 #: How far behind the board the stand reaches, and before the release the thrower, in m.
 STAND, THROWER = 2.5, 0.7
-#: The lens shows so much of the world around the ring, in m, on so many px (of 720 rows).
-LENS_VIEW, LENS = 1.22, 286
-#: There is no lens if the whole would have to be drawn smaller than this for it, or if it were no larger than this.
-LEAST_SHRINK, LEAST_LENS = 0.85, 1.5
 #: The court of the NBA, in m: key, free-throw circle, three-point line, from the middle to the side line.
 KEY_LENGTH, KEY_HALF_WIDTH, CIRCLE = 4.572, 2.438, 1.829
 ARC, CORNER, HALF_WIDTH = 7.24, 6.71, 7.62
@@ -42,7 +34,7 @@ END_LINE, LENGTH, LINE = 1.22, 28.65, 0.05
 LEAST_HEIGHT = 80
 
 
-class Picture(SideView[Parameters]):
+class Picture(LensView[Parameters]):
     """One shot."""
 
     LOOK = Look(BALL["colour"], seams(BALL["seam"]))
@@ -51,6 +43,7 @@ class Picture(SideView[Parameters]):
     LENGTHS = 1
     SECOND_UNIT = "ft"
     LEVEL, ASIDE = 128, 0.25
+    LENS_VIEW, LENS_GROUND, OFF_MIDDLE = 1.22, COLOURS["lens"], (-0.02, 0.08)
 
     @cached_property
     def told(self) -> float:
@@ -81,7 +74,7 @@ class Picture(SideView[Parameters]):
     @property
     def ring(self) -> tuple[float, float]:
         """The middle of the ring, in m."""
-        return self.parameters.hoop.distance, self.parameters.hoop.height
+        return self.parameters.hoop.middle
 
     @cached_property
     def net(self) -> Net:
@@ -108,11 +101,8 @@ class Picture(SideView[Parameters]):
         key = [(throw, 0.0), (throw, KEY_HALF_WIDTH), (end, KEY_HALF_WIDTH), (end, 0.0)]
         markings = _markings(self.ring[0], throw, end)
         ground = boards(FLOOR, LINE, areas=[(key, FLOOR["key"])], lines=markings)
-        return Place(
-            Hall(**COLOURS["hall"]),
-            ground,
-            [*self.hoop_size.of(*stand(self.parameters), *hoop(self.parameters)), *self.thrower],
-        )
+        goal = self.hoop_size.of(*stand(self.parameters), *hoop(self.parameters))
+        return Place(Hall(**COLOURS["hall"]), ground, [*goal, *self.thrower])
 
     def behind(self, painter: Painter, camera: Camera, t: float) -> None:
         self.net.draw(painter, self.hoop_size.eye(self.eye(camera)), False, t)
@@ -147,96 +137,16 @@ class Picture(SideView[Parameters]):
         points = camera.pixels(np.array([self.run.state(self.ball, t)[:2] for t in moments]))
         if np.ptp(points, axis=0).max() > 2:
             sheet.painter.fading(points[::-1], 4 * self.unit, self.TRACE, 0.6)
-        if self.has_lens:
-            sheet.labels.take(self.lens)
-
-    def impacts(self, camera: Camera) -> list[Mark]:
-        """Those that this camera shows; the rest are in the lens."""
-        marks = super().impacts(camera)
-        return [mark for mark in marks if self._in_lens(mark) == (camera == self.near)] if self.has_lens else marks
+        super().annotate(sheet, camera)
 
     # The lens: the ring from near by
 
-    @cached_property
-    def lens(self) -> pygame.Rect:
-        """Where it is, in px."""
-        side, frame = round(LENS * self.unit), self.sheet.frame
-        return pygame.Rect(frame.right - side, frame.top, side, side)
-
-    @cached_property
-    def near(self) -> Camera:
-        """Its camera."""
-        return Camera((self.ring[0] - 0.02, self.ring[1] + 0.08), self.lens.center, self.lens.width / LENS_VIEW)
-
-    def eye(self, camera: Camera) -> Eye:
-        if camera != self.near:
-            return super().eye(camera)
-        eye = super().eye(self.camera)  # the same eye sees what is in the lens
-        centre, level = camera.pixel(*self.camera.world(eye.centre, eye.level))
-        return replace(eye, camera=camera, centre=centre, level=level)
-
-    @cached_property
-    def camera(self) -> Camera:
-        """Leaves room for the lens if there is one."""
-        return self._beside_lens if self.has_lens else self.fitted(self.area)
-
-    @cached_property
-    def _beside_lens(self) -> Camera:
-        right = self.lens.left - 24 * self.unit
-        return self.fitted(self.area._replace(left=0.06 * self.size[0], right=right))
-
-    @cached_property
-    def has_lens(self) -> bool:
-        """Whether the ball comes to the ring, and the picture shows that from near by."""
-        alone, beside = self.fitted(self.area).scale, self._beside_lens.scale
-        comes = np.abs(self.path.points - self.ring).max(axis=1).min() < 0.45 * LENS_VIEW
-        return bool(comes and beside >= LEAST_SHRINK * alone and self.near.scale > LEAST_LENS * beside)
-
-    def _in_lens(self, mark: Mark) -> bool:
-        return bool(np.abs(np.subtract(mark.at, self.ring)).max() < LENS_VIEW / 2)
-
-    @cached_property
-    def columns(self) -> tuple[float, float]:
-        low, high = super().columns
-        return low, min(high, self.lens.left - 40 * self.unit) if self.has_lens else high
-
-    def inset(self, sheet: Sheet, camera: Camera, t: float | None) -> pygame.Rect | None:
-        """The lens, unless it would hide the ring itself: how the ball comes, and on the poster what it touches."""
-        if not self.has_lens or (t is not None and self._under_lens(camera)):
-            return None
-        near, painter, moment = self.near, sheet.painter, self.moment if t is None else t
-        corners = around_corners(sheet.surface, self.lens, 10 * self.unit)
-        sheet.surface.fill(COLOURS["lens"], self.lens)
-        sheet.surface.set_clip(self.lens)
-        self.draw_things(painter, self.eye(near), near=False)
-        self.behind(painter, near, moment)
-        outside, sheet.labels = sheet.labels, Labels(self.lens.inflate(-2 * sheet.gap, -2 * sheet.gap), sheet.gap)
-        if t is None:
-            points = near.pixels(self.path.points)
-            seen = np.flatnonzero(np.abs(points - self.lens.center).max(axis=1) < self.lens.width)
-            draw_trace(sheet, points[seen[0] : seen[-1] + 1], self.TRACE)
-            self._entry(sheet)
-        else:
-            self.trail(painter, near, self.ball, t)
-            self.draw_ball(painter, near, self.ball, t, *self._placed(near, t, 1.0)[self.ball])
-        self.before(painter, near, moment)
-        if t is None:
-            mark_impacts(sheet, near, self.impacts(near))
-            corner = self.lens.left + 2 * sheet.gap, self.lens.bottom - 1.6 * sheet.gap
-            larger = f"{near.scale / self.camera.scale:.1f}×"
-            sheet.label(larger, "small", [(*corner, "bottomleft")], CARD["quiet"])
-        sheet.labels = outside
-        sheet.surface.set_clip(None)
-        sheet.surface.blit(corners, self.lens)
-        return self.lens
-
-    def _under_lens(self, camera: Camera) -> bool:
-        """Whether the lens would hide the ring and board that it shows: the camera has gone along with the ball."""
+    @property
+    def uncovered(self) -> Box:
         _, bottom, back, top = self.parameters.board
-        (left, high), (right, low) = camera.pixel(self.ring[0] - 0.6, top), camera.pixel(back + 1.0, bottom)
-        return bool(self.lens.colliderect((round(left), round(high), round(right - left), round(low - high))))
+        return Box(self.ring[0] - 0.6, bottom, back + 1.0, top)
 
-    def _entry(self, sheet: Sheet) -> None:
+    def in_lens(self, sheet: Sheet) -> None:
         """The ball as it comes to the ring, and the angle at which it does."""
         t, angle = self.run.result["flight_time"], self.run.result["entry_angle"]
         if t is None:
