@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from math import cos, dist, hypot, pi, sin
 from typing import TYPE_CHECKING, Any
 
+from sandbox.engine.on_plane import slowest_hop
 from sandbox.engine.setup import DISC, Ball, Catch, Vector
 from sandbox.errors import RequestError
 from sandbox.parameters import SceneParameters, group, quantity
@@ -15,7 +16,7 @@ from sandbox.sport.flight import DEGREE, RPM, Directed
 from sandbox.sport.solids import Solid
 
 if TYPE_CHECKING:
-    from sandbox.engine.run import Run
+    from sandbox.engine.run import Event, Run
 
 
 #: Chords of a rounded corner: their directions are 0.7 deg off at most.
@@ -88,10 +89,22 @@ def rounded(length: float, width: float, corner: float, opening: float) -> list[
     return [(x, 0.5 * opening), *corners, (x, -0.5 * opening)]
 
 
-def met(run: Run, name: str) -> list[tuple[float, str]]:
-    """What a body meets, up to what takes it off: the times in s, and what it is called."""
-    hits = (event for event in run.events if event.kind in ("impact", "caught") and name in (event.ball, event.partner))
-    return [(event.t, event.partner if event.ball == name else event.ball) for event in hits]
+def meetings(run: Run) -> list[Event]:
+    """Every meeting of two bodies, of a body with a surface, and of one with what takes it off. The hops of bodies that
+    are pressed together count as one meeting."""
+    hop = 1.001 * slowest_hop(run.setup, run.accuracy.hop)
+    last: dict[str, str] = {}  # what each body met last
+    found = []
+    for event in (event for event in run.events if event.kind in ("impact", "caught")):
+        if event.speed > hop or last.get(event.ball) != event.partner:
+            found.append(event)
+        last[event.ball], last[event.partner] = event.partner, event.ball
+    return found
+
+
+def met(run: Run, name: str) -> list[tuple[str, Event]]:
+    """What a body meets, in order, up to what takes it off: what it is called, and the event."""
+    return [(e.partner if e.ball == name else e.ball, e) for e in meetings(run) if name in (e.ball, e.partner)]
 
 
 def check_inside(balls: Sequence[Ball], length: float, width: float, corner: float) -> None:

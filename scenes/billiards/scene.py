@@ -21,7 +21,6 @@ from typing import Any, Literal
 
 from pydantic import Field
 
-from sandbox.engine.on_plane import slowest_hop
 from sandbox.engine.run import Event, Run
 from sandbox.engine.setup import Always, Ball, Bounce, ContactModel, Setup, Vector
 from sandbox.engine.touch import Obstacle
@@ -35,7 +34,7 @@ from sandbox.sport.controls import Controls, Goal, Handle, Spin, Spread
 from sandbox.sport.facts import ENDED, Fact, once
 from sandbox.sport.flight import Directed
 from sandbox.sport.readings import at, travelled
-from sandbox.sport.sliding import REST_TIME, left, taken
+from sandbox.sport.sliding import REST_TIME, left, meetings, met, taken
 from sandbox.sport.solids import Solid
 
 from .table import AnyTable, catches, check, cushions, on_bed
@@ -295,30 +294,9 @@ def struck(parameters: Parameters) -> tuple[Vector, float, Vector]:
     return cue.velocity, spin * cue.english, (-roll * sin(angle), roll * cos(angle))
 
 
-@once
-def met(run: Run, parameters: Parameters) -> list[Event]:
-    """Every meeting of two balls or of a ball with cushion, jaw or pocket. The hops of balls that are pressed together
-    count as one meeting."""
-    hop = 1.001 * slowest_hop(run.setup, run.accuracy.hop)
-    last: dict[str, str] = {}  # what each ball met last
-    found = []
-    for event in (event for event in run.events if event.kind in ("impact", "caught")):
-        if event.speed > hop or last.get(event.ball) != event.partner:
-            found.append(event)
-        last[event.ball], last[event.partner] = event.partner, event.ball
-    return found
-
-
-@once
-def meetings(run: Run, parameters: Parameters) -> list[tuple[str, Event]]:
-    """What the struck ball met, in order: other balls, cushions and jaws, and the pocket it fell into."""
-    cue = parameters.cue.ball
-    return [(e.partner if e.ball == cue else e.ball, e) for e in met(run, parameters) if cue in (e.ball, e.partner)]
-
-
 def touches(run: Run, parameters: Parameters) -> list[str]:
-    """Their names."""
-    return [name for name, _ in meetings(run, parameters)]
+    """What the struck ball met, in order: other balls, cushions and jaws, and the pocket it fell into."""
+    return [name for name, _ in met(run, parameters.cue.ball)]
 
 
 def others(run: Run, parameters: Parameters) -> set[str]:
@@ -328,7 +306,7 @@ def others(run: Run, parameters: Parameters) -> set[str]:
 
 def first_contact(run: Run, parameters: Parameters) -> tuple[str, Event] | None:
     """The first meeting of the struck ball with another."""
-    return next((meeting for meeting in meetings(run, parameters) if meeting[0] in run.arcs), None)
+    return next((meeting for meeting in met(run, parameters.cue.ball) if meeting[0] in run.arcs), None)
 
 
 def contact_speed(run: Run, parameters: Parameters) -> float | None:
@@ -362,7 +340,7 @@ def leaving(run: Run, parameters: Parameters) -> dict[str, tuple[Vector, Vector]
     """The velocities (m/s) with which each ball leaves its first meeting with ball or cushion: just after it, and once
     it rolls, if it meets nothing before: ``v - 2/7 s``, with its slip s over the cloth."""
     radius, ways = parameters.ball.radius, dict[str, tuple[Vector, Vector]]()
-    for event in met(run, parameters):
+    for event in meetings(run):
         for name in {event.ball, event.partner} & (run.arcs.keys() - ways.keys()):
             arc = next((arc for arc in run.arcs[name] if arc.t1 > event.t), run.arcs[name][-1])
             t = arc.t1 if arc.contact == PRESSED else event.t
@@ -398,7 +376,9 @@ FACTS = (
     Fact("contact_speed", "contact", "m/s", contact_speed),
     Fact("path", "path", "m", lambda run, parameters: travelled(run, parameters.cue.ball)),
     REST_TIME,
-    Fact("rails", "cushions, all balls", "", lambda run, it: sum(e.partner.endswith(" cushion") for e in met(run, it))),
+    Fact(
+        "rails", "cushions, all balls", "", lambda run, _: sum(e.partner.endswith(" cushion") for e in meetings(run))
+    ),
     Fact("potted", "", "", lambda run, parameters: list(taken(run)), in_order=False),
     Fact("scratch", "", "", lambda run, parameters: parameters.cue.ball in taken(run)),
     Fact("point", "", "", point),

@@ -119,9 +119,9 @@ def _leaves(run: Run, parameters: Parameters) -> list[str]:
 def _met(run: Run, parameters: Parameters) -> dict[str, Moment]:
     """The pins that the ball meets itself, in order, and the ball just before."""
     first: dict[str, Moment] = {}
-    for t, name in met(run, "ball"):
+    for name, event in met(run, "ball"):
         if name in SPOTS:
-            first.setdefault(name, before(run, t))
+            first.setdefault(name, before(run, event.t))
     return first
 
 

@@ -111,10 +111,15 @@ def build(parameters: Parameters) -> Setup:
     )
 
 
+def touches(run: Run, parameters: Parameters) -> list[str]:
+    """What the puck meets, in order."""
+    return [what for what, _ in met(run, "puck")]
+
+
 def decided(run: Run, parameters: Parameters) -> tuple[float, str]:
     """When, in s, and by whom or what the shot is decided: the goal or the first player; "" where by none."""
-    touches = ((t, what.partition(" ")[0]) for t, what in met(run, "puck"))
-    return next(((t, what) for t, what in touches if what in DECIDING), (run.duration, ""))
+    found = ((event.t, what.partition(" ")[0]) for what, event in met(run, "puck"))
+    return next(((t, what) for t, what in found if what in DECIDING), (run.duration, ""))
 
 
 def _word(run: Run, parameters: Parameters) -> str:
@@ -123,18 +128,18 @@ def _word(run: Run, parameters: Parameters) -> str:
     if by:
         return {"receiver": "received", "goalie": "saved"}.get(by, by)
     farthest = max(state[0] for _, state in run.ends("puck"))
-    return "post" if "post" in dict(met(run, "puck")).values() else "wide" if farthest > line - 0.1 else "short"
+    return "post" if "post" in touches(run, parameters) else "wide" if farthest > line - 0.1 else "short"
 
 
 FACTS = (
     Fact("speed", "at the end", "m/s", lambda run, it: speed_before(run, "puck", decided(run, it)[0]), also="mph"),
     Fact("time", "time", "s", lambda run, it: decided(run, it)[0]),
-    Fact("boards", "off the boards", "", lambda run, it: [what for _, what in met(run, "puck")].count("boards")),
+    Fact("boards", "off the boards", "", lambda run, it: touches(run, it).count("boards")),
     Fact("release", "release", "m/s", lambda run, it: it.launch.speed, "start", also="mph"),
     Fact("goal", "", "", lambda run, it: "puck" in taken(run)),
     Fact("verdict", "", "", _word),
     Fact("done", "", "", lambda run, it: _word(run, it) in ("goal", "received")),
-    Fact("touches", "", "", lambda run, it: [what for _, what in met(run, "puck")]),
+    Fact("touches", "", "", touches),
     ENDED,
 )
 

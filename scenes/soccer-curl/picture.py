@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from functools import cached_property
-from math import atan2, cos, degrees, hypot, radians, sin, tan
+from itertools import product
+from math import atan2, cos, degrees, dist, hypot, radians, sin, tan
 
 import numpy as np
 
@@ -16,6 +17,7 @@ from sandbox.picture.places import goal as goal_at
 from sandbox.picture.places import plan
 from sandbox.picture.sheet import Entry, Sheet
 from sandbox.sport.amounts import metres, times
+from sandbox.sport.readings import first_touch
 
 from ..soccer.pitch import EARLIER, LINE, LOOK, SPOT, STRIPE, TRACE, markings
 from .scene import BOARDS_ASIDE, BOARDS_BEHIND, BOARDS_BEYOND, Parameters
@@ -27,10 +29,9 @@ WALL, KICKER, KEEPER = (plan.Kit(shirt=shirt, **COLOURS["person"]) for shirt in 
 BOARD, BOARD_LENGTH, FAR = 0.4, 6.0, 1000.0
 #: Height of the goal, how far behind the ball the kicker stands, and room for him and beside each post, in m.
 HEIGHT, BEHIND, ROOM, ASIDE = 2.44, 0.75, 1.3, 0.4
-#: The poster follows a ball that was stopped for so long, in s.
-AFTERMATH = 0.6
-#: The time between balls is chosen for the flight, or for this share of the whole path.
-LEAST_SPAN = 0.6
+#: The poster follows a ball that was stopped for so long, in s; the time between balls is chosen for the flight, or for
+#: this share of the whole path.
+AFTERMATH, LEAST_SPAN = 0.6, 0.6
 
 
 class Picture(AboveView[Parameters]):
@@ -46,10 +47,8 @@ class Picture(AboveView[Parameters]):
 
     @cached_property
     def told(self) -> float:
-        if self.run.result["goal"]:
-            return self.run.duration
-        touched = next((e.t for e in self.run.events if "ball" in (e.ball, e.partner)), self.run.duration)
-        return min(self.run.duration, touched + AFTERMATH)
+        touched, end = first_touch(self.run), self.run.duration
+        return end if self.run.result["goal"] or touched is None else min(end, touched.t + AFTERMATH)
 
     @cached_property
     def span(self) -> float:
@@ -78,7 +77,7 @@ class Picture(AboveView[Parameters]):
         sides = {"right": left}, {"left": right}, {"top": -BOARDS_ASIDE}, {"bottom": BOARDS_ASIDE}
         count = max(1, round(wall.width / plan.BREADTH)) if wall.present else 0
         players = [wall.offset + (i - (count - 1) / 2) * wall.width / count for i in range(count)]
-        aside = goal.width / 2 + goal.post_radius
+        aside, mouth = goal.width / 2 + goal.post_radius, (end, goal.depth, HEIGHT, goal.width, goal.post_radius)
         return (
             plan.Stripes(grass, COLOURS["grass"], STRIPE, end),
             *(plan.Line(tuple(points), LINE, COLOURS["line"]) for points in markings(end, middle)),
@@ -86,16 +85,7 @@ class Picture(AboveView[Parameters]):
             *(plan.Ground(everywhere._replace(**edge), COLOURS["beyond"]) for edge in sides),
             *(plan.Stripes(box, COLOURS["boards"], BOARD_LENGTH, -BOARDS_ASIDE, along=True) for box in boards),
             plan.Worn((end - 0.3, middle), 1.2, 0.42 * goal.width, COLOURS["worn"], 0.4),
-            *goal_at(
-                end,
-                goal.depth,
-                HEIGHT,
-                goal.width,
-                goal.post_radius,
-                **COLOURS["goal"],
-                side=middle - aside,
-                opacity=0.4,
-            ),
+            *goal_at(*mouth, **COLOURS["goal"], side=middle - aside, opacity=0.4),
             *(plan.Person((wall.distance, y), 180.0, WALL, wall.width / count) for y in players),
             plan.Person((0.0, 0.0), self.parameters.launch.angle, KICKER, behind=BEHIND),
         )
@@ -114,24 +104,23 @@ class Picture(AboveView[Parameters]):
 
     def behind(self, painter: Painter, camera: Camera, t: float) -> None:
         """Where the ball would have gone without spin, and the keeper."""
-        straight = camera.pixels(np.array([(0.0, 0.0), self._without_spin(t)]))
-        if np.hypot(*(straight[1] - straight[0])) > 20 * self.unit:
+        straight = [camera.pixel(0.0, 0.0), camera.pixel(*self._without_spin(t))]
+        if dist(*straight) > 20 * self.unit:
             faint = mix(COLOURS["straight"], COLOURS["grass"][0], 0.4)
             painter.dashed_thread(straight, 1.4 * self.unit, faint, 7 * self.unit, 6 * self.unit)
         keeper = self.parameters.keeper
         if not keeper.present:
             return
-        start, at = (self.run.state("keeper", moment)[:2] for moment in (0.0, t))
+        stands = self.run.state("keeper", t)[:2]
+        start, at = (camera.pixel(*place) for place in (self.parameters.stand, stands))
         colour, reach, thin = KEEPER.shirt, keeper.radius * camera.scale, max(1.0, 1.2 * self.unit)
-        if hypot(at[0] - start[0], at[1] - start[1]) * camera.scale > 4 * self.unit:
-            way = [camera.pixel(*start), camera.pixel(*at)]
-            painter.dashes(way, thin, colour, 4 * self.unit, 5 * self.unit, 0.6)
-            painter.ring(way[0], reach, thin, colour, 0.5)
-        painter.disc(camera.pixel(*at), reach, colour, 0.25)
-        painter.ring(camera.pixel(*at), reach, thin, colour, 0.7)
-        plan.Person(at, 180.0, KEEPER, min(plan.BREADTH, 1.25 * keeper.radius), arms=keeper.radius).draw(
-            painter, camera
-        )
+        if dist(start, at) > 4 * self.unit:
+            painter.dashes([start, at], thin, colour, 4 * self.unit, 5 * self.unit, 0.6)
+            painter.ring(start, reach, thin, colour, 0.5)
+        painter.disc(at, reach, colour, 0.25)
+        painter.ring(at, reach, thin, colour, 0.7)
+        broad = min(plan.BREADTH, 1.25 * keeper.radius)
+        plan.Person(stands, 180.0, KEEPER, broad, arms=keeper.radius).draw(painter, camera)
 
     # How far it bends
 
@@ -168,12 +157,8 @@ class Picture(AboveView[Parameters]):
         sheet.labels.take_path([(x, row) for row in np.linspace(start, end, 30)], 3 * unit)
         way = 1.0 if end < start else -1.0
         spots = [(x, start + way * far * unit, 0.0, way) for far in (12, 20)]
-        spots += [
-            (x + side * far * unit, start + (end - start) * share, side, 0.0)
-            for far in (14, 24, 40)
-            for share in (0.0, 0.25, 0.5, 0.75)
-            for side in (1.0, -1.0)
-        ]
+        aside = product((14, 24, 40), (0.0, 0.25, 0.5, 0.75), (1.0, -1.0))
+        spots += [(x + side * far * unit, start + (end - start) * share, side, 0.0) for far, share, side in aside]
         chip(sheet, f"{metres(abs(deviation))} to the {_side(deviation)}", spots, accent)
         near, anchor = (10, 16, 24), "midtop" if way > 0 else "midbottom"
         beside = [(*(line[i] + (0, way * far * unit)), anchor) for i in (49, 40, 59, 30) for far in near]

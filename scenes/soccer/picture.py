@@ -79,15 +79,13 @@ class Picture(SideView[Parameters]):
 
     def _boards(self) -> list[Shape]:
         """Advertising boards across the pitch, where a ball is out of play."""
-        found = []
-        for shape in (surface.shape for surface in self.run.setup.surfaces if surface.name == "boards"):
-            assert isinstance(shape, Segment)
-            (x, low), (_, top) = shape.a, shape.b
-            edges = np.arange((GOAL_WIDTH + WIDTH) / 2, -BOARD, -BOARD).clip(0.0)
-            for i, (far, near) in enumerate(pairwise(edges.tolist())):
-                corners = [(x, low, near), (x, low, far), (x, top, far), (x, top, near)]
-                found.append(Shape(corners, mix(BOARDS[i * 3 % 4], PITCH["far"], 0.25)))
-        return found
+        shapes = (surface.shape for surface in self.run.setup.surfaces if surface.name == "boards")
+        edges = np.arange((GOAL_WIDTH + WIDTH) / 2, -BOARD, -BOARD).clip(0.0).tolist()
+        return [
+            Shape([(*low, near), (*low, far), (*top, far), (*top, near)], mix(BOARDS[i * 3 % 4], PITCH["far"], 0.25))
+            for low, top in ((shape.a, shape.b) for shape in shapes if isinstance(shape, Segment))
+            for i, (far, near) in enumerate(pairwise(edges))
+        ]
 
     def _wall(self) -> list[Person]:
         """The wall of players, the nearest in the plane of play, the farther ones darker."""
@@ -122,18 +120,18 @@ class Picture(SideView[Parameters]):
 
     def annotate(self, sheet: Sheet, camera: Camera) -> None:
         """How far the ball passes over the heads and under or over the bar."""
-        wall, goal, result = self.parameters.wall, self.parameters.goal, self.run.result
-        if wall.present and result["height_at_wall"] is not None:
-            low = result["height_at_wall"] - self.radius
-            if low > wall.height:
-                self.gap(sheet, camera, wall.distance, wall.height, low, "over the wall")
-        if goal.present and result["height_at_goal"] is not None:
-            high, low = result["height_at_goal"] + self.radius, result["height_at_goal"] - self.radius
-            if high < goal.height:
-                self.gap(sheet, camera, goal.distance, high, goal.height, "under the bar")
-            elif low > goal.height:
-                bar = goal.height + 2 * goal.post_radius
-                self.gap(sheet, camera, goal.distance, bar, low, "over the bar")
+        wall, goal, (over, under) = (
+            self.parameters.wall,
+            self.parameters.goal,
+            map(self.run.result.get, ("over_wall", "under_bar")),
+        )
+        if over is not None and over > 0.0:
+            self.gap(sheet, camera, wall.distance, wall.height, wall.height + over, "over the wall")
+        if under is not None and under > 0.0:
+            self.gap(sheet, camera, goal.distance, goal.height - under, goal.height, "under the bar")
+        elif under is not None and -under > 2 * self.radius:
+            bar, low = goal.height + 2 * goal.post_radius, goal.height - under - 2 * self.radius
+            self.gap(sheet, camera, goal.distance, bar, low, "over the bar")
 
 
 def _size_at(x: float) -> Size:
