@@ -7,7 +7,7 @@ from itertools import combinations, pairwise
 from math import inf
 from typing import Any, NamedTuple
 
-from sandbox.engine.setup import Circle, Segment, Surface, Vector
+from sandbox.engine.setup import Always, Bounce, Circle, Segment, Surface, Vector
 from sandbox.errors import RequestError
 from sandbox.parameters import Group, quantity, walk
 from sandbox.physics.elementwise import anywhere, most
@@ -31,6 +31,11 @@ class Solid(Group):
 
     restitution: float = quantity(..., "", 0, 1, "of the ball and this")
     friction: float = quantity(..., "", 0, 10, "of the ball and this")
+
+    @property
+    def bounce(self) -> Always:
+        """Of two balls that meet so."""
+        return Always(Bounce(self.restitution, self.friction))
 
     def surface(self, name: str, shape: Segment | Circle, **more: Any) -> Surface:
         """Its surface, of that shape."""

@@ -376,9 +376,7 @@ FACTS = (
     Fact("contact_speed", "contact", "m/s", contact_speed),
     Fact("path", "path", "m", lambda run, parameters: travelled(run, parameters.cue.ball)),
     REST_TIME,
-    Fact(
-        "rails", "cushions, all balls", "", lambda run, _: sum(e.partner.endswith(" cushion") for e in meetings(run))
-    ),
+    Fact("rails", "cushions, all balls", "", lambda run, _: sum(e.partner.endswith(" cushion") for e in meetings(run))),
     Fact("potted", "", "", lambda run, parameters: list(taken(run)), in_order=False),
     Fact("scratch", "", "", lambda run, parameters: parameters.cue.ball in taken(run)),
     Fact("point", "", "", point),

@@ -12,7 +12,7 @@ from math import cos, dist, sin
 from pydantic import Field
 
 from sandbox.engine.run import Run
-from sandbox.engine.setup import Always, Ball, Bounce, Segment, Setup, Surface
+from sandbox.engine.setup import Ball, Segment, Setup, Surface
 from sandbox.errors import RequestError
 from sandbox.parameters import Group, group, groups, quantity
 from sandbox.physics.cloth import Cloth
@@ -103,7 +103,7 @@ def build(parameters: Parameters) -> Setup:
         [thrown, *(pin.at(name, SPOTS[name]) for name in SPOTS if name in pin.standing.split())],
         [Surface("kickback", side, pin.restitution, pin.friction) for side in sides],
         duration=20.0,
-        between_balls=Always(Bounce(pin.restitution, pin.friction)),
+        between_balls=pin.bounce,
         plane=Glide(pin.sliding, pin.sliding, it.gravity, "deck"),
         planes=[("ball", Strips([end for end, _ in oiled], lane))],
         catches=[*beside("gutter", LANE, -1.0, HEAD + PIT, only=["ball"]), pit],

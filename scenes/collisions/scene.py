@@ -18,7 +18,7 @@ from pydantic import Field
 
 from sandbox.engine.meeting import discs
 from sandbox.engine.run import Run
-from sandbox.engine.setup import Always, Ball, Bounce, ContactModel, Force, Setup, Vector, kinetic
+from sandbox.engine.setup import Ball, ContactModel, Force, Setup, Vector, kinetic
 from sandbox.engine.track import PRESSED
 from sandbox.errors import RequestError
 from sandbox.parameters import Group, SceneParameters, choice, group, groups, quantity
@@ -139,7 +139,7 @@ def build(it: Parameters) -> Setup:
         balls,
         floor.outline("floor", corners, rolling_resistance=floor.resistance),
         it.duration,
-        between_balls=Always(Bounce(it.contact.restitution, it.contact.friction)),
+        between_balls=it.contact.bounce,
         contact=ContactModel(it.contact.model, it.contact.stiffness),
     )
 

@@ -13,7 +13,7 @@ from math import hypot
 from typing import Any, Literal
 
 from sandbox.engine.run import Run
-from sandbox.engine.setup import Always, Bounce, Setup, Vector
+from sandbox.engine.setup import Setup, Vector
 from sandbox.parameters import Group, choice, group, groups, quantity
 from sandbox.physics.ice import CurlingIce
 from sandbox.physics.plane import Strips
@@ -85,8 +85,7 @@ def build(parameters: Parameters) -> Setup:
     own = [(DELIVERED, Strips((sweep.start, sweep.end), (ice, swept, ice)))] if sweep.end > sweep.start else []
     sides = beside("side line", side, RELEASE - 1.0, BACK + 1.0, -stone.radius)
     back = beyond("back line", (BACK, -side), (BACK, side), stone.radius)
-    meet = Always(Bounce(stone.restitution, stone.friction))
-    return Setup(balls, duration=LONGEST, between_balls=meet, plane=ice, planes=own, catches=[*sides, back])
+    return Setup(balls, duration=LONGEST, between_balls=stone.bounce, plane=ice, planes=own, catches=[*sides, back])
 
 
 def _ice(parameters: Parameters) -> CurlingIce:

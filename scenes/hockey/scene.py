@@ -13,7 +13,7 @@ from itertools import pairwise
 from typing import Literal
 
 from sandbox.engine.run import Run
-from sandbox.engine.setup import Always, Bounce, Catch, Circle, Segment, Setup, Surface, Touches, Vector
+from sandbox.engine.setup import Catch, Circle, Segment, Setup, Surface, Touches, Vector
 from sandbox.parameters import Group, choice, group, groups, quantity
 from sandbox.physics.ice import Glide
 from sandbox.sport.amounts import roughly
@@ -87,24 +87,22 @@ CONTROLS = Controls(
 def build(parameters: Parameters) -> Setup:
     """The puck, the players, boards and goal. The run ends with a goal, and where the puck stops."""
     it, puck, rink, line = parameters, parameters.puck, parameters.rink, parameters.rink.line
-    half, boards = 0.5 * rink.goal_width, rink.outline
+    half, boards, inside = 0.5 * rink.goal_width, rink.outline, line + puck.radius + POST
     surfaces = puck.outline("boards", boards if rink.goal_line == 0.0 else [*boards, boards[0]])
     for x, back in ((line, line + DEPTH), (-line, -line - DEPTH)) if rink.goal_line > 0.0 else ():
         corners = [(x, half + POST), (back, half + POST), (back, -half - POST), (x, -half - POST)]
         surfaces += [puck.surface("post", Circle(post, POST)) for post in (corners[0], corners[3])]
         surfaces += [Surface("net", Segment(*ends), 0.1, 0.5) for ends in pairwise(corners)]
-    inside = line + puck.radius + POST
     goal = Catch("goal", (inside, POST - half), POST, (inside, half - POST), ["puck"])
-    bodies = [it.player.at(f"{who.role} {i}", (who.x, who.y), (who.vx, who.vy)) for i, who in enumerate(it.players, 1)]
-    start = it.launch.x, it.launch.aside
-    bodies = [puck.at("puck", start, it.launch.velocity, it.launch.turning), *bodies]
+    bodies = [puck.at("puck", (it.launch.x, it.launch.aside), it.launch.velocity, it.launch.turning)]
+    bodies += [it.player.at(f"{who.role} {i}", (who.x, who.y), (who.vx, who.vy)) for i, who in enumerate(it.players, 1)]
     check_inside(bodies, rink.length, rink.width, rink.corner)
     return Setup(
         bodies,
         surfaces,
         it.duration,
         Touches("goal"),
-        Always(Bounce(it.player.restitution, it.player.friction)),
+        it.player.bounce,
         Glide(rink.sliding, 2.0 / 3.0 * rink.sliding, it.gravity),
         [goal],
         planes=[(who.name, Glide(0.0 if any(who.velocity) else 1.0)) for who in bodies[1:]],

@@ -16,7 +16,7 @@ from itertools import pairwise
 from math import cos, inf, radians, tan
 
 from sandbox.engine.run import Event, Run
-from sandbox.engine.setup import Always, Ball, Bounce, Circle, Segment, Setup, Surface, Vector
+from sandbox.engine.setup import Ball, Circle, Segment, Setup, Surface, Vector
 from sandbox.parameters import SceneParameters, group, quantity, switch
 from sandbox.sport import flight
 from sandbox.sport.air import Air
@@ -138,8 +138,9 @@ def build(parameters: Parameters) -> Setup:
         *goal.net([right, (back, right[1]), (back, left[1]), left]),
         *(wall.outline("wall", around(*wall.extent)) if wall.present else ()),
     ]
-    saved = ("ball", "keeper", Always(Bounce(keeper.restitution, keeper.friction)))
-    return Setup(balls, surfaces, min(LONGEST, PATIENCE * needed + MOMENT), is_over, pairs=[saved])
+    return Setup(
+        balls, surfaces, min(LONGEST, PATIENCE * needed + MOMENT), is_over, pairs=[("ball", "keeper", keeper.bounce)]
+    )
 
 
 def is_over(event: Event) -> bool:
