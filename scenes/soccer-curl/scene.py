@@ -129,7 +129,7 @@ def build(parameters: Parameters) -> Setup:
         for post in (right, left):
             check_apart(parameters, standing, disc("a post", ("goal.width",), *post, goal.post_radius))
         balls.append(Ball("keeper", keeper.mass, keeper.radius, stand, (0.0, keeper.speed)))
-    back, needed = goal.distance + goal.depth, goal.distance / max(launch.speed, 0.1)
+    back = goal.distance + goal.depth
     boards = around(BOARDS_BEHIND, -BOARDS_ASIDE, goal.distance + BOARDS_BEYOND, BOARDS_ASIDE)
     surfaces = [
         *(Surface("boards", Segment(*ends), 0.0, 0.0) for ends in pairwise(boards)),
@@ -138,9 +138,8 @@ def build(parameters: Parameters) -> Setup:
         *goal.net([right, (back, right[1]), (back, left[1]), left]),
         *(wall.outline("wall", around(*wall.extent)) if wall.present else ()),
     ]
-    return Setup(
-        balls, surfaces, min(LONGEST, PATIENCE * needed + MOMENT), is_over, pairs=[("ball", "keeper", keeper.bounce)]
-    )
+    longest = min(LONGEST, PATIENCE * (goal.distance / max(launch.speed, 0.1)) + MOMENT)
+    return Setup(balls, surfaces, longest, is_over, pairs=[("ball", "keeper", keeper.bounce)])
 
 
 def is_over(event: Event) -> bool:
