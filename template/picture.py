@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from functools import cached_property
 
-from sandbox.picture.ball import Look, seams
 from sandbox.picture.places import Ground, Hall, Person
-from sandbox.picture.side import Place, SideView
+from sandbox.picture.views import Look, Place, SideView, seams
 
 from .scene import Parameters
 

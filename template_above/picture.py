@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from functools import cached_property
 
-from sandbox.picture.above import AboveView
-from sandbox.picture.ball import Look, seams
 from sandbox.picture.places.plan import Line, Plan, Spot, Stripes
 from sandbox.picture.places.table import Rails, around
+from sandbox.picture.views import AboveView, Look, seams
 
 from .scene import Parameters
 

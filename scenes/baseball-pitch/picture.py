@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from functools import cached_property
 
-from sandbox.picture.camera import Box
 from sandbox.picture.palette import palette
 from sandbox.picture.places import Landscape, Person, Post, Shape, Thing, turf
-from sandbox.picture.side import Length, Place, SideView
+from sandbox.picture.views import Box, Length, Place, SideView
 from sandbox.sport.amounts import metres
 
 from ..baseball.picture import COLOURS, FIELD

@@ -4,12 +4,9 @@ from __future__ import annotations
 
 from functools import cached_property
 
-from sandbox.picture.ball import Look, seams
-from sandbox.picture.camera import Box, Camera
 from sandbox.picture.palette import scene_colours
 from sandbox.picture.places import Landscape, Person, Post, Shape, Size, turf
-from sandbox.picture.sheet import Sheet
-from sandbox.picture.side import Length, Place, SideView
+from sandbox.picture.views import Box, Camera, Length, Look, Place, Sheet, SideView, seams
 from sandbox.sport.amounts import twice
 from sandbox.sport.readings import passing
 

@@ -8,10 +8,9 @@ from math import cos, exp, pi, sin, tau
 import numpy as np
 
 from sandbox.engine.run import Run
-from sandbox.picture.depth import Eye
-from sandbox.picture.painter import Painter
 from sandbox.picture.palette import mix, palette, scene_colours
 from sandbox.picture.places import Post, Shape, Thing
+from sandbox.picture.views import Eye, Painter
 
 from .scene import Parameters
 

@@ -7,14 +7,9 @@ from math import asin, atan2, cos, pi, sin
 
 import numpy as np
 
-from sandbox.picture.ball import Look, seams
-from sandbox.picture.camera import Box, Camera
-from sandbox.picture.lens import LensView
-from sandbox.picture.painter import Painter
 from sandbox.picture.palette import mix, palette, scene_colours
 from sandbox.picture.places import Hall, Line, Person, Size, boards
-from sandbox.picture.sheet import Entry, Sheet
-from sandbox.picture.side import Length, Place
+from sandbox.picture.views import Box, Camera, Entry, Length, LensView, Look, Painter, Place, Sheet, seams
 from sandbox.sport.amounts import metres, roughly, times
 
 from .hoop import Net, hoop, stand

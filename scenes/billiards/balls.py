@@ -8,9 +8,9 @@ from math import cos, dist, radians, sin
 
 import numpy as np
 
-from sandbox.picture.ball import Look, Mark, near, turned
 from sandbox.picture.lettering import stamp
 from sandbox.picture.palette import Colour, mix, scene_colours
+from sandbox.picture.views import Look, Mark, near, turned
 
 COLOURS = scene_colours(__file__)
 

@@ -8,14 +8,10 @@ from math import floor, hypot
 import numpy as np
 import pygame
 
-from sandbox.picture.above import AboveView
-from sandbox.picture.ball import Look
-from sandbox.picture.camera import Area, Camera
-from sandbox.picture.painter import Painter
 from sandbox.picture.palette import Colour, mix, palette, scene_colours
 from sandbox.picture.path import Mark
 from sandbox.picture.places.plan import Plan
-from sandbox.picture.sheet import Entry, Sheet, nice
+from sandbox.picture.views import AboveView, Area, Camera, Entry, Look, Painter, Sheet, nice
 
 from . import balls
 from .place import outside, place

@@ -7,11 +7,9 @@ from itertools import pairwise
 
 import numpy as np
 
-from sandbox.picture.ball import Look, Mark, near
-from sandbox.picture.camera import Box
-from sandbox.picture.long import LongView
 from sandbox.picture.palette import Colour, scene_colours
 from sandbox.picture.places import Shape, plan
+from sandbox.picture.views import Box, LongView, Look, Mark, near
 
 from .scene import HEAD, KICKBACK, LANE, PIT, ROW, SPOTS, Parameters
 

@@ -6,13 +6,9 @@ from dataclasses import replace
 from functools import cached_property
 from math import cos, radians, sin
 
-from sandbox.picture.ball import Look
-from sandbox.picture.camera import Box, Camera
-from sandbox.picture.depth import Eye
 from sandbox.picture.palette import scene_colours
 from sandbox.picture.places import Ground, Landscape, Post, Stripes
-from sandbox.picture.sheet import Entry, Sheet, nice
-from sandbox.picture.side import Place, SideView
+from sandbox.picture.views import Box, Camera, Entry, Eye, Look, Place, Sheet, SideView, nice
 from sandbox.sport.amounts import amount, metres
 
 from .scene import Parameters, entry, halving, harmless

@@ -7,12 +7,10 @@ from math import ceil, inf
 
 import numpy as np
 
-from sandbox.picture.ball import Look
-from sandbox.picture.camera import Box, Camera
 from sandbox.picture.palette import scene_colours
 from sandbox.picture.places import Landscape, Post, turf
-from sandbox.picture.sheet import ROWS_FOR_LENGTHS, YARD, Entry, Sheet
-from sandbox.picture.side import Place, SideView
+from sandbox.picture.sheet import ROWS_FOR_LENGTHS, YARD
+from sandbox.picture.views import Box, Camera, Entry, Look, Place, Sheet, SideView
 from sandbox.sport.amounts import amount
 
 from .scene import Parameters, table

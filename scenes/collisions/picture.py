@@ -12,15 +12,11 @@ import numpy as np
 import pygame
 
 from sandbox.engine.setup import Body, Segment
-from sandbox.picture.above import AboveView
-from sandbox.picture.ball import Look, Mark, near
-from sandbox.picture.camera import Area, Camera
-from sandbox.picture.painter import Painter
 from sandbox.picture.palette import Colour, palette, scene_colours
 from sandbox.picture.path import chip
 from sandbox.picture.places.plan import Plan
 from sandbox.picture.places.things import unit_of
-from sandbox.picture.sheet import Sheet, nice
+from sandbox.picture.views import AboveView, Area, Camera, Look, Mark, Painter, Sheet, near, nice
 from sandbox.sport.amounts import signed
 
 from .boxes import TOUCH, strip

@@ -6,12 +6,9 @@ from functools import cached_property
 
 import numpy as np
 
-from sandbox.picture.ball import Look, Mark, near
-from sandbox.picture.camera import Box, Camera
-from sandbox.picture.long import LongView
-from sandbox.picture.painter import Painter
 from sandbox.picture.palette import Colour, scene_colours
 from sandbox.picture.places import plan
+from sandbox.picture.views import Box, Camera, LongView, Look, Mark, Painter, near
 
 from .scene import BACK, DELIVERED, HOG, RELEASE, RINGS, Parameters, team_of
 

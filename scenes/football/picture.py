@@ -4,11 +4,9 @@ from __future__ import annotations
 
 from functools import cached_property
 
-from sandbox.picture.ball import Look
-from sandbox.picture.camera import Box
 from sandbox.picture.palette import scene_colours
 from sandbox.picture.places import Person, Post, Stands, turf
-from sandbox.picture.side import Length, Place, SideView
+from sandbox.picture.views import Box, Length, Look, Place, SideView
 from sandbox.sport.amounts import metres
 
 from .scene import Parameters

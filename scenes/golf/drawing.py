@@ -9,12 +9,9 @@ import numpy as np
 import pygame
 
 from sandbox.engine.setup import Segment, Setup
-from sandbox.picture.ball import Look, Mark, near
-from sandbox.picture.camera import Box, Camera
-from sandbox.picture.depth import Eye
-from sandbox.picture.painter import Painter
 from sandbox.picture.palette import Colour, mix, palette, scene_colours
 from sandbox.picture.places import Ground, Landscape, Line, Stripes
+from sandbox.picture.views import Box, Camera, Eye, Look, Mark, Painter, near
 
 CARD, COLOURS = palette("card"), scene_colours(__file__)
 

@@ -6,12 +6,8 @@ from functools import cached_property
 
 import numpy as np
 
-from sandbox.picture.camera import Box, Camera
-from sandbox.picture.painter import Painter
 from sandbox.picture.palette import Colour, palette
-from sandbox.picture.path import chip
-from sandbox.picture.sheet import Sheet, SideRows, nice
-from sandbox.picture.side import Length, SideView
+from sandbox.picture.views import Box, Camera, Length, Painter, Sheet, SideRows, SideView, chip, nice
 from sandbox.sport.amounts import metres, twice
 
 from .drawing import BALL, COLOURS, Course

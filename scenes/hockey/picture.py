@@ -6,13 +6,10 @@ from functools import cached_property
 
 import numpy as np
 
-from sandbox.picture.above import AboveView
-from sandbox.picture.ball import Look, Mark, near
-from sandbox.picture.camera import Camera
-from sandbox.picture.painter import Painter
 from sandbox.picture.palette import Colour, scene_colours
 from sandbox.picture.places import plan
 from sandbox.picture.places.rink import air_table, ice_rink
+from sandbox.picture.views import AboveView, Camera, Look, Mark, Painter, near
 
 from .scene import Parameters, decided
 

@@ -7,13 +7,9 @@ from math import atan2, cos, radians, sin
 
 import numpy as np
 
-from sandbox.picture.ball import Silhouette, turned
-from sandbox.picture.camera import Box, Camera
-from sandbox.picture.painter import Painter
 from sandbox.picture.palette import scene_colours
 from sandbox.picture.places import Ground, Landscape, Person, Post, Stripes
-from sandbox.picture.sheet import Sheet
-from sandbox.picture.side import Length, Place, SideView
+from sandbox.picture.views import Box, Camera, Length, Painter, Place, Sheet, SideView, Silhouette, turned
 from sandbox.sport.amounts import amount, metres
 
 from .scene import Parameters, burnout, motor_of

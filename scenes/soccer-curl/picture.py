@@ -8,14 +8,10 @@ from math import atan2, cos, degrees, dist, hypot, radians, sin, tan
 
 import numpy as np
 
-from sandbox.picture.above import AboveView
-from sandbox.picture.camera import Box, Camera
-from sandbox.picture.painter import Painter
 from sandbox.picture.palette import mix, palette, scene_colours
-from sandbox.picture.path import chip
 from sandbox.picture.places import goal as goal_at
 from sandbox.picture.places import plan
-from sandbox.picture.sheet import Entry, Sheet
+from sandbox.picture.views import AboveView, Box, Camera, Entry, Painter, Sheet, chip
 from sandbox.sport.amounts import metres, times
 from sandbox.sport.readings import first_touch
 

@@ -8,11 +8,9 @@ from itertools import pairwise
 import numpy as np
 
 from sandbox.engine.setup import Segment
-from sandbox.picture.camera import Box, Camera
 from sandbox.picture.palette import mix
 from sandbox.picture.places import Person, Shape, Size, Stands, goal, turf
-from sandbox.picture.sheet import Sheet
-from sandbox.picture.side import Length, Place, SideView
+from sandbox.picture.views import Box, Camera, Length, Place, Sheet, SideView
 from sandbox.sport.amounts import metres, roughly, times
 
 from .pitch import COLOURS, EARLIER, LINE, LOOK, STRIPE, TRACE, WIDTH, markings

@@ -6,8 +6,8 @@ from math import asin, cos, pi, sin
 
 import numpy as np
 
-from sandbox.picture.ball import Look, patches
 from sandbox.picture.palette import scene_colours
+from sandbox.picture.views import Look, patches
 
 COLOURS = scene_colours(__file__)
 BALL, TRACE, EARLIER = COLOURS["ball"], COLOURS["trace"], COLOURS["earlier"]

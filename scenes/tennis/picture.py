@@ -7,11 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
-from sandbox.picture.ball import Look, seams
-from sandbox.picture.camera import Box, Camera
-from sandbox.picture.depth import Eye
 from sandbox.picture.figures import pose
-from sandbox.picture.net_game import NetView
 from sandbox.picture.palette import scene_colours
 from sandbox.picture.places import (
     COURT_WIDTH,
@@ -24,7 +20,7 @@ from sandbox.picture.places import (
     standing_table,
     tennis_court,
 )
-from sandbox.picture.side import Place
+from sandbox.picture.views import Box, Camera, Eye, Look, NetView, Place, seams
 from sandbox.sport.net_game import taken
 
 from .scene import Parameters

@@ -4,12 +4,9 @@ from __future__ import annotations
 
 from functools import cached_property
 
-from sandbox.picture.ball import Look, seams
-from sandbox.picture.camera import Box
-from sandbox.picture.net_game import NetView
 from sandbox.picture.palette import scene_colours
 from sandbox.picture.places import Hall, Net, Person, Post, Shape, boards
-from sandbox.picture.side import Place
+from sandbox.picture.views import Box, Look, NetView, Place, seams
 
 from .scene import Parameters
 

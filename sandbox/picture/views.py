@@ -1,0 +1,40 @@
+"""What the picture of a scene is made of, besides the parts of its place: the views, and what they draw with."""
+
+from sandbox.picture.above import AboveView
+from sandbox.picture.ball import Look, Mark, Silhouette, near, patches, seams, turned
+from sandbox.picture.camera import Area, Box, Camera
+from sandbox.picture.depth import Eye
+from sandbox.picture.lens import LensView
+from sandbox.picture.long import LongView
+from sandbox.picture.net_game import NetView
+from sandbox.picture.painter import Painter
+from sandbox.picture.path import chip
+from sandbox.picture.sheet import Entry, Sheet, SideRows, nice
+from sandbox.picture.side import Length, Place, SideView
+
+__all__ = [
+    "AboveView",
+    "Area",
+    "Box",
+    "Camera",
+    "Entry",
+    "Eye",
+    "Length",
+    "LensView",
+    "LongView",
+    "Look",
+    "Mark",
+    "NetView",
+    "Painter",
+    "Place",
+    "Sheet",
+    "SideRows",
+    "SideView",
+    "Silhouette",
+    "chip",
+    "near",
+    "nice",
+    "patches",
+    "seams",
+    "turned",
+]
