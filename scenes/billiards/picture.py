@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import cached_property
-from math import floor, hypot
+from math import dist, floor, hypot
 
 import numpy as np
 import pygame
@@ -12,6 +12,7 @@ from sandbox.picture.palette import Colour, mix, palette, scene_colours
 from sandbox.picture.path import Mark
 from sandbox.picture.places.plan import Plan
 from sandbox.picture.views import AboveView, Area, Camera, Entry, Look, Painter, Sheet, nice
+from sandbox.sport.sliding import met
 
 from . import balls
 from .place import outside, place
@@ -95,7 +96,7 @@ class Picture(AboveView[Parameters]):
         """Of several at one place the hardest."""
         kept: list[Mark] = []
         for mark in sorted(super().impacts(camera), key=lambda mark: -mark.hardness):
-            if all(hypot(mark.at[0] - other.at[0], mark.at[1] - other.at[1]) > 2 * self.radius for other in kept):
+            if all(dist(mark.at, other.at) > 2 * self.radius for other in kept):
                 kept.append(mark)
         return kept
 
@@ -150,11 +151,8 @@ class Picture(AboveView[Parameters]):
 
     def progress(self, t: float) -> tuple[str, str]:
         """The last event worth reporting."""
-        told = f"struck at {self.parameters.cue.speed:.1f} m/s"
-        first = self.run.result["first_contact"]
-        for event in self.run.events:
-            if event.t > t:
-                break
+        told, first = f"struck at {self.parameters.cue.speed:.1f} m/s", self.run.result["first_contact"]
+        for event in (event for event in self.run.events if event.t <= t):
             if event.kind == "caught":
                 told = f"the {event.ball} into the {event.partner}"
             elif event.kind == "impact" and {event.ball, event.partner} == {self.ball, first}:
@@ -166,10 +164,7 @@ class Picture(AboveView[Parameters]):
         present = self.present(t)
         speeds = {name: hypot(*self.run.state(name, t)[2:4]) for name in present}
         there = self.ball in present
-        rails = sum(
-            e.kind == "impact" and e.ball == self.ball and e.partner.endswith(" cushion") and e.t <= t
-            for e in self.run.events
-        )
+        rails = sum(name.endswith(" cushion") for name, event in met(self.run, self.ball) if event.t <= t)
         return [
             ("time", f"{t:.2f} s"),
             ("speed", f"{speeds[self.ball]:.2f} m/s" if there else "–"),

@@ -21,7 +21,7 @@ from typing import Any, Literal
 
 from pydantic import Field
 
-from sandbox.engine.run import Event, Run
+from sandbox.engine.run import Run
 from sandbox.engine.setup import Always, Ball, Bounce, ContactModel, Setup, Vector
 from sandbox.engine.touch import Obstacle
 from sandbox.engine.track import PRESSED
@@ -304,15 +304,11 @@ def others(run: Run, parameters: Parameters) -> set[str]:
     return {ball.name for ball in run.setup.balls} - {parameters.cue.ball}
 
 
-def first_contact(run: Run, parameters: Parameters) -> tuple[str, Event] | None:
-    """The first meeting of the struck ball with another."""
-    return next((meeting for meeting in met(run, parameters.cue.ball) if meeting[0] in run.arcs), None)
-
-
-def contact_speed(run: Run, parameters: Parameters) -> float | None:
-    """At which the struck ball comes to the first other, along their surfaces included, as pictures say."""
-    meeting = first_contact(run, parameters)
-    return None if meeting is None else run.closing_speed(meeting[1])
+def first_contact(run: Run, parameters: Parameters) -> tuple[str, float] | None:
+    """The first other ball that the struck one meets, and the speed in m/s at which they meet, along their surfaces
+    included, as pictures say."""
+    events = met(run, parameters.cue.ball)
+    return next(((name, run.closing_speed(event)) for name, event in events if name in run.arcs), None)
 
 
 def point(run: Run, parameters: Parameters) -> int | None:
@@ -373,7 +369,7 @@ FACTS = (
     Fact("stroke", "stroke", "m/s", lambda run, parameters: parameters.cue.speed, "start"),
     Fact("tip", "tip", "", tip, "start"),
     Fact("cushions", "cushions", "", lambda run, it: sum(name.endswith(" cushion") for name in touches(run, it))),
-    Fact("contact_speed", "contact", "m/s", contact_speed),
+    Fact("contact_speed", "contact", "m/s", at(first_contact, lambda meeting, it: meeting[1])),
     Fact("path", "path", "m", lambda run, parameters: travelled(run, parameters.cue.ball)),
     REST_TIME,
     Fact("rails", "cushions, all balls", "", lambda run, _: sum(e.partner.endswith(" cushion") for e in meetings(run))),
