@@ -15,7 +15,7 @@ from sandbox.parameters import Group, group, quantity
 from sandbox.sport.amounts import roughly
 from sandbox.sport.controls import Controls, Handle, Spin
 from sandbox.sport.facts import ENDED, Fact
-from sandbox.sport.flight import Flight, FlyingBall, Launch
+from sandbox.sport.flight import Flight, Launch
 from sandbox.sport.readings import LAUNCH, apex, at, coming_to
 from sandbox.sport.solids import Solid, level
 
@@ -39,7 +39,6 @@ class Parameters(Flight):
     """All numbers of a toss; a Flight has launch, gravity, air and ball."""
 
     launch: Toss = group(..., "the ball as it leaves the hand")
-    ball: FlyingBall = group(..., "the ball")
     fan: FanParameters = group(..., "the fan")
     floor: Solid = group(..., "the floor")
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from types import new_class
 from typing import Any, ClassVar, Literal
 
 from sandbox.parameters import Group, choice, quantity, vector
@@ -121,6 +122,11 @@ class NoForce(Model):
         return None
 
 
-#: What every ball may have, besides the models of its sport: ``GolfDrag | AnyDrag``.
+#: What every ball may have, besides the models of its sport.
 AnyDrag = ConstantDrag | NoForce
 AnyLift = ConstantLift | SpinRatioLift | NoForce
+
+
+def model_of(name: str, laws: Mapping[str, Coefficient], base: type[Model]) -> type[Model]:
+    """The group of that name for a sport's own models, by the words of its ``laws``."""
+    return new_class(name, (base,), exec_body=lambda body: body.update(LAWS=laws, __module__=__name__))

@@ -2,21 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from math import pi
-from typing import ClassVar
+from typing import Any, ClassVar
 
 from sandbox.engine.setup import HOLLOW_SPHERE, Ball, Force, Surface, Vector
 from sandbox.engine.touch import Obstacle
 from sandbox.parameters import Group, SceneParameters, either, group, quantity
-from sandbox.physics.coefficients import Scaled
+from sandbox.physics.coefficients import Coefficient, Scaled
 from sandbox.physics.elementwise import cos, most, sin
 from sandbox.physics.forces import Drag, Gravity, Magnus, SpinDecay
-from sandbox.sport.air import Air, AnyDrag, AnyLift, Lift, Model, wind_in
+from sandbox.sport.air import Air, AnyDrag, AnyLift, Lift, Model, model_of, wind_in
 
 RPM = pi / 30.0  # rad/s
 DEGREE = pi / 180.0  # rad
+
+#: Coefficients of drag or lift by name, or a group of parameters that has such ones.
+Laws = Mapping[str, Coefficient] | type[Model]
 
 
 class Directed(Group):
@@ -51,7 +54,8 @@ class Release(Group):
 
 
 class Sphere(Group):
-    """A ball; a sport says which models of ``drag`` and ``lift`` its ball may have."""
+    """A ball, hollow if it does not say otherwise. ``class GolfBall(Sphere, drag=GOLF_DRAG, lift=GOLF_LIFT)`` may have
+    the coefficients of these dictionaries by name, besides those that any ball may have."""
 
     #: Moment of inertia over m r^2.
     INERTIA: ClassVar[float] = HOLLOW_SPHERE
@@ -59,8 +63,21 @@ class Sphere(Group):
     mass: float = quantity(..., "kg", 0.0001, 20, "mass")
     radius: float = quantity(..., "m", 0.0005, 0.5, "radius")
     cross_section: float | None = quantity(None, "m^2", 1e-7, 1, "frontal area, if it does not follow from the radius")
-    drag: Model = group(..., "drag of the air")
-    lift: Model = group(..., "Magnus force")
+    drag: AnyDrag = either(..., "drag of the air")
+    lift: AnyLift = either(..., "Magnus force")
+
+    def __init_subclass__(cls, drag: Laws | None = None, lift: Laws | None = None, **options: Any) -> None:
+        super().__init_subclass__(**options)
+
+    @classmethod
+    def __pydantic_init_subclass__(cls, drag: Laws | None = None, lift: Laws | None = None, **options: Any) -> None:
+        super().__pydantic_init_subclass__(**options)
+        for name, laws, base in (("drag", drag, Model), ("lift", lift, Lift)):
+            if laws is not None:
+                own = laws if isinstance(laws, type) else model_of(cls.__name__ + name.capitalize(), laws, base)
+                kinds: Any = own | cls.model_fields[name].annotation
+                cls.model_fields[name].annotation = kinds
+        cls.model_rebuild(force=True)
 
     @property
     def inertia_factor(self) -> float:
@@ -70,13 +87,6 @@ class Sphere(Group):
     def decay_in(self, air: Air) -> float:
         """k of ``dw/dt = -k |u| w / r``, by which the air slows its spin; 0 where a sport leaves that out."""
         return 0.0
-
-
-class FlyingBall(Sphere):
-    """A hollow sphere whose drag and lift have one coefficient for all speeds."""
-
-    drag: AnyDrag = either(..., "drag of the air")
-    lift: AnyLift = either(..., "Magnus lift")
 
 
 class Flight(SceneParameters):

@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import Literal
 
 from sandbox.engine.setup import SOLID_SPHERE
-from sandbox.parameters import choice, either, group, quantity
+from sandbox.parameters import choice, group, quantity
 from sandbox.physics.coefficients import BASEBALL_LIFT, Coefficient, NathanDrag
-from sandbox.sport.air import Air, AnyDrag, AnyLift, Lift, Model, Weather
+from sandbox.sport.air import Air, Model, Weather
 from sandbox.sport.flight import RPM, Flight, Release, Sphere
 
 
@@ -20,19 +20,11 @@ class BaseballDrag(Model):
         return NathanDrag(air.viscosity / (2.0 * radius**2 * air.density * RPM))
 
 
-class BaseballLift(Lift):
-    """Lift of a baseball."""
-
-    LAWS = BASEBALL_LIFT
-
-
-class Baseball(Sphere):
+class Baseball(Sphere, drag=BaseballDrag, lift=BASEBALL_LIFT):
     """The ball."""
 
     INERTIA = SOLID_SPHERE
     spin_decay: float = quantity(..., "", 0, 0.01, "k of dw/dt = -k |u| w / r")
-    drag: BaseballDrag | AnyDrag = either(..., "drag of the air")
-    lift: BaseballLift | AnyLift = either(..., "Magnus lift")
 
     def decay_in(self, air: Air) -> float:
         return self.spin_decay

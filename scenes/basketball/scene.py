@@ -28,7 +28,7 @@ from sandbox.physics.integrators import State
 from sandbox.sport.amounts import roughly
 from sandbox.sport.controls import Controls, Handle, Spin, Spread
 from sandbox.sport.facts import ENDED, Fact, once
-from sandbox.sport.flight import Flight, FlyingBall
+from sandbox.sport.flight import Flight
 from sandbox.sport.readings import LAUNCH, Moment, Passes, apex, at, before
 from sandbox.sport.solids import Extent, Solid, around, below, check_apart, disc, level
 
@@ -85,7 +85,6 @@ class Parameters(Flight):
     """All parameters of a shot."""
 
     release: Release = group(..., "where the ball leaves the hand")
-    ball: FlyingBall = group(..., "the ball")
     hoop: Hoop = group(..., "the ring")
     backboard: Backboard = group(..., "the board")
     net: Net = group(..., "the net")

@@ -23,7 +23,7 @@ from sandbox.errors import RequestError
 from sandbox.parameters import Group, choice, either, group, quantity
 from sandbox.physics.club import Head, strike
 from sandbox.physics.coefficients import GOLF_DRAG, GOLF_LIFT
-from sandbox.sport.air import Air, AnyLift, ConstantDrag, Lift, Model, NoForce, OutdoorAir
+from sandbox.sport.air import Air, ConstantDrag, NoForce, OutdoorAir
 from sandbox.sport.amounts import roughly
 from sandbox.sport.controls import Controls, Goal, Handle, Spin, Spread
 from sandbox.sport.facts import Fact, once
@@ -48,31 +48,18 @@ class Club(Group):
     height: float = quantity(..., "m", -0.03, 0.03, "of the impact point above the centre of mass")
 
 
-class GolfDrag(Model):
-    """Drag by a model of the golf ball."""
-
-    LAWS = GOLF_DRAG
-
-
 class DimpledDrag(ConstantDrag):
     """One drag coefficient for all speeds."""
 
     coefficient: float = quantity(0.25, "", 0, 10, "drag coefficient")
 
 
-class GolfLift(Lift):
-    """Lift by a model of the golf ball."""
-
-    LAWS = GOLF_LIFT
-
-
-class GolfBall(Sphere):
+class GolfBall(Sphere, drag=GOLF_DRAG, lift=GOLF_LIFT):
     """The golf ball, a solid sphere."""
 
     INERTIA = SOLID_SPHERE
     spin_decay: float = quantity(..., "", 0, 0.01, "k of dw/dt = -k |u| w / r, in air of 1.204 kg/m^3")
-    drag: GolfDrag | DimpledDrag | NoForce = either(..., "drag of the air")
-    lift: GolfLift | AnyLift = either(..., "Magnus lift")
+    drag: DimpledDrag | NoForce = either(..., "drag of the air")
 
     def decay_in(self, air: Air) -> float:
         """Thinner air slows the spin less, in proportion."""

@@ -14,11 +14,11 @@ from math import hypot
 from sandbox.engine.run import Run
 from sandbox.engine.setup import Ball, Force, Segment, Setup, Surface, Touches
 from sandbox.errors import RequestError
-from sandbox.parameters import Group, SceneParameters, either, group, quantity, vectors
+from sandbox.parameters import Group, SceneParameters, group, quantity, vectors
 from sandbox.physics.elementwise import anywhere, choose, cos, sin
 from sandbox.physics.forces import Gravity, Thinning
 from sandbox.physics.rocket import Motor, Thrust
-from sandbox.sport.air import Air, AnyDrag, NoForce, wind_in
+from sandbox.sport.air import Air, NoForce, wind_in
 from sandbox.sport.amounts import roughly
 from sandbox.sport.controls import Controls, Handle, Spread
 from sandbox.sport.facts import ENDED, Fact
@@ -48,7 +48,6 @@ class Rocket(Sphere):
     """The rocket."""
 
     mass: float = quantity(..., "kg", 0.001, 1000, "mass at the start, propellant included")
-    drag: AnyDrag = either(..., "drag of the air")
     lift: NoForce = group(NoForce(), "none")
 
 

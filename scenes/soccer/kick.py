@@ -7,10 +7,9 @@ from itertools import pairwise
 
 from sandbox.engine.run import Run
 from sandbox.engine.setup import Segment, Surface, Vector
-from sandbox.parameters import either, quantity, switch
+from sandbox.parameters import quantity, switch
 from sandbox.physics.coefficients import SOCCER_DRAG, SOCCER_LIFT
 from sandbox.physics.integrators import State
-from sandbox.sport.air import AnyDrag, AnyLift, Lift, Model
 from sandbox.sport.controls import Spread
 from sandbox.sport.flight import Sphere
 from sandbox.sport.solids import Solid
@@ -18,23 +17,8 @@ from sandbox.sport.solids import Solid
 SPREAD = (Spread("launch.speed", 0.02), Spread("launch.angle", least=1.0), Spread("launch.spin", 0.1))  # assumed
 
 
-class SoccerDrag(Model):
-    """Drag of a soccer ball by its source."""
-
-    LAWS = SOCCER_DRAG
-
-
-class SoccerLift(Lift):
-    """Magnus force on a soccer ball by its source."""
-
-    LAWS = SOCCER_LIFT
-
-
-class SoccerBall(Sphere):
+class SoccerBall(Sphere, drag=SOCCER_DRAG, lift=SOCCER_LIFT):
     """The soccer ball, a hollow sphere."""
-
-    drag: SoccerDrag | AnyDrag = either(..., "drag of the air")
-    lift: SoccerLift | AnyLift = either(..., "Magnus force")
 
 
 class Wall(Solid):

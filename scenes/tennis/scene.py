@@ -11,11 +11,10 @@ from typing import Literal
 
 from sandbox.engine.run import Run
 from sandbox.engine.setup import Segment, Setup, Surface
-from sandbox.parameters import choice, either, group, quantity
+from sandbox.parameters import choice, group, quantity
 from sandbox.physics.coefficients import TENNIS_DRAG, TENNIS_LIFT
 from sandbox.physics.swing import RUBBER, STRINGS
 from sandbox.sport import net_game
-from sandbox.sport.air import AnyDrag, AnyLift, Lift, Model
 from sandbox.sport.controls import Controls, Handle, Spin, Spread
 from sandbox.sport.facts import ENDED
 from sandbox.sport.flight import Release, Sphere
@@ -24,24 +23,10 @@ from sandbox.sport.solids import level
 from sandbox.sport.swing import Swing, struck_by
 
 
-class TennisDrag(Model):
-    """Drag of a tennis ball."""
-
-    LAWS = TENNIS_DRAG
-
-
-class TennisLift(Lift):
-    """Lift of a tennis ball."""
-
-    LAWS = TENNIS_LIFT
-
-
-class TennisBall(Sphere):
+class TennisBall(Sphere, drag=TENNIS_DRAG, lift=TENNIS_LIFT):
     """The ball."""
 
     inertia: float = quantity(..., "", 0.1, 1, "moment of inertia over m r^2")
-    drag: TennisDrag | AnyDrag = either(..., "drag of the air")
-    lift: TennisLift | AnyLift = either(..., "Magnus lift")
 
     @property
     def inertia_factor(self) -> float:

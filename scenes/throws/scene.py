@@ -11,8 +11,8 @@ from math import atan2, degrees, hypot, sqrt
 
 from sandbox.engine.run import Run
 from sandbox.engine.setup import SOLID_SPHERE, Setup, Surface, Touches
-from sandbox.parameters import either, group, quantity
-from sandbox.sport.air import AnyDrag, NoForce
+from sandbox.parameters import group, quantity
+from sandbox.sport.air import NoForce
 from sandbox.sport.amounts import roughly
 from sandbox.sport.controls import Controls, Handle, Spread
 from sandbox.sport.facts import ENDED, Fact
@@ -25,7 +25,6 @@ class Shot(Sphere):
     """The shot."""
 
     INERTIA = SOLID_SPHERE
-    drag: AnyDrag = either(..., "drag of the air")
     lift: NoForce = group(NoForce(), "none")
 
 

@@ -11,10 +11,9 @@ from typing import Any
 
 from sandbox.engine.setup import Setup, Surface
 from sandbox.errors import RequestError
-from sandbox.parameters import either, group, quantity
+from sandbox.parameters import group, quantity
 from sandbox.physics.elementwise import clip, exp, most
 from sandbox.sport import net_game
-from sandbox.sport.air import AnyDrag, AnyLift, Model
 from sandbox.sport.controls import Controls, Handle, Spin, Spread
 from sandbox.sport.facts import ENDED
 from sandbox.sport.flight import Launch, Sphere
@@ -31,17 +30,8 @@ def hong_drag(reynolds: Any, spin_ratio: Any) -> Any:
     return 0.16 + 0.31 / (1.0 + exp(clip((reynolds - 2.3e5) / 0.2e5, -50.0, 50.0)))
 
 
-class CrisisDrag(Model):
-    """Drag of a volleyball, which falls as its boundary layer turns turbulent."""
-
-    LAWS = {"hong": hong_drag}
-
-
-class Volleyball(Sphere):
+class Volleyball(Sphere, drag={"hong": hong_drag}):
     """The ball, a hollow sphere."""
-
-    drag: CrisisDrag | AnyDrag = either(..., "drag of the air")
-    lift: AnyLift = either(..., "Magnus lift")
 
 
 class Hit(Launch):
