@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import Any
 
@@ -195,24 +196,25 @@ class Panel(Scrolled):
 
     def slide(self, row: Setting, at: tuple[int, int]) -> None:
         """Drag the knob of a row's slider to a place in px."""
-        ((rect, _),) = [place for place in self.places if isinstance(place[1], tuple) and place[1][1] == SLIDER_OF and
-                        place[1][0].at == row.at]  # fmt: skip
-        if row.span is not None:
-            low, high = row.span
+        sliders = {what[0].at: rect for rect, what in self.places if isinstance(what, tuple) and what[1] == SLIDER_OF}
+        if row.span is not None and row.at in sliders:
+            (low, high), rect = row.span, sliders[row.at]
             share = min(max((at[0] - rect.left - self.knob) / max(1, rect.width - 2 * self.knob), 0.0), 1.0)
             self.set(row, float(f"{low + share * (high - low):.4g}"))
 
     def type(self, event: pygame.event.Event) -> None:
         """A key that goes into a field: a letter, Backspace, Ctrl V; Enter takes the text, Escape leaves it."""
-        if event.key == pygame.K_RETURN:
+        if event.key in (pygame.K_RETURN, pygame.K_KP_ENTER):
             self.enter()
         elif event.key == pygame.K_ESCAPE:
             self.typing = None
         elif event.key == pygame.K_BACKSPACE:
             self.text, self.whole = "" if self.whole and self.text else self.text[:-1], False
         else:
-            pasted = event.key == pygame.K_v and event.mod & pygame.KMOD_CTRL
-            text = pygame.scrap.get_text() if pasted else event.unicode
+            text = event.unicode
+            if event.key == pygame.K_v and event.mod & pygame.KMOD_CTRL:
+                with suppress(pygame.error):  # there is no clipboard
+                    text = pygame.scrap.get_text().strip()
             if text.isprintable() and text:
                 self.text, self.whole = text if self.whole else self.text + text, False
 
@@ -228,10 +230,11 @@ class Panel(Scrolled):
     def choose(self, by: int) -> None:
         """Go to another row, ``by`` rows on."""
         names = [row.at for row in self.rows]
-        now = names.index(self.chosen) if self.chosen in names else -1 if by > 0 else 0
-        place = (now + by) % len(names)
-        self.chosen = names[place]
-        self.show(place)
+        if names:
+            now = names.index(self.chosen) if self.chosen in names else -1 if by > 0 else 0
+            place = (now + by) % len(names)
+            self.chosen = names[place]
+            self.show(place)
 
     def nudge(self, by: float) -> None:
         """More or less of the chosen row: a hundredth of its slider, the next word, on or off."""

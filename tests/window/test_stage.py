@@ -45,6 +45,7 @@ ACTIONS = {
     "V": lambda view: commands.do(view, "view"),
     "next preset": lambda view: commands.do(view, "next_preset"),
     "saved": lambda view: setattr(view.game, "watch_files", Saved([view.game.session.file])),
+    "Tab": lambda view: commands.do(view, "panel"),
     "zoomed": lambda view: commands.do(view, "zoom"),
     "fit": lambda view: commands.do(view, "fit"),
     "pull": lambda view: view.pull_for_test(),

@@ -103,6 +103,28 @@ class TestThePanel:
         player.click(place(player, "launch.angle", FIELD_OF).center)
         assert player.game.session.value("launch.speed") == 9.0
 
+    def test_a_text_may_be_pasted_and_a_part_of_a_vector_and_nonsense_typed(self, player, monkeypatch):
+        player.click(place(player, "air.wind", FIELD_OF).center)
+        monkeypatch.setattr(pygame.scrap, "get_text", lambda: "-3.5 ")
+        player.key(pygame.K_v, pygame.KMOD_CTRL)
+        player.key(pygame.K_KP_ENTER)
+        assert player.game.session.value("air.wind") == (-3.5, 0.0)
+        for text in ("nan", "1e999", "7 parsec", "[1]"):
+            write(player, "launch.angle", text)
+            assert player.game.notices[-1][1], text
+            assert player.game.session.value("launch.angle") == 10.4
+
+    def test_a_slider_that_goes_while_it_is_dragged_is_no_matter(self, player):
+        slider = place(player, "launch.speed", SLIDER_OF)
+        player.press(slider.center)
+        player.view.panel.turn_to("air")
+        player.view.changed = True
+        for key in (pygame.K_TAB, pygame.K_TAB):
+            player.key(key)
+            player.move((slider.right, slider.top))
+        player.release(slider.center)
+        assert player.game.running
+
     def test_every_group_of_every_kind_of_parameter_can_be_shown(self, player):
         panel = player.view.panel
         assert {"launch", "air", "ball.drag", "ground.green", "accuracy"} <= set(panel.groups)
