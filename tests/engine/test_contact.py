@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 from sandbox.engine import simulate
 from sandbox.engine.accuracy import LEVELS, resolve
+from sandbox.engine.arc import through
 from sandbox.engine.setup import (
     DISC,
     HOLLOW_SPHERE,
@@ -128,6 +129,15 @@ def test_a_graze_within_rounding_changes_nothing_and_one_within_a_micrometre_is_
     assert event.speed < 0.02
     x, y = event.x, event.y
     assert hypot(x, y) == pytest.approx(0.15, abs=1e-9)
+
+
+@pytest.mark.parametrize("inside", [0.0, 1e-12, 1e-9, 1e-6])
+def test_what_overlaps_a_little_meets_the_surface_only_if_it_moves_into_it(inside):
+    floor, y = Obstacle(Surface("floor", Segment((-5.0, 0.0), (5.0, 0.0)), 0.5, 0.9), 0.05), 0.05 - inside
+    for vy, met in ((0.0, False), (1e-3, False), (1.0, False), (-1e-3, True)):
+        still = (0.0, 0.0, 0.0)
+        path = through(0.0, 0.1, (0.0, y, 1.0, vy, 0.0), still, (0.1, y + 0.1 * vy, 1.0, vy, 0.0), still)
+        assert (floor.first_touch(path) is not None) is met
 
 
 def test_flush_surfaces_are_rolled_over_without_a_bump():

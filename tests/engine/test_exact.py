@@ -273,6 +273,7 @@ def test_rolls_over_the_end_of_a_ledge_and_falls():
     ledge = Surface("ledge", Segment((-5.0, 0.0), (0.0, 0.0)), 0.3, 0.9)
     ball = Ball("ball", 0.3, 0.05, (-1.0, 0.05), (2.0, 0.0), spin=-40.0, forces=[Gravity(0.3, G)])
     run = fly(ball, 1.0, [ledge])
+    assert [(event.kind, event.speed) for event in run.events] == [("contact", 0.0), ("leave", 0.0)]
     x, y, vx, vy, _ = run.state("ball", 1.0)
     assert (x, vx) == pytest.approx((1.0, 2.0), abs=1e-7)
     assert (y, vy) == pytest.approx((0.05 - 0.5 * G * 0.25, -0.5 * G), abs=1e-6)
