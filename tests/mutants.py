@@ -46,7 +46,6 @@ TESTS: dict[str, dict[str, str]] = {
         "heap": "heap bodies scenes/collisions golden_runs",
         "impacts": "contact cloth clusters bodies",
         "impulses": "contact cloth batch bodies",
-        "lanes": "batch",
         "lasting": "contact exact run",
         "ledger": "run cloth guards",
         "on_plane": "cloth ice plain",

@@ -18,8 +18,7 @@ from sandbox.engine.acting import acceleration, by_cause
 from sandbox.engine.arc import through
 from sandbox.engine.arc_rows import COLUMNS, END, ArcRows, Paths, X, Y, arc_of, cut
 from sandbox.engine.event import Event
-from sandbox.engine.impulses import lanes
-from sandbox.engine.lanes import ManyLanes
+from sandbox.engine.impulses import MANY, lanes
 from sandbox.engine.outlines import Outlines
 from sandbox.engine.run import Numerics, Run
 from sandbox.engine.setup import Setup, Until
@@ -110,7 +109,7 @@ class Batch:
         self._select = selector(whole)
         self._until = selector(whole.until)
         self._outlines = Outlines(setups, accuracy.skin)
-        self._lanes = lanes(ManyLanes)
+        self._lanes = lanes(MANY)
         self._events: list[list[Event]] = [[] for _ in setups]
         self._left: dict[int, _Left] = {}
         nothing = (np.zeros(0, dtype=int), np.zeros((COLUMNS, 0)))

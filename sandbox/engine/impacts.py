@@ -7,7 +7,7 @@ from itertools import combinations
 from math import dist, hypot
 from typing import NamedTuple
 
-from sandbox.engine.impulses import Contact, Lanes, exchange_alone, exchange_at_once, lanes
+from sandbox.engine.impulses import Contact, exchange_alone, exchange_at_once, lanes
 from sandbox.engine.meeting import Meeting, discs, farthest, meeting, speeds_at, surfaces_met
 from sandbox.engine.run import Numerics
 from sandbox.engine.setup import Ball, Body, Bounce, Setup, Surface, kinetic
@@ -67,7 +67,7 @@ class Impacts:
         self._setup = setup
         self._tracks = tracks
         self._numerics = numerics
-        self._lanes = lanes(Lanes)
+        self._lanes = lanes(1)
         self.gap = TOUCHING_GAP  # m, up to which shapes touch; wider in a heap
         self._slowest_hop = slowest_hop  # m/s, minimum speed at which balls on cloth separate
         # Walls softer than balls push back after the balls have separated.
