@@ -8,7 +8,7 @@ from __future__ import annotations
 from bisect import bisect_right
 from collections.abc import Callable, Sequence
 from functools import cache, lru_cache
-from math import ceil, cos, floor, hypot, sin, tau
+from math import ceil, cos, floor, hypot, pi, sin, tau
 from typing import NamedTuple
 
 import numpy as np
@@ -139,6 +139,13 @@ def seams(colour: Colour) -> Mark:
         return (line < 0.055).astype(float)
 
     return Mark(colour, cover)
+
+
+def dimples(colour: Colour) -> Mark:
+    """The dimples of a golf ball: a spiral of them, evenly spread (Fibonacci)."""
+    z, turn = np.linspace(-1, 1, 240), np.arange(240) * pi * (3 - 5**0.5)
+    wide = np.sqrt(1 - z**2)
+    return Mark(colour, near(np.column_stack([wide * np.cos(turn), wide * np.sin(turn), z]), 0.07), least=12)
 
 
 def patches(colour: Colour) -> Mark:

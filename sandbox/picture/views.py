@@ -1,7 +1,7 @@
 """What the picture of a scene is made of, besides the parts of its place: the views, and what they draw with."""
 
 from sandbox.picture.above import AboveView
-from sandbox.picture.ball import Look, Mark, Silhouette, near, patches, seams, turned
+from sandbox.picture.ball import Look, Mark, Silhouette, dimples, near, patches, seams, turned
 from sandbox.picture.camera import Area, Box, Camera
 from sandbox.picture.depth import Eye
 from sandbox.picture.lens import LensView
@@ -32,6 +32,7 @@ __all__ = [
     "SideView",
     "Silhouette",
     "chip",
+    "dimples",
     "near",
     "nice",
     "patches",

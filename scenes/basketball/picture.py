@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 from functools import cached_property
-from math import asin, atan2, cos, pi, sin
+from math import atan2, cos, sin
 
 import numpy as np
 
 from sandbox.picture.palette import mix, palette, scene_colours
-from sandbox.picture.places import Hall, Line, Person, Size, boards
+from sandbox.picture.places import Hall, Person, Size, boards
+from sandbox.picture.places.courts import basketball_key, basketball_lines
+from sandbox.picture.places.hanging import HangingNet
 from sandbox.picture.views import Box, Camera, Entry, Length, LensView, Look, Painter, Place, Sheet, seams
 from sandbox.sport.amounts import metres, roughly, times
 
-from .hoop import Net, hoop, stand
+from .hoop import hoop, stand
 from .scene import Parameters
 
 CARD, COLOURS = palette("card"), scene_colours(__file__)
@@ -20,11 +22,6 @@ BALL, FLOOR = COLOURS["ball"], COLOURS["floor"]
 
 #: How far behind the board the stand reaches, and before the release the thrower, in m.
 STAND, THROWER = 2.5, 0.7
-#: The court of the NBA, in m: key, free-throw circle, three-point line, from the middle to the side line.
-KEY_LENGTH, KEY_HALF_WIDTH, CIRCLE = 4.572, 2.438, 1.829
-ARC, CORNER, HALF_WIDTH = 7.24, 6.71, 7.62
-#: The end line is so far behind the face of the board; the court is so long, and lines are so wide.
-END_LINE, LENGTH, LINE = 1.22, 28.65, 0.05
 #: Board, ring and stand are drawn larger where they would be less tall than this, px on 720 rows.
 LEAST_HEIGHT = 80
 
@@ -72,8 +69,10 @@ class Picture(LensView[Parameters]):
         return self.parameters.hoop.middle
 
     @cached_property
-    def net(self) -> Net:
-        return Net(self.run, self.parameters)
+    def net(self) -> HangingNet:
+        hoop, made = self.parameters.hoop, self.run.result["made"]
+        wide = hoop.inner_diameter / 2 + hoop.tube_radius
+        return HangingNet(self.run, self.ring, wide, self.parameters.net.length, COLOURS["hoop"]["net"], made)
 
     @property
     def hoop_size(self) -> Size:
@@ -92,10 +91,8 @@ class Picture(LensView[Parameters]):
     @cached_property
     def place(self) -> Place:
         face = self.parameters.board[0]
-        end, throw = face + END_LINE, face - KEY_LENGTH
-        key = [(throw, 0.0), (throw, KEY_HALF_WIDTH), (end, KEY_HALF_WIDTH), (end, 0.0)]
-        markings = _markings(self.ring[0], throw, end)
-        ground = boards(FLOOR, LINE, areas=[(key, FLOOR["key"])], lines=markings)
+        lines = basketball_lines(face, self.ring[0])
+        ground = boards(FLOOR, areas=[(basketball_key(face), FLOOR["key"])], lines=lines)
         goal = self.hoop_size.of(*stand(self.parameters), *hoop(self.parameters))
         return Place(Hall(**COLOURS["hall"]), ground, [*goal, *self.thrower])
 
@@ -162,14 +159,3 @@ class Picture(LensView[Parameters]):
             sheet.labels.take_path(arc, 2 * unit)
         self.LOOK.draw(sheet.painter, (px, py), radius, self.turn("ball", t), unit)
         sheet.labels.take_path([(px, py)], radius)
-
-
-def _markings(ring: float, throw: float, end: float) -> list[Line]:
-    """The lines behind the plane of play: key, circle, three-point line, end line and side line; x in m of three."""
-    turns = np.linspace(pi, pi - asin(CORNER / ARC), 40)
-    return [
-        [(throw, 0.0), (throw, KEY_HALF_WIDTH), (end, KEY_HALF_WIDTH)],
-        [(throw + CIRCLE * cos(turn), CIRCLE * sin(turn)) for turn in np.linspace(pi / 2, pi, 25)],
-        [*((ring + ARC * cos(turn), ARC * sin(turn)) for turn in turns), (end, CORNER)],
-        [(end, 0.0), (end, HALF_WIDTH), (end - LENGTH, HALF_WIDTH)],
-    ]

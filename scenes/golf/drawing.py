@@ -11,7 +11,7 @@ import pygame
 from sandbox.engine.setup import Segment, Setup
 from sandbox.picture.palette import Colour, mix, palette, scene_colours
 from sandbox.picture.places import Ground, Landscape, Line, Stripes
-from sandbox.picture.views import Box, Camera, Eye, Look, Mark, Painter, near
+from sandbox.picture.views import Box, Camera, Eye, Look, Mark, Painter, dimples
 
 CARD, COLOURS = palette("card"), scene_colours(__file__)
 
@@ -136,13 +136,6 @@ class Course:
         painter.polygon(np.column_stack([[*along, *along[::-1]], edges]), COLOURS["hole"]["flag"])
 
 
-def _dimples(at: np.ndarray) -> np.ndarray:
-    """A spiral of them, evenly spread (Fibonacci)."""
-    z, turn = np.linspace(-1, 1, 240), np.arange(240) * pi * (3 - 5**0.5)
-    wide = np.sqrt(1 - z**2)
-    return near(np.column_stack([wide * np.cos(turn), wide * np.sin(turn), z]), 0.07)(at)
-
-
 def _stripe(at: np.ndarray) -> np.ndarray:
     """The line that players draw around half of it."""
     return ((abs(at[..., 1]) < 0.13) & (at[..., 2] > 0.0) & (abs(at[..., 0]) < 0.7)).astype(float)
@@ -152,5 +145,5 @@ CUP = COLOURS["hole"]["cup"]
 BALL = Look(
     COLOURS["ball"]["colour"],
     Mark(COLOURS["ball"]["mark"], _stripe, least=6),
-    Mark(COLOURS["ball"]["dimple"], _dimples, least=12),
+    dimples(COLOURS["ball"]["dimple"]),
 )

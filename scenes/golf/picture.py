@@ -99,13 +99,8 @@ class Picture(SideView[Parameters]):
             sheet.labels.take(flag.inflate(0, 2 * sheet.gap))
             spots = [(flag.centerx, flag.top - lift * self.unit, "midbottom") for lift in (8, 14)]
             distance = self.parameters.pin.distance
-            sheet.label(
-                f"pin {metres(distance, 0 if distance == int(distance) else None)}",
-                "small",
-                spots,
-                sheet.ink,
-                bold=True,
-            )
+            text = f"pin {metres(distance, 0 if distance == int(distance) else None)}"
+            sheet.label(text, "small", spots, sheet.ink, bold=True)
 
     # The poster
 
