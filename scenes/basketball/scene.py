@@ -215,14 +215,8 @@ def falls_to(run: Run, parameters: Parameters, below: float = 0.0) -> Iterator[t
 def out(run: Run, parameters: Parameters) -> float | None:
     """When the ball left the ring below, between its inner edges, in s; None if it did not before it reached the
     floor."""
-    return next(
-        (
-            t
-            for t, state in falls_to(run, parameters, parameters.ball.radius)
-            if inside(state, parameters) and t <= on_floor(run)
-        ),
-        None,
-    )
+    falls = falls_to(run, parameters, parameters.ball.radius)
+    return next((t for t, state in falls if inside(state, parameters) and t <= on_floor(run)), None)
 
 
 @once

@@ -54,9 +54,7 @@ class Cue(Directed):
     ball: str = Field(description="name of the ball that is struck", min_length=1, max_length=40)
     speed: float = quantity(..., "m/s", 0, 30, "speed of the ball after the stroke")
     angle: float = quantity(..., "deg", -360, 360, "direction, from +x counter-clockwise")
-    follow: float = quantity(
-        ..., "", -0.5, 0.5, "height of the tip above the ball's centre in radii; 0.4 rolls at once"
-    )
+    follow: float = quantity(..., "", -0.5, 0.5, "tip above the ball's centre in radii; 0.4 rolls at once")
     english: float = quantity(..., "", -0.5, 0.5, "tip to the right of the ball's centre in radii")
 
 
@@ -66,9 +64,7 @@ class BallParameters(Group):
     mass: float = quantity(..., "kg", 0.001, 10, "mass")
     radius: float = quantity(..., "m", 0.002, 0.2, "radius")
     restitution: float = quantity(..., "", 0, 1, "of ball and ball")
-    friction: float | None = quantity(
-        None, "", 0, 10, "of ball and ball; if left out, it falls with sliding speed (Alciatore)"
-    )
+    friction: float | None = quantity(None, "", 0, 10, "of two balls; left out: falls with sliding speed (Alciatore)")
 
 
 class ClothParameters(Group):
@@ -256,9 +252,7 @@ def check_spots(spots: Mapping[str, Vector], parameters: Parameters, obstacles: 
     for name, place in spots.items():
         where = f'ball "{name}" at ({place[0]:g}, {place[1]:g}) m'
         if not on_bed(parameters.table, *place):
-            raise RequestError(
-                f"{where} is off the table, whose noses are at x = +-{x_most:g} m and y = +-{y_most:g} m"
-            )
+            raise RequestError(f"{where} is off the table, whose noses are at x = +-{x_most:g} m, y = +-{y_most:g} m")
         gap, cushion = min((obstacle.near(*place).gap, obstacle.surface.name) for obstacle in obstacles)
         if gap < -ROUNDING:
             raise RequestError(f"{where} overlaps the {cushion} by {-1000.0 * gap:.3g} mm: its radius is {radius:g} m")
@@ -392,8 +386,7 @@ def verdict(run: Run, parameters: Parameters) -> str:
     result, cue = run.result, parameters.cue.ball
     potted = [name for name in result["potted"] if name != cue]
     if result["scratch"]:
-        also = f", with {_named(potted)}" if potted else ""
-        return f"Scratch in the {result['pockets'][cue]}{also}"
+        return f"Scratch in the {result['pockets'][cue]}" + (f", with {_named(potted)}" if potted else "")
     if len(potted) == 1:
         return f"The {potted[0]} into the {result['pockets'][potted[0]]}"
     if potted:

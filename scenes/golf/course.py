@@ -117,12 +117,8 @@ def surfaces(ground: Ground, pin: Pin, radius: float) -> list[Surface]:
     left, right = pin.around(pin.cup_width)
     strips = (x for strip in ground.strips for x in (strip.start, strip.end))
     edges = sorted({left, right, *pin.around(ground.green.length), *strips, *(x for x, _ in ground.line)})
-    pieces = pairwise(map(ground.point, edges))
-    turf = [
-        _turf(ground, kind_at(ground, pin, 0.5 * (a[0] + b[0])), Segment(a, b))
-        for a, b in pieces
-        if not left <= a[0] < right
-    ]
+    pieces = [(a, b) for a, b in pairwise(map(ground.point, edges)) if not left <= a[0] < right]
+    turf = [_turf(ground, kind_at(ground, pin, 0.5 * (a[0] + b[0])), Segment(a, b)) for a, b in pieces]
     if left == right:
         return turf
     bottom = min(ground.height(left), ground.height(right)) - pin.cup_depth

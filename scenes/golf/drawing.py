@@ -141,9 +141,5 @@ def _stripe(at: np.ndarray) -> np.ndarray:
     return ((abs(at[..., 1]) < 0.13) & (at[..., 2] > 0.0) & (abs(at[..., 0]) < 0.7)).astype(float)
 
 
-CUP = COLOURS["hole"]["cup"]
-BALL = Look(
-    COLOURS["ball"]["colour"],
-    Mark(COLOURS["ball"]["mark"], _stripe, least=6),
-    dimples(COLOURS["ball"]["dimple"]),
-)
+CUP, INK = COLOURS["hole"]["cup"], COLOURS["ball"]
+BALL = Look(INK["colour"], Mark(INK["mark"], _stripe, least=6), dimples(INK["dimple"]))

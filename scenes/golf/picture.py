@@ -127,10 +127,8 @@ class Picture(SideView[Parameters]):
         """Total, and carry."""
         why = "   at launch height" if self._ends_high else ""
         total, carry = self.run.result["total"], self.run.result["carry"] or 0.0
-        lengths = [
-            Length(f"total {twice(total, 'yd')}", 0.0, total),
-            Length(f"carry {twice(carry, 'yd')}{why}", 0.0, carry, CARD["accent"]),
-        ]
+        lengths = [Length(f"total {twice(total, 'yd')}", 0.0, total)]
+        lengths += [Length(f"carry {twice(carry, 'yd')}{why}", 0.0, carry, CARD["accent"])]
         return [length for length in lengths if length.end]
 
     @property

@@ -34,9 +34,7 @@ class Launch(flight.Launch):
 
     angle: float = quantity(..., "deg", -180, 180, "direction, to the left of straight at the goal line")
     spin: float = quantity(..., "rpm", -20000, 20000, "positive bends the ball to the left")
-    tilt: float = quantity(
-        ..., "deg", -90, 90, "lean of the spin's axis from the upright; only its cosine bends the ball"
-    )
+    tilt: float = quantity(..., "deg", -90, 90, "lean of the spin's axis from the upright; its cosine bends the ball")
 
 
 class WideGoal(Goal):

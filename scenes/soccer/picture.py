@@ -90,19 +90,11 @@ class Picture(SideView[Parameters]):
         """The wall of players, the nearest in the plane of play, the farther ones darker."""
         wall, shade = self.parameters.wall, COLOURS["stands"]["stands"][2]
         tall = min(wall.height, TALL) if LEAST_TALL <= wall.height <= HIGHEST else wall.height
-        rows = max(1, round(wall.thickness / BEHIND))
-        return [
-            Person(
-                wall.distance + (row - (rows - 1) / 2) * BEHIND,
-                tall,
-                {part: mix(colour, shade, 0.12 * i) for part, colour in COLOURS["wall"].items()},
-                z=i * ABREAST,
-                up=wall.height - tall,
-                facing=-1,
-            )
-            for i in reversed(range(PLAYERS))
-            for row in range(rows)
-        ]
+        rows, up = max(1, round(wall.thickness / BEHIND)), wall.height - tall
+        behind = [wall.distance + (row - (rows - 1) / 2) * BEHIND for row in range(rows)]
+        darker = [{part: mix(ink, shade, 0.12 * i) for part, ink in COLOURS["wall"].items()} for i in range(PLAYERS)]
+        spots = [(i, x) for i in reversed(range(PLAYERS)) for x in behind]
+        return [Person(x, tall, darker[i], z=i * ABREAST, up=up, facing=-1) for i, x in spots]
 
     def remarks(self, camera: Camera) -> list[str]:
         wall, goal, distance = self.parameters.wall.present, self.parameters.goal.present, self.parameters.goal.distance
