@@ -116,7 +116,9 @@ class _Settled(Until):
     def over(self, events: Sequence[Event]) -> bool:
         if is_over(self.until, events):
             return True
-        so_far = [events[:count] for count in range(1, len(events) + 1)]
+        if not any(condition.over(events) for condition in self.conditions):
+            return False
+        so_far = [events[:count] for count in range(len(events), 0, -1)]
         return all(any(map(condition.over, so_far)) for condition in self.conditions)
 
     def passed(self, start: State, end: State) -> Any:
