@@ -13,10 +13,15 @@ extrapolated from these shots.
 The limit is the forces alone: numpy evaluates gravity and drag for all shots at once, as often as the flights need at
 "balanced", and nothing else; with two processes half of that. "over limit" is the time of a shot relative to it.
 
-Commands: whole commands that a player waits for, in processor time (user and system) including the start, compared with
-what is asked of them.
+Commands: whole commands that a player waits for, in processor time (user and system) including the start. "floor" is
+the time that numpy takes for the forces of all these shots, as often as they need them, and "asked" what the project
+asks of itself: the same multiple of the floor for golf and soccer
+as for basketball.
 
-Where it goes: the processor time of a shot of the map in each step of a sweep.
+In the window: what it computes while a player aims, in processor time of the process that computes it; a fan is a
+picture of a shot with the usual errors, and grows where its shots are computed one by one.
+
+Where it goes: the processor time of a shot of the map in each step of a sweep; the floor of each is the forces alone.
 
 Growth: with the number of shots, from Python (``sandbox.lab.sweep``: build, simulate, evaluate), and with the number of
 balls that fly in one setup without touching, by ``simulate``. Except for the command, times are processor times.
@@ -30,10 +35,12 @@ import os
 import subprocess
 import sys
 import tempfile
+import textwrap
 from collections.abc import Callable, Sequence
+from contextlib import ExitStack
 from dataclasses import replace
 from functools import partial
-from math import cos, hypot, radians, sin
+from math import cos, hypot, inf, radians, sin
 from pathlib import Path
 from random import Random
 from statistics import mean, median
@@ -45,19 +52,28 @@ from unittest.mock import patch
 import by_pymunk
 import numpy as np
 from forces import together
-from shots import Shot, basketball_law
+from shots import Shot as Launched
+from shots import basketball_law
 
 import sandbox
 from sandbox.engine import simulate, simulate_many
 from sandbox.engine.accuracy import resolve
+from sandbox.engine.acting import acceleration
+from sandbox.engine.batch import Batch
+from sandbox.engine.outlines import Outlines
 from sandbox.engine.run import Run
 from sandbox.engine.setup import Setup
+from sandbox.lab import runs as lab_runs
 from sandbox.lab.axes import Values, Varied
-from sandbox.lab.plan import Plan
+from sandbox.lab.plan import Plan, records
 from sandbox.lab.row_file import RowFile
 from sandbox.lab.runs import runs
 from sandbox.lab.sweep import sweep
+from sandbox.picture.camera import Camera
 from sandbox.scene import Scene
+from sandbox.window import fan
+from sandbox.window.score_map import score_map
+from sandbox.window.shots import Shot
 
 SPEEDS, ANGLES = (6.0, 9.0), (35.0, 75.0)  # m/s, deg
 MAP = (61, 41)
@@ -69,15 +85,28 @@ DRAWN = 6
 GRIDS = ((10, 10), (25, 20), MAP, (100, 100))
 BALLS = (1, 4, 16, 64)
 
-#: Whole commands and the processor time asked for in s, beyond the start-up where "start" says so.
-COMMANDS = {
-    "sweep basketball, 201 x 201": (("basketball", SPEEDS, ANGLES, (201, 201)), 201 * 201 / 5_000),
-    "sweep basketball, 61 x 41": (("basketball", SPEEDS, ANGLES, MAP), 0.8),
-    "sweep golf, 61 x 41": (("golf", (50.0, 80.0), (5.0, 45.0), MAP), None),
-    "sweep soccer, 61 x 41": (("soccer", (15.0, 35.0), (5.0, 45.0), MAP), None),
-    "aim golf carry=250 yd": (("golf", "launch.angle=5:75", "carry=250 yd"), 0.15),
-    "aim basketball made=true": (("basketball", "launch.speed=6:9", "made=true"), 1.0),
+#: Whole sweeps, and the processor time asked for in s; of the others the same share of their floor as of the first.
+SWEEPS: dict[str, tuple[tuple[float, float], tuple[float, float], tuple[int, int], float | None]] = {
+    "basketball, 61 x 41": (SPEEDS, ANGLES, MAP, 0.8),
+    "basketball, 201 x 201": (SPEEDS, ANGLES, (201, 201), 201 * 201 / 5_000),
+    "golf, 61 x 41": ((50.0, 80.0), (5.0, 45.0), MAP, None),
+    "soccer, 61 x 41": ((15.0, 35.0), (5.0, 45.0), MAP, None),
 }
+#: Searches, and the processor time asked for in s, beyond the start-up.
+AIMS = {
+    "golf carry=250 yd": ("launch.angle=5:75", 0.15),
+    "basketball made=true": ("launch.speed=6:9", 1.0),
+}
+#: Fans in the window: shots, whether of an aim that changes, and the processor time asked for in s.
+FANS = {
+    "basketball": (100, True, 0.1),
+    "soccer": (100, True, 0.1),
+    "golf": (100, True, 0.1),
+    "billiards/cut": (200, False, 1.0),
+    "billiards/nine-ball-break": (200, False, 1.0),
+}
+#: Maps in the window, and the processor time asked for in s.
+MAPS = {"basketball": 1.0, "soccer": 1.0, "golf": 1.0}
 
 
 def grid(shape: tuple[int, int]) -> dict[str, Any]:
@@ -135,50 +164,112 @@ def processor(code: str, words: Sequence[str] = ()) -> float:
     return after.children_user + after.children_system - before.children_user - before.children_system
 
 
+def swept(scene: str, speeds: tuple[float, float], angles: tuple[float, float], shape: tuple[int, int]) -> float:
+    """Processor time in s of a whole sweep."""
+    axes = (("launch.speed", speeds, shape[0]), ("launch.angle", angles, shape[1]))
+    over = [word for key, (low, high), n in axes for word in ("--over", f"{key}={low:g}:{high:g}:{n}")]
+    with tempfile.TemporaryDirectory() as folder:
+        return processor(PROGRAM, ["sweep", scene, *over, "--out", str(Path(folder) / "map.csv")])
+
+
+def floor_of(name: str, speeds: tuple[float, float], angles: tuple[float, float], shape: tuple[int, int]) -> float:
+    """Seconds that numpy takes for the forces of these shots, as often as a few of them need them."""
+    scene = sandbox.load(name)
+    some = [(speed, angle) for speed in np.linspace(*speeds, 5) for angle in np.linspace(*angles, 5)]
+    found = runs(scene, ["launch.speed", "launch.angle"], some, asked=scene.all_but_the_end)
+    evaluations = mean(run.numerics.force_evaluations for run in found if isinstance(run, Run))
+    ball, shots = scene.build().balls[0], shape[0] * shape[1]
+    state = (*np.zeros((2, shots)), *np.full((2, shots), 5.0), np.full(shots, ball.spin))
+    once = min(timeit(lambda: acceleration(ball, np.zeros(shots), state), number=9) / 9 for _ in range(5))
+    return evaluations * once
+
+
 def commands(repeats: int, quick: bool) -> list[dict[str, Any]]:
     """A row for each command, or for one of each kind; the start-up is subtracted from the searches."""
     start = min(processor(START) for _ in range(repeats))
+    rows, share = [], inf
+    for name, (speeds, angles, shape, asked) in list(SWEEPS.items())[: 1 if quick else None]:
+        how = (name.partition(",")[0], speeds, angles, (6, 5) if quick else shape)
+        floor = floor_of(*how)
+        share = min(share, asked / floor) if asked is not None else share
+        spent = min(swept(*how) for _ in range(repeats))
+        rows.append(
+            {
+                "command": f"sweep {name}",
+                "processor_s": spent,
+                "floor_s": floor,
+                "asked_s": share * floor if asked is None else asked,
+            }
+        )
+    for name, (vary, asked) in list(AIMS.items())[: 1 if quick else None]:
+        scene, _, target = name.partition(" ")
+        words = ["aim", scene, "--vary", vary, "--target", target]
+        spent = min(processor(PROGRAM, words) for _ in range(repeats)) - start
+        rows.append({"command": f"aim {name}, beyond start", "processor_s": spent, "asked_s": asked})
+    return rows
+
+
+def in_the_window(repeats: int, quick: bool) -> list[dict[str, Any]]:
+    """A row for each fan and map."""
     rows = []
-    for name, (asked, limit) in list(COMMANDS.items())[:: 4 if quick else 1]:
-        with tempfile.TemporaryDirectory() as folder:
-            if len(asked) == 4:
-                scene, speeds, angles, shape = asked
-                shape = (6, 5) if quick else shape
-                axes = (("launch.speed", speeds, shape[0]), ("launch.angle", angles, shape[1]))
-                over = [word for key, (low, high), n in axes for word in ("--over", f"{key}={low:g}:{high:g}:{n}")]
-                words, beyond = ["sweep", scene, *over, "--out", str(Path(folder) / "map.csv")], 0.0
-            else:
-                scene, vary, target = asked
-                words, beyond = ["aim", scene, "--vary", vary, "--target", target], start
-            spent = min(processor(PROGRAM, words) for _ in range(repeats)) - beyond
-        rows.append({"command": name, "processor_s": spent, "asked_s": limit})
+    for name, (shots, quickly, asked) in list(FANS.items())[: 1 if quick else None]:
+        scene = sandbox.load(name)
+        shot = Shot(scene, sandbox.simulate(scene))
+        camera = Camera((0.0, 0.0), (640.0, 360.0), 60.0)
+        how = (1.0, camera, quickly, shot.early, (1280, 720), ((0, 255, 0), (255, 255, 255)))
+        times = []
+        for _ in range(repeats):
+            with patch.object(fan, "SHOTS", shots), patch.object(fan, "_begun", None):
+                parts, left = [], True
+                while left:
+                    spent, cloud = timed(partial(fan.cloud, scene, *how), 1)
+                    parts, left = [*parts, spent], cloud.left > 0 and not quickly
+            times.append((sum(parts), parts[0]))
+        whole, first = min(times)
+        rows.append({"what": f"fan of {shots}, {name}", "processor_s": whole, "first_s": first, "asked_s": asked})
+    for name, asked in list(MAPS.items())[: 1 if quick else None]:
+        whole = min(timed(partial(score_map, sandbox.load(name)), 1)[0] for _ in range(repeats))
+        rows.append({"what": f"map, {name}", "processor_s": whole, "first_s": whole, "asked_s": asked})
     return rows
 
 
 def steps(shape: tuple[int, int]) -> dict[str, float]:
-    """Seconds of processor time of a shot in each step of a sweep."""
+    """Seconds of processor time of a shot in each step of a sweep, and of its forces alone."""
     scene = sandbox.load("basketball")
     plan = Plan(scene, tuple(Values(key, tuple(values.tolist())) for key, values in grid(shape).items()))
-    points, varied = list(plan.points(0, plan.size)), Varied(scene, plan.keys)
+    spent = dict.fromkeys(("parameters", "build and stack", "flight", "touches", "objects", "facts"), 0.0)
+
+    def clocked(step: str, work: Callable[..., Any]) -> Callable[..., Any]:
+        def wrapped(*arguments: Any) -> Any:
+            started = thread_time()
+            done = work(*arguments)
+            spent[step] += thread_time() - started
+            return done
+
+        return wrapped
+
     read = scene.reader(plan.asked)
-    with patch.object(Scene, "reader", lambda self, asked: lambda run, parameters: {}):
-        together_s, found = timed(lambda: list(runs(scene, plan.keys, points, asked=plan.asked)), 1)
-    parameters_s, parameters = timed(lambda: [varied.parameters(values) for values in points], 1)
-    facts_s, rows = timed(lambda: [read(*each) for each in zip(found, parameters, strict=True)], 1)
+    with ExitStack() as patched:
+        for step, owner, name in (
+            ("parameters", Varied, "parameters"),
+            ("build and stack", lab_runs, "built_at_once"),
+            ("flight", Batch, "fly"),
+            ("touches", Outlines, "first_touch"),
+            ("objects", Batch, "_run"),
+        ):
+            patched.enter_context(patch.object(owner, name, clocked(step, getattr(owner, name))))
+        patched.enter_context(patch.object(Scene, "reader", lambda self, asked: clocked("facts", read)))
+        rows = records(plan, 0, plan.size)
+    spent["flight"] -= spent["touches"]
     with tempfile.TemporaryDirectory() as folder, RowFile(Path(folder) / "map.csv", plan) as file:
-        rows_s, _ = timed(lambda: file.append([{**row, "error": ""} for row in rows]), 1)
-    spent = {
-        "parameters": parameters_s,
-        "flight": together_s - parameters_s,
-        "facts": facts_s,
-        "rows as CSV": rows_s,
-    }
+        spent["rows as CSV"], _ = timed(lambda: file.append(rows), 1)
+    spent["floor"] = floor_of("basketball", SPEEDS, ANGLES, shape)
     return {step: seconds / plan.size for step, seconds in spent.items()}
 
 
 def by_bare_pymunk(setup: Setup, run: Run) -> tuple[float, float, int]:
     """Seconds, error in m, and steps per second, at the lowest rate that reaches the target."""
-    shot = Shot(replace(setup, duration=run.duration, until=None), basketball_law)
+    shot = Launched(replace(setup, duration=run.duration, until=None), basketball_law)
     x, y = run.before("ball", run.duration)[:2]
     for rate in RATES:
         spent, end = timed(partial(by_pymunk.shoot, shot, rate), 1)
@@ -264,14 +355,19 @@ def show(results: dict[str, Any]) -> None:
     rates = ", ".join(f"{one['steps_per_s']:,}" for one in drawn)
     out.write(f"  bare pymunk: {len(drawn)} shots drawn, {reached} within {100 * TARGET:g} cm, at {rates} steps/s\n")
     parts = ", ".join(f"{step} {1e6 * spent:.0f} us" for step, spent in results["steps"].items())
-    out.write(f"  a shot of a sweep: {parts}\n")
+    out.write(textwrap.fill(f"a shot of a sweep: {parts}", 110, initial_indent="  ", subsequent_indent="    ") + "\n")
     out.write(f"\n  {'shots':>8}{'time':>12}{'a shot':>12}\n")
     for row in results["shots"]:
         out.write(f"  {row['shots']:>8,}{row['time_s']:>10.2f} s{row['ms_per_shot']:>9.2f} ms\n")
-    out.write(f"\n  {'whole command':<30}{'processor':>12}{'asked':>12}\n")
+    out.write(f"\n  {'whole command':<36}{'processor':>12}{'floor':>12}{'asked':>12}\n")
     for row in results["commands"]:
-        asked = "" if row["asked_s"] is None else f"{row['asked_s']:.2f} s"
-        out.write(f"  {row['command']:<30}{row['processor_s']:>10.2f} s{asked:>12}\n")
+        floor = f"{row['floor_s']:.3f} s" if "floor_s" in row else ""
+        out.write(f"  {row['command']:<36}{row['processor_s']:>10.2f} s{floor:>12}{row['asked_s']:>10.2f} s\n")
+    out.write(f"\n  {'in the window':<36}{'processor':>12}{'first':>12}{'asked':>12}\n")
+    for row in results["window"]:
+        out.write(
+            f"  {row['what']:<36}{row['processor_s']:>10.2f} s{row['first_s']:>10.2f} s{row['asked_s']:>10.2f} s\n"
+        )
     out.write(f"\n  {'balls':>8}{'time':>12}{'a ball':>12}\n")
     for row in results["balls"]:
         out.write(f"  {row['balls']:>8,}{1e3 * row['time_s']:>9.2f} ms{row['ms_per_ball']:>9.2f} ms\n")
@@ -290,6 +386,7 @@ def main() -> None:
         "steps": steps((6, 6) if quick else MAP),
         "shots": [by_shots(shape) for shape in (((3, 2),) if quick else GRIDS)],
         "commands": commands(repeats, quick),
+        "window": in_the_window(repeats, quick),
         "balls": [by_balls(balls, 3 * repeats) for balls in (BALLS[:2] if quick else BALLS)],
     }
     show(results)

@@ -117,6 +117,9 @@ def test_sweep(run: Run):
     check(told["map"]["bare_pymunk"], "time_s", "error_m", "steps_per_s")
     check(told["shots"], "shots", "time_s", "ms_per_shot")
     check(told["balls"], "balls", "time_s", "ms_per_ball")
+    check(told["commands"], "asked_s")
+    check(told["window"], "processor_s", "first_s", "asked_s")
+    check([told["steps"]], *told["steps"])
 
 
 def test_start(run: Run):
