@@ -13,7 +13,9 @@ from dataclasses import asdict, dataclass, replace
 from itertools import pairwise, takewhile
 from math import isfinite
 from time import perf_counter
-from typing import TYPE_CHECKING, Any
+from typing import Any
+
+import numpy as np
 
 from sandbox.engine import simulate
 from sandbox.engine.accuracy import LEVELS, Accuracy
@@ -27,9 +29,6 @@ from sandbox.lab.tables import length, paragraph, percent, table
 from sandbox.physics.integrators import INTEGRATORS
 from sandbox.scene import Scene
 from sandbox.sport.amounts import significant
-
-if TYPE_CHECKING:
-    import numpy as np
 
 #: Allowed energy gain of the exact method, relative to the largest energy of the run: with an integrator that
 #: controls its error, and with one of fixed step.
@@ -180,8 +179,6 @@ def _overlap(run: Run) -> tuple[float, str]:
 
 def _clearance(path: np.ndarray, surface: Surface) -> np.ndarray:
     """Distance in m from each position to the surface."""
-    import numpy as np
-
     shape = surface.shape
     if isinstance(shape, Circle):
         return np.hypot(path[:, 0] - shape.center[0], path[:, 1] - shape.center[1]) - shape.radius
@@ -193,8 +190,6 @@ def _clearance(path: np.ndarray, surface: Surface) -> np.ndarray:
 
 def _crosses(path: np.ndarray, surface: Surface) -> bool:
     """Whether a path crosses the surface's centre line."""
-    import numpy as np
-
     shape = surface.shape
     if isinstance(shape, Circle):
         return False  # shows as overlap
@@ -211,8 +206,6 @@ def _crosses(path: np.ndarray, surface: Surface) -> bool:
 def _overlap_of_balls(run: Run) -> float:
     """Deepest overlap in m of two balls, at the ends of their arcs, but not within a contact that is simulated, which
     compresses them; for a pile, at the end of the run."""
-    import numpy as np
-
     balls = run.setup.balls
     if len(balls) < 2:
         return 0.0

@@ -81,13 +81,12 @@ def _pick(view: View, by: float) -> None:
     if view.tape is not None and "tape" in view.on:
         view.tape = Tape(view.tape.end, view.tape.start)
         return
-    found = [grip for grip, _ in view.spots]
-    if not found:
+    keys = [spot.grip.keys for spot in view.spots]
+    if not keys:
         view.game.tell("nothing can be moved while a shot is watched" if view.game.playback else "nothing can be moved")
         return
-    keys = [grip.keys for grip in found]
-    now = keys.index(view.picked) if view.picked in keys else -1 if by > 0 else 0
-    view.picked = keys[(now + int(by)) % len(keys)]
+    now = keys.index(view.picked_keys) if view.picked_keys in keys else -1 if by > 0 else 0
+    view.picked_keys = keys[(now + int(by)) % len(keys)]
 
 
 def _move(view: View, across: float, up: float) -> bool:
@@ -97,12 +96,11 @@ def _move(view: View, across: float, up: float) -> bool:
         x, y = camera.pixel(*view.tape.end)
         view.tape = Tape(view.tape.start, camera.world(x + STEP * across, y - STEP * up))
         return True
-    grip = next((grip for grip, _ in view.spots if grip.keys == view.picked), None)
-    if grip is None:
+    spot = view.picked
+    if spot is None:
         return False
-    step = view.step_of(grip, snap=True) * (abs(across) + abs(up))
-    sign = (across > 0) - (across < 0), (up > 0) - (up < 0)
-    view.game.drag_to((grip.place[0] + sign[0] * step, grip.place[1] + sign[1] * step), step, grip)
+    step, (x, y) = spot.step(snap=True), spot.grip.place
+    view.game.drag_to((x + step * across, y + step * up), step * (abs(across) + abs(up)), spot.grip)
     return True
 
 
@@ -299,8 +297,8 @@ def _back(view: View, by: float) -> None:
     elif game.holding:
         game.give_up_pull()
         view.free()
-    elif view.picked is not None:
-        view.picked = None
+    elif view.picked_keys is not None:
+        view.picked_keys = None
     elif view.tape is not None or "tape" in view.on:
         view.on.discard("tape")
         view.tape = None

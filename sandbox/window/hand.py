@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from math import dist, hypot
+from typing import NamedTuple
 
 import pygame
 
 from sandbox.picture.camera import Camera
 from sandbox.picture.palette import palette
+from sandbox.picture.sheet import nice
 from sandbox.window.canvas import Canvas
 from sandbox.window.handles import Grip
 from sandbox.window.stage import Stage
@@ -25,55 +27,63 @@ WIND, FOOT = 4.0, (42.0, 13.0)
 #: A drag that snaps goes in steps of at least so many px, and otherwise in steps of about so many.
 SNAPS, FINE = 12.0, 0.25
 
-Spot = tuple[Grip, tuple[float, float]]  # a handle, and where it is in px
+Place = tuple[float, float]
 
 
-def camera_of(grip: Grip, stage: Stage, sheet: Canvas) -> Camera:
-    """The camera that shows a handle's place: the stage's, or one for the wind."""
-    if not grip.is_wind:
-        return stage.camera
-    along, down = FOOT
-    foot = sheet.frame.right - along * sheet.unit, sheet.frame.top + down * sheet.unit
-    return Camera((0.0, 0.0), foot, WIND * sheet.unit)
+class Spot(NamedTuple):
+    """A handle in the picture."""
+
+    grip: Grip
+    at: Place  # px
+    camera: Camera  # that shows its place
+    unit: float  # px on 720 rows
+
+    def step(self, snap: bool) -> float:
+        """In which steps, in m or m/s, it is dragged."""
+        return nice((SNAPS * self.unit if snap else FINE) / self.camera.scale)
+
+    def dragged(self, before: Place, to: Place) -> Place:
+        """Where it is dragged to, in m or m/s, by a drag between two places in px."""
+        (x0, y0), (x, y) = self.camera.world(*before), self.camera.world(*to)
+        return self.grip.place[0] + x - x0, self.grip.place[1] + y - y0
 
 
 def spots(grips: Sequence[Grip], stage: Stage, sheet: Canvas) -> list[Spot]:
-    """Where the handles are."""
-    ball, aside = stage.ball_at(stage.shot), ASIDE * sheet.unit
+    """Where the handles are; that of the wind has a camera of its own."""
+    ball, aside, unit = stage.ball_at(stage.shot), ASIDE * sheet.unit, sheet.unit
+    foot = sheet.frame.right - FOOT[0] * unit, sheet.frame.top + FOOT[1] * unit
     found = []
     for grip in grips:
-        x, y = camera_of(grip, stage, sheet).pixel(*grip.place)
-        if dist((x, y), ball) < NEAR * sheet.unit and not grip.is_wind:
+        camera = Camera((0.0, 0.0), foot, WIND * unit) if grip.is_wind else stage.camera
+        x, y = camera.pixel(*grip.place)
+        if dist((x, y), ball) < NEAR * unit and not grip.is_wind:
             x, y = x - aside, y + aside
-        found.append((grip, (x, y)))
+        found.append(Spot(grip, (x, y), camera, unit))
     return found
 
 
-def nearest(found: Sequence[Spot], at: tuple[float, float], unit: float) -> Grip | None:
+def nearest(found: Sequence[Spot], at: Place) -> Spot | None:
     """The handle at a place in px."""
-    near = min(found, key=lambda spot: dist(spot[1], at), default=None)
-    return near[0] if near is not None and dist(near[1], at) <= NEAR * unit else None
+    near = min(found, key=lambda spot: dist(spot.at, at), default=None)
+    return near if near is not None and dist(near.at, at) <= NEAR * near.unit else None
 
 
-def draw_handles(
-    sheet: Canvas, found: Sequence[Spot], stage: Stage, mouse: tuple[float, float] | None, held: Grip | None, text: str
-) -> None:
+def draw_handles(sheet: Canvas, found: Sequence[Spot], mouse: Place | None, held: Grip | None, text: str) -> None:
     """The handles, those in a list only near the mouse, if it is there; the one that is held, or that the mouse is on,
     with its numbers."""
     unit = sheet.unit
-    for grip, (x, y) in found:
-        seen = mouse is not None and (not grip.in_list or dist((x, y), mouse) < SEEN * unit)
+    for grip, at, _, _ in found:
+        seen = mouse is not None and (not grip.in_list or dist(at, mouse) < SEEN * unit)
         if seen and (held is None or grip.keys != held.keys):
-            sheet.painter.ring((x, y), 6 * unit, 4 * unit, CARD["background"], 0.8)
-            sheet.painter.ring((x, y), 5 * unit, 2.2 * unit, CARD["text"])
-    for grip, (x, y) in found:
+            sheet.painter.ring(at, 6 * unit, 4 * unit, CARD["background"], 0.8)
+            sheet.painter.ring(at, 5 * unit, 2.2 * unit, CARD["text"])
+    for grip, at, camera, _ in found:
         if held is not None and grip.keys == held.keys:
-            foot = camera_of(grip, stage, sheet).anchor
-            if grip.is_wind and dist(foot, (x, y)) > 2:
-                sheet.painter.arrow(foot, (x, y), 3.6 * unit, FORCE["wind"])
-            sheet.painter.ring((x, y), 9 * unit, 5 * unit, CARD["background"], 0.8)
-            sheet.painter.ring((x, y), 8 * unit, 2.2 * unit, CARD["accent"])
-            label(sheet, text, (x, y), below=False)
+            if grip.is_wind and dist(camera.anchor, at) > 2:
+                sheet.painter.arrow(camera.anchor, at, 3.6 * unit, FORCE["wind"])
+            sheet.painter.ring(at, 9 * unit, 5 * unit, CARD["background"], 0.8)
+            sheet.painter.ring(at, 8 * unit, 2.2 * unit, CARD["accent"])
+            label(sheet, text, at, below=False)
 
 
 def label(sheet: Canvas, text: str, at: tuple[float, float], below: bool) -> None:

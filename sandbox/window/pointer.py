@@ -9,7 +9,7 @@ import numpy as np
 import pygame
 
 from sandbox.window import aim, commands
-from sandbox.window.handles import Grip
+from sandbox.window.hand import Spot
 from sandbox.window.measure import Tape
 from sandbox.window.view import View
 
@@ -118,10 +118,10 @@ class Pointer:
             game.nudge(aim.aimed(game.session, *aimed))
         elif view.on_charts(at):
             commands.do(view, "graphs")
-        elif (grip := view.handle_at(at)) is not None:
+        elif (spot := view.spot_at(at)) is not None:
             view.hold()
-            game.begin_drag(grip)
-            return lambda to: self._drag_handle(grip, at, to)
+            game.begin_drag(spot.grip)
+            return lambda to: self._drag_handle(spot, at, to)
         elif (pad := view.pad) is not None and pad.rect.collidepoint(at):
             return self._begun(lambda to: game.nudge(pad.changes(to)), at)
         elif game.playback is None:
@@ -148,10 +148,10 @@ class Pointer:
             playback.seek(self.view.bar.share(to) * playback.duration)
             self.view.changed = True
 
-    def _drag_handle(self, grip: Grip, start: Place, to: Place) -> None:
-        view, snap = self.view, bool(pygame.key.get_mods() & pygame.KMOD_SHIFT)
-        if view.game.grip is not None:
-            view.game.drag_to(view.dragged(grip, start, to), view.step_of(grip, snap))
+    def _drag_handle(self, spot: Spot, start: Place, to: Place) -> None:
+        if self.view.game.grip is not None:
+            step = spot.step(snap=bool(pygame.key.get_mods() & pygame.KMOD_SHIFT))
+            self.view.game.drag_to(spot.dragged(start, to), step)
 
     def _pull(self, at: Place) -> Callable[[Place], object]:
         view = self.view

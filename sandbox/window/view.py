@@ -18,7 +18,7 @@ from sandbox.picture.camera import Camera
 from sandbox.picture.lettering import Lettering
 from sandbox.picture.palette import palette, set_contrast
 from sandbox.picture.plain import view_of
-from sandbox.picture.sheet import Entry, nice, rows_of
+from sandbox.picture.sheet import Entry, rows_of
 from sandbox.picture.vectors import Vectors
 from sandbox.picture.view import View as Picture
 from sandbox.window import hand
@@ -83,7 +83,7 @@ class View:
         self.chosen: Camera | None = None  # by zooming; None shows all of the shot
         self.nearer = 1.0  # where the view follows the ball
         self.holds = False  # the camera, while something is dragged
-        self.picked: tuple[str, str] | None = None  # the keys of the handle that was picked by key
+        self.picked_keys: tuple[str, str] | None = None  # the keys of the handle that was picked by key
         self.clouds: Latest[Cloud] = Latest()  # the fan
         self.maps: Latest[ScoreMap] = Latest()
         self.map_at = pygame.Rect(0, 0, 0, 0)  # where its cells are drawn
@@ -235,14 +235,19 @@ class View:
         sheet = self._sheet()
         return Pad(game.session, shot.upright, sheet.frame.left, self.head.bottom + 2 * sheet.gap, sheet)
 
-    def handle_at(self, at: tuple[int, int]) -> Grip | None:
+    def spot_at(self, at: tuple[int, int]) -> hand.Spot | None:
         """The handle at a place in px."""
-        return hand.nearest(self.spots, at, self._sheet().unit)
+        return hand.nearest(self.spots, at)
+
+    @property
+    def picked(self) -> hand.Spot | None:
+        """The handle that was picked by key."""
+        return next((spot for spot in self.spots if spot.grip.keys == self.picked_keys), None)
 
     def _held(self) -> Grip | None:
         """The handle that is dragged, that the mouse is on, or that was picked by key."""
-        picked = next((grip for grip, _ in self.spots if grip.keys == self.picked), None)
-        return self.game.grip or (self.handle_at(self.at) if self.area.collidepoint(self.at) else None) or picked
+        spot = (self.spot_at(self.at) if self.area.collidepoint(self.at) else None) or self.picked
+        return self.game.grip or (spot.grip if spot is not None else None)
 
     def hold(self) -> None:
         """Keep the camera as it is: what is dragged stays under the mouse."""
@@ -253,19 +258,6 @@ class View:
         """Let the camera go."""
         if self.holds:
             self.chosen, self.holds, self.changed = None, False, True
-
-    def step_of(self, grip: Grip, snap: bool) -> float:
-        """In which steps, in m or m/s, a handle is dragged."""
-        assert self.stage is not None
-        sheet = self._sheet()
-        return nice((hand.SNAPS * sheet.unit if snap else hand.FINE) / hand.camera_of(grip, self.stage, sheet).scale)
-
-    def dragged(self, grip: Grip, before: tuple[int, int], at: tuple[int, int]) -> tuple[float, float]:
-        """Where a handle is dragged to, in m or m/s, by a drag between two places in px."""
-        assert self.stage is not None
-        camera = hand.camera_of(grip, self.stage, self._sheet())
-        (x0, y0), (x, y) = camera.world(*before), camera.world(*at)
-        return grip.place[0] + x - x0, grip.place[1] + y - y0
 
     # ------------------------------------------------------------------------------------------------------- time
 
@@ -458,9 +450,9 @@ class View:
             pad, spots, held = self.pad if drawn and game.pull is None else None, self.spots, self._held()
             if pad is not None:
                 pad.draw(sheet)
-            if spots and stage is not None:
+            if spots:
                 mouse = self.at if self.area.collidepoint(self.at) and game.grip is None else None
-                hand.draw_handles(sheet, spots, stage, mouse, held, held.said(game.session) if held is not None else "")
+                hand.draw_handles(sheet, spots, mouse, held, held.said(game.session) if held is not None else "")
         undrawable = [(self.undrawable, True)] if self.undrawable is not None else []
         sheet.messages([*undrawable, *game.notices])
 
@@ -563,7 +555,7 @@ class View:
         """Cards down the right side, what the mouse reads, the tape."""
         game, top = self.game, float(sheet.frame.top)
         if not self.follows:
-            handle = any(grip.is_wind for grip, _ in self.spots)
+            handle = any(spot.grip.is_wind for spot in self.spots)
             top = max(top, float(stage.foot_of_wind), top + 2 * hand.FOOT[1] * sheet.unit * handle)
         if "cost" in self.on:
             level = game.session.value("accuracy.level")

@@ -76,7 +76,7 @@ class Watched(View):
         self.game.pull_to((150, 210))
 
     def drag_for_test(self) -> None:
-        for grip, _ in self.spots[-2:-1]:
+        for grip, *_ in self.spots[-2:-1]:
             self.hold()
             self.game.begin_drag(grip)
             self.game.drag_to((grip.place[0] + 0.1, grip.place[1] + 0.1), 0.01)
