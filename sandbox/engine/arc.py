@@ -85,6 +85,11 @@ class Arc:
             self._box = min(x), min(y), max(x), max(y)
         return self._box
 
+    def box_within(self, t: float, h: float) -> tuple[float, float, float, float]:
+        """One that holds the path for h s from t."""
+        (x, y), way = self.position(t), self.fastest() * h
+        return x - way, y - way, x + way, y + way
+
     def fastest(self) -> float:
         """A speed in m/s that the ball does not exceed."""
         if self._fastest is None:

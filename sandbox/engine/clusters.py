@@ -28,8 +28,9 @@ _ERROR = np.array(DORMAND_PRINCE.error)
 #: half the step. Steps are otherwise equal, so that the outcome depends smoothly on the input and rounding stays small.
 _LARGEST_ERROR = 1e-3
 
-#: Up to this many links, steps end where a link closes or opens, and are graded around that time.
-_MAX_GRADED_LINKS, _GRADES = 6, (4.0**-6, *(3.0 * 4.0**-power for power in range(6, 0, -1)))
+#: Up to this many links, steps end where a link closes or opens, and are graded around that time: by this ratio, so
+#: often for one link, and for more.
+_MAX_GRADED_LINKS, _RATIO, _GRADES_OF_ONE, _GRADES = 6, 4.0, 6, 2
 
 #: Longest contact times, for each body and in addition, after which bodies that press on one another will not separate
 #: by themselves; a chain of n equal balls takes 1 + (n - 1) / 2.
@@ -97,6 +98,7 @@ class Cluster:
         self._stiffness = np.array([link.stiffness for link in links])
         self._mass = 1.0 / (inverse_mass[self._first] + inverse_mass[self._second])  # kg, reduced
         self._damping = np.array([damping(link.restitution) for link in links]) * np.sqrt(self._mass * self._stiffness)
+        self._stored = 0.8 * self._stiffness / self._mass  # times depth^2.5: m^2/s^2
         every = range(len(links))
         self._incidence = np.zeros((count + 1, len(links)))
         self._incidence[self._first, every] = 1.0
@@ -106,18 +108,19 @@ class Cluster:
         self._pushed = np.ascontiguousarray((self._incidence * inverse_mass[:, None]).T)  # force to acceleration
         self._walls = [(place, link.wall, link.first) for place, link in enumerate(links) if link.wall is not None]
 
-    def pass_through(self, share: float) -> ClusterOutcome:
-        """Simulate the contact until nothing touches, in steps of this fraction of the shortest possible contact.
+    def pass_through(self, share: float, faint: float = 0.0) -> ClusterOutcome:
+        """Simulate the contact until nothing touches, in steps of this fraction of the shortest possible contact, or
+        until what is left is slower than ``faint`` (m/s).
 
         Raises StaysPressed if it does not end.
         """
         while True:
-            passage, error = self._stepped_through(share)
+            passage, error = self._stepped_through(share, faint)
             if error <= _LARGEST_ERROR:
                 return passage
             share *= 0.5
 
-    def _stepped_through(self, share: float) -> tuple[ClusterOutcome, float]:
+    def _stepped_through(self, share: float, faint: float) -> tuple[ClusterOutcome, float]:
         count, links = self._count, len(self._links)
         state = np.zeros((8, count + 1))  # x, y, vx, vy, vz, and the spins
         for i, body in enumerate(self._bodies):
@@ -135,7 +138,7 @@ class Cluster:
         shortest, longest = min(times), max(times)
         scale = np.repeat([fastest * shortest, fastest], 2 * count + 2)
         whole, t, steps, worst = share * shortest, 0.0, 0, 0.0
-        lands = links <= _MAX_GRADED_LINKS
+        lands, grades = links <= _MAX_GRADED_LINKS, _grades(_GRADES_OF_ONE if links == 1 else _GRADES)
         impulse, approach, closed, rubbed = (np.zeros(links) for _ in range(4))
         rates, forces = np.empty((7, 4, count + 1)), np.empty((7, links))
         flat = rates.reshape(7, -1)
@@ -146,7 +149,7 @@ class Cluster:
         rates[0], depth, closing, normal, force = self._motion(state[:4])
         gain, gap = rates[0, 2:].copy(), self._gap  # m/s^2, m
         approach[:] = np.where(self._gap < _TOUCH, np.maximum(closing, 0.0), 0.0)
-        plan, back = _finer_at_start(whole) if lands else [whole], 0.0
+        plan, back = [whole * part for part in grades] if lands else [whole], 0.0
         while True:
             h = plan[0]
             # Friction of the previous and next half step: second order, and mu times the impulse in total.
@@ -160,7 +163,7 @@ class Cluster:
             if lands and len(plan) == 1:
                 kink = _first_kink(h, gap, self._gap, closing, closing_then)
                 if kink is not None:
-                    plan = [*_finer_at_end(kink), *_finer_at_start(h - kink)]
+                    plan = [*(kink * part for part in reversed(grades)), *((h - kink) * part for part in grades)]
                     continue
             worst, back = max(worst, float(np.abs(_ERROR @ flat / scale).max()) * h), 0.5 * h
             plan, gap = plan[1:] or [whole], self._gap
@@ -171,7 +174,10 @@ class Cluster:
             approach[first], closed[first] = closing[first], t
             closing = closing_then
             t, steps = t + h, steps + 1
-            if not ((depth > _TOUCH) | ((self._gap < _TOUCH) & (closing > _STILL))).any():
+            moving = (depth > _TOUCH) | ((self._gap < _TOUCH) & (closing > _STILL))
+            if faint > 0.0:
+                moving &= np.maximum(closing, 0.0) ** 2 + self._stored * depth**2.5 > faint * faint
+            if not moving.any():
                 rest = np.maximum(impulse - rubbed, 0.0)
                 state[2:] = self._rubbing.after(state[2:], normal, rest, gain, back, 0.0, quickest)
                 break
@@ -193,15 +199,13 @@ class Cluster:
             x, y = moving[:2, body] + self._origin
             gap[place], *normal[:, place] = wall(float(x), float(y))
         gap -= self._overlap
-        closing = -(apart[2] * normal[0] + apart[3] * normal[1])
+        opening = np.add.reduce(apart[2:] * normal)
         depth = np.maximum(-gap, 0.0)
         root = np.sqrt(depth)
-        force = self._stiffness * depth * root + self._damping * np.sqrt(root) * closing
-        rate = np.empty_like(moving)
-        rate[:2] = moving[2:]
-        rate[2:] = (force * normal) @ self._pushed + self._push
+        force = root * (self._stiffness * depth) - np.sqrt(root) * (self._damping * opening)
+        rate = np.concatenate([moving[2:], (force * normal) @ self._pushed + self._push])
         self._gap = gap
-        return rate, depth, closing, normal, force
+        return rate, depth, -opening, normal, force
 
     def _energy(self, state: np.ndarray) -> float:
         """Kinetic energy in J, including rotation."""
@@ -220,14 +224,9 @@ class Cluster:
             state[2:, :-1] = common + share * (state[2:, :-1] - common)
 
 
-def _finer_at_start(h: float) -> list[float]:
-    """A step of h s, divided more finely towards its start, where the force has a kink."""
-    return [h * share for share in _GRADES]
-
-
-def _finer_at_end(h: float) -> list[float]:
-    """A step of h s, divided more finely towards its end."""
-    return [h * share for share in reversed(_GRADES)]
+def _grades(count: int) -> list[float]:
+    """The parts of a step that is divided more finely towards its start, where the force has a kink."""
+    return [_RATIO**-count, *((_RATIO - 1.0) * _RATIO**-power for power in range(count, 0, -1))]
 
 
 def _first_kink(

@@ -8,8 +8,8 @@ Faster impacts are exact events, as ever.
 
 Rolling resistance is a torque on the ball up to ``c N R (1 + k)``, with k the inertia over m R^2: then a ball that
 rolls freely is slowed by c N / m. Left out: the exact time and the event of an impact inside the heap that is slower
-than 8 a h, with a the acceleration by forces and h the step; and waves through a heap that is struck, which is one
-rigid lump.
+than 8 a h, with a the acceleration by forces and h the step. Balls of a heap that are struck leave it for the time of
+the contact (``pressed.py``); while it forms, a blow on it is that on a rigid lump.
 """
 
 from __future__ import annotations
@@ -51,7 +51,8 @@ _SLOW = 8.0
 #: Impulse, as a fraction of the largest that forces give a ball in a step, below which it is rounding.
 _PRESSURE = 1e-6
 
-#: Time in s for which all balls of a heap have to be slow before they rest.
+#: Time in s for which all balls of a heap have to be slow before they rest, and for which a ball has to lie in it
+#: before a blow goes through it by contact mechanics.
 _REST_TIME = 0.25
 
 #: Share of an overlap that is left after a step.
@@ -68,8 +69,9 @@ class Heaped(NamedTuple):
 class _Member:
     """A ball of the heap in pymunk's Space."""
 
-    def __init__(self, ball: Ball, real: RealSpace) -> None:
+    def __init__(self, ball: Ball, real: RealSpace, since: float) -> None:
         self.ball = ball
+        self.since = since  # s, when it came to press on others; from the start, forever
         self.body, self.disc = real.add(ball)
         self.brake = pymunk.SimpleMotor(self.body, real.space.static_body, 0.0)  # rolling resistance
         self.resistance = 0.0  # N m, of this step's pressure: for the next
@@ -100,7 +102,7 @@ class Heap:
         self._slow_for = 0.0  # s
         self._forced = 0.0  # m/s^2, the largest acceleration by forces in this step
         self._fastest = 0.0  # m/s, approach in the heap that is no impact of its own
-        self._h = 0.0  # s, the length of this step
+        self._h, self._t = 0.0, 0.0  # s, the length of this step and its start
         self.margin = _MARGIN * min(ball.radius for ball in setup.balls)  # m, gap up to which shapes touch
 
     @cached_property
@@ -143,6 +145,14 @@ class Heap:
         one, other = (outline_of(self._tracks[index].ball) for index in indices)
         return returns((one, other), states, applied, met, self._settle)
 
+    def slow(self, t: float, states: Mapping[int, State]) -> float:
+        """The speed in m/s below which a blow among these balls is lasting contact."""
+        return max(self._forced_in_a_step(index, t, state) for index, state in states.items())
+
+    def fresh(self, t: float) -> set[int]:
+        """The balls that have come to press on others of late: a heap that is still forming."""
+        return {index for index, member in self._members.items() if t - member.since < _REST_TIME}
+
     def _forced_in_a_step(self, index: int, t: float, state: State) -> float:
         """The speed in m/s that forces give in a step: for a body at least what is rounding, while rounding does not
         press balls on each other."""
@@ -174,6 +184,7 @@ class Heap:
         The step is half a drift, the impulses of forces and contacts, and half a drift; none goes beyond ``until``.
         """
         self._h = h = min(self._longest, until - t)
+        self._t = t
         fresh = states.keys() - self._members.keys()
         self._take(states)
         self._steps += 1
@@ -230,8 +241,14 @@ class Heap:
             del self._of_disc[member.disc]
             self._real.space.remove(member.body, member.disc, member.brake)
         for index in indices - self._members.keys():
-            member = self._members[index] = _Member(self._tracks[index].ball, self._real)
+            member = self._members[index] = _Member(self._tracks[index].ball, self._real, self._t or -inf)
             self._of_disc[member.disc] = index
+
+    def release(self, indices: Collection[int]) -> None:
+        """Let go of balls that are struck."""
+        self._take(self._members.keys() - indices)
+        for member in self._members.values():
+            member.touching -= {*indices}
 
     def _held(self) -> set[int]:
         """The balls of the pairs that pressed on each other in the last steps."""

@@ -135,7 +135,7 @@ class Impacts:
             track = self._tracks[index]
             states[index] = state = track.arc.state(t)
             for other, neighbour in enumerate(self._tracks):
-                if other in states or neighbour.caught:
+                if other in states or neighbour.caught or neighbour.arc.t0 > t:
                     continue
                 reach = track.ball.radius + neighbour.ball.radius + self.gap
                 left, bottom, right, top = neighbour.arc.box()

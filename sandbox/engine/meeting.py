@@ -181,12 +181,13 @@ def speeds_at(states: Sequence[State], point: Vector, normal: Vector) -> Speeds:
 def pair_touches(one: Track, other: Track, t: float, skin: float) -> float | None:
     """The first time from t on, while both arcs last, at which two balls or bodies overlap by ``skin``, or None."""
     reach = one.ball.radius + other.ball.radius
+    if discs(one.ball, other.ball):
+        return balls_touch(one.arc, other.arc, reach, t, skin)
     (x, y), (u, v) = one.arc.position(t), other.arc.position(t)
-    only_balls = discs(one.ball, other.ball)
-    if only_balls or hypot(x - u, y - v) > reach:
+    if hypot(x - u, y - v) > reach:
         start = balls_touch(one.arc, other.arc, reach, t, skin)
-        if only_balls or start is None:
-            return start
+        if start is None:
+            return None
         t = start
     until = min(one.arc.t1, other.arc.t1)
     if until <= t:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from functools import partial
 from itertools import combinations
 from math import hypot
@@ -17,11 +17,19 @@ from sandbox.engine.setup import Bounce, Setup
 from sandbox.engine.surfaces import bounce_of_balls, bounce_off
 from sandbox.engine.touch import TOUCHING_GAP, Obstacle, touched
 from sandbox.engine.track import Track
-from sandbox.physics.hertz import contact_time
+from sandbox.physics.hertz import contact_time, deepest
 from sandbox.physics.integrators import State
 
-#: Depth in radii up to which a ball may enter a wall that pushes back only after the balls have separated.
-_DEEP = 0.25
+#: Depth in radii up to which a ball may enter a wall that pushes back only after the balls have separated; in a deeper
+#: one the wall is rigid: against it a ball is 2 sqrt(2) times as stiff as against one of its kind.
+_DEEP, _RIGID = 0.25, 8.0**0.5
+
+#: Depth in radii of the smaller ball from which balls would pass through each other.
+_TOO_DEEP = 1.0
+
+#: Share of the slowest blow that a contact among balls of a heap leaves to lasting contact, and of a blow that other
+#: forces may change while balls are pressed on a wall.
+_LEFT = 0.1
 
 #: Approach speed in m/s below which balls push rather than strike each other: these get impulses.
 FAINTEST = 1e-3
@@ -36,12 +44,14 @@ class Pressed:
         self._tracks = tracks
         self._step = step
 
-    def through(self, t: float, touching: dict[int, State]) -> Outcome | None:
+    def through(
+        self, t: float, touching: dict[int, State], slow: float = 0.0, fresh: Collection[int] = ()
+    ) -> Outcome | None:
         """Simulate the contact of the cluster around the balls that touch at t (with their states).
 
         None if impulses are right: no two balls strike each other, other forces change their speed more during the
-        contact than they approach with, no other body is reached during the contact, or balls are so soft that they are
-        pressed deep into walls.
+        contact than they approach with, no other body is touched during the contact, or balls are too soft; and if
+        balls of a heap that is still forming, ``fresh``, can be reached. What is slower than ``slow`` (m/s) lasts.
         """
         model = self._setup.contact
         struck = [
@@ -50,21 +60,29 @@ class Pressed:
             if self._gap(i, a, j, b) <= TOUCHING_GAP
         ]
         speed, i, j = max(struck, default=(0.0, 0, 0))
-        if model.name == "rigid" or speed <= FAINTEST:
+        if model.name == "rigid" or speed <= max(slow, FAINTEST):
             return None
         first, second = self._tracks[i].ball, self._tracks[j].ball
         mass = first.mass * second.mass / (first.mass + second.mass)
-        lasts = contact_time(mass, model.between(first.radius, second.radius), speed)
+        stiffness = model.between(first.radius, second.radius)
+        lasts = contact_time(mass, stiffness, speed)
         if self._pushed_together(t, i, touching[i], j, touching[j]) * lasts > speed:
             return None
-        fastest = 2.0 * speed * max(first.mass, second.mass) / (first.mass + second.mass)
+        if deepest(mass, stiffness, speed) > _TOO_DEEP * min(first.radius, second.radius):
+            return None
+        moving = max(track.arc.fastest() for track in self._tracks if not track.caught)
+        fastest = 2.0 * max(speed, moving) * max(first.mass, second.mass) / (first.mass + second.mass)
         members = dict(touching)
         met: set[frozenset[int]] = set()  # pairs that are within reach only as the others leave them
+        hard = model.wall_stiffness
         while True:
             self._add_reached(t, members, fastest, lasts)
-            walls = self._walls(members, fastest * lasts)
-            if model.name == "auto" and len(members) == 2 and not walls:
+            if not members.keys().isdisjoint(fresh):
                 return None
+            near = self._walls(members, fastest * lasts)
+            if model.name == "auto" and len(members) == 2 and not near:
+                return None
+            walls = near if hard else []
             pairs = [
                 (i, j)
                 for i, j in combinations(members, 2)
@@ -72,17 +90,21 @@ class Pressed:
                 or self._gap(i, members[i], j, members[j]) <= 2.0 * fastest * lasts + TOUCHING_GAP
             ]
             try:
-                parted = self._passed(t, members, walls, pairs, speed)
+                parted = self._passed(t, members, walls, pairs, speed, hard, _LEFT * slow)
             except StaysPressed:
                 return None
-            if self._entered(members, parted):
-                return None
-            late = self._overlapping(parted) - {frozenset(pair) for pair in pairs}
-            if not late:
-                return parted
-            met |= late
-            for index in frozenset().union(*late) - members.keys():
-                members[index] = self._tracks[index].arc.state(t)
+            late = self._met_late(t, parted) - {frozenset(pair) for pair in pairs}
+            if late:
+                met |= late
+                for index in frozenset().union(*late) - members.keys():
+                    members[index] = self._tracks[index].arc.state(t)
+            elif not hard and self._entered(members, parted):
+                if max(hypot(*self._body(t, *member).push) for member in members.items()) * lasts > _LEFT * speed:
+                    return None
+                hard = _RIGID * stiffness
+            else:
+                alone = model.name == "auto" and len(parted.states) == 2 and len(parted.hits) == 1
+                return None if alone else parted
 
     # ------------------------------------------------------------------ members of the cluster
 
@@ -120,9 +142,7 @@ class Pressed:
                     waiting.append(other)
 
     def _walls(self, members: dict[int, State], reach: float) -> list[tuple[int, Obstacle]]:
-        """The walls that members can reach, if walls are as hard as balls."""
-        if self._setup.contact.wall_stiffness == 0.0:
-            return []
+        """The walls that members can reach."""
         return [
             (index, obstacle)
             for index, state in members.items()
@@ -132,8 +152,6 @@ class Pressed:
 
     def _entered(self, members: dict[int, State], parted: Outcome) -> bool:
         """Whether a ball may have been pressed deep into a wall that does not push back meanwhile."""
-        if self._setup.contact.wall_stiffness > 0.0:
-            return False
         for index, (u, v, *_) in parted.states.items():
             track, (x, y, *_) = self._tracks[index], members[index]
             within = hypot(u - x, v - y) - _DEEP * track.ball.radius
@@ -141,16 +159,22 @@ class Pressed:
                 return True
         return False
 
-    def _overlapping(self, parted: Outcome) -> set[frozenset[int]]:
-        """The pairs that overlap after the balls have separated, with at least one ball that was touched."""
+    def _met_late(self, t: float, parted: Outcome) -> set[frozenset[int]]:
+        """The pairs, of a ball that was touched and any other, that come to overlap on straight ways from t until the
+        balls have separated."""
+        ways = {}
+        for index, track in enumerate(self._tracks):
+            if not track.caught:
+                end = parted.states[index][:2] if index in parted.states else track.arc.position(parted.t)
+                ways[index] = (*track.arc.position(t), *end)
         pairs = set()
-        for index, state in parted.states.items():
-            radius = self._tracks[index].ball.radius
-            for other, track in enumerate(self._tracks):
-                if other != index and not track.caught:
-                    x, y = parted.states[other][:2] if other in parted.states else track.arc.position(parted.t)
-                    if hypot(x - state[0], y - state[1]) < radius + track.ball.radius - TOUCHING_GAP:
-                        pairs.add(frozenset((index, other)))
+        for index in parted.states:
+            x, y, u, v = ways[index]
+            for other, (ox, oy, ou, ov) in ways.items():
+                ax, ay, bx, by = x - ox, y - oy, u - ou, v - ov
+                reach = self._tracks[index].ball.radius + self._tracks[other].ball.radius - TOUCHING_GAP
+                if other != index and _nearest(ax, ay, bx - ax, by - ay) < reach:
+                    pairs.add(frozenset((index, other)))
         return pairs
 
     # ------------------------------------------------------------------ from tracks to bodies and back
@@ -162,15 +186,17 @@ class Pressed:
         walls: Sequence[tuple[int, Obstacle]],
         pairs: Sequence[tuple[int, int]],
         speed: float,
+        hard: float,
+        faint: float,
     ) -> Outcome:
         order = list(members)
         place = {index: number for number, index in enumerate(order)}
         bodies = [self._body(t, index, state) for index, state in members.items()]
         links = [self._link(place, members, i, j, speed) for i, j in pairs]
-        links += [self._wall_link(place[index], members[index], obstacle) for index, obstacle in walls]
+        links += [self._wall_link(place[index], members[index], obstacle, hard) for index, obstacle in walls]
         linked: list[tuple[int, ...]] = [*pairs, *((index,) for index, _ in walls)]  # the balls of each link
         names = [self._tracks[j].ball.name for _, j in pairs] + [obstacle.surface.name for _, obstacle in walls]
-        outcome = Cluster(bodies, links).pass_through(self._step)
+        outcome = Cluster(bodies, links).pass_through(self._step, faint)
         touched = np.flatnonzero(outcome.impulse > 0.0).tolist()
         hits = [
             Hit(t + float(outcome.closed[link]), linked[link][0], names[link], float(outcome.approach[link]))
@@ -202,7 +228,7 @@ class Pressed:
         stiffness = self._setup.contact.between(first.radius, second.radius)
         return Link(place[i], place[j], stiffness, bounce.restitution, rubs)
 
-    def _wall_link(self, place: int, state: State, obstacle: Obstacle) -> Link:
+    def _wall_link(self, place: int, state: State, obstacle: Obstacle, stiffness: float) -> Link:
         touching = obstacle.near(state[0], state[1])
         approach = max(0.0, -(state[2] * touching.nx + state[3] * touching.ny))
         bounce = bounce_off(obstacle.surface, approach, state[2] * touching.ny - state[3] * touching.nx)
@@ -211,10 +237,16 @@ class Pressed:
             near = obstacle.near(x, y)
             return near.gap, near.nx, near.ny
 
-        stiffness = self._setup.contact.wall_stiffness
         return Link(place, None, stiffness, bounce.restitution, lambda slip: bounce.friction, wall)
 
 
 def _friction(between_balls: Any, approach: float, slip: float) -> float:
     bounce: Bounce = between_balls(approach, slip)
     return bounce.friction
+
+
+def _nearest(x: float, y: float, dx: float, dy: float) -> float:
+    """The smallest distance from the origin of a point on its straight way from (x, y)."""
+    far = dx * dx + dy * dy
+    share = min(1.0, max(0.0, -(x * dx + y * dy) / far)) if far > 0.0 else 0.0
+    return hypot(x + share * dx, y + share * dy)

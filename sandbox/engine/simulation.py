@@ -7,7 +7,7 @@ two balls. Only the balls it changes get a new arc and new predictions.
 from __future__ import annotations
 
 import heapq
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from functools import cached_property, partial
 from itertools import count
 from time import perf_counter
@@ -153,9 +153,11 @@ class Simulation:
                 )
             if kind == "touch":
                 self._collide(t, [i] if j < 0 else [i, j])
+            elif kind == "part" and t < duration:
+                self._collide(t, [i])  # with the walls it has entered during the contact
             elif kind == "catch":
                 self._catch(t, i)
-            elif kind in ("", "heap") and track.arc.t1 >= duration:
+            elif kind in ("", "heap", "part") and track.arc.t1 >= duration:
                 return duration, "duration"
             elif kind == "heap":
                 self._press_on(t, ())
@@ -186,24 +188,27 @@ class Simulation:
 
     def _collide(self, t: float, seeds: Sequence[int]) -> None:
         """Everything that touches at this instant exchanges impulses at once, or is simulated through the contact."""
-        near = {*self._heap.members} if self._all_round else {*self._heap.members}.intersection(seeds)
-        self._impacts.gap = self._heap.margin if near else TOUCHING_GAP
+        self._impacts.gap = TOUCHING_GAP
         touching = self._impacts.touching(t, seeds)
         outcome = None
-        if self._all_round and len(touching) > 1 and not self._heap.members:
-            outcome = self._pressed.through(t, touching)
+        if self._all_round and len(touching) > 1:
+            slow = self._heap.slow(t, touching) if self._heaps_up else 0.0
+            outcome = self._pressed.through(t, touching, slow, self._heap.fresh(t))
         if outcome is None:
+            if not self._all_round and self._heap.members & set(seeds):
+                self._impacts.gap = self._heap.margin
+                touching = self._impacts.touching(t, seeds)
             outcome = self._impacts.exchange(t, touching)
-        for index in touching.keys() | outcome.states.keys():
-            self._tracks[index].keep(t)
         for hit in outcome.hits:
             self._numerics.impacts += 1
             track = self._tracks[hit.ball]
             x, y = touching[hit.ball][:2] if hit.ball in touching else track.arc.position(t)
             self._note(Event(hit.t, "impact", track.ball.name, hit.partner, hit.speed, x, y))
         if outcome.t > t:
-            self._part(t, touching, outcome)
+            self._go_through(t, touching, outcome)
             return
+        for index in outcome.states:
+            self._tracks[index].keep(t)
         for index, state in outcome.states.items():
             self._tracks[index].state = state
         held: Collection[int] = ()
@@ -225,24 +230,27 @@ class Simulation:
         for index, arc in stepped.items():
             self._tracks[index].version += 1
             self._tracks[index].arc = arc
-        for index in stepped:
+        for index, others in self._neighbours(stepped, t).items():
             self._note_rest(self._tracks[index], t)
-            self._predict(index, t, "heap", partial(self._heap.keeps_apart, index), stepped.keys())
+            self._predict(index, t, "heap", partial(self._heap.keeps_apart, index), others)
         for index in members - set(joining) - stepped.keys():
             self._resume(index, t)
         return stepped.keys()
 
-    def _part(self, t: float, touching: dict[int, State], parted: Outcome) -> None:
-        """Apply the outcome of a contact that lasts from t until the balls separate."""
+    def _go_through(self, t: float, touching: dict[int, State], parted: Outcome) -> None:
+        """Apply the outcome of a contact that lasts from t until the balls separate: then they go on."""
         self._numerics.clusters += 1
+        self._heap.release(parted.states.keys())
+        for index, state in parted.states.items():
+            self._tracks[index].keep(t)
+            self._tracks[index].meet(t, parted.t, state)
+            self._push(parted.t, "part", index)
         for index in touching.keys() - parted.states.keys() - self._heap.members:
+            self._tracks[index].keep(t)
             self._tracks[index].state = touching[index]
             self._resume(index, t)
-        for index, state in parted.states.items():
-            self._tracks[index].meet(t, parted.t, state)
-        for index in parted.states:
-            if self._tracks[index].arc.t1 == parted.t:
-                self._collide(parted.t, [index])  # with the walls they have entered during the contact
+        if self._heap.members:
+            self._press_on(t, ())
 
     def _catch(self, t: float, index: int) -> None:
         """Remove a ball that is caught."""
@@ -299,7 +307,36 @@ class Simulation:
         track.arc = arc
         self._note_rest(track, t)
         own = None if track.contact is None else track.contact.obstacle
-        self._predict(index, t, kind, lambda other: other is own)
+        others = [other for other in range(len(self._tracks)) if other != index]
+        self._predict(index, t, kind, lambda other: other is own, others)
+
+    def _neighbours(self, stepped: Mapping[int, Arc], t: float) -> dict[int, list[int]]:
+        """For each ball of a heap the others that it may meet on its new arc from t; of two in the heap for the first.
+
+        Found by sweeping along x.
+        """
+        ranges = []
+        for index, track in enumerate(self._tracks):
+            if not track.caught:
+                left, bottom, right, top = (
+                    track.arc.box() if index in stepped else track.arc.box_within(t, self._accuracy.step)
+                )
+                radius = track.ball.radius
+                ranges.append((left - radius, right + radius, bottom - radius, top + radius, index))
+        found: dict[int, list[int]] = {index: [] for index in stepped}
+        passing: list[tuple[float, float, float, float, int]] = []
+        for here in sorted(ranges):
+            left, _, bottom, top, index = here
+            passing = [there for there in passing if there[1] >= left]
+            for _, _, low, high, other in passing:
+                if low <= top and high >= bottom:
+                    first, second = (index, other) if index < other else (other, index)
+                    if first in found:
+                        found[first].append(second)
+                    elif second in found:
+                        found[second].append(first)
+            passing.append(here)
+        return {index: sorted(others) for index, others in found.items()}
 
     def _predict(
         self,
@@ -307,10 +344,10 @@ class Simulation:
         t: float,
         kind: str,
         in_contact: Callable[[Obstacle | int], bool],
-        together: Collection[int] = (),
+        others: Sequence[int],
     ) -> None:
-        """Predict the first event on a ball's new arc, which ends for the reason ``kind``; it does not meet what it is
-        ``in_contact`` with: obstacles, and balls by index. Of two that are predicted ``together`` the first asks."""
+        """Predict the first event on a ball's new arc, which ends for the reason ``kind``, alone or with ``others``; it
+        does not meet what it is ``in_contact`` with: obstacles, and balls by index."""
         track = self._tracks[index]
         arc = track.arc
         at = arc.t1
@@ -325,8 +362,9 @@ class Simulation:
                 if touch is not None and touch <= at:
                     at, kind = touch, what
         self._push(at, kind, index)
-        for other, neighbour in enumerate(self._tracks):
-            if other == index or neighbour.caught or (other < index and other in together):
+        for other in others:
+            neighbour = self._tracks[other]
+            if neighbour.caught:
                 continue
             reach = track.ball.radius + neighbour.ball.radius
             a, b, c, d = neighbour.arc.box()

@@ -90,10 +90,13 @@ class Track:
         arc.curves += tuple(zip(before[5:], state[5:], strict=True))
         self.path.append(arc)
         self.arc, self.state = still(until, until, state), state
+        self.version += 1
 
     def finish(self, t: float) -> None:
         """Add the rest of the path, as the run ends at t. The outcome of an impact at t is included, though no arc
         follows."""
+        if t < self.arc.t0:
+            return  # within a contact
         self.keep(t)
         last, before = self.arc.until(t), self.path[-1]
         if last.t1 == last.t0 and any(

@@ -214,10 +214,10 @@ def test_a_frozen_row_struck_across_parts_at_once(monkeypatch, speed, angle, eng
     """Each contact ends, and is gone through a few times at most."""
     through, passages = Cluster.pass_through, []
 
-    def counted(self, share):
+    def counted(self, share, faint):
         passages.append(share)
         assert len(passages) < 100
-        return through(self, share)
+        return through(self, share, faint)
 
     monkeypatch.setattr(Cluster, "pass_through", counted)
     monkeypatch.setattr(StaysPressed, "__init__", lambda self, text: pytest.fail(text))

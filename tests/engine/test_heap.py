@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 from itertools import combinations, pairwise
-from math import cos, hypot, pi, sin, sqrt
+from math import cos, hypot, log, pi, sin, sqrt
 from random import Random
 
+import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 
 from sandbox.engine import simulate
 from sandbox.engine.accuracy import resolve
 from sandbox.engine.ledger import ledger
 from sandbox.engine.setup import Always, Ball, Bounce, ContactModel, Segment, Setup, Surface
 from sandbox.engine.touch import Outline
+from sandbox.engine.track import PRESSED
 from sandbox.physics.forces import Gravity
 
 R, M, G = 0.03, 0.1, 9.81  # m, kg, m/s^2
@@ -158,6 +161,60 @@ def test_a_heap_at_rest_that_is_struck_moves_and_rests_again():
     assert hypot(run.state("1 0", run.duration)[0], run.state("1 0", run.duration)[1] - R - sqrt(3) * R) > R
     assert run.ended == "rest"
     assert overlap(run, run.duration) < 1e-4
+
+
+def by_contact_law(states, duration, stiffness, restitution, forced):
+    """The states (x, y, vx, vy) after frictionless contacts by Hertz's law with Tsuji's damping, by scipy at 1e-10;
+    ``forced`` are accelerations (m/s^2) downward. Overlaps at the start store nothing."""
+    start = np.array(states)
+    i, j = np.array(list(combinations(range(len(start)), 2))).T
+    fading = log(restitution)
+    damping = -sqrt(5) * fading / hypot(fading, pi) * sqrt(0.5 * M * stiffness)
+    reach = np.minimum(2 * R, np.hypot(*(start[i, :2] - start[j, :2]).T))
+
+    def rates(t, flat):
+        state = flat.reshape(-1, 4)
+        apart, speed = state[i, :2] - state[j, :2], state[i, 2:] - state[j, 2:]
+        distance = np.hypot(*apart.T)[:, None]
+        depth = np.maximum(reach - distance[:, 0], 0.0)
+        opening = (speed * apart / distance).sum(axis=1)
+        force = (stiffness * depth**1.5 - damping * depth**0.25 * opening)[:, None] * apart / distance
+        rate = np.column_stack([state[:, 2:], np.zeros(len(state)), -np.array(forced)])
+        np.add.at(rate[:, 2:], i, force / M)
+        np.add.at(rate[:, 2:], j, -force / M)
+        return rate.ravel()
+
+    ends = solve_ivp(rates, (0.0, duration), start.ravel(), "DOP853", rtol=1e-10, atol=1e-12, max_step=duration / 100)
+    return ends.y[:, -1].reshape(-1, 4)
+
+
+TUB = [*FLOOR, surface("left", (-4 * R, 0.0), (-4 * R, 9.0), 0.5, 0.0), surface("right", (4 * R, 0.0), (4 * R, 9.0))]
+
+
+@pytest.mark.parametrize(("aside", "restitution"), [(0.0, 0.9), (0.3 * R, 0.5)])
+def test_a_blow_goes_through_a_heap_by_contact_mechanics(aside, restitution):
+    """A ball dropped on a pyramid of ten: to 0.1 % of its speed as by an integration of the same law."""
+    balls = [*pyramid(4), ball("late", aside, R + 3 * sqrt(3) * R + 2.2 * R + 0.1)]
+    run = run_of(balls, TUB, 0.0, restitution, 0.2)
+    blow = next(event for event in run.events if "late" in (event.ball, event.partner))
+    pressed = {each.name: arc for each in balls for arc in run.arcs[each.name] if arc.contact == PRESSED}
+    assert {arc.t0 for arc in pressed.values()} == {blow.t}
+    assert len(pressed) == 11
+    states = [run.before(each.name, blow.t)[:4] for each in balls]
+    duration = pressed["late"].t1 - blow.t
+    stiffness = run.setup.contact.between(R, R)
+    expected = by_contact_law(states, duration, stiffness, restitution, [0.0] * 10 + [G])
+    found = [pressed[each.name].end[2:4] for each in balls]
+    assert np.abs(found - expected[:, 2:]).max() < 1e-3 * blow.speed
+
+
+def test_a_pair_far_from_a_heap_meets_as_if_there_were_none():
+    """Heads a three-ball chain, touching, in the air above a heap on the floor."""
+    chain = [ball(place, 1.0 + 2 * R * place, 2.0, vx=0.0 if place else 1.0) for place in range(3)]
+    alone, beside = (run_of(balls, FLOOR, 0.0, 1.0, 0.1) for balls in (chain, [*chain, *pyramid(2)]))
+    for each in chain:
+        assert beside.state(each.name, 0.1) == pytest.approx(alone.state(each.name, 0.1), abs=1e-9)
+    assert alone.numerics.clusters == beside.numerics.clusters == 1
 
 
 def test_balls_that_part_fly_on_exactly():
