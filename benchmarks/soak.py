@@ -272,10 +272,10 @@ BUILDS = (
 )  # fmt: skip
 #: Changes of the file itself: text to find, and its replacement.
 TEXTS = (
-    ("def build", "def bild"), ("class Parameters(Group)", "class Parameters"), ("FACTS", "FACT"),
+    ("def build", "def bild"), ("class Parameters(Flight)", "class Parameters"), ("FACTS", "FACT"),
     ("import", "import\0"),
     ("def build(parameters: Parameters)", "def build()"), ("from __future__", "from __past__"), ("launch", "lunch"),
-    ("    accuracy: Accuracy", "    other: Accuracy"), ("quantity(10.0", "quantity(None"), ('"m/s"', '"mm/s"'),
+    ("(Flight)", "(SceneParameters)"), ("quantity(10.0", "quantity(None"), ('"m/s"', '"mm/s"'),
     ("quantity(", "quantity(*"), ("CONTROLS = Controls(", "CONTROLS = dict("), ("return", "return return"),
     ("0", "\xff"),
 )  # fmt: skip
@@ -413,16 +413,15 @@ SLOW = '''"""A drop."""
 import time
 
 from sandbox.engine.setup import Ball, Segment, Setup, Surface
-from sandbox.parameters import Accuracy, Group, group, quantity
+from sandbox.parameters import SceneParameters, quantity
 from sandbox.physics.forces import Gravity
 
 
-class Parameters(Group):
+class Parameters(SceneParameters):
     """A drop."""
 
     height: float = quantity(2.0, "m", 0.1, 100, "height")
     pause: float = quantity(2.0, "ms", 0, 1000, "time that it takes to build")
-    accuracy: Accuracy = group(Accuracy(), "speed against accuracy")
 
 
 def build(parameters):
