@@ -7,8 +7,9 @@ from typing import Any, cast
 
 import pymunk
 
-from sandbox.engine.setup import Ball, Circle, Surface, outline_of
-from sandbox.engine.shapes import Ellipse
+from sandbox.engine.meeting import standing
+from sandbox.engine.setup import Ball, Surface, outline_of
+from sandbox.engine.shapes import Ellipse, Polygon
 
 _BALL, _SURFACE = 1, 2
 
@@ -30,22 +31,21 @@ class RealSpace:
         self._margin = margin
         self._raised: BaseException | None = None
         for place, surface in enumerate(surfaces):
-            shape, body = surface.shape, self.space.static_body
-            fixed: pymunk.Shape
-            if isinstance(shape, Circle):
-                fixed = pymunk.Circle(body, shape.radius + margin, shape.center)
-            else:
-                fixed = pymunk.Segment(body, shape.a, shape.b, shape.radius + margin)
-            fixed.collision_type, fixed.filter = _SURFACE, pymunk.ShapeFilter(categories=_SURFACE)
-            fixed.elasticity, fixed.friction = surface.restitution, surface.friction
-            self.surface_of[fixed] = place
-            self.space.add(fixed)
+            shape = self._shape(self.space.static_body, standing(surface.shape).shape.as_polygon(), _SURFACE)
+            shape.elasticity, shape.friction = surface.restitution, surface.friction
+            self.surface_of[shape] = place
+            self.space.add(shape)
 
     def add(self, ball: Ball) -> tuple[pymunk.Body, pymunk.Shape]:
         """Add a ball or body; pymunk multiplies its elasticity and friction, 1, by the surface's."""
         body = pymunk.Body(ball.mass, ball.inertia)
         # cores that touch exactly, as those of boxes at rest would, have any normal for Chipmunk
-        outline = outline_of(ball).as_polygon().rounded(_ROUNDED * self._margin)
+        shape = self._shape(body, outline_of(ball).as_polygon().rounded(_ROUNDED * self._margin), _BALL)
+        shape.elasticity = shape.friction = 1.0
+        self.space.add(body, shape)
+        return body, shape
+
+    def _shape(self, body: pymunk.Body, outline: Polygon, kind: int) -> pymunk.Shape:
         corners, radius = outline.corners, outline.radius + self._margin
         shape: pymunk.Shape
         if len(corners) > 2:
@@ -54,10 +54,8 @@ class RealSpace:
             shape = pymunk.Segment(body, corners[0], corners[1], radius)
         else:
             shape = pymunk.Circle(body, radius, corners[0])
-        shape.collision_type, shape.filter = _BALL, pymunk.ShapeFilter(categories=_BALL)
-        shape.elasticity = shape.friction = 1.0
-        self.space.add(body, shape)
-        return body, shape
+        shape.collision_type, shape.filter = kind, pymunk.ShapeFilter(categories=kind)
+        return shape
 
     def on_contact(self, meet: Callable[[pymunk.Arbiter], None], part: Callable[[pymunk.Arbiter], None]) -> None:
         """Call these before and after Chipmunk solves a contact; the first shape is always a ball's."""
