@@ -80,7 +80,7 @@ def _ending(setup: Setup, events: Sequence[Event]) -> str:
     """ "until" if the last of these events ends the run, "" if not; "after" if the condition fails, so that the shot
     runs alone and raises the error."""
     try:
-        return "until" if setup.ends_with(events) else ""
+        return "until" if events and setup.ends_with(events) else ""
     except FAILURES:
         return "after"
 
@@ -90,7 +90,8 @@ class _OnlyFloats(Exception):
 
 
 class _Left(NamedTuple):
-    """How a shot left the batch: at its end (``how`` is "until" or "duration"), or to be continued by simulation.py."""
+    """How a shot left the batch: at its end (``how`` is "until" or "duration"), or to be continued by simulation.py:
+    from its start ("start"), in flight, or where it touches something, "before" an impact or "after" it."""
 
     t: float  # s
     how: str
@@ -124,6 +125,7 @@ class Batch:
         self._state = np.array([np.broadcast_to(part, len(setups)) for part in start], float)
         self._wanted = np.full(len(setups), self._control.first)  # s, the next step
         self._again = np.zeros(len(setups), dtype=bool)  # the last step was too long and is repeated
+        self._how = np.full(len(setups), "", dtype="U8")  # why it leaves now, as in _Left; "" if it stays
         self._now: Setup = whole
 
     def fly(self) -> None:
@@ -138,8 +140,8 @@ class Batch:
                 self._advance_all(rounds % len(self._shot))
                 rounds += 1
                 pieces += len(self._paths[-1][0])
-        for lane in range(len(self._shot)):
-            self._leave(lane, "flight" if self._touched[lane] < 0 else "after")
+        self._how = np.where(self._touched < 0, "flight", "after")
+        self._drop()
         self._seconds = perf_counter() - started
 
     def runs(self) -> Iterator[Run | Exception]:
@@ -188,17 +190,16 @@ class Batch:
         plain = (count == 0) | ((count == 1) & (near.gap >= -1e-12) & (away >= -CLOSING))
         self._touched = np.where(count == 1, obstacle, -1)  # surface that was just left, or -1
         self._normal = np.array((near.nx, near.ny, near.curvature))
-        self._keep_only(plain)
+        self._how[~plain] = "start"
+        self._drop()
 
     def _advance_all(self, watched: int) -> None:
         known = np.array(self._acceleration(self._t, tuple(self._state)))
         self._check_forces(np.array([watched]), known)
-        flying = self._leaving(known)
-        if not flying.all():
-            known = known[:, flying]
-            self._keep_only(flying)
-            if not len(self._shot):
-                return
+        self._after_touches(known)
+        known = known[:, self._drop()]
+        if not len(self._shot):
+            return
         self._touched = np.full(len(self._shot), -1)
         before = tuple(self._state)
         h = np.minimum(np.minimum(self._wanted, LONGEST), self._now.duration - self._t)
@@ -210,25 +211,20 @@ class Batch:
         self._again = ~fits
         self._counts[STEPS, self._shot] += 1
         self._counts[REFINED, self._shot] += ~fits
-        ends = np.array(after), np.array(last)
-        accepted = np.flatnonzero(fits & self._now.bounds.hold(after))
-        staying = ~fits & (following >= np.maximum(1e-15, 1e-15 * self._t))
-        staying[accepted] = True
-        self._wanted = np.where(staying, following, h)
-        for lane in np.flatnonzero(~staying).tolist():
-            self._leave(lane, "flight")  # which raises the error
-        if len(accepted):
-            staying[accepted[self._travel(accepted, h, known, *ends)]] = False
-        if not staying.all():
-            self._keep_only(staying)
+        accepted = fits & self._now.bounds.hold(after)
+        stuck = ~accepted & (fits | (following < np.maximum(1e-15, 1e-15 * self._t)))
+        self._how[stuck] = "flight"  # which raises the error
+        self._wanted = np.where(stuck, h, following)
+        if accepted.any():
+            self._travel(np.flatnonzero(accepted), h, known, np.array(after), np.array(last))
+        self._drop()
 
     # ------------------------------------------------------------------ travelling
 
     def _travel(
         self, lanes: np.ndarray, h: np.ndarray, acceleration: np.ndarray, after: np.ndarray, last: np.ndarray
-    ) -> np.ndarray:
-        """Take the accepted step of these lanes, up to the first touch. Returns a mask of the lanes that leave the
-        batch."""
+    ) -> None:
+        """Take the accepted step of these lanes, up to the first touch."""
         shots, h = self._shot[lanes], h[lanes]
         t0, t1 = self._t[lanes], self._t[lanes] + h
         start, after = self._state[:, lanes], after[:, lanes]
@@ -242,21 +238,18 @@ class Batch:
             rows[:, hits] = cut(rows[:, hits], t1[hits], u[hits])
         self._paths.append((shots, rows))
         self._t[lanes], self._state[:, lanes] = t1, rows[END]
-        leaving = t1 >= np.broadcast_to(self._now.duration, self._t.shape)[lanes]
-        how = np.where(leaving, "duration", "until")
+        how = np.where(t1 >= np.broadcast_to(self._now.duration, self._t.shape)[lanes], "duration", "")
         if isinstance(self._now.until, Until):
-            leaving = leaving | self._until(shots).passed(tuple(start), tuple(rows[END]))
-        leaving[hits] = False
-        for place in np.flatnonzero(leaving).tolist():
-            self._leave(lanes[place], str(how[place]))
+            how[(how == "") & self._until(shots).passed(tuple(start), tuple(rows[END]))] = "until"
+        how[hits] = ""
+        self._how[lanes] = how
         if len(hits):
-            leaving[hits[~self._impact(lanes[hits])]] = True
-        return leaving
+            self._impact(lanes[hits])
 
     # ------------------------------------------------------------------ impacts
 
-    def _impact(self, lanes: np.ndarray) -> np.ndarray:
-        """Let pymunk change the velocities of shots that touch a surface. Returns a mask of the lanes that stay."""
+    def _impact(self, lanes: np.ndarray) -> None:
+        """Let pymunk change the velocities of shots that touch a surface."""
         shots = self._shot[lanes]
         x, y, vx, vy, _ = self._state[:, lanes]
         count, obstacle, near = self._outlines.near(shots, x, y)
@@ -275,8 +268,7 @@ class Batch:
             t = float(self._t[lanes[i]])
             event = Event(t, "impact", setup.balls[0].name, surface.name, speed, float(x[i]), float(y[i]))
             self._events[shots[i]].append(event)
-        for lane in lanes[~plain].tolist():
-            self._leave(lane, "before")
+        self._how[lanes[~plain]] = "before"
         at = np.flatnonzero(plain)
         if len(at):
             here = lanes[at]
@@ -286,7 +278,6 @@ class Batch:
             self._touched[here] = obstacle[at]
             self._normal = np.zeros((3, len(self._shot)))
             self._normal[:, here] = nx, ny, near.curvature[at]
-        return plain
 
     def _exchange(self, lanes: np.ndarray, nx: np.ndarray, ny: np.ndarray, bounces: np.ndarray) -> None:
         """Change velocities and spins by impacts on surfaces with these normals."""
@@ -298,13 +289,11 @@ class Batch:
         )
         self._state[2:, lanes] = after_impulse(motion, nx, ny, r, factor, (push, rub, 0.0))
 
-    def _leaving(self, acceleration: np.ndarray) -> np.ndarray:
-        """Which of the shots that touch a surface, and do not approach it, continue to fly. The others leave the
-        batch."""
-        flying = np.ones(len(self._shot), dtype=bool)
+    def _after_touches(self, acceleration: np.ndarray) -> None:
+        """Whether the shots that touch a surface, and do not approach it, continue to fly."""
         at = np.flatnonzero(self._touched >= 0)
         if not len(at):
-            return flying
+            return
         state, (nx, ny, curvature) = self._state[:, at], self._normal[:, at]
         pressed = press(tuple(state), tuple(acceleration[:, at]), nx, ny, curvature)
         away = state[2] * nx + state[3] * ny
@@ -312,40 +301,35 @@ class Batch:
         stays = away <= leaves_at(pressed, np.maximum(self._accuracy.settle, lowest))
         for lane, kept in zip(at.tolist(), stays.tolist(), strict=True):
             shot = self._shot[lane]
-            setup = self.setups[shot]
-            if kept:
-                self._leave(lane, "after")
-                flying[lane] = False
-            elif self._events[shot] and (how := _ending(setup, self._events[shot])):
-                self._leave(lane, how)
-                flying[lane] = False
-        return flying
+            self._how[lane] = "after" if kept else _ending(self.setups[shot], self._events[shot])
 
     # ------------------------------------------------------------------ leaving the batch
 
-    def _keep_only(self, staying: np.ndarray) -> None:
-        self._shot, self._t, self._state = self._shot[staying], self._t[staying], self._state[:, staying]
-        self._wanted, self._again = self._wanted[staying], self._again[staying]
-        self._touched = self._touched[staying]
-        self._normal = self._normal[:, staying]
-        self._now = self._select(self._shot)
-
-    def _leave(self, lane: int, how: str) -> None:
-        state = tuple(self._state[:, lane].tolist())
-        self._left[int(self._shot[lane])] = _Left(float(self._t[lane]), how, state, float(self._wanted[lane]))
+    def _drop(self) -> np.ndarray:
+        """Note how shots leave, and keep the others. Returns a mask of these."""
+        staying: np.ndarray = self._how == ""
+        for lane in np.flatnonzero(~staying).tolist():
+            state, how = tuple(self._state[:, lane].tolist()), str(self._how[lane])
+            self._left[int(self._shot[lane])] = _Left(float(self._t[lane]), how, state, float(self._wanted[lane]))
+        if not staying.all():
+            self._shot, self._t, self._state = self._shot[staying], self._t[staying], self._state[:, staying]
+            self._wanted, self._again, self._how = self._wanted[staying], self._again[staying], self._how[staying]
+            self._touched, self._normal = self._touched[staying], self._normal[:, staying]
+            self._now = self._select(self._shot)
+        return staying
 
     def _run(self, number: int, path: ArcRows) -> Run | Exception:
-        setup, left, events = self.setups[number], self._left.get(number), self._events[number]
+        setup, left, events = self.setups[number], self._left[number], self._events[number]
         steps, refined, impacts, queries = self._counts[:, number].tolist()
         seconds = self._seconds / len(self.setups)
         numerics = Numerics((self._control.evaluations + 1) * steps, steps, refined, impacts, impacts, queries, seconds)
-        if left is not None and left.how in ("until", "duration"):
+        if left.how in ("until", "duration"):
             arcs = {setup.balls[0].name: path}
             return Run(setup, self._accuracy, arcs, events, numerics, left.t, left.how)
         try:
             with setup_errors_named(setup):
                 simulation = Simulation(setup, self._accuracy, numerics)
-                if left is None:  # it touches something at the start
+                if left.how == "start":
                     return simulation.run()
                 return simulation.take_over(left.t, left.state, list(path), events, left.wanted, left.how)
         except Exception as error:
