@@ -14,6 +14,7 @@ from sandbox.physics.hertz import PHENOLIC
 
 if TYPE_CHECKING:
     from sandbox.engine.event import Event
+    from sandbox.physics.forces import MassLoss
     from sandbox.physics.integrators import State
     from sandbox.physics.plane import Plane
 
@@ -37,14 +38,6 @@ class Torque(Protocol):
     """Torque on a ball in N m, counter-clockwise; arguments as for Force."""
 
     def __call__(self, t: Any, position: Any, velocity: Any, spin: Any) -> Any: ...
-
-
-class MassLoss(Protocol):
-    """How much of its mass a ball has lost by a time t (s), in kg, and how fast it loses it, in kg/s. What it loses
-    keeps its velocity and spin: the push that it gives is a force like any other."""
-
-    def lost(self, t: Any) -> Any: ...
-    def rate(self, t: Any) -> Any: ...
 
 
 @dataclass(frozen=True)

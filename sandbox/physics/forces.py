@@ -24,10 +24,12 @@ Force = Callable[[float, Any, Any, Any], tuple[Any, Any]]
 _ALMOST_ZERO = 1e-30
 
 
-class _Loss(Protocol):
-    """Mass in kg that is lost by a time in s."""
+class MassLoss(Protocol):
+    """How much of its mass a ball has lost by a time t (s), in kg, and how fast it loses it, in kg/s. What it loses
+    keeps its velocity and spin: the push that it gives is a force like any other."""
 
     def lost(self, t: Any) -> Any: ...
+    def rate(self, t: Any) -> Any: ...
 
 
 @dataclass(frozen=True)
@@ -36,7 +38,7 @@ class Gravity:
 
     mass: float  # kg, at the start
     gravity: float  # m/s^2
-    loss: _Loss | None = None
+    loss: MassLoss | None = None
     _force: tuple[float, float] = field(init=False, repr=False)  # N
 
     def __post_init__(self) -> None:
