@@ -7,7 +7,7 @@ A scene defines them next to its parameters::
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -104,21 +104,20 @@ class Controls:
             if fact and fact not in facts:
                 return f'{name} "{fact}": {no_such_result(fact, facts)}'
         known = list(every_key(schema))
-        for name, key in self._keys():
-            if key not in known:
+        for name, keys in self._keys().items():
+            for key in (key for key in keys if key not in known):
                 near = nearest(key, known)
                 return f'{name} "{key}": unknown key' + (f"; did you mean {near}?" if near else "")
         return None
 
-    def _keys(self) -> Iterator[tuple[str, str]]:
-        """Each field that names a parameter, with its key; a scene may lack those of the defaults."""
-        defaults = Controls()
-        yield from (("speed", self.speed),) if self.speed != defaults.speed else ()
-        yield from (("angle", self.angle),) if self.angle != defaults.angle else ()
-        yield from (("spins", spin.key) for spin in self.spins)
-        yield from (("also", key) for key in self.also)
-        yield from (("sliders", key) for key in self.sliders)
-        yield from (
-            ("handles", key.partition("[")[0]) for item in self.handles for key in (item.x, item.y, item.where) if key
-        )
-        yield from (("spread", spread.key) for spread in self.spread)
+    def _keys(self) -> dict[str, list[str]]:
+        """The keys of parameters, by the field that names them; a scene may lack those of the defaults."""
+        return {
+            "speed": [self.speed] if self.speed != Controls.speed else [],
+            "angle": [self.angle] if self.angle != Controls.angle else [],
+            "spins": [spin.key for spin in self.spins],
+            "also": [*self.also],
+            "sliders": [*self.sliders],
+            "handles": [key.partition("[")[0] for it in self.handles for key in (it.x, it.y, it.where) if key],
+            "spread": [spread.key for spread in self.spread],
+        }

@@ -74,14 +74,14 @@ def at(moment: Callable[[Run, Any], Any], what: str | Callable[[Any, Any], Any])
     return how
 
 
-def before(run: Run, t: float) -> Moment:
-    """The ball just before time t in s."""
-    return Moment(t, *run.before("ball", t))
+def before(run: Run, t: float, ball: str = "ball") -> Moment:
+    """A ball just before time t in s."""
+    return Moment(t, *run.before(ball, t))
 
 
-def passing(run: Run, x: float) -> Moment | None:
-    """The ball as it first passes x (m) on its way forward."""
-    return next((Moment(t, *state) for t, state in run.crossings("ball", (x, 0.0), (-1.0, 0.0))), None)
+def passing(run: Run, x: float, ball: str = "ball") -> Moment | None:
+    """A ball as it first passes x (m) on its way forward."""
+    return next((Moment(t, *state) for t, state in run.crossings(ball, (x, 0.0), (-1.0, 0.0))), None)
 
 
 def passing_at(place: Callable[[Any], float]) -> Callable[[Run, Any], Moment | None]:

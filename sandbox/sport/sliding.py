@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from math import cos, dist, hypot, pi, sin
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from sandbox.engine.on_plane import slowest_hop
 from sandbox.engine.setup import DISC, Ball, Catch, Vector
@@ -144,18 +144,4 @@ def aside(run: Run, name: str, launch: Slide) -> float:
     return (y - y0) * cos(way) - (x - x0) * sin(way)
 
 
-def passes(run: Run, name: str, x: float) -> float | None:
-    """When a body first passes x (m) on its way ahead, in s."""
-    return next((t for t, _ in run.crossings(name, (x, 0.0), (-1.0, 0.0))), None)
-
-
-def _rest_time(run: Run, parameters: Any) -> float | None:
-    return run.duration if run.ended == "rest" else None
-
-
-REST_TIME = Fact("rest_time", "at rest after", "s", _rest_time)
-
-
-def speed_before(run: Run, name: str, t: float) -> float:
-    """Of a body just before time t (s), in m/s."""
-    return hypot(*run.before(name, t)[2:4])
+REST_TIME = Fact("rest_time", "at rest after", "s", lambda run, _: run.duration if run.ended == "rest" else None)

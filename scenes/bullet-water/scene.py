@@ -15,10 +15,9 @@ from math import dist, log, pi
 from sandbox.engine.run import Run
 from sandbox.engine.setup import Ball, Force, Patch, Setup
 from sandbox.parameters import Group, SceneParameters, group, quantity
-from sandbox.physics.ballistics import BulletDrag, speed_of_sound
 from sandbox.physics.coefficients import Constant
 from sandbox.physics.forces import Drag, Gravity, Inside
-from sandbox.sport.air import Weather, wind_in
+from sandbox.sport.air import Weather
 from sandbox.sport.amounts import metres
 from sandbox.sport.controls import Controls, Handle, Spread
 from sandbox.sport.facts import ENDED, Fact, once
@@ -73,17 +72,16 @@ def halving(parameters: Parameters) -> float:
 
 def build(parameters: Parameters) -> Setup:
     """The bullet over the water; what acts on it in one medium acts on the part of it that is there."""
-    launch, bullet, water, air = parameters.launch, parameters.bullet, parameters.water, parameters.air.air
+    launch, bullet, water = parameters.launch, parameters.bullet, parameters.water
     surface = (0.0, 0.0)
     wet = Drag(bullet.radius, water.density, Constant(water.coefficient))
     forces: list[Force] = [
         Gravity(bullet.mass, parameters.gravity),
         Inside(wet, surface, (0.0, 1.0), bullet.radius, "drag of water"),
     ]
-    if air.density > 0.0:
-        shape, sound = bullet.drag.model, speed_of_sound(parameters.air.temperature + 273.15)
-        dry = BulletDrag(bullet.mass, shape, bullet.coefficient, air.density, sound, wind_in(air))
-        forces.append(Inside(dry, surface, (0.0, -1.0), bullet.radius, "drag of air"))
+    forces += [
+        Inside(dry, surface, (0.0, -1.0), bullet.radius, "drag of air") for dry in bullet.drag_in(parameters.air)
+    ]
     fired = Ball("ball", bullet.mass, bullet.radius, (0.0, launch.height), launch.velocity, forces=forces)
     skin = Patch(-1e4, -bullet.radius, 1e4, bullet.radius, 0.5 * bullet.radius / launch.speed)  # of the water
     return Setup([fired], duration=parameters.duration, patches=[skin])

@@ -53,6 +53,12 @@ class Bullet(Group):
     coefficient: float = quantity(..., "", 0.001, 10, "ballistic coefficient in lb/in^2")
     drag: BulletDragModel = group(..., "its standard shape")
 
+    def drag_in(self, weather: Weather) -> list[Force]:
+        """The force of that air on it; none without air."""
+        air, sound = weather.air, speed_of_sound(weather.temperature + 273.15)
+        given = self.mass, self.drag.model, self.coefficient, air.density, sound, wind_in(air)
+        return [BulletDrag(*given)] if air.density > 0.0 else []
+
 
 class Range(Group):
     """The shooting range."""
@@ -83,11 +89,8 @@ CONTROLS = Controls(
 
 def build(parameters: Parameters) -> Setup:
     """The bullet, and the target in which the run ends."""
-    bullet, air = parameters.bullet, parameters.air.air
-    forces: list[Force] = [Gravity(bullet.mass, parameters.gravity)]
-    if air.density > 0.0:
-        shape, sound = bullet.drag.model, speed_of_sound(parameters.air.temperature + 273.15)
-        forces.append(BulletDrag(bullet.mass, shape, bullet.coefficient, air.density, sound, wind_in(air)))
+    bullet = parameters.bullet
+    forces = [Gravity(bullet.mass, parameters.gravity), *bullet.drag_in(parameters.air)]
     angle = parameters.launch.angle * DEGREE
     if parameters.zero.distance > 0.0:
         angle = zeroed(parameters.zero, lambda angle: _setup(parameters, forces, angle, parameters.zero.distance))

@@ -20,8 +20,8 @@ from sandbox.physics.plane import Strips
 from sandbox.sport.amounts import roughly
 from sandbox.sport.controls import Controls, Handle, Spin, Spread
 from sandbox.sport.facts import ENDED, Fact
-from sandbox.sport.readings import at
-from sandbox.sport.sliding import REST_TIME, Body, Sliding, aside, beside, beyond, end_of, left, passes, taken
+from sandbox.sport.readings import at, passing
+from sandbox.sport.sliding import REST_TIME, Body, Sliding, aside, beside, beyond, end_of, left, taken
 
 Team = Literal["red", "yellow"]
 #: The sheet (World Curling, rule R1), in m from the tee: back line, hog line, the one of release; radii of the rings.
@@ -119,7 +119,7 @@ FACTS = (
     Fact("to_tee", "to the tee", "m", at(lambda run, it: _lie(run, it).get(DELIVERED), lambda at, _: hypot(*at))),
     Fact("curl", "curl", "m", lambda run, it: aside(run, DELIVERED, it.launch), sides=("right", "left")),
     Fact("distance", "way up the sheet", "m", lambda run, it: end_of(run, DELIVERED)[0] - RELEASE),
-    Fact("hog_to_hog", "hog to hog", "s", lambda run, it: passes(run, DELIVERED, HOG)),
+    Fact("hog_to_hog", "hog to hog", "s", at(lambda run, it: passing(run, HOG, DELIVERED), "t")),
     REST_TIME,
     Fact("removed", "taken off", "", lambda run, it: [b.name for b in run.setup.balls if b.name not in _lie(run, it)]),
     Fact("friction", "", "%", lambda run, it: 100.0 * _ice(it).deceleration(it.launch.speed) / it.gravity, "start"),

@@ -19,7 +19,8 @@ from sandbox.physics.ice import Glide
 from sandbox.sport.amounts import roughly
 from sandbox.sport.controls import Controls, Handle, Spin, Spread
 from sandbox.sport.facts import ENDED, Fact
-from sandbox.sport.sliding import Body, Slide, Sliding, check_inside, end_of, met, rounded, speed_before, taken
+from sandbox.sport.readings import before
+from sandbox.sport.sliding import Body, Slide, Sliding, check_inside, end_of, met, rounded, taken
 
 DECIDING = {"goal", "goalie", "defender", "receiver"}
 POST, DEPTH = 0.030, 1.0  # m: radius of a post (NHL rule 2.1), depth of the net
@@ -130,7 +131,7 @@ def _word(run: Run, parameters: Parameters) -> str:
 
 
 FACTS = (
-    Fact("speed", "at the end", "m/s", lambda run, it: speed_before(run, "puck", decided(run, it)[0]), also="mph"),
+    Fact("speed", "at the end", "m/s", lambda run, it: before(run, decided(run, it)[0], "puck").speed, also="mph"),
     Fact("time", "time", "s", lambda run, it: decided(run, it)[0]),
     Fact("boards", "off the boards", "", lambda run, it: touches(run, it).count("boards")),
     Fact("release", "release", "m/s", lambda run, it: it.launch.speed, "start", also="mph"),
