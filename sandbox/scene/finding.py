@@ -35,7 +35,7 @@ class Found:
     name: str
     folder: Path
     file: Path | None  # the scene file to read; None for a folder without one
-    base: str = ""  # the preset that the file begins from
+    base: Path | None = None  # the preset that the file begins from
     preset: str | None = None  # which preset the file is
 
 
@@ -51,12 +51,10 @@ def load(source: str | Path, overrides: Mapping[str, Any] | None = None, *, over
             f'overrides = {shortened(repr(overrides))}: must be a dictionary such as {{"air.wind": [5, 0]}}'
         )
     found = _find(source)
-    file, folder = found.file, found.folder
-    where = shown(folder if file is None else file)
-    parameters = _read(parameters_class(folder), _layers(found, where), where, overrides, overrides_from)
-    elsewhere = file is not None and folder not in file.resolve().parents
-    note = first_comment(file) if file is not None and elsewhere else ""
-    return Scene(found.name, found.preset, parameters, folder, note)
+    parameters = _parameters(found, overrides, overrides_from)
+    elsewhere = found.file is not None and found.folder not in found.file.resolve().parents
+    note = first_comment(found.file) if found.file is not None and elsewhere else ""
+    return Scene(found.name, found.preset, parameters, found.folder, note)
 
 
 def as_scene(scene: Scene | str | Path) -> Scene:
@@ -64,28 +62,15 @@ def as_scene(scene: Scene | str | Path) -> Scene:
     return scene if isinstance(scene, Scene) else load(scene)
 
 
-def _preset_values(found: Found, where: str) -> dict[str, Any]:
-    """The values of the preset that a scene file begins from."""
-    try:
-        values = declared.read_toml(_preset(found.name, found.folder, found.base))
-    except RequestError as error:
-        raise RequestError(f"{where}: {error}") from None
-    values.pop("scene", None)
-    return values
-
-
-def _layers(found: Found, where: str) -> list[tuple[str, dict[str, Any]]]:
-    """The layers to read, each overriding the one before: the scene's own file, a file's preset, the file."""
-    own = _default_file(found.folder)
-    files = [] if own is None or found.file is None else [own]
-    if found.file is not None and (own is None or found.file.resolve() != own.resolve()):
-        files.append(found.file)
-    layers = [(where if file is found.file else shown(file), declared.read_toml(file)) for file in files]
-    if found.base:
-        layers.insert(len(layers) - 1, (where, _preset_values(found, where)))
+def _parameters(found: Found, overrides: Mapping[str, Any] | None = None, overrides_from: str = "") -> declared.Group:
+    """The parameters in the scene's own file, in the preset that the file begins from, and in the file, each over the
+    one before."""
+    own, where = _default_file(found.folder), shown(found.file or found.folder)
+    files = {file.resolve(): file for file in (own, found.base, found.file) if file is not None}
+    layers = [(shown(file) if file is own else where, declared.read_toml(file)) for file in files.values()]
     for _, values in layers:
         values.pop("scene", None)
-    return layers
+    return _read(parameters_class(found.folder), layers, where, overrides, overrides_from)
 
 
 def _read(
@@ -110,10 +95,7 @@ def _read(
 def parameters_of(source: str | Path) -> tuple[str, declared.Group]:
     """Name and default parameters of the scene that ``source`` names; only the key ``scene`` of a file matters."""
     found = _find(source)
-    own = _default_file(found.folder)
-    where = shown(own or found.folder)
-    layers = _layers(Found(found.name, found.folder, own), where)
-    return found.name, _read(parameters_class(found.folder), layers, where, None, "")
+    return found.name, _parameters(Found(found.name, found.folder, _default_file(found.folder)))
 
 
 def folder_of(source: str | Path) -> Path | None:
@@ -180,10 +162,8 @@ def scene_files_in(place: Path) -> Iterator[Listing]:
 def listings_of(source: str) -> list[Listing]:
     """The scene that ``source`` names, followed by its presets."""
     found = _find(source)
-    name = found.name
-    if installed_folder(name) != found.folder:
-        name = shown(found.folder) if Path(shown(found.folder)).is_absolute() else f"./{shown(found.folder)}"
-    return list(_listed(name, found.folder))
+    is_known = installed_folder(found.name) == found.folder
+    return list(_listed(found.name if is_known else _as_path(found.folder), found.folder))
 
 
 def _listed(name: str, folder: Path) -> Iterator[Listing]:
@@ -299,7 +279,7 @@ def _presets(folder: Path) -> list[Path]:
     return sorted((folder / "presets").glob("*.toml"))
 
 
-def _preset(name: str, folder: Path, preset: str) -> Path:
+def _preset(name: str, folder: Path, preset: str, where: str = "") -> Path:
     file = folder / "presets" / f"{preset}.toml"
     if file.is_file():
         return file
@@ -307,7 +287,7 @@ def _preset(name: str, folder: Path, preset: str) -> Path:
     near = declared.nearest(preset, known)
     presets = f"it has {', '.join(known) or 'none'}" if len(known) <= 6 else f"sandbox list shows its {len(known)}"
     hint = f"did you mean {name}/{near}?" if near else presets
-    raise RequestError(f"{name} has no preset {preset}; {hint}")
+    raise RequestError(f"{where}{name} has no preset {preset}; {hint}")
 
 
 def _of_file(path: Path) -> Found:
@@ -333,23 +313,32 @@ def _of_file(path: Path) -> Found:
                 f'{path}: {_unknown(name)}; for the folder next to this file write scene = "./{written}"'
             )
         raise RequestError(f"{path}: {_unknown(name)}{_own_folder(path)}")
-    is_preset = path.resolve().parent == folder / "presets"
-    if is_preset and preset:
+    if preset and path.resolve().parent == folder / "presets":
         raise RequestError(f'{path}: scene = "{written}", but a file in this folder is for {name}')
-    return Found(name, folder, path, preset, path.stem if is_preset else None)
+    return _based(path, name, folder, preset)
 
 
 def _by_path(path: Path, written: str) -> Found:
     """The scene of a scene file that gives the path of its folder."""
     place = path.parent / written
-    base = "" if (place / "scene.py").is_file() else place.name
-    folder = (place.parent if base else place).resolve()
+    folder, preset = (place, "") if (place / "scene.py").is_file() else (place.parent, place.name)
     if not (folder / "scene.py").is_file():
         raise RequestError(f"{path}: scene = {declared.shown(written)}: there is no scene.py in that folder")
-    if base:
-        _preset(folder.name, folder, base)
+    folder = folder.resolve()
+    return _based(path, folder.name, folder, preset)
+
+
+def _based(path: Path, name: str, folder: Path, preset: str) -> Found:
+    """A scene and the file for it, which begins from one of its presets, if any."""
+    base = _preset(name, folder, preset, f"{path}: ") if preset else None
     is_preset = path.resolve().parent == folder / "presets"
-    return Found(folder.name, folder, path, base, path.stem if is_preset else None)
+    return Found(name, folder, path, base, path.stem if is_preset else None)
+
+
+def _as_path(folder: Path) -> str:
+    """How a user may write the path of a folder, so that it is not taken for a name."""
+    path = shown(folder)
+    return path if Path(path).is_absolute() or path == "." else f"./{path}"
 
 
 def _own_folder(path: Path) -> str:
@@ -358,7 +347,5 @@ def _own_folder(path: Path) -> str:
     folder = parent.parent if parent.name == "presets" else parent
     if not (folder / "scene.py").is_file():
         return ""
-    shortest = shown(folder)
-    own = shortest if Path(shortest).is_absolute() or shortest == "." else f"./{shortest}"
-    name = f"{own}/{path.stem}" if parent.name == "presets" else own
+    name = f"{_as_path(folder)}/{path.stem}" if parent.name == "presets" else _as_path(folder)
     return f"; a file alone does not run the scene.py of its folder: ask for {name}"
