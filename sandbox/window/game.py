@@ -47,7 +47,7 @@ class Message(NamedTuple):
 
 
 class Game:
-    """A session that is played. Every change that can be seen also changes ``revision``."""
+    """A session that is played."""
 
     def __init__(
         self,
@@ -62,7 +62,6 @@ class Game:
         self.session, self.worker, self.patience, self.helper = session, worker, patience, helper or worker
         self.running = True
         self.history = History(session.changes)
-        self.revision = 0
         self.code = 0  # how often the scene's code was read again
         self.runs: Latest[tuple[dict[str, Any], float]] = Latest()  # of worker.computed
         self.aimed: Shot | None = None  # of the last run that did not fail
@@ -81,7 +80,6 @@ class Game:
         self.unreadable: str | None = None  # what is wrong with the files as last saved
         self.memory = memory or Memory()
         self.memory.opened(session.source)
-        self._waited = 0  # s that were reported last
         self.jobs: list[tuple[Future[Any], Callable[[Any], object], str]] = []  # and what they are
         self.watch_files = Watch(session.files)
         self._everywhere(warm_up, session.source)
@@ -146,6 +144,14 @@ class Game:
         return pinned + [shot for shot in alike if shot.start == start and shot not in pinned][-SHOWN:]
 
     @property
+    def seen(self) -> tuple[Any, ...]:
+        """All that can be seen of the game and changes without an event of the window."""
+        playback = self.playback
+        clock = (playback.t, playback.playing, playback.rate) if playback is not None else None
+        shown = self.shot, clock, self.session.changes, self.before_save, self.late
+        return (*shown, self.failure, self.notices, len(self.jobs), self.table.count)
+
+    @property
     def notices(self) -> list[tuple[str, bool]]:
         """The current messages for the player: each text, and whether it is bad. An error stays while it is true."""
         found = [(text, True) for text in (self.failure, self.unreadable) if text is not None]
@@ -159,7 +165,6 @@ class Game:
     def tell(self, text: str, bad: bool = False) -> None:
         """Say something for a while."""
         self.message = Message(text, bad, MESSAGE)
-        self.revision += 1
 
     def trying(self, action: Callable[[], object]) -> bool:
         """Do something that may fail because of the input; a failure is reported and the game continues."""
@@ -168,8 +173,6 @@ class Game:
         except Exception as error:
             self.tell(self.reason(error), bad=True)
             return False
-        finally:
-            self.revision += 1
         return True
 
     def reason(self, error: BaseException) -> str:
@@ -188,22 +191,16 @@ class Game:
         if self.message is not None:
             text, bad, left = self.message
             self.message = Message(text, bad, left - dt) if left > dt else None
-            self.revision += self.message is None
         files = self.watch_files.saved(dt)
         if files:
             self._reload(files)
         self.still += dt
         self._compute(self.patience)
         self._finish_jobs()
-        waited = self.late + (int(self.runs.takes) if self.runs.takes >= LONG else 0)  # s, as the player is told
-        if waited != self._waited:
-            self._waited = waited
-            self.revision += 1
         if self.playback is None or hold:
             return 0.0, 0.0
         start = self.playback.t
         self.playback.advance(dt)
-        self.revision += self.playback.t != start
         return start, self.playback.t
 
     def settle(self) -> None:
@@ -219,7 +216,6 @@ class Game:
     def ask(self, result: Future[Any], then: Callable[[Any], object], said: str = "") -> None:
         """Do something with a result once it is there; until then the player is told what is being done."""
         self.jobs.append((result, then, said))
-        self.revision += 1
 
     def stop_jobs(self) -> bool:
         """Stop what the player is told is being done; returns whether there was anything."""
@@ -227,7 +223,6 @@ class Game:
         for job in stopped:
             self.jobs.remove(job)
             self.helper.abandon(job[0])
-        self.revision += bool(stopped)
         return bool(stopped)
 
     def _finish_jobs(self) -> None:
@@ -253,7 +248,6 @@ class Game:
         """Make a shot of the run that has ended."""
         if not self.runs.take(patience):
             return
-        self.revision += 1
         if self.runs.key[2].source != self.session.source:  # of the scene before
             self.runs.forget()
             return
@@ -276,7 +270,6 @@ class Game:
     def _abandon(self, why: RunError | None) -> None:
         """Give up a run, and end its process."""
         self.worker.abandon(self.runs.give_up(why))
-        self.revision += 1
 
     def stop(self) -> bool:
         """Stop a long run; returns whether there was one."""
@@ -359,7 +352,6 @@ class Game:
         if self.pull is None:
             return
         self.pull.vector = float(at[0] - self.pull.start[0]), float(at[1] - self.pull.start[1])
-        self.revision += 1
         values = self.pull.changes(self.session)
         if values is not None:
             self.change(values)
@@ -385,7 +377,6 @@ class Game:
         """The mouse lets go: a pull that is long enough is a shot."""
         pull, self.pull, self.grip = self.pull, None, None
         self.history.end()
-        self.revision += 1
         if pull is not None and pull.shoots:
             self.shoot()
 
@@ -401,7 +392,6 @@ class Game:
     def shoot(self) -> None:
         """Let go: the shot is watched, as soon as it is computed."""
         self.pull, self.grip, self.shooting = None, None, True
-        self.revision += 1
         if self.settled:
             self.shooting = False
             if self.aimed is not None and self.failure is None:
@@ -418,7 +408,6 @@ class Game:
         self.watched, self.still, self.shooting = shot, 0.0, False
         rate = self.playback.rate if self.playback is not None else 1.0
         self.playback = Playback(shot.run.duration, rate)
-        self.revision += 1
 
     def watch_other(self, by: int) -> None:
         """Play the shot ``by`` places after the one that is watched."""
@@ -438,7 +427,6 @@ class Game:
     def pin(self, row: Played) -> None:
         """Keep the path of a shot, or keep it no longer."""
         self.table.pin(row, self._compute_again)
-        self.revision += 1
 
     def _compute_again(self, row: Played) -> None:
         def then(result: tuple[dict[str, Any], float]) -> None:
@@ -452,7 +440,6 @@ class Game:
         if playback is None:
             return
         self.playback, self.still = None, 0.0
-        self.revision += 1
         ours = shot is not None and shot.changes.source == self.session.source
         if from_rest and playback.over and ours and self.session.controls.next_start is not None:
             assert shot is not None
@@ -482,13 +469,11 @@ class Game:
         self.runs.forget()
         self.memory.opened(self.session.source)
         self.watch_files = Watch(self.session.files)
-        self.revision += 1
 
     def _reload(self, files: list[Path]) -> None:
         """Files were saved: aim with them, with the path from before still drawn."""
         before, folder = self.shot, self.session.base.folder
         code = any(file.suffix == ".py" for file in files)
-        self.revision += 1
         try:
             self.session.reload(code)
         except Exception as error:

@@ -385,17 +385,8 @@ class View:
 
     def needs_drawing(self, happened: bool) -> bool:
         """Whether what would be drawn differs from what was drawn last."""
-        playback, over = self.game.playback, self.over
-        clock = (playback.t, playback.playing, playback.rate) if playback is not None else None
-        seen = (
-            self.game.revision,
-            self.game.failure,
-            clock,
-            over,
-            over and over.progress,
-            self.tape,
-            frozenset(self.on),
-        )
+        over = self.over
+        seen = self.game.seen, over, over and over.progress, self.tape, frozenset(self.on)
         needed = happened or self.changed or seen != self._seen
         self._seen, self.changed = seen, False
         return needed
