@@ -44,8 +44,8 @@ SAMPLES = 240
 GROUND = 400
 #: Units of the numbers that the page itself writes.
 UNITS = ("m", "m/s", "deg", "rpm", "s", "N")
-#: Digits after the point of what balls in a heap do, in m and rad/s.
-HEAPED = 12
+#: To what, in m and rad/s, the path of a ball in a heap is rounded.
+HEAPED = 1e-12
 #: Most impacts and other events that are listed.
 MOST_EVENTS = 400
 
@@ -60,7 +60,7 @@ def page_of(run: Run, ghosts: Mapping[str, Run] | None = None) -> str:
     view, heading = views[0][0], views[0][0].heading
     events = run.events[:MOST_EVENTS]
     others = {ghost.label: css(ghost.light) for ghost in view.ghosts}
-    labelled = [dict(scene.rows(run)), *(dict(ghost.path.run.scene.rows(ghost.path.run)) for ghost in view.ghosts)]
+    labelled = [dict(scene.rows(run)), *(dict(ghost.view.run.scene.rows(ghost.path.run)) for ghost in view.ghosts)]
     card = [(label, *(texts.get(label, "–") for texts in labelled)) for label in labelled[0]]
     several = len(run.setup.balls) > 1
     listed = (
@@ -71,7 +71,7 @@ def page_of(run: Run, ghosts: Mapping[str, Run] | None = None) -> str:
         **_static(view, run),
         "views": [layout for _, layout in views],
         "events": [event.t for event in events],
-        "duration": max([run.duration, *(ghost.path.run.duration for ghost in view.ghosts)]),
+        "duration": max([run.duration, *(ghost.view.run.duration for ghost in view.ghosts)]),
         "told": view.told,
         "fonts": fonts(),
     }
@@ -196,7 +196,7 @@ def _static(view: View[Any], run: Run) -> dict[str, Any]:
                 "colour": css(ghost.colour if not view.on_dark else ghost.light),
                 "light": css(ghost.light),
                 "shift": ghost.shift,
-                "path": _path(ghost.path.run.arcs[ghost.path.name]),
+                "path": _path(ghost.view.run.arcs[ghost.path.name]),
             }
             for ghost in view.ghosts
         ],
@@ -208,6 +208,7 @@ def _static(view: View[Any], run: Run) -> dict[str, Any]:
         "shadows": isinstance(view, AboveView),
         "spins": view.SPINS,
         "ladders": {unit: _ladder(unit) for unit in UNITS},
+        "heaped": HEAPED,
         "others": OTHERS,
         "unsaid": UNSAID,
         "earlier": palette("trace")["earlier"],
@@ -218,27 +219,32 @@ def _static(view: View[Any], run: Run) -> dict[str, Any]:
 
 
 def _path(arcs: Path) -> dict[str, Any]:
-    """The arcs of a ball, each until the next begins where it does not say otherwise."""
-    ends = [*arcs.starts[1:], arcs[-1].t1]
-    rows = [_arc(arc) for arc in arcs]
-    for arc, row, end in zip(arcs, rows, ends, strict=True):
-        if arc.t1 != end:
-            row[0] = [arc.t0, arc.t1]
+    """The arcs of a ball, each until the next begins where it does not say otherwise.
+
+    Of the thousands of short steps in a heap, whose last digits are not those of the physics, each coefficient is what
+    it differs from the one before, in units of HEAPED.
+    """
+    rows, last = [], [0, 0, 0]
+    for arc, end in zip(arcs, [*arcs.starts[1:], arcs[-1].t1], strict=True):
+        curves, heaped = [list(arc.x), list(arc.y), list(arc.spin)], isinstance(arc.contact, Heaped) and arc.t1 > arc.t0
+        if heaped:
+            whole = [[round(value / HEAPED) for value in curve] for curve in curves]
+            curves = [np.diff([start, *curve]).tolist() for start, curve in zip(last, whole, strict=True)]
+            last = [curve[-1] for curve in whole]
+        else:
+            last = [0, 0, 0]
+        times = arc.t0 if arc.t1 == end else [arc.t0, arc.t1]
+        rows.append([times, *curves, 1 if heaped else _within(arc)])
+        if arc.curves[5:]:
+            rows[-1].append([list(curve) for curve in arc.curves[5:]])
     return {"arcs": rows, "until": arcs[-1].t1}
 
 
-def _arc(arc: Arc) -> list[Any]:
-    """An arc's polynomials; of the velocity only where it is not their derivative: within an impact, and at its end."""
-    within: Any = 0
+def _within(arc: Arc) -> Any:
+    """The polynomials of its velocity where they are not the derivatives: within an impact, and at its end; else 0."""
     if arc.t1 <= arc.t0:
-        within = [[arc.start[2]], [arc.start[3]]]
-    elif arc.contact == PRESSED:
-        within = [list(arc.vx), list(arc.vy)]
-    curves: list[Any] = [list(arc.x), list(arc.y), list(arc.spin), within]
-    if isinstance(arc.contact, Heaped):  # thousands of short steps, whose digits are not those of the physics
-        curves[:3] = ([round(value, HEAPED) for value in curve] for curve in curves[:3])
-    curves = [arc.t0, *curves]
-    return [*curves, [list(curve) for curve in arc.curves[5:]]] if arc.curves[5:] else curves
+        return [[arc.start[2]], [arc.start[3]]]
+    return [list(arc.vx), list(arc.vy)] if arc.contact == PRESSED else 0
 
 
 def _turned(view: View[Any], name: str, until: float) -> dict[str, Any] | None:

@@ -46,11 +46,18 @@ function integral(curve, u) {
 }
 
 /** The path of one ball: arcs [t0, t1, x, y, spin, vx and vy if they are not derivatives, spins about x
- * and y], one after the other. */
+ * and y], one after the other. Those in a heap come as steps of `heaped` from coefficient to coefficient. */
 class Path {
-  constructor({ arcs, until }) {
-    const ends = [...arcs.slice(1).map(([next]) => (Array.isArray(next) ? next[0] : next)), until];
-    this.arcs = arcs = arcs.map(([t0, ...rest], i) => [...(Array.isArray(t0) ? t0 : [t0, ends[i]]), ...rest]);
+  constructor({ arcs, until }, heaped) {
+    const ends = [...arcs.slice(1).map(([next]) => (Array.isArray(next) ? next[0] : next)), until], last = [0, 0, 0];
+    this.arcs = arcs = arcs.map(([t0, x, y, spin, within, ...across], i) => {
+      const times = Array.isArray(t0) ? t0 : [t0, ends[i]];
+      if (within !== 1) {
+        last.fill(0);
+        return [...times, x, y, spin, within, ...across];
+      }
+      return [...times, ...[x, y, spin].map((steps, k) => steps.map((step) => (last[k] += step) * heaped)), 0, ...across];
+    });
     let turned = 0;
     this.turned = arcs.map((arc) => {
       const before = turned;
@@ -208,7 +215,7 @@ class Player {
     this.data = data;
     ladders = data.ladders;
     this.main = data.balls.find((ball) => ball.name === data.ball);
-    for (const ball of [...data.balls, ...data.ghosts]) ball.path = new Path(ball.path);
+    for (const ball of [...data.balls, ...data.ghosts]) ball.path = new Path(ball.path, data.heaped);
     for (const ball of data.balls) {
       ball.shapes = data.looks[ball.look].shapes;
       ball.sprite = new Sprite(data.looks[ball.look], data.light);

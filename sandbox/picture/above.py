@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import replace
 from functools import cached_property
 from typing import ClassVar
@@ -13,7 +12,7 @@ import pygame
 from sandbox.picture.ball import Flat
 from sandbox.picture.camera import Area, Camera
 from sandbox.picture.chase import Follow, sampled
-from sandbox.picture.painter import Painter
+from sandbox.picture.painter import Painter, Point
 from sandbox.picture.palette import Colour, palette
 from sandbox.picture.places.plan import BREADTH, Person, Plan, draw_moving, drawn, dusk, enlarged
 from sandbox.picture.sheet import Sheet
@@ -93,19 +92,11 @@ class AboveView(View[P]):
         if self.DUSK is not None:
             painter.surface.blit(dusk(self.size, self.DUSK), (0, 0))
 
-    def shadow(
-        self, painter: Painter, camera: Camera, place: tuple[float, float], at: tuple[float, float], radius: float
-    ) -> None:
-        """On the ground, to the right below the ball."""
-        below = at[0] + SHADOW[0] * radius, at[1] + SHADOW[1] * radius
-        painter.shadow(below, 1.05 * radius, 0.95 * radius, CARD["shadow"], 0.55)
-
-    def _shadows(
-        self, painter: Painter, camera: Camera, placed: Mapping[str, tuple[tuple[float, float], float]], t: float
-    ) -> None:
-        """Of balls; a flat body lies on the ground."""
-        balls = {name: where for name, where in placed.items() if not isinstance(self.looks[name], Flat)}
-        super()._shadows(painter, camera, balls, t)
+    def shadow(self, painter: Painter, camera: Camera, name: str, t: float, at: Point, radius: float) -> None:
+        """On the ground, to the right below a ball; a flat body lies on it."""
+        if not isinstance(self.looks[name], Flat):
+            below = at[0] + SHADOW[0] * radius, at[1] + SHADOW[1] * radius
+            painter.shadow(below, 1.05 * radius, 0.95 * radius, CARD["shadow"], 0.55)
 
     def dimensions(self, sheet: Sheet, camera: Camera) -> None:
         """None; but no label goes to the headline or on the card, nor on a ball or a person."""

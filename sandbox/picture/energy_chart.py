@@ -11,7 +11,7 @@ import pygame
 from sandbox.engine.run import Run
 from sandbox.picture.energy import Course, course
 from sandbox.picture.palette import Colour, mix
-from sandbox.picture.path import chip, hardest
+from sandbox.picture.path import hardest
 from sandbox.picture.plot import CHART, Plot, plotted
 from sandbox.picture.sheet import CARD, Entry, Sheet
 from sandbox.picture.vectors import colour_of
@@ -96,7 +96,7 @@ def energy_chart(run: Run, size: tuple[int, int] = (1280, 720)) -> pygame.Surfac
         ends = [(plot.rect.left, row), (plot.rect.right, row)]
         sheet.painter.dashes(ends, max(1.0, 1.4 * unit), CARD["text"], 8 * unit, 5 * unit)
         places = (plot.rect.right - share * plot.rect.width for share in (0.01, 0.2, 0.4, 0.6))
-        chip(sheet, f"{joules(energy.start)} at the start", [(x, row + 4 * unit, -1.0, 1.0) for x in places])
+        sheet.chip(f"{joules(energy.start)} at the start", [(x, row + 4 * unit, -1.0, 1.0) for x in places])
     return sheet.surface
 
 

@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from math import cos, pi, sin
+from math import pi
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from sandbox.picture.lettering import around
 from sandbox.picture.palette import Colour, mix, palette
-from sandbox.picture.path import FINEST, Path, apart, chip
+from sandbox.picture.path import FINEST, Path, apart
 from sandbox.picture.sheet import CARD, Entry, Sheet
 
-TRACE = palette("trace")
+if TYPE_CHECKING:
+    from sandbox.picture.view import View
 
 #: How much lighter than its trace a ghost's text on the card is.
 LIGHTER = 0.45
@@ -25,14 +28,17 @@ MOST_POINTS = 480
 
 @dataclass(frozen=True)
 class Ghost:
-    """Another run: what it is called, the path of its ball, its colour, and how far it is moved (m) to lie over this
-    one; ``said`` is what a frame's card says of it at a time in s."""
+    """Another run: what it is called, its picture, its colour, and how far it is moved (m) to lie over this one."""
 
     label: str
-    path: Path
+    view: View[Any]
     colour: Colour
     shift: tuple[float, float]
-    said: Callable[[float], list[Entry]]
+
+    @property
+    def path(self) -> Path:
+        """Of its ball, where it was played."""
+        return self.view.path
 
     @cached_property
     def points(self) -> np.ndarray:
@@ -41,21 +47,22 @@ class Ghost:
 
     def at(self, t: float) -> np.ndarray:
         """Its ball where it is drawn at time t in s, in m, shape (1, 2)."""
-        return np.array([self.path.run.state(self.path.name, min(t, self.path.run.duration))[:2]]) + self.shift
+        run = self.view.run
+        return np.array([run.state(self.path.name, min(t, run.duration))[:2]]) + self.shift
 
     @property
     def row(self) -> tuple[Colour, list[Entry]]:
         """Its numbers for the card, in its colour."""
-        return self.light, self.path.run.scene.rows(self.path.run)
+        return self.light, self.view.numbers()
+
+    def live(self, t: float) -> tuple[Colour, list[Entry]]:
+        """The same for a frame at time t in s."""
+        return self.light, self.view.live(min(t, self.view.run.duration))
 
     @property
     def light(self) -> Colour:
         """Its colour on a dark ground."""
         return mix(self.colour, CARD["text"], LIGHTER)
-
-    def live(self, t: float) -> tuple[Colour, list[Entry]]:
-        """The same for a frame at time t in s."""
-        return self.light, self.said(min(t, self.path.run.duration))
 
     def colour_on(self, sheet: Sheet) -> Colour:
         """Lighter where the picture's ground is dark."""
@@ -63,48 +70,32 @@ class Ghost:
 
     @property
     def note(self) -> str:
-        verdict = self.path.run.scene.verdict(self.path.run)
+        verdict = self.view.verdict()
         return f"{self.label}: {verdict[0].lower()}{verdict[1:]}"
 
+    def draw_in_frame(self, sheet: Sheet, points: np.ndarray, at: Sequence[float]) -> None:
+        """Its path (px, shape (n, 2)) as a thin line, and where its ball is (px)."""
+        colour = self.colour_on(sheet)
+        if len(points) > 1:
+            kept = np.unique(np.linspace(0, len(points) - 1, MOST_POINTS).astype(int))
+            sheet.painter.thread(points[kept], sheet.unit, colour)
+        sheet.painter.disc((at[0], at[1]), max(2.5, 5 * sheet.unit), colour, 0.9)
 
-def colours_beside(kind: type) -> Sequence[Colour]:
-    """Of other runs on pictures of this class: its own ``EARLIER`` where the usual ones would be hard to see."""
-    return getattr(kind, "EARLIER", TRACE["colours"][1:])
+    def draw(self, sheet: Sheet, points: np.ndarray) -> None:
+        """Its path (px, shape (n, 2)); no label will be placed on it."""
+        width = max(2.5, 4.5 * sheet.unit)
+        sheet.painter.line(points, width, self.colour_on(sheet), palette("trace")["earlier"])
+        sheet.painter.disc(points[-1], 1.3 * width, self.light, 0.9)
+        sheet.labels.take_path(points, 3 * sheet.unit)
 
+    def name(self, sheet: Sheet, points: np.ndarray, trace: np.ndarray) -> None:
+        """Write what it is called beside its path (px, shape (n, 2)), far from the picture's own ``trace``.
 
-def draw_in_frame(sheet: Sheet, ghost: Ghost, points: np.ndarray, at: Sequence[float]) -> None:
-    """A ghost's path (px, shape (n, 2)) as a thin line, and where its ball is (px); kept out of the header."""
-    colour = ghost.colour_on(sheet)
-    sheet.surface.set_clip((0, sheet.top_row, *sheet.size))
-    if len(points) > 1:
-        kept = np.unique(np.linspace(0, len(points) - 1, MOST_POINTS).astype(int))
-        sheet.painter.thread(points[kept], sheet.unit, colour)
-    sheet.painter.disc((at[0], at[1]), max(2.5, 5 * sheet.unit), colour, 0.9)
-    sheet.surface.set_clip(None)
-
-
-def draw_ghost(sheet: Sheet, ghost: Ghost, points: np.ndarray) -> None:
-    """A ghost's path (px, shape (n, 2)); no label will be placed on it."""
-    points = points[apart(points, FINEST)]
-    width = max(2.5, 4.5 * sheet.unit)
-    sheet.painter.line(points, width, ghost.colour_on(sheet), TRACE["earlier"])
-    sheet.painter.disc(points[-1], 1.3 * width, ghost.light, 0.9)
-    sheet.labels.take_path(points, 3 * sheet.unit)
-
-
-def label_ghost(sheet: Sheet, ghost: Ghost, points: np.ndarray, trace: np.ndarray) -> None:
-    """What a ghost is called, beside its path (px, shape (n, 2)), far from the picture's own ``trace``.
-
-    The last thing to be written: the picture's own labels come first.
-    """
-    points = points[apart(points, FINEST)]
-    away = np.hypot(*(points[:, None] - trace[None, :: max(1, len(trace) // 100)]).T).min(axis=0)
-    far_first = points[np.argsort(-away, kind="stable")[:: max(1, len(points) // ANCHORS)]]
-    directions = [(cos(turn), -sin(turn)) for turn in np.linspace(pi / 2, 5 * pi / 2, 9)]
-    spots = [
-        (float(x + across * far * sheet.unit), float(y + down * far * sheet.unit), across, down)
-        for x, y in far_first
-        for far in (8, 16, 28)
-        for across, down in directions
-    ]
-    chip(sheet, ghost.label, spots, ghost.light)
+        The last thing to be written: the picture's own labels come first.
+        """
+        points = points[apart(points, FINEST)]
+        away = np.hypot(*(points[:, None] - trace[None, :: max(1, len(trace) // 100)]).T).min(axis=0)
+        far_first = points[np.argsort(-away, kind="stable")[:: max(1, len(points) // ANCHORS)]]
+        distances, turns = [far * sheet.unit for far in (8, 16, 28)], np.linspace(pi / 2, 5 * pi / 2, 9).tolist()
+        spots = [spot for place in far_first.tolist() for spot in around(place, distances, turns)]
+        sheet.chip(self.label, spots, self.light)

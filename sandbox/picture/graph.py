@@ -6,14 +6,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from itertools import pairwise
 from math import ceil, hypot, pi
 from typing import Any, NamedTuple
 
 import numpy as np
 import pygame
 
-from sandbox.engine.bernstein import evaluate
 from sandbox.engine.run import Run
 from sandbox.engine.track import PRESSED
 from sandbox.picture.energy import course
@@ -23,7 +21,7 @@ from sandbox.picture.plain import view_of
 from sandbox.picture.plot import CHART, plotted
 from sandbox.picture.sheet import CARD, Sheet
 from sandbox.picture.side import SideView
-from sandbox.picture.vectors import Vectors, colour_of
+from sandbox.picture.vectors import Vectors, acceleration, colour_of
 from sandbox.picture.view import View
 from sandbox.sport.amounts import ladder
 from sandbox.units import convert
@@ -123,23 +121,11 @@ def _courses(run: Run, view: View[Any]) -> list[tuple[str, str, list[Course]]]:
 
 
 def _accelerations(run: Run, ball: str, times: np.ndarray) -> np.ndarray:
-    """Of a ball in m/s^2, from the polynomials of its path; an impact itself has none."""
-    found = []
-    for t in times.tolist():
-        arc = run.arcs[ball].at(t)
-        h = arc.t1 - arc.t0
-        if h <= 0.0 or arc.contact == PRESSED:
-            found.append(np.nan)
-            continue
-        u = min(1.0, max(0.0, (t - arc.t0) / h))
-        found.append(hypot(*(_slope(curve, u) / h for curve in (arc.vx, arc.vy))))
-    return np.array(found)
-
-
-def _slope(curve: Sequence[float], u: float) -> float:
-    """The derivative at u of a polynomial in Bernstein form."""
-    n = len(curve) - 1
-    return evaluate([n * (b - a) for a, b in pairwise(curve)], u) if n > 0 else 0.0
+    """Of a ball in m/s^2; an impact itself has none."""
+    arcs = [run.arcs[ball].at(t) for t in times.tolist()]
+    lasting = [arc.t1 > arc.t0 and arc.contact != PRESSED for arc in arcs]
+    sizes = (hypot(*acceleration(arc, t)) for arc, t in zip(arcs, times.tolist(), strict=True))
+    return np.where(lasting, list(sizes), np.nan)
 
 
 def draw_panel(

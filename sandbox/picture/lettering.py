@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from functools import cache, lru_cache
-from math import ceil
+from math import ceil, cos, sin
 from typing import ClassVar
 
 import numpy as np
@@ -113,6 +113,16 @@ class Lettering:
                     lines.append("")
                 lines[-1] += letter
         return lines
+
+
+#: A point in px and the direction, across and down, in which a label lies beyond it.
+Spot = tuple[float, float, float, float]
+
+
+def around(at: Iterable[float], distances: Iterable[float], turns: Sequence[float]) -> list[Spot]:
+    """Spots so far from a point, in px, in directions in rad, counter-clockwise from the right: the nearest first."""
+    x, y = at
+    return [(x + far * cos(turn), y - far * sin(turn), cos(turn), -sin(turn)) for far in distances for turn in turns]
 
 
 class Labels:

@@ -133,10 +133,7 @@ class LongView(AboveView[P]):
                 inside.line(points, (3.4 if name == self.ball else 2.2) * self.unit, self.colour_of(name), 0.8)
         for ghost in self.ghosts:
             inside.line(local.pixels(ghost.points), 2.4 * self.unit, ghost.colour, 0.8)
-        placed = self._placed(local, t, 1.0)
-        self._shadows(inside, local, placed, t)
-        for name, (at, radius) in placed.items():
-            self.draw_ball(inside, local, name, t, at, radius)
+        self.place_balls(inside, local, t)
         pygame.draw.rect(painter.surface, CARD["quiet"], around, max(1, round(self.unit)))
 
     def dimensions(self, sheet: Sheet, camera: Camera) -> None:

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator
 from dataclasses import dataclass
-from math import ceil, cos, dist, floor, hypot, inf, pi, sin
+from math import atan2, ceil, dist, floor, hypot, inf, pi
 
 import numpy as np
-import pygame
 
 from sandbox.engine.event import Event
 from sandbox.engine.run import Run
 from sandbox.picture.camera import Camera
+from sandbox.picture.lettering import around
 from sandbox.picture.palette import Colour, palette
 from sandbox.picture.sheet import Sheet, nice
 from sandbox.sport.amounts import listed
@@ -188,40 +188,13 @@ def label_mark(sheet: Sheet, at: tuple[float, float], towards: tuple[float, floa
 
     Where the chip is far from the mark, a thin line leads to it.
     """
-    spots = []
-    for far in (9, 16, *FARTHER):
-        for turn in (0.0, 0.6, -0.6, 1.2, -1.2, 1.9, -1.9, pi):
-            across = cos(turn) * towards[0] - sin(turn) * towards[1]
-            down = -sin(turn) * towards[0] - cos(turn) * towards[1]
-            spots.append((at[0] + across * far * sheet.unit, at[1] + down * far * sheet.unit, across, down))
-    placed = chip(sheet, text, spots)
+    unit, first = sheet.unit, atan2(towards[1], towards[0])
+    turns = [first + turn for turn in (0.0, 0.6, -0.6, 1.2, -1.2, 1.9, -1.9, pi)]
+    placed = sheet.chip(text, around(at, [far * unit for far in (9, 16, *FARTHER)], turns))
     if placed is None:
         return
     near = min(max(at[0], placed.left), placed.right), min(max(at[1], placed.top), placed.bottom)
     length = hypot(near[0] - at[0], near[1] - at[1])
-    if length > FARTHER[0] * sheet.unit * 0.9:
-        start = [a + (b - a) * 4.2 * sheet.unit / length for a, b in zip(at, near, strict=True)]
-        sheet.painter.line([(start[0], start[1]), near], max(1.0, 1.3 * sheet.unit), CARD["text"], 0.8)
-
-
-def chip(
-    sheet: Sheet, text: str, spots: Iterable[tuple[float, float, float, float]], colour: Colour = CARD["text"]
-) -> pygame.Rect | None:
-    """A text on a dark chip at the first spot with room, and where that is; None: there is none.
-
-    A spot is a point in px and the direction, across and down, in which the chip lies beyond it.
-    """
-    unit = sheet.unit
-    width, height = sheet.lettering.width(text, "small", bold=True), sheet.lettering.height("small")
-    rect = pygame.Rect(0, 0, width + round(12 * unit), height + round(4 * unit))
-    chips = []
-    for x, y, across, down in spots:
-        aside, under = (max(-1.0, min(1.0, 1.6 * share)) / 2 for share in (across, down))
-        rect.center = round(x + aside * rect.width), round(y + under * rect.height)
-        chips.append(rect.clamp(sheet.labels.frame))
-    placed = sheet.labels.place(chips)
-    if placed:
-        sheet.painter.panel(placed, CARD["background"], CARD["opacity"], 0.5 * placed.height)
-        rect = sheet.lettering.write(sheet.surface, text, "small", placed.center, colour, "center", bold=True)
-        sheet.written.append((text, rect))
-    return placed
+    if length > FARTHER[0] * unit * 0.9:
+        start = at[0] + (near[0] - at[0]) * 4.2 * unit / length, at[1] + (near[1] - at[1]) * 4.2 * unit / length
+        sheet.painter.line([start, near], max(1.0, 1.3 * unit), CARD["text"], 0.8)

@@ -11,7 +11,7 @@ import numpy as np
 import pygame
 
 from sandbox.picture.camera import Camera
-from sandbox.picture.lettering import Labels, Lettering
+from sandbox.picture.lettering import Labels, Lettering, Spot
 from sandbox.picture.painter import Painter, blank
 from sandbox.picture.palette import Colour, palette
 from sandbox.sport.amounts import amount, scale_unit, signed
@@ -98,6 +98,23 @@ class Sheet:
             self.lettering.write(self.surface, text, size, rect.topleft, colour, bold=bold)
             self.written.append((text, rect))
         return rect
+
+    def chip(self, text: str, spots: Iterable[Spot], colour: Colour = CARD["text"]) -> pygame.Rect | None:
+        """A text on a dark chip at the first spot with room, and where that is; None: there is none."""
+        unit = self.unit
+        width, height = self.lettering.width(text, "small", bold=True), self.lettering.height("small")
+        rect = pygame.Rect(0, 0, width + round(12 * unit), height + round(4 * unit))
+        chips = []
+        for x, y, across, down in spots:
+            aside, under = (max(-1.0, min(1.0, 1.6 * share)) / 2 for share in (across, down))
+            rect.center = round(x + aside * rect.width), round(y + under * rect.height)
+            chips.append(rect.clamp(self.labels.frame))
+        placed = self.labels.place(chips)
+        if placed:
+            self.painter.panel(placed, CARD["background"], CARD["opacity"], 0.5 * placed.height)
+            rect = self.lettering.write(self.surface, text, "small", placed.center, colour, "center", bold=True)
+            self.written.append((text, rect))
+        return placed
 
     @property
     def head(self) -> str:

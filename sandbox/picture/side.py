@@ -16,9 +16,9 @@ from sandbox.picture.camera import Area, Box, Camera
 from sandbox.picture.chase import Chase
 from sandbox.picture.depth import Eye
 from sandbox.picture.overview import Overview
-from sandbox.picture.painter import Painter
+from sandbox.picture.painter import Painter, Point
 from sandbox.picture.palette import Colour
-from sandbox.picture.path import chip, draw_mark, label_mark
+from sandbox.picture.path import draw_mark, label_mark
 from sandbox.picture.places import Ground, Scenery, Thing
 from sandbox.picture.sheet import CARD, Entry, Sheet, SideRows
 from sandbox.picture.view import P, View
@@ -248,11 +248,9 @@ class SideView(View[P]):
         spots[:, 1] = np.where(points[:, 1] > ground, np.minimum(raised, rows - radius), spots[:, 1])
         return spots
 
-    def shadow(
-        self, painter: Painter, camera: Camera, place: tuple[float, float], at: tuple[float, float], radius: float
-    ) -> None:
+    def shadow(self, painter: Painter, camera: Camera, name: str, t: float, at: Point, radius: float) -> None:
         """On the ground, the wider and fainter the higher the ball."""
-        x, y = place
+        x, y, *_ = self.run.state(name, t)
         ground = self._under(x)
         height = y - self.radius - ground
         if height < -0.5 * self.radius:
@@ -305,7 +303,7 @@ class SideView(View[P]):
             for edge, way in ((min(top, path[1]), -1), (max(bottom, path[1]), 1))
             for aside, side in ((0, 0), (10, -1), (10, 1))
         ]
-        chip(sheet, f"{metres(high - low)} {text}", spots, ink)
+        sheet.chip(f"{metres(high - low)} {text}", spots, ink)
 
 
 def _joined(box: Box, other: Box | None) -> Box:

@@ -9,6 +9,7 @@ import numpy as np
 
 from sandbox.engine.acting import by_cause
 from sandbox.engine.arc import Arc
+from sandbox.engine.bernstein import derivative, evaluate
 from sandbox.engine.run import Run
 from sandbox.engine.setup import Body
 from sandbox.picture.palette import Colour, palette
@@ -23,16 +24,21 @@ FORCE_LENGTH, VELOCITY_LENGTH, SHORTEST = 64.0, 100.0, 5.0
 FORCE_WIDTH, VELOCITY_WIDTH = 4.2, 3.4
 #: The longest arrows are found at so many times.
 SAMPLES = 60
-#: s over which the change of velocity is taken for what a surface does.
-STEP = 1e-4
-#: A ball slower than this, in m/s, is at rest.
-AT_REST = 1e-9
 
 
 def colour_of(name: str) -> Colour:
     """Of the arrows for a cause; causes of a user's own share out what is left."""
     own = FORCE["own"]
     return FORCE[name] if name in FORCE and name != "own" else own[sum(name.encode()) % len(own)]
+
+
+def acceleration(arc: Arc, t: float) -> tuple[float, float]:
+    """Of a ball at time t in s, in m/s^2, from the polynomials of its velocity; none at an instant."""
+    h = arc.t1 - arc.t0
+    if h <= 0.0:
+        return 0.0, 0.0
+    u = min(1.0, max(0.0, (t - arc.t0) / h))
+    return evaluate(derivative(arc.vx), u) / h, evaluate(derivative(arc.vy), u) / h
 
 
 class Vectors:
@@ -55,21 +61,10 @@ class Vectors:
         surface = plane.name if plane is not None else "contact" if arc.contact is not None else None
         if surface is not None:
             others = [sum(axis) for axis in zip((0.0, 0.0), *found.values(), strict=True)]
-            ax, ay = self._acceleration(arc, t)
+            ax, ay = acceleration(arc, t)
             mass = self.ball.mass * float(self.ball.left(t))
             found[surface] = mass * ax - others[0], mass * ay - others[1]
         return found
-
-    def _acceleration(self, arc: Arc, t: float) -> tuple[float, float]:
-        """Of the ball in m/s^2 on an arc of its path; none while it is at rest."""
-        if hypot(*self.run.state(self.name, t)[2:4]) < AT_REST:
-            return 0.0, 0.0
-        t = min(t, arc.t1)
-        start, end = max(arc.t0, t - STEP), min(arc.t1, t + STEP)
-        if end <= start:  # a touch that ended the run
-            return 0.0, 0.0
-        (*_, ax, ay, _), (*_, bx, by, _) = arc.state(start)[:5], arc.state(end)[:5]
-        return (bx - ax) / (end - start), (by - ay) / (end - start)
 
     @cached_property
     def longest(self) -> tuple[float, float]:

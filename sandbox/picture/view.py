@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
-from math import atan2, degrees, dist, floor, hypot, inf, log2, pi
+from math import atan2, degrees, dist, hypot, inf, pi
 from typing import ClassVar, Generic, NamedTuple, TypeVar
 
 import numpy as np
@@ -21,8 +21,8 @@ from sandbox.errors import RequestError
 from sandbox.parameters import Group
 from sandbox.picture.ball import SMALLEST, Flat, Look, Silhouette, Turning, least_radius, mark_radius, turned
 from sandbox.picture.camera import Camera
-from sandbox.picture.ghosts import Ghost, draw_ghost, draw_in_frame, label_ghost
-from sandbox.picture.painter import Painter, blank
+from sandbox.picture.ghosts import Ghost
+from sandbox.picture.painter import Painter, Point, blank
 from sandbox.picture.palette import Colour, palette
 from sandbox.picture.path import FINEST, Mark, Path, apart, draw_trace, mark_impacts
 from sandbox.picture.sheet import Entry, Sheet
@@ -217,10 +217,8 @@ class View(Generic[P]):
         """Where in px balls of ``radius`` px are drawn for points in m, both of shape (n, 2)."""
         return camera.pixels(points)
 
-    def shadow(
-        self, painter: Painter, camera: Camera, place: tuple[float, float], at: tuple[float, float], radius: float
-    ) -> None:
-        """Of a ball at ``place`` (m) that is drawn at ``at`` with ``radius`` (px)."""
+    def shadow(self, painter: Painter, camera: Camera, name: str, t: float, at: Point, radius: float) -> None:
+        """Of a ball at time t in s that is drawn at ``at`` with ``radius`` (px)."""
 
     def scale(self, sheet: Sheet, camera: Camera) -> None:
         """A ruler or a scale bar."""
@@ -241,7 +239,6 @@ class View(Generic[P]):
         self.ghosts = [self._ghost(i, *other) for i, other in enumerate((ghosts or {}).items())]
         self.ahead = 0.0  # s; until then paths are shown that balls are still to go
         self._standing: tuple[Camera, pygame.Surface] | None = None
-        self._tracks: dict[str, tuple[int, np.ndarray, np.ndarray]] = {}
 
     def _ghost(self, i: int, label: str, run: Run) -> Ghost:
         """Another run of the same scene, laid over this one where its ``datum`` says.
@@ -253,7 +250,7 @@ class View(Generic[P]):
         ((x, y), what), ((there_x, there_y), _) = self.datum, other.datum
         if self.ONE_GROUND and there_y != y:
             raise RequestError(f"{label}: {what} is at {there_y:g} m, and here at {y:g} m: these cannot be compared")
-        return Ghost(label, other.path, self.EARLIER[i % len(self.EARLIER)], (x - there_x, y - there_y), other.live)
+        return Ghost(label, other, self.EARLIER[i % len(self.EARLIER)], (x - there_x, y - there_y))
 
     @cached_property
     def paths(self) -> dict[str, Path]:
@@ -309,7 +306,7 @@ class View(Generic[P]):
         self.ahead = ahead
         self.behind(painter, camera, t)
         self._strings(painter, camera, t)
-        self._balls(painter, camera, t)
+        self.place_balls(painter, camera, t)
         self.before(painter, camera, t)
 
     def measure(self, sheet: Sheet, camera: Camera) -> None:
@@ -333,7 +330,7 @@ class View(Generic[P]):
         sheet.headline(text, notes, room)
         sheet.columns(self.card_row, self.numbers(), [ghost.row for ghost in self.ghosts])
         for ghost in self.ghosts:
-            label_ghost(sheet, ghost, self.traced(self.camera, ghost.points), self.trace)
+            ghost.name(sheet, self.traced(self.camera, ghost.points), self.trace)
         return sheet.surface
 
     def layers(self) -> Iterator[pygame.Surface]:
@@ -348,14 +345,14 @@ class View(Generic[P]):
         traces = {name: self.traced(camera, path.points) for name, path in self.paths.items()}
         self.trace = traces.pop(self.ball)
         for ghost in self.ghosts:
-            draw_ghost(sheet, ghost, self.traced(camera, ghost.points))
+            ghost.draw(sheet, self.traced(camera, ghost.points))
         for name, points in traces.items():
             draw_trace(sheet, points, self.colour_of(name), OTHERS)
         draw_trace(sheet, self.trace, self.colour_of(self.ball))
         yield sheet.surface
         every = self.strobe(sheet, camera)
         yield sheet.surface
-        self._balls(painter, camera, self.told)
+        self.place_balls(painter, camera, self.told)
         yield sheet.surface
         self.before(painter, camera, self.moment)
         self.dimensions(sheet, camera)
@@ -376,11 +373,14 @@ class View(Generic[P]):
         self.behind(painter, camera, t)
         self._strings(painter, camera, t)
         placed = self._placed(camera, t, LARGER if len(self.balls) == 1 else 1.0)
-        self._shadows(painter, camera, placed, t)
+        for name, (at, radius) in placed.items():
+            self.shadow(painter, camera, name, t, at, radius)
+        sheet.surface.set_clip((0, sheet.top_row, *self.size))
         for ghost in self.ghosts:
             points = self.spots(camera, ghost.points, 0.0)
-            draw_in_frame(sheet, ghost, points, self.spots(camera, ghost.at(t), 0.0)[0])
-        self.trails(sheet, camera, t)
+            ghost.draw_in_frame(sheet, points, self.spots(camera, ghost.at(t), 0.0)[0])
+        self.trails(painter, camera, t)
+        sheet.surface.set_clip(None)
         if self.ball in placed:
             self.vectors.draw(sheet, *placed[self.ball], t)
         for name, (at, radius) in placed.items():
@@ -442,9 +442,7 @@ class View(Generic[P]):
         """Of the thin line that stays where a ball has been, in frames."""
         return self.FAINT if self.FAINT and name == self.ball else self.colour_of(name)
 
-    def draw_ball(
-        self, painter: Painter, camera: Camera, name: str, t: float, at: tuple[float, float], radius: float
-    ) -> None:
+    def draw_ball(self, painter: Painter, camera: Camera, name: str, t: float, at: Point, radius: float) -> None:
         """A ball at time t in s; a lone one that is drawn larger than it is has a ring around it that says so."""
         larger = len(self.balls) == 1 and radius > UNSAID * self.radii[name] * camera.scale
         self.looks[name].draw(painter, at, radius, self.turn(name, t), self.unit, larger)
@@ -509,10 +507,11 @@ class View(Generic[P]):
             *([f"a bead where {self.THING}s would overlap"] if crowded else []),
         ]
 
-    def _balls(self, painter: Painter, camera: Camera, t: float) -> None:
+    def place_balls(self, painter: Painter, camera: Camera, t: float) -> None:
         """All that are there at time t in s, over their shadows."""
         placed = self._placed(camera, t, 1.0)
-        self._shadows(painter, camera, placed, t)
+        for name, (at, radius) in placed.items():
+            self.shadow(painter, camera, name, t, at, radius)
         for name, (at, radius) in placed.items():
             self.draw_ball(painter, camera, name, t, at, radius)
 
@@ -522,17 +521,13 @@ class View(Generic[P]):
             ends = [camera.pixel(x, y), camera.pixel(*self.run.state(name, t)[:2])]
             painter.line(ends, STRING * self.unit, self.STRING)
 
-    def trails(self, sheet: Sheet, camera: Camera, t: float) -> None:
-        """Where the balls have been: a thin line, and a thick one of late; kept out of the header."""
-        sheet.surface.set_clip((0, sheet.top_row, *self.size))
-        for name in self.paths:
+    def trails(self, painter: Painter, camera: Camera, t: float) -> None:
+        """Where the balls have been: a thin line, and a thick one of late."""
+        for name, (moments, places) in self._tracks.items():
             if t <= self.told:
-                times, places = self._track(name, camera)
-                been = np.vstack([places[: np.searchsorted(times, t)], self.run.state(name, t)[:2]])
-                earlier = self.spots(camera, been, 0.0)
-                sheet.painter.thread(earlier, self.unit, self.faint_of(name))
-            self.trail(sheet.painter, camera, name, t)
-        sheet.surface.set_clip(None)
+                been = np.vstack([places[: np.searchsorted(moments, t)], self.run.state(name, t)[:2]])
+                painter.thread(self.spots(camera, been, 0.0), self.unit, self.faint_of(name))
+            self.trail(painter, camera, name, t)
 
     def trail(self, painter: Painter, camera: Camera, name: str, t: float) -> None:
         """Where a ball has been of late, at time t in s."""
@@ -543,15 +538,16 @@ class View(Generic[P]):
             width = 1.1 * max(self.radii[name] * camera.scale, self.least)
             painter.fading(late[apart(late, 2.0)], width, self.colour_of(name), 0.9)
 
-    def _track(self, name: str, camera: Camera) -> tuple[np.ndarray, np.ndarray]:
-        """Times (s) and places (m) along a ball's path that can be told apart; kept while the scale is similar."""
-        scale, path = floor(2 * log2(camera.scale)), self.paths[name]
-        if name not in self._tracks or self._tracks[name][0] != scale:
+    @cached_property
+    def _tracks(self) -> dict[str, tuple[np.ndarray, np.ndarray]]:
+        """Times (s) and places (m) along each ball's path that can be told apart where frames begin."""
+        camera, found = self.view(0.0), {}
+        for name, path in self.paths.items():
             some = apart(camera.pixels(path.points), 3.0)
-            self._tracks[name] = scale, path.samples[some, 0], path.points[some]
-        return self._tracks[name][1:]
+            found[name] = path.samples[some, 0], path.points[some]
+        return found
 
-    def _placed(self, camera: Camera, t: float, larger: float) -> dict[str, tuple[tuple[float, float], float]]:
+    def _placed(self, camera: Camera, t: float, larger: float) -> dict[str, tuple[Point, float]]:
         """Of each ball that is there at time t in s, where it is drawn and with what radius, in px."""
         placed = {}
         for name in self.present(t):
@@ -562,18 +558,8 @@ class View(Generic[P]):
 
     def present(self, t: float) -> list[str]:
         """The balls that have not been caught at time t in s."""
-        return [name for name in self.balls if t < self._caught.get(name, inf)]
-
-    @cached_property
-    def _caught(self) -> dict[str, float]:
-        """When balls were caught, in s."""
-        return {event.ball: event.t for event in self.run.events if event.kind == "caught"}
-
-    def _shadows(
-        self, painter: Painter, camera: Camera, placed: Mapping[str, tuple[tuple[float, float], float]], t: float
-    ) -> None:
-        for name, (at, radius) in placed.items():
-            self.shadow(painter, camera, self.run.state(name, t)[:2], at, radius)
+        gone = {event.ball for event in self.run.events if event.kind == "caught" and event.t <= t}
+        return [name for name in self.balls if name not in gone]
 
     def traced(self, camera: Camera, points: np.ndarray) -> np.ndarray:
         """A path in px, in as many points as can be told apart."""

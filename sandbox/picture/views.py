@@ -8,7 +8,6 @@ from sandbox.picture.lens import LensView
 from sandbox.picture.long import LongView
 from sandbox.picture.net_game import NetView
 from sandbox.picture.painter import Painter
-from sandbox.picture.path import chip
 from sandbox.picture.sheet import Entry, Sheet, SideRows, nice
 from sandbox.picture.side import Length, Place, SideView
 
@@ -31,7 +30,6 @@ __all__ = [
     "SideRows",
     "SideView",
     "Silhouette",
-    "chip",
     "dimples",
     "near",
     "nice",

@@ -10,11 +10,9 @@ import numpy as np
 import pygame
 
 from sandbox.picture.camera import Camera
-from sandbox.picture.ghosts import colours_beside
 from sandbox.picture.lines import simplify
 from sandbox.picture.painter import blank
 from sandbox.picture.palette import Colour, mix, palette
-from sandbox.picture.path import chip
 from sandbox.picture.plain import view_of
 from sandbox.picture.sheet import Sheet
 from sandbox.window.background import Once
@@ -131,12 +129,12 @@ class Stage:
             places = line[np.linspace(len(line) - 1, 0, PLACES).round().astype(int)]
             beyond = ((1.0, -1.0), (-1.0, -1.0), (1.0, 1.0), (-1.0, 1.0))
             spots = [(x + 9 * a, y + 9 * d, a, d) for x, y in places.tolist() for a, d in beyond]
-            chip(labels, text, spots, mix(self.colour_of(shot.number), CARD["text"], LIGHTER))
+            labels.chip(text, spots, mix(self.colour_of(shot.number), CARD["text"], LIGHTER))
         return labels.surface
 
     def colour_of(self, number: int) -> Colour:
         """The colour of an earlier shot, which stays the same."""
-        colours = colours_beside(type(self.picture))
+        colours = self.picture.EARLIER
         return colours[(number - 1) % len(colours)]
 
     def draw_path(self, sheet: Canvas, shot: Shot, until: float | None = None) -> None:

@@ -13,7 +13,6 @@ import pygame
 
 from sandbox.engine.setup import Body, Segment
 from sandbox.picture.palette import Colour, palette, scene_colours
-from sandbox.picture.path import chip
 from sandbox.picture.places.plan import Plan
 from sandbox.picture.places.things import unit_of
 from sandbox.picture.views import AboveView, Area, Camera, Look, Mark, Painter, Sheet, near, nice
@@ -144,7 +143,7 @@ class Picture(AboveView[Parameters]):
             for place in pair:
                 painter.disc(camera.pixel(*place), 3.5 * unit, CARD["accent"])
         spot = self.sheet.frame.right, self.card_row - 2 * self.sheet.gap, -1.0, -1.0
-        chip(self.sheet, between.why, [spot])
+        self.sheet.chip(between.why, [spot])
 
     def frame(self, t: float) -> pygame.Surface:
         """With the sums, from the blow on."""

@@ -7,7 +7,7 @@ from functools import cached_property
 import numpy as np
 
 from sandbox.picture.palette import Colour, palette
-from sandbox.picture.views import Box, Camera, Length, Painter, Sheet, SideRows, SideView, chip, nice
+from sandbox.picture.views import Box, Camera, Length, Painter, Sheet, SideRows, SideView, nice
 from sandbox.sport.amounts import metres, twice
 
 from .drawing import BALL, COLOURS, Course
@@ -113,7 +113,7 @@ class Picture(SideView[Parameters]):
             aside = [(px + side * 10 * unit, (py + ground) / 2, side, 0.0) for side in (1.0, -1.0)]
             text = f"apex {metres(self.run.result['apex'])}"
             if not sheet.label(text, "small", above, sheet.ink, bold=True):
-                chip(sheet, text, aside)
+                sheet.chip(text, aside)
             sheet.painter.dashes([(px, py + 8 * unit), (px, ground)], 1.2 * unit, sheet.quiet_ink, 5 * unit, 4 * unit)
             sheet.labels.take_path([(px, row) for row in np.linspace(py, ground, 20)], 2 * unit)
         if self.rows_at.lengths and self._ends_high:

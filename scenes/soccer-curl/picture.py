@@ -12,7 +12,7 @@ from sandbox.picture.palette import mix, palette, scene_colours
 from sandbox.picture.places import goal as goal_at
 from sandbox.picture.places import plan
 from sandbox.picture.places.courts import SPOT, soccer_lines
-from sandbox.picture.views import AboveView, Box, Camera, Entry, Painter, Sheet, chip
+from sandbox.picture.views import AboveView, Box, Camera, Entry, Painter, Sheet
 from sandbox.sport.amounts import metres, times
 from sandbox.sport.readings import first_touch
 
@@ -156,7 +156,7 @@ class Picture(AboveView[Parameters]):
         spots = [(x, start + way * far * unit, 0.0, way) for far in (12, 20)]
         aside = product((14, 24, 40), (0.0, 0.25, 0.5, 0.75), (1.0, -1.0))
         spots += [(x + side * far * unit, start + (end - start) * share, side, 0.0) for far, share, side in aside]
-        chip(sheet, f"{metres(abs(deviation))} to the {_side(deviation)}", spots, accent)
+        sheet.chip(f"{metres(abs(deviation))} to the {_side(deviation)}", spots, accent)
         near, anchor = (10, 16, 24), "midtop" if way > 0 else "midbottom"
         beside = [(*(line[i] + (0, way * far * unit)), anchor) for i in (49, 40, 59, 30) for far in near]
         sheet.label("without spin", "small", beside, sheet.ink)

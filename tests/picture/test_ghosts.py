@@ -10,7 +10,6 @@ from PIL import ImageChops
 
 import sandbox
 from sandbox.picture.frames import to_image
-from sandbox.picture.ghosts import colours_beside
 from sandbox.picture.palette import scene_colours
 from tests.picture.legible import assert_legible
 
@@ -121,4 +120,4 @@ def test_other_runs_are_unlike_the_run_and_the_hall():
     court = scene_colours(str(run_of("basketball").scene.folder / "picture.py"))
     for colour in (court["trace"], *court["hall"]["wall"], *court["floor"]["wood"][:2]):
         assert dist(picture.ghosts[0].light, colour) > 90  # of 442 levels from black to white
-    assert [ghost.colour for ghost in picture.ghosts] == list(colours_beside(type(picture)))[:1]
+    assert [ghost.colour for ghost in picture.ghosts] == list(picture.EARLIER)[:1]

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
+from itertools import pairwise
 from math import pi
-from typing import Protocol
 
 import numpy as np
 import pygame
@@ -18,16 +19,39 @@ HALL, SHADOW, WHITE = palette("hall"), palette("card")["shadow"], (255, 255, 255
 
 #: Heads larger than this, in px, have shoulders below them.
 SHOULDERS = 4
+#: Where an evening sky has its middle colour, on the way down to the stands.
+TURN = 0.62
+
+#: A surface at least as wide as the picture, whose ends join; the row of its top in px; how far it moves to the left
+#: when the eye moves by 1 px to the right: what is far away hardly, what is near most.
+Layer = tuple[pygame.Surface, int, float]
 
 
-class Scenery(Protocol):
-    """What is drawn down to the row ``foot`` (px), as seen by an eye that has moved ``moved`` px to the right."""
+class Scenery:
+    """What lies behind: a frozen dataclass, so that its layers can be kept."""
 
-    def draw(self, surface: pygame.Surface, foot: int, moved: float) -> None: ...
+    def layers(self, size: tuple[int, int], foot: int) -> tuple[Layer, ...]:
+        """Down to the row ``foot`` (px) of a picture of ``size`` px, the farthest first."""
+        raise NotImplementedError
+
+    def draw(self, surface: pygame.Surface, foot: int, moved: float) -> None:
+        """As seen by an eye that has moved ``moved`` px to the right."""
+        for layer, top, speed in _layers(self, surface.get_size(), foot):
+            width = layer.get_width()
+            left = -(round(speed * moved) % width)
+            for x in (left, left + width):
+                if x < surface.get_width():
+                    surface.blit(layer, (x, top))
+
+
+@lru_cache(maxsize=4)
+def _layers(scenery: Scenery, size: tuple[int, int], foot: int) -> tuple[Layer, ...]:
+    """Shared by all pictures of one shape."""
+    return scenery.layers(size, foot)
 
 
 @dataclass(frozen=True)
-class Stands:
+class Stands(Scenery):
     """Stands with their roof, people, lamps on masts, and boards along their foot, under an evening sky."""
 
     sky: tuple[Colour, Colour, Colour]  # top, middle, over the stands
@@ -38,14 +62,15 @@ class Stands:
     mast: Colour
     lamp: Colour
 
-    def draw(self, surface: pygame.Surface, foot: int, moved: float) -> None:
-        size = surface.get_size()
-        surface.blit(_evening(self, size, foot), (0, 0))
-        beside_itself(surface, _stands(self, size, foot), 0.25 * moved)
+    def layers(self, size: tuple[int, int], foot: int) -> tuple[Layer, ...]:
+        width, unit = size[0], rows_of(size) / 720
+        sky = shaded(width, np.clip(np.arange(foot) / (foot - 90 * unit), 0, 1), self.sky, 1.3)
+        sky = glowing(sky, self.glow, (0.70 * width, foot - 120 * unit), (0.30 * width, 120 * unit))
+        return (from_colours(sky), 0, 0.0), (_stands(self, size, foot), 0, 0.25)
 
 
 @dataclass(frozen=True)
-class Hall:
+class Hall(Scenery):
     """A wall lit from above on the right, rows of people before it, and padding along its foot."""
 
     wall: tuple[Colour, Colour] = HALL["wall"]  # top, foot
@@ -53,19 +78,19 @@ class Hall:
     crowd: tuple[Colour, ...] = HALL["crowd"]
     padding: Colour = HALL["padding"]
 
-    def draw(self, surface: pygame.Surface, foot: int, moved: float) -> None:
-        size = surface.get_size()
-        surface.blit(_wall(self, size, foot), (0, 0))
-        beside_itself(surface, _audience(self, size, foot), 0.44 * moved)
+    def layers(self, size: tuple[int, int], foot: int) -> tuple[Layer, ...]:
+        wall, width = shaded(size[0], np.linspace(0, 1, foot), self.wall, 1.2), size[0]
+        wall = glowing(wall, self.light, (0.62 * width, 0.30 * foot), (0.42 * width, 0.75 * foot))
+        return (from_colours(wall), 0, 0.0), (_audience(self, size, foot), 0, 0.44)
 
 
-def beside_itself(surface: pygame.Surface, layer: pygame.Surface, moved: float, top: int = 0) -> None:
-    """A layer at least as wide as the picture, whose ends join, moved to the left."""
-    width = layer.get_width()
-    left = -(round(moved) % width)
-    for x in (left, left + width):
-        if x < surface.get_width():
-            surface.blit(layer, (x, top))
+def shaded(width: int, share: np.ndarray, colours: Sequence[Colour], power: float) -> np.ndarray:
+    """Colours of shape (width, rows, 3): from the first at share 0 to the last at 1, over the middle one at TURN."""
+    found, turns = np.array(colours[0], float), (0.0, TURN, 1.0) if len(colours) > 2 else (0.0, 1.0)
+    for colour, (start, end) in zip(colours[1:], pairwise(turns), strict=True):
+        part = np.clip((share - start) / (end - start), 0, 1)[None, :, None] ** power
+        found = found + (np.array(colour, float) - found) * part
+    return np.broadcast_to(found, (width, len(share), 3))
 
 
 def glowing(
@@ -96,20 +121,6 @@ def _row_of_people(
                 painter.shadow((x + turn, y + 2.8 * head), 1.6 * head, 1.65 * head, colour, 0.8)
 
 
-@lru_cache(maxsize=4)
-def _evening(stands: Stands, size: tuple[int, int], foot: int) -> pygame.Surface:
-    """The sky down to row ``foot``."""
-    width, unit = size[0], rows_of(size) / 720
-    top, middle, low = (np.array(colour, float) for colour in stands.sky)
-    share = np.clip(np.arange(foot) / (foot - 90 * unit), 0, 1)[None, :, None]
-    turn = 0.62
-    upper = top + (middle - top) * np.clip(share / turn, 0, 1) ** 1.3
-    sky = upper + (low - upper) * (np.clip((share - turn) / (1 - turn), 0, 1) ** 1.3)
-    sky = np.broadcast_to(sky, (width, foot, 3))
-    return from_colours(glowing(sky, stands.glow, (0.70 * width, foot - 120 * unit), (0.30 * width, 120 * unit)))
-
-
-@lru_cache(maxsize=4)
 def _stands(stands: Stands, size: tuple[int, int], foot: int) -> pygame.Surface:
     """As wide as the picture; the ends join."""
     width, unit = size[0], rows_of(size) / 720
@@ -162,16 +173,6 @@ def _mast(painter: Painter, stands: Stands, foot: tuple[float, float], head: flo
             painter.disc(at, 3.1 * unit, stands.lamp, 0.95)
 
 
-@lru_cache(maxsize=4)
-def _wall(hall: Hall, size: tuple[int, int], foot: int) -> pygame.Surface:
-    """The wall down to row ``foot``."""
-    width = size[0]
-    top, low = (np.array(colour, float) for colour in hall.wall)
-    wall = np.broadcast_to(top + (low - top) * np.linspace(0, 1, foot)[None, :, None] ** 1.2, (width, foot, 3))
-    return from_colours(glowing(wall, hall.light, (0.62 * width, 0.30 * foot), (0.42 * width, 0.75 * foot)))
-
-
-@lru_cache(maxsize=4)
 def _audience(hall: Hall, size: tuple[int, int], foot: int) -> pygame.Surface:
     """Rows of people, the less to be told from the wall the farther they are, and the padding before them."""
     width, unit, rows = size[0], rows_of(size) / 720, 8
