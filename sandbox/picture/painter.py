@@ -74,12 +74,11 @@ def from_colours(colours: np.ndarray) -> pygame.Surface:
     return surface
 
 
-@lru_cache(maxsize=8)
-def soil(size: tuple[int, int], colours: tuple[Colour, ...]) -> pygame.Surface:
-    """The ground cut open: three colours, from the top down."""
-    top, middle, low = (np.array(colour, float) for colour in colours)
-    share = np.linspace(0, 2, size[1])[:, None]
-    column = np.where(share < 1, top + (middle - top) * share, middle + (low - middle) * (share - 1))
+@lru_cache(maxsize=16)
+def gradient(size: tuple[int, int], colours: tuple[Colour, ...]) -> pygame.Surface:
+    """A surface from the first colour at the top over the others, evenly spaced, to the last."""
+    rows = np.linspace(0, len(colours) - 1, size[1])
+    column = np.stack([np.interp(rows, range(len(colours)), channel) for channel in zip(*colours, strict=True)], axis=1)
     return from_colours(np.broadcast_to(column, (*size, 3)))
 
 

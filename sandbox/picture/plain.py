@@ -14,7 +14,7 @@ from sandbox.parameters import Group
 from sandbox.picture.above import AboveView
 from sandbox.picture.ball import Look, seams
 from sandbox.picture.camera import Camera
-from sandbox.picture.painter import Painter, from_colours
+from sandbox.picture.painter import Painter, gradient
 from sandbox.picture.palette import palette
 from sandbox.picture.view import View
 
@@ -35,9 +35,7 @@ class Picture(AboveView[Group]):
 
     def backdrop(self, painter: Painter, camera: Camera) -> None:
         """A light ground, and every surface as a line or a disc."""
-        top, foot = np.array(COLOURS["ground"], float)
-        ground = np.broadcast_to(np.linspace(top, foot, self.size[1]), (*self.size, 3))
-        painter.surface.blit(from_colours(ground), (0, 0))
+        painter.surface.blit(gradient(self.size, COLOURS["ground"]), (0, 0))
         near = pygame.FRect((0, 0), self.size).inflate(100, 100)
         for shape in (surface.shape for surface in self.run.setup.surfaces):
             thick = max(shape.radius * camera.scale, 1.5 * self.unit)

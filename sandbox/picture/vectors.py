@@ -24,6 +24,8 @@ FORCE_LENGTH, VELOCITY_LENGTH, SHORTEST = 64.0, 100.0, 5.0
 FORCE_WIDTH, VELOCITY_WIDTH = 4.2, 3.4
 #: The longest arrows are found at so many times.
 SAMPLES = 60
+#: A ball slower than this, in m/s, is at rest.
+AT_REST = 1e-9
 
 
 def colour_of(name: str) -> Colour:
@@ -61,7 +63,8 @@ class Vectors:
         surface = plane.name if plane is not None else "contact" if arc.contact is not None else None
         if surface is not None:
             others = [sum(axis) for axis in zip((0.0, 0.0), *found.values(), strict=True)]
-            ax, ay = acceleration(arc, t)
+            moves = hypot(*self.run.state(self.name, t)[2:4]) >= AT_REST
+            ax, ay = acceleration(arc, t) if moves else (0.0, 0.0)
             mass = self.ball.mass * float(self.ball.left(t))
             found[surface] = mass * ax - others[0], mass * ay - others[1]
         return found

@@ -13,7 +13,7 @@ import numpy as np
 import pygame
 
 from sandbox.picture.depth import Eye
-from sandbox.picture.painter import Painter, blank, soil
+from sandbox.picture.painter import Painter, blank, from_coverage, gradient
 from sandbox.picture.palette import Colour, mix, palette
 
 FLOOR, WHITE = palette("floor"), (255, 255, 255)
@@ -111,7 +111,7 @@ class Ground:
         begin = 0
         if self.beyond is not None:
             begin = round(self.far * (eye.base - eye.level) * OVERSAMPLING)
-            drawn.blit(_beyond((drawn.get_width(), begin), self.beyond), (0, 0))
+            drawn.blit(gradient((drawn.get_width(), begin), self.beyond), (0, 0))
 
         def project(line: Line) -> np.ndarray:
             seen = eye.points(np.array([(x, eye.camera.at[1], z) for x, z in line]))
@@ -127,7 +127,7 @@ class Ground:
         if self.haze is not None:
             part.blit(_haze(part.get_size(), self.haze), (0, 0))
         painter.surface.blit(pygame.transform.smoothscale(drawn, (width, deepest - foot)), (0, foot))
-        painter.surface.blit(soil((width, max(0, height - deepest)), self.soil), (0, deepest))
+        painter.surface.blit(gradient((width, max(0, height - deepest)), self.soil), (0, deepest))
         for colour, deep in reversed(self.edges):
             painter.surface.fill(colour, (0, deepest, width, max(1, round(deep * eye.unit))))
 
@@ -187,19 +187,7 @@ def _canvas(size: tuple[int, int]) -> pygame.Surface:
 
 
 @lru_cache(maxsize=4)
-def _beyond(size: tuple[int, int], colours: tuple[Colour, Colour]) -> pygame.Surface:
-    """The rest of the way to the horizon, far and near."""
-    column = blank((1, size[1]))
-    for row in range(size[1]):
-        column.set_at((0, row), mix(*colours, row / size[1]))
-    return pygame.transform.scale(column, size)
-
-
-@lru_cache(maxsize=4)
 def _haze(size: tuple[int, int], colour: Colour) -> pygame.Surface:
     """What the ground fades into with distance."""
-    fade = np.linspace(150, 0, round(0.8 * size[1])).astype(int)
-    haze = blank((1, len(fade)), transparent=True)
-    for row, opacity in enumerate(fade):
-        haze.set_at((0, row), (*colour, int(opacity)))
-    return pygame.transform.scale(haze, (size[0], len(fade)))
+    fade = np.linspace(150 / 255, 0, round(0.8 * size[1]))
+    return from_coverage(np.broadcast_to(fade, (size[0], len(fade))), colour)

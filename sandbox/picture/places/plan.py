@@ -16,7 +16,7 @@ import pygame
 
 from sandbox.picture.camera import Box, Camera
 from sandbox.picture.figures import draw_from_above
-from sandbox.picture.painter import Painter, Point, blank
+from sandbox.picture.painter import Painter, Point, blank, from_coverage
 from sandbox.picture.palette import Colour
 from sandbox.picture.places.things import unit_of
 
@@ -199,9 +199,4 @@ def dusk(size: tuple[int, int], colour: Colour) -> pygame.Surface:
     width, height = size
     across = abs(np.arange(width)[:, None] / width * 2 - 1)
     down = abs(np.arange(height)[None, :] / height * 2 - 1.04)
-    surface = blank(size, transparent=True)
-    surface.fill((*colour, 0))
-    alpha = pygame.surfarray.pixels_alpha(surface)
-    alpha[...] = np.clip(0.40 * across**3 + 2.6 * np.clip(down - 0.52, 0, 1), 0, 1) * 255 * 0.92
-    del alpha  # unlocks the surface
-    return surface
+    return from_coverage(0.92 * np.clip(0.40 * across**3 + 2.6 * np.clip(down - 0.52, 0, 1), 0, 1), colour)
