@@ -16,6 +16,7 @@ from sandbox.physics.cloth import Cloth
 from sandbox.sport.controls import Controls, Handle
 from sandbox.sport.facts import ENDED, Fact
 from sandbox.sport.flight import Directed
+from sandbox.sport.solids import rectangle
 
 MASS, RADIUS, FROM_END = 0.0459, 0.02135, 0.4  # of a golf ball, in kg and m; of tee and cup from the ends, in m
 
@@ -53,8 +54,7 @@ def build(parameters: Parameters) -> Setup:
     launch, lane, (vx, vy) = parameters.launch, parameters.lane, parameters.launch.velocity
     x, y = 0.5 * lane.length, 0.5 * lane.width
     roll = (-launch.roll * vy / RADIUS, launch.roll * vx / RADIUS)  # rad/s, about x and about y
-    corners = [(-x, -y), (x, -y), (x, y), (-x, y), (-x, -y)]
-    shapes = [("board", Segment(a, b)) for a, b in pairwise(corners)]
+    shapes = [("board", Segment(*ends)) for ends in pairwise(rectangle(-x, -y, x, y))]
     shapes.append(("block", Segment((0.0, -0.5 * lane.block), (0.0, 0.5 * lane.block), 0.04)))
     return Setup(
         [Ball("ball", MASS, RADIUS, (FROM_END - x, 0.0), (vx, vy), rolling_spin=roll)],

@@ -21,7 +21,7 @@ def level(y: float = 0.0, reach: float = FAR) -> Segment:
     return Segment((-reach, y), (reach, y))
 
 
-def around(left: float, bottom: float, right: float, top: float) -> list[Vector]:
+def rectangle(left: float, bottom: float, right: float, top: float) -> list[Vector]:
     """The corners of a rectangle, once around it, in m."""
     return [(left, bottom), (right, bottom), (right, top), (left, top), (left, bottom)]
 

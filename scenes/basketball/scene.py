@@ -30,7 +30,7 @@ from sandbox.sport.controls import Controls, Handle, Spin, Spread
 from sandbox.sport.facts import ENDED, Fact, once
 from sandbox.sport.flight import Flight
 from sandbox.sport.readings import LAUNCH, Moment, Passes, apex, at, before
-from sandbox.sport.solids import Extent, Solid, around, below, check_apart, disc, level
+from sandbox.sport.solids import Extent, Solid, below, check_apart, disc, level, rectangle
 
 
 class Release(Group):
@@ -196,7 +196,7 @@ def court(parameters: Parameters) -> list[Surface]:
         hoop.surface("rim front", Circle(front, hoop.tube_radius)),
         hoop.surface("rim back", Circle(back, hoop.tube_radius)),
         hoop.surface("bracket", Segment(back, (left, back[1]), BRACKET_SHARE * hoop.tube_radius)),
-        *backboard.outline("backboard", around(left, bottom, right, top)),
+        *backboard.outline("backboard", rectangle(left, bottom, right, top)),
     ]
 
 

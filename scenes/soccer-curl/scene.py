@@ -24,7 +24,7 @@ from sandbox.sport.amounts import roughly
 from sandbox.sport.controls import Controls, Handle, Spin
 from sandbox.sport.facts import ENDED, Fact, once
 from sandbox.sport.readings import BALL_SPEED, LAUNCH_ANGLE, LAUNCH_SPIN, Moment, at, first_touch, passing
-from sandbox.sport.solids import Extent, Solid, around, check_apart, disc
+from sandbox.sport.solids import Extent, Solid, check_apart, disc, rectangle
 
 from ..soccer.kick import SPREAD, Goal, SoccerBall, Wall
 
@@ -128,13 +128,13 @@ def build(parameters: Parameters) -> Setup:
             check_apart(parameters, standing, disc("a post", ("goal.width",), *post, goal.post_radius))
         balls.append(Ball("keeper", keeper.mass, keeper.radius, stand, (0.0, keeper.speed)))
     back = goal.distance + goal.depth
-    boards = around(BOARDS_BEHIND, -BOARDS_ASIDE, goal.distance + BOARDS_BEYOND, BOARDS_ASIDE)
+    boards = rectangle(BOARDS_BEHIND, -BOARDS_ASIDE, goal.distance + BOARDS_BEYOND, BOARDS_ASIDE)
     surfaces = [
         *(Surface("boards", Segment(*ends), 0.0, 0.0) for ends in pairwise(boards)),
         goal.surface("right post", Circle(right, goal.post_radius)),
         goal.surface("left post", Circle(left, goal.post_radius)),
         *goal.net([right, (back, right[1]), (back, left[1]), left]),
-        *(wall.outline("wall", around(*wall.extent)) if wall.present else ()),
+        *(wall.outline("wall", rectangle(*wall.extent)) if wall.present else ()),
     ]
     longest = min(LONGEST, PATIENCE * (goal.distance / max(launch.speed, 0.1)) + MOMENT)
     return Setup(balls, surfaces, longest, is_over, pairs=[("ball", "keeper", keeper.bounce)])
