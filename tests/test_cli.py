@@ -575,7 +575,7 @@ def test_a_link_is_written_through(call, tmp_path: Path):
         ("duration=parameters.duration", "length=parameters.duration", "TypeError: "),
         ('"m/s", low=0, high=340', '"furlong", low=0, high=340', 'ValueError: "furlong" is not a known unit; use'),
         ('"m/s", low=0, high=340', '"MPH", low=0, high=340', 'ValueError: "MPH" is not a known unit; did you me'),
-        ("import Accuracy", "import Accuracies, Accuracy", "ImportError: cannot import name 'Accuracies'"),
+        ("import Group,", "import Accuracies, Group,", "ImportError: cannot import name 'Accuracies'"),
         ("class Launch", "raise SystemExit(0)\nclass Launch", "ExitCalled: SystemExit(0)"),
         ("    ball = Ball(", "    exit(0)\n    ball = Ball(", "ExitCalled: SystemExit(0)"),
         (
