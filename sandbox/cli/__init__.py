@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import os
 import sys
 
@@ -17,6 +18,7 @@ def main(args: list[str] | None = None) -> int:
     Called as the program (without ``args``), it cleans up when Ctrl-C, SIGTERM or a closed terminal stops it.
     """
     interrupts = Interrupts()
+    gc.set_threshold(100_000)  # to look for cycles after each 700 new objects would take a tenth of a start or a sweep
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # numpy's threads take longer to start than they could save
     try:
         if args is None:

@@ -6,6 +6,7 @@ that hangs, and has no semaphores to leak if the program itself is killed.
 
 from __future__ import annotations
 
+import gc
 import multiprocessing
 import os
 import pickle
@@ -174,6 +175,7 @@ def _starting() -> Iterator[None]:
 def _serve(line: Connection) -> None:
     """Compute the calls received, until the connection is closed."""
     _end_with_parent()
+    gc.set_threshold(100_000)  # as in the program itself
     while True:
         try:
             work, args = line.recv()
