@@ -57,7 +57,6 @@ class Simulation:
         self._queue: list[tuple[float, int, str, int, int, int, int]] = []
         self._order = count()
         self._over = False
-        self._until = setup.until
         self._tracks = self._make_tracks()
         slowest = 0.0 if setup.plane is None else slowest_hop(setup, accuracy.hop)
         self._impacts = Impacts(setup, self._tracks, self._numerics, slowest)
@@ -177,7 +176,8 @@ class Simulation:
         track.keep(t)
         track.state = track.arc.state(track.arc.t1)
         track.conclude(reason)
-        if reason == "" and isinstance(self._until, Until) and self._until.passed(track.arc.start, track.state):
+        until = self._setup.until
+        if reason == "" and isinstance(until, Until) and until.passed(track.arc.start, track.state):
             self._over = True
             track.arc = still(t, t, track.state, track.contact)
         elif reason == "":
@@ -207,9 +207,8 @@ class Simulation:
         if outcome.t > t:
             self._go_through(t, touching, outcome)
             return
-        for index in outcome.states:
-            self._tracks[index].keep(t)
         for index, state in outcome.states.items():
+            self._tracks[index].keep(t)
             self._tracks[index].state = state
         held: Collection[int] = ()
         if self._heaps_up and self._heap.presses(t, outcome.states):
