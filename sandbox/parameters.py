@@ -252,13 +252,17 @@ class Parameter(NamedTuple):
         return min(max(number, self.low), self.high)
 
 
-def walk(parameters: Group, prefix: str = "") -> Iterator[Parameter]:
+def walk(parameters: Group, prefix: str = "", entries: bool = False) -> Iterator[Parameter]:
     """All parameters in order of declaration with their values, accuracy last; ``walk(Parameters())`` gives the
-    defaults."""
+    defaults. With ``entries`` those of the groups in lists, ``balls[0].mass``, stand in place of the list."""
     for name, field in sorted(type(parameters).model_fields.items(), key=lambda item: item[0] == "accuracy"):
         value, key = getattr(parameters, name), prefix + name
         if isinstance(value, Group):
-            yield from walk(value, f"{key}.")
+            yield from walk(value, f"{key}.", entries)
+            continue
+        if entries and isinstance(value, list) and all(isinstance(entry, Group) for entry in value):
+            for place, entry in enumerate(value):
+                yield from walk(entry, f"{key}[{place}].", entries)
             continue
         declared = field.json_schema_extra
         unit, low, high = (

@@ -81,7 +81,7 @@ class Controls:
     spins: tuple[Spin, ...] = ()  # of the wheel, and of the wheel with Shift
     ball: str = "ball"  # the ball that is pulled: its name, or the key that holds its name
     also: Mapping[str, Any] = field(default_factory=dict)  # what else a pull sets, such as how the shot begins
-    sliders: tuple[str, ...] = ()  # shown first
+    sliders: tuple[str, ...] = ()  # shown first; ``balls[0].mass`` is of an entry of a list
     handles: tuple[Handle, ...] = ()
     #: From the parameters to what a shot can be found for, besides the handles that are goals.
     goals: Callable[[Any], Sequence[Goal]] | None = None
@@ -117,7 +117,7 @@ class Controls:
             "angle": [self.angle] if self.angle != Controls.angle else [],
             "spins": [spin.key for spin in self.spins],
             "also": [*self.also],
-            "sliders": [*self.sliders],
+            "sliders": [key.partition("[")[0] for key in self.sliders],
             "handles": [key.partition("[")[0] for it in self.handles for key in (it.x, it.y, it.where) if key],
             "spread": [spread.key for spread in self.spread],
         }

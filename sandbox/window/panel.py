@@ -132,9 +132,9 @@ class Panel(Scrolled):
 
     def _groups(self) -> dict[str, list[Parameter]]:
         session = self.game.session
-        by_key = {p.key: p for p in walk(session.scene.parameters) if _can_be_shown(p)}
+        by_key = {p.key: p for p in walk(session.scene.parameters, entries=True) if _can_be_shown(p)}
         groups = {FAVOURITES: [by_key[key] for key in session.controls.sliders if key in by_key]}
-        for parameter in by_key.values():
+        for parameter in (parameter for key, parameter in by_key.items() if "]" not in key):
             groups.setdefault(parameter.key.rpartition(".")[0] or session.scene.name, []).append(parameter)
         groups[FAVOURITES] = groups[FAVOURITES] or groups.get("launch", [])
         return groups

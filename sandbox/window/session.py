@@ -74,7 +74,7 @@ class Session:
 
     def parameter(self, key: str) -> declared.Parameter | None:
         """A parameter with its current value."""
-        return next((found for found in declared.walk(self.scene.parameters) if found.key == key), None)
+        return next((p for p in declared.walk(self.scene.parameters, entries="[" in key) if p.key == key), None)
 
     @property
     def place(self) -> tuple[Any, ...]:
@@ -103,6 +103,8 @@ class Session:
 
     def reset(self, key: str | None = None) -> None:
         """Back to the file: one parameter, or all of them."""
+        if key is not None and "[" in key:
+            return self.change({key: self.base_value(key)})
         self._set({} if key is None else without(self.changes.values, {key}), self.changes.positions)
 
     def restore(self, changes: Changes) -> None:

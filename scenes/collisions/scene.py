@@ -92,7 +92,10 @@ class Parameters(SceneParameters):
 CONTROLS = Controls(
     strongest=10.0,
     ball="launch.ball",
-    sliders=("contact.restitution", "contact.friction", "launch.speed", "launch.angle", "floor.restitution"),
+    sliders=(
+        *("contact.restitution", "contact.friction", "balls[0].mass", "balls[1].mass"),
+        *("launch.speed", "launch.angle", "floor.restitution"),
+    ),
     handles=(Handle("balls[*].x", "balls[*].y"),),
 )
 

@@ -51,6 +51,16 @@ def turn_to(player, group: str) -> None:
     assert player.view.panel.group == group
 
 
+def test_an_entry_of_a_list_has_a_slider_too(player):
+    """The masses of the bench."""
+    player = player("collisions")
+    player.key(pygame.K_TAB)
+    write(player, "balls[0].mass", "2")
+    assert [ball.mass for ball in player.game.session.scene.parameters.balls] == [2.0, 0.17]
+    player.click(place(player, "balls[0].mass", RESET_OF).center)
+    assert player.game.session.scene.parameters.balls[0].mass == 0.17
+
+
 class TestThePanel:
     @pytest.fixture
     def player(self, player):
