@@ -104,8 +104,9 @@ class Session:
     def reset(self, key: str | None = None) -> None:
         """Back to the file: one parameter, or all of them."""
         if key is not None and "[" in key:
-            return self.change({key: self.base_value(key)})
-        self._set({} if key is None else without(self.changes.values, {key}), self.changes.positions)
+            self.change({key: self.base_value(key)})
+        else:
+            self._set({} if key is None else without(self.changes.values, {key}), self.changes.positions)
 
     def restore(self, changes: Changes) -> None:
         """Return to these changes, maybe of another scene file."""
