@@ -62,7 +62,6 @@ class Game:
         self.session, self.worker, self.patience, self.helper = session, worker, patience, helper or worker
         self.running = True
         self.history = History(session.changes)
-        self.code = 0  # how often the scene's code was read again
         self.runs: Latest[tuple[dict[str, Any], float]] = Latest()  # of worker.computed
         self.aimed: Shot | None = None  # of the last run that did not fail
         self.shooting = False  # the shot is watched as soon as it is computed
@@ -94,7 +93,7 @@ class Game:
     @property
     def wanted(self) -> tuple[Any, ...]:
         """What is to be run: the key of its run, from which the shot is made."""
-        return self.session.scene, self.code, self.session.changes
+        return self.session.scene, self.session.changes
 
     @property
     def settled(self) -> bool:
@@ -248,11 +247,11 @@ class Game:
         """Make a shot of the run that has ended."""
         if not self.runs.take(patience):
             return
-        if self.runs.key[2].source != self.session.source:  # of the scene before
+        if self.runs.key[1].source != self.session.source:  # of the scene before
             self.runs.forget()
             return
         if self.runs.value is not None:
-            scene, _, changes = self.runs.key
+            scene, changes = self.runs.key
             record, self.cost = self.runs.value
             try:
                 self.aimed = shot = Shot(scene, run_of(scene, record), changes)
@@ -481,7 +480,7 @@ class Game:
             return
         if code:
             self._everywhere(reread, folder)
-        self.unreadable, self.code = None, self.code + code
+        self.unreadable = None
         if self.session.base.folder != folder:
             self._opened()
             self.history.add(self.session.changes)

@@ -37,7 +37,7 @@ def value_at(parameters: Any, key: str) -> Any:
 
 
 def without(scene: Scene, keys: Iterable[str]) -> tuple[Any, ...]:
-    """A scene without the parameters at some keys: equal for two scenes that differ only there."""
+    """A scene without the parameters at some keys: equal for two scenes, of the same code, that differ only there."""
     values = scene.parameters.model_dump()
     for key in keys:
         *groups, last = key.split(".")
@@ -45,7 +45,7 @@ def without(scene: Scene, keys: Iterable[str]) -> tuple[Any, ...]:
         for group in groups:
             node = node.get(group, {})
         node.pop(last, None)
-    return scene.folder, values
+    return scene.folder, type(scene.parameters), values
 
 
 def place_of(scene: Scene) -> tuple[Any, ...]:

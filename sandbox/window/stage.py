@@ -44,19 +44,12 @@ class Stage:
     """The place of one shot, composed for its parameters at ``size`` px; and what is drawn on it."""
 
     def __init__(
-        self,
-        shot: Shot,
-        size: tuple[int, int],
-        code: int = 0,
-        chosen: Camera | None = None,
-        before: Stage | None = None,
+        self, shot: Shot, size: tuple[int, int], chosen: Camera | None = None, before: Stage | None = None
     ) -> None:
-        """``code`` counts how often the scene's code was read again.
-
-        The camera is ``chosen`` if given, and otherwise shows all of the shot; the camera of ``before``, the stage so
-        far, is kept if it does so too, or each small change of the aim would shift the picture.
+        """The camera is ``chosen`` if given, and otherwise shows all of the shot; the camera of ``before``, the stage
+        so far, is kept if it does so too, or each small change of the aim would shift the picture.
         """
-        self.shot, self.size, self.code, self.chosen = shot, size, code, chosen
+        self.shot, self.size, self.chosen = shot, size, chosen
         self.picture = view_of(shot.run, size)
         self.whole = self.picture.camera
         vars(self.picture)["camera"] = chosen or self._camera_of(before) or self.whole
@@ -75,18 +68,18 @@ class Stage:
         """The camera so far, if it shows the same place and all of the shot, large enough."""
         if before is None or before.chosen is not None or before.size != self.size:
             return None
-        if not before.is_place_of(self.shot, self.code):
+        if not before.is_place_of(self.shot):
             return None
         near = self.whole.scale <= NEARER * before.camera.scale and before.camera.stretch == self.whole.stretch
         return before.camera if near and before.holds(self.shot) else None
 
-    def shows(self, shot: Shot, code: int, chosen: Camera | None) -> bool:
-        """Whether it was composed for this shot, this version of the scene's code and this choice of camera."""
-        return self.shot.run is shot.run and (self.code, self.chosen) == (code, chosen)
+    def shows(self, shot: Shot, chosen: Camera | None) -> bool:
+        """Whether it was composed for this shot and this choice of camera."""
+        return self.shot.run is shot.run and self.chosen == chosen
 
-    def is_place_of(self, shot: Shot, code: int) -> bool:
+    def is_place_of(self, shot: Shot) -> bool:
         """Whether a shot differs from the composed one only in what a player aims with."""
-        return self.code == code and self.shot.place == shot.place
+        return self.shot.place == shot.place
 
     def holds(self, shot: Shot) -> bool:
         """Whether the path of another shot stays in sight."""

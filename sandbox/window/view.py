@@ -281,10 +281,10 @@ class View:
 
     def _may_draw(self, shot: Shot) -> bool:
         """Whether a shot may be drawn on the stage: when watched only on its own, when aimed on one of its place."""
-        stage, code = self.stage, self.game.code
+        stage = self.stage
         if stage is None or stage.size != self.area.size:
             return False
-        return stage.shows(shot, code, stage.chosen) or (self.game.playback is None and stage.is_place_of(shot, code))
+        return stage.shows(shot, stage.chosen) or (self.game.playback is None and stage.is_place_of(shot))
 
     def tick(self, dt: float) -> None:
         """``dt`` s have passed."""
@@ -302,7 +302,7 @@ class View:
 
     def _stage_key(self) -> tuple[Any, ...]:
         """What the stage of the shot belongs to."""
-        return self.game.shot, self.area.size, self.game.code, self.chosen
+        return self.game.shot, self.area.size, self.chosen
 
     @property
     def undrawable(self) -> str | None:
@@ -316,7 +316,7 @@ class View:
         shot, stage = self.game.shot, self.stage
         if shot is None or self.stages.key == self._stage_key():
             return False
-        return stage is None or stage.size != self.area.size or not stage.shows(shot, self.game.code, self.chosen)
+        return stage is None or stage.size != self.area.size or not stage.shows(shot, self.chosen)
 
     def _take_stage(self) -> None:
         """Switch to a stage that was composed."""
@@ -368,18 +368,18 @@ class View:
         game, shot, known = self.game, self.game.shot, self.maps.value
         if "map" not in self.on or shot is None or game.failure is not None or game.still < AT_REST:
             return None
-        same = self.maps.key is not None and self.maps.key[:2] == (shot.unaimed, game.code)
+        same = self.maps.key is not None and self.maps.key[0] == shot.unaimed
         if same and (known is None or known.holds(*shot.aim)):
-            finer = known is not None and self.maps.key[3] == 1 and known.seconds < QUICK
-            return (*self.maps.key[:3], FINER) if finer else None
-        return shot.unaimed, game.code, shot.scene, 1
+            finer = known is not None and self.maps.key[2] == 1 and known.seconds < QUICK
+            return (*self.maps.key[:2], FINER) if finer else None
+        return shot.unaimed, shot.scene, 1
 
     def _follow_map(self) -> None:
         """Compute the map around the shot."""
         self.changed |= self.maps.take()
         key = self._map_wanted()
         if key is not None:
-            self.maps.follow(key, lambda: self.game.helper.submit(score_map, *key[2:]))
+            self.maps.follow(key, lambda: self.game.helper.submit(score_map, *key[1:]))
 
     # ------------------------------------------------------------------------------------------------------- drawing
 
@@ -533,7 +533,7 @@ class View:
 
     def _map_of(self, shot: Shot) -> ScoreMap | None:
         """The map around a shot."""
-        there = self.maps.value is not None and self.maps.key[:2] == (shot.unaimed, self.game.code)
+        there = self.maps.value is not None and self.maps.key[0] == shot.unaimed
         return self.maps.value if there else None
 
     def _draw_cloud(self, sheet: Canvas, stage: Stage, shot: Shot) -> None:
