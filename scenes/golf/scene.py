@@ -194,6 +194,7 @@ def ended(run: Run, parameters: Parameters) -> str:
     return "cup" if holed(run, parameters) else "water" if run.ended == "until" else run.ended
 
 
+#: A fact of the flight: known when the ball first touches something, and not shown for a putt.
 InFlight = partial(Fact, settled="ball", where=flew)
 
 FACTS = (

@@ -9,17 +9,8 @@ import numpy as np
 
 from sandbox.picture.figures import pose
 from sandbox.picture.palette import scene_colours
-from sandbox.picture.places import (
-    COURT_WIDTH,
-    Ground,
-    Hall,
-    Person,
-    Planks,
-    Stands,
-    net_across,
-    standing_table,
-    tennis_court,
-)
+from sandbox.picture.places import COURT_WIDTH, Ground, Hall, Person, Planks, Stands, tennis_court
+from sandbox.picture.places.things import net_across, standing_table
 from sandbox.picture.views import Box, Camera, Eye, Look, NetView, Place, seams
 from sandbox.sport.net_game import taken
 
