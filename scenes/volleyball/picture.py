@@ -5,13 +5,13 @@ from __future__ import annotations
 from functools import cached_property
 
 from sandbox.picture.palette import scene_colours
-from sandbox.picture.places import Hall, Net, Person, Post, Shape, boards
+from sandbox.picture.places import Hall, Person, boards, net_across
 from sandbox.picture.views import Box, Look, NetView, Place, seams
 
 from .scene import Parameters
 
 COLOURS = scene_colours(__file__)
-FLOOR, NET = COLOURS["floor"], COLOURS["net"]
+FLOOR = COLOURS["floor"]
 WIDE, ATTACK = 9.0, 3.0  # m: the court's width, and the attack line from the net (FIVB, rule 1)
 PLAYERS = ((4.2, 2.0), (6.0, 4.5), (4.2, 7.0))  # m, beyond the net and behind the plane of play
 
@@ -30,12 +30,10 @@ class Picture(NetView[Parameters]):
         """What the ball flies through: parts in m, x along the court, z across it, the farthest first."""
         court, launch, top = self.parameters.court, self.parameters.launch, self.parameters.net.height
         end, net, low = court.length, 0.5 * court.length, top - self.parameters.net.depth
-        across = [[(x, 0.0), (x, WIDE)] for x in (0.0, net - ATTACK, net, net + ATTACK, end)]
+        lines = [[(x, 0.0), (x, WIDE)] for x in (0.0, net - ATTACK, net, net + ATTACK, end)]
         inside = [(0.0, 0.0), (end, 0.0), (end, WIDE), (0.0, WIDE)]
-        ground = boards(FLOOR, areas=[(inside, FLOOR["court"])], lines=[*across, inside[2:]])
-        posts = [Post([(net, 0.0, z), (net, top + 0.1, z)], 0.05, NET["post"], near=z == 0.0) for z in (WIDE, 0.0)]
-        mesh = Net([((net, low, 0.0), (0.0, top - low, 0.0), (0.0, 0.0, WIDE))], NET["mesh"], 0.6)
-        band = Shape([(net, top - down, z) for down, z in ((0, 0), (0.07, 0), (0.07, WIDE), (0, WIDE))], NET["band"])
+        ground = boards(FLOOR, areas=[(inside, FLOOR["court"])], lines=[*lines, inside[2:]])
+        across = net_across(net, low, top, WIDE, 0.07, **COLOURS["net"])
         players = [Person(net + x, 1.9, COLOURS["players"], z=z, facing=-1) for x, z in reversed(PLAYERS)]
         striker = Person.holding((launch.place, launch.height), "reaching", COLOURS["players"])
-        return Place(Hall(**COLOURS["hall"]), ground, [posts[0], mesh, band, *players, striker, posts[1]])
+        return Place(Hall(**COLOURS["hall"]), ground, [*across, *players, striker])
