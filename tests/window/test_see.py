@@ -351,14 +351,7 @@ def test_arrows_charts_and_costs_are_switched(player, key, least):
     assert differ(picture(player), plain) == 0
 
 
-def test_the_charts_show_the_state_at_the_time(player, monkeypatch):
-    from sandbox.picture.lettering import Lettering
-
-    written = []
-    write = Lettering.write
-    monkeypatch.setattr(
-        Lettering, "write", lambda self, s, text, *a, **k: (written.append(text), write(self, s, text, *a, **k))[1]
-    )
+def test_the_charts_show_the_state_at_the_time(player, written):
     player = player("golf")
     player.key(pygame.K_w)
     player.key(pygame.K_SPACE)
@@ -366,11 +359,12 @@ def test_the_charts_show_the_state_at_the_time(player, monkeypatch):
     player.game.playback.seek(1.5)
     written.clear()
     player.frames(1)
+    texts = [text for text, _ in written]
     _, y, vx, vy, _ = player.game.shot.run.state("ball", 1.5)
     height = y - player.game.shot.run.setup.balls[0].radius
     for text in (f"{hypot(vx, vy):.1f} m/s", f"{height:.1f} m"):
-        assert written.count(text) == 2  # over the strips, and on the card
-    assert {"speed (m/s)", "height (m)", "spin (rpm)", "0 s", "2000"} <= set(written)
+        assert texts.count(text) == 2  # over the strips, and on the card
+    assert {"speed (m/s)", "height (m)", "spin (rpm)", "0 s", "2000"} <= set(texts)
     player.click(player.view.charts_at.center)
     assert player.view.over is not None  # the same, large
     player.settle()  # it is drawn in another thread
@@ -378,29 +372,18 @@ def test_the_charts_show_the_state_at_the_time(player, monkeypatch):
 
 @pytest.mark.parametrize("size", [(640, 400), (960, 1080), (1280, 720)])
 @pytest.mark.parametrize("source", ["golf", "billiards"])
-def test_what_is_written_on_the_charts_does_not_overlap(shot_of, monkeypatch, size, source):
-    from sandbox.picture.lettering import Lettering
-
-    placed = []
-    write = Lettering.write
-    monkeypatch.setattr(Lettering, "write", lambda self, *a, **k: placed.append(write(self, *a, **k)) or placed[-1])
+def test_what_is_written_on_the_charts_does_not_overlap(shot_of, written, size, source):
     shot = shot_of(Session(source))
     charts = Charts(shot, shot.scene.picture(shot.run, size))
     for t in (None, 0.5):
         charts.draw(Canvas(pygame.Surface(size)), 20.0, t, pygame.Rect(0, 0, 0, 0))
+        placed = [rect for _, rect in written]
         assert len(placed) > 12  # with the numbers on the axes
         assert not any(a.colliderect(b) for a, b in combinations(placed, 2))
-        placed.clear()
+        written.clear()
 
 
-def test_graphs_lie_over_the_picture_with_earlier_shots(player, monkeypatch):
-    from sandbox.picture.lettering import Lettering
-
-    written = []
-    write = Lettering.write
-    monkeypatch.setattr(
-        Lettering, "write", lambda self, s, text, *a, **k: (written.append(text), write(self, s, text, *a, **k))[1]
-    )
+def test_graphs_lie_over_the_picture_with_earlier_shots(player, written):
     player = player("throws")
     for _ in range(2):
         player.key(pygame.K_SPACE)
@@ -410,8 +393,9 @@ def test_graphs_lie_over_the_picture_with_earlier_shots(player, monkeypatch):
     player.press_named("alt w")
     player.settle()
     assert differ(picture(player), plain) > 0.5
-    assert {"forces (N)", "acceleration (m/s^2)"} <= set(written)
-    assert any(text.startswith("shot ") for text in written)
+    texts = {text for text, _ in written}
+    assert {"forces (N)", "acceleration (m/s^2)"} <= texts
+    assert any(text.startswith("shot ") for text in texts)
     player.click((600, 300))
     assert differ(picture(player), plain) < 0.2
 
