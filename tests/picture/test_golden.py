@@ -405,8 +405,7 @@ class TestRecords:
 
 
 class TestThePlugin:
-    @pytest.mark.parametrize("processes", ["0", "2"])
-    @pytest.mark.parametrize("options", [[], ["--golden-update"]])
+    @pytest.mark.parametrize(("processes", "options"), [("0", []), ("2", ["--golden-update"])])
     def test_two_tests_of_one_name_are_refused(self, project, processes: str, options: list[str]):
         second = (project.path / "test_it.py").read_text().replace('"white"', '"black"')
         (project.path / "test_other.py").write_text(second.replace("test_it", "test_more"))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from sandbox.lab.validate import Compared, cases, validate
+from sandbox.lab.validate import Compared, as_text, cases, validate
 from sandbox.scene import listings
 
 
@@ -30,6 +30,10 @@ def test_exact_cases_hold_all(rows: list[Compared]):
     exact = [row for row in rows if row.source.startswith("exact")]
     assert len(exact) >= 20
     assert all(row.holds for row in exact)
+
+
+def test_the_table_fits_80_columns(rows: list[Compared]):
+    assert max(map(len, as_text(rows))) <= 80
 
 
 def test_every_case_names_its_source():
