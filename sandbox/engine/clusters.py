@@ -17,6 +17,7 @@ from typing import NamedTuple
 import numpy as np
 
 from sandbox.engine.rubbing import Rubbing
+from sandbox.engine.surfaces import CLOSING
 from sandbox.errors import RunError
 from sandbox.physics.hertz import contact_time, damping
 from sandbox.physics.integrators import DORMAND_PRINCE
@@ -36,8 +37,8 @@ _MAX_GRADED_LINKS, _RATIO, _GRADES_OF_ONE, _GRADES = 6, 4.0, 6, 2
 #: by themselves; a chain of n equal balls takes 1 + (n - 1) / 2.
 _PATIENCE = 1.0, 10.0
 
-#: Speed in m/s and depth in m below which a value is rounding.
-_STILL, _TOUCH = 1e-9, 1e-12
+#: Depth in m below which it is rounding.
+_TOUCH = 1e-12
 
 
 class StaysPressed(RunError):
@@ -132,7 +133,7 @@ class Cluster:
         self._push = np.array([*(body.push for body in self._bodies), (0.0, 0.0)]).T
         before = self._energy(state)
         surface = np.abs(state[5:8, :count]).max(axis=0) * [body.radius for body in self._bodies]
-        fastest = max(2.0 * float(np.hypot(*state[2:4]).max()), _STILL)
+        fastest = max(2.0 * float(np.hypot(*state[2:4]).max()), CLOSING)
         quickest = max(fastest, float(surface.max()))
         times = [contact_time(m, k, fastest) for m, k in zip(self._mass, self._stiffness, strict=True)]
         shortest, longest = min(times), max(times)
@@ -174,7 +175,7 @@ class Cluster:
             approach[first], closed[first] = closing[first], t
             closing = closing_then
             t, steps = t + h, steps + 1
-            moving = (depth > _TOUCH) | ((self._gap < _TOUCH) & (closing > _STILL))
+            moving = (depth > _TOUCH) | ((self._gap < _TOUCH) & (closing > CLOSING))
             if faint > 0.0:
                 moving &= np.maximum(closing, 0.0) ** 2 + self._stored * depth**2.5 > faint * faint
             if not moving.any():

@@ -10,7 +10,7 @@ from typing import NamedTuple
 from sandbox.engine.impulses import Contact, exchange_alone, exchange_at_once, lanes
 from sandbox.engine.meeting import Meeting, discs, farthest, meeting, speeds_at, surfaces_met
 from sandbox.engine.run import Numerics
-from sandbox.engine.setup import Ball, Body, Bounce, Setup, Surface, kinetic
+from sandbox.engine.setup import Ball, Bounce, Setup, Surface, kinetic
 from sandbox.engine.surfaces import (
     CLOSING,
     after_impulses,
@@ -102,7 +102,7 @@ class Impacts:
 
     def _with_bodies(self, indices: Iterable[int]) -> bool:
         """Whether some of these are no balls."""
-        return not self._all_round and any(isinstance(self._tracks[index].ball, Body) for index in indices)
+        return not self._all_round and any(self._tracks[index].ball.turns for index in indices)
 
     def _close_at_once(self, states: dict[int, State], softness: Sequence[bool]) -> list[Contact]:
         """Close all contacts of balls with each other and with hard or soft walls, or both, at once; returns those that

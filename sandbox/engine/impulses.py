@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import pymunk
 from pymunk import batch
 
-from sandbox.engine.setup import Ball, Body, Bounce, Vector
+from sandbox.engine.setup import Ball, Bounce, Vector
 from sandbox.physics.integrators import State
 
 if TYPE_CHECKING:
@@ -217,7 +217,7 @@ def exchange_at_once(
     In place of the shapes, which pymunk would examine again, each contact has a disc on the first body and a piece of
     its tangent plane on the second, or on what is fixed; they overlap at its point, and have its normal.
     """
-    turning = any(isinstance(balls[index], Body) for index in states)
+    turning = any(balls[index].turns for index in states)
     space = still_space(_ITERATIONS_TURNING if turning else _ITERATIONS)
     bodies: dict[int, pymunk.Body] = {}
     left, bottom, *_ = next(iter(states.values()))

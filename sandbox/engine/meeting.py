@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 from sandbox.engine.accuracy import SKIN
 from sandbox.engine.nearest import Pose, meeting_points, nearest
-from sandbox.engine.setup import Ball, Body, Circle, Segment, Vector, outline_of
+from sandbox.engine.setup import Ball, Circle, Segment, Vector, outline_of
 from sandbox.engine.shapes import Polygon, Shape
 from sandbox.engine.surfaces import STILL, leaves_at, speeds_where_touching
 from sandbox.engine.touch import Obstacle, balls_touch, touched
@@ -50,7 +50,7 @@ class Meeting(NamedTuple):
 
 def discs(*balls: Ball) -> bool:
     """Whether these are all balls, whose distance is that of their centres."""
-    return not any(isinstance(ball, Body) for ball in balls)
+    return not any(ball.turns for ball in balls)
 
 
 def rounding(body: Ball, state: State) -> float:

@@ -80,7 +80,7 @@ class _Tracked:
     def __init__(self, ball: Ball, body: pymunk.Body, rolls: bool) -> None:
         self.ball = ball
         self.rolling_spin: tuple[float, ...] = ball.rolling_spin if rolls else ()  # rad/s
-        self.turns = isinstance(ball, Body)
+        self.turns = ball.turns
         self.body = body
         self.path: list[Arc] = []
         self.since = 0.0  # s, start of the current arc

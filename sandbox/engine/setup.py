@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from math import hypot, inf
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Protocol
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple, Protocol
 
 from sandbox.engine.nearest import Pose, nearest
 from sandbox.engine.shapes import Shape, Vector, disc
@@ -56,6 +56,12 @@ class Ball:
     torques: Sequence[Torque] = ()
     loss: MassLoss | None = None  # ``mass`` is that at the start
     inertia: float = field(init=False, repr=False)  # kg m^2, at the start
+    turns: ClassVar[bool] = False  # its angle matters, and is a part of its state
+
+    @property
+    def turned(self) -> tuple[float, ...]:
+        """The angle in rad at the start, of what turns."""
+        return ()
 
     def left(self, t: Any) -> Any:
         """Share of its mass that it still has at time t in s."""
@@ -90,6 +96,7 @@ class Body(Ball):
     how far the outline is turned at the start. A force on a body may read ``position.angle``.
     """
 
+    turns: ClassVar[bool] = True
     shape: Shape
     mass: float = 0.0  # kg
     density: float = 0.0  # kg/m^2, in place of the mass
@@ -99,6 +106,10 @@ class Body(Ball):
     outline: Shape = field(init=False, repr=False)  # about the centre of mass
     radius: float = field(init=False, repr=False)  # m, from the centre of mass to the farthest point
     inertia_factor: float = field(init=False, repr=False)
+
+    @property
+    def turned(self) -> tuple[float, ...]:
+        return (self.angle,)
 
     def __post_init__(self) -> None:
         area, center, moment = self.shape.mass_properties()
@@ -130,7 +141,7 @@ def outline_of(ball: Ball) -> Shape:
 
 def kinetic(ball: Ball, state: State, t: float = 0.0) -> float:
     """Kinetic energy in J, including rotation, of a ball in this state at time t in s."""
-    _, _, vx, vy, *spins = state[:5] if isinstance(ball, Body) else state
+    _, _, vx, vy, *spins = state[:5] if ball.turns else state
     energy = 0.5 * ball.mass * (vx * vx + vy * vy) + 0.5 * ball.inertia * sum(spin * spin for spin in spins)
     return energy * float(ball.left(t))
 
@@ -370,9 +381,9 @@ class Setup:
                 raise ValueError(f"two balls are named {name!r}: names must be unique")
         if self.planes and self.plane is None:
             raise ValueError("a setup with planes for some balls needs a plane for all others")
-        if self.plane is not None and any(isinstance(ball, Body) for ball in self.balls):
+        if self.plane is not None and any(ball.turns for ball in self.balls):
             raise ValueError("bodies cannot move on a plane seen from above: only balls can")
-        if any(isinstance(ball, Body) for ball in self.balls):
+        if any(ball.turns for ball in self.balls):
             if self.contact.name == "hertz":
                 raise ValueError('contact model "hertz" is for balls: bodies meet as rigid ones')
             if cushion := next((surface.name for surface in self.surfaces if surface.nose_height is not None), None):
@@ -385,7 +396,7 @@ class Setup:
     @property
     def is_flight(self) -> bool:
         """Whether it is of one ball among surfaces, and no more: many of these can be computed together."""
-        alone = len(self.balls) == 1 and not isinstance(self.balls[0], Body)
+        alone = len(self.balls) == 1 and not self.balls[0].turns
         return alone and len(self.surfaces) > 0 and self.plane is None and not self.catches
 
     def between(self, one: str, other: str) -> Callable[[float, float], Bounce]:

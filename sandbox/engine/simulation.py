@@ -23,7 +23,7 @@ from sandbox.engine.meeting import discs, pair_touches
 from sandbox.engine.on_plane import OnPlane, slowest_hop
 from sandbox.engine.path import Path
 from sandbox.engine.run import Numerics, Run
-from sandbox.engine.setup import Body, Setup, Surface, Until
+from sandbox.engine.setup import Setup, Surface, Until
 from sandbox.engine.start import starts
 from sandbox.engine.touch import TOUCHING_GAP, Obstacle
 from sandbox.engine.track import Track
@@ -80,12 +80,10 @@ class Simulation:
             obstacles[radius] = [Obstacle(surface, radius, skin) for surface in setup.surfaces]
         tracks: list[Track] = []
         for ball, (x, y) in zip(setup.balls, starts(setup.balls, obstacles), strict=True):
-            state: State = (x, y, *map(float, (*ball.velocity, ball.spin)))
+            state: State = (x, y, *map(float, (*ball.velocity, ball.spin, *ball.turned)))
             if setup.plane is not None and setup.plane_of(ball.name).rolls:
                 state = (*state, *map(float, ball.rolling_spin))
-            elif isinstance(ball, Body):
-                state = (*state, float(ball.angle))
-            kind = OnPlane if setup.plane is not None else Turning if isinstance(ball, Body) else Track
+            kind = OnPlane if setup.plane is not None else Turning if ball.turns else Track
             places = obstacles[ball.radius], [catch for catch, only in catches if not only or ball.name in only]
             tracks.append(kind(ball, state, *places, setup, self._accuracy, self._numerics))
         return tracks

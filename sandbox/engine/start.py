@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 
 from sandbox.engine.meeting import meeting, surfaces_met
-from sandbox.engine.setup import Ball, Body
+from sandbox.engine.setup import Ball
 from sandbox.engine.touch import TOUCHING_GAP, Obstacle
 from sandbox.errors import RequestError
 from sandbox.physics.integrators import State
@@ -60,4 +60,4 @@ def _overlaps(
 
 def _placed(ball: Ball, place: Sequence[float]) -> State:
     """The state of a ball or body there; its motion does not matter."""
-    return (*place, 0.0, 0.0, 0.0, *((ball.angle,) if isinstance(ball, Body) else ()))
+    return (*place, 0.0, 0.0, 0.0, *ball.turned)

@@ -15,7 +15,7 @@ from sandbox.engine.acting import acceleration, checked
 from sandbox.engine.arc import Arc, crossing, still, through
 from sandbox.engine.lasting import RESTING, ROLLING, SLIDING, LastingContact, contact_on, wedged
 from sandbox.engine.run import Numerics
-from sandbox.engine.setup import Ball, Body, Setup
+from sandbox.engine.setup import Ball, Setup
 from sandbox.engine.step_control import LONGEST, StepControl, before_break, within
 from sandbox.engine.surfaces import STILL, leaves_at, press
 from sandbox.engine.touch import TOUCHING_GAP, Near, Obstacle, flush, touched
@@ -62,7 +62,7 @@ class Track:
         self._accuracy = accuracy
         self._numerics = numerics
         self._law: Law = partial(acceleration, ball)
-        self._control = StepControl(accuracy, turns=isinstance(ball, Body))
+        self._control = StepControl(accuracy, turns=ball.turns)
         self._known: tuple[State, Acceleration] = ((), (0.0, 0.0, 0.0))  # the end of the last step: the next start
         self._slips = False  # it has just lost its grip
         self.next_step = self._control.first  # s, to try

@@ -56,6 +56,9 @@ Progress = Callable[[int, int], object]
 T = TypeVar("T")
 R = TypeVar("R")
 
+#: What a picture is drawn on.
+Drawing = pygame.Surface
+
 
 class Picture(Protocol):
     """What a scene's picture.py offers."""

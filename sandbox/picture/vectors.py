@@ -11,7 +11,6 @@ from sandbox.engine.acting import by_cause
 from sandbox.engine.arc import Arc
 from sandbox.engine.bernstein import derivative, evaluate
 from sandbox.engine.run import Run
-from sandbox.engine.setup import Body
 from sandbox.picture.palette import Colour, palette
 from sandbox.picture.sheet import CARD, Entry, Sheet
 from sandbox.sport.amounts import amount
@@ -54,7 +53,7 @@ class Vectors:
     def forces(self, t: float) -> dict[str, tuple[float, float]]:
         """What acts on the ball at time t (s) by cause, in N; "contact" or the plane's name is what it lies on."""
         found: dict[str, tuple[float, float]] = {}
-        angle = (self.run.angle(self.name, t),) if isinstance(self.ball, Body) else ()
+        angle = (self.run.angle(self.name, t),) if self.ball.turns else ()
         for name, (fx, fy) in by_cause(self.ball.forces, t, (*self.run.state(self.name, t), *angle)):
             before = found.get(name, (0.0, 0.0))
             found[name] = before[0] + float(fx), before[1] + float(fy)

@@ -15,7 +15,7 @@ from sandbox.engine.lasting import LastingContact
 from sandbox.engine.one_point import OnePoint
 from sandbox.engine.path import Path as Arcs
 from sandbox.engine.run import Event, Numerics, Run
-from sandbox.engine.setup import Ball, Body, Setup
+from sandbox.engine.setup import Ball, Setup
 from sandbox.engine.touch import Obstacle, Touching
 from sandbox.errors import RequestError
 from sandbox.files import reason, writing, written_whole
@@ -161,7 +161,7 @@ def _arc(item: Any, setup: Setup, ball: Ball) -> Arc:
     if contact is not None:
         mode, place, (gap, nx, ny, curvature, center, feature), direction, spin_rate = contact
         touching = Touching(gap, nx, ny, curvature, tuple(center), feature)
-        kind = OnePoint if isinstance(ball, Body) else LastingContact
+        kind = OnePoint if ball.turns else LastingContact
         contact = kind(mode, Obstacle(setup.surfaces[place], ball.radius), touching, direction, spin_rate)
     last = None if end is None else tuple(end)
     return Arc(t0, t1, tuple(start), tuple(map(tuple, curves)), contact, last)

@@ -86,8 +86,8 @@ def strip(run: Run, t: float) -> Strip | None:
     there = []
     for ball in run.setup.balls:
         x, y, *_ = run.state(ball.name, t)
-        angle = run.angle(ball.name, t) if isinstance(ball, Body) else 0.0
-        there.append((ball.name, outline_of(ball), Pose(x, y, angle), isinstance(ball, Body)))
+        angle = run.angle(ball.name, t) if ball.turns else 0.0
+        there.append((ball.name, outline_of(ball), Pose(x, y, angle), ball.turns))
     fixed = [
         (s.name, standing(s.shape).shape, Pose(0.0, 0.0, 0.0), True)
         for s in run.setup.surfaces
