@@ -9,6 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import sandbox
+from sandbox.engine.ledger import ledger
 from sandbox.engine.run import Run
 from sandbox.scene import load
 
@@ -128,6 +129,8 @@ def test_a_row_of_dominoes_falls():
     falls = [next(e.t for e in run.events if name in (e.ball, e.partner) and "floor" not in e) for name in names]
     assert falls == sorted(falls)
     assert all(run.angle(name, run.duration) < -1.0 for name in names)
+    book = ledger(run)
+    assert 0.0 <= book.contacts["position correction"] < 0.02 * book.work["gravity"]
 
 
 def test_a_pin_hit_low_falls_towards_the_ball_and_one_hit_high_away_from_it():
