@@ -112,9 +112,13 @@ def test_wheel_and_keys_turn_push_and_spin(player):
 
 
 class TestWatching:
-    def test_space_pauses_and_goes_on(self, player):
+    @pytest.fixture
+    def player(self, player):
         player = player("golf")
         player.key(pygame.K_SPACE)
+        return player
+
+    def test_space_pauses_and_goes_on(self, player):
         player.frames(10)
         player.key(pygame.K_SPACE)
         t = player.game.playback.t
@@ -123,8 +127,6 @@ class TestWatching:
         assert player.game.playback.t == t
 
     def test_steps_go_there_and_back(self, player):
-        player = player("golf")
-        player.key(pygame.K_SPACE)
         player.frames(5)
         player.key(pygame.K_PERIOD)
         t = player.game.playback.t
@@ -136,8 +138,6 @@ class TestWatching:
         assert player.game.playback.t < t
 
     def test_slow_motion_goes_to_a_sixteenth_and_fast_to_eight(self, player):
-        player = player("golf")
-        player.key(pygame.K_SPACE)
         for _ in range(12):
             player.key(pygame.K_MINUS)
         assert player.game.playback.rate == 1 / 16
@@ -146,15 +146,11 @@ class TestWatching:
         assert player.game.playback.rate == 8
 
     def test_a_late_frame_slows_the_shot_and_skips_nothing(self, player):
-        player = player("golf")
-        player.key(pygame.K_SPACE)
         t = player.game.playback.t
         player.frames(1, dt=2.0)
         assert player.game.playback.t == pytest.approx(t + LONGEST_FRAME)
 
     def test_the_time_line_can_be_dragged(self, player):
-        player = player("golf")
-        player.key(pygame.K_SPACE)
         line = player.view.bar.line
         player.press(line.center)
         assert player.game.playback.t == pytest.approx(player.game.playback.duration / 2, rel=0.02)
@@ -163,11 +159,11 @@ class TestWatching:
         player.release((line.right, line.centery))
 
     def test_earlier_shots_can_be_seen_again(self, player):
-        player = player("golf")
+        player.key(pygame.K_RETURN)
         for length in (-100, -160):
             player.pull((length, 40))
             player.key(pygame.K_RETURN)
-        first, second = player.game.shots
+        _, first, second = player.game.shots
         player.key(pygame.K_p)
         assert player.game.shot is second
         player.key(pygame.K_p)
