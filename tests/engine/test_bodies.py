@@ -155,6 +155,18 @@ def test_a_rim_leaves_no_more_out_than_it_may_and_has_no_point_twice(name: str):
         assert min(map(math.dist, rim, [*rim[1:], rim[0]])) > 1e-6
 
 
+@pytest.mark.parametrize("name", ["box", "triangle", "rounded triangle", "heptagon"])
+def test_more_rounding_keeps_the_sides_and_takes_from_the_corners(name: str):
+    x, y = OUTLINES[name].mass_properties().center
+    shape, here = OUTLINES[name].moved(-x, -y), Pose(0.0, 0.0, 0.0)
+    assert isinstance(shape, Polygon)
+    rounder, normals, turns = shape.rounded(0.02), np.array(shape.normals), np.linspace(-np.pi, np.pi, 97)
+    assert shape.radius < rounder.radius <= shape.radius + 0.02
+    assert height(rounder, here, normals) == pytest.approx(height(shape, here, normals))
+    cut = height(shape, here, turns) - height(rounder, here, turns)
+    assert -1e-12 < cut.min() < 1e-6 < cut.max() < 0.02
+
+
 def test_distances_are_the_widest_strip_between():
     rng = random.Random(3)
     for _ in range(40):

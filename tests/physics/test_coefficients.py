@@ -15,13 +15,17 @@ from sandbox.physics.coefficients import (
     Constant,
     lyu_drag,
     lyu_lift,
+    nathan_lift,
     power_law_golf_drag,
     power_law_golf_lift,
     quadratic_drag,
     quadratic_lift,
+    sawicki_lift,
     smits_smith_drag,
     smits_smith_lift,
     spin_ratio_lift,
+    stepanek_drag,
+    stepanek_lift,
     tour_fit_drag,
     tour_fit_lift,
     usga_drag,
@@ -80,6 +84,20 @@ def test_lift_that_would_start_with_a_jump_rises_over_the_first_spin(model, edge
     for s in (0.004, 0.01, 0.016):
         assert model(1e5, s) == pytest.approx(50.0 * s * edge, rel=0.5)
     assert model(1e5, 0.02) == pytest.approx(edge, rel=0.5)
+
+
+@pytest.mark.parametrize(
+    ("model", "values"),
+    [
+        (stepanek_drag, {0.0: 0.508, 0.3: 0.6621, 1e6: 0.7981}),
+        (stepanek_lift, {0.0: 0.0, 0.3: 0.1890, 1e6: 0.4946}),
+        (nathan_lift, {0.0: 0.0, 0.3: 0.2619, 1e6: 0.4801}),
+        (sawicki_lift, {0.05: 0.075, 0.3: 0.27, 2.0: 0.69}),
+    ],
+)
+def test_what_depends_on_the_spin_alone_has_its_values(model, values: dict[float, float]):
+    for spin_ratio, value in values.items():
+        assert model(1e5, spin_ratio) == pytest.approx(value, abs=1e-4)
 
 
 def test_simple_models():
