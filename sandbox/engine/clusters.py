@@ -131,7 +131,7 @@ class Cluster:
         state[:2, count] = 1e3  # m: a placeholder for walls, never read
         self._origin = origin[:, 0]
         self._push = np.array([*(body.push for body in self._bodies), (0.0, 0.0)]).T
-        before = self._energy(state)
+        before = state.copy()
         surface = np.abs(state[5:8, :count]).max(axis=0) * [body.radius for body in self._bodies]
         fastest = max(2.0 * float(np.hypot(*state[2:4]).max()), CLOSING)
         quickest = max(fastest, float(surface.max()))
@@ -185,7 +185,9 @@ class Cluster:
             if t > (_PATIENCE[0] * count + _PATIENCE[1]) * longest:
                 raise StaysPressed(f"bodies do not separate within {t:.3g} s")
         worked = float(np.hypot(*self._push[:, :count]) @ self._inertia[0]) * fastest * t  # J, an upper bound
-        self._remove_excess_energy(state, before + worked)
+        touched = np.flatnonzero(np.abs(self._incidence[:-1]) @ (impulse > 0.0))
+        if touched.size:
+            self._remove_excess_energy(state, touched, self._energy(before, touched) + worked)
         position = (state[:2, :count] + origin).T
         velocity, spin = state[2:4, :count].T, state[5:8, :count].T
         return ClusterOutcome(float(t), position, velocity, spin, impulse, approach, closed, steps), worst
@@ -208,21 +210,21 @@ class Cluster:
         self._gap = gap
         return rate, depth, -opening, normal, force
 
-    def _energy(self, state: np.ndarray) -> float:
-        """Kinetic energy in J, including rotation."""
-        return 0.5 * float((state[2:, :-1] ** 2 * self._inertia).sum())
+    def _energy(self, state: np.ndarray, bodies: np.ndarray) -> float:
+        """Kinetic energy in J of these bodies, including rotation."""
+        return 0.5 * float((state[2:, bodies] ** 2 * self._inertia[:, bodies]).sum())
 
-    def _remove_excess_energy(self, state: np.ndarray, before: float) -> None:
-        """Slow all bodies towards their common motion if numerical errors have raised the energy above ``before``."""
-        common = np.zeros((6, 1))
+    def _remove_excess_energy(self, state: np.ndarray, touched: np.ndarray, before: float) -> None:
+        """Slow the bodies that were touched towards their common motion if numerical errors have raised their energy
+        above ``before``."""
+        common, inertia = np.zeros((6, 1)), self._inertia[:, touched]
         if not self._walls:
-            mass = self._inertia[0]
-            common[:2, 0] = state[2:4, :-1] @ mass / mass.sum()
-        kept = 0.5 * float((common**2 * self._inertia).sum())
-        excess = self._energy(state) - before
+            common[:2, 0] = state[2:4, touched] @ inertia[0] / inertia[0].sum()
+        kept = 0.5 * float((common**2 * inertia).sum())
+        excess = self._energy(state, touched) - before
         if excess > 0.0:
             share = np.sqrt(max(0.0, (before - kept) / (before - kept + excess)))
-            state[2:, :-1] = common + share * (state[2:, :-1] - common)
+            state[2:, touched] = common + share * (state[2:, touched] - common)
 
 
 def _grades(count: int) -> list[float]:

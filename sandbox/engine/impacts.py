@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import combinations
 from math import dist, hypot
 from typing import NamedTuple
@@ -60,6 +60,9 @@ class Outcome(NamedTuple):
     hits: list[Hit]  # in order of time
 
 
+Through = Callable[[float, dict[int, State]], Outcome | None]
+
+
 class Impacts:
     """Resolves impacts among the balls of a run."""
 
@@ -77,17 +80,20 @@ class Impacts:
         self._all_round = discs(*setup.balls)
         self._heaviest = max(ball.mass for ball in setup.balls)  # kg
 
-    def exchange(self, t: float, states: dict[int, State]) -> Outcome:
+    def exchange(self, t: float, states: dict[int, State], through: Through) -> Outcome:
         """The impact at t of balls that touch, directly or through others.
 
         Balls and hard walls exchange impulses at once; soft walls push back afterwards, one after another, and so on
-        until nothing closes. If that takes too many turns, or in a heap, all exchange impulses at once instead.
+        until nothing closes; balls that a wall sends on others that touch still others go ``through`` them. If that
+        takes too many turns, or in a heap, all exchange impulses at once instead.
         """
         start, hits = states, list[Hit]()
         last = _TURNS if self._some_soft and self.gap == TOUCHING_GAP and not self._with_bodies(states) else 0
         for turn in range(last + 1):
             if turn in (0, last):
                 states, hits = dict(start), []
+            elif turn % 2 == 0 and (parted := through(t, states)) is not None:
+                return Outcome(parted.t, {**_drifted(states, parted.t - t), **parted.states}, hits + parted.hits)
             before = dict(states)
             if turn == last:
                 closed = self._close_at_once(states, (False, True))
@@ -281,6 +287,11 @@ class Impacts:
     def _energy(self, states: dict[int, State]) -> float:
         """Kinetic energy in J, including rotation."""
         return sum(kinetic(self._tracks[index].ball, state) for index, state in states.items())
+
+
+def _drifted(states: dict[int, State], h: float) -> dict[int, State]:
+    """The states h s later, of balls on which nothing acts meanwhile."""
+    return {i: (x + h * vx, y + h * vy, vx, vy, *more) for i, (x, y, vx, vy, *more) in states.items()}
 
 
 def _once(bounce: Bounce, approach: float) -> Bounce:

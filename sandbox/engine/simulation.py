@@ -188,15 +188,12 @@ class Simulation:
         """Everything that touches at this instant exchanges impulses at once, or is simulated through the contact."""
         self._impacts.gap = TOUCHING_GAP
         touching = self._impacts.touching(t, seeds)
-        outcome = None
-        if self._all_round and len(touching) > 1:
-            slow = self._heap.slow(t, touching) if self._heaps_up else 0.0
-            outcome = self._pressed.through(t, touching, slow, self._heap.fresh(t))
+        outcome = self._through(t, touching)
         if outcome is None:
             if not self._all_round and self._heap.members & set(seeds):
                 self._impacts.gap = self._heap.margin
                 touching = self._impacts.touching(t, seeds)
-            outcome = self._impacts.exchange(t, touching)
+            outcome = self._impacts.exchange(t, touching, self._through)
         for hit in outcome.hits:
             self._numerics.impacts += 1
             track = self._tracks[hit.ball]
@@ -233,6 +230,13 @@ class Simulation:
         for index in members - set(joining) - stepped.keys():
             self._resume(index, t)
         return stepped.keys()
+
+    def _through(self, t: float, touching: dict[int, State]) -> Outcome | None:
+        """The outcome of balls that touch, by contact mechanics; None if impulses are right."""
+        if not self._all_round or len(touching) < 2:
+            return None
+        slow = self._heap.slow(t, touching) if self._heaps_up else 0.0
+        return self._pressed.through(t, touching, slow, self._heap.fresh(t))
 
     def _go_through(self, t: float, touching: dict[int, State], parted: Outcome) -> None:
         """Apply the outcome of a contact that lasts from t until the balls separate: then they go on."""

@@ -256,6 +256,15 @@ def test_what_errors_would_add_is_taken_back_without_moving_the_whole():
     assert energy(outcome.velocity, outcome.spin, bodies) <= had * (1 + 1e-14)
 
 
+def test_a_ball_that_is_not_touched_takes_no_part_in_what_is_taken_back():
+    """A chain and a fast ball that passes it: its momentum stays, and theirs."""
+    bodies = [*chain(3), ball(0.0, 1.0, 20.0)]
+    links = [Link(i + 1, i, STIFFNESS, 1.0, lambda slip: 0.0) for i in range(3)]
+    outcome = Cluster(bodies, links).pass_through(0.1)
+    assert outcome.velocity[3].tolist() == [20.0, 0.0]
+    assert outcome.velocity[:3, 0].sum() == pytest.approx(1.0, abs=1e-12)
+
+
 def test_an_overlap_at_the_start_stores_no_energy():
     """Two that enter 0.1 mm deep, as after another contact: they separate with the energy they came with."""
     bodies = [ball(0.0, 0.0, 0.1), ball(2 * RADIUS - 1e-4, 0.0)]

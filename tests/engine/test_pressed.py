@@ -144,6 +144,19 @@ def test_a_wall_that_soft_balls_reach_while_they_are_pressed_pushes_back_at_once
     assert ledger(run).end == pytest.approx(ledger(run).start, rel=1e-5)
 
 
+def test_a_ball_that_a_wall_sends_back_on_a_row_goes_through_it():
+    """It leaves the row, meets the wall in touch at that instant and strikes the row again: alike at all levels."""
+    ways = []
+    for level in ("balanced", "precise"):
+        row = [ball(str(place), place * (2 * R + 1e-9)) for place in range(6)]
+        wall = Surface("wall", Segment((11 * R + 5e-9, -1.0), (11 * R + 5e-9, 1.0)), 0.85, 0.2)
+        balls = [ball("cue", -0.26, -0.0066, vx=0.48), *row]
+        laws = {"between_balls": Always(Bounce(1.0, 0.05)), "contact": ContactModel("auto")}
+        run = simulate(Setup(balls, [wall], 0.9, **laws), resolve(level))
+        ways.append([run.state(each.name, 0.9)[2] for each in balls])
+    assert ways[0] == pytest.approx(ways[1], abs=5e-4)
+
+
 @pytest.mark.parametrize("duration", [0.1, 0.1002])
 def test_a_run_may_end_within_a_contact(duration):
     balls = [ball("cue", -0.2 - 2 * R, vx=2.0), ball("1", 0.0), ball("2", 2 * R)]
