@@ -18,7 +18,7 @@ from sandbox.picture.camera import Box, Camera
 from sandbox.picture.painter import Painter
 from sandbox.picture.palette import Colour, palette
 from sandbox.picture.path import Mark, mark_impacts
-from sandbox.picture.places.plan import drawn
+from sandbox.picture.places.plan import Ground, drawn
 from sandbox.picture.sheet import Sheet
 from sandbox.picture.view import P
 from sandbox.sport.amounts import metres, times
@@ -28,6 +28,8 @@ CARD = palette("card")
 #: The strip takes this share of the room between headline and card, at most; gaps and the room around letters, in px
 #: on 720 rows.
 STRIP, GAP, AROUND = 0.42, 8.0, 7.0
+#: What is not of the place, in m, as far as a lens may look.
+EVERYWHERE = Box(-1e3, -1e3, 1e3, 1e3)
 #: A ball that goes no further than this, in m, has no path.
 LEAST_WAY = 1e-6
 
@@ -75,14 +77,16 @@ class LongView(AboveView[P]):
         painter.surface.fill(self.ROOM)
         (left, top), (right, bottom) = (camera.pixel(*corner) for corner in (self.whole[::3], self.whole[2:0:-1]))
         painter.surface.set_clip(pygame.Rect(round(left), round(top), round(right - left), round(bottom - top)))
-        painter.surface.blit(drawn(self.plan, camera, self.size), (0, 0))
+        painter.surface.blit(drawn((Ground(EVERYWHERE, self.ROOM), *self.plan), camera, self.size), (0, 0))
         painter.surface.set_clip(None)
 
     def landmarks(self, sheet: Sheet, camera: Camera) -> None:
-        """What the lines across the strip are called, under it."""
-        row = self._row.centery
-        for name, x in self.lines.items():
-            sheet.write(name, "small", (camera.pixel(x, 0.0)[0], row), sheet.quiet_ink, "center")
+        """What the lines across the strip are called, under it, where there is room."""
+        taken = 0
+        for name, x in sorted(self.lines.items(), key=lambda line: line[1]):
+            at = camera.pixel(x, 0.0)[0], self._row.centery
+            if sheet.lettering.rect(name, "small", at, "center").left > taken:
+                taken = sheet.write(name, "small", at, sheet.quiet_ink, "center").right + sheet.gap
 
     @cached_property
     def _row(self) -> pygame.Rect:
@@ -119,7 +123,7 @@ class LongView(AboveView[P]):
         painter.polygon(beam, CARD["quiet"], 0.12)
         surface = painter.surface.subsurface(lens)
         local = Camera(near.at, (near.anchor[0] - lens.left, near.anchor[1] - lens.top), near.scale)
-        surface.blit(drawn(self.plan, local, lens.size), (0, 0))
+        surface.blit(drawn((Ground(EVERYWHERE, self.ROOM), *self.plan), local, lens.size), (0, 0))
         inside = Painter(surface)
         self.behind(inside, local, t)
         for ball in self.run.setup.balls:

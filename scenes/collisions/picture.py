@@ -162,7 +162,9 @@ class Picture(AboveView[Parameters]):
             unit: max(largest[what] for what in sums if AMOUNTS[what][0] == unit) for unit, _ in AMOUNTS.values()
         }
         shown = [what for what in sums if largest[what] > 0.02 * of_unit[AMOUNTS[what][0]]]
-        top, tall = sheet.top_row + 1.5 * small, len(shown) * BLOCK * small
+        top = sheet.top_row + 1.5 * small
+        shown = shown[: 1 + int(max(0.0, self.card_row - top - 2 * small) / (BLOCK * small))]
+        tall = len(shown) * BLOCK * small
         board = pygame.Rect(round(right - room), round(top - 1.3 * small), round(room), round(tall + 0.2 * small))
         sheet.painter.panel(board.inflate(2 * sheet.gap, 0), CARD["background"], CARD["opacity"], 10 * self.unit)
         for i, what in enumerate(shown):
