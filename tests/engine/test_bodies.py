@@ -15,6 +15,7 @@ from sandbox.engine import simulate
 from sandbox.engine.accuracy import LEVELS
 from sandbox.engine.arc import Arc, through
 from sandbox.engine.lasting import SLIDING
+from sandbox.engine.meeting import meeting
 from sandbox.engine.nearest import Pose, nearest
 from sandbox.engine.run import Run
 from sandbox.engine.setup import Always, Ball, Body, Bounce, ContactModel, Segment, Setup, Surface, kinetic
@@ -212,6 +213,18 @@ def test_no_touch_of_spinning_outlines_is_missed():
 
 
 # ------------------------------------------------------------------------------------------------ impacts
+
+
+@pytest.mark.parametrize("turn", [0.0, 0.9, -2.0])
+def test_boxes_that_lie_on_one_another_touch_at_the_ends_of_what_they_share(turn: float):
+    way, up = np.exp(1j * turn), 1j * np.exp(1j * turn)
+    large, small = (Body("box", position=(0.0, 0.0), shape=box(width, 0.2), mass=1.0) for width in (2.0, 0.4))
+    for along, ends in ((0.3, (0.1, 0.5)), (-0.9, (-1.0, -0.7))):
+        place = along * way + 0.2 * up
+        met = meeting(small, (place.real, place.imag, 0.0, 0.0, 0.0, turn), large, (0.0, 0.0, 0.0, 0.0, 0.0, turn))
+        found = sorted((complex(*point) / way for point in met.points), key=lambda point: point.real)
+        assert found == pytest.approx([complex(end, 0.1) for end in ends])
+        assert (met.gap, *met.normal) == pytest.approx((0.0, up.real, up.imag), abs=1e-12)
 
 
 @pytest.mark.parametrize("restitution", [0.0, 0.4, 1.0])

@@ -17,8 +17,8 @@ ROOT = Path(__file__).parents[2]
 QUANTITIES = ("x", "y", "vx", "vy", "spin")
 
 
-def runs(level="balanced"):
-    return [simulate(shots.setup(*shot, 2.5), resolve(level)) for shot in shots.seeded(6)]
+def runs(**how):
+    return [simulate(shots.setup(*shot, 2.5), resolve(**how)) for shot in shots.seeded(6)]
 
 
 def first_difference(one, other):
@@ -42,9 +42,9 @@ def digest():
     return whole.hexdigest()
 
 
-@pytest.mark.parametrize("level", ["fast", "balanced", "precise"])
-def test_two_runs_in_one_process_are_bit_equal(level):
-    for one, other in zip(runs(level), runs(level), strict=True):
+@pytest.mark.parametrize("how", [{}, {"level": "precise"}, {"method": "plain", "step": 2e-3}], ids=str)
+def test_two_runs_in_one_process_are_bit_equal(how):
+    for one, other in zip(runs(**how), runs(**how), strict=True):
         assert first_difference(one, other) is None
 
 
@@ -66,9 +66,3 @@ def test_a_difference_is_named():
     arc = other.arcs["ball"][2]
     arc.start = (*arc.start[:2], arc.start[2] + 1e-15, *arc.start[3:])
     assert first_difference(one, other).startswith(f"arc 2 at t = {arc.t0} s, ball, vx:")
-
-
-def test_plain_runs_are_bit_equal_too():
-    shot = shots.seeded(1)[0]
-    one, other = (simulate(shots.setup(*shot, 1.5), resolve(method="plain", step=1e-3)) for _ in range(2))
-    assert first_difference(one, other) is None

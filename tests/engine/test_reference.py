@@ -13,7 +13,7 @@ from tests.engine import shots
 from tests.engine.reference import shoot
 
 DURATION = 2.5  # s
-SHOTS = shots.seeded(50)
+SHOTS = shots.seeded(30)
 
 #: Normal speed in m/s below which an impact is a graze: whether it happens at all depends on the last digits.
 GRAZING = 0.06
