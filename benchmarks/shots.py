@@ -13,8 +13,10 @@ from sandbox.engine.setup import Setup
 #: (vx, vy, spin) in m/s and rad/s to (ax, ay, alpha) in m/s^2 and rad/s^2: these flights need no other arguments.
 Law = Callable[[float, float, float], tuple[float, float, float]]
 
-#: Off the front of the rim, then high; without lift and without the net, so that the law is short.
-RIM = {"launch.speed": 7.3, "launch.angle": 52.0, "launch.spin": 180.0, "ball.lift.model": "none", "net.slows": False}
+#: Without lift and without the net, so that the law of a shot at a basket is short.
+SHORT = {"ball.lift.model": "none", "net.slows": False}
+#: Off the front of the rim, then high.
+RIM = {"launch.speed": 7.3, "launch.angle": 52.0, "launch.spin": 180.0, **SHORT}
 
 
 class Shot(NamedTuple):

@@ -52,8 +52,8 @@ from unittest.mock import patch
 import by_pymunk
 import numpy as np
 from forces import together
+from shots import SHORT, basketball_law
 from shots import Shot as Launched
-from shots import basketball_law
 
 import sandbox
 from sandbox.engine import simulate, simulate_many
@@ -115,7 +115,7 @@ def grid(shape: tuple[int, int]) -> dict[str, Any]:
 
 def setups(shape: tuple[int, int]) -> list[Setup]:
     """The setup of each shot of the map."""
-    setup = sandbox.load("basketball").build()
+    setup = sandbox.load("basketball", SHORT).build()
     speeds, angles = grid(shape).values()
     directions = [(cos(radians(angle)), sin(radians(angle))) for angle in angles]
     return [

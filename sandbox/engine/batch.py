@@ -148,7 +148,7 @@ class Batch:
         """Each shot's run, in order."""
         shots = np.concatenate([shots for shots, _ in self._paths])
         order = np.argsort(shots, kind="stable")
-        rows = np.ascontiguousarray(np.concatenate([columns for _, columns in self._paths], axis=1)[:, order].T)
+        rows = np.concatenate([columns for _, columns in self._paths], axis=1)[:, order].T
         paths = Paths(rows, np.cumsum(np.bincount(shots, minlength=len(self.setups))).tolist())
         for number in range(len(self.setups)):
             yield self._run(number, paths[number])
