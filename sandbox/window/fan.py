@@ -38,7 +38,7 @@ class Cloud(NamedTuple):
     said: tuple[str, str]  # how many score, and by how much the shots differ
     shots: int
     scored: int
-    left: int  # shots that are still to be computed, to their end
+    left: int  # shots that are still to be computed, to their end and at the scene's accuracy
 
 
 def spread_of(scene: Scene, width: float) -> dict[str, tuple[declared.Parameter, float]]:
@@ -58,16 +58,18 @@ def within(parameter: declared.Parameter, values: np.ndarray) -> np.ndarray:
 
 
 class Fan:
-    """The shots of a fan, computed a few at a time. Where they are computed one by one, as balls on a table are, they
-    have the accuracy of pictures."""
+    """The shots of a fan, computed a few at a time. While the aim changes, and where they are computed one by one, as
+    balls on a table are, they have the accuracy of pictures."""
 
-    def __init__(self, scene: Scene, spread: Mapping[str, tuple[declared.Parameter, float]], asked: Sequence[str]):
-        self._of = scene.folder, scene.parameters, spread, asked
+    def __init__(
+        self, scene: Scene, spread: Mapping[str, tuple[declared.Parameter, float]], asked: Sequence[str], quick: bool
+    ) -> None:
+        self._of = scene.folder, scene.parameters, spread, asked, quick
         self.left = scene.controls.fan_shots or SHOTS
         draws = np.random.default_rng(1).standard_normal((self.left, len(spread)))
         columns = [within(p, p.value + sigma * draw) for (p, sigma), draw in zip(spread.values(), draws.T, strict=True)]
         points = np.column_stack(columns).tolist()
-        if not fly_together(scene, list(spread), points[0]):
+        if quick or not fly_together(scene, list(spread), points[0]):
             scene = scene.changed({"accuracy.level": "fast"})
         self.shots: list[Shot] = []
         self._scene, self._runs = scene, runs(scene, list(spread), points, asked=asked)
@@ -112,10 +114,10 @@ def cloud(
         return Cloud((0, 0), (0, 0), b"", ("no fan: this shot does not begin as a player's does", ""), 0, 0, 0)
     controls = scene.controls
     asked = [fact for fact in (controls.scores, controls.fan_fact) if fact]
-    in_full = not quick or not early or scene.settles(asked) is not None
-    asked = asked if in_full else [early]
-    if _begun is None or not _begun.is_of(scene, spread, asked):
-        _begun = Fan(scene, spread, asked)
+    if quick and early and scene.settles(asked) is None:
+        asked = [early]
+    if _begun is None or not _begun.is_of(scene, spread, asked, quick):
+        _begun = Fan(scene, spread, asked, quick)
     _begun.go_on()
     shots = _begun.shots
     paths = points([(shot.run, shot.ball) for shot in shots]) if shots else []
@@ -125,7 +127,7 @@ def cloud(
     sigmas = [f"{key.rpartition('.')[2]} ± {short(sigma)} {p.unit or ''}" for key, (p, sigma) in spread.items()]
     said = _said(scene, asked, shots), ", ".join(map(str.rstrip, sigmas))
     scored = sum(shot.scored for shot in shots)
-    return Cloud(*_drawn(good, others, colours), said, len(shots), scored, _begun.left if in_full else SHOTS)
+    return Cloud(*_drawn(good, others, colours), said, len(shots), scored, SHOTS if quick else _begun.left)
 
 
 def _said(scene: Scene, asked: Sequence[str], shots: Sequence[Shot]) -> str:
