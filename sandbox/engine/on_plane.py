@@ -90,5 +90,10 @@ class OnPlane(Track):
 
 def _leaves(arc: Arc, low: float, high: float) -> float | None:
     """The first u at which the path leaves a strip from ``low`` to ``high`` (m) along x, or None."""
-    ways = [high - x for x in arc.x], [x - low for x in arc.x]
-    return min((u for u in (next(downward_crossings(way), None) for way in ways) if u is not None), default=None)
+    left, _, right, _ = arc.box()
+    found = []
+    if right > high:
+        found.append(next(downward_crossings([high - x for x in arc.x]), None))
+    if left < low:
+        found.append(next(downward_crossings([x - low for x in arc.x]), None))
+    return min((u for u in found if u is not None), default=None)
