@@ -308,8 +308,7 @@ class Simulation:
         track.arc = arc
         self._note_rest(track, t)
         own = None if track.contact is None else track.contact.obstacle
-        others = [other for other in range(len(self._tracks)) if other != index]
-        self._predict(index, t, kind, lambda other: other is own, others)
+        self._predict(index, t, kind, lambda other: other is own, range(len(self._tracks)))
 
     def _neighbours(self, stepped: Mapping[int, Arc], t: float) -> dict[int, list[int]]:
         """For each ball of a heap the others that it may meet on its new arc from t; of two in the heap for the first.
@@ -365,7 +364,7 @@ class Simulation:
         self._push(at, kind, index)
         for other in others:
             neighbour = self._tracks[other]
-            if neighbour.caught:
+            if other == index or neighbour.caught:
                 continue
             reach = track.ball.radius + neighbour.ball.radius
             a, b, c, d = neighbour.arc.box()
