@@ -297,7 +297,7 @@ class Heap:
         """The speed in m/s at which a member comes nearer to an obstacle or another member."""
         ball, state = self._members[index].ball, self._members[index].start
         if isinstance(other, Obstacle):
-            return surface_met(ball, state, other).closing
+            return surface_met(ball, state, (other, other.near(*state[:2]))).closing
         neighbour = self._members[other]
         return meeting(ball, state, neighbour.ball, neighbour.start).closing
 

@@ -12,7 +12,7 @@ from sandbox.engine.nearest import Pose, meeting_points, nearest
 from sandbox.engine.setup import Ball, Circle, Segment, Vector, outline_of
 from sandbox.engine.shapes import Polygon, Shape
 from sandbox.engine.surfaces import STILL, leaves_at, speeds_where_touching
-from sandbox.engine.touch import Obstacle, balls_touch, touched
+from sandbox.engine.touch import Near, Obstacle, balls_touch, touched
 from sandbox.engine.track import Track
 from sandbox.engine.turning_touch import Mover, first_touch, fixed, pose_of
 from sandbox.physics.integrators import Acceleration, State
@@ -71,12 +71,12 @@ def meeting(one: Ball, state: State, other: Ball, other_state: State, within: fl
     return Meeting(distance - one.radius - other.radius, (nx, ny), [point], [speeds])
 
 
-def surface_met(ball: Ball, state: State, obstacle: Obstacle, within: float = 0.0) -> Meeting:
-    """How a ball or body meets a surface that is prepared for its radius."""
+def surface_met(ball: Ball, state: State, near: Near, within: float = 0.0) -> Meeting:
+    """How a ball or body meets a surface that is prepared for its radius, and ``near`` its centre."""
+    obstacle, (gap, nx, ny, *_) = near
     if not discs(ball):
         shape = standing(obstacle.surface.shape).shape
-        return _meeting(outline_of(ball), shape, (state,), within, direction_to(obstacle, state))
-    gap, nx, ny, *_ = obstacle.near(state[0], state[1])
+        return _meeting(outline_of(ball), shape, (state,), within, atan2(ny, nx))
     point = state[0] - ball.radius * nx, state[1] - ball.radius * ny
     return Meeting(gap, (nx, ny), [point], [speeds_where_touching([ball], [state], nx, ny)])
 
@@ -91,10 +91,10 @@ def surfaces_met(
     ball: Ball, obstacles: Sequence[Obstacle], state: State, within: float
 ) -> Iterator[tuple[Obstacle, Meeting]]:
     """How a ball or body meets those of these surfaces that are not farther than ``within`` (m)."""
-    for obstacle, _ in touched(obstacles, state[0], state[1], within):
-        found = surface_met(ball, state, obstacle, within)
+    for near in touched(obstacles, state[0], state[1], within):
+        found = surface_met(ball, state, near, within)
         if found.gap <= within:
-            yield obstacle, found
+            yield near[0], found
 
 
 def returns(
