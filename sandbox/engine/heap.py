@@ -150,8 +150,10 @@ class Heap:
         return returns((one, other), states, applied, met, self._settle)
 
     def slow(self, t: float, states: Mapping[int, State]) -> float:
-        """The speed in m/s below which a blow among these balls is lasting contact."""
-        return max(self._forced_in_a_step(index, t, state) for index, state in states.items())
+        """The speed in m/s below which a blow among these balls is lasting contact, or one that a heap takes in its
+        steps."""
+        forced = max(self._forced_in_a_step(index, t, state) for index, state in states.items())
+        return _SLOW * forced if self._members else forced
 
     def fresh(self, t: float) -> set[int]:
         """The balls that have come to press on others of late: a heap that is still forming."""

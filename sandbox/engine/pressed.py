@@ -27,9 +27,9 @@ _DEEP, _RIGID = 0.25, 8.0**0.5
 #: Depth in radii of the smaller ball from which balls would pass through each other.
 _TOO_DEEP = 1.0
 
-#: Share of the slowest blow that a contact among balls of a heap leaves to lasting contact, and of a blow that other
-#: forces may change while balls are pressed on a wall.
-_LEFT = 0.1
+#: Share of the slowest blow on a heap that a contact among its balls leaves to lasting contact; and share of a blow
+#: that other forces may change while balls are pressed on a wall.
+_LEFT, _PUSHED = 0.0125, 0.1
 
 #: Approach speed in m/s below which balls push rather than strike each other: these get impulses.
 FAINTEST = 1e-3
@@ -76,7 +76,7 @@ class Pressed:
         met: set[frozenset[int]] = set()  # pairs that are within reach only as the others leave them
         hard = model.wall_stiffness
         while True:
-            self._add_reached(t, members, fastest, lasts)
+            self._add_reached(t, members, fastest, lasts, fresh)
             if not members.keys().isdisjoint(fresh):
                 return None
             near = self._walls(members, fastest * lasts)
@@ -99,7 +99,7 @@ class Pressed:
                 for index in frozenset().union(*late) - members.keys():
                     members[index] = self._tracks[index].arc.state(t)
             elif not hard and self._entered(members, parted):
-                if max(hypot(*self._body(t, *member).push) for member in members.items()) * lasts > _LEFT * speed:
+                if max(hypot(*self._body(t, *member).push) for member in members.items()) * lasts > _PUSHED * speed:
                     return None
                 hard = _RIGID * stiffness
             else:
@@ -122,10 +122,13 @@ class Pressed:
         dx, dy = a[0] - b[0], a[1] - b[1]
         return -((ax - bx) * dx + (ay - by) * dy) / hypot(dx, dy)
 
-    def _add_reached(self, t: float, members: dict[int, State], fastest: float, lasts: float) -> None:
-        """Add the balls that can be reached during the contact, and those that these can reach."""
+    def _add_reached(
+        self, t: float, members: dict[int, State], fastest: float, lasts: float, fresh: Collection[int]
+    ) -> None:
+        """Add the balls that can be reached during the contact, and those that these can reach; up to a ``fresh``
+        one."""
         waiting = list(members)
-        while waiting:
+        while waiting and members.keys().isdisjoint(fresh):
             index = waiting.pop()
             state = members[index]
             for other, track in enumerate(self._tracks):
