@@ -100,6 +100,8 @@ def test_mass_follows_from_density_and_center_and_moment_may_be_given():
     assert given.mass == pytest.approx(0.6)
     assert given.inertia == pytest.approx(0.6 * (0.25 / 12 + 0.01))
     assert replace(given, angle=1.0).outline == given.outline
+    elsewhere = Body("body", position=(0.0, 0.0), shape=Ellipse(0.4, 0.3, (0.5, 0.2)), mass=1.0)
+    assert elsewhere.outline == Ellipse(0.4, 0.3)
     assert Body("body", position=(0.0, 0.0), shape=box(0.4, 0.3), mass=1.0, moment=0.7).inertia == pytest.approx(0.7)
 
 
