@@ -10,7 +10,7 @@ import pytest
 from sandbox.engine import simulate
 from sandbox.engine.accuracy import resolve
 from sandbox.engine.ledger import ledger
-from sandbox.engine.setup import Always, Ball, Bounce, ContactModel, Segment, Setup, Surface
+from sandbox.engine.setup import Always, Ball, Bounce, Circle, ContactModel, Segment, Setup, Surface
 
 R, M = 0.028575, 0.170097  # of pool balls: m, kg
 
@@ -48,6 +48,9 @@ def test_a_third_ball_counts_if_it_is_reached_during_the_contact(gap, through):
     """Pool balls at 1 m/s touch for 390 us, in which the one struck moves by 0.195 mm."""
     run = struck([ball("cue", -0.5, vx=1.0), ball("1", 0.0), ball("2", 2 * R + gap)])
     assert bool(run.numerics.clusters) is through
+    first, second = run.events[:2]
+    assert ({first.ball, first.partner}, {second.ball, second.partner}) == ({"cue", "1"}, {"1", "2"})
+    assert 0.0 < second.t - first.t < 3.0 * gap
 
 
 def test_a_gap_that_a_contact_does_not_notice_changes_nothing():
@@ -83,7 +86,7 @@ def test_a_wall_as_hard_as_balls_is_met_at_the_speeds_at_which_it_is_met():
         met.append((approach, along))
         return Bounce(0.9, 0.0)
 
-    wall = Surface("wall", Segment((5 * ny, -5 * nx), (-5 * ny, 5 * nx)), 0.9, 0.0, law=law)
+    wall = Surface("wall", Circle((-5 * nx, -5 * ny), 5.0), 0.9, 0.0, law=law)
     vx, vy = -2.0 * nx + ny, -2.0 * ny - nx
     here = (R * nx - 0.1 * vx, R * ny - 0.1 * vy)
     there = (R * nx + 2 * R * ny, R * ny - 2 * R * nx)
