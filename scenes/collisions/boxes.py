@@ -26,20 +26,25 @@ PIN_CENTER, PIN_MOMENT = 0.382, 0.0564
 TOUCH = 1e-5
 
 
-class Box(Group):
-    """Something that is not round; it lies as ``angle`` says."""
+class Moving(Group):
+    """What the bench has in common."""
 
     name: str = Field(description="its name", min_length=1, max_length=40)
-    shape: Literal["box", "ellipse", "capsule", "pin"] = choice("box", "its outline")
     x: float = quantity(0.0, "m", -50, 50, "of its centre of mass, to the right")
     y: float = quantity(0.0, "m", -50, 50, "of its centre of mass, upward, or across a level bench")
-    angle: float = quantity(0.0, "deg", -360, 360, "how far it is turned, counter-clockwise")
-    width: float = quantity(0.1, "m", 0.001, 20, "along its own x")
-    height: float = quantity(0.1, "m", 0.001, 20, "along its own y")
     vx: float | None = quantity(None, "m/s", -50, 50, "along x; if vx and vy are left out, 0 or that of the launch")
     vy: float | None = quantity(None, "m/s", -50, 50, "along y")
     spin: float = quantity(0.0, "rad/s", -300, 300, "counter-clockwise")
     mass: float = quantity(0.17, "kg", 1e-3, 100, "mass")
+
+
+class Box(Moving):
+    """Something that is not round; it lies as ``angle`` says."""
+
+    shape: Literal["box", "ellipse", "capsule", "pin"] = choice("box", "its outline")
+    angle: float = quantity(0.0, "deg", -360, 360, "how far it is turned, counter-clockwise")
+    width: float = quantity(0.1, "m", 0.001, 20, "along its own x")
+    height: float = quantity(0.1, "m", 0.001, 20, "along its own y")
 
 
 def outline(it: Box) -> Shape:

@@ -21,7 +21,7 @@ from sandbox.engine.run import Run
 from sandbox.engine.setup import Ball, ContactModel, Force, Setup, Vector, kinetic
 from sandbox.engine.track import PRESSED
 from sandbox.errors import RequestError
-from sandbox.parameters import Group, SceneParameters, choice, group, groups, quantity
+from sandbox.parameters import SceneParameters, choice, group, groups, quantity
 from sandbox.physics.coefficients import Constant
 from sandbox.physics.forces import Drag, Gravity
 from sandbox.physics.integrators import State
@@ -32,21 +32,15 @@ from sandbox.sport.flight import Directed
 from sandbox.sport.readings import at
 from sandbox.sport.solids import Solid
 
-from .boxes import Box, body_of, closing
+from .boxes import Box, Moving, body_of, closing
 
 SPHERE_DRAG = 0.47  # of a smooth sphere before its drag crisis (Clift, Grace & Weber 1978)
 
 
-class Body(Group):
+class Body(Moving):
     """A ball on the bench; what is left out is that of a pool ball at rest."""
 
-    name: str = Field(description="name of the ball", min_length=1, max_length=40)
-    x: float = quantity(0.0, "m", -50, 50, "of its centre, to the right")
-    y: float = quantity(0.0, "m", -50, 50, "of its centre, upward, or across a level bench")
-    vx: float | None = quantity(None, "m/s", -50, 50, "along x; if vx and vy are left out, 0 or that of the launch")
-    vy: float | None = quantity(None, "m/s", -50, 50, "along y")
     spin: float = quantity(0.0, "rad/s", -10000, 10000, "counter-clockwise")
-    mass: float = quantity(0.17, "kg", 1e-3, 100, "mass")
     radius: float = quantity(0.028575, "m", 0.001, 1, "radius")
 
 
@@ -147,7 +141,7 @@ def build(it: Parameters) -> Setup:
     )
 
 
-def _velocity(it: Body | Box, launch: Launch) -> Vector:
+def _velocity(it: Moving, launch: Launch) -> Vector:
     """The velocity at the start in m/s: as listed, or that of the launch."""
     if it.name == launch.ball and it.vx is None and it.vy is None:
         return launch.velocity
