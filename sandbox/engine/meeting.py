@@ -147,7 +147,7 @@ def lifts(body: Ball, state: State, point: Vector, normal: Vector, applied: Acce
     spin2 = state[4] ** 2
     away = ax * nx + ay * ny + (x * ny - y * nx) * turning - spin2 * (x * nx + y * ny + bend)
     most = abs(ax) + abs(ay) + body.radius * (abs(turning) + spin2)
-    return bool(bend > 0.0 and most > PUSH and away >= -_SHARE * most)  # a sharp corner is followed by the next one
+    return bool(most > PUSH and away >= -_SHARE * most)
 
 
 def _meeting(
