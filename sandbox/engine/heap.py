@@ -25,7 +25,7 @@ import pymunk
 from sandbox.engine.accuracy import Accuracy
 from sandbox.engine.acting import checked
 from sandbox.engine.arc import Arc, still
-from sandbox.engine.meeting import Meeting, discs, meeting, returns, rounding, stays, surface_met, surfaces_met
+from sandbox.engine.meeting import Meeting, discs, kept, meeting, returns, rounding, surface_met
 from sandbox.engine.one_point import one_point
 from sandbox.engine.real_space import RealSpace, rolls, speeds_at
 from sandbox.engine.run import Numerics
@@ -175,12 +175,7 @@ class Heap:
             return False
         applied = self._applied(index, t, state)
         within = self.margin if index in self._members else TOUCHING_GAP
-        found = [
-            (obstacle, met, point)
-            for obstacle, met in surfaces_met(track.ball, track.obstacles, state, within)
-            for at, point in enumerate(met.points)
-            if stays(track.ball, state, obstacle, met, at, applied, self._settle)
-        ]
+        found = kept(track.ball, track.obstacles, state, within, applied, self._settle)
         alone = len(found) == 1 and one_point(track.ball, state, *found[0], applied) is not None
         return bool(found) and not alone
 

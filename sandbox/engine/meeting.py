@@ -118,15 +118,31 @@ def _later(lasts: float, state: State, applied: Acceleration) -> Pose:
     return pose_of((x + lasts * (vx + half * ax), y + lasts * (vy + half * ay), vx, vy, spin, *turned))
 
 
-def stays(
+def kept(
+    body: Ball, obstacles: Sequence[Obstacle], state: State, within: float, applied: Acceleration, height: float
+) -> list[tuple[Obstacle, Meeting, Vector]]:
+    """The points at which a body that touches surfaces, or is within that gap (m) of them, stays on them: it rises no
+    higher than for a bounce of ``height`` (m), or than the overlap by which a touch is found."""
+    stay = [
+        (obstacle, found, at)
+        for obstacle, found in surfaces_met(body, obstacles, state, within)
+        for at in range(len(found.points))
+        if _stays(body, state, obstacle, found, at, applied, height)
+    ]
+    if len(stay) == 1:  # with two, what one pushes may press the body on the other
+        _, found, at = stay[0]
+        if found.speeds[at][0] <= STILL and lifts(body, state, found.points[at], found.normal, applied):
+            return []
+    return [(obstacle, found, found.points[at]) for obstacle, found, at in stay]
+
+
+def _stays(
     body: Ball, state: State, obstacle: Obstacle, met: Meeting, at: int, applied: Acceleration, height: float
 ) -> bool:
-    """Whether a body that leaves a surface, at one of the points where they meet, rises no higher than for a bounce of
-    ``height`` (m), or than the overlap by which a touch is found."""
     approach = met.speeds[at][0]
     height = max(height, obstacle.surface.lowest_bounce, SKIN)
     if -approach <= max(leaves_at(hypot(*applied[:2]), height), rounding(body, state)):
-        return approach > STILL or not lifts(body, state, met.points[at], met.normal, applied)
+        return True
     shapes = outline_of(body), standing(obstacle.surface.shape).shape
     return approach == met.closing and returns(shapes, (state,), (applied,), met, height)
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from sandbox.engine.meeting import direction_to, standing, stays, surfaces_met
+from sandbox.engine.meeting import direction_to, kept, standing
 from sandbox.engine.one_point import one_point
 from sandbox.engine.setup import outline_of
 from sandbox.engine.touch import TOUCHING_GAP, Obstacle
@@ -19,12 +19,7 @@ class Turning(Track):
         self.contact = None
         slips, self._slips = self._slips, False
         applied = self._applied(t, self.state)
-        found = [
-            (obstacle, met, point)
-            for obstacle, met in surfaces_met(self.ball, self.obstacles, self.state, TOUCHING_GAP)
-            for at, point in enumerate(met.points)
-            if stays(self.ball, self.state, obstacle, met, at, applied, height)
-        ]
+        found = kept(self.ball, self.obstacles, self.state, TOUCHING_GAP, applied, height)
         if len(found) == 1:
             self.contact = one_point(self.ball, self.state, *found[0], applied, slips)
         if self.contact is not None:

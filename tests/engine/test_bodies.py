@@ -422,6 +422,15 @@ def test_a_box_that_falls_on_its_corner_tumbles_and_comes_to_rest():
     assert math.remainder(run.angle("body", run.duration), math.pi / 2) == pytest.approx(0.0, abs=2e-3)
 
 
+def test_what_slides_on_a_floor_presses_on_the_wall_it_meets():
+    """Free of the floor it would lift off the wall; the floor presses it on. It stalled in 13,000 impacts."""
+    wall = Surface("wall", Segment((0.0, 0.0), (0.0, 9.0)), 0.0, 0.1)
+    egg = thrown(Ellipse(0.55, 0.34), position=(0.6, 0.35), velocity=(-1.0, 0.0), spin=1.0)
+    run = run_of([egg], 2.0, [*floor(0.0, 0.1), wall])
+    assert run.numerics.impacts < 20
+    assert run.state("body", run.duration)[0] > 0.34 - 1e-9
+
+
 def test_a_box_slides_down_a_slope_as_the_textbook_says():
     """a = g (sin - mu cos)."""
     slope, friction = 0.5, 0.2
