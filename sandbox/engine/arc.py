@@ -67,7 +67,7 @@ class Arc:
     def position(self, t: float) -> tuple[float, float]:
         """x and y at time t, in m."""
         h = self.t1 - self.t0
-        x, y = self.curves[:2]
+        x, y = self.curves[0], self.curves[1]
         if h <= 0.0 or len(x) == 1:
             return x[0], y[0]
         u = min(1.0, max(0.0, (t - self.t0) / h))
@@ -81,7 +81,7 @@ class Arc:
     def box(self) -> tuple[float, float, float, float]:
         """Left, bottom, right, top (m) of a rectangle that holds the whole path."""
         if self._box is None:
-            x, y = self.curves[:2]
+            x, y = self.curves[0], self.curves[1]
             self._box = min(x), min(y), max(x), max(y)
         return self._box
 
@@ -93,7 +93,7 @@ class Arc:
     def fastest(self) -> float:
         """A speed in m/s that the ball does not exceed."""
         if self._fastest is None:
-            self._fastest = hypot(max(map(abs, self.vx)), max(map(abs, self.vy)))
+            self._fastest = hypot(max(map(abs, self.curves[2])), max(map(abs, self.curves[3])))
         return self._fastest
 
     def until(self, t: float) -> Arc:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from functools import lru_cache, partial
 from math import atan2, cos, hypot, sin
+from operator import attrgetter
 from typing import NamedTuple
 
 from sandbox.engine.accuracy import SKIN
@@ -33,6 +34,8 @@ _TURN = 0.1
 
 _IN_PLACE = Pose(0.0, 0.0, 0.0)
 
+_turns = attrgetter("turns")
+
 
 class Meeting(NamedTuple):
     """What is between two balls or bodies, or one and a surface, that touch or nearly do."""
@@ -50,7 +53,7 @@ class Meeting(NamedTuple):
 
 def discs(*balls: Ball) -> bool:
     """Whether these are all balls, whose distance is that of their centres."""
-    return not any(ball.turns for ball in balls)
+    return not any(map(_turns, balls))
 
 
 def rounding(body: Ball, state: State) -> float:

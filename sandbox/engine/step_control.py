@@ -95,9 +95,8 @@ def before_break(breaks: Iterable[Any], t: Any, h: Any) -> Any:
 
 def within(patches: Iterable[Patch], h: Any, state: State, acceleration: Acceleration) -> Any:
     """A step that ends before each patch, or is no longer than the patch allows."""
-    x, y, vx, vy = state[:4]
-    ax, ay, _ = acceleration
     for patch in patches:
+        (x, y, vx, vy), (ax, ay, _) = state[:4], acceleration
         while anywhere(h > patch.step):
             half = 0.5 * h
             xs = (x, x + half * vx, x + h * (vx + half * ax))  # control points of the predicted parabola

@@ -201,7 +201,7 @@ class Obstacle:
 
     def _side(self, arc: Arc) -> float | None:
         ax, ay, _, _, reach, _, tx, ty = self.outline
-        xs, ys = arc.curves[:2]
+        xs, ys = arc.curves[0], arc.curves[1]
         across = [(y - ay) * tx - (x - ax) * ty for x, y in zip(xs, ys, strict=True)]
         low, high = min(across), max(across)
         if low > reach or high < -reach:
@@ -238,7 +238,7 @@ def _corner(arc: Arc, x: float, y: float, radius: float) -> float | None:
     left, bottom, right, top = arc.box()
     if x - radius > right or x + radius < left or y - radius > top or y + radius < bottom:
         return None
-    return _first_within(arc.x, arc.y, (x, y), radius)
+    return _first_within(arc.curves[0], arc.curves[1], (x, y), radius)
 
 
 def _first_within(xs: Sequence[float], ys: Sequence[float], center: Point, radius: float) -> float | None:

@@ -8,7 +8,7 @@ between steps needs it anyway.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import cache
 from typing import Any, NamedTuple
 
@@ -73,25 +73,29 @@ _RATES = {"x": "vx", "y": "vy", "vx": "ax", "vy": "ay", "spin": "alpha", "angle"
 def _written_out(stages: Sequence[Stage], error: Sequence[float], names: Sequence[str]) -> Method:
     """The step of a state with these components as straight Python; loops over the weights take seven times as long.
 
-    A stage of Heun's method becomes ``h0 = dt * 1.0``, ``vx2 = vx1 + h0 * (ax1)``, the same for vy, and
-    ``ax2, ay2, alpha2 = law(t + dt * 1.0, (x1 + h0 * (vx1), y1 + h0 * (vy1), vx2, vy2, spin1 + h0 * (alpha1)))``.
+    A stage of Heun's method becomes ``vx2 = vx1 + dt * (ax1)``, the same for vy, and
+    ``ax2, ay2, alpha2 = law(t + dt, (x1 + dt * (vx1), y1 + dt * (vy1), vx2, vy2, spin1 + dt * (alpha1)))``; other
+    numbers than 1 are multiplied by dt once.
     """
+    used = {*error, *(w for time, *of_both in stages for w in (time, *sum(of_both, ())))} - {0.0, 1.0}
+    h = {number: f"h{place}" for place, number in enumerate(sorted(used))}
     rates = "ax", "ay", "alpha"
     coordinates = [name for name in names if _RATES[name] not in rates]
     lines = [f"{_at(1, names)} = state", f"{_at(1, rates)} = acceleration"]
+    lines += [f"{name} = dt * {number!r}" for number, name in h.items()]
+    h[1.0] = "dt"
     for number, stage in enumerate(stages, 2):
-        lines += _scaled("h", stage.weights) + _scaled("g", stage.of_velocities)
-        made = {name: f"{name}1 + {_sum('h', stage.weights, name)}" for name in names}
+        made = {name: f"{name}1 + {_sum(h, stage.weights, name)}" for name in names}
         for name in map(_RATES.__getitem__, coordinates):  # which later stages need
             lines.append(f"{name}{number} = {made[name]}")
             made[name] = f"{name}{number}"
         if stage.of_velocities:
-            made |= {name: f"{name}1 + {_sum('g', stage.of_velocities, name)}" for name in coordinates}
-        lines.append(f"{_at(number, rates)} = law(t + dt * {stage.time!r}, ({', '.join(made.values())}))")
+            made |= {name: f"{name}1 + {_sum(h, stage.of_velocities, name)}" for name in coordinates}
+        lines.append(f"{_at(number, rates)} = law(t + {h[stage.time]}, ({', '.join(made.values())}))")
     lines[-1] = f"end = {', '.join(made.values())}"
     lines.append(f"last = {_at(number, rates)} = law(t + dt, end)" if len(error) > len(stages) else "last = None")
-    errors = f"({', '.join(_sum('h', error, name) for name in names)})" if error else "None"
-    lines += [*_scaled("h", error), f"return Step(end, last, {errors})"]
+    errors = f"({', '.join(_sum(h, error, name) for name in names)})" if error else "None"
+    lines.append(f"return Step(end, last, {errors})")
     scope: dict[str, Any] = {"Step": Step}
     source = "\n ".join(["def step(law, t, state, acceleration, dt):", *lines])
     exec(compile(source, f"{__file__}:step", "exec"), scope)
@@ -104,18 +108,13 @@ def _at(number: int, names: Iterable[str]) -> str:
     return ", ".join(f"{name}{number}" for name in names)
 
 
-def _scaled(step: str, weights: Sequence[float]) -> list[str]:
-    """Lines that multiply each weight by the length of the step."""
-    return [f"{step}{weights.index(weight)} = dt * {weight!r}" for weight in dict.fromkeys(weights) if weight]
-
-
-def _sum(step: str, weights: Sequence[float], name: str) -> str:
+def _sum(h: Mapping[float, str], weights: Sequence[float], name: str) -> str:
     """The weighted sum of the rates of a component."""
     rates = {weight: "" for weight in weights if weight}
     for number, weight in enumerate(weights, 1):
         if weight:
             rates[weight] += f" + {_RATES[name]}{number}"
-    return " + ".join(f"{step}{weights.index(weight)} * ({rate[3:]})" for weight, rate in rates.items())
+    return " + ".join(f"{h[weight]} * ({rate[3:]})" for weight, rate in rates.items())
 
 
 _HALF = Stage(1 / 2, (1 / 2,))
