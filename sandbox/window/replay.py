@@ -11,12 +11,14 @@ from typing import Any
 
 from sandbox.engine.accuracy import Accuracy
 from sandbox.engine.arc import Arc
+from sandbox.engine.heap import Heaped
 from sandbox.engine.lasting import LastingContact
 from sandbox.engine.one_point import OnePoint
 from sandbox.engine.path import Path as Arcs
 from sandbox.engine.run import Event, Numerics, Run
 from sandbox.engine.setup import Ball, Setup
 from sandbox.engine.touch import Obstacle, Touching
+from sandbox.engine.track import PRESSED
 from sandbox.errors import RequestError
 from sandbox.files import reason, writing, written_whole
 from sandbox.scene import Scene, load
@@ -146,19 +148,22 @@ def run_of(scene: Scene, record: dict[str, Any]) -> Run:
 
 
 def _arc_data(arc: Arc, places: dict[int, int]) -> tuple[Any, ...]:
-    contact = None
-    if isinstance(arc.contact, LastingContact):
-        mode, obstacle, touching, direction, spin_rate = arc.contact
+    contact = arc.contact  # nothing, a name, or how far a heap moves it
+    if isinstance(contact, LastingContact):
+        mode, obstacle, touching, direction, spin_rate = contact
         contact = mode, places[id(obstacle.surface)], tuple(touching), direction, spin_rate
     return arc.t0, arc.t1, arc.start, arc.curves, contact, arc.end
 
 
 def _arc(item: Any, setup: Setup, ball: Ball) -> Arc:
     t0, t1, start, curves, contact, end = item
-    numbers = [start, *curves, *([] if end is None else [end])]
+    moved = contact if isinstance(contact, list | tuple) and len(contact) == len(Heaped._fields) else ()
+    numbers = [start, *curves, moved, *([] if end is None else [end])]
     if not all(map(_is_time, (t0, t1))) or not all(_is_number(part) for curve in numbers for part in curve):
         raise ValueError("a path contains something that is not a number")
-    if contact is not None:
+    if moved:
+        contact = Heaped(*moved)
+    elif contact is not None and contact != PRESSED:
         mode, place, (gap, nx, ny, curvature, center, feature), direction, spin_rate = contact
         touching = Touching(gap, nx, ny, curvature, tuple(center), feature)
         kind = OnePoint if ball.turns else LastingContact

@@ -12,7 +12,9 @@ import pytest
 from PIL import Image
 
 import sandbox
+from sandbox.engine.heap import Heaped
 from sandbox.engine.ledger import ledger
+from sandbox.engine.track import PRESSED
 from sandbox.errors import RequestError
 from sandbox.window import export, replay, sound
 from sandbox.window.session import Session
@@ -45,6 +47,15 @@ class TestReplays:
         assert session.changes.values == {"launch.speed": 2.5}
         assert ledger(again.run) == ledger(shot.run)
         assert again.run.numerics == shot.run.numerics
+
+    @pytest.mark.parametrize("source", ["collisions/tumbling-box", "collisions/cradle-3"])
+    def test_it_knows_what_pressed_on_what(self, source, shot_of):
+        run = shot_of(Session(source)).run
+        again = replay.run_of(run.scene, json.loads(json.dumps(replay.data_of(run))))
+        contacts = [[arc.contact for path in each.arcs.values() for arc in path] for each in (run, again)]
+        assert sum(contact == PRESSED or isinstance(contact, Heaped) for contact in contacts[1]) > 10
+        assert [*map(type, contacts[1])] == [*map(type, contacts[0])]
+        assert ledger(again) == ledger(run)
 
     def test_simulated_again_it_is_the_same(self, recorded):
         assert "identical to the last bit" in replay.compared(recorded[0].run, replay.read(recorded[1])[1].run)
