@@ -9,13 +9,12 @@ from typing import Literal, NamedTuple
 
 from pydantic import Field
 
-from sandbox.engine.meeting import meeting, standing
+from sandbox.engine.meeting import standing
 from sandbox.engine.nearest import Nearest, Pose, meeting_points, nearest
 from sandbox.engine.run import Run
 from sandbox.engine.setup import Body, Force, Segment, Vector, outline_of
 from sandbox.engine.shapes import Ellipse, Polygon, Shape, box, capsule
 from sandbox.parameters import Group, choice, quantity
-from sandbox.physics.integrators import State
 
 #: Heights above the lane and diameters of a bowling pin, as shares of its height of 15 in (USBC); the neck is filled.
 PIN = ((0.0, 0.150), (0.05, 0.1885), (0.15, 0.2604), (0.225, 0.3007), (0.3, 0.3177), (0.9, 0.1698), (0.98, 0.093))
@@ -120,10 +119,3 @@ def strip(run: Run, t: float) -> Strip | None:
 
 def _length(gap: float) -> str:
     return f"{gap:.2f} m" if gap >= 1.0 else f"{100 * gap:.1f} cm" if gap >= 1e-3 else f"{1000 * gap:.2f} mm"
-
-
-def closing(run: Run, pair: list[str], states: dict[str, State], t: float) -> float:
-    """Speed in m/s at which two outlines that touch at t approach where they touch; negative where they part."""
-    one, other = (next(ball for ball in run.setup.balls if ball.name == name) for name in pair)
-    here, there = ((*states[name], run.angle(name, t)) for name in pair)
-    return meeting(one, here, other, there, TOUCH).closing

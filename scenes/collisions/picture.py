@@ -96,13 +96,16 @@ class Picture(AboveView[Parameters]):
         return self.told
 
     def annotate(self, sheet: Sheet, camera: Camera) -> None:
-        """The line of action, and the velocities that the blow changes, before (pale) and after it."""
+        """The line of action, along the normal where they touch, and the velocities that the blow changes, before
+        (pale) and after it."""
         met = self.met
         if met is None:
             return
         self._sums(sheet, met)
         painter, unit = sheet.painter, self.unit
-        a, b = (np.array(met.before[name][:2]) for name in met.pair)
+        touching = met.touching(met.before)
+        point, normal = np.mean(touching.points, axis=0), np.array(touching.normal)
+        a, b = (point + np.dot(met.before[name][:2] - point, normal) * normal for name in met.pair)
         line = [camera.pixel(*(at + way * (b - a))) for at, way in ((a, -1.2), (b, 1.2))]
         painter.dashes(line, 1.6 * unit, CARD["accent"], 7 * unit, 5 * unit)
         speeds = {name: [np.array(states[name][2:4]) for states in (met.before, met.after)] for name in self.balls}

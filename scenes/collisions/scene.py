@@ -11,12 +11,12 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import accumulate, pairwise
-from math import cos, dist, hypot, pi, sin
+from math import cos, hypot, pi, sin
 from typing import Any, Literal, NamedTuple
 
 from pydantic import Field
 
-from sandbox.engine.meeting import discs
+from sandbox.engine.meeting import Meeting, meeting
 from sandbox.engine.run import Run
 from sandbox.engine.setup import Ball, ContactModel, Force, Setup, Vector, kinetic
 from sandbox.engine.track import PRESSED
@@ -32,7 +32,7 @@ from sandbox.sport.flight import Directed
 from sandbox.sport.readings import at
 from sandbox.sport.solids import Solid
 
-from .boxes import Box, Moving, body_of, closing
+from .boxes import TOUCH, Box, Moving, body_of
 
 SPHERE_DRAG = 0.47  # of a smooth sphere before its drag crisis (Clift, Grace & Weber 1978)
 
@@ -160,13 +160,17 @@ class Blow(NamedTuple):
     t: float  # s
     run: Run
 
-    def closing(self, states: States) -> float:
-        """Speed in m/s at which the two approach along the line of action; negative where they part."""
-        if not discs(*(ball for ball in self.run.setup.balls if ball.name in self.pair)):
-            return closing(self.run, self.pair, states, self.t)
-        a, b = (self.before[name][:2] for name in self.pair)
-        (_, _, ux, uy, _), (_, _, vx, vy, _) = (states[name] for name in self.pair)
-        return ((ux - vx) * (b[0] - a[0]) + (uy - vy) * (b[1] - a[1])) / dist(a, b)
+    def touching(self, states: States) -> Meeting:
+        """How the two touch, with the speeds that they have in these states."""
+        one, other = (next(ball for ball in self.run.setup.balls if ball.name == name) for name in self.pair)
+        here, there = (
+            (*self.before[ball.name][:2], *states[ball.name][2:], *self._angle(ball)) for ball in (one, other)
+        )
+        return meeting(one, here, other, there, TOUCH)
+
+    def _angle(self, ball: Ball) -> tuple[float, ...]:
+        """Of a body, in rad."""
+        return (self.run.angle(ball.name, self.t),) if ball.turns else ()
 
 
 @once
@@ -231,8 +235,8 @@ def _sums(what: str) -> tuple[Fact, Fact]:
 
 FACTS = (
     Fact("lost", "energy lost", "%", _lost),
-    Fact("approach", "approach", "m/s", at(blow, lambda met, _: met.closing(met.before))),
-    Fact("separation", "separation", "m/s", at(blow, lambda met, _: -met.closing(met.after))),
+    Fact("approach", "approach", "m/s", at(blow, lambda met, _: met.touching(met.before).closing)),
+    Fact("separation", "separation", "m/s", at(blow, lambda met, _: -met.touching(met.after).closing)),
     Fact("first_after", "first ball", "m/s", at(blow, lambda met, _: hypot(*next(iter(met.after.values()))[2:4]))),
     Fact("fastest", "fastest", "m/s", at(blow, lambda met, _: max(hypot(*state[2:4]) for state in met.after.values()))),
     Fact("falls", "blows of the floor", "", _falls),
