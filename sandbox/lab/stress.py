@@ -20,8 +20,11 @@ import numpy as np
 from sandbox.engine import simulate
 from sandbox.engine.accuracy import LEVELS, Accuracy
 from sandbox.engine.ledger import ledger
+from sandbox.engine.meeting import discs, standing
+from sandbox.engine.nearest import Pose, nearest
 from sandbox.engine.run import Run
-from sandbox.engine.setup import Circle, Surface, kinetic
+from sandbox.engine.setup import Ball, Circle, Surface, kinetic, outline_of
+from sandbox.engine.shapes import Shape
 from sandbox.engine.track import PRESSED
 from sandbox.errors import RequestError, SandboxError
 from sandbox.lab.extremes import Extreme, bare, of_scene
@@ -169,12 +172,23 @@ def _overlap(run: Run) -> tuple[float, str]:
     """The deepest overlap in m of any ball with anything, and what a ball passed through, if anything."""
     deepest, through = 0.0, ""
     for ball in run.setup.balls:
-        path = run.trajectory(ball.name, max(run.duration, 1e-9) / _SAMPLES, ends=True)[:, 1:3]
+        rows = run.trajectory(ball.name, max(run.duration, 1e-9) / _SAMPLES, ends=True)
+        path = rows[:, 1:3]
         for surface in run.setup.surfaces:
-            deepest = max(deepest, ball.radius - float(_clearance(path, surface).min()))
+            gaps = _clearance(path, surface) - ball.radius
+            if ball.turns:  # the disc around it may overlap: its outline counts
+                fixed = standing(surface.shape).shape
+                close = rows[gaps < 0.0, 0]
+                gaps = np.array([nearest(*_outline(run, ball, t), fixed, Pose(0.0, 0.0, 0.0)).gap for t in close])
+            deepest = max(deepest, -float(gaps.min(initial=0.0)))
             if not through and _crosses(path, surface):
                 through = surface.name
     return max(deepest, _overlap_of_balls(run)), through
+
+
+def _outline(run: Run, ball: Ball, t: float) -> tuple[Shape, Pose]:
+    """The outline of a ball or body, and where it is."""
+    return outline_of(ball), Pose(*run.state(ball.name, t)[:2], run.angle(ball.name, t) if ball.turns else 0.0)
 
 
 def _clearance(path: np.ndarray, surface: Surface) -> np.ndarray:
@@ -224,7 +238,10 @@ def _overlap_of_balls(run: Run) -> float:
         places = np.array([run.state(ball.name, t)[:2] for ball in there])
         radii = np.array([ball.radius for ball in there])
         gaps = np.hypot(*(places[:, None] - places[None]).transpose(2, 0, 1)) - radii[:, None] - radii[None]
-        deepest = max(deepest, -float(gaps[np.triu_indices(len(there), 1)].min(initial=0.0)))
+        for i, j in np.argwhere(np.triu(gaps < -deepest, 1)):
+            one, other = there[i], there[j]
+            gap = gaps[i, j] if discs(one, other) else nearest(*_outline(run, one, t), *_outline(run, other, t)).gap
+            deepest = max(deepest, -float(gap))
     return deepest
 
 

@@ -13,7 +13,8 @@ from sandbox.cli import main
 from sandbox.engine import simulate
 from sandbox.engine.accuracy import LEVELS, resolve
 from sandbox.engine.run import Run
-from sandbox.engine.setup import Ball, Circle, Segment, Setup, Surface
+from sandbox.engine.setup import Ball, Body, Circle, Segment, Setup, Surface
+from sandbox.engine.shapes import box
 from sandbox.lab import stress as lab
 from sandbox.lab.extremes import Extreme, bare, of_scene
 from sandbox.lab.stress import FAILED, HELD, REFUSED, Outcome, tried
@@ -141,6 +142,16 @@ def test_a_state_that_is_no_number_is_seen(monkeypatch: pytest.MonkeyPatch):
     run = simulate(dropped(), resolve())
     run.arcs["ball"][-1].end = (nan, 0.0, 0.0, 0.0, 0.0)
     assert "NaN" in examined(monkeypatch, run).message
+
+
+@pytest.mark.parametrize(("deep", "outcome"), [(0.0, HELD), (0.01, FAILED)])
+def test_of_a_body_its_outline_counts(monkeypatch: pytest.MonkeyPatch, deep: float, outcome: str):
+    bodies = [Body(str(y), position=(0.0, y), shape=box(0.8, 0.2)) for y in (0.1, 0.3)]
+    run = simulate(Setup(bodies, duration=0.01), resolve())
+    run.setup = replace(run.setup, surfaces=[Surface("floor", Segment((-1.0, deep), (1.0, deep)), 0.5, 0.5)])
+    found = examined(monkeypatch, run)
+    assert found.outcome == outcome
+    assert found.penetration_m == pytest.approx(deep, abs=1e-9)
 
 
 def test_two_balls_in_each_other_are_seen(monkeypatch: pytest.MonkeyPatch):
