@@ -146,7 +146,7 @@ def test_a_state_that_is_no_number_is_seen(monkeypatch: pytest.MonkeyPatch):
 
 @pytest.mark.parametrize(("deep", "outcome"), [(0.0, HELD), (0.01, FAILED)])
 def test_of_a_body_its_outline_counts(monkeypatch: pytest.MonkeyPatch, deep: float, outcome: str):
-    bodies = [Body(str(y), position=(0.0, y), shape=box(0.8, 0.2)) for y in (0.1, 0.3)]
+    bodies = [Body(str(y), position=(0.0, y), shape=box(0.8, 0.2), mass=1.0) for y in (0.1, 0.3)]
     run = simulate(Setup(bodies, duration=0.01), resolve())
     run.setup = replace(run.setup, surfaces=[Surface("floor", Segment((-1.0, deep), (1.0, deep)), 0.5, 0.5)])
     found = examined(monkeypatch, run)
