@@ -76,7 +76,7 @@ class Impacts:
         # Walls softer than balls push back after the balls have separated.
         model = setup.contact
         self._all_soft = len(setup.balls) > 1 and model.name != "rigid" and model.wall_stiffness == 0.0
-        self._some_soft = self._all_soft or any(surface.nose_height is not None for surface in setup.surfaces)
+        self._some_soft = self._all_soft or any(map(self._soft, setup.surfaces))
         self._all_round = discs(*setup.balls)
         self._heaviest = max(ball.mass for ball in setup.balls)  # kg
 
@@ -162,14 +162,16 @@ class Impacts:
         join, a point of both counts once."""
         for index in states:
             track, met = self._tracks[index], list[tuple[float, ...]]()
-            for obstacle, found in surfaces_met(track.ball, track.obstacles, states[index], self.gap):
-                if (self._all_soft or obstacle.surface.nose_height is not None) not in softness:
-                    continue
+            asked = [each for each in track.obstacles if self._soft(each.surface) in softness]
+            for obstacle, found in surfaces_met(track.ball, asked, states[index], self.gap):
                 for number, point in enumerate(found.points):
                     place = *point, *(track.ball.radius * part for part in found.normal)
                     if all(dist(place, other) > _SAME_POINT * track.ball.radius for other in met):
                         met.append(place)
                         yield self._with_surface(index, states[index], obstacle.surface, found, number)
+
+    def _soft(self, surface: Surface) -> bool:
+        return self._all_soft or surface.nose_height is not None
 
     def _with_surface(self, index: int, state: State, surface: Surface, found: Meeting, number: int) -> Contact:
         """At one of the points where they meet; what depends on the speed along takes that of the centre."""

@@ -17,13 +17,9 @@ Acceleration = tuple[Any, Any, Any]
 Law = Callable[[Any, State], Acceleration]
 
 
-class Step(NamedTuple):
-    """The state after one step, and by-products of the method."""
-
-    state: State
-    acceleration: Acceleration | None = None  # at the new state, where the method evaluates it
-    error: State | None = None  # estimated local error, for an embedded pair
-
+#: The state after one step, the acceleration there if the method evaluates it, and an embedded pair's estimate of the
+#: local error.
+Step = tuple[State, Acceleration | None, State | None]
 
 #: ``method(law, t, state, acceleration, dt)`` makes one step.
 Method = Callable[[Law, Any, State, Acceleration, Any], Step]
@@ -95,8 +91,8 @@ def _written_out(stages: Sequence[Stage], error: Sequence[float], names: Sequenc
     lines[-1] = f"end = {', '.join(made.values())}"
     lines.append(f"last = {_at(number, rates)} = law(t + dt, end)" if len(error) > len(stages) else "last = None")
     errors = f"({', '.join(_sum(h, error, name) for name in names)})" if error else "None"
-    lines.append(f"return Step(end, last, {errors})")
-    scope: dict[str, Any] = {"Step": Step}
+    lines.append(f"return end, last, {errors}")
+    scope: dict[str, Any] = {}
     source = "\n ".join(["def step(law, t, state, acceleration, dt):", *lines])
     exec(compile(source, f"{__file__}:step", "exec"), scope)
     method: Method = scope["step"]
