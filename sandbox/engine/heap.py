@@ -17,7 +17,7 @@ from __future__ import annotations
 from collections.abc import Collection, KeysView, Mapping, Sequence
 from functools import cached_property
 from itertools import combinations
-from math import hypot, inf
+from math import hypot, inf, prod
 from typing import NamedTuple
 
 import pymunk
@@ -29,10 +29,11 @@ from sandbox.engine.meeting import Meeting, discs, kept, meeting, returns, round
 from sandbox.engine.one_point import one_point
 from sandbox.engine.real_space import RealSpace, rolls, speeds_at
 from sandbox.engine.run import Numerics
-from sandbox.engine.setup import Ball, Setup, Surface, outline_of
+from sandbox.engine.setup import Ball, Segment, Setup, Surface, Vector, outline_of
 from sandbox.engine.surfaces import STILL, bounce_of_balls, bounce_off, press
 from sandbox.engine.touch import TOUCHING_GAP, Obstacle
 from sandbox.engine.track import Track
+from sandbox.errors import RunError
 from sandbox.physics.integrators import Acceleration, State
 
 #: Gap, as a fraction of the smallest radius, up to which shapes are in contact in a heap: at rest they stay in touch.
@@ -57,6 +58,10 @@ _REST_TIME = 0.25
 
 #: How much shorter steps are where bodies lie on others: one that turns comes down deeper than a ball does.
 _FINER = 3.0
+
+#: Share of the thickness of the thinnest body that what meets in a step may move, and how much shorter than otherwise
+#: steps get for that at most.
+_THIN, _FINEST = 0.1, 32.0
 
 #: Share of an overlap that is left after a step.
 _LEFT = 0.6
@@ -106,6 +111,7 @@ class Heap:
         self._slow_for = 0.0  # s
         self._forced = 0.0  # m/s^2, the largest acceleration by forces in this step
         self._fastest = 0.0  # m/s, approach in the heap that is no impact of its own
+        self._thin = min((_thickness(ball) for ball in setup.balls if ball.turns), default=inf)  # m
         self._h, self._t = 0.0, 0.0  # s, the length of this step and its start
         self.margin = _MARGIN * min(ball.radius for ball in setup.balls)  # m, gap up to which shapes touch
 
@@ -184,7 +190,8 @@ class Heap:
 
         The step is half a drift, the impulses of forces and contacts, and half a drift; none goes beyond ``until``.
         """
-        self._h = h = min(self._longest, until - t)
+        thin = max(_THIN * self._thin, self._fastest * self._longest / _FINEST)
+        self._h = h = min(self._longest, thin / max(self._fastest, STILL), until - t)
         self._t = t
         fresh = states.keys() - self._members.keys()
         self._take(states)
@@ -220,7 +227,21 @@ class Heap:
         if self._slow_for >= _REST_TIME:
             at_rest = {index: (*states[index][:2], 0.0, 0.0, 0.0, *states[index][5:]) for index in sorted(held)}
             return {index: still(t, until, state, Heaped()) for index, state in at_rest.items()}
-        return {index: self._arc(t, self._members[index]) for index in sorted(held)}
+        arcs = {index: self._arc(t, self._members[index]) for index in sorted(held)}
+        for index, arc in arcs.items():
+            self._refuse_leap(index, arc)
+        return arcs
+
+    def _refuse_leap(self, index: int, arc: Arc) -> None:
+        """Raise RunError if a body's centre passed through a surface: it was too thin for the step."""
+        ball, ends = self._tracks[index].ball, (arc.position(arc.t0), arc.position(arc.t1))
+        for surface in self._setup.surfaces if ball.turns else ():
+            shape = surface.shape
+            if isinstance(shape, Segment) and _apart(shape.a, shape.b, *ends) and _apart(*ends, shape.a, shape.b):
+                raise RunError(
+                    f"t = {arc.t1:.6g} s, ball {ball.name!r}: it is so thin that others pressed it through "
+                    f"{surface.name!r}; lower accuracy.step"
+                )
 
     def _swing(self, index: int, state: State) -> float:
         """The acceleration in m/s^2 of a turning body's farthest point: it presses on others without a force, too."""
@@ -336,6 +357,17 @@ class Heap:
             here.resist(self._setup.surfaces[self._real.surface_of[second]], push / self._h, height)
         if not (on_surface and discs(here.ball)) and push > _PRESSURE * here.ball.mass * self._forced * self._h:
             self._pressed[frozenset((i,) if on_surface else (i, self._of_disc[second]))] = self._steps
+
+
+def _thickness(body: Ball) -> float:
+    """Of a body across its long side, in m."""
+    return outline_of(body).mass_properties().area / (2.0 * body.radius)
+
+
+def _apart(a: Vector, b: Vector, one: Vector, other: Vector) -> bool:
+    """Whether two points are on different sides of the line through a and b."""
+    sides = ((b[0] - a[0]) * (y - a[1]) - (b[1] - a[1]) * (x - a[0]) for x, y in (one, other))
+    return prod(sides) < 0.0
 
 
 def _speeds(arbiter: pymunk.Arbiter, here: _Member, there: _Member | None) -> tuple[float, float, float]:

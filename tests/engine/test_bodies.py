@@ -644,3 +644,18 @@ def test_random_pairs_neither_tunnel_nor_gain_energy_nor_stall(seed: int):
         gap = nearest(bodies[0].outline, poses[0], bodies[1].outline, poses[1]).gap
         assert gap > -4e-3 * min(body.radius for body in bodies)  # what a heap leaves
         assert all(pose.y > 0.0 and pose.x > -4.0 for pose in poses)
+
+
+@pytest.mark.parametrize(("thickness", "heavier", "refused"), [(2e-5, 10.0, False), (4e-5, 50.0, True)])
+def test_a_sheet_under_a_crate_does_not_fall_through_the_floor(thickness: float, heavier: float, refused: bool):
+    """In steps of 1.4 ms, which are short for what is larger, both did. Where shorter ones do not help either it
+    is an error."""
+    sheet = thrown(box(2e-3, thickness), mass=1e-3, position=(0.0, 1.4e-3), angle=0.9, spin=1.0)
+    crate = thrown(box(2e-3, 2e-3), mass=1e-3 * heavier, position=(6e-4, 4.4e-3), angle=0.3)
+    bodies = [replace(sheet, name="sheet"), replace(crate, name="crate")]
+    if refused:
+        with pytest.raises(RunError, match="'sheet': it is so thin that others pressed it through 'floor'"):
+            run_of(bodies, 0.15, floor(0.5, 0.5))
+    else:
+        run = run_of(bodies, 0.15, floor(0.5, 0.5))
+        assert min(run.state(name, run.duration)[1] for name in run.arcs) > 0.4 * thickness
