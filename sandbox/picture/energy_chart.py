@@ -129,11 +129,13 @@ def _name(sheet: Sheet, plot: pygame.Rect, bands: Sequence[Band], spots: Sequenc
         sheet.painter.line([(near, end), (far, row)], max(1.0, sheet.unit), band.colour)
         sheet.write(_said(band), "small", (far + gap / 2, row), band.light, "midleft", bold=True)
     for band, spot in zip(bands, spots, strict=True):
-        x, y, thick = spot[int(spot[:, 2].argmax())]
-        if spot[-1, 2] < 1.0 and thick > tall + gap:
-            half = sheet.lettering.width(band.name, "small", bold=True) / 2 + gap
-            x = min(max(x, plot.left + half), plot.right - half)
-            sheet.label(band.name, "small", [(x, y, "center")], CHART["ground"], bold=True)
+        columns, rows, thick = spot.T
+        half = sheet.lettering.width(band.name, "small", bold=True) / 2 + gap
+        room = [thick[np.abs(columns - x) <= half].min() for x in np.clip(columns, plot.left + half, plot.right - half)]
+        widest = int(np.argmax(room))
+        if thick[-1] < 1.0 and room[widest] > tall + gap:
+            x = min(max(columns[widest], plot.left + half), plot.right - half)
+            sheet.label(band.name, "small", [(x, rows[widest], "center")], CHART["ground"], bold=True)
 
 
 def _said(band: Band) -> str:

@@ -126,6 +126,15 @@ def test_a_chart_says_what_was_put_in_and_its_shares_are_of_one_whole(sheets):
     assert sum(shares) == pytest.approx(100.0, abs=0.05 * len(shares))
 
 
+def test_a_name_within_a_band_stays_in_it(sheets):
+    picture = energy_chart(run_of("collisions/tumbling-box"))
+    rects = dict(sheets[0].written)
+    for name in ("height", "speed", "spin"):
+        rect = rects[name]
+        for corner in (rect.topleft, rect.bottomleft, (rect.right, rect.top), (rect.right, rect.bottom)):
+            assert picture.get_at(corner)[:3] == pytest.approx(chart.CHART[name], abs=6), name
+
+
 def test_a_cause_has_its_words_and_its_own_colour_in_every_chart():
     bands = {
         name: {band[0]: band[2] for band in bands_of(course(run_of(name)))} for name in ("golf/pond", "golf/splash")
