@@ -37,9 +37,8 @@ def bounce_of_balls(setup: Setup, approach: float, slip: float, ball: str, partn
 
 def _valid(bounce: Bounce, partner: str) -> Bounce:
     """The bounce off ``partner``, unchanged. Raises RunError if it is invalid: Chipmunk would abort the program."""
-    if not isinstance(bounce, Bounce) or not all(
-        isinstance(value, (float, Real)) for value in bounce
-    ):  # an ABC alone is slow
+    # float first: Real alone takes five times as long
+    if not isinstance(bounce, Bounce) or not all(isinstance(value, (float, Real)) for value in bounce):
         raise RunError(
             f"a ball meets {partner!r}: the scene's law must return a Bounce of numbers, such as "
             f"Bounce(restitution=0.7, friction=0.3), and returned {bounce!r:.60}"
