@@ -10,7 +10,6 @@ os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
 os.environ.setdefault("SDL_AUDIODRIVER", "dummy")
 
 import pygame
-import pygame_gui
 import pytest
 
 from sandbox.picture.lettering import Lettering
@@ -89,10 +88,6 @@ class Player:
             self.move((round(x + part * by[0]), round(y + part * by[1])))
         if let_go:
             self.release((x + by[0], y + by[1]))
-
-    def turn_to(self, group: str) -> None:
-        """Choose a group of the panel's parameters."""
-        self.send(pygame_gui.UI_DROP_DOWN_MENU_CHANGED, ui_element=self.view.panel.chooser, text=group)
 
     @property
     def sheet(self) -> Canvas:
