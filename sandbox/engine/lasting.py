@@ -26,7 +26,7 @@ _PRESSING = 1e-9
 _LONGEST_TURN = 0.3
 
 #: A ball that needs all the available grip still rolls.
-_WITHIN_ROUNDING = 1.0 + 1e-9
+WITHIN_ROUNDING = 1.0 + 1e-9
 
 
 class LastingContact(NamedTuple):
@@ -153,7 +153,7 @@ def _rolling(
     needed = _friction_of_rolling(ball, along, turning)
     friction = needed - direction * surface.rolling_resistance * pressed
     friction = max(-grip, min(grip, friction))
-    return along + friction, grip * _WITHIN_ROUNDING - abs(needed)
+    return along + friction, grip * WITHIN_ROUNDING - abs(needed)
 
 
 def _friction_of_rolling(ball: Ball, along: float, turning: float) -> float:

@@ -12,7 +12,7 @@ from sandbox.engine.accuracy import SKIN
 from sandbox.engine.nearest import Pose, meeting_points, nearest
 from sandbox.engine.setup import Ball, Circle, Segment, Vector, outline_of
 from sandbox.engine.shapes import Polygon, Shape
-from sandbox.engine.surfaces import STILL, leaves_at, speeds_where_touching
+from sandbox.engine.surfaces import PUSH, STILL, leaves_at, speeds_where_touching
 from sandbox.engine.touch import Near, Obstacle, balls_touch, touched
 from sandbox.engine.track import Track
 from sandbox.engine.turning_touch import Mover, first_touch, fixed, pose_of
@@ -22,9 +22,6 @@ Speeds = tuple[float, float, float]
 
 #: Share of the speeds of two bodies that is rounding in that at which they part.
 _ROUNDING = 1e-7
-
-#: Acceleration in m/s^2, or rad/s^2 times the radius, that is rounding.
-PUSH = 1e-9
 
 #: Share of the accelerations that is rounding in what presses a body on a side.
 _SHARE = 1e-9

@@ -21,11 +21,11 @@ from math import atan2, copysign, cos, inf, remainder, sin
 from typing import NamedTuple
 
 from sandbox.engine.arc import Arc, crossing
-from sandbox.engine.lasting import RESTING, ROLLING, SLIDING, LastingContact
-from sandbox.engine.meeting import PUSH, Meeting, lifts
+from sandbox.engine.lasting import RESTING, ROLLING, SLIDING, WITHIN_ROUNDING, LastingContact
+from sandbox.engine.meeting import Meeting, lifts
 from sandbox.engine.setup import Ball, Vector, outline_of
 from sandbox.engine.shapes import Polygon
-from sandbox.engine.surfaces import STILL
+from sandbox.engine.surfaces import PUSH, STILL
 from sandbox.engine.touch import SIDE, Obstacle, Touching
 from sandbox.physics.integrators import Acceleration, State
 
@@ -38,9 +38,6 @@ _LONGEST_TURN, _SLOW = 0.35, 0.7
 
 #: Turn in rad, or way in m, from the next point of contact that is rounding: as when a body leaves what it lay on.
 _FLUSH = 1e-13
-
-#: A body that needs all the available grip still rolls.
-_WITHIN_ROUNDING = 1.0 + 1e-9
 
 
 class _Arm(NamedTuple):
@@ -104,7 +101,7 @@ class OnePoint(LastingContact):
             determinant = across * level - lever * pressing * height / inertia
             normal = (into * level - against * lever) / determinant
             rub = (against * across - into * pressing * height / inertia) / determinant
-            spare = friction * normal * _WITHIN_ROUNDING - abs(rub)
+            spare = friction * normal * WITHIN_ROUNDING - abs(rub)
         turning += (pressing * normal + height * rub) / inertia
         return (ax + normal * nx + rub * ny, ay + normal * ny - rub * nx, turning), normal, spare
 
@@ -170,21 +167,22 @@ def one_point(
         return None
     slip, speed = rolling.slip(ball, state), abs(state[2] * ny - state[3] * nx) + ball.radius * abs(state[4])
     if abs(slip) > STILL * (1.0 + speed):
-        return _sliding(rolling, ball, rolling.arm(ball, state), 1.0 if slip > 0.0 else -1.0)
+        return _sliding(rolling, ball, state, 1.0 if slip > 0.0 else -1.0)
     at_rest = speed <= STILL
     starts = rolling.forces(ball, applied, state)[0][2] if at_rest else state[4]
     rolling = rolling._replace(direction=copysign(1.0, starts))
     (ax, ay, turning), _, spare = rolling.forces(ball, applied, state)
     if slips or spare < 0.0 or obstacle.surface.friction == 0.0:
         rub = (ax - applied[0]) * ny - (ay - applied[1]) * nx  # against the way in which it starts to slip
-        return _sliding(rolling, ball, rolling.arm(ball, state), -1.0 if rub > 0.0 else 1.0)
+        return _sliding(rolling, ball, state, -1.0 if rub > 0.0 else 1.0)
     if at_rest and ball.radius * rolling.direction * turning <= PUSH:
         return OnePoint(RESTING, obstacle, touching)
     return rolling
 
 
-def _sliding(rolling: OnePoint, ball: Ball, arm: _Arm, direction: float) -> OnePoint | None:
+def _sliding(rolling: OnePoint, ball: Ball, state: State, direction: float) -> OnePoint | None:
     """The same contact, sliding; None if it would jam."""
+    arm = rolling.arm(ball, state)
     inertia, lever = ball.inertia / ball.mass, rolling.obstacle.surface.friction * arm.along * arm.height
     if direction * lever > _JAMS * (inertia + arm.along**2):
         return None

@@ -381,9 +381,9 @@ class Setup:
                 raise ValueError(f"two balls are named {name!r}: names must be unique")
         if self.planes and self.plane is None:
             raise ValueError("a setup with planes for some balls needs a plane for all others")
-        if self.plane is not None and any(ball.turns for ball in self.balls):
-            raise ValueError("bodies cannot move on a plane seen from above: only balls can")
         if any(ball.turns for ball in self.balls):
+            if self.plane is not None:
+                raise ValueError("bodies cannot move on a plane seen from above: only balls can")
             if self.contact.name == "hertz":
                 raise ValueError('contact model "hertz" is for balls: bodies meet as rigid ones')
             if cushion := next((surface.name for surface in self.surfaces if surface.nose_height is not None), None):

@@ -22,6 +22,9 @@ CLOSING = 1e-9
 #: Speed in m/s, away from a surface or along it, below which it is rounding.
 STILL = 1e-10
 
+#: Acceleration in m/s^2, or rad/s^2 times the radius, that is rounding.
+PUSH = 1e-9
+
 
 def bounce_off(surface: Surface, approach: float, along: float) -> Bounce:
     """How a surface responds to an impact at these speeds (m/s). Raises RunError for invalid values."""

@@ -17,7 +17,7 @@ from sandbox.engine.lasting import RESTING, ROLLING, SLIDING, LastingContact, co
 from sandbox.engine.run import Numerics
 from sandbox.engine.setup import Ball, Setup
 from sandbox.engine.step_control import LONGEST, StepControl, before_break, within
-from sandbox.engine.surfaces import STILL, leaves_at, press
+from sandbox.engine.surfaces import PUSH, STILL, leaves_at, press
 from sandbox.engine.touch import TOUCHING_GAP, Near, Obstacle, flush, touched
 from sandbox.errors import RunError
 from sandbox.physics.integrators import Acceleration, Law, State
@@ -27,9 +27,6 @@ PRESSED = "pressed"
 
 #: Difference in m/s and rad/s below which it is rounding.
 _SAME = 1e-9
-
-#: Acceleration in m/s^2 into a surface below which it is rounding.
-_PUSH = 1e-9
 
 #: How a ball moves exactly at the end of an arc that ended for one of these reasons.
 _BECOMES = {"grip": ROLLING, "stop": RESTING}
@@ -272,7 +269,7 @@ class Track:
                 (obstacle, other)
                 for obstacle, other in near
                 if not flush(other, contact.touching)
-                and (by := -(ax * other.nx + ay * other.ny)) > _PUSH
+                and (by := -(ax * other.nx + ay * other.ny)) > PUSH
                 and vx * other.nx + vy * other.ny <= leaves_at(by, max(height, obstacle.surface.lowest_bounce))
             ]
             if not against:

@@ -16,12 +16,12 @@ of one by speed alone.
 
 from __future__ import annotations
 
-from itertools import pairwise
 from math import atan2, cos, hypot, inf, sin, sqrt
 from typing import NamedTuple
 
 from sandbox.engine.accuracy import SKIN
 from sandbox.engine.arc import Arc, still
+from sandbox.engine.bernstein import derivative
 from sandbox.engine.nearest import Nearest, Pose, nearest
 from sandbox.engine.shapes import Shape
 from sandbox.physics.integrators import State
@@ -54,11 +54,8 @@ class Mover(NamedTuple):
         h = arc.t1 - arc.t0
         if h <= 0.0:
             return _Bounds(0.0, (), 0.0, 0.0, 0.0)
-        ax, ay, turning = (
-            [(b - a) * (len(curve) - 1) / h for a, b in pairwise(curve)] for curve in (arc.vx, arc.vy, arc.spin)
-        )
-        largest = max(map(hypot, ax, ay), default=0.0)
-        fastest_turn, turning_up = max(map(abs, arc.spin)), max(map(abs, turning), default=0.0)
+        ax, ay, turning = ([slope / h for slope in derivative(curve)] for curve in (arc.vx, arc.vy, arc.spin))
+        largest, fastest_turn, turning_up = max(map(hypot, ax, ay)), max(map(abs, arc.spin)), max(map(abs, turning))
         return _Bounds(arc.fastest(), tuple(zip(ax, ay, strict=True)), largest, fastest_turn, turning_up)
 
 
