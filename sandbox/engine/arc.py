@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from math import hypot
 from typing import Any
 
-from sandbox.engine.bernstein import evaluate, until
+from sandbox.engine.bernstein import derivative, evaluate, until
 from sandbox.physics.elementwise import choose
 from sandbox.physics.integrators import Acceleration, State
 
@@ -72,6 +72,14 @@ class Arc:
             return x[0], y[0]
         u = min(1.0, max(0.0, (t - self.t0) / h))
         return evaluate(x, u), evaluate(y, u)
+
+    def acceleration(self, t: float) -> tuple[float, float]:
+        """Of the ball at time t, in m/s^2; none on an arc without duration."""
+        h = self.t1 - self.t0
+        if h <= 0.0:
+            return 0.0, 0.0
+        u = min(1.0, max(0.0, (t - self.t0) / h))
+        return evaluate(derivative(self.curves[2]), u) / h, evaluate(derivative(self.curves[3]), u) / h
 
     @property
     def rests(self) -> bool:

@@ -10,7 +10,6 @@ from typing import Any
 
 import numpy as np
 
-from sandbox.engine.bernstein import derivative, evaluate
 from sandbox.engine.clusters import Body, Cluster, Link, StaysPressed
 from sandbox.engine.impacts import Hit, Outcome
 from sandbox.engine.setup import Bounce, Setup
@@ -215,11 +214,7 @@ class Pressed:
 
     def _body(self, t: float, index: int, state: State) -> Body:
         track = self._tracks[index]
-        ball, arc = track.ball, track.arc
-        push = (0.0, 0.0)
-        if arc.t1 > arc.t0:
-            u, h = min(1.0, max(0.0, (t - arc.t0) / (arc.t1 - arc.t0))), arc.t1 - arc.t0
-            push = evaluate(derivative(arc.vx), u) / h, evaluate(derivative(arc.vy), u) / h
+        ball, push = track.ball, track.arc.acceleration(t)
         turning = (*state[5:7], state[4]) if len(state) > 5 else (0.0, 0.0, state[4])
         return Body(ball.mass, ball.radius, ball.inertia, state[:2], state[2:4], turning, push)
 

@@ -21,7 +21,7 @@ from sandbox.picture.plain import view_of
 from sandbox.picture.plot import CHART, plotted
 from sandbox.picture.sheet import CARD, Sheet
 from sandbox.picture.side import SideView
-from sandbox.picture.vectors import Vectors, acceleration, colour_of
+from sandbox.picture.vectors import Vectors, colour_of
 from sandbox.picture.view import View
 from sandbox.sport.amounts import ladder
 from sandbox.units import convert
@@ -124,7 +124,7 @@ def _accelerations(run: Run, ball: str, times: np.ndarray) -> np.ndarray:
     """Of a ball in m/s^2; an impact itself has none."""
     arcs = [run.arcs[ball].at(t) for t in times.tolist()]
     lasting = [arc.t1 > arc.t0 and arc.contact != PRESSED for arc in arcs]
-    sizes = (hypot(*acceleration(arc, t)) for arc, t in zip(arcs, times.tolist(), strict=True))
+    sizes = (hypot(*arc.acceleration(t)) for arc, t in zip(arcs, times.tolist(), strict=True))
     return np.where(lasting, list(sizes), np.nan)
 
 

@@ -8,8 +8,6 @@ from math import hypot
 import numpy as np
 
 from sandbox.engine.acting import by_cause
-from sandbox.engine.arc import Arc
-from sandbox.engine.bernstein import derivative, evaluate
 from sandbox.engine.run import Run
 from sandbox.picture.palette import Colour, palette
 from sandbox.picture.sheet import CARD, Entry, Sheet
@@ -33,15 +31,6 @@ def colour_of(name: str) -> Colour:
     return FORCE[name] if name in FORCE and name != "own" else own[sum(name.encode()) % len(own)]
 
 
-def acceleration(arc: Arc, t: float) -> tuple[float, float]:
-    """Of a ball at time t in s, in m/s^2, from the polynomials of its velocity; none at an instant."""
-    h = arc.t1 - arc.t0
-    if h <= 0.0:
-        return 0.0, 0.0
-    u = min(1.0, max(0.0, (t - arc.t0) / h))
-    return evaluate(derivative(arc.vx), u) / h, evaluate(derivative(arc.vy), u) / h
-
-
 class Vectors:
     """The velocity of one ball and the forces on it, at any time of a run."""
 
@@ -63,7 +52,7 @@ class Vectors:
         if surface is not None:
             others = [sum(axis) for axis in zip((0.0, 0.0), *found.values(), strict=True)]
             moves = hypot(*self.run.state(self.name, t)[2:4]) >= AT_REST
-            ax, ay = acceleration(arc, t) if moves else (0.0, 0.0)
+            ax, ay = arc.acceleration(t) if moves else (0.0, 0.0)
             mass = self.ball.mass * float(self.ball.left(t))
             found[surface] = mass * ax - others[0], mass * ay - others[1]
         return found

@@ -558,8 +558,12 @@ class View(Generic[P]):
 
     def present(self, t: float) -> list[str]:
         """The balls that have not been caught at time t in s."""
-        gone = {event.ball for event in self.run.events if event.kind == "caught" and event.t <= t}
-        return [name for name in self.balls if name not in gone]
+        return [name for name in self.balls if t < self._caught.get(name, inf)]
+
+    @cached_property
+    def _caught(self) -> dict[str, float]:
+        """When balls were caught, in s."""
+        return {event.ball: event.t for event in self.run.events if event.kind == "caught"}
 
     def traced(self, camera: Camera, points: np.ndarray) -> np.ndarray:
         """A path in px, in as many points as can be told apart."""
