@@ -21,7 +21,7 @@ def simulate(setup: Setup, accuracy: Accuracy, progress: Callable[[float, float]
     become, in s.
     """
     # here, not above: they bring pymunk, which reading a scene does not need
-    with setup_errors_named(setup):
+    with setup_errors_named():
         if accuracy.method == "plain":
             from sandbox.engine.plain import PlainSimulation
 

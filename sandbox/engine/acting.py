@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 from sandbox.engine.setup import Ball
+from sandbox.engine.setup_errors import is_from_inside
 from sandbox.errors import RunError
 from sandbox.physics.integrators import Acceleration, State
 
@@ -47,8 +48,8 @@ def acceleration(ball: Ball, t: Any, state: State) -> Acceleration:
         for term in ball.torques:
             torque = torque + term(t, position, velocity, spin)
     except (TypeError, ValueError, OverflowError) as error:
-        if error.__traceback__ is not None and error.__traceback__.tb_next is not None:
-            raise  # from inside the term
+        if is_from_inside(error):
+            raise
         raise RunError(f"{_rule(term)}: {error}") from None
     mass, inertia = ball.mass, ball.inertia
     if ball.loss is not None:

@@ -327,7 +327,7 @@ class Batch:
             arcs = {setup.balls[0].name: path}
             return Run(setup, self._accuracy, arcs, events, numerics, left.t, left.how)
         try:
-            with setup_errors_named(setup):
+            with setup_errors_named():
                 simulation = Simulation(setup, self._accuracy, numerics)
                 if left.how == "start":
                     return simulation.run()

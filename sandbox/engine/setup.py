@@ -8,8 +8,10 @@ from math import hypot, inf
 from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple, Protocol
 
 from sandbox.engine.nearest import Pose, nearest
+from sandbox.engine.setup_errors import asked
 from sandbox.engine.shapes import Shape, Vector, disc
-from sandbox.physics.elementwise import anywhere, everywhere, finite, least, most
+from sandbox.physics.checks import check
+from sandbox.physics.elementwise import least, most
 from sandbox.physics.hertz import PHENOLIC
 
 if TYPE_CHECKING:
@@ -68,15 +70,8 @@ class Ball:
         return 1.0 if self.loss is None else 1.0 - self.loss.lost(t) / self.mass
 
     def __post_init__(self) -> None:
-        for what, value in (("mass", self.mass), ("radius", self.radius), ("inertia_factor", self.inertia_factor)):
-            if not (finite(value) and everywhere(value > 0.0)):
-                raise ValueError(f"ball {self.name!r}: {what} = {value} must be positive")
-        for what in ("position", "velocity", "rolling_spin"):
-            _check_pair(f"ball {self.name!r}: {what}", getattr(self, what))
-        state = {"position": self.position, "velocity": self.velocity, "spin": (self.spin,)}
-        for what, values in {**state, "rolling_spin": self.rolling_spin}.items():
-            if not all(map(finite, values)):
-                raise ValueError(f"ball {self.name!r}: {what} = {values} must be finite")
+        positive, points = ("mass", "radius", "inertia_factor"), ("position", "velocity", "rolling_spin")
+        check(f"ball {self.name!r}", self, positive=positive, points=points, finite=["spin"])
         for force in (*self.forces, *self.torques):
             if isinstance(force, type) or not callable(force):
                 name = getattr(force, "__name__", force)
@@ -122,8 +117,7 @@ class Body(Ball):
         outline = self.shape.moved(-x, -y)
         if self.center is not None and nearest(disc(1e-9 * outline.reach), _ORIGIN, outline, _ORIGIN).gap > 0.0:
             raise ValueError(f"body {self.name!r}: center = {self.center} m must be inside its shape")
-        if not finite(self.angle):
-            raise ValueError(f"body {self.name!r}: angle = {self.angle} must be finite")
+        check(f"body {self.name!r}", self, finite=["angle"])
         if self.rolling_spin != (0.0, 0.0):
             raise ValueError(f"body {self.name!r}: rolling_spin = {self.rolling_spin} rad/s is only for balls")
         about = mass * (moment / area + (center[0] - x) ** 2 + (center[1] - y) ** 2)
@@ -146,20 +140,11 @@ def kinetic(ball: Ball, state: State, t: float = 0.0) -> float:
     return energy * float(ball.left(t))
 
 
-def _check_pair(what: str, pair: Vector) -> None:
-    """Raise ValueError unless it has two numbers."""
-    if len(pair) != 2:
-        raise ValueError(f"{what} = {pair} must be two numbers, (x, y)")
-
-
-def _check_shape(shape: Segment | Circle, kind: str, *points: str) -> None:
+def _check_shape(shape: Segment | Circle, *points: str) -> None:
     """Raise ValueError for an invalid shape; convert its points to tuples."""
+    check(type(shape).__name__.lower(), shape, points=points, not_negative=["radius"])
     for name in points:
-        _check_pair(f"{kind}: {name}", getattr(shape, name))
         object.__setattr__(shape, name, tuple(getattr(shape, name)))
-    numbers = [number for name in points for number in getattr(shape, name)]
-    if not all(map(finite, (*numbers, shape.radius))) or anywhere(shape.radius < 0.0):
-        raise ValueError(f"{shape}: points must be finite, and the radius must not be negative")
 
 
 @dataclass(frozen=True)
@@ -171,7 +156,7 @@ class Segment:
     radius: float = 0.0  # m
 
     def __post_init__(self) -> None:
-        _check_shape(self, "segment", "a", "b")
+        _check_shape(self, "a", "b")
 
     @property
     def length(self) -> float:
@@ -186,7 +171,7 @@ class Circle:
     radius: float  # m
 
     def __post_init__(self) -> None:
-        _check_shape(self, "circle", "center")
+        _check_shape(self, "center")
 
 
 class Bounce(NamedTuple):
@@ -218,11 +203,8 @@ class Surface:
     nose_height: float | None = None  # m
 
     def __post_init__(self) -> None:
-        if not 0.0 <= self.restitution <= 1.0:
-            raise ValueError(f"surface {self.name!r}: restitution = {self.restitution} must be from 0 to 1")
-        for what in ("friction", "rolling_resistance", "lowest_bounce"):
-            if not 0.0 <= getattr(self, what) < inf:
-                raise ValueError(f"surface {self.name!r}: {what} = {getattr(self, what)} must not be negative")
+        numbers = ("friction", "rolling_resistance", "lowest_bounce")
+        check(f"surface {self.name!r}", self, shares=["restitution"], not_negative=numbers)
 
 
 @dataclass(frozen=True)
@@ -237,7 +219,7 @@ class Catch:
     only: Sequence[str] = ()
 
     def __post_init__(self) -> None:
-        _check_pair(f"catch {self.name!r}: center", self.center)
+        check(f"catch {self.name!r}", self, points=["center"])
 
     @property
     def shape(self) -> Segment | Circle:
@@ -326,7 +308,7 @@ def is_over(until: Callable[[Event], bool] | Until | None, events: Sequence[Even
     """Whether a run with this condition ends with the last of these events."""
     if isinstance(until, Until):
         return until.over(events)
-    return until is not None and until(events[-1])
+    return until is not None and asked(until, "until is called as until(event)", events[-1])
 
 
 @dataclass(frozen=True)

@@ -2,34 +2,39 @@
 
 from __future__ import annotations
 
-import inspect
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from sandbox.errors import RunError, no_exit
 
 _PACKAGE = Path(__file__).resolve().parent.parent
 
-if TYPE_CHECKING:
-    from sandbox.engine.setup import Setup
+
+def asked(function: Callable[..., Any], form: str, *arguments: Any) -> Any:
+    """What a function of the scene returns. Raises RunError with the ``form`` in which it is called if it does not take
+    these arguments."""
+    try:
+        return function(*arguments)
+    except TypeError as error:
+        if is_from_inside(error):
+            raise
+        raise RunError(f"{form}: {error}") from None
+
+
+def is_from_inside(error: Exception) -> bool:
+    """Whether an error, caught where a function is called, comes from the function, not from the call."""
+    return error.__traceback__ is not None and error.__traceback__.tb_next is not None
 
 
 @contextmanager
-def setup_errors_named(setup: Setup) -> Iterator[None]:
-    """Context of a run of the setup. A TypeError from a function of the setup with the wrong arguments becomes a
-    RunError that names the function, and ``sys.exit`` in one becomes a failure. Overflow in Python or pymunk, caused
-    by absurd masses, lengths or speeds, becomes a RunError too."""
+def setup_errors_named() -> Iterator[None]:
+    """Context of a run: ``sys.exit`` in a function of the scene becomes a failure. Overflow in Python or pymunk, caused
+    by absurd masses, lengths or speeds, becomes a RunError."""
     try:
         with no_exit():
             yield
-    except TypeError as error:
-        for what, function, arguments in _functions(setup):
-            mistake = _mismatch(function, arguments)
-            if mistake is not None:
-                raise RunError(f"{what} is called as {what}({', '.join(arguments)}): {mistake}") from error
-        raise
     except (ArithmeticError, AssertionError) as error:
         if not _is_ours(error):
             raise
@@ -48,26 +53,3 @@ def _is_ours(error: BaseException) -> bool:
     return (
         file.is_relative_to(_PACKAGE / "engine") or file.is_relative_to(_PACKAGE / "physics") or "pymunk" in file.parts
     )
-
-
-def _functions(setup: Setup) -> Iterator[tuple[str, Callable[..., Any], tuple[str, ...]]]:
-    """The functions of a setup: name, function and the names of its arguments."""
-    if callable(setup.until):
-        yield "until", setup.until, ("event",)
-    for one, other, law in setup.pairs:
-        yield f"the law of {one} and {other}", law, ("normal_speed", "slip_speed")
-    yield "between_balls", setup.between_balls, ("normal_speed", "slip_speed")
-    for surface in setup.surfaces:
-        if surface.law is not None:
-            yield "law", surface.law, ("normal_speed", "tangential_speed")
-
-
-def _mismatch(function: Callable[..., Any], arguments: tuple[str, ...]) -> str | None:
-    """Why a function cannot take these arguments; None if it can, or if Python cannot tell."""
-    try:
-        inspect.signature(function).bind(*arguments)
-    except TypeError as error:
-        return str(error)
-    except ValueError:  # a builtin without a signature
-        return None
-    return None

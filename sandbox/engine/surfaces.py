@@ -11,6 +11,7 @@ from numbers import Real
 from typing import Any
 
 from sandbox.engine.setup import Ball, Bounce, Setup, Surface
+from sandbox.engine.setup_errors import asked
 from sandbox.errors import RunError
 from sandbox.physics.elementwise import choose, cos, sin
 from sandbox.physics.impulse import after_impulse, surface_speeds
@@ -30,26 +31,28 @@ def bounce_off(surface: Surface, approach: float, along: float) -> Bounce:
     """How a surface responds to an impact at these speeds (m/s). Raises RunError for invalid values."""
     if surface.law is None or approach <= 0.0:
         return Bounce(surface.restitution, surface.friction)
-    return _valid(surface.law(approach, abs(along)), surface.name)
+    return _bounce_by(surface.law, surface.name, approach, abs(along))
 
 
 def bounce_of_balls(setup: Setup, approach: float, slip: float, ball: str, partner: str) -> Bounce:
     """The bounce of two balls at these speeds (m/s)."""
-    return _valid(setup.between(ball, partner)(max(approach, 0.0), slip), partner)
+    return _bounce_by(setup.between(ball, partner), partner, max(approach, 0.0), slip)
 
 
-def _valid(bounce: Bounce, partner: str) -> Bounce:
-    """The bounce off ``partner``, unchanged. Raises RunError if it is invalid: Chipmunk would abort the program."""
+def _bounce_by(law: Any, partner: str, approach: float, along: float) -> Bounce:
+    """The bounce off ``partner`` by a scene's law. Raises RunError if it is invalid: Chipmunk would abort the
+    program."""
+    bounce = asked(law, f"the law for {partner!r} is called as law(normal_speed, tangential_speed)", approach, along)
     # float first: Real alone takes five times as long
     if not isinstance(bounce, Bounce) or not all(isinstance(value, (float, Real)) for value in bounce):
         raise RunError(
             f"a ball meets {partner!r}: the scene's law must return a Bounce of numbers, such as "
             f"Bounce(restitution=0.7, friction=0.3), and returned {bounce!r:.60}"
         )
-    along = isfinite(bounce.tilt) and 0.0 <= bounce.tangential <= 1.0
-    if 0.0 <= bounce.restitution < inf and 0.0 <= bounce.friction < inf and along:
-        return bounce
-    raise RunError(f"{bounce} off {partner!r} is invalid: check the scene's law for it")
+    inside = 0.0 <= bounce.restitution < inf and 0.0 <= bounce.friction < inf and 0.0 <= bounce.tangential <= 1.0
+    if not inside or not isfinite(bounce.tilt):
+        raise RunError(f"{bounce} off {partner!r} is invalid: check the scene's law for it")
+    return bounce
 
 
 def tilted(nx: Any, ny: Any, tilt: Any, along: Any) -> tuple[Any, Any]:

@@ -28,7 +28,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import ClassVar
 
-from sandbox.physics.elementwise import not_negative
+from sandbox.physics.checks import check
 from sandbox.physics.plane import STILL, Phase, PlaneState
 
 
@@ -62,7 +62,7 @@ class Cloth:
         return self.sliding * self.gravity
 
     def __post_init__(self) -> None:
-        not_negative(self, "sliding", "rolling", "spinning", "gravity")
+        check(self.name, self, not_negative=["sliding", "rolling", "spinning", "gravity"])
         if not 0.0 < self.inertia <= 1.0:
             raise ValueError(f"{self.name}: inertia = {self.inertia} must be above 0, and at most 1")
 

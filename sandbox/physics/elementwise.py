@@ -86,10 +86,3 @@ def choose(condition: Any, yes: Any, no: Any) -> Any:
     import numpy as np
 
     return np.where(condition, yes, no) if condition.ndim else (yes if condition else no)
-
-
-def not_negative(law: Any, *names: str) -> None:
-    """Raise ValueError if one of these numbers of a law is negative, or not finite."""
-    for name in names:
-        if not 0.0 <= getattr(law, name) < math.inf:
-            raise ValueError(f"{law.name}: {name} = {getattr(law, name)} must not be negative")

@@ -23,7 +23,7 @@ from dataclasses import dataclass
 from math import copysign, inf, sqrt
 from typing import Any, ClassVar
 
-from sandbox.physics.elementwise import not_negative
+from sandbox.physics.checks import check
 from sandbox.physics.plane import STILL, Phase, PlaneState
 
 #: Speed in m/s below which a stone comes to rest on a straight line, and below which its spin decays as at this speed.
@@ -54,7 +54,7 @@ class Glide:
     TERMS: ClassVar[Mapping[str, str]] = {"sliding": "sliding friction", "spinning": "spinning friction"}
 
     def __post_init__(self) -> None:
-        not_negative(self, "sliding", "spinning", "gravity")
+        check(self.name, self, not_negative=["sliding", "spinning", "gravity"])
 
     @property
     def strongest(self) -> float:
@@ -88,7 +88,7 @@ class CurlingIce:
     TERMS: ClassVar[Mapping[str, str]] = {"friction": "friction", "curl": "curl"}
 
     def __post_init__(self) -> None:
-        not_negative(self, "friction", "curl", "a", "b", "c", "k", "s", "gravity")
+        check(self.name, self, not_negative=["friction", "curl", "a", "b", "c", "k", "s", "gravity"])
 
     @property
     def strongest(self) -> float:

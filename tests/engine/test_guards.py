@@ -92,7 +92,7 @@ def raised(run):
     ],
 )
 def test_a_point_has_two_numbers(make):
-    with pytest.raises(ValueError, match=r"\(1.0, 2.0, 3.0\) must be two numbers, \(x, y\)"):
+    with pytest.raises(ValueError, match=r"\(1.0, 2.0, 3.0\) must be two finite numbers, \(x, y\)"):
         make((1.0, 2.0, 3.0))
 
 
@@ -220,7 +220,7 @@ def test_a_setup_or_surface_that_cannot_be_is_refused_in_plain_words():
         Setup([])
     with pytest.raises(ValueError, match=r"surface 'wall': restitution = 1\.2"):
         Surface("wall", Segment((0.0, 0.0), (1.0, 0.0)), 1.2, 0.5)
-    with pytest.raises(ValueError, match="points must be finite"):
+    with pytest.raises(ValueError, match=r"segment: a = .* must be two finite numbers"):
         Segment((0.0, nan), (1.0, 0.0))
 
 
