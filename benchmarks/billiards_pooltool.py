@@ -28,7 +28,6 @@ installation and caches them; ``--cold`` also measures that with an empty cache,
 
 from __future__ import annotations
 
-import argparse
 import json
 import os
 import subprocess
@@ -318,8 +317,9 @@ def begin() -> None:
     sys.stdout.write(json.dumps({"import_s": imported, "first_s": our_answer(setup)["seconds"]}))
 
 
-def report(rows: list[dict[str, Any]], races: list[dict[str, Any]], colds: dict[str, dict[str, float]]) -> str:
-    """The report as text."""
+def report(rows: list[dict[str, Any]], races: list[dict[str, Any]], colds: dict[str, dict[str, float]]) -> None:
+    from measured import say, show
+
     lines = [f"{'shot':<24} {'':<4}{'ours end':^16} {'pooltool':^16} {'apart':>10} {'at e = 1':>12}  differs by"]
     for row in rows:
         title = row["shot"]
@@ -335,53 +335,48 @@ def report(rows: list[dict[str, Any]], races: list[dict[str, Any]], colds: dict[
                 vx, vy, wz, wx, wy = row[who]["off_cushion"]
                 spin = f"({R * wx:.3f}, {R * wy:.3f}, {R * wz:.3f})"
                 lines.append(f"{'':<24}   off the cushion, {who + ':':<9} v ({vx:.3f}, {vy:.3f}), r w {spin} m/s")
-    lines += ["", f"{'strike to rest, warm':<24} {'':<16}{'time':>9}{'over limit':>12}  impacts, lasts, potted"]
+    say(*lines)
+    answers = []
     for race in races:
-        title = race["shot"]
         for who in ("ours", "pooltool"):
-            answer = race[who]
-            potted = ", ".join(answer["potted"]) or "none"
-            lines.append(
-                f"{title:<24} {NAMES[who]:<16}{1e3 * answer['seconds']:>6.1f} ms{answer['over_limit']:>12,.0f}  "
-                f"{answer['impacts']}, {answer['lasts']:.1f} s, {potted}"
-            )
-            title = ""
-        lines.append(f"{'':<24} {'limit':<16}{1e3 * race['limit_s']:>6.3f} ms{1:>12}")
-    lines += ["", f"{'cold, the break':<41}{'import':>9}{'first shot':>12}"]
-    lines += [f"{who:<41}{found['import_s']:>7.2f} s{found['first_s']:>10.2f} s" for who, found in colds.items()]
-    lines.append("Where the balls of the break end is not compared: each impact multiplies a difference by about ten.")
-    return "\n".join(lines)
+            told = {"shot": race["shot"], "who": NAMES[who], "potted": ", ".join(race[who]["potted"]) or "none"}
+            answers.append(race[who] | told)
+        answers.append({"shot": race["shot"], "who": "limit", "seconds": race["limit_s"], "over_limit": 1})
+    columns = {
+        "shot": "{shot}",
+        "": "{who}",
+        "time": "{seconds:.3f ms}",
+        "over limit": "{over_limit:,.0f}",
+        "impacts": "{impacts:,}",
+        "lasts": "{lasts:.1f} s",
+        "potted": "{potted}",
+    }
+    show("strike to rest, warm", answers, columns)
+    begun = [{"who": who} | found for who, found in colds.items()]
+    show("cold, the break", begun, {"": "{who}", "import": "{import_s:.2f} s", "first shot": "{first_s:.2f} s"})
+    say("Where the balls of the break end is not compared: each impact multiplies a difference by about ten.")
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--pooltool", type=Path, help="the Python that has pooltool")
-    parser.add_argument("--repeats", type=int, default=25)
-    parser.add_argument("--json", type=Path, help="write the results here")
-    parser.add_argument("--cold", action="store_true", help="also measure pooltool's compilation")
-    parser.add_argument("--quick", action="store_true", help="one shot, once, as a test")
-    parser.add_argument("--peer", action="store_true", help=argparse.SUPPRESS)
-    parser.add_argument("--begin", action="store_true", help=argparse.SUPPRESS)
-    arguments = parser.parse_args()
-    if arguments.peer:
-        be_peer()
+    if sys.argv[1:] in (["--peer"], ["--begin"]):
+        be_peer() if sys.argv[1] == "--peer" else begin()
         return
-    if arguments.begin:
-        begin()
-        return
-    if arguments.pooltool is None:
-        parser.error("--pooltool: no such Python with pooltool; the docstring of this file tells how to create one")
-    quick = arguments.quick
+    from measured import command_line, keep
+
+    options: dict[str, dict[str, Any]] = {
+        "--pooltool": {"type": Path, "required": True, "help": "the Python that has pooltool, as told above"},
+        "--cold": {"action": "store_true", "help": "also measure pooltool's compilation"},
+    }
+    arguments = command_line(__doc__, repeats=25, options=options)
     with Peer(arguments.pooltool) as peer:
         peer.import_seconds()
-        rows = compare(peer, shots()[:1] if quick else shots())
-        races = race(peer, 1 if quick else arguments.repeats)
+        rows = compare(peer, shots()[:1] if arguments.quick else shots())
+        races = race(peer, arguments.repeats)
     colds = {"ours": ours_cold(), "pooltool 0.6.0": cold(arguments.pooltool, compiled=True)}
     if arguments.cold:
         colds["pooltool 0.6.0, with compilation"] = cold(arguments.pooltool, compiled=False)
-    sys.stdout.write(report(rows, races, colds) + "\n")
-    if arguments.json:
-        arguments.json.write_text(json.dumps({"shots": rows, "races": races, "cold": colds}, indent=1))
+    report(rows, races, colds)
+    keep(arguments.json, {"shots": rows, "races": races, "cold": colds})
 
 
 if __name__ == "__main__":

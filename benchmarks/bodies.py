@@ -10,20 +10,16 @@ scale.
 
 from __future__ import annotations
 
-import argparse
-import json
-import sys
 from collections.abc import Callable
 from functools import partial
 from itertools import pairwise
 from math import exp, hypot, log, remainder, tau
-from pathlib import Path
 from statistics import median
 from typing import Any
 
 import pymunk
 from by_pymunk import SLOP
-from engine import timed
+from measured import command_line, keep, show, timed
 
 from sandbox.engine import simulate
 from sandbox.engine.accuracy import LEVELS, Accuracy
@@ -123,7 +119,7 @@ def compare(starts: list[Setup], rates: tuple[int, ...], repeats: int) -> dict[s
         impacts.append(count)
         for name, method in methods.items():
             for _ in range(repeats):
-                spent, (ends, _) = timed(partial(method, of))
+                spent, (ends, _) = timed(method, of)
                 times[name].append(spent)
             errors[name].append(off(of, ends, reference))
     rows = [{"method": name, "error_m": median(errors[name]), "time_s": median(times[name])} for name in methods]
@@ -142,26 +138,23 @@ def at(time: float, points: list[tuple[float, float]]) -> float:
     return points[0][1] if time < points[0][0] else points[-1][1]
 
 
-def show(name: str, told: dict[str, Any]) -> None:
-    sys.stdout.write(f"\n{name}, {told['impacts']:g} impacts\n{'':<47}{'':>12}  bare pymunk's error\n")
-    sys.stdout.write(f"  {'method':<34}{'error':>11}{'time':>12}    at the same time\n")
-    for row in told["rows"]:
-        ratio = f"{row['pymunk_over_ours']:>13,.0f} times" if "pymunk_over_ours" in row else ""
-        sys.stdout.write(f"  {row['method']:<34}{row['error_m']:>9.1e} m{1e3 * row['time_s']:>9.2f} ms{ratio}\n")
+def report(name: str, told: dict[str, Any]) -> None:
+    columns = {
+        "method": "{method}",
+        "error": "{error_m:.1e} m",
+        "time": "{time_s:.2f ms}",
+        "bare pymunk's error at the same time": "{pymunk_over_ours:,.0f} times",
+    }
+    show(f"{name}, {told['impacts']:g} impacts", told["rows"], columns)
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--json", type=Path, help="write the rows here")
-    parser.add_argument("--repeats", type=int, default=3)
-    parser.add_argument("--quick", action="store_true", help="few rates, one start, once, as a test")
-    arguments = parser.parse_args()
-    rates, repeats, most = (QUICK_RATES, 1, 1) if arguments.quick else (RATES, arguments.repeats, None)
-    told = {name: compare(starts[:most], rates, repeats) for name, starts in cases().items()}
+    arguments = command_line(__doc__, repeats=3)
+    rates, most = (QUICK_RATES, 1) if arguments.quick else (RATES, None)
+    told = {name: compare(starts[:most], rates, arguments.repeats) for name, starts in cases().items()}
     for name, found in told.items():
-        show(name, found)
-    if arguments.json:
-        arguments.json.write_text(json.dumps(told, indent=1))
+        report(name, found)
+    keep(arguments.json, told)
 
 
 if __name__ == "__main__":

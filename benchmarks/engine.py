@@ -17,20 +17,16 @@ time and state of every impact, by RK45 or DOP853 at any tolerance, times the co
 
 from __future__ import annotations
 
-import argparse
-import json
-import sys
 from collections.abc import Callable
 from functools import partial
 from math import hypot, inf
-from pathlib import Path
 from statistics import median
-from time import thread_time
 from timeit import timeit
 from typing import Any, NamedTuple
 
 import by_pymunk
 import by_scipy
+from measured import command_line, keep, say, show, timed
 from shots import Shot, golf_flight, rim_shot
 
 from sandbox.engine import simulate
@@ -128,13 +124,6 @@ def seconds_per_evaluation(shot: Shot) -> float:
     return min(timeit(lambda: shot.law(*state), number=20_000) / 20_000 for _ in range(5))
 
 
-def timed(fly: Callable[[], tuple[float, float, int]]) -> tuple[float, tuple[float, float, int]]:
-    """Processor time in s, and the result of the shot."""
-    started = thread_time()
-    end = fly()
-    return thread_time() - started, end
-
-
 def compare(case: Case, repeats: int) -> list[dict[str, Any]]:
     """A row for each method."""
     shot = case.shot
@@ -179,42 +168,30 @@ def ratios_at(rows: list[dict[str, Any]], target: float) -> dict[str, float]:
     return {kind: spent / cheapest["exact"] for kind, spent in cheapest.items() if kind != "exact"}
 
 
-def show(name: str, rows: list[dict[str, Any]]) -> None:
-    out = sys.stdout
-    out.write(f"\n{name}\n{'':<38}{'':>11}{'':>12}{'evalu-':>11}{'   over the limit':>20}\n")
-    out.write(f"  {'method':<36}{'error':>11}{'time':>12}{'ations':>11}{'ations':>10}{'time':>10}\n")
+def report(name: str, rows: list[dict[str, Any]]) -> None:
+    columns = {
+        "method": "{method}",
+        "error": "{error_m:.1e} m",
+        "time": "{time_s:.2f ms}",
+        "evaluations": "{evaluations:,}",
+        "evaluations over the limit": "{evaluations_over_limit:short}",
+        "time over the limit": "{time_over_limit:short}",
+    }
+    show(name, rows, columns)
     for row in rows:
-        out.write(
-            f"  {row['method']:<36}{row['error_m']:>9.1e} m{1e3 * row['time_s']:>9.2f} ms{row['evaluations']:>11,}"
-            f"{_short(row['evaluations_over_limit']):>10}{_short(row['time_over_limit']):>10}\n"
-        )
-    for asked in (row for row in rows if (name, row["method"]) == ASKED[:2]):
-        over = _short(asked["time_over_limit"])
-        out.write(f"  {asked['method']}: {over} times the limit's time; asked: {ASKED[2]}\n")
+        if (name, row["method"]) == ASKED[:2]:
+            say(f"  {row['method']}: {row['time_over_limit']:.0f} times the limit's time; asked: {ASKED[2]}")
     words = {"scipy": "scipy", "bare": "bare pymunk", "plain": "plain"}
-    ratios = [f"{words[kind]} {_short(ratio)} times" for kind, ratio in ratios_at(rows, TARGET).items()]
-    out.write(
-        f"  at an error of {100 * TARGET:g} cm, relative to our fastest: {', '.join(ratios) or 'no other reaches it'}\n"
-    )
-
-
-def _short(ratio: float) -> str:
-    """A number with two digits, or an integer."""
-    return f"{ratio:,.0f}" if ratio >= 9.95 else f"{ratio:.1f}"
+    ratios = [f"{words[kind]} {ratio:,.1f} times" for kind, ratio in ratios_at(rows, TARGET).items()]
+    say(f"  at an error of {100 * TARGET:g} cm, relative to our fastest: {', '.join(ratios) or 'no other reaches it'}")
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--json", type=Path, help="write the rows here")
-    parser.add_argument("--repeats", type=int, default=15)
-    parser.add_argument("--quick", action="store_true", help="few methods, once, as a test")
-    arguments = parser.parse_args()
-    told = {}
-    for case in cases(arguments.quick):
-        told[case.name] = compare(case, 1 if arguments.quick else arguments.repeats)
-        show(case.name, told[case.name])
-    if arguments.json:
-        arguments.json.write_text(json.dumps(told, indent=1))
+    arguments = command_line(__doc__, repeats=15)
+    told = {case.name: compare(case, arguments.repeats) for case in cases(arguments.quick)}
+    for name, rows in told.items():
+        report(name, rows)
+    keep(arguments.json, told)
 
 
 if __name__ == "__main__":

@@ -18,20 +18,16 @@ error of any ball after the second.
 
 from __future__ import annotations
 
-import argparse
-import json
-import sys
 from collections.abc import Callable
 from dataclasses import replace
 from math import cos, hypot, radians, sin
-from pathlib import Path
 from statistics import median
-from time import thread_time
 from typing import Any, NamedTuple
 
 import numpy as np
 import pymunk
 import pymunk.batch
+from measured import command_line, keep, show, timed
 from shots import basketball_law
 
 from sandbox.engine import simulate, simulate_many
@@ -184,10 +180,8 @@ def compare(count: int, repeats: int) -> list[dict[str, Any]]:
         for method, prepare in ready.items():
             if times[method] and times[method][0] > LONG:
                 continue
-            fly = prepare()
-            started = thread_time()
-            flown[method] = fly()
-            times[method].append(thread_time() - started)
+            spent, flown[method] = timed(prepare())
+            times[method].append(spent)
     truth = _ended(_finest(setups), count, resolve("precise")).ends
     rows: list[dict[str, Any]] = []
     for method, (ends, steps) in flown.items():
@@ -213,33 +207,26 @@ def _finest(setups: list[Setup]) -> list[Run]:
     return [simulate(setup, resolve("precise", tolerance=1e-9)) for setup in setups]
 
 
-def show(rows: list[dict[str, Any]]) -> None:
-    out = sys.stdout
-    out.write(f"{'':<27}{'steps':>8}{'a ball and step':>24}{'a ball and second':>26}\n")
-    out.write(
-        f"{'balls':<9}{'method':<18}{'':>8}{'time':>14}{'over bare':>10}{'time':>16}{'over bare':>10}{'error':>12}\n"
-    )
-    for number, row in enumerate(rows):
-        first = number == 0 or rows[number - 1]["balls"] != row["balls"]
-        error = "" if row["error_m"] is None else f"{row['error_m']:.1e} m"
-        out.write(
-            f"{format(row['balls'], ',') if first else '':<9}{row['method']:<18}{row['steps']:>8.3g}"
-            f"{row['us_per_step']:>11.2f} us{row['step_over_limit']:>10,.1f}"
-            f"{row['us_per_second']:>13,.0f} us{row['second_over_limit']:>10,.1f}{error:>12}\n"
-        )
+def report(rows: list[dict[str, Any]]) -> None:
+    columns = {
+        "balls": "{balls:,}",
+        "method": "{method}",
+        "steps": "{steps:.3g}",
+        "a ball and step": "{us_per_step:.2f} us",
+        "over bare": "{step_over_limit:,.1f}",
+        "a ball and second": "{us_per_second:,.0f} us",
+        "over bare ": "{second_over_limit:,.1f}",
+        "error": "{error_m:.1e} m",
+    }
+    show("balls in flight", rows, columns)
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--json", type=Path, help="write the rows here")
-    parser.add_argument("--repeats", type=int, default=7)
-    parser.add_argument("--quick", action="store_true", help="few balls, once, as a test")
-    arguments = parser.parse_args()
-    counts, repeats = ((1, 2), 1) if arguments.quick else (COUNTS, arguments.repeats)
-    rows = [row for count in counts for row in compare(count, repeats)]
-    show(rows)
-    if arguments.json:
-        arguments.json.write_text(json.dumps({"forces": rows}, indent=1))
+    arguments = command_line(__doc__, repeats=7)
+    counts = (1, 2) if arguments.quick else COUNTS
+    rows = [row for count in counts for row in compare(count, arguments.repeats)]
+    report(rows)
+    keep(arguments.json, {"forces": rows})
 
 
 if __name__ == "__main__":

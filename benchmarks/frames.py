@@ -18,21 +18,18 @@ load. Limit and whole, in frames per second of wall time, do, and are interleave
 
 from __future__ import annotations
 
-import argparse
 import io
-import json
 import os
-import sys
 import tempfile
 import zlib
 from collections import defaultdict
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from concurrent.futures import ThreadPoolExecutor
-from pathlib import Path
 from statistics import mean, median
-from time import perf_counter, process_time, thread_time
+from time import perf_counter, process_time
 from typing import Any
 
+from measured import command_line, keep, show, timed
 from PIL import Image
 
 import sandbox
@@ -67,13 +64,6 @@ def by_pillow(image: Image.Image, level: str = "level 1, RLE") -> int:
 def by_us(image: Image.Image) -> int:
     """Size in bytes of the image encoded as a frame."""
     return len(frames.quick_png(image))
-
-
-def timed(work: Callable[..., Any], *given: Any, clock: Callable[[], float] = thread_time) -> tuple[float, Any]:
-    """Seconds, and the result."""
-    started = clock()
-    done = work(*given)
-    return clock() - started, done
 
 
 class Film:
@@ -142,48 +132,36 @@ def levels(films: Iterable[Film]) -> list[dict[str, Any]]:
     return [{"packed": name, "ms": 1e3 * mean(seconds[name]), "kB": mean(sizes[name]) / 1e3} for name in seconds]
 
 
-#: Heading, unit, key and format of each column.
-COLUMNS = (
-    ("drawing", "ms", "drawing_ms", ".1f"),
-    ("Pillow", "ms", "pillow_ms", ".1f"),
-    ("ratio", "", "drawing_over_pillow", ".2f"),
-    ("packing", "ms", "packing_ms", ".1f"),
-    ("cpu", "ms", "cpu_ms", ".1f"),
-    ("limit", "frames/s", "limit_frames_per_s", ".0f"),
-    ("whole", "frames/s", "whole_frames_per_s", ".0f"),
-    ("of limit", "", "whole_over_limit", ".2f"),
-)
-
-
-def show(rows: list[dict[str, Any]]) -> None:
-    """The rows as a table."""
-    out = sys.stdout
+def report(rows: list[dict[str, Any]]) -> None:
+    columns = {
+        "scene": "{scene}",
+        "drawing": "{drawing_ms:.1f} ms",
+        "Pillow": "{pillow_ms:.1f} ms",
+        "ratio": "{drawing_over_pillow:.2f}",
+        "packing": "{packing_ms:.1f} ms",
+        "cpu": "{cpu_ms:.1f} ms",
+        "limit": "{limit_frames_per_s:.0f} /s",
+        "whole": "{whole_frames_per_s:.0f} /s",
+        "of limit": "{whole_over_limit:.2f}",
+    }
     cores = rows[0]["cores"]
-    out.write(f"\n{SIZE[0]}x{SIZE[1]}, {cores} cores: drawing, Pillow, packing on one; cpu, limit and whole on all\n")
-    for head in (0, 1):
-        out.write(f"  {'' if head else 'scene':<12}" + "".join(f"{column[head]:>10}" for column in COLUMNS) + "\n")
-    for row in rows:
-        cells = (f"{row[key]:>10{form}}" for _, _, key, form in COLUMNS)
-        out.write(f"  {row['scene']:<12}" + "".join(cells) + "\n")
+    show(f"{SIZE[0]}x{SIZE[1]}: drawing, Pillow, packing on one core; the others on {cores}", rows, columns)
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--json", type=Path, help="write the rows here")
-    parser.add_argument("--levels", action="store_true", help="time and size of each compress_level")
-    parser.add_argument("--scenes", help="comma-separated names; default: all")
-    arguments = parser.parse_args()
+    options = {
+        "--levels": {"action": "store_true", "help": "time and size of each compress_level"},
+        "--scenes": {"help": "comma-separated names; default: all"},
+    }
+    arguments = command_line(__doc__, options=options)
     names = [listing.name for listing in listings() if "/" not in listing.name]
     films = [Film(name) for name in (arguments.scenes.split(",") if arguments.scenes else names)]
     told: dict[str, Any] = {"frames": [measure(film) for film in films]}
-    show(told["frames"])
+    report(told["frames"])
     if arguments.levels:
         told["levels"] = levels(films)
-        sys.stdout.write(f"\n  {'PNG':<24}{'ms':>8}{'kB':>8}\n")
-        for row in told["levels"]:
-            sys.stdout.write(f"  {row['packed']:<24}{row['ms']:>8.1f}{row['kB']:>8.0f}\n")
-    if arguments.json:
-        arguments.json.write_text(json.dumps(told, indent=1))
+        show("a frame as PNG", told["levels"], {"packed": "{packed}", "time": "{ms:.1f} ms", "size": "{kB:.0f} kB"})
+    keep(arguments.json, told)
 
 
 if __name__ == "__main__":

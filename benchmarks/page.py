@@ -64,7 +64,7 @@ def main() -> None:
 def output_of(name: str) -> list[str]:
     """The lines that the script prints."""
     command = [sys.executable, *shlex.split(SCRIPTS[name]), "--json", str(JSON / f"{name}.json")]
-    quiet = os.environ | {"PYGAME_HIDE_SUPPORT_PROMPT": "1"}
+    quiet = os.environ | {"PYGAME_HIDE_SUPPORT_PROMPT": "1", "COLUMNS": "110"}
     done = subprocess.run(command, cwd=ROOT, env=quiet, stdout=subprocess.PIPE, text=True)
     if done.returncode != 0:
         raise SystemExit(f"{name} failed; see its error above")

@@ -14,17 +14,16 @@ other packages it imports.
 
 from __future__ import annotations
 
-import argparse
-import json
 import os
 import subprocess
 import sys
 from collections import defaultdict
-from pathlib import Path
 from resource import RUSAGE_CHILDREN, getrusage
 from statistics import median
 from time import perf_counter
 from typing import Any
+
+from measured import command_line, keep, show
 
 HELP = "from sandbox.cli import main; main(['--help'])"
 LIST = "from sandbox.cli import main; main(['list'])"
@@ -127,46 +126,39 @@ def _package(module: str) -> str:
     return "standard library" if top in sys.stdlib_module_names else top.removeprefix("_").removesuffix("_cffi")
 
 
-def show(found: dict[str, Any]) -> None:
-    out = sys.stdout
-    out.write(f"{'':<26}{'clock':>9}{'processor':>12}{'asked':>9}{'over limit':>12}   limit, its clock and processor\n")
-    for row in found["starts"]:
-        asked = "" if row["asked_s"] is None else f"{1e3 * row['asked_s']:.0f} ms"
-        out.write(
-            f"{row['start']:<26}{1e3 * row['clock_s']:>6.0f} ms{1e3 * row['processor_s']:>9.0f} ms{asked:>9}"
-            f"{row['over_limit']:>12.1f}   {row['limit']}: {1e3 * row['limit_clock_s']:.0f} ms, "
-            f"{1e3 * row['limit_processor_s']:.0f} ms\n"
-        )
-    columns = found["imports"]
-    heads = [name.removeprefix("sandbox ") for name in columns]
-    out.write(f"\n{'own time of imports, ms':<28}" + "".join(f"{head:>22}" for head in heads) + "\n")
-    packages = sorted({name for found in columns.values() for name in found}, key=lambda name: -_most(columns, name))
-    for package in packages[:LISTED]:
-        cells = (f"{found.get(package, 0.0):>22.1f}" for found in columns.values())
-        out.write(f"{package:<28}" + "".join(cells) + "\n")
-    others = (f"{sum(found.get(name, 0.0) for name in packages[LISTED:]):>22.1f}" for found in columns.values())
-    out.write(f"{f'{len(packages[LISTED:])} others':<28}" + "".join(others) + "\n")
-    out.write(f"{'all':<28}" + "".join(f"{sum(found.values()):>22.1f}" for found in columns.values()) + "\n")
-
-
-def _most(columns: dict[str, dict[str, float]], package: str) -> float:
-    return max(found.get(package, 0.0) for found in columns.values())
+def report(found: dict[str, Any]) -> None:
+    columns = {
+        "": "{start}",
+        "clock": "{clock_s:.0f ms}",
+        "processor": "{processor_s:.0f ms}",
+        "asked": "{asked_s:.0f ms}",
+        "over limit": "{over_limit:.1f}",
+        "the limit's clock": "{limit_clock_s:.0f ms}",
+        "processor ": "{limit_processor_s:.0f ms}",
+        "the limit": "{limit}",
+    }
+    show("from start to end", found["starts"], columns)
+    starts = found["imports"]
+    packages = {name for times in starts.values() for name in times}
+    listed = sorted(packages, key=lambda name: -max(times.get(name, 0.0) for times in starts.values()))
+    parts = {name: [name] for name in listed[:LISTED]}
+    parts |= {f"{len(listed[LISTED:])} others": listed[LISTED:], "all": listed}
+    rows = [
+        {"package": name} | {start: sum(times.get(each, 0.0) for each in part) for start, times in starts.items()}
+        for name, part in parts.items()
+    ]
+    heads = {name.removeprefix("sandbox "): f"{{{name}:.1f}}" for name in starts}
+    show("own time of imports, ms", rows, {"": "{package}", **heads})
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--json", type=Path, help="write the rows here")
-    parser.add_argument("--repeats", type=int, default=9)
-    parser.add_argument("--quick", action="store_true", help="once, as a test")
-    arguments = parser.parse_args()
-    repeats = 1 if arguments.quick else arguments.repeats
+    arguments = command_line(__doc__, repeats=9)
     found = {
-        "starts": starts(repeats),
-        "imports": {name: imports(program, min(repeats, 3)) for name, (program, *_) in STARTS.items()},
+        "starts": starts(arguments.repeats),
+        "imports": {name: imports(program, min(arguments.repeats, 3)) for name, (program, *_) in STARTS.items()},
     }
-    show(found)
-    if arguments.json:
-        arguments.json.write_text(json.dumps(found, indent=1))
+    report(found)
+    keep(arguments.json, found)
 
 
 if __name__ == "__main__":

@@ -29,13 +29,10 @@ balls that fly in one setup without touching, by ``simulate``. Except for the co
 
 from __future__ import annotations
 
-import argparse
-import json
 import os
 import subprocess
 import sys
 import tempfile
-import textwrap
 from collections.abc import Callable, Sequence
 from contextlib import ExitStack
 from dataclasses import replace
@@ -44,7 +41,7 @@ from math import cos, hypot, inf, radians, sin
 from pathlib import Path
 from random import Random
 from statistics import mean, median
-from time import perf_counter, thread_time
+from time import perf_counter
 from timeit import timeit
 from typing import Any
 from unittest.mock import patch
@@ -52,6 +49,7 @@ from unittest.mock import patch
 import by_pymunk
 import numpy as np
 from forces import together
+from measured import Done, command_line, keep, say, show, timed
 from shots import SHORT, basketball_law
 from shots import Shot as Launched
 
@@ -69,6 +67,7 @@ from sandbox.lab.plan import Plan, records
 from sandbox.lab.row_file import RowFile
 from sandbox.lab.runs import runs
 from sandbox.lab.sweep import sweep
+from sandbox.lab.tables import paragraph
 from sandbox.picture.camera import Camera
 from sandbox.scene import Scene
 from sandbox.window import fan
@@ -125,30 +124,13 @@ def setups(shape: tuple[int, int]) -> list[Setup]:
     ]
 
 
-def timed(work: Callable[[], Any], repeats: int) -> tuple[float, Any]:
+def usual(work: Callable[[], Done], repeats: int) -> tuple[float, Done]:
     """Median of the processor time in s, and the result."""
-    times = []
-    for _ in range(repeats):
-        started = thread_time()
-        done = work()
-        times.append(thread_time() - started)
-    return median(times), done
+    spent, done = zip(*(timed(work) for _ in range(repeats)), strict=True)
+    return median(spent), done[-1]
 
 
 # -------------------------------------------------------------------------------------------------------------- the map
-
-
-def by_command(shape: tuple[int, int], processes: int) -> float:
-    """Wall time of ``sandbox sweep`` in s."""
-    program = [sys.executable, "-c", "from sandbox.cli import main; main()"]
-    axes = [("launch.speed", SPEEDS, shape[0]), ("launch.angle", ANGLES, shape[1])]
-    over = [word for key, (low, high), n in axes for word in ("--over", f"{key}={low:g}:{high:g}:{n}")]
-    with tempfile.TemporaryDirectory() as folder:
-        out = Path(folder) / "map.csv"
-        command = [*program, "sweep", "basketball", *over, "--jobs", str(processes), "--out", str(out)]
-        started = perf_counter()
-        subprocess.run(command, check=True, capture_output=True)
-        return perf_counter() - started
 
 
 PROGRAM = "from sandbox.cli import main; main()"
@@ -156,20 +138,31 @@ PROGRAM = "from sandbox.cli import main; main()"
 START = "import sandbox.cli.program, sandbox.engine.batch, sandbox.lab.aim; sandbox.load('golf').build()"
 
 
-def processor(code: str, words: Sequence[str] = ()) -> float:
-    """Processor time of a program, user and system, in s."""
-    before = os.times()
-    subprocess.run([sys.executable, "-c", code, *words], check=True, capture_output=True)
-    after = os.times()
-    return after.children_user + after.children_system - before.children_user - before.children_system
+def of_children() -> float:
+    """Processor time of all processes started so far and ended, user and system, in s."""
+    spent = os.times()
+    return spent.children_user + spent.children_system
 
 
-def swept(scene: str, speeds: tuple[float, float], angles: tuple[float, float], shape: tuple[int, int]) -> float:
-    """Processor time in s of a whole sweep."""
+def process(code: str, words: Sequence[str] = (), clock: Callable[[], float] = of_children) -> float:
+    """Time of a program in s."""
+    command = [sys.executable, "-c", code, *words]
+    return timed(partial(subprocess.run, command, check=True, capture_output=True), clock=clock)[0]
+
+
+def swept(
+    scene: str,
+    speeds: tuple[float, float],
+    angles: tuple[float, float],
+    shape: tuple[int, int],
+    *more: str,
+    clock: Callable[[], float] = of_children,
+) -> float:
+    """Time in s of a whole sweep."""
     axes = (("launch.speed", speeds, shape[0]), ("launch.angle", angles, shape[1]))
     over = [word for key, (low, high), n in axes for word in ("--over", f"{key}={low:g}:{high:g}:{n}")]
     with tempfile.TemporaryDirectory() as folder:
-        return processor(PROGRAM, ["sweep", scene, *over, "--out", str(Path(folder) / "map.csv")])
+        return process(PROGRAM, ["sweep", scene, *over, "--out", str(Path(folder) / "map.csv"), *more], clock)
 
 
 def floor_of(name: str, speeds: tuple[float, float], angles: tuple[float, float], shape: tuple[int, int]) -> float:
@@ -186,7 +179,7 @@ def floor_of(name: str, speeds: tuple[float, float], angles: tuple[float, float]
 
 def commands(repeats: int, quick: bool) -> list[dict[str, Any]]:
     """A row for each command, or for one of each kind; the start-up is subtracted from the searches."""
-    start = min(processor(START) for _ in range(repeats))
+    start = min(process(START) for _ in range(repeats))
     rows, share = [], inf
     for name, (speeds, angles, shape, asked) in list(SWEEPS.items())[: 1 if quick else None]:
         how = (name.partition(",")[0], speeds, angles, (6, 5) if quick else shape)
@@ -204,7 +197,7 @@ def commands(repeats: int, quick: bool) -> list[dict[str, Any]]:
     for name, (vary, asked) in list(AIMS.items())[: 1 if quick else None]:
         scene, _, target = name.partition(" ")
         words = ["aim", scene, "--vary", vary, "--target", target]
-        spent = min(processor(PROGRAM, words) for _ in range(repeats)) - start
+        spent = min(process(PROGRAM, words) for _ in range(repeats)) - start
         rows.append({"command": f"aim {name}, beyond start", "processor_s": spent, "asked_s": asked})
     return rows
 
@@ -222,13 +215,13 @@ def in_the_window(repeats: int, quick: bool) -> list[dict[str, Any]]:
             with patch.object(fan, "SHOTS", shots), patch.object(fan, "_begun", None):
                 parts, left = [], True
                 while left:
-                    spent, cloud = timed(partial(fan.cloud, scene, *how), 1)
+                    spent, cloud = timed(fan.cloud, scene, *how)
                     parts, left = [*parts, spent], cloud.left > 0 and not quickly
             times.append((sum(parts), parts[0]))
         whole, first = min(times)
         rows.append({"what": f"fan of {shots}, {name}", "processor_s": whole, "first_s": first, "asked_s": asked})
     for name, asked in list(MAPS.items())[: 1 if quick else None]:
-        whole = min(timed(partial(score_map, sandbox.load(name)), 1)[0] for _ in range(repeats))
+        whole = min(timed(score_map, sandbox.load(name))[0] for _ in range(repeats))
         rows.append({"what": f"map, {name}", "processor_s": whole, "first_s": whole, "asked_s": asked})
     return rows
 
@@ -241,9 +234,8 @@ def steps(shape: tuple[int, int]) -> dict[str, float]:
 
     def clocked(step: str, work: Callable[..., Any]) -> Callable[..., Any]:
         def wrapped(*arguments: Any) -> Any:
-            started = thread_time()
-            done = work(*arguments)
-            spent[step] += thread_time() - started
+            seconds, done = timed(work, *arguments)
+            spent[step] += seconds
             return done
 
         return wrapped
@@ -262,7 +254,7 @@ def steps(shape: tuple[int, int]) -> dict[str, float]:
         rows = records(plan, 0, plan.size)
     spent["flight"] -= spent["touches"]
     with tempfile.TemporaryDirectory() as folder, RowFile(Path(folder) / "map.csv", plan) as file:
-        spent["rows as CSV"], _ = timed(lambda: file.append(rows), 1)
+        spent["rows as CSV"], _ = timed(file.append, rows)
     spent["floor"] = floor_of("basketball", SPEEDS, ANGLES, shape)
     return {step: seconds / plan.size for step, seconds in spent.items()}
 
@@ -272,7 +264,7 @@ def by_bare_pymunk(setup: Setup, run: Run) -> tuple[float, float, int]:
     shot = Launched(replace(setup, duration=run.duration, until=None), basketball_law)
     x, y = run.before("ball", run.duration)[:2]
     for rate in RATES:
-        spent, end = timed(partial(by_pymunk.shoot, shot, rate), 1)
+        spent, end = timed(by_pymunk.shoot, shot, rate)
         error = hypot(end.x - x, end.y - y)
         if error <= TARGET:
             break
@@ -290,11 +282,12 @@ def the_map(shape: tuple[int, int], drawn: int, repeats: int) -> dict[str, Any]:
     """A row for each way of computing it."""
     flown, balanced = setups(shape), resolve()
     shots = len(flown)
-    together_s, runs = timed(lambda: list(simulate_many(flown, balanced)), repeats)
-    one_by_one_s, _ = timed(lambda: [simulate(setup, balanced) for setup in flown], 1)
+    together_s, runs = usual(lambda: list(simulate_many(flown, balanced)), repeats)
+    one_by_one_s, _ = timed(lambda: [simulate(setup, balanced) for setup in flown])
     evaluations = mean(run.numerics.force_evaluations for run in runs)
     limit = forces_alone(shots, round(evaluations)) / shots
-    commands = [[by_command(shape, processes) for processes in (1, 2)] for _ in range(repeats)]
+    whole = "basketball", SPEEDS, ANGLES, shape, "--jobs"
+    commands = [[swept(*whole, jobs, clock=perf_counter) for jobs in ("1", "2")] for _ in range(repeats)]
     finest = resolve("precise", tolerance=1e-9)
     some = Random(1).sample(flown, drawn)
     bare = [by_bare_pymunk(setup, simulate(setup, finest)) for setup in some]
@@ -324,63 +317,50 @@ def the_map(shape: tuple[int, int], drawn: int, repeats: int) -> dict[str, Any]:
 
 def by_shots(shape: tuple[int, int]) -> dict[str, float]:
     shots = shape[0] * shape[1]
-    spent, _ = timed(lambda: sweep("basketball", grid(shape)), 3 if shots < 1_000 else 1)
+    spent, _ = usual(lambda: sweep("basketball", grid(shape)), 3 if shots < 1_000 else 1)
     return {"shots": shots, "time_s": spent, "ms_per_shot": 1e3 * spent / shots}
 
 
 def by_balls(balls: int, repeats: int) -> dict[str, float]:
     setup, balanced = together(balls), resolve()
-    spent, _ = timed(lambda: simulate(setup, balanced), repeats)
+    spent, _ = usual(lambda: simulate(setup, balanced), repeats)
     return {"balls": balls, "time_s": spent, "ms_per_ball": 1e3 * spent / balls}
 
 
 # --------------------------------------------------------------------------------------------------------------- report
 
 
-def show(results: dict[str, Any]) -> None:
-    out, found = sys.stdout, results["map"]
-    out.write(f"{found['shots']:,} free throws, {found['cores']} cores\n")
-    out.write(f"  {'':<30}{'shots/s':>10}{'the map':>12}{'over limit':>12}\n")
-    for row in found["rows"]:
-        out.write(
-            f"  {row['way']:<30}{row['shots_per_s']:>10,.{0 if row['shots_per_s'] >= 100 else 1}f}"
-            f"{row['map_s']:>10,.1f} s{row['over_limit']:>12,.0f}\n"
-        )
-    out.write(
-        f"  limit: {found['evaluations_per_shot']:.0f} evaluations of the forces a shot in numpy, "
-        f"{1e6 * found['limit_s_per_shot']:.1f} us\n"
-    )
-    drawn = found["bare_pymunk"]
+def report(results: dict[str, Any]) -> None:
+    found, drawn = results["map"], results["map"]["bare_pymunk"]
+    ways = {
+        "": "{way}",
+        "shots/s": "{shots_per_s:,.1f}",
+        "the map": "{map_s:,.1f} s",
+        "over limit": "{over_limit:,.0f}",
+    }
+    show(f"{found['shots']:,} free throws, {found['cores']} cores", found["rows"], ways)
     reached = sum(one["error_m"] <= TARGET for one in drawn)
     rates = ", ".join(f"{one['steps_per_s']:,}" for one in drawn)
-    out.write(f"  bare pymunk: {len(drawn)} shots drawn, {reached} within {100 * TARGET:g} cm, at {rates} steps/s\n")
     parts = ", ".join(f"{step} {1e6 * spent:.0f} us" for step, spent in results["steps"].items())
-    out.write(textwrap.fill(f"a shot of a sweep: {parts}", 110, initial_indent="  ", subsequent_indent="    ") + "\n")
-    out.write(f"\n  {'shots':>8}{'time':>12}{'a shot':>12}\n")
-    for row in results["shots"]:
-        out.write(f"  {row['shots']:>8,}{row['time_s']:>10.2f} s{row['ms_per_shot']:>9.2f} ms\n")
-    out.write(f"\n  {'whole command':<36}{'processor':>12}{'floor':>12}{'asked':>12}\n")
-    for row in results["commands"]:
-        floor = f"{row['floor_s']:.3f} s" if "floor_s" in row else ""
-        out.write(f"  {row['command']:<36}{row['processor_s']:>10.2f} s{floor:>12}{row['asked_s']:>10.2f} s\n")
-    out.write(f"\n  {'in the window':<36}{'processor':>12}{'first':>12}{'asked':>12}\n")
-    for row in results["window"]:
-        out.write(
-            f"  {row['what']:<36}{row['processor_s']:>10.2f} s{row['first_s']:>10.2f} s{row['asked_s']:>10.2f} s\n"
-        )
-    out.write(f"\n  {'balls':>8}{'time':>12}{'a ball':>12}\n")
-    for row in results["balls"]:
-        out.write(f"  {row['balls']:>8,}{1e3 * row['time_s']:>9.2f} ms{row['ms_per_ball']:>9.2f} ms\n")
+    limit = f"{found['evaluations_per_shot']:.0f} evaluations of the forces a shot in numpy"
+    say(
+        *paragraph(f"limit: {limit}, {1e6 * found['limit_s_per_shot']:.1f} us"),
+        *paragraph(f"bare pymunk: {len(drawn)} drawn, {reached} within {100 * TARGET:g} cm, at {rates} steps/s"),
+        *paragraph(f"a shot of a sweep: {parts}"),
+    )
+    shots = {"shots": "{shots:,}", "time": "{time_s:.2f} s", "a shot": "{ms_per_shot:.2f} ms"}
+    show("growth with the shots", results["shots"], shots)
+    spent = {"processor": "{processor_s:.2f} s", "floor": "{floor_s:.3f} s", "asked": "{asked_s:.2f} s"}
+    show("whole commands", results["commands"], {"": "{command}", **spent})
+    spent = {"processor": "{processor_s:.2f} s", "first": "{first_s:.2f} s", "asked": "{asked_s:.2f} s"}
+    show("in the window", results["window"], {"": "{what}", **spent})
+    balls = {"balls": "{balls:,}", "time": "{time_s:.2f ms}", "a ball": "{ms_per_ball:.2f} ms"}
+    show("growth with the balls", results["balls"], balls)
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--json", type=Path, help="write the rows here")
-    parser.add_argument("--repeats", type=int, default=3)
-    parser.add_argument("--quick", action="store_true", help="a small map, once, as a test")
-    arguments = parser.parse_args()
-    quick = arguments.quick
-    repeats = 1 if quick else arguments.repeats
+    arguments = command_line(__doc__, repeats=3)
+    quick, repeats = arguments.quick, arguments.repeats
     results = {
         "map": the_map((6, 5) if quick else MAP, 1 if quick else DRAWN, repeats),
         "steps": steps((6, 6) if quick else MAP),
@@ -389,9 +369,8 @@ def main() -> None:
         "window": in_the_window(repeats, quick),
         "balls": [by_balls(balls, 3 * repeats) for balls in (BALLS[:2] if quick else BALLS)],
     }
-    show(results)
-    if arguments.json:
-        arguments.json.write_text(json.dumps(results, indent=1))
+    report(results)
+    keep(arguments.json, results)
 
 
 if __name__ == "__main__":

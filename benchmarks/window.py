@@ -12,16 +12,14 @@ of scenes, and a line for the fan alone. The last line is the share of all frame
 
 from __future__ import annotations
 
-import argparse
-import json
 import os
-import sys
 from collections.abc import Callable, Iterator
 from math import cos, pi, radians, sin
-from pathlib import Path
 from statistics import median
 from time import perf_counter, process_time, sleep
 from typing import Any
+
+from measured import command_line, keep, say, show
 
 os.environ |= {"SDL_VIDEODRIVER": "dummy", "SDL_AUDIODRIVER": "dummy"}
 
@@ -111,36 +109,44 @@ def summarised(rows: Iterator[tuple[float, float, bool, bool]]) -> dict[str, flo
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("scenes", nargs="*", help="scenes and presets; default: all, with the most demanding presets")
-    parser.add_argument("--frames", type=int, default=180)
-    parser.add_argument("--json", type=Path, help="write the rows here")
-    arguments = parser.parse_args()
+    options = {
+        "scenes": {"nargs": "*", "help": "scenes and presets; default: all, with the most demanding presets"},
+        "--frames": {"type": int, "default": 180},
+    }
+    arguments = command_line(__doc__, options=options)
     sources = arguments.scenes or [item.name for item in listings()]
     pygame.display.init()
     rows: dict[str, dict[str, dict[str, float]]] = {}
     worker, helper = Processes(1), Processes(1)
-    columns = ("median", 9), ("95 %", 9), ("processor", 10), ("share", 6), ("in time", 8), ("path", 6), ("fans", 7)
-    head = " ".join([" " * 41, *(f"{name:>{width}}" for name, width in columns)])
-    sys.stdout.write(head + "\n")
     for source in sources:
         few = not arguments.scenes and "/" in source
         rows[source] = measure(source, arguments.frames // 3 if few else arguments.frames, worker, helper)
-        shown = {"with a fan": rows[source]["with a fan"]} if few else rows[source]
-        for number, (name, row) in enumerate(shown.items()):
-            share = row["processor_ms"] / FRAME / 1e3
-            path = f"{row['path']:>6.0%}" if name == "aiming" else f"{row['fans']:>12.1f} /s" * (name == "with a fan")
-            sys.stdout.write(
-                f"{'' if number else source:<26} {name:<14} {row['median_ms']:>6.1f} ms {row['p95_ms']:>6.1f} ms "
-                f"{row['processor_ms']:>7.1f} ms {share:>6.0%} {row['in_time']:>8.0%} {path}\n"
-            )
     worker.close(abandon=True)
     helper.close(abandon=True)
+    columns = {
+        "scene": "{scene}",
+        "": "{activity}",
+        "median": "{median_ms:.1f} ms",
+        "95 %": "{p95_ms:.1f} ms",
+        "processor": "{processor_ms:.1f} ms",
+        "share": "{share:.0%}",
+        "in time": "{in_time:.0%}",
+        "path": "{path:.0%}",
+        "fans": "{fans:.1f} /s",
+    }
+    shown = [
+        row
+        | {"scene": source, "activity": name, "share": row["processor_ms"] / FRAME / 1e3}
+        | {"path": row["path"] if name == "aiming" else None, "fans": row["fans"] if name == "with a fan" else None}
+        for source, found in rows.items()
+        for name, row in found.items()
+        if name == "with a fan" or arguments.scenes or "/" not in source
+    ]
+    show("frames", shown, columns)
     every = [row for found in rows.values() for row in found.values()]
     in_time = sum(row["in_time"] * row["frames"] for row in every) / sum(row["frames"] for row in every)
-    sys.stdout.write(f"{in_time:.1%} of all frames in time\n")
-    if arguments.json:
-        arguments.json.write_text(json.dumps(rows, indent=1))
+    say(f"{in_time:.1%} of all frames in time")
+    keep(arguments.json, rows)
 
 
 if __name__ == "__main__":
