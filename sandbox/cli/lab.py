@@ -100,7 +100,6 @@ def aim(
     "--html", metavar="F.html", type=Path, help="A page with the map, and the path of the point under the cursor."
 )
 @click.option("--of", metavar="NAME", help="The result that --plot and --html show.")
-@click.option("--parquet", metavar="F.parquet", type=Path, help="Write the rows as Parquet too; needs pyarrow.")
 @click.option(
     "--jobs",
     metavar="N",
@@ -119,7 +118,6 @@ def sweep(
     plot: Path | None,
     html: Path | None,
     of: str | None,
-    parquet: Path | None,
     jobs: int | None,
     scheduler: str | None,
 ) -> None:
@@ -158,12 +156,6 @@ def sweep(
         check_file("--html", html, ".html")
         check_installed("--html", "matplotlib")
         page.check_page(plan)
-    if parquet is not None:
-        from sandbox.files import check_installed
-        from sandbox.lab.parquet import write_parquet
-
-        check_file("--parquet", parquet, ".parquet")
-        check_installed("--parquet", "pyarrow")
     with workers(jobs or jobs_that_pay(plan), scheduler) as pool, bar("sweep") as progress:
         done = sweep_to_file(plan, out, pool, progress)
     if plot is not None:
@@ -176,11 +168,8 @@ def sweep(
 
         with writing("--html", html):
             save(page.page_of(plan, out, of), html)
-    if parquet is not None:
-        with writing("--parquet", parquet):
-            write_parquet(plan, out, parquet)
     if str(out) != "/dev/stdout":
-        written = [f"wrote {path}" for path in (out, plot, html, parquet) if path is not None]
+        written = [f"wrote {path}" for path in (out, plot, html) if path is not None]
         say("\n".join([done.as_text(), *written]))
     if done.failures == done.points - done.resumed > 0:
         raise RunError(f"every point failed, the first with: {done.first_error}")

@@ -24,7 +24,7 @@ from sandbox.lab.row_file import is_of_a_sweep
 from sandbox.scene import Scene
 
 #: Files that the program writes; one of these kinds that a scene reads is not noticed.
-_OUTPUTS = (".png", ".gif", ".webp", ".parquet", ".replay.json", ".resume", ".part", "~")
+_OUTPUTS = (".png", ".gif", ".webp", ".replay.json", ".resume", ".part", "~")
 
 #: Folders that no run depends on.
 _IGNORED = {"__pycache__", "golden", "out"}

@@ -800,19 +800,6 @@ def test_pictures(tmp_path, over, more):
         assert len(picture.convert("RGB").getcolors(1 << 24)) > 20
 
 
-def test_parquet_has_the_same_rows(tmp_path):
-    parquet = pytest.importorskip("pyarrow.parquet")
-    out, copy = tmp_path / "x.csv", tmp_path / "x.parquet"
-    over = ["--over", "launch.height=0.5,1,50", "--over", "ball.drag.model=none,constant"]
-    assert main(["sweep", str(DROP), *over, "--jobs", "1", "--out", str(out), "--parquet", str(copy)]) == 0
-    rows = parquet.read_table(copy).to_pylist()
-    assert rows[0]["launch.height"] == 0.5
-    assert rows[0]["ball.drag.model"] == "none"
-    assert rows[0]["bounced"] is True
-    assert rows[4]["first_touch"] is None
-    assert [row["final_height"] for row in rows] == [float(row["final_height"]) for row in table(out)]
-
-
 @pytest.mark.parametrize("accuracy", [{}, {"accuracy.tolerance": 1e-12}, {"accuracy.integrator": "rk4"}])
 def test_a_block_is_about_a_second_of_work(accuracy):
     """Rows are kept by blocks: an interrupted sweep must not lose many seconds."""
