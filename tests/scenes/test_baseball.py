@@ -3,17 +3,14 @@
 from __future__ import annotations
 
 from statistics import mean, stdev
-from typing import Any
 
 import pytest
 
 import sandbox
 from sandbox.lab.validate import validate
+from tests.scenes.play import results_of
 
-
-def hit(preset: str = "baseball", **changes: Any) -> dict[str, Any]:
-    scene = sandbox.load(preset, {key.replace("__", "."): value for key, value in changes.items()})
-    return sandbox.simulate(scene).result
+hit = results_of("baseball")
 
 
 @pytest.fixture(scope="module")
@@ -27,14 +24,6 @@ def test_with_one_offset_fly_balls_scatter_by_20_ft(errors: list[float]):
     assert len(errors) == 42
     assert stdev(errors) < 21.0
     assert 15.0 < mean(errors) < 25.0
-
-
-def test_a_home_run_passes_over_the_fence():
-    result = hit()
-    assert result["home_run"]
-    assert result["over_fence"] > 0.0
-    assert not hit(fence__height=15.0)["home_run"]
-    assert not hit(launch__speed=30.0)["home_run"]
 
 
 def test_thin_air_carries_farther():
@@ -53,8 +42,3 @@ def test_drag_grows_with_the_spin_and_not_with_the_air():
         push = drag(0.0, (0.0, 1.0), (40.0, 0.0), 2000 * 3.141592653589793 / 30)[0]
         area = 3.141592653589793 * drag.radius**2
         assert -push / (0.5 * density * area * 1600.0) == pytest.approx(0.3008 + 2 * 0.0292, rel=1e-9)
-
-
-@pytest.mark.parametrize(("preset", "home_run"), [("bat", False), ("denver", True), ("green-monster", False)])
-def test_presets_do_what_they_say(preset: str, home_run: bool):
-    assert hit(f"baseball/{preset}")["home_run"] is home_run

@@ -698,23 +698,6 @@ def test_a_ball_that_is_pressed_on_a_dead_cushion_met_it_once():
     assert run.result["touches"] == ["foot cushion"]
 
 
-@pytest.mark.parametrize(
-    ("name", "changes", "said"),
-    [
-        ("billiards/bank", {}, "The 1 into the left side pocket"),
-        ("billiards/bank", {"cue.angle": 3.0}, "Scratch in the left head corner pocket"),
-        ("billiards/bank", {"cue.angle": 90.0}, "Hits no ball"),
-        ("billiards/bank", {"cue.speed": 0.5}, "Nothing potted, the 1 rolls 0.14 m"),
-        ("billiards/newtons-cradle", {}, "Nothing potted, the 5 rolls 2.1 m"),
-        ("billiards/snooker-break", {}, "Break at 3.0 m/s, nothing potted"),
-        ("billiards/three-rail-carom", {}, "Point, after 3 cushions"),
-    ],
-)
-def test_what_a_shot_came_to_is_said(name: str, changes: dict[str, Any], said: str):
-    run = sandbox.simulate(sandbox.load(name, changes))
-    assert run.scene.verdict(run) == said
-
-
 def test_how_balls_leave_their_first_meeting_is_told():
     """Just after it, and as they roll later, long after the slip has ended."""
     run = shot(spot("cue", 0.0, 0.0), spot("1", 0.3, 0.02), cue__speed=1.0, cue__follow=0.4, contact__model="hertz")

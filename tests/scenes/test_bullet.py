@@ -9,13 +9,10 @@ import numpy as np
 import pytest
 
 import sandbox
-from sandbox.errors import RequestError
 from sandbox.physics.ballistics import drag_by_mach, drag_table
+from tests.scenes.play import results_of
 
-
-def fire(preset: str = "bullet", **changes: Any) -> dict[str, Any]:
-    scene = sandbox.load(preset, {key.replace("__", "."): value for key, value in changes.items()})
-    return sandbox.simulate(scene).result
+fire = results_of("bullet")
 
 
 @pytest.mark.parametrize("shape", ["G1", "G7", "GS"])
@@ -32,11 +29,6 @@ def test_the_drag_passes_through_the_points_of_its_table(shape: str):
 def test_the_bullet_meets_the_line_of_sight_at_the_zero(distance: float):
     result = fire(zero__distance=distance, range__distance=distance)
     assert result["height"] == pytest.approx(0.0, abs=1e-6)
-
-
-def test_a_zero_out_of_reach_is_refused():
-    with pytest.raises(RequestError, match=r"zero\.distance = 2000 m: the bullet does not get there"):
-        fire(launch__speed=20.0, zero__distance=2000.0)
 
 
 def test_the_table_has_a_row_every_hundred_yards():

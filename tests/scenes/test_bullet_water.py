@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 from math import log
-from typing import Any
 
 import pytest
 
 import sandbox
+from tests.scenes.play import results_of
 
-
-def fire(preset: str = "bullet-water", **changes: Any) -> dict[str, Any]:
-    scene = sandbox.load(preset, {key.replace("__", "."): value for key, value in changes.items()})
-    return sandbox.simulate(scene).result
+fire = results_of("bullet-water")
 
 
 @pytest.mark.parametrize("preset", ["bullet-water", "bullet-water/pistol"])

@@ -8,31 +8,11 @@ from typing import Any
 import pytest
 
 import sandbox
-from sandbox.engine.run import Run
-from sandbox.errors import RequestError
+from tests.scenes.play import playing
 
 ALONE: dict[str, Any] = {"stones": []}
 
-
-def throw(scene: str = "curling", **changes: Any) -> Run:
-    return sandbox.simulate(sandbox.load(scene, {key.replace("__", "."): value for key, value in changes.items()}))
-
-
-@pytest.mark.parametrize(
-    ("preset", "team", "points", "said"),
-    [
-        ("curling", "red", 1, "Lies 0.13 m from the tee; red lies 1"),
-        ("curling/guard", "red", 1, "Lies 3.6 m from the tee; red lies 1"),
-        ("curling/take-out", "red", 1, "Takes out 1 and stays; red lies 1"),
-        ("curling/double", "red", 2, "Takes out 2 and stays; red lies 2"),
-        ("curling/swept-draw", "red", 1, "Lies 0.40 m from the tee; red lies 1"),
-        ("curling/raise", "red", 2, "Lies 1.9 m from the tee; red lies 2"),
-    ],
-)
-def test_presets_are_what_they_say_at_every_accuracy(preset, team, points, said):
-    for level in ("fast", "balanced", "precise"):
-        run = throw(preset, accuracy__level=level)
-        assert (run.result["scores"], run.result["points"], run.scene.verdict(run)) == (team, points, said)
+throw = playing("curling")
 
 
 def test_the_stone_curls_to_the_side_of_its_spin():
@@ -62,7 +42,7 @@ def test_sweeping_lengthens_and_straightens():
     ],
 )
 def test_what_leaves_the_sheet_is_taken_off(changes, said):
-    run = sandbox.simulate(sandbox.load("curling", {**ALONE, **changes}))
+    run = throw(**{**ALONE, **changes})
     assert run.scene.verdict(run) == said
     assert run.result["removed"] == ["stone"]
     assert run.result["positions"] == {}
@@ -97,21 +77,4 @@ def test_the_next_throw_finds_the_stones_where_they_lie():
     assert [(stone["team"], hypot(stone["x"], stone["y"]) < 2.0) for stone in following["stones"]] == [
         ("red", True)
     ] * 2
-    assert sandbox.simulate(sandbox.load("curling", following)).setup.balls[1].position == pytest.approx(
-        run.result["positions"]["stone"]
-    )
-
-
-@pytest.mark.parametrize(
-    ("stones", "said"),
-    [
-        ([{"x": 0.0, "y": 2.3}], r"stones\[0\].y = 2.3"),
-        ([{"x": 1.99, "y": 0.0}], r"stones\[0\].x = 1.99"),
-        ([{"x": 0.0, "y": 0.0}, {"x": 0.2, "y": 0.0, "team": "red"}], "overlaps .* at the start"),
-    ],
-)
-def test_stones_that_cannot_lie_there_are_refused(stones, said):
-    with pytest.raises(RequestError, match=r"launch.aside = 2.3 m: must be between -2.23 and 2.23 m"):
-        throw(launch__aside=2.3)
-    with pytest.raises(RequestError, match=said):
-        throw(stones=stones)
+    assert throw(**following).setup.balls[1].position == pytest.approx(run.result["positions"]["stone"])

@@ -3,19 +3,16 @@
 from __future__ import annotations
 
 from math import pi
-from typing import Any
 
 import numpy as np
 import pytest
 
 import sandbox
 from sandbox.engine.acting import Turned
-from sandbox.engine.run import Run
 from scenes.football.scene import DragByAngle
+from tests.scenes.play import playing
 
-
-def run_of(name: str = "football", **changes: Any) -> Run:
-    return sandbox.simulate(sandbox.load(name, {key.replace("__", "."): value for key, value in changes.items()}))
+run_of = playing("football")
 
 
 def test_without_air_the_distance_is_that_of_a_parabola():
@@ -80,4 +77,4 @@ def test_a_step_that_is_far_too_long_is_made_again():
     light = {"ball.mass": 0.1, "ball.width": 1.0, "ball.side_drag": 0.0, "ball.length": 0.33, "air.density": 1100.0}
     kick = {"launch.speed": 1e-9, "launch.angle": 0.0, "launch.height": 3.0, "launch.turns": "spiral"}
     changes = light | kick | {"air.wind": (89.3, 89.3), "ball.nose_drag": 0.19863759836037037}
-    assert sandbox.simulate(sandbox.load("football", changes)).duration > 0.0
+    assert run_of(**changes).duration > 0.0

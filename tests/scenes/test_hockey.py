@@ -9,46 +9,11 @@ import pytest
 
 import sandbox
 from sandbox.engine.ledger import ledger
-from sandbox.engine.run import Run
-from sandbox.errors import RequestError
+from tests.scenes.play import playing
 
 ALONE: dict[str, Any] = {"players": []}
 
-
-def shoot(scene: str = "hockey", **changes: Any) -> Run:
-    return sandbox.simulate(sandbox.load(scene, {key.replace("__", "."): value for key, value in changes.items()}))
-
-
-@pytest.mark.parametrize(
-    ("preset", "word", "said"),
-    [
-        ("hockey", "goal", "Goal at 42.0 m/s"),
-        ("hockey/bank-pass", "received", "Received at 10.0 m/s, off the boards"),
-        ("hockey/rim", "received", "Received at 8.6 m/s, off the boards"),
-        ("hockey/off-the-post", "post", "Off the post"),
-        ("hockey/air-hockey", "goal", "Goal at 4.4 m/s, off the boards"),
-    ],
-)
-def test_presets_are_what_they_say_at_every_accuracy(preset, word, said):
-    for level in ("fast", "balanced", "precise"):
-        run = shoot(preset, accuracy__level=level)
-        assert (run.result["verdict"], run.scene.verdict(run)) == (word, said)
-    assert run.result["goal"] is (word == "goal")
-
-
-@pytest.mark.parametrize(
-    ("changes", "said"),
-    [
-        ({"players": [{"role": "goalie", "x": 26.2, "y": -0.8}]}, "Saved by the goalie"),
-        ({"players": [{"role": "defender", "x": 16.0, "y": -3.2}]}, "Stopped by the defender"),
-        ({"launch.angle": 20.0, **ALONE}, "Wide of the goal"),
-        ({"launch.speed": 3.0, **ALONE}, "Stops 15 m before the goal line"),
-    ],
-)
-def test_what_else_becomes_of_a_shot(changes, said):
-    run = sandbox.simulate(sandbox.load("hockey", changes))
-    assert run.scene.verdict(run) == said
-    assert not run.result["goal"]
+shoot = playing("hockey")
 
 
 def test_a_goal_is_a_puck_wholly_over_the_line_between_the_posts():
@@ -75,7 +40,7 @@ def test_the_puck_glides_as_far_as_its_energy_goes():
 def test_smooth_elastic_boards_return_the_puck_as_a_mirror():
     level = {"puck.restitution": 1.0, "puck.friction": 0.0, "rink.sliding": 0.0, "duration": 1.0}
     changes = {**ALONE, **level, "launch.angle": 50.0, "launch.speed": 20.0, "launch.x": 0.0, "launch.aside": 0.0}
-    run = sandbox.simulate(sandbox.load("hockey", changes))
+    run = shoot(**changes)
     assert run.state("puck", 1.0)[2:4] == pytest.approx((20 * cos(radians(50)), -20 * sin(radians(50))), rel=1e-9)
 
 
@@ -84,7 +49,7 @@ def test_corners_are_round():
     level = {"puck.restitution": 1.0, "puck.friction": 0.0, "rink.sliding": 0.0, "duration": 2.0}
     middle = {"launch.x": 30.48 - 8.5344, "launch.aside": 12.954 - 8.5344, "launch.speed": 10.0}
     for angle in (10.0, 33.0, 61.0, 85.0):
-        run = sandbox.simulate(sandbox.load("hockey", {**ALONE, **level, **middle, "launch.angle": angle}))
+        run = shoot(**{**ALONE, **level, **middle, "launch.angle": angle})
         hit = next(event for event in run.events if event.kind == "impact")
         away = hypot(hit.x - middle["launch.x"], hit.y - middle["launch.aside"])
         assert away == pytest.approx(8.5344 - 0.0381, abs=1e-3)
@@ -113,20 +78,3 @@ def test_who_stands_holds_ground_and_who_skates_keeps_speed():
     run = shoot(players=players, duration=3.0, launch__angle=40.0)
     assert run.state("defender 1", 2.0)[0] == pytest.approx(4.0)
     assert run.state("goalie 2", 2.0)[:2] == (26.2, 0.15)
-
-
-@pytest.mark.parametrize(
-    ("x", "y", "said"),
-    [
-        (30.45, 0.0, r"puck at \(30.45, 0\) m is outside the boards"),
-        (0.0, -12.95, "outside the boards"),
-        (29.0, 11.5, "outside the boards"),  # in the rounding of a corner
-        (29.0, 7.0, None),
-    ],
-)
-def test_who_starts_outside_the_boards_is_refused(x, y, said):
-    if said is None:
-        shoot(**ALONE, launch__x=x, launch__aside=y, duration=0.1)
-        return
-    with pytest.raises(RequestError, match=said):
-        shoot(**ALONE, launch__x=x, launch__aside=y)

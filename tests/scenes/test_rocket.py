@@ -2,17 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import pytest
 
-import sandbox
-from sandbox.errors import RequestError
+from tests.scenes.play import playing
 
-
-def fly(preset: str = "rocket", **changes: Any) -> sandbox.Run:
-    scene = sandbox.load(preset, {key.replace("__", "."): value for key, value in changes.items()})
-    return sandbox.simulate(scene)
+fly = playing("rocket")
 
 
 def test_a_lighter_rocket_with_the_same_motor_is_faster():
@@ -40,18 +34,3 @@ def test_its_nose_turns_into_the_wind_while_the_motor_burns():
 def test_a_grenade_ends_itself():
     assert fly("rocket/grenade").result["flight_time"] == 4.5
     assert "away after 4.5 s" in fly("rocket/grenade").scene.verdict(fly("rocket/grenade"))
-
-
-@pytest.mark.parametrize(
-    ("changes", "said"),
-    [
-        ({"motor__curve": [[0.0, 5.0]]}, "motor.curve: needs two points"),
-        ({"motor__curve": [[0.0, 5.0], [0.0, 5.0]]}, "each later than the last"),
-        ({"motor__curve": [[0.0, 0.0], [1.0, 0.0]]}, "and some thrust"),
-        ({"motor__curve": []}, "needs two points"),
-        ({"motor__propellant": 0.2}, "must be less than ball.mass"),
-    ],
-)
-def test_a_motor_that_cannot_be_is_refused(changes: dict[str, Any], said: str):
-    with pytest.raises(RequestError, match=said):
-        fly(**changes)

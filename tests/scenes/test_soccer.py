@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from math import cos, radians, sin, tan
-from typing import Any
 
 import pytest
 from hypothesis import given, settings
@@ -11,15 +10,10 @@ from hypothesis import strategies as st
 
 import sandbox
 from sandbox.engine.run import Run
-from sandbox.errors import RequestError
+from tests.scenes.play import playing
 
 VACUUM = {"air.density": 0.0, "wall.present": False}
-VERDICTS = {"soccer": "goal", "soccer/dipping-free-kick": "goal", "soccer/goal-kick-in-a-gale": "short"}
-
-
-def kick(scene: str = "soccer", **changes: Any) -> Run:
-    """A run with changed parameters: ``launch__speed=20`` stands for launch.speed."""
-    return sandbox.simulate(sandbox.load(scene, {key.replace("__", "."): value for key, value in changes.items()}))
+kick = playing("soccer")
 
 
 def touched(run: Run) -> set[str]:
@@ -32,18 +26,6 @@ def test_the_card_says_nothing_of_a_wall_that_is_not_there():
 
 
 # Presets ------------------------------------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize("level", ["fast", "balanced", "precise"])
-@pytest.mark.parametrize("name", VERDICTS)
-def test_presets_end_as_they_say_at_every_accuracy(name: str, level: str):
-    result = kick(name, accuracy__level=level).result
-    assert result["verdict"] == VERDICTS[name]
-    assert result["goal"] is (result["verdict"] == "goal")
-
-
-def test_the_dipping_free_kick_would_go_over_without_its_spin():
-    assert kick("soccer/dipping-free-kick", launch__spin=0).result["verdict"] == "over"
 
 
 def test_the_gale_brings_the_goal_kick_back():
@@ -95,34 +77,6 @@ def test_a_rolling_ball_comes_to_rest_where_it_should():
 
 
 # Verdicts -----------------------------------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize(
-    ("changes", "verdict", "met", "said"),
-    [
-        ({}, "goal", "net", "Goal, 1.1 m under the bar"),
-        ({"launch.spin": 0}, "over", "ground", "Over the bar by 1.2 m"),
-        ({"launch.angle": 12}, "wall", "wall", "Into the wall"),
-        ({"launch.angle": 22, "launch.speed": 28.2}, "bar", "bar", "Off the bar"),
-        ({"launch.speed": 6, "wall.present": False}, "short", "ground", "Short, 9.6 m from the goal"),
-        ({"launch.speed": 0}, "short", "ground", "Short, 21 m from the goal"),
-        (
-            {"launch.speed": 0, "air.wind": [-30, 0], "wall.present": False},
-            "short",
-            "ground",
-            "Ends 30 m behind the kick",
-        ),
-        ({"goal.present": False}, "past", "ground", "30 m up the field"),
-        ({"wall.present": False, "launch.angle": 5}, "goal", "net", "Goal, 2.2 m under the bar"),
-    ],
-)
-def test_verdicts(changes: dict[str, Any], verdict: str, met: str, said: str):
-    run = sandbox.simulate(sandbox.load("soccer", changes))
-    assert run.result["verdict"] == verdict
-    assert run.result["goal"] is (verdict == "goal")
-    assert met in touched(run)
-    assert run.ended in ("rest", "until")
-    assert run.scene.verdict(run) == said
 
 
 def test_a_goal_is_the_whole_ball_over_the_whole_line():
@@ -185,33 +139,8 @@ def test_an_effect_left_out_is_an_absent_term():
 # Bad input ----------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
-    ("changes", "named"),
-    [
-        ({"wall.distance": 30}, ("wall.distance = 30 m", "goal.distance = 22 m")),
-        ({"wall.distance": 21.9}, ("wall.distance = 21.9 m", "goal.distance = 22 m")),
-        ({"wall.distance": 0.2}, ("wall.distance = 0.2 m", "ball.radius = 0.11 m")),
-        ({"goal.distance": 0.1, "wall.present": False}, ("goal.distance = 0.1 m", "ball.radius = 0.11 m")),
-    ],
-)
-def test_what_makes_no_sense_is_refused_in_a_line_that_names_both(changes: dict[str, Any], named: tuple[str, ...]):
-    scene = sandbox.load("soccer", changes)
-    with pytest.raises(RequestError) as refused:
-        sandbox.simulate(scene)
-    assert all(part in str(refused.value) for part in named)
-    assert "\n" not in str(refused.value)
-
-
 def test_a_wall_behind_no_goal_is_no_error():
     assert kick(wall__distance=30, goal__present=False).result["verdict"] in ("wall", "past")
-
-
-def test_the_card_speaks_to_players():
-    run = sandbox.simulate("soccer")
-    card = dict(run.scene.rows(run))
-    assert (card["ball speed"], card["launch"], card["spin"]) == ("27.0 m/s", "20.0°", "300 rpm topspin")
-    assert card["over the wall"] == "0.36 m"
-    assert run.scene.verdict(run) == "Goal, 1.1 m under the bar"
 
 
 def test_a_ball_that_friction_drives_into_the_net_comes_to_rest_soon():

@@ -2,16 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import pytest
 
-import sandbox
+from tests.scenes.play import results_of
 
-
-def throw(preset: str = "throws", **changes: Any) -> dict[str, Any]:
-    scene = sandbox.load(preset, {key.replace("__", "."): value for key, value in changes.items()})
-    return sandbox.simulate(scene).result
+throw = results_of("throws")
 
 
 @pytest.mark.parametrize("angle", [20.0, 38.0, 60.0])

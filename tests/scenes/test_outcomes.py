@@ -1,0 +1,262 @@
+"""What becomes of a shot, in a word and in a sentence; and what makes no sense is refused."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+import sandbox
+from sandbox.errors import RequestError
+from sandbox.scene import listings
+
+#: What is said of a scene or preset, in a word of its result where it has one, at every accuracy.
+PRESETS = {
+    "basketball": ("swish", "In, nothing but net"),
+    "basketball/free-throw": ("swish", "In, nothing but net"),
+    "basketball/three-pointer": ("swish", "In, nothing but net"),
+    "basketball/bank-shot": ("bank", "In, off the board"),
+    "basketball/hook": ("swish", "In, nothing but net"),
+    "basketball/brick": ("miss", "Off the rim, and out"),
+    "basketball/rattle": ("rim", "In, off the rim"),
+    "soccer": ("goal", "Goal, 1.1 m under the bar"),
+    "soccer/dipping-free-kick": ("goal", "Goal, 1.4 m under the bar"),
+    "soccer/goal-kick-in-a-gale": ("short", "Ends 30 m behind the kick"),
+    "soccer-curl": ("goal", "Goal, bent 3.3 m to the left"),
+    "soccer-curl/beckham-2001": ("goal", "Goal, bent 3.0 m to the left"),
+    "soccer-curl/roberto-carlos-1997": ("goal", "Goal, bent 9.5 m to the left"),
+    "hockey": ("goal", "Goal at 42.0 m/s"),
+    "hockey/bank-pass": ("received", "Received at 10.0 m/s, off the boards"),
+    "hockey/rim": ("received", "Received at 8.6 m/s, off the boards"),
+    "hockey/off-the-post": ("post", "Off the post"),
+    "hockey/air-hockey": ("goal", "Goal at 4.4 m/s, off the boards"),
+    "tennis": ("in", "In, 0.52 m before the service line"),
+    "tennis/kick-serve": ("in", "In, 0.25 m before the service line"),
+    "tennis/topspin-forehand": ("in", "In, 1.7 m before the baseline"),
+    "tennis/slice": ("in", "In, 6.5 m before the baseline"),
+    "tennis/lob": ("in", "In, 0.65 m before the baseline"),
+    "tennis/clay": ("in", "In, 0.52 m before the service line"),
+    "tennis/grass": ("in", "In, 0.52 m before the service line"),
+    "tennis/table-tennis": ("in", "In, 0.42 m before the end of the table"),
+    "tennis/table-tennis-smash": ("in", "In, 0.33 m before the end of the table"),
+    "volleyball": ("in", "In, 1.1 m before the end line"),
+    "volleyball/float-serve": ("in", "In, 1.0 m before the end line"),
+    "volleyball/jump-serve": ("in", "In, 1.3 m before the end line"),
+    "volleyball/spike": ("in", "In, 2.0 m before the end line"),
+    "volleyball/set": ("short", "Comes down on its own side, 1.1 m from the net"),
+    "bowling": ("", "Strike"),
+    "bowling/straight": ("", "8 down, leaves the 4, 6"),
+    "bowling/ten-pin-spare": ("", "Spare"),
+    "bowling/split": ("", "Spare"),
+    "bowling/house-pattern": ("", "Strike"),
+    "bowling/gutter-ball": ("", "Gutter ball"),
+    "curling": ("", "Lies 0.13 m from the tee; red lies 1"),
+    "curling/guard": ("", "Lies 3.6 m from the tee; red lies 1"),
+    "curling/take-out": ("", "Takes out 1 and stays; red lies 1"),
+    "curling/double": ("", "Takes out 2 and stays; red lies 2"),
+    "curling/swept-draw": ("", "Lies 0.40 m from the tee; red lies 1"),
+    "curling/raise": ("", "Lies 1.9 m from the tee; red lies 2"),
+    "baseball": ("", "Home run, 129 m"),
+    "baseball/bat": ("", "Off the fence, 0.22 m below its top"),
+    "baseball/denver": ("", "Home run, 138 m"),
+    "baseball/green-monster": ("", "Off the fence, 1.2 m below its top"),
+    "baseball-pitch": ("", "Strike, 0.98 m over the plate"),
+    "baseball-pitch/changeup": ("", "Strike, 0.73 m over the plate"),
+    "baseball-pitch/curve": ("", "Strike, 0.69 m over the plate"),
+    "billiards/bank": ("", "The 1 into the left side pocket"),
+    "billiards/newtons-cradle": ("", "Nothing potted, the 5 rolls 2.1 m"),
+    "billiards/snooker-break": ("", "Break at 3.0 m/s, nothing potted"),
+    "billiards/three-rail-carom": ("", "Point, after 3 cushions"),
+    "rocket/grenade": ("", "28 m high, 922 m away after 4.5 s"),
+}
+#: Of a scene with changes, at its own accuracy.
+OTHERS: list[tuple[str, dict[str, Any], str, str]] = [
+    ("soccer", {"launch.spin": 0}, "over", "Over the bar by 1.2 m"),
+    ("soccer", {"launch.angle": 12}, "wall", "Into the wall"),
+    ("soccer", {"launch.angle": 22, "launch.speed": 28.2}, "bar", "Off the bar"),
+    ("soccer", {"launch.speed": 6, "wall.present": False}, "short", "Short, 9.6 m from the goal"),
+    ("soccer", {"launch.speed": 0}, "short", "Short, 21 m from the goal"),
+    ("soccer", {"launch.speed": 0, "air.wind": [-30, 0], "wall.present": False}, "short", "Ends 30 m behind the kick"),
+    ("soccer", {"goal.present": False}, "past", "30 m up the field"),
+    ("soccer", {"wall.present": False, "launch.angle": 5}, "goal", "Goal, 2.2 m under the bar"),
+    ("soccer/dipping-free-kick", {"launch.spin": 0}, "over", "Over the bar by"),
+    ("soccer-curl", {"wall.offset": -1.4}, "wall", "Into the wall"),
+    ("soccer-curl", {"keeper.offset": -1.4}, "saved", "Saved by the keeper"),
+    ("soccer-curl", {"keeper.offset": 2.0, "keeper.speed": -3.7}, "saved", "Saved by the keeper"),
+    ("soccer-curl", {"keeper.offset": 2.0, "keeper.speed": -2.0}, "goal", "Goal, bent 3.3 m to the left"),
+    ("soccer-curl", {"launch.angle": -18.0}, "post", "Off the post"),
+    ("soccer-curl", {"launch.angle": -25.0}, "wide", "Wide by "),
+    ("soccer-curl", {"launch.speed": 0.0}, "short", "Short of the goal line"),
+    ("soccer-curl", {"launch.angle": 180.0}, "short", "Short of the goal line"),
+    ("hockey", {"players": [{"role": "goalie", "x": 26.2, "y": -0.8}]}, "saved", "Saved by the goalie"),
+    ("hockey", {"players": [{"role": "defender", "x": 16.0, "y": -3.2}]}, "defender", "Stopped by the defender"),
+    ("hockey", {"launch.angle": 20.0, "players": []}, "wide", "Wide of the goal"),
+    ("hockey", {"launch.speed": 3.0, "players": []}, "short", "Stops 15 m before the goal line"),
+    ("hockey", {"players": [], "launch.x": 29.0, "launch.aside": 7.0}, "wide", "Wide of the goal"),  # in a corner
+    ("tennis", {"launch.angle": -3.0}, "long", "Fault: out, 2.7 m beyond the service line"),
+    ("tennis", {"launch.angle": -3.0, "shot": "rally"}, "in", "In, "),
+    ("tennis", {"launch.angle": -8.0}, "net", "Fault: into the net"),
+    ("tennis", {"launch.speed": 10.0}, "short", "Fault: comes down on its own side"),
+    ("tennis", {"gravity": 0.0, "air.density": 0.0, "launch.angle": 5.0}, "gone", "Fault: did not come down"),
+    ("tennis/table-tennis", {"launch.angle": 14.0}, "long", "Out, "),
+    ("volleyball", {"launch.spin": 0.0}, "long", "Out, "),
+    ("volleyball", {"launch.angle": 2.0}, "net", "Into the net"),
+    ("volleyball", {"launch.speed": 8.0}, "short", "Comes down on its own side"),
+    ("volleyball", {"net.depth": 0.3, "launch.angle": -8.0}, "net", "Into the net"),  # under it
+    ("volleyball", {"gravity": 0.0, "air.density": 0.0}, "gone", "Did not come down"),
+    ("baseball", {"fence.height": 15.0}, "", "Off the fence, "),
+    ("baseball", {"launch.speed": 30.0}, "", "short of the fence"),
+    ("baseball-pitch", {"launch.angle": 1.0}, "", "too high"),
+    ("baseball-pitch", {"launch.angle": -4.5}, "", "too low"),
+    ("baseball-pitch", {"launch.angle": -30.0}, "", "in the dirt"),
+    ("billiards/bank", {"cue.angle": 3.0}, "", "Scratch in the left head corner pocket"),
+    ("billiards/bank", {"cue.angle": 90.0}, "", "Hits no ball"),
+    ("billiards/bank", {"cue.speed": 0.5}, "", "Nothing potted, the 1 rolls 0.14 m"),
+]
+#: The result that says whether a shot scored, and the words, or how a sentence begins, with which it does.
+SCORES = {
+    "basketball": ("made", ("swish", "bank", "rim")),
+    "soccer": ("goal", ("goal",)),
+    "soccer-curl": ("goal", ("goal",)),
+    "hockey": ("goal", ("goal",)),
+    "tennis": ("in", ("in",)),
+    "volleyball": ("in", ("in",)),
+    "bowling": ("strike", ("Strike",)),
+    "baseball": ("home_run", ("Home run",)),
+    "baseball-pitch": ("strike", ("Strike",)),
+}
+
+
+def check(source: str, changes: dict[str, Any], word: str, said: str) -> None:
+    run = sandbox.simulate(sandbox.load(source, changes))
+    assert run.result.get("verdict", "") == word
+    assert said in run.scene.verdict(run)
+    if run.scene.name in SCORES:
+        key, good = SCORES[run.scene.name]
+        assert run.result[key] is (word or run.scene.verdict(run)).startswith(good)
+
+
+@pytest.mark.parametrize("level", ["fast", "balanced", "precise"])
+@pytest.mark.parametrize("source", PRESETS)
+def test_presets_are_what_they_say_at_every_accuracy(source: str, level: str):
+    check(source, {"accuracy.level": level}, *PRESETS[source])
+
+
+@pytest.mark.parametrize(("source", "changes", "word", "said"), OTHERS)
+def test_what_becomes_of_other_shots(source: str, changes: dict[str, Any], word: str, said: str):
+    check(source, changes, word, said)
+
+
+def test_every_preset_of_a_sport_that_scores_is_here():
+    wanted = {listing.name for listing in listings() if listing.name.partition("/")[0] in SCORES}
+    assert wanted - {"baseball/de-la-cruz-2024"} <= set(PRESETS)
+
+
+@pytest.mark.parametrize(
+    ("source", "said"),
+    [
+        ("basketball/rattle", {"ball speed": "7.50 m/s", "launch": "52.7°", "spin": "250 rpm backspin"}),
+        ("basketball/rattle", {"touches": "rim back, rim front, backboard, rim front, rim back, rim back"}),
+        ("soccer", {"launch": "20.0°", "spin": "300 rpm topspin", "over the wall": "0.36 m"}),
+        (
+            "soccer-curl/roberto-carlos-1997",
+            {"ball speed": "38.0 m/s", "launch": "17.0° right", "spin": "840 rpm left"},
+        ),
+    ],
+)
+def test_the_card_speaks_to_players(source: str, said: dict[str, str]):
+    run = sandbox.simulate(source)
+    assert said.items() <= dict(run.scene.rows(run)).items()
+
+
+@pytest.mark.parametrize(
+    ("source", "changes", "named"),
+    [
+        ("basketball", {"release.height": 0.05}, ["release.height = 0.05 m", "ball.radius = 0.1194 m"]),
+        (
+            "basketball",
+            {"release.height": 3.2, "hoop.distance": 0, "backboard.gap": 0.05, "hoop.inner_diameter": 0.1},
+            ["release.height = 3.2 m", "backboard.bottom = 2.9 m"],
+        ),
+        (
+            "basketball",
+            {"release.height": 3.05, "hoop.distance": 0.2},
+            ["release.height = 3.05 m", "hoop.height = 3.05 m"],
+        ),
+        ("basketball", {"backboard.gap": 0.01}, ["backboard.gap = 0.01 m", "hoop.tube_radius = 0.009 m"]),
+        ("basketball", {"backboard.top": 2.5}, ["backboard.top = 2.5 m", "backboard.bottom = 2.9 m"]),
+        (
+            "basketball",
+            {"hoop.height": 0.1, "hoop.tube_radius": 0.2, "backboard.gap": 1},
+            ["hoop.height = 0.1 m", "hoop.tube_radius"],
+        ),
+        ("soccer", {"wall.distance": 30}, ["wall.distance = 30 m", "goal.distance = 22 m"]),
+        ("soccer", {"wall.distance": 21.9}, ["wall.distance = 21.9 m", "goal.distance = 22 m"]),
+        ("soccer", {"wall.distance": 0.2}, ["wall.distance = 0.2 m", "ball.radius = 0.11 m"]),
+        (
+            "soccer",
+            {"goal.distance": 0.1, "wall.present": False},
+            ["goal.distance = 0.1 m", "ball.radius = 0.11 m"],
+        ),
+        ("soccer-curl", {"wall.distance": 30}, ["wall.distance = 30 m", "goal.distance = 22 m"]),
+        ("soccer-curl", {"wall.distance": 0.2}, ["wall.distance = 0.2 m", "ball.radius = 0.11 m"]),
+        ("soccer-curl", {"goal.distance": 0.1}, ["goal.distance = 0.1 m", "ball.radius = 0.11 m"]),
+        ("soccer-curl", {"keeper.distance": 12.8}, ["keeper.distance = 12.8 m", "wall.distance = 9.15 m"]),
+        (
+            "soccer-curl",
+            {"goal.distance": 15, "keeper.distance": 14.8, "keeper.offset": 0},
+            ["keeper.distance = 14.8 m", "ball.radius = 0.11 m"],
+        ),
+        (
+            "soccer-curl",
+            {"keeper.distance": 0.2, "keeper.offset": 3.5},
+            ["keeper.offset = 3.5 m", "goal.width = 7.32 m"],
+        ),
+        ("golf", {"pin.distance": 0.01}, ["pin.distance: the cup at 0.01 m is where the ball starts"]),
+        ("golf", {"ground.heights": [[10, 0], [10, 5]]}, ["ground.heights: x must grow"]),
+        (
+            "golf",
+            {"ground.strips": [{"kind": "rough", "start": 9, "end": 3}]},
+            ["the rough from 9 m to 3 m has no length"],
+        ),
+        ("golf", {"start": "club", "club.loft": 80, "club.attack": -45}, ["the face moves away from the ball"]),
+        (
+            "tennis",
+            {"start": "racket", "racket.face": 80.0, "racket.ball_speed": 0.0, "racket.angle": -60.0},
+            ["racket.face = 80 deg: the face moves away"],
+        ),
+        ("volleyball", {"launch.place": 9.0, "launch.height": 2.0}, ["launch.place = 9 m puts the ball on the net"]),
+        (
+            "bullet",
+            {"launch.speed": 20.0, "zero.distance": 2000.0},
+            ["zero.distance = 2000 m: the bullet does not"],
+        ),
+        ("rocket", {"motor.curve": [[0.0, 5.0]]}, ["motor.curve: needs two points"]),
+        ("rocket", {"motor.curve": [[0.0, 5.0], [0.0, 5.0]]}, ["each later than the last"]),
+        ("rocket", {"motor.curve": [[0.0, 0.0], [1.0, 0.0]]}, ["and some thrust"]),
+        ("rocket", {"motor.curve": []}, ["needs two points"]),
+        ("rocket", {"motor.propellant": 0.2}, ["must be less than ball.mass"]),
+        ("bowling", {"pin.standing": "1 11"}, ["pin.standing: there is no pin 11"]),
+        ("bowling", {"launch.aside": 0.6}, ["launch.aside = 0.6 m: must be between -0.527 and 0.527 m"]),
+        ("curling", {"launch.aside": 2.3}, ["launch.aside = 2.3 m: must be between -2.23 and 2.23 m"]),
+        ("curling", {"stones": [{"x": 0.0, "y": 2.3}]}, ["stones[0].y = 2.3"]),
+        ("curling", {"stones": [{"x": 1.99, "y": 0.0}]}, ["stones[0].x = 1.99"]),
+        (
+            "curling",
+            {"stones": [{"x": 0.0, "y": 0.0}, {"x": 0.2, "y": 0.0, "team": "red"}]},
+            ["overlaps", "at the start"],
+        ),
+        (
+            "hockey",
+            {"players": [], "launch.x": 30.45, "launch.aside": 0.0},
+            ["puck at (30.45, 0) m is outside the boards"],
+        ),
+        ("hockey", {"players": [], "launch.x": 0.0, "launch.aside": -12.95}, ["outside the boards"]),
+        ("hockey", {"players": [], "launch.x": 29.0, "launch.aside": 11.5}, ["outside the boards"]),  # in a corner
+    ],
+)
+def test_what_makes_no_sense_is_refused_in_a_line_that_names_it(source: str, changes: dict[str, Any], named: list[str]):
+    with pytest.raises(RequestError) as refused:
+        sandbox.simulate(sandbox.load(source, changes))
+    assert all(part in str(refused.value) for part in named)
+    assert "\n" not in str(refused.value)
