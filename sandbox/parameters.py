@@ -254,7 +254,7 @@ class Parameter(NamedTuple):
 
 def walk(parameters: Group, prefix: str = "", entries: bool = False) -> Iterator[Parameter]:
     """All parameters in order of declaration with their values, accuracy last; ``walk(Parameters())`` gives the
-    defaults. With ``entries`` those of the groups in lists, ``balls[0].mass``, stand in place of the list."""
+    defaults. With ``entries`` those of lists stand in place of the list: ``balls[0].mass``, ``air.wind[0]``."""
     for name, field in sorted(type(parameters).model_fields.items(), key=lambda item: item[0] == "accuracy"):
         value, key = getattr(parameters, name), prefix + name
         if isinstance(value, Group):
@@ -269,7 +269,10 @@ def walk(parameters: Group, prefix: str = "", entries: bool = False) -> Iterator
             (declared.unit, declared.low, declared.high) if isinstance(declared, Quantity) else (None,) * 3
         )
         meaning, optional = field.description or "", type(None) in get_args(field.annotation)
-        yield Parameter(key, value, unit, low, high, words_of(field.annotation), meaning, optional)
+        vector = entries and isinstance(value, tuple)
+        numbers = {f"{key}[{place}]": number for place, number in enumerate(value)} if vector else {key: value}
+        for each, number in numbers.items():
+            yield Parameter(each, number, unit, low, high, words_of(field.annotation), meaning, optional)
 
 
 def words_of(annotation: Any) -> tuple[Any, ...]:

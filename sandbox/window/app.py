@@ -117,7 +117,7 @@ class App:
             typing = view.has_panel and view.panel.typing is not None and view.over is None
             if not self._fresh(event, typing):
                 return
-            if typing and event.key != pygame.K_TAB:
+            if typing:
                 view.panel.type(event)
                 return
         elif event.type == pygame.KEYUP:

@@ -7,7 +7,7 @@ from typing import Any
 
 import pygame
 
-from sandbox.picture.palette import Colour, palette
+from sandbox.picture.palette import Colour, mix, palette
 from sandbox.picture.sheet import Entry, Sheet
 
 CARD = palette("card")
@@ -31,6 +31,11 @@ class Canvas(Sheet):
         ended = [self.ended(entry[1], "medium", room, bold=True) for entry in entries]
         shown = [e if text == e[1] else (e[0], text) for e, text in zip(entries, ended, strict=True)]
         self.columns(self.frame.bottom - self.card_height(), shown)
+
+    def board(self, rect: pygame.Rect) -> None:
+        """A panel with a rim, for what lies over all else."""
+        self.painter.panel(rect.inflate(2, 2), mix(CARD["background"], CARD["quiet"], 0.5), 1.0, 10 * self.unit)
+        self.painter.panel(rect, CARD["background"], 1.0, 10 * self.unit)
 
     def veil(self, opacity: int) -> None:
         """Dim what is drawn; the opacity is from 0 to 255."""

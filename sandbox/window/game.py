@@ -102,8 +102,9 @@ class Game:
 
     @property
     def failure(self) -> str | None:
-        """Why there is no shot that is aimed; until the next good run."""
-        return self.reason(self.runs.error) if self.playback is None and self.runs.error is not None else None
+        """Why there is no shot that is aimed; until the next good run, or one that takes long."""
+        error = self.runs.error if self.playback is None and not self.late else None
+        return self.reason(error) if error is not None else None
 
     @property
     def busy(self) -> bool:
@@ -291,6 +292,8 @@ class Game:
             return False
         self.history.add(self.session.changes, what)
         self.shooting = False
+        if self.message is not None and self.message.bad:  # what was refused on the way
+            self.message = None
         return True
 
     def reset(self, key: str | None = None) -> None:
@@ -369,8 +372,7 @@ class Game:
         grip = grip or self.grip
         if grip is not None:
             values = grip.changes(place, step)
-            if self._changing(lambda: self.session.change(values, built=True), frozenset(values)):
-                self.message = None  # what was refused on the way
+            self._changing(lambda: self.session.change(values, built=True), frozenset(values))
 
     def release(self) -> None:
         """The mouse lets go: a pull that is long enough is a shot."""

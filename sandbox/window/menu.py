@@ -85,7 +85,7 @@ class Menu(Scrolled):
     def draw(self, sheet: Canvas, mouse: tuple[int, int], on: Collection[str]) -> None:
         letters, gap, unit = sheet.lettering, sheet.gap, sheet.unit
         rect = sheet.surface.get_rect().inflate(-4 * gap, -4 * gap)
-        sheet.painter.panel(rect, CARD["background"], 0.97, 10 * unit)
+        sheet.board(rect)
         small, top = letters.height("small"), rect.top + letters.height("medium") + 3 * gap
         at, title = (rect.left + 3 * gap, rect.top + 2 * gap), letters.cut(TITLE, "medium", rect.width, bold=True)
         letters.write(sheet.surface, title, "medium", at, CARD["text"], bold=True)

@@ -169,11 +169,11 @@ class Board(Overlay):
             sheet.veil(110)
             rect.center = sheet.surface.get_rect().center
         else:
-            rect.midtop = self.foot.centerx, self.foot.bottom + gap // 2
+            rect.topleft = self.foot.left, self.foot.bottom + gap // 2
             if self.foot.top > sheet.size[1] // 2:
                 rect.bottom = min(self.foot.top, sheet.size[1]) - gap
         rect.clamp_ip(sheet.surface.get_rect())
-        sheet.painter.panel(rect, CARD["background"], 0.97, 10 * sheet.unit)
+        sheet.board(rect)
         hovered = self.at(mouse) or self.chosen
         if head:
             at = rect.left + 3 * gap, rect.top + gap
@@ -198,6 +198,8 @@ class Board(Overlay):
         for head, row in rows:
             columns = self._columns((tall - head) // row)
             widths = [max(self._width(sheet, each) for each in column) for column in columns]
+            if self.foot is not None and len(columns) == 1:  # as wide as the field that it is the list of
+                widths = [max(widths[0], self.foot.width - 2 * gap)]
             if sum(widths) <= room:
                 return head, row, columns, widths
         return head, row, columns, [room // len(columns)] * len(columns)

@@ -33,20 +33,15 @@ class Setting:
     """One number, word or switch."""
 
     parameter: Parameter
-    index: int | None  # of a number within a vector
-    base: Any  # the parameter's value in the scene file
+    base: Any  # its value in the scene file
 
     @property
-    def at(self) -> tuple[str, int | None]:
-        """What it is the row of."""
-        return self.parameter.key, self.index
+    def key(self) -> str:
+        return self.parameter.key
 
     @property
     def value(self) -> Any:
-        return self._part(self.parameter.value)
-
-    def _part(self, value: Any) -> Any:
-        return value if self.index is None or value is None else value[self.index]
+        return self.parameter.value
 
     @property
     def written(self) -> str:
@@ -54,7 +49,7 @@ class Setting:
         if isinstance(self.value, bool):
             return "on" if self.value else "off"
         if self.value is None and self.parameter.choices:
-            return "as the level says" if self.parameter.key.startswith("accuracy.") else "left out"
+            return "as the level says" if self.key.startswith("accuracy.") else "left out"
         return "" if self.value is None else f"{self.value:.6g}" if isinstance(self.value, float) else str(self.value)
 
     @property
@@ -74,20 +69,11 @@ class Setting:
         if self.parameter.low is None or self.parameter.high is None or self.value is None:
             return None
         low, high = self.parameter.low, self.parameter.high
-        base = self._part(self.base)
-        value = self.value if base is None else base
-        reach = max(REACH * abs(value), LEAST_REACH * (high - low))
+        value = self.value if self.base is None else self.base
+        reach = max(REACH * abs(value), LEAST_REACH * (high - low) * (value == 0 or low < 0))
         if high - low <= 4 * reach:
             return low, high
         return max(low, value - reach), min(high, value + reach)
-
-    def changed(self, value: Any) -> dict[str, Any]:
-        """The change that gives it another value."""
-        if self.index is not None:
-            parts = list(self.parameter.value)
-            parts[self.index] = value
-            value = parts
-        return {self.parameter.key: value}
 
     def nudged(self, by: float) -> Any:
         """The value a hundredth of the slider on, the next word, on or off."""
@@ -119,8 +105,9 @@ class Panel(Scrolled):
         self.game, self.open_list = game, open_list
         self.rect = pygame.Rect(0, 0, 0, 0)
         self.wanted = FAVOURITES
-        self.typing: tuple[str, int | None] | None = None  # the row that keys go into
-        self.text, self.whole = "", True  # of its field, and whether the next letter replaces it
+        self.typing: str | None = None  # the row that keys go into
+        self.before, self.after = "", ""  # the text of its field, before and after the caret
+        self.whole = True  # whether all of it is selected
         self._once = Once()
 
     @property
@@ -133,9 +120,12 @@ class Panel(Scrolled):
     def _groups(self) -> dict[str, list[Parameter]]:
         session = self.game.session
         by_key = {p.key: p for p in walk(session.scene.parameters, entries=True) if _can_be_shown(p)}
-        groups = {FAVOURITES: [by_key[key] for key in session.controls.sliders if key in by_key]}
-        for parameter in (parameter for key, parameter in by_key.items() if "]" not in key):
-            groups.setdefault(parameter.key.rpartition(".")[0] or session.scene.name, []).append(parameter)
+        sliders = session.controls.sliders
+        groups = {FAVOURITES: [p for slider in sliders for key, p in by_key.items() if slider in (key, key[:-3])]}
+        for key, parameter in by_key.items():
+            group = key.rpartition(".")[0]
+            if "]" not in group:
+                groups.setdefault(group or session.scene.name, []).append(parameter)
         groups[FAVOURITES] = groups[FAVOURITES] or groups.get("launch", [])
         return groups
 
@@ -146,18 +136,13 @@ class Panel(Scrolled):
 
     @property
     def rows(self) -> list[Setting]:
-        session = self.game.session
-        return [
-            Setting(parameter, index, session.base_value(parameter.key))
-            for parameter in self.groups[self.group]
-            for index in (range(len(parameter.value)) if isinstance(parameter.value, tuple) else (None,))
-        ]
+        return [Setting(p, self.game.session.base_value(p.key)) for p in self.groups[self.group]]
 
     # What is done
 
     def set(self, row: Setting, value: Any) -> None:
         """Give a row another value; an invalid one is reported."""
-        self.game.change(row.changed(value))
+        self.game.change({row.key: value})
 
     def turn_to(self, group: str) -> None:
         """Show another group."""
@@ -172,13 +157,13 @@ class Panel(Scrolled):
         else:
             row, part = what
             if part == RESET_OF:
-                self.game.reset(row.parameter.key)
+                self.game.reset(row.key)
             elif row.is_number:
-                self.typing, self.text, self.whole = row.at, row.written, True
+                self.begin_typing(row)
             elif isinstance(row.value, bool):
                 self.set(row, not row.value)
             else:
-                words = [(Setting(row.parameter._replace(value=word), None, None).written, word) for word in row.words]
+                words = [(Setting(row.parameter._replace(value=word), None).written, word) for word in row.words]
                 self._offer(what, words, row.written, lambda word: self.set(row, word))
         return True
 
@@ -196,40 +181,72 @@ class Panel(Scrolled):
 
     def slide(self, row: Setting, at: tuple[int, int]) -> None:
         """Drag the knob of a row's slider to a place in px."""
-        sliders = {what[0].at: rect for rect, what in self.places if isinstance(what, tuple) and what[1] == SLIDER_OF}
-        if row.span is not None and row.at in sliders:
-            (low, high), rect = row.span, sliders[row.at]
+        sliders = {what[0].key: rect for rect, what in self.places if isinstance(what, tuple) and what[1] == SLIDER_OF}
+        if row.span is not None and row.key in sliders:
+            (low, high), rect = row.span, sliders[row.key]
             share = min(max((at[0] - rect.left - self.knob) / max(1, rect.width - 2 * self.knob), 0.0), 1.0)
             self.set(row, float(f"{low + share * (high - low):.4g}"))
 
-    def type(self, event: pygame.event.Event) -> None:
-        """A key that goes into a field: a letter, Backspace, Ctrl V; Enter takes the text, Escape leaves it."""
-        if event.key in (pygame.K_RETURN, pygame.K_KP_ENTER):
-            self.enter()
-        elif event.key == pygame.K_ESCAPE:
-            self.typing = None
-        elif event.key == pygame.K_BACKSPACE:
-            self.text, self.whole = "" if self.whole and self.text else self.text[:-1], False
-        else:
-            text = event.unicode
-            if event.key == pygame.K_v and event.mod & pygame.KMOD_CTRL:
-                with suppress(pygame.error):  # there is no clipboard
-                    text = pygame.scrap.get_text().strip()
-            if text.isprintable() and text:
-                self.text, self.whole = text if self.whole else self.text + text, False
+    def begin_typing(self, row: Setting) -> None:
+        """Keys go into the field of a row from now on; all of its text is selected."""
+        self.typing, self.before, self.after, self.whole = row.key, row.written, "", True
 
-    def enter(self) -> None:
-        """Take what was typed, if something was."""
-        row = next((row for row in self.rows if row.at == self.typing), None)
-        text, self.typing = self.text.strip(), None
-        if row is not None and text != row.written:
-            self.set(row, row.typed(text))
+    def type(self, event: pygame.event.Event) -> None:
+        """A key that goes into a field: a letter, one that moves the caret or deletes, Ctrl A, Ctrl V; Enter takes the
+        text, Tab goes on to the next field too, Escape leaves the text."""
+        before, after = self.before, self.after
+        deletes, ctrl = ("", "") if self.whole else None, event.mod & pygame.KMOD_CTRL
+        match event.key:
+            case pygame.K_RETURN | pygame.K_KP_ENTER:
+                self.enter()
+            case pygame.K_TAB:
+                self.enter(-1 if event.mod & pygame.KMOD_SHIFT else 1)
+            case pygame.K_ESCAPE:
+                self.typing = None
+            case pygame.K_a if ctrl:
+                self.whole = True
+            case pygame.K_BACKSPACE:
+                self._put(*deletes or (before[:-1], after))
+            case pygame.K_DELETE:
+                self._put(*deletes or (before, after[1:]))
+            case pygame.K_LEFT if before and not self.whole:
+                self._put(before[:-1], before[-1] + after)
+            case pygame.K_RIGHT if after and not self.whole:
+                self._put(before + after[0], after[1:])
+            case pygame.K_LEFT | pygame.K_HOME:
+                self._put("", before + after)
+            case pygame.K_RIGHT | pygame.K_END:
+                self._put(before + after, "")
+            case _:
+                text = event.unicode
+                if event.key == pygame.K_v and ctrl:
+                    with suppress(pygame.error):  # there is no clipboard
+                        text = pygame.scrap.get_text().strip()
+                if text.isprintable() and text:
+                    self._put(text if self.whole else before + text, "" if self.whole else after)
+
+    def _put(self, before: str, after: str) -> None:
+        """Give the field a text with the caret in it."""
+        self.before, self.after, self.whole = before, after, False
+
+    def enter(self, then: int = 0) -> None:
+        """Take what was typed, if something was; ``then`` type into the number so many rows on."""
+        rows = [row for row in self.rows if row.is_number]
+        now = next((place for place, row in enumerate(rows) if row.key == self.typing), None)
+        text, self.typing = (self.before + self.after).strip(), None
+        if now is None:
+            return
+        if text != rows[now].written:
+            self.set(rows[now], rows[now].typed(text))
+        if then:
+            self.begin_typing(rows[(now + then) % len(rows)])
+            self.show(self.rows.index(rows[(now + then) % len(rows)]))
 
     # By key
 
     def choose(self, by: int) -> None:
         """Go to another row, ``by`` rows on."""
-        names = [row.at for row in self.rows]
+        names = [row.key for row in self.rows]
         if names:
             now = names.index(self.chosen) if self.chosen in names else -1 if by > 0 else 0
             place = (now + by) % len(names)
@@ -241,7 +258,7 @@ class Panel(Scrolled):
         if self.chosen is None:
             self.choose(1)
         for row in self.rows:
-            if row.at == self.chosen:
+            if row.key == self.chosen:
                 self.set(row, row.nudged(by))
 
     def turn(self, by: int) -> None:
@@ -252,7 +269,7 @@ class Panel(Scrolled):
     def reset_row(self) -> None:
         """The chosen row as in the file."""
         if self.chosen is not None:
-            self.game.reset(self.chosen[0])
+            self.game.reset(self.chosen)
 
     # Drawing
 
@@ -302,15 +319,19 @@ class Panel(Scrolled):
         reset = pygame.Rect(top.right - line, top.top, line, line)
         field = pygame.Rect(reset.left - gap // 2 - FIELD * line // 24, top.top, FIELD * line // 24, line)
         right = (reset.left if words else field.left) - gap
-        colour = CARD["accent" if row.at == self.chosen else "text"]
+        colour = CARD["accent" if row.key == self.chosen else "text"]
         sheet.item(top, self._name(sheet, row, right - top.left), colour, left=top.left, right=right)
-        if row.parameter.value != row.base:
+        if row.value != row.base:
             self._box(sheet, reset, "×", (row, RESET_OF), mouse)
-        typed = row.at == self.typing
-        text = f"{self.text}|" if typed else row.written
+        typed = row.key == self.typing
+        text = self._typed(sheet, field.width - 2 * gap) if typed else row.written
         self._box(sheet, below if words else field, text, (row, FIELD_OF), mouse, mark=words)
         if typed:
             pygame.draw.rect(sheet.surface, CARD["accent"], field, 1, border_radius=gap)
+            if self.whole:
+                selected = sheet.lettering.rect(text, "small", (field.left + gap, field.centery), "midleft")
+                sheet.surface.fill(mix(CARD["background"], CARD["accent"], 0.4), selected)
+                sheet.item(field, text, CARD["text"])
         if row.span is not None:
             low, high = row.span
             self.places.append((below, (row, SLIDER_OF)))
@@ -319,12 +340,20 @@ class Panel(Scrolled):
             share = min(max((row.value - low) / ((high - low) or 1.0), 0.0), 1.0)
             sheet.painter.disc((groove.left + share * groove.width, groove.centery), self.knob, CARD["accent"])
 
+    def _typed(self, sheet: Canvas, room: int) -> str:
+        """The text that is typed with its caret, from so far left that the caret is seen in ``room`` px."""
+        before, caret = self.before, "" if self.whole else "|"
+        while sheet.lettering.width(before + caret, "small") > room:
+            before = before[1:]
+        return before + caret + self.after
+
     def _name(self, sheet: Canvas, row: Setting, room: int) -> str:
         """The parameter's name with its unit, as much of it as fits."""
-        key, unit = row.parameter.key, row.parameter.unit
-        part = "" if row.index is None else f" {'xyz'[row.index]}"
+        key, unit = row.key, row.parameter.unit
+        if key.endswith("]"):
+            key = f"{key[:-3]} {'xyz'[int(key[-2])]}"
         names = [key, key.rpartition(".")[2]] if self.group == FAVOURITES else [key.rpartition(".")[2]]
-        texts = [name.replace("_", " ").replace(".", " ") + part for name in names]
+        texts = [name.replace("_", " ").replace(".", " ") for name in names]
         texts = [*(f"{text}  [{unit}]" if unit else text for text in texts), texts[-1]]
         return next((text for text in texts if sheet.lettering.width(text, "small") <= room), texts[-1])
 

@@ -6,7 +6,7 @@ import csv
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from math import sqrt
+from math import isclose, sqrt
 from typing import TYPE_CHECKING, Any, NamedTuple, TextIO
 
 import numpy as np
@@ -161,9 +161,10 @@ class Played:
         controls, found = self.scene.controls, {}
         for key, fact in self.scene.facts.items():
             value = self.result.get(key)
-            again = fact.settled == "start" and value in self.aim  # speed or angle
-            if fact.label and isinstance(value, int | float) and not isinstance(value, bool) and not again:
-                found[key] = value
+            if not fact.label or not isinstance(value, int | float) or isinstance(value, bool):
+                continue
+            if fact.settled != "start" or not any(isclose(value, aim, rel_tol=1e-9) for aim in self.aim):
+                found[key] = value  # and not speed or angle again
         return {controls.speed: self.aim[0], controls.angle: self.aim[1], **found}
 
 

@@ -36,6 +36,8 @@ NEARER = 1.35
 #: Opacity of earlier shots (of 255), how much lighter a label is than its line, and how many places
 #: on its line are tried for a label.
 EARLIER, LIGHTER, PLACES = 215, 0.45, 9
+#: What a headline leaves free for the wind at the right, in px on 720 rows.
+WIND = 100
 #: Contacts closer together than this, in px, are marked once; and the largest number of marks.
 NEAR, MOST_CONTACTS = 14, 24
 
@@ -204,7 +206,7 @@ def headline(sheet: Canvas, text: str, notes: Sequence[str], colour: Colour) -> 
     """What happens, large on a dark card at the top left, and a line below it with as many notes as there is room for;
     returns where it is."""
     letters, inset = sheet.lettering, 2 * sheet.gap
-    room = sheet.frame.width - 2 * inset
+    room = sheet.frame.width - 2 * inset - WIND * sheet.unit
     rooms = {"large": round(0.66 * sheet.size[0]), "medium": room}
     size = next((size for size in rooms if letters.width(text, size, bold=True) <= rooms[size]), "small")
     text = letters.cut(text, size, room, bold=True)

@@ -101,7 +101,7 @@ class Table(Scrolled):
         tall = letters.height("medium") + (1 + len(rows)) * row + round(TALL * unit) + 7 * gap
         rect = pygame.Rect(0, 0, wide, min(tall, most))
         rect.center = sheet.surface.get_rect().center
-        sheet.painter.panel(rect, CARD["background"], 1.0, 10 * unit)
+        sheet.board(rect)
         inner = rect.inflate(-4 * gap, -3 * gap)
         title = f"{len(rows)} shots" if len(rows) != 1 else "1 shot"
         letters.write(sheet.surface, title, "medium", inner.topleft, CARD["text"], bold=True)

@@ -523,6 +523,7 @@ class View:
                 notes.append(f"Enter to {again}, R to see it again")
             else:
                 text, colour, entries = f"{playback.t:.2f} s", CARD["text"], stage.picture.live(playback.t)
+                forces = ()  # they are among them
         self.head = headline(sheet, text, [*notes, *stage.notes], colour)
         sheet.numbers([*entries, *forces])
 
@@ -602,7 +603,8 @@ class View:
 
     def _bar_shown(self) -> Shown:
         """The contents of the bar."""
-        game, playback, shot = self.game, self.game.playback, self.game.shot if not self.hidden else None
+        game, playback = self.game, self.game.playback
+        shot = game.shot if not (self.hidden or game.failure or game.late) else None
         return Shown(
             title=game.session.title + (" *" if game.session.changes.values else ""),
             playing=playback is not None and playback.playing,

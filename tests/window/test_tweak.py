@@ -25,22 +25,26 @@ def file(tmp_path):
 
 
 def row(player, key: str):
-    return next(row for row in player.view.panel.rows if row.parameter.key == key)
+    return next(row for row in player.view.panel.rows if row.key == key)
 
 
 def place(player, key: str, part: str) -> pygame.Rect:
     """Where a part of a parameter's row is."""
     parts = {what: rect for rect, what in player.view.panel.places if isinstance(what, tuple)}
-    return next(rect for (row, name), rect in parts.items() if row.parameter.key == key and name == part)
+    return next(rect for (row, name), rect in parts.items() if row.key == key and name == part)
 
 
 def write(player, key: str, text: str) -> None:
     """Type a text into the field of a parameter, and Enter."""
     player.click(place(player, key, FIELD_OF).center)
+    letters(player, text)
+    player.key(pygame.K_RETURN)
+
+
+def letters(player, text: str) -> None:
     for letter in text:
         player.send(pygame.KEYDOWN, key=ord(letter.lower()), mod=0, unicode=letter, scancode=0)
         player.send(pygame.KEYUP, key=ord(letter.lower()), mod=0, unicode=letter, scancode=0)
-    player.key(pygame.K_RETURN)
 
 
 def turn_to(player, group: str) -> None:
@@ -96,25 +100,44 @@ class TestThePanel:
         assert player.game.session.value("launch.speed") == pytest.approx(44.704)
         assert "from 0 to 340 m/s" in player.game.notices[-1][0]
         assert row(player, "launch.speed").written == "44.704"
+        write(player, "launch.speed", "50")
+        assert not player.game.notices, "what was wrong is no longer said"
 
     def test_a_field_can_be_mended_left_and_taken_by_a_click_elsewhere(self, player):
         player.click(place(player, "launch.speed", FIELD_OF).center)
-        before = player.view.panel.text
+        panel = player.view.panel
+        before = panel.before
         player.key(pygame.K_SPACE)  # no command, and no letter
         assert player.game.playback is None
-        for letter in "123":
-            player.send(pygame.KEYDOWN, key=ord(letter), mod=0, unicode=letter, scancode=0)
-        player.key(pygame.K_BACKSPACE)
-        assert player.view.panel.text == "12"
+        letters(player, "1243")
+        for key in (pygame.K_BACKSPACE, pygame.K_LEFT, pygame.K_DELETE, pygame.K_HOME, pygame.K_RIGHT):
+            player.key(key)
+        letters(player, ".")
+        assert (panel.before, panel.after) == ("1.", "2")
+        player.key(pygame.K_a, pygame.KMOD_CTRL)
+        letters(player, "7")
+        assert panel.before + panel.after == "7"
         player.key(pygame.K_ESCAPE)
         assert row(player, "launch.speed").written == before
         player.click(place(player, "launch.speed", FIELD_OF).center)
-        player.send(pygame.KEYDOWN, key=ord("9"), mod=0, unicode="9", scancode=0)
+        letters(player, "9")
         player.click(place(player, "launch.angle", FIELD_OF).center)
         assert player.game.session.value("launch.speed") == 9.0
 
+    def test_tab_goes_on_to_the_next_field_and_a_long_text_is_seen_at_its_end(self, player, written):
+        player.click(place(player, "launch.speed", FIELD_OF).center)
+        letters(player, "60")
+        player.key(pygame.K_TAB)
+        letters(player, "30")
+        player.key(pygame.K_TAB, pygame.KMOD_SHIFT)
+        values = player.game.session.value("launch.speed"), player.game.session.value("launch.angle")
+        assert values == (60.0, 30.0)
+        assert player.view.panel.typing == "launch.speed"
+        letters(player, "1 very long text 9")
+        assert any(text.endswith("text 9|") for text, _ in written)
+
     def test_a_text_may_be_pasted_and_a_part_of_a_vector_and_nonsense_typed(self, player, monkeypatch):
-        player.click(place(player, "air.wind", FIELD_OF).center)
+        player.click(place(player, "air.wind[0]", FIELD_OF).center)
         monkeypatch.setattr(pygame.scrap, "get_text", lambda: "-3.5 ")
         player.key(pygame.K_v, pygame.KMOD_CTRL)
         player.key(pygame.K_KP_ENTER)
@@ -141,7 +164,9 @@ class TestThePanel:
         seen = []
         for _ in panel.groups:
             seen.append(panel.group)
-            assert {what[0].at for _, what in panel.places if isinstance(what, tuple)} <= {row.at for row in panel.rows}
+            assert {what[0].key for _, what in panel.places if isinstance(what, tuple)} <= {
+                row.key for row in panel.rows
+            }
             assert panel.places
             player.key(pygame.K_PAGEDOWN, pygame.KMOD_CTRL)
         assert seen == list(panel.groups)
@@ -156,11 +181,11 @@ class TestThePanel:
 
     def test_a_word_that_brings_other_parameters_changes_the_rows_and_undo_changes_them_back(self, player):
         turn_to(player, "ball.drag")
-        before = [row.parameter.key for row in player.view.panel.rows]
+        before = [row.key for row in player.view.panel.rows]
         player.view.panel.set(row(player, "ball.drag.model"), "constant")
-        assert "ball.drag.coefficient" in {row.parameter.key for row in player.view.panel.rows}
+        assert "ball.drag.coefficient" in {row.key for row in player.view.panel.rows}
         player.key(pygame.K_z, pygame.KMOD_CTRL)
-        assert [row.parameter.key for row in player.view.panel.rows] == before
+        assert [row.key for row in player.view.panel.rows] == before
 
     def test_what_a_parameter_means_is_said_under_the_mouse(self, player):
         turn_to(player, "ball.drag")
@@ -184,14 +209,14 @@ class TestThePanelByKey:
         player.key(pygame.K_TAB)
         for _ in range(2):
             player.key(pygame.K_DOWN, pygame.KMOD_CTRL)
-        assert player.view.panel.chosen == ("launch.angle", None)
+        assert player.view.panel.chosen == "launch.angle"
         low, high = row(player, "launch.angle").span
         player.key(pygame.K_RIGHT, pygame.KMOD_CTRL)
         player.key(pygame.K_LEFT, pygame.KMOD_CTRL | pygame.KMOD_SHIFT)
         assert player.game.session.value("launch.angle") == pytest.approx(10.4 + 0.009 * (high - low), rel=1e-3)
         player.key(pygame.K_BACKSPACE, pygame.KMOD_CTRL)
         assert player.game.session.changes.values == {}
-        assert player.view.panel.chosen == ("launch.angle", None)
+        assert player.view.panel.chosen == "launch.angle"
 
     def test_switches_and_words_too(self, player):
         player = player("soccer")
@@ -199,11 +224,11 @@ class TestThePanelByKey:
         panel = player.view.panel
         for group, kind in ((panel.group, bool), ("ball.drag", str)):
             turn_to(player, group)
-            panel.chosen = next(row.at for row in panel.rows if isinstance(row.value, kind))
-            before = player.game.session.value(panel.chosen[0])
+            panel.chosen = next(row.key for row in panel.rows if isinstance(row.value, kind))
+            before = player.game.session.value(panel.chosen)
             player.key(pygame.K_RIGHT, pygame.KMOD_CTRL)
-            assert player.game.session.value(panel.chosen[0]) != before
-        assert row(player, panel.chosen[0]).value in row(player, panel.chosen[0]).parameter.choices
+            assert player.game.session.value(panel.chosen) != before
+        assert row(player, panel.chosen).value in row(player, panel.chosen).parameter.choices
 
     def test_a_row_out_of_sight_is_scrolled_to(self, player, monkeypatch):
         monkeypatch.setattr(Lettering, "larger", 1.5)
@@ -212,9 +237,9 @@ class TestThePanelByKey:
         turn_to(player, "club")
         panel = player.view.panel
         player.key(pygame.K_UP, pygame.KMOD_CTRL)
-        assert panel.chosen == panel.rows[-1].at
+        assert panel.chosen == panel.rows[-1].key
         assert panel.seen < len(panel.rows)
-        shown = {what[0].at: rect for rect, what in panel.places if isinstance(what, tuple)}
+        shown = {what[0].key: rect for rect, what in panel.places if isinstance(what, tuple)}
         assert shown[panel.chosen].bottom <= panel.rect.bottom
         player.move(shown[panel.chosen].center)
         player.send(pygame.MOUSEWHEEL, x=0, y=1, flipped=False)
@@ -274,4 +299,4 @@ class TestSaving:
         assert game.playback is game.before_save is None
         assert game.session.changes.values == {}
         assert not game.recent
-        assert "wall.height" in {row.parameter.key for row in view.panel.rows}
+        assert "wall.height" in {row.key for row in view.panel.rows}
