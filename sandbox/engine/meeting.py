@@ -26,6 +26,9 @@ _ROUNDING = 1e-7
 #: Share of the accelerations that is rounding in what presses a body on a side.
 _SHARE = 1e-9
 
+#: Way in m to a side's end that is rounding.
+_END = 1e-11
+
 #: Largest turn in rad in a bounce that is none.
 _TURN = 0.1
 
@@ -130,8 +133,12 @@ def kept(
         if _stays(body, state, obstacle, found, at, applied, height)
     ]
     if len(stay) == 1:  # with two, what one pushes may press the body on the other
-        _, found, at = stay[0]
-        if found.speeds[at][0] <= STILL and lifts(body, state, found.points[at], found.normal, applied):
+        obstacle, found, at = stay[0]
+        point, slow = found.points[at], found.speeds[at][0] <= STILL
+        if straight(obstacle, found.normal) and (
+            (slow and lifts(body, state, point, found.normal, applied))
+            or (_bend(body, state, found.normal) == 0.0 and runs_out(body, state, obstacle, point, found.normal))
+        ):
             return []
     return [(obstacle, found, found.points[at]) for obstacle, found, at in stay]
 
@@ -155,12 +162,32 @@ def farthest(ball: Ball, state: State, normal: Vector) -> Vector:
     return u + c * x - s * y - outline.radius * nx, v + s * x + c * y - outline.radius * ny
 
 
+def straight(obstacle: Obstacle, normal: Vector) -> bool:
+    """Whether it is the straight side of a surface that has this normal."""
+    outline = obstacle.outline
+    return outline.length > 0.0 and abs(outline.tx * normal[0] + outline.ty * normal[1]) <= 1e-9
+
+
+def runs_out(body: Ball, state: State, obstacle: Obstacle, point: Vector, normal: Vector) -> bool:
+    """Whether the point at which a body touches a straight side is at the side's end, and moves beyond it."""
+    outline, (nx, ny) = obstacle.outline, normal
+    _, slip, _ = speeds_at((state,), point, normal)
+    onward = (slip - state[4] * _bend(body, state, normal)) * (outline.tx * ny - outline.ty * nx)
+    at = outline.along(*point)
+    return bool((onward > 0.0 and at >= outline.length - _END) or (onward < 0.0 and at <= _END))
+
+
+def _bend(body: Ball, state: State, normal: Vector) -> float:
+    """The radius of curvature in m where a body touches a straight side; 0 at a sharp corner."""
+    outline = outline_of(body)
+    return outline.radius + outline.bend(atan2(-normal[1], -normal[0]) - state[5])
+
+
 def lifts(body: Ball, state: State, point: Vector, normal: Vector, applied: Acceleration) -> bool:
     """Whether a body that its contact at a point of a straight side did not hold would be accelerated away from it."""
-    (nx, ny), outline = normal, outline_of(body)
+    (nx, ny), spin2 = normal, state[4] ** 2
     x, y, (ax, ay, turning) = point[0] - state[0], point[1] - state[1], applied
-    bend = outline.radius + outline.bend(atan2(-ny, -nx) - state[5])
-    spin2 = state[4] ** 2
+    bend = _bend(body, state, normal)
     away = ax * nx + ay * ny + (x * ny - y * nx) * turning - spin2 * (x * nx + y * ny + bend)
     most = abs(ax) + abs(ay) + body.radius * (abs(turning) + spin2)
     return bool(most > PUSH and away >= -_SHARE * most)

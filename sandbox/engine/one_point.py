@@ -22,7 +22,7 @@ from typing import NamedTuple
 
 from sandbox.engine.arc import Arc, crossing
 from sandbox.engine.lasting import RESTING, ROLLING, SLIDING, WITHIN_ROUNDING, LastingContact
-from sandbox.engine.meeting import Meeting, lifts
+from sandbox.engine.meeting import Meeting, lifts, runs_out, straight
 from sandbox.engine.setup import Ball, Vector, outline_of
 from sandbox.engine.shapes import Polygon
 from sandbox.engine.surfaces import PUSH, STILL
@@ -153,12 +153,11 @@ def one_point(
     applied: Acceleration,
     slips: bool = False,
 ) -> OnePoint | None:
-    """How a body stays on a surface that it touches at one point: None if that is no straight side, or if nothing
-    presses it on. One that ``slips`` has just lost its grip, whatever rounding says."""
-    nx, ny = met.normal
-    outline, shape = obstacle.outline, outline_of(ball)
-    if abs(outline.tx * nx + outline.ty * ny) > 1e-9 or outline.length == 0.0:
+    """How a body stays on a surface that it touches at one point: None if that is no straight side, or its end, or
+    if nothing presses it on. One that ``slips`` has just lost its grip, whatever rounding says."""
+    if not straight(obstacle, met.normal) or runs_out(ball, state, obstacle, point, met.normal):
         return None
+    (nx, ny), shape = met.normal, outline_of(ball)
     down = atan2(-ny, -nx) - state[5]
     core = min(shape.candidates(down), key=lambda place: _off(place, state, point, shape.radius, met.normal))
     touching = Touching(met.gap, nx, ny, 0.0, core, SIDE)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 import random
 from collections.abc import Callable, Sequence
@@ -442,6 +443,32 @@ def test_a_box_slides_down_a_slope_as_the_textbook_says():
 
 
 # ------------------------------------------------------------------------------------------------ lasting contact
+
+
+def off_the_end(shape: Shape, angle: float, friction: float, radius: float = 0.0) -> Run:
+    """A body that starts on a ledge with 2 m/s, 30 cm before its end."""
+    drop = min(math.sin(angle) * x + math.cos(angle) * y for x, y in shape.rim(1e-6))
+    ledge = Surface("ledge", Segment((-5.0, -radius), (0.3, -radius), radius), restitution=0.0, friction=friction)
+    start = thrown(shape, position=(0.0, 1e-5 - drop), angle=angle, velocity=(2.0, 0.0))
+    return run_of([start], 0.6, [ledge])
+
+
+def test_what_slides_on_its_corner_leaves_the_end_of_a_ledge_there():
+    """Without friction it keeps its speed along the ledge until its front lower corner is at the end."""
+    run = off_the_end(OUTLINES["box"], -0.7, 0.0)
+    (leaves,) = (event for event in run.events if event.kind == "leave")
+    angle = run.angle("body", leaves.t)
+    assert leaves.x == pytest.approx(2.0 * leaves.t, rel=1e-9)
+    assert leaves.x + 0.2 * math.cos(angle) + 0.15 * math.sin(angle) == pytest.approx(0.3, abs=1e-9)
+
+
+@pytest.mark.parametrize("shape", ["box", "rounded box", "ellipse"])
+@pytest.mark.parametrize("radius", [0.0, 0.02])
+def test_bodies_go_over_the_end_of_a_ledge(shape: str, radius: float):
+    for angle, friction in itertools.product((-0.7, -0.3, 0.7), (0.0, 0.3)):
+        run = off_the_end(OUTLINES[shape], angle, friction, radius)
+        assert run.numerics.steps < 200
+        assert run.state("body", 0.6).y < 0.0
 
 
 def test_an_ellipse_rolls_to_and_fro_with_the_period_of_its_energy():
