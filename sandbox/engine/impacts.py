@@ -70,7 +70,6 @@ class Impacts:
         self._setup = setup
         self._tracks = tracks
         self._numerics = numerics
-        self._lanes = lanes(1)
         self.gap = TOUCHING_GAP  # m, up to which shapes touch; wider in a heap
         self._slowest_hop = slowest_hop  # m/s, minimum speed at which balls on cloth separate
         # Walls softer than balls push back after the balls have separated.
@@ -168,57 +167,29 @@ class Impacts:
                     place = *point, *(track.ball.radius * part for part in found.normal)
                     if all(dist(place, other) > _SAME_POINT * track.ball.radius for other in met):
                         met.append(place)
-                        yield self._with_surface(index, states[index], obstacle.surface, found, number)
+                        yield with_surface(index, track.ball, states[index], obstacle.surface, found, number)
 
     def _soft(self, surface: Surface) -> bool:
         return self._all_soft or surface.nose_height is not None
 
-    def _with_surface(self, index: int, state: State, surface: Surface, found: Meeting, number: int) -> Contact:
-        """At one of the points where they meet; what depends on the speed along takes that of the centre."""
-        ball, (nx, ny), point, sine = self._tracks[index].ball, found.normal, found.points[number], 0.0
-        approach, along = found.speeds[number][0], state[2] * ny - state[3] * nx
-        bounce = bounce_off(surface, approach, along)
-        if bounce.tilt != 0.0:
-            nx, ny = tilted(nx, ny, bounce.tilt, along)
-            point = farthest(ball, state, (nx, ny)) if len(found.points) == 1 else point
-        if discs(ball):
-            sine = 0.0 if surface.nose_height is None else raised(ball.radius, surface.nose_height)
-            speeds = speeds_where_touching([ball], [state], nx, ny, sine)
-        else:
-            bounce = _once(bounce, approach)
-            speeds = speeds_at((state,), point, (nx, ny))
-        return Contact((index,), surface.name, nx, ny, sine, bounce, approach, speeds, point)
-
     def _with_balls(self, states: dict[int, State]) -> Iterator[Contact]:
-        for i, j in combinations(states, 2):
-            a, b = self._tracks[i].ball, self._tracks[j].ball
-            found = meeting(a, states[i], b, states[j], self.gap)
-            for point, speeds in zip(found.points, found.speeds, strict=True) if found.gap <= self.gap else ():
-                bounce = bounce_of_balls(self._setup, speeds[0], hypot(*speeds[1:]), a.name, b.name)
-                bounce = bounce if discs(a, b) else _once(bounce, speeds[0])
-                yield Contact((i, j), b.name, *found.normal, 0.0, bounce, speeds[0], speeds, point)
+        for pair in combinations(states, 2):
+            balls = [self._tracks[index].ball for index in pair]
+            found = meeting(balls[0], states[pair[0]], balls[1], states[pair[1]], self.gap)
+            for number in range(len(found.points)) if found.gap <= self.gap else ():
+                yield of_two(pair, balls, self._setup, found, number)
 
     # ------------------------------------------------------------------ impulses
 
     def _exchange_alone(self, states: dict[int, State], contact: Contact) -> None:
-        """A single contact, in units of the reduced mass; friction acts against the whole slip."""
-        balls = self._balls(contact)
-        mobility = sum([1.0 / ball.mass for ball in balls])  # 1/kg
-        turning = sum([1.0 / (ball.mass * ball.inertia_factor) for ball in balls])
-        approach, along, upward = contact.speeds
-        slip = hypot(along, upward)
-        restitution, friction, _, tangential = contact.bounce
-        wanted = (1.0 + tangential) * slip  # ending that much slip is reversing a share of what there is
-        push, rub = self._lanes.exchange(approach, wanted, mobility / turning, restitution, friction)
-        self._numerics.pymunk_steps += 1
-        share = rub / (slip * mobility) if slip > 0.0 else 0.0
-        impulse = push / mobility, share * along, share * upward
-        before, normal = [states[index] for index in contact.balls], (contact.nx, contact.ny)
-        after = after_impulses(balls, before, *normal, impulse, contact.sine)
+        """A single contact of balls."""
+        balls, self._numerics.pymunk_steps = self._balls(contact), self._numerics.pymunk_steps + 1
+        after = after_one(balls, [states[index] for index in contact.balls], contact)
         apart = [state[2] * contact.nx + state[3] * contact.ny for state in after]
         lacking = self._slowest_hop - (apart[0] - sum(apart[1:]))
         if lacking > 0.0:
-            after = after_impulses(balls, after, *normal, (lacking / mobility, 0.0, 0.0))
+            push = lacking / sum([1.0 / ball.mass for ball in balls])
+            after = after_impulses(balls, after, contact.nx, contact.ny, (push, 0.0, 0.0))
         states.update(zip(contact.balls, after, strict=True))
 
     def _exchange_at_once(self, states: dict[int, State], found: Sequence[Contact]) -> None:
@@ -289,6 +260,48 @@ class Impacts:
     def _energy(self, states: dict[int, State]) -> float:
         """Kinetic energy in J, including rotation."""
         return sum(kinetic(self._tracks[index].ball, state) for index, state in states.items())
+
+
+def with_surface(index: int, ball: Ball, state: State, surface: Surface, found: Meeting, number: int) -> Contact:
+    """The contact at one of the points where they meet; what depends on the speed along takes that of the centre."""
+    (nx, ny), point, sine = found.normal, found.points[number], 0.0
+    approach, along = found.speeds[number][0], state[2] * ny - state[3] * nx
+    bounce = bounce_off(surface, approach, along)
+    if bounce.tilt != 0.0:
+        nx, ny = tilted(nx, ny, bounce.tilt, along)
+        point = farthest(ball, state, (nx, ny)) if len(found.points) == 1 else point
+    if discs(ball):
+        sine = 0.0 if surface.nose_height is None else raised(ball.radius, surface.nose_height)
+        speeds = speeds_where_touching([ball], [state], nx, ny, sine)
+    else:
+        bounce = _once(bounce, approach)
+        speeds = speeds_at((state,), point, (nx, ny))
+    return Contact((index,), surface.name, nx, ny, sine, bounce, approach, speeds, point)
+
+
+def of_two(indices: tuple[int, int], balls: Sequence[Ball], setup: Setup, found: Meeting, number: int) -> Contact:
+    """The contact of two balls or bodies at one of the points where they meet."""
+    (a, b), speeds = balls, found.speeds[number]
+    bounce = bounce_of_balls(setup, speeds[0], hypot(*speeds[1:]), a.name, b.name)
+    bounce = bounce if discs(a, b) else _once(bounce, speeds[0])
+    return Contact(indices, b.name, *found.normal, 0.0, bounce, speeds[0], speeds, found.points[number])
+
+
+def after_one(balls: Sequence[Ball], states: Sequence[State], contact: Contact) -> list[State]:
+    """The states of one or two after a single contact: of balls in units of the reduced mass; friction acts against the
+    whole slip."""
+    if not discs(*balls):
+        return list(exchange_alone(balls, dict(enumerate(states)), contact, contact.bounce)[0].values())
+    mobility = sum([1.0 / ball.mass for ball in balls])  # 1/kg
+    turning = sum([1.0 / (ball.mass * ball.inertia_factor) for ball in balls])
+    approach, along, upward = contact.speeds
+    slip = hypot(along, upward)
+    restitution, friction, _, tangential = contact.bounce
+    wanted = (1.0 + tangential) * slip  # ending that much slip is reversing a share of what there is
+    push, rub = lanes(1).exchange(approach, wanted, mobility / turning, restitution, friction)
+    share = rub / (slip * mobility) if slip > 0.0 else 0.0
+    impulse = push / mobility, share * along, share * upward
+    return after_impulses(balls, states, contact.nx, contact.ny, impulse, contact.sine)
 
 
 def _drifted(states: dict[int, State], h: float) -> dict[int, State]:

@@ -46,9 +46,14 @@ class Meeting(NamedTuple):
     speeds: list[Speeds]  # m/s, at each: of approach, and of the slip along (ny, -nx) and upward
 
     @property
+    def fastest(self) -> int:
+        """The number of the point at which they approach fastest."""
+        return self.speeds.index(max(self.speeds))
+
+    @property
     def closing(self) -> float:
         """The fastest approach in m/s."""
-        return max(approach for approach, _, _ in self.speeds)
+        return max(self.speeds)[0]
 
 
 def discs(*balls: Ball) -> bool:
@@ -65,13 +70,12 @@ def meeting(one: Ball, state: State, other: Ball, other_state: State, within: fl
     """How two balls or bodies meet: at points where they are no farther apart than ``within`` (m), or else where they
     are nearest."""
     if not discs(one, other):
-        return _meeting(outline_of(one), outline_of(other), (state, other_state), within)
+        return _meeting((one, other), (outline_of(one), outline_of(other)), (state, other_state), within)
     dx, dy = state[0] - other_state[0], state[1] - other_state[1]
     distance = (dx**2 + dy**2) ** 0.5
     nx, ny = (dx / distance, dy / distance) if distance else (0.0, 0.0)  # centres may coincide at the start
-    speeds = speeds_where_touching([one, other], [state, other_state], nx, ny)
     point = state[0] - one.radius * nx, state[1] - one.radius * ny
-    return Meeting(distance - one.radius - other.radius, (nx, ny), [point], [speeds])
+    return meeting_at((one, other), (state, other_state), distance - one.radius - other.radius, (nx, ny), [point])
 
 
 def surface_met(ball: Ball, state: State, near: Near, within: float = 0.0) -> Meeting:
@@ -79,9 +83,8 @@ def surface_met(ball: Ball, state: State, near: Near, within: float = 0.0) -> Me
     obstacle, (gap, nx, ny, *_) = near
     if not discs(ball):
         shape = standing(obstacle.surface.shape).shape
-        return _meeting(outline_of(ball), shape, (state,), within, atan2(ny, nx))
-    point = state[0] - ball.radius * nx, state[1] - ball.radius * ny
-    return Meeting(gap, (nx, ny), [point], [speeds_where_touching([ball], [state], nx, ny)])
+        return _meeting((ball,), (outline_of(ball), shape), (state,), within, atan2(ny, nx))
+    return meeting_at((ball,), (state,), gap, (nx, ny), [(state[0] - ball.radius * nx, state[1] - ball.radius * ny)])
 
 
 def direction_to(obstacle: Obstacle, state: State) -> float:
@@ -193,12 +196,24 @@ def lifts(body: Ball, state: State, point: Vector, normal: Vector, applied: Acce
     return bool(most > PUSH and away >= -_SHARE * most)
 
 
-def _meeting(
-    one: Shape, other: Shape, states: Sequence[State], within: float, direction: float | None = None
+def meeting_at(
+    balls: Sequence[Ball], states: Sequence[State], gap: float, normal: Vector, points: list[Vector]
 ) -> Meeting:
-    here, there = [*map(pose_of, states), _IN_PLACE][:2]
-    gap, normal, points = _touching(one, here, other, there, within, direction)
+    """How one or two meet at these points; balls do at one."""
+    if discs(*balls):
+        return Meeting(gap, normal, points, [speeds_where_touching(balls, states, *normal)])
     return Meeting(gap, normal, points, [speeds_at(states, point, normal) for point in points])
+
+
+def _meeting(
+    balls: Sequence[Ball],
+    shapes: tuple[Shape, Shape],
+    states: Sequence[State],
+    within: float,
+    direction: float | None = None,
+) -> Meeting:
+    (one, other), (here, there) = shapes, [*map(pose_of, states), _IN_PLACE][:2]
+    return meeting_at(balls, states, *_touching(one, here, other, there, within, direction))
 
 
 @lru_cache(maxsize=64)

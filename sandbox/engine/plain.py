@@ -4,15 +4,16 @@ Chipmunk moves bodies first, then finds contacts, updates velocities and applies
 one step late, at whatever depth that step gives, and forces are integrated to first order. Nothing here improves on
 that, but errors are reported: cffi prints and swallows what a callback raises, so it is stored and raised after the
 step, and a ball that passes through a surface within a step is an error. The friction of a plane acts in
-``velocity_func`` too; the upward part of the friction between balls and at cushions is applied after Chipmunk's.
+``velocity_func`` too. A contact that takes more than restitution and friction in the plane is solved as by the exact
+method, in Chipmunk's place and with its normal: a cushion's nose, friction upward, turf that tilts or returns slip.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from math import hypot, isfinite
+from math import dist, isfinite
 from time import perf_counter
-from typing import Any, NamedTuple
+from typing import Any
 
 import pymunk
 
@@ -20,22 +21,16 @@ from sandbox.engine.accuracy import Accuracy
 from sandbox.engine.acting import checked
 from sandbox.engine.arc import Arc
 from sandbox.engine.event import Event
+from sandbox.engine.impacts import after_one, of_two, with_surface
+from sandbox.engine.meeting import meeting_at
 from sandbox.engine.path import Path
 from sandbox.engine.real_space import ONLY_SURFACES, RealSpace, rolls, speeds_at
 from sandbox.engine.run import Numerics, Run
 from sandbox.engine.setup import Ball, Body, Setup, Surface
 from sandbox.engine.shapes import Ellipse
 from sandbox.engine.step_control import JUMP, stiff
-from sandbox.engine.surfaces import (
-    bounce_of_balls,
-    bounce_off,
-    friction_in_plane,
-    rubbed_upward,
-    speeds_where_touching,
-)
 from sandbox.engine.touch import Outline
 from sandbox.errors import RequestError, RunError
-from sandbox.physics.cushion import rebound
 from sandbox.physics.integrators import Acceleration, State
 
 #: Overlap in m that Chipmunk allows, as its default of 0.1 is meant for pixels, and its iterations.
@@ -64,16 +59,6 @@ _LEAP = 0.5
 _REMEDY = 'lower accuracy.step, or use accuracy.method = "exact"'
 
 
-class _Pending(NamedTuple):
-    """A contact between Chipmunk's ``pre_solve`` and ``post_solve`` callbacks."""
-
-    friction: float  # of the pair, in all directions
-    slip: tuple[float, float]  # m/s, along and upward
-    resistance: float = 0.0  # rolling resistance, of lasting contact
-    lowest: float = 0.0  # m/s, a bounce no faster than this is absorbed
-    turned: float = 0.0  # rad, rotation of the velocity during contact with a tilted surface
-
-
 class _Tracked:
     """A ball's body, its recorded path, and what it touched."""
 
@@ -87,7 +72,7 @@ class _Tracked:
         self.start: State = self.state()
         self.last: tuple[State, Acceleration] | None = None  # before the forces of the last step
         self.touched = -2  # number of the last step in which it touched something
-        self.pending: dict[Any, _Pending] = {}  # by the other's shape
+        self.resisted: dict[Any, float] = {}  # rolling resistance of lasting contact, by the surface's shape
         self.caught = False
         self.still_since: float | None = None
 
@@ -228,11 +213,11 @@ class PlainSimulation:
         tracked, setup = self._tracked[body], self._setup
         state = tracked.state()
         x, y, vx, vy, spin = state[:5]
-        if h * h * (vx * vx + vy * vy) > (_LEAP * tracked.ball.radius) ** 2:
-            self._refuse_leap(tracked, (x - h * vx, y - h * vy), (x, y))
         acceleration = checked(tracked.ball, self._t, state if tracked.turns else state[:5])
-        if tracked.last is not None and tracked.touched != self._steps:
-            self._refuse_reversal(tracked, *tracked.last, state, acceleration, h)
+        if tracked.last is not None:
+            self._refuse_leap(tracked, tracked.last[0][:2], (x, y))
+            if tracked.touched != self._steps:
+                self._refuse_reversal(tracked, *tracked.last, state, acceleration, h)
         tracked.last = state, acceleration
         ax, ay, alpha = acceleration
         after: State = (x, y, vx + h * ax, vy + h * ay, *state[4:])
@@ -245,78 +230,54 @@ class PlainSimulation:
         tracked.take(after)
 
     def _meet(self, arbiter: pymunk.Arbiter) -> None:
-        """Set the restitution and friction of a contact, before Chipmunk solves it."""
-        balls, surface = self._touching(arbiter)
-        first, states = balls[0], [tracked.state() for tracked in balls]
-        nx, ny = -arbiter.normal
-        if any(tracked.turns for tracked in balls):
-            approach, *slips = *speeds_at(arbiter), 0.0
+        """Set the restitution and friction of a contact, before Chipmunk solves it; solve one that needs more."""
+        met, surface = self._touching(arbiter)
+        balls, states, first = [each.ball for each in met], [each.state() for each in met], met[0]
+        nx, ny = normal = -arbiter.normal.x, -arbiter.normal.y
+        points = [(point.point_a.x, point.point_a.y) for point in arbiter.contact_point_set.points]
+        found = meeting_at(balls, states, 0.0, normal, points)
+        if surface is None:
+            contact = of_two((0, 1), balls, self._setup, found, found.fastest)
         else:
-            approach, *slips = speeds_where_touching([tracked.ball for tracked in balls], states, nx, ny)
-        slip = slips[0], slips[1]
-        for tracked in balls:
+            contact = with_surface(0, first.ball, states[0], surface, found, found.fastest)
+        for tracked in met:
             tracked.touched = self._steps
-        partner = balls[1].ball.name if surface is None else surface.name
-        if arbiter.is_first_contact and approach > 0.0:
+        if arbiter.is_first_contact and contact.speed > 0.0:
             self._numerics.impacts += 1
-            for tracked in balls:
+            for tracked in met:
                 tracked.record(self._t)
                 self._hit.append(tracked)
-            self._note(Event(self._t, "impact", first.ball.name, partner, approach, *states[0][:2]))
-        if surface is None:
-            bounce = bounce_of_balls(self._setup, approach, hypot(*slip), first.ball.name, partner)
-            arbiter.restitution, arbiter.friction = bounce.restitution, friction_in_plane(bounce.friction, *slip)
-            first.pending[arbiter.shapes[1]] = _Pending(bounce.friction, slip)
+            self._note(Event(self._t, "impact", first.ball.name, contact.partner, contact.speed, *states[0][:2]))
+        bounce, lasts, lowest = contact.bounce, False, 0.0
+        if surface is not None:
+            ax, ay, _ = (0.0, 0.0, 0.0) if first.last is None else first.last[1]
+            press = max(0.0, -ax * nx - ay * ny)  # m/s^2
+            # no faster than what weight alone adds in a step or two
+            lasts = abs(contact.speed) <= 2.0 * press * self._accuracy.step
+            lowest = (2.0 * press * surface.lowest_bounce) ** 0.5  # m/s, a bounce no faster than this is absorbed
+        more = any((contact.sine, *bounce[2:], contact.speeds[2]))  # than Chipmunk has
+        arbiter.process_collision = not more or lasts or contact.speed <= 0.0  # it is remembered
+        if not arbiter.process_collision:
+            for tracked, state in zip(met, after_one(balls, states, contact), strict=True):
+                tracked.take(state)
+            away = first.body.velocity.dot(normal)
+            if 0.0 < away <= lowest:
+                first.body.velocity += away * arbiter.normal
             return
-        along = states[0][2] * ny - states[0][3] * nx
-        acceleration = (0.0, 0.0) if first.last is None else first.last[1]
-        press = max(0.0, -acceleration[0] * nx - acceleration[1] * ny)  # m/s^2
-        lasts = abs(approach) <= 2.0 * press * self._accuracy.step  # the speed that weight alone adds in a step or two
-        if surface.nose_height is not None:  # Chipmunk sees only the plane, so it cannot solve this
-            arbiter.process_collision = False
-            if approach > 0.0:
-                bounce = bounce_off(surface, approach, along)
-                radius, height = first.ball.radius, surface.nose_height
-                first.take((0.0, 0.0, *rebound(states[0][2:], (nx, ny), radius, height, *bounce[:2])))
-        elif approach > 0.0 or lasts:
-            restitution, friction, tilt, tangential = bounce_off(surface, approach, along)
-            arbiter.restitution, arbiter.friction = 0.0 if lasts else restitution, friction_in_plane(friction, *slip)
-            back = 0.0 if lasts else tangential * slip[0]
-            arbiter.surface_velocity = -back * ny, back * nx
-            # a tilted surface is equivalent to a level one that meets a velocity rotated the other way; it is rotated
-            # back afterwards
-            turned = 0.0 if lasts or any(pending.turned for pending in first.pending.values()) else tilt
-            turned = turned if along >= 0.0 else -turned
-            first.body.velocity = first.body.velocity.rotated(-turned)
-            resistance = surface.rolling_resistance if lasts and rolls(first.ball, arbiter) else 0.0
-            lowest = (2.0 * press * surface.lowest_bounce) ** 0.5
-            first.pending[arbiter.shapes[1]] = _Pending(friction, slip, resistance, lowest, turned)
+        absorbed = lasts or bounce.restitution * contact.speed <= lowest
+        arbiter.restitution, arbiter.friction = 0.0 if absorbed else bounce.restitution, bounce.friction
+        if surface is not None and lasts and rolls(first.ball, arbiter):
+            first.resisted[arbiter.shapes[1]] = surface.rolling_resistance
 
     def _part(self, arbiter: pymunk.Arbiter) -> None:
-        """Apply what Chipmunk does not know of, after it has solved the contact."""
-        balls, surface = self._touching(arbiter)
-        first, (nx, ny) = balls[0], -arbiter.normal
-        pending = first.pending.pop(arbiter.shapes[1], None)
-        if pending is None:
-            return
-        push = abs(arbiter.total_impulse.dot(arbiter.normal))
-        if surface is not None:
-            body = first.body
-            body.velocity = body.velocity.rotated(pending.turned)
-            approach, slip = speeds_at(arbiter)
-            if 0.0 < -approach <= pending.lowest:  # a bounce that the surface absorbs
-                point = arbiter.contact_point_set.points[0].point_a
-                moved = 1.0 / body.mass + arbiter.normal.cross(point - body.position) ** 2 / body.moment
-                body.apply_impulse_at_world_point(-approach / moved * arbiter.normal, point)
-            speed = body.velocity.length
-            if pending.resistance > 0.0 and abs(slip) <= _GRIP * speed:
-                slower = max(0.0, 1.0 - pending.resistance * push / first.ball.mass / (speed + 1e-30))
-                body.velocity, body.angular_velocity = slower * body.velocity, slower * body.angular_velocity
-        if pending.slip[1] != 0.0 and push > 0.0:
-            states, most = [tracked.state() for tracked in balls], pending.friction * push
-            after = rubbed_upward([tracked.ball for tracked in balls], states, nx, ny, pending.slip, most)
-            for tracked, state in zip(balls, after, strict=True):
-                tracked.take(state)
+        """Slow what rolls, after Chipmunk has solved the contact."""
+        first = self._touching(arbiter)[0][0]
+        resistance, body = first.resisted.pop(arbiter.shapes[1], 0.0), first.body
+        speed = body.velocity.length
+        if resistance > 0.0 and abs(speeds_at(arbiter)[1]) <= _GRIP * speed:
+            push = abs(arbiter.total_impulse.dot(arbiter.normal))
+            slower = max(0.0, 1.0 - resistance * push / first.ball.mass / (speed + 1e-30))
+            body.velocity, body.angular_velocity = slower * body.velocity, slower * body.angular_velocity
 
     def _touching(self, arbiter: pymunk.Arbiter) -> tuple[list[_Tracked], Surface | None]:
         """The ball or balls of a contact, and the surface, if it is with one."""
@@ -341,6 +302,8 @@ class PlainSimulation:
 
     def _refuse_leap(self, tracked: _Tracked, start: tuple[float, float], end: tuple[float, float]) -> None:
         """Raise RunError if the ball's centre passed through a surface in the last step."""
+        if dist(start, end) <= _LEAP * tracked.ball.radius:
+            return
         met = self._real.space.segment_query_first(start, end, 0.0, ONLY_SURFACES)
         if met is not None:
             surface = self._setup.surfaces[self._real.surface_of[met.shape]]

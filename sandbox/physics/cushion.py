@@ -16,25 +16,7 @@ carom tables to 1.4 deg rms (*ours*: fitted to published tracks).
 
 from __future__ import annotations
 
-from math import hypot
-
-from sandbox.physics.impulse import Motion, after_impulse, surface_speeds
-
-#: Moment of inertia of a solid sphere over m r^2.
-_SOLID = 2 / 5
-
 
 def raised(radius: float, height: float) -> float:
     """Sine of the angle above its centre at which a ball of ``radius`` m touches a nose at ``height`` m."""
     return (height - radius) / radius
-
-
-def rebound(
-    motion: Motion, normal: tuple[float, float], radius: float, height: float, restitution: float, friction: float
-) -> Motion:
-    """The motion of a ball of ``radius`` m after it hits a nose at ``height`` m; ``normal`` points to the ball."""
-    sine = raised(radius, height)
-    approach, along, upward = surface_speeds(motion, *normal, radius, sine)
-    push, slip = (1.0 + restitution) * approach, hypot(along, upward)
-    rub = min(friction * push, slip / (1.0 + 1.0 / _SOLID)) / slip if slip > 0.0 else 0.0
-    return after_impulse(motion, *normal, radius, _SOLID, (push, -rub * along, -rub * upward), sine)
