@@ -11,23 +11,27 @@ from typing import Any
 import numpy as np
 
 from sandbox.engine.arc import Arc
-from sandbox.engine.bernstein_many import evaluate, first_downward_crossing, until
+from sandbox.engine.bernstein import downward_crossings
+from sandbox.engine.bernstein_many import downward_crossings as crossings_of_many
+from sandbox.engine.bernstein_many import evaluate, until
 from sandbox.engine.path import Curve, Passage, Path, climb, height
 
-#: Positions of an arc's parts in its row: times, state at the start, curves, state at the end.
+#: Positions of an arc's parts in its row: times, state at the start, curves, state at the end, number of the contact.
 T0, T1 = 0, 1
 START = slice(2, 7)
 CURVES = X, Y, VX, VY, SPIN = slice(7, 13), slice(13, 19), slice(19, 24), slice(24, 29), slice(29, 33)
 END = slice(33, 38)
-COLUMNS = END.stop
+CONTACT = END.stop
+COLUMNS = CONTACT + 1
 
 
 class Paths:
-    """The paths of many balls in flight, one after another. ``rows`` has shape (arcs, 38): t0, t1, start, coefficients,
-    end; ``ends`` has the number of rows up to the end of each path."""
+    """The paths of many balls, one after another. ``rows`` has shape (arcs, 39): t0, t1, start, coefficients, end, and
+    a place in ``contacts`` or -1; ``ends`` has the number of rows up to the end of each path."""
 
-    def __init__(self, rows: np.ndarray, ends: Sequence[int]) -> None:
+    def __init__(self, rows: np.ndarray, ends: Sequence[int], contacts: Sequence[object] = ()) -> None:
         self.rows = rows
+        self.contacts = contacts
         self._bounds = [0, *ends]
         self._asked: dict[Curve, int] = {}
         self._passages: dict[Curve, list[list[Passage]]] = {}
@@ -48,35 +52,32 @@ class Paths:
         return self._passages[curve][path.number]
 
     def _passing(self, first: int, last: int, curve: Curve) -> Iterator[tuple[int, Passage]]:
-        """The number of the path, and the passage, for the arcs in these rows; of each path in order."""
+        """The number of the path, and the passage, for the arcs in these rows; of each path in order, as in
+        ``Path.passages``."""
         rows = self.rows[first:last]
-        values = np.array(curve(arc_of(rows.T)))
-        whole = set(self._numbers(first + np.flatnonzero(values[-1] == 0.0)))  # it may pass just where an arc ends
-        for number in whole:
-            for passage in Path(list(self[number])).passages(curve):
-                yield number, passage
+        values, places = np.array(curve(arc_of(rows.T))), np.arange(len(rows))
+        numbers = np.searchsorted(self._bounds, first + places, side="right") - 1
+        signs, signed = np.sign(values), values.any(axis=0)
+        starts, ends = (some[(some != 0.0).argmax(axis=0), places] for some in (signs, signs[::-1]))
+        latest = np.append(-1, np.maximum.accumulate(np.where(signed, places, -1)))[:-1]  # arc before that is not zero
+        turned = (starts < 0.0) & (latest >= 0) & (ends[latest] > 0.0) & (numbers[latest] == numbers)
         some = np.flatnonzero((values.min(axis=0) <= 0.0) & (values.max(axis=0) > 0.0))
-        u, unclear = first_downward_crossing(values[:, some], halvings=0)
-        rows, numbers = rows[some], self._numbers(first + some)
-        at = np.where(np.isfinite(u), u, 0.0)
-        t = (rows[:, T0] + at * (rows[:, T1] - rows[:, T0])).tolist()
-        states = np.array([evaluate(rows[:, part].T, at) for part in CURVES]).T.tolist()
-        for place in np.flatnonzero(np.isfinite(u) | unclear).tolist():
-            if numbers[place] in whole:
-                continue
-            clear = [(t[place], tuple(states[place]))]
-            found = Path([arc_of(rows[place].tolist())]).passages(curve) if unclear[place] else clear
-            for passage in found:
-                yield numbers[place], passage
-
-    def _numbers(self, rows: np.ndarray) -> list[int]:
-        """The path of each of these rows."""
-        numbers: list[int] = (np.searchsorted(self._bounds, rows, side="right") - 1).tolist()
-        return numbers
+        among, u, doubtful, _ = crossings_of_many(values[:, some])
+        clear = ~np.isin(among, doubtful)
+        found: list[tuple[Any, Any]] = [(np.flatnonzero(turned), 0.0), (some[among[clear]], u[clear])]
+        for place in some[np.unique(doubtful)].tolist():
+            found += [([place], u) for u in downward_crossings(values[:, place].tolist())]
+        at = np.concatenate([where for where, _ in found]).astype(int)
+        u = np.concatenate([np.broadcast_to(u, len(where)) for where, u in found])
+        order = np.lexsort((u, at))
+        rows, u = rows[at[order]], u[order]
+        t = rows[:, T0] + u * (rows[:, T1] - rows[:, T0])
+        states = np.array([evaluate(rows[:, part].T, u) for part in CURVES]).T
+        return zip(numbers[at[order]].tolist(), zip(t.tolist(), map(tuple, states.tolist()), strict=True), strict=True)
 
 
 class ArcRows(Path):
-    """The arcs of one ball in flight: some rows of ``paths``."""
+    """The arcs of one ball: some rows of ``paths``."""
 
     def __init__(self, paths: Paths, number: int, first: int, last: int) -> None:
         self.paths, self.number, self.first, self.last = paths, number, first, last
@@ -85,10 +86,10 @@ class ArcRows(Path):
         return self.last - self.first
 
     def __getitem__(self, index: int) -> Arc:
-        return arc_of(self._rows[index].tolist())
+        return arc_of(self._rows[index].tolist(), self.paths.contacts)
 
     def __iter__(self) -> Iterator[Arc]:
-        return map(arc_of, self._rows.tolist())
+        return (arc_of(row, self.paths.contacts) for row in self._rows.tolist())
 
     @property
     def _rows(self) -> np.ndarray:
@@ -133,7 +134,14 @@ def cut(rows: np.ndarray, t: np.ndarray, u: np.ndarray) -> np.ndarray:
     return rows
 
 
-def arc_of(row: Any) -> Arc:
+def still_rows(t: np.ndarray, state: np.ndarray) -> np.ndarray:
+    """Arcs without duration, as columns."""
+    x, y, _, _, spin = state
+    return np.vstack((t, t, state, *[x] * 6, *[y] * 6, *[0.0 * x] * 10, *[spin] * 4, state, 0.0 * x - 1.0))
+
+
+def arc_of(row: Any, contacts: Sequence[object] = ()) -> Arc:
     """The arc of one row; of many rows as columns, one with arrays."""
     start, end = tuple(row[START]), tuple(row[END])
-    return Arc(row[T0], row[T1], start, (row[X], row[Y], row[VX], row[VY], row[SPIN]), end=end)
+    contact = contacts[int(row[CONTACT])] if contacts and row[CONTACT] >= 0.0 else None
+    return Arc(row[T0], row[T1], start, (row[X], row[Y], row[VX], row[VY], row[SPIN]), contact, end)

@@ -1,8 +1,9 @@
-"""Many shots at once: flights and distances in arrays over the shots, impacts by pymunk.
+"""Many shots at once: flights, slides and rolls in arrays over the shots, impacts by pymunk.
 
 The shots of a batch are similar: one ball and the same kinds of forces and surfaces, with different numbers. Each shot
-has its own time and its own steps, and moves exactly as in simulation.py. Rare cases (lasting contact, two surfaces at
-once, an invalid state) are handed to simulation.py, which continues the shot from its current state.
+has its own time and its own steps, and moves exactly as in simulation.py. Rare cases (lasting contact with anything but
+a straight side, two surfaces at once, an invalid state) are handed to simulation.py, which continues the shot from its
+current state.
 """
 
 from __future__ import annotations
@@ -16,22 +17,42 @@ import numpy as np
 from sandbox.engine.accuracy import Accuracy
 from sandbox.engine.acting import acceleration, by_cause
 from sandbox.engine.arc import through
-from sandbox.engine.arc_rows import COLUMNS, END, ArcRows, Paths, X, Y, arc_of, cut
+from sandbox.engine.arc_rows import COLUMNS, CURVES, END, START, T0, T1, ArcRows, Paths, X, Y, arc_of, cut, still_rows
+from sandbox.engine.bernstein import elevate
+from sandbox.engine.bernstein_many import first_downward_crossing
 from sandbox.engine.event import Event
-from sandbox.engine.impulses import MANY, lanes
+from sandbox.engine.impulses import MANY
+from sandbox.engine.impulses import lanes as impact_lanes
+from sandbox.engine.lasting import BECOMES, FLYING, RESTING, ROLLING, SLIDING, LastingContact, motion_on
 from sandbox.engine.outlines import Outlines
 from sandbox.engine.run import Numerics, Run
-from sandbox.engine.setup import Setup, Until
+from sandbox.engine.setup import Ball, Setup, Until
 from sandbox.engine.setup_errors import setup_errors_named
 from sandbox.engine.simulation import Simulation
 from sandbox.engine.stacking import FEWEST, Stack, selector
 from sandbox.engine.step_control import LONGEST, StepControl, before_break, within
 from sandbox.engine.surfaces import CLOSING, bounce_off, leaves_at, press, tilted
+from sandbox.engine.touch import SEAM, SIDE
 from sandbox.physics.impulse import after_impulse, surface_speeds
 from sandbox.physics.integrators import Acceleration, State
 
 #: What setups need for flights together; how they end is asked of each.
 FLIGHT = ("balls", "surfaces", "patches", "bounds", "duration", "breaks")
+
+#: What is known of each shot in flight: attributes of Batch, arrays with shots along the last axis.
+_OF_EACH = (
+    "_shot",
+    "_t",
+    "_state",
+    "_wanted",
+    "_again",
+    "_how",
+    "_surface",
+    "_touches",
+    "_mode",
+    "_direction",
+    "_contact",
+)
 
 #: Rows of the counters.
 STEPS, REFINED, IMPACTS, QUERIES = range(4)
@@ -76,27 +97,28 @@ def _stack(setups: Sequence[Setup]) -> Stack | None:
         return None
 
 
-def _ending(setup: Setup, events: Sequence[Event]) -> str:
-    """ "until" if the last of these events ends the run, "" if not; "after" if the condition fails, so that the shot
-    runs alone and raises the error."""
-    try:
-        return "until" if events and setup.ends_with(events) else ""
-    except FAILURES:
-        return "after"
-
-
 class _OnlyFloats(Exception):
     """Forces that cannot take arrays, or that return other values for arrays than for floats."""
 
 
 class _Left(NamedTuple):
-    """How a shot left the batch: at its end (``how`` is "until" or "duration"), or to be continued by simulation.py:
-    from its start ("start"), in flight, or where it touches something, "before" an impact or "after" it."""
+    """How a shot left the batch: at its end (``how`` is "until", "rest" or "duration"), or to be continued by
+    simulation.py: from its start ("start"), on its way, or where it touches something, "before" an impact or "after"
+    it."""
 
     t: float  # s
     how: str
     state: State
     wanted: float  # s, the next step
+    contact: LastingContact | None
+
+
+class _Held(NamedTuple):
+    """Shots that slide, or that roll."""
+
+    lanes: np.ndarray
+    ball: Ball
+    contact: LastingContact
 
 
 class Batch:
@@ -110,9 +132,10 @@ class Batch:
         self._select = selector(whole)
         self._until = selector(whole.until)
         self._outlines = Outlines(setups, accuracy.skin)
-        self._lanes = lanes(MANY)
+        self._lanes = impact_lanes(MANY)
         self._events: list[list[Event]] = [[] for _ in setups]
         self._left: dict[int, _Left] = {}
+        self._contacts: list[LastingContact] = []
         nothing = (np.zeros(0, dtype=int), np.zeros((COLUMNS, 0)))
         self._paths = [nothing]  # of each round: shots, and the rows of their arcs as columns
         self._counts = np.zeros((4, len(setups)), dtype=int)  # of all shots
@@ -126,6 +149,12 @@ class Batch:
         self._wanted = np.full(len(setups), self._control.first)  # s, the next step
         self._again = np.zeros(len(setups), dtype=bool)  # the last step was too long and is repeated
         self._how = np.full(len(setups), "", dtype="U8")  # why it leaves now, as in _Left; "" if it stays
+        self._surface = np.full(len(setups), -1)  # that it touches, or on which it slides or rolls; -1 in flight
+        self._touches = np.zeros(len(setups), dtype=bool)  # it is to be seen whether it stays on this surface, and how
+        self._mode = np.full(len(setups), FLYING, dtype="U8")
+        self._direction = np.zeros(len(setups))  # of the motion in contact, as in LastingContact
+        self._contact = np.full(len(setups), -1)  # index in _contacts
+        self._held: list[_Held] = []
         self._now: Setup = whole
 
     def fly(self) -> None:
@@ -133,14 +162,14 @@ class Batch:
         started = perf_counter()
         with np.errstate(all="ignore"):
             some = np.arange(0, len(self._shot), max(1, len(self._shot) // _WATCHED))
-            self._check_forces(some, np.array(self._acceleration(self._t, tuple(self._state))))
+            self._check_forces(some, np.array(self._acceleration(self._now.balls[0], self._t, tuple(self._state))))
             self._begin()
             rounds = pieces = 0
             while len(self._shot) >= FEWEST and pieces < MOST_PIECES:
                 self._advance_all(rounds % len(self._shot))
                 rounds += 1
                 pieces += len(self._paths[-1][0])
-        self._how = np.where(self._touched < 0, "flight", "after")
+        self._how = np.where(self._touches, "after", "flight")
         self._drop()
         self._seconds = perf_counter() - started
 
@@ -149,17 +178,17 @@ class Batch:
         shots = np.concatenate([shots for shots, _ in self._paths])
         order = np.argsort(shots, kind="stable")
         rows = np.concatenate([columns for _, columns in self._paths], axis=1)[:, order].T
-        paths = Paths(rows, np.cumsum(np.bincount(shots, minlength=len(self.setups))).tolist())
+        paths = Paths(rows, np.cumsum(np.bincount(shots, minlength=len(self.setups))).tolist(), self._contacts)
         for number in range(len(self.setups)):
             yield self._run(number, paths[number])
 
     # ------------------------------------------------------------------ forces
 
-    def _acceleration(self, t: np.ndarray, state: State) -> Acceleration:
+    def _acceleration(self, ball: Ball, t: np.ndarray, state: State) -> Acceleration:
         for array in (t := t.view(), *state):
             array.flags.writeable = False  # ``vx -= wind`` in a force leaves a float as it was, but not an array
         try:
-            ax, ay, alpha = acceleration(self._now.balls[0], t, state)
+            ax, ay, alpha = acceleration(ball, t, state)
             every = np.broadcast_to(ax, t.shape), np.broadcast_to(ay, t.shape), np.broadcast_to(alpha, t.shape)
             if any(map(np.iscomplexobj, every)):
                 raise TypeError("complex numbers")
@@ -187,60 +216,162 @@ class Batch:
     def _begin(self) -> None:
         count, obstacle, near = self._outlines.near(self._shot, self._state[0], self._state[1])
         away = self._state[2] * near.nx + self._state[3] * near.ny
-        plain = (count == 0) | ((count == 1) & (near.gap >= -1e-12) & (away >= -CLOSING))
-        self._touched = np.where(count == 1, obstacle, -1)  # surface that was just left, or -1
-        self._normal = np.array((near.nx, near.ny, near.curvature))
-        self._how[~plain] = "start"
+        self._touches = count == 1
+        self._surface[self._touches] = obstacle[self._touches]
+        self._how[~((count == 0) | (self._touches & (near.gap >= -1e-12) & (away >= -CLOSING)))] = "start"
         self._drop()
 
     def _advance_all(self, watched: int) -> None:
-        known = np.array(self._acceleration(self._t, tuple(self._state)))
+        known = np.array(self._acceleration(self._now.balls[0], self._t, tuple(self._state)))
         self._check_forces(np.array([watched]), known)
-        self._after_touches(known)
+        self._settle(known)
         known = known[:, self._drop()]
         if not len(self._shot):
             return
-        self._touched = np.full(len(self._shot), -1)
+        self._held = [self._placed(self._mode == mode, mode) for mode in (SLIDING, ROLLING) if mode in self._mode]
+        if self._held:
+            known = np.array(self._law(self._t, tuple(self._state)))
         before = tuple(self._state)
         h = np.minimum(np.minimum(self._wanted, LONGEST), self._now.duration - self._t)
         h = before_break(self._now.breaks, self._t, h)
         h = np.where(self._again, self._wanted, within(self._now.patches, h, before, tuple(known)))
         fits, following, after, last = self._control.attempt(
-            self._acceleration, self._t, before, tuple(known), h, self._wanted, self._now.balls[0].radius
+            self._law, self._t, before, tuple(known), h, self._wanted, self._now.balls[0].radius
         )
+        arc = through(self._t, h, before, tuple(known), after, last)
+        rows = np.vstack((self._t, self._t + h, *before, *map(np.array, arc.curves), *after, self._contact))
+        changes, lasts = self._changes(rows)
+        lasts |= ~fits
         self._again = ~fits
-        self._counts[STEPS, self._shot] += 1
+        self._counts[STEPS, self._shot] += lasts
         self._counts[REFINED, self._shot] += ~fits
-        accepted = fits & self._now.bounds.hold(after)
+        accepted = fits & lasts & self._now.bounds.hold(after)
         stuck = ~accepted & (fits | (following < np.maximum(1e-15, 1e-15 * self._t)))
-        self._how[stuck] = "flight"  # which raises the error
-        self._wanted = np.where(stuck, h, following)
+        self._how[stuck] = "flight"  # which raises the error, or finds what follows the contact
+        self._wanted = np.where(lasts, np.where(stuck, h, following), self._wanted)
         if accepted.any():
-            self._travel(np.flatnonzero(accepted), h, known, np.array(after), np.array(last))
+            self._travel(np.flatnonzero(accepted), rows[:, accepted], changes[accepted])
         self._drop()
+
+    # ------------------------------------------------------------------ lasting contact
+
+    def _placed(self, held: np.ndarray, mode: str) -> _Held:
+        """The shots of this mask, placed exactly on their surfaces as moving or resting there."""
+        lanes = np.flatnonzero(held)
+        shots, state = self._shot[lanes], tuple(self._state[:, lanes])
+        obstacles, ball = self._outlines.of(self._surface[lanes], shots), self._select(shots).balls[0]
+        contact = LastingContact(mode, obstacles, obstacles.on_feature(SIDE, *state[:2]), self._direction[lanes])
+        for row, part in zip(self._state, contact.placed(ball, state), strict=True):
+            row[lanes] = part
+        return _Held(lanes, ball, contact)
+
+    def _law(self, t: np.ndarray, state: State) -> Acceleration:
+        """The acceleration of shots in flight and in contact."""
+        applied = self._acceleration(self._now.balls[0], t, state)
+        if not self._held:
+            return applied
+        found = np.array(applied)
+        for at, ball, contact in self._held:
+            found[:, at] = contact.forces(ball, tuple(found[:, at]), tuple(part[at] for part in state))[0]
+        return tuple(found)
+
+    def _changes(self, rows: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Where on these arcs slip or speed ends, as u, inf where it does not; and a mask of the shots that stay on the
+        surface until then, as far as can be told here."""
+        changes, lasts = np.full(len(self._shot), np.inf), np.ones(len(self._shot), dtype=bool)
+        for at, ball, contact in self._held:
+            here = rows[:, at]
+            x, y, vx, vy, spin = (here[part] for part in CURVES)
+            end = tuple(here[END])
+            applied = self._acceleration(ball, here[T1], end)
+            _, normal, spare = contact.forces(ball, applied, end)
+            progress = contact.progress(ball, (x, y, vx, vy, np.array(elevate(list(spin), len(vx) - 1))))
+            u, unclear = first_downward_crossing(progress)
+            ends = progress[-1] < 0.0
+            changes[at] = np.where(ends, u, np.inf)
+            side = contact.obstacle.outline
+            along = side.along(x, y)
+            inside = (along.min(axis=0) > 0.0) & (along.max(axis=0) < side.length)
+            lasts[at] = inside & (normal >= 0.0) & (spare >= 0.0) & ~(ends & (unclear | ~np.isfinite(u)))
+        return changes, lasts
+
+    def _settle(self, acceleration: np.ndarray) -> None:
+        """Whether the shots that touch a surface, and do not approach it, fly on, or slide, roll or rest on it."""
+        at = np.flatnonzero(self._touches)
+        if not len(at):
+            return
+        self._touches[at] = False
+        shots, (x, y, vx, vy, spin), applied = self._shot[at], self._state[:, at], tuple(acceleration[:, at])
+        obstacles = self._outlines.of(self._surface[at], shots)
+        touching, along = obstacles.near(x, y), obstacles.outline.along(x, y)
+        nx, ny = touching.nx, touching.ny
+        away = vx * nx + vy * ny
+        pressed = press((x, y, vx, vy, spin), applied, nx, ny, touching.curvature)
+        stays = away <= leaves_at(pressed, np.maximum(self._accuracy.settle, obstacles.surface.lowest_bounce))
+        state = np.array((x, y, vx - away * nx, vy - away * ny, spin))
+        mode, direction = motion_on(self._select(shots).balls[0], tuple(state), obstacles.surface, touching, applied)
+        begins = self._mode[at] == FLYING  # not at the end of a slide or a roll
+        inside = stays & (along > SEAM) & (along < obstacles.outline.length - SEAM)
+        flies, rests = begins & ~stays, inside & ~begins & (mode == RESTING)
+        holds = inside & ((mode == SLIDING) | (mode == ROLLING))
+        held = at[holds]
+        self._state[:, held], self._mode[held], self._direction[held] = state[:, holds], mode[holds], direction[holds]
+        goes_on = flies | holds
+        self._how[at] = np.where(goes_on, "", np.where(rests, "rest", "after"))
+        self._surface[at[flies]] = -1
+        for i in np.flatnonzero(goes_on | rests).tolist():
+            lane, shot = int(at[i]), int(shots[i])
+            setup, events = self.setups[shot], self._events[shot]
+            noted = len(events)
+            try:
+                over = bool(begins[i] and events and setup.ends_with(events))
+                if not flies[i]:
+                    obstacle = self._outlines.obstacle(int(self._surface[lane]), shot)
+                    if begins[i] or rests[i]:
+                        what, where = "rest" if rests[i] else "contact", (float(x[i]), float(y[i]))
+                        name = setup.balls[0].name
+                        events.append(Event(float(self._t[lane]), what, name, obstacle.surface.name, 0.0, *where))
+                        over = setup.ends_with(events) or over
+                    side = obstacle.on_feature(SIDE, float(x[i]), float(y[i]))
+                    self._contact[lane] = len(self._contacts)
+                    self._contacts.append(LastingContact(str(mode[i]), obstacle, side, float(direction[i])))
+            except FAILURES:
+                del events[noted:]
+                self._how[lane] = "after"  # run alone, the shot raises the error
+                continue
+            if over:
+                self._how[lane] = "until"
+        ended = at[begins & (self._how[at] == "until")]  # the outcome of the impact is included, though no arc follows
+        self._paths.append((self._shot[ended], still_rows(self._t[ended], self._state[:, ended])))
 
     # ------------------------------------------------------------------ travelling
 
-    def _travel(
-        self, lanes: np.ndarray, h: np.ndarray, acceleration: np.ndarray, after: np.ndarray, last: np.ndarray
-    ) -> None:
-        """Take the accepted step of these lanes, up to the first touch."""
-        shots, h = self._shot[lanes], h[lanes]
-        t0, t1 = self._t[lanes], self._t[lanes] + h
-        start, after = self._state[:, lanes], after[:, lanes]
-        arc = through(t0, h, tuple(start), tuple(acceleration[:, lanes]), tuple(after), tuple(last[:, lanes]))
-        rows = np.vstack((t0, t1, start, *map(np.array, arc.curves), after))
-        u, looked_at = self._outlines.first_touch(shots, rows[X], rows[Y], lambda i: arc_of(rows[:, i].tolist()))
+    def _travel(self, lanes: np.ndarray, rows: np.ndarray, changes: np.ndarray) -> None:
+        """Take the accepted step of these lanes, up to the first touch, or to where the motion in contact changes."""
+        shots, t0 = self._shot[lanes], rows[T0]
+        ends = np.flatnonzero(np.isfinite(changes))
+        if len(ends):
+            u = changes[ends]
+            rows[:, ends] = cut(rows[:, ends], t0[ends] + u * (rows[T1, ends] - t0[ends]), u)
+        u, looked_at = self._outlines.first_touch(
+            shots, rows[X], rows[Y], lambda i: arc_of(rows[:, i].tolist()), self._surface[lanes]
+        )
         self._counts[QUERIES, shots] += looked_at
-        hits = np.flatnonzero(t0 + u * h <= t1)
-        t1[hits] = t0[hits] + u[hits] * h[hits]
+        t = t0 + u * (rows[T1] - t0)
+        hits = np.flatnonzero(t <= rows[T1])
         if len(hits):
-            rows[:, hits] = cut(rows[:, hits], t1[hits], u[hits])
+            rows[:, hits] = cut(rows[:, hits], t[hits], u[hits])
+            changes[hits] = np.inf
         self._paths.append((shots, rows))
-        self._t[lanes], self._state[:, lanes] = t1, rows[END]
-        how = np.where(t1 >= np.broadcast_to(self._now.duration, self._t.shape)[lanes], "duration", "")
+        self._t[lanes], self._state[:, lanes] = rows[T1], rows[END]
+        self._touches[lanes] = changes < np.inf
+        for mode, becomes in BECOMES.items():
+            if (ended := self._touches & (self._mode == mode)).any():
+                self._placed(ended, becomes)
+        how = np.where(rows[T1] >= np.broadcast_to(self._now.duration, self._t.shape)[lanes], "duration", "")
         if isinstance(self._now.until, Until):
-            how[(how == "") & self._until(shots).passed(tuple(start), tuple(rows[END]))] = "until"
+            passed = self._until(shots).passed(tuple(rows[START]), tuple(rows[END]))
+            how[(how == "") & ~np.isfinite(changes) & passed] = "until"
         how[hits] = ""
         self._how[lanes] = how
         if len(hits):
@@ -255,7 +386,7 @@ class Batch:
         count, obstacle, near = self._outlines.near(shots, x, y)
         approach = -(vx * near.nx + vy * near.ny)
         along = vx * near.ny - vy * near.nx
-        plain = (count == 1) & (approach > CLOSING)
+        plain = (count == 1) & (approach > CLOSING) & (self._mode[lanes] == FLYING)
         bounces = np.zeros((len(lanes), 4))  # as in Bounce
         for i in np.flatnonzero(plain).tolist():
             setup = self.setups[shots[i]]
@@ -275,9 +406,7 @@ class Batch:
             self._counts[IMPACTS, shots[at]] += 1
             nx, ny = near.nx[at], near.ny[at]
             self._exchange(here, *tilted(nx, ny, bounces[at, 2], along[at]), bounces[at])
-            self._touched[here] = obstacle[at]
-            self._normal = np.zeros((3, len(self._shot)))
-            self._normal[:, here] = nx, ny, near.curvature[at]
+            self._surface[here], self._touches[here] = obstacle[at], True
 
     def _exchange(self, lanes: np.ndarray, nx: np.ndarray, ny: np.ndarray, bounces: np.ndarray) -> None:
         """Change velocities and spins by impacts on surfaces with these normals."""
@@ -289,32 +418,19 @@ class Batch:
         )
         self._state[2:, lanes] = after_impulse(motion, nx, ny, r, factor, (push, rub, 0.0))
 
-    def _after_touches(self, acceleration: np.ndarray) -> None:
-        """Whether the shots that touch a surface, and do not approach it, continue to fly."""
-        at = np.flatnonzero(self._touched >= 0)
-        if not len(at):
-            return
-        state, (nx, ny, curvature) = self._state[:, at], self._normal[:, at]
-        pressed = press(tuple(state), tuple(acceleration[:, at]), nx, ny, curvature)
-        away = state[2] * nx + state[3] * ny
-        lowest = [self.setups[self._shot[lane]].surfaces[self._touched[lane]].lowest_bounce for lane in at.tolist()]
-        stays = away <= leaves_at(pressed, np.maximum(self._accuracy.settle, lowest))
-        for lane, kept in zip(at.tolist(), stays.tolist(), strict=True):
-            shot = self._shot[lane]
-            self._how[lane] = "after" if kept else _ending(self.setups[shot], self._events[shot])
-
     # ------------------------------------------------------------------ leaving the batch
 
     def _drop(self) -> np.ndarray:
         """Note how shots leave, and keep the others. Returns a mask of these."""
         staying: np.ndarray = self._how == ""
         for lane in np.flatnonzero(~staying).tolist():
-            state, how = tuple(self._state[:, lane].tolist()), str(self._how[lane])
-            self._left[int(self._shot[lane])] = _Left(float(self._t[lane]), how, state, float(self._wanted[lane]))
+            state, number = tuple(self._state[:, lane].tolist()), int(self._contact[lane])
+            contact = self._contacts[number] if number >= 0 else None
+            left = _Left(float(self._t[lane]), str(self._how[lane]), state, float(self._wanted[lane]), contact)
+            self._left[int(self._shot[lane])] = left
         if not staying.all():
-            self._shot, self._t, self._state = self._shot[staying], self._t[staying], self._state[:, staying]
-            self._wanted, self._again, self._how = self._wanted[staying], self._again[staying], self._how[staying]
-            self._touched, self._normal = self._touched[staying], self._normal[:, staying]
+            for name in _OF_EACH:
+                setattr(self, name, getattr(self, name)[..., staying])
             self._now = self._select(self._shot)
         return staying
 
@@ -323,7 +439,7 @@ class Batch:
         steps, refined, impacts, queries = self._counts[:, number].tolist()
         seconds = self._seconds / len(self.setups)
         numerics = Numerics((self._control.evaluations + 1) * steps, steps, refined, impacts, impacts, queries, seconds)
-        if left.how in ("until", "duration"):
+        if left.how in ("until", "rest", "duration"):
             arcs = {setup.balls[0].name: path}
             return Run(setup, self._accuracy, arcs, events, numerics, left.t, left.how)
         try:
@@ -331,6 +447,6 @@ class Batch:
                 simulation = Simulation(setup, self._accuracy, numerics)
                 if left.how == "start":
                     return simulation.run()
-                return simulation.take_over(left.t, left.state, list(path), events, left.wanted, left.how)
+                return simulation.take_over(left.t, left.state, list(path), events, left.wanted, left.how, left.contact)
         except Exception as error:
             return error

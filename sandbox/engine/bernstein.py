@@ -88,8 +88,8 @@ def derivative(b: Sequence[float]) -> list[float]:
     return [n * (b[k + 1] - b[k]) for k in range(n)] or [0.0]
 
 
-def elevate(b: Sequence[float], degree: int) -> Sequence[float]:
-    """The same polynomial at a higher degree."""
+def elevate(b: Sequence[Any], degree: int) -> Sequence[Any]:
+    """The same polynomial at a higher degree; or many, with arrays as coefficients."""
     while len(b) - 1 < degree:
         n = len(b)
         b = [b[0], *((k * b[k - 1] + (n - k) * b[k]) / n for k in range(1, n)), b[-1]]

@@ -12,6 +12,9 @@ import numpy as np
 
 from sandbox.engine.bernstein import CONVERGED, binomials
 
+#: Bisections of a polynomial of which its signs do not tell how many roots it has.
+_HALVINGS = 4
+
 #: Most Newton steps to a root: four or five are typical, and bisection alone needs 53.
 _MOST_STEPS = 60
 
@@ -63,17 +66,26 @@ def _product_weights(n: int) -> np.ndarray:
     return weights.reshape(2 * n + 1, -1)
 
 
-def first_downward_crossing(b: np.ndarray, halvings: int = 4) -> tuple[np.ndarray, np.ndarray]:
+def first_downward_crossing(b: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """The u in [0, 1] where each f first goes from positive to negative, inf where none does; and a mask of
-    those that are unclear.
+    those that are unclear. ``b`` has shape (degree + 1, paths); both arrays have shape (paths,)."""
+    first, unclear = np.full(b.shape[1], np.inf), np.zeros(b.shape[1], dtype=bool)
+    path, u, doubtful, start = downward_crossings(b)
+    np.minimum.at(first, path, u)
+    unclear[doubtful[start < first[doubtful]]] = True
+    return first, unclear
+
+
+def downward_crossings(b: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """The paths and the u in [0, 1] where f goes from positive to negative; and the pieces that are unclear: their
+    paths, and the u where they start.
 
     A polynomial is clear if its coefficients change sign at most once and are never exactly zero, on [0, 1] or on its
-    pieces after ``halvings`` bisections. ``b`` has shape (degree + 1, paths); both arrays have shape (paths,).
+    pieces after ``_HALVINGS`` bisections. ``b`` has shape (degree + 1, paths).
     """
-    first, unclear = np.full(b.shape[1], np.inf), np.zeros(b.shape[1], dtype=bool)
     path, start, width = np.arange(b.shape[1]), np.zeros(b.shape[1]), 1.0  # of the pieces
     falling = []
-    for halving in range(halvings + 1):
+    for halving in range(_HALVINGS + 1):
         positive = b > 0.0
         changes = (positive[1:] != positive[:-1]).sum(axis=0)
         doubtful = (changes > 1) | ((changes > 0) & (b == 0.0).any(axis=0))
@@ -81,16 +93,13 @@ def first_downward_crossing(b: np.ndarray, halvings: int = 4) -> tuple[np.ndarra
         falling.append((b[:, falls], path[falls], start[falls], np.full(len(falls), width)))
         some = np.flatnonzero(doubtful)
         path, start = path[some], start[some]
-        if not len(some) or halving == halvings:
+        if not len(some) or halving == _HALVINGS:
             break
         width *= 0.5
         path, start = np.concatenate((path, path)), np.concatenate((start, start + width))
         b = (_halving(len(b) - 1) @ b[:, some]).reshape(2, len(b), -1).transpose(1, 0, 2).reshape(len(b), -1)
     pieces, whose, starts, widths = (np.concatenate(parts, axis=-1) for parts in zip(*falling, strict=True))
-    if len(whose):
-        np.minimum.at(first, whose, starts + widths * _single_root(pieces))
-    unclear[path[start < first[path]]] = True
-    return first, unclear
+    return whose, starts + widths * _single_root(pieces), path, start
 
 
 @lru_cache
@@ -115,6 +124,8 @@ def _value_and_slope(n: int) -> np.ndarray:
 def _single_root(b: np.ndarray) -> np.ndarray:
     """The root of polynomials that fall through zero exactly once in [0, 1]: Newton, kept inside a bracket."""
     n, paths = len(b) - 1, b.shape[1]
+    if not paths:
+        return np.zeros(0)
     low, high = np.zeros(paths), np.ones(paths)
     both = (_value_and_slope(n) @ b).reshape(2, n + 1, paths)
     u = b[0] / (b[0] - b[-1])

@@ -8,15 +8,19 @@ rolling ball by ``c N / m``. A wedged ball stays in place, and friction on both 
 from __future__ import annotations
 
 from math import inf
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from sandbox.engine.arc import Arc
 from sandbox.engine.setup import Ball, Surface
 from sandbox.engine.surfaces import STILL, press
 from sandbox.engine.touch import SIDE, Obstacle, Touching
+from sandbox.physics.elementwise import choose, clip
 from sandbox.physics.integrators import Acceleration, State
 
-SLIDING, ROLLING, PINNED, RESTING = "sliding", "rolling", "pinned", "resting"
+FLYING, SLIDING, ROLLING, PINNED, RESTING = "", "sliding", "rolling", "pinned", "resting"
+
+#: What a motion becomes where its slip or speed has fallen to zero.
+BECOMES = {SLIDING: ROLLING, ROLLING: RESTING, PINNED: RESTING}
 
 #: Fraction of the applied force below which a normal force is rounding, as when a ball has just left a round top.
 _PRESSING = 1e-9
@@ -30,12 +34,13 @@ WITHIN_ROUNDING = 1.0 + 1e-9
 
 
 class LastingContact(NamedTuple):
-    """What a ball is in lasting contact with, and how it moves there."""
+    """What a ball is in lasting contact with, and how it moves there; or many balls that move alike on straight sides,
+    with arrays for numbers."""
 
     mode: str
     obstacle: Obstacle
     touching: Touching  # at the start of the contact: normal, curvature, feature
-    direction: float = 0.0  # sign of the slip if sliding, of the motion if rolling, of the spin if pinned
+    direction: Any = 0.0  # sign of the slip if sliding, of the motion if rolling, of the spin if pinned
     spin_rate: float = 0.0  # rad/s^2, at which the spin of a pinned ball decays
 
     def longest(self, state: State) -> float:
@@ -44,16 +49,16 @@ class LastingContact(NamedTuple):
             return inf
         return _LONGEST_TURN / (self.touching.curvature * (abs(state[2]) + abs(state[3])) + 1e-30)
 
-    def progress(self, ball: Ball, state: State) -> float:
+    def progress(self, ball: Ball, state: State) -> Any:
         """What ends this motion when it falls to zero: slip or speed in m/s, or the spin of a wedged ball in rad/s."""
         _, _, vx, vy, spin = state
         if self.mode == PINNED:
-            return self.direction * float(spin)
+            return self.direction * spin
         nx, ny, _ = self.touching.normal_at(state[0], state[1])
         speed = vx * ny - vy * nx
-        return self.direction * float(speed + ball.radius * spin if self.mode == SLIDING else speed)
+        return self.direction * (speed + ball.radius * spin if self.mode == SLIDING else speed)
 
-    def forces(self, ball: Ball, applied: Acceleration, state: State) -> tuple[Acceleration, float, float]:
+    def forces(self, ball: Ball, applied: Acceleration, state: State) -> tuple[Acceleration, Any, Any]:
         """Acceleration in contact; the normal force and the remaining grip, both divided by the mass, in m/s^2.
 
         ``applied`` is the acceleration that the ball would have in flight.
@@ -65,7 +70,7 @@ class LastingContact(NamedTuple):
         tx, ty = ny, -nx
         along = applied[0] * tx + applied[1] * ty
         normal = press(state, applied, nx, ny, curvature)
-        pressed = max(normal, 0.0)
+        pressed = choose(normal > 0.0, normal, 0.0)
         if self.mode == SLIDING:
             friction = -self.direction * surface.friction * pressed
             a = along + friction
@@ -101,27 +106,32 @@ def contact_on(
 ) -> LastingContact | None:
     """Sliding, rolling or resting on one surface; None if nothing presses the ball on. A ball that ``slips`` has just
     lost its grip, whatever rounding says."""
+    mode, direction = motion_on(ball, state, obstacle.surface, touching, applied, slips)
+    return None if mode == FLYING else LastingContact(mode, obstacle, touching, direction)
+
+
+def motion_on(
+    ball: Ball, state: State, surface: Surface, touching: Touching, applied: Acceleration, slips: bool = False
+) -> tuple[Any, Any]:
+    """How a ball moves on one surface, FLYING if nothing presses it on, and in which direction."""
     _, _, vx, vy, spin = state
     ax, ay, turning = applied
     nx, ny = touching.nx, touching.ny
     pressed = press(state, applied, nx, ny, touching.curvature)
-    if pressed <= _PRESSING * (abs(ax) + abs(ay)):
-        return None
     speed = vx * ny - vy * nx
     slip = speed + ball.radius * spin
-    if abs(slip) > STILL * (1.0 + abs(speed)):
-        return LastingContact(SLIDING, obstacle, touching, 1.0 if slip > 0.0 else -1.0)
     along = ax * ny - ay * nx
-    moves = abs(speed) > STILL
-    drive = speed if moves else along - ball.inertia_factor * ball.radius * turning
-    direction = 1.0 if drive > 0.0 else -1.0
-    a, spare = _rolling(ball, obstacle.surface, along, turning, pressed, direction)
+    stands = abs(speed) <= STILL
+    drive = choose(stands, along - ball.inertia_factor * ball.radius * turning, speed)
+    direction = choose(drive > 0.0, 1.0, -1.0)
+    a, spare = _rolling(ball, surface, along, turning, pressed, direction)
     needed = _friction_of_rolling(ball, along, turning)
-    if slips or spare < 0.0 or (spare == 0.0 and needed != 0.0):
-        return LastingContact(SLIDING, obstacle, touching, 1.0 if needed < 0.0 else -1.0)
-    if not moves and direction * a <= STILL:
-        return LastingContact(RESTING, obstacle, touching)
-    return LastingContact(ROLLING, obstacle, touching, direction)
+    slides = abs(slip) > STILL * (1.0 + abs(speed))
+    lost = (spare < 0.0) | ((spare == 0.0) & (needed != 0.0)) | slips
+    rests = stands & (direction * a <= STILL)
+    mode = choose(slides | lost, SLIDING, choose(rests, RESTING, ROLLING))
+    direction = choose(slides, choose(slip > 0.0, 1.0, -1.0), choose(lost, choose(needed < 0.0, 1.0, -1.0), direction))
+    return choose(pressed > _PRESSING * (abs(ax) + abs(ay)), mode, FLYING), direction
 
 
 def wedged(
@@ -140,9 +150,7 @@ def wedged(
     return LastingContact(PINNED, obstacle, a, 1.0 if spin > 0.0 else -1.0, rate)
 
 
-def _rolling(
-    ball: Ball, surface: Surface, along: float, turning: float, pressed: float, direction: float
-) -> tuple[float, float]:
+def _rolling(ball: Ball, surface: Surface, along: Any, turning: Any, pressed: Any, direction: Any) -> tuple[Any, Any]:
     """Acceleration in m/s^2 along the surface of a ball that rolls in ``direction``, and the remaining grip.
 
     ``along`` and ``pressed`` (m/s^2) are the accelerations from the applied force along the surface and onto it,
@@ -152,11 +160,11 @@ def _rolling(
     grip = surface.friction * pressed
     needed = _friction_of_rolling(ball, along, turning)
     friction = needed - direction * surface.rolling_resistance * pressed
-    friction = max(-grip, min(grip, friction))
+    friction = clip(friction, -grip, grip)
     return along + friction, grip * WITHIN_ROUNDING - abs(needed)
 
 
-def _friction_of_rolling(ball: Ball, along: float, turning: float) -> float:
+def _friction_of_rolling(ball: Ball, along: Any, turning: Any) -> Any:
     """Acceleration in m/s^2 that friction must add to keep a ball rolling."""
     factor = ball.inertia_factor
     return -(factor * along + factor * ball.radius * turning) / (1.0 + factor)

@@ -7,6 +7,7 @@ Clear cases (nothing near, or one crossing) are computed here for all shots at o
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -21,6 +22,22 @@ from sandbox.engine.touch import NOISE, TOUCHING_GAP, Obstacle, Outline, Touchin
 Crossings = tuple[np.ndarray, np.ndarray]
 
 
+class Grip(NamedTuple):
+    """What lasting contact asks of many surfaces."""
+
+    friction: Any
+    rolling_resistance: Any
+    lowest_bounce: Any  # m
+
+
+class Obstacles(Obstacle):
+    """Many surfaces as one: that of each of some shots, with arrays for numbers."""
+
+    def __init__(self, surface: Any, outline: Outline) -> None:
+        self.surface = surface
+        self.outline = outline
+
+
 class Outlines:
     """The surfaces of many shots, each prepared for its ball; every shot has the same number and kinds.
 
@@ -31,11 +48,20 @@ class Outlines:
         self._setups = setups
         self._skin = skin
         radii = np.broadcast_to(setups.whole.balls[0].radius, len(setups))
-        outlines = [Outline.of(surface.shape, radii) for surface in setups.whole.surfaces]
-        rows = [[np.broadcast_to(part, radii.shape) for part in outline] for outline in outlines]
-        self._table = np.array(rows).transpose(1, 0, 2)  # shape (parts of an outline, surfaces, shots)
+        surfaces = setups.whole.surfaces
+        outlines = [Outline.of(surface.shape, radii) for surface in surfaces]
+        grips = [[getattr(surface, name) for name in Grip._fields] for surface in surfaces]
+        # of shape (parts of an outline or a grip, surfaces, shots)
+        self._table, self._grips = (
+            np.array([[np.broadcast_to(part, radii.shape) for part in row] for row in rows]).transpose(1, 0, 2)
+            for rows in (outlines, grips)
+        )
         self._boxes = np.array(Outline(*self._table).box())
         self._obstacles: dict[tuple[int, int], Obstacle] = {}
+
+    def of(self, surfaces: np.ndarray, shots: np.ndarray) -> Obstacles:
+        """The surface with the given index, of each of these shots."""
+        return Obstacles(Grip(*self._grips[:, surfaces, shots]), Outline(*self._table[:, surfaces, shots]))
 
     def near(self, shots: np.ndarray, x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray, Touching]:
         """How many surfaces touch the balls of these shots, centred at x and y (m), of which flush ones count as one;
@@ -51,17 +77,23 @@ class Outlines:
         return count, first, picked
 
     def first_touch(
-        self, shots: np.ndarray, x: np.ndarray, y: np.ndarray, arc: Callable[[int], Arc]
+        self,
+        shots: np.ndarray,
+        x: np.ndarray,
+        y: np.ndarray,
+        arc: Callable[[int], Arc],
+        held: np.ndarray | int = -1,
     ) -> tuple[np.ndarray, np.ndarray]:
-        """The first u in [0, 1] at which each shot's path touches anything, inf where it does not, and how many
-        surfaces were checked; both of shape (paths,).
+        """The first u in [0, 1] at which each shot's path touches anything but the surface by which it is ``held`` (-1
+        for none), inf where it does not, and how many surfaces were checked; both of shape (paths,).
 
         ``x`` and ``y`` are coefficients in m, shape (6, paths), and ``arc(i)`` is the i-th of these paths.
         """
         touch = np.full(len(shots), np.inf)
         left, bottom, right, top = self._boxes[:, :, shots]
         level = (x.min(axis=0) <= right) & (x.max(axis=0) >= left)
-        what, path = np.nonzero(level & (y.min(axis=0) <= top) & (y.max(axis=0) >= bottom))
+        reached = level & (y.min(axis=0) <= top) & (y.max(axis=0) >= bottom)
+        what, path = np.nonzero(reached & (np.arange(len(left))[:, None] != held))
         if len(path):
             xs, ys = x[:, path], y[:, path]
             outlines = self._table[:, what, shots[path]]
@@ -79,12 +111,13 @@ class Outlines:
                 u[straight] = np.minimum(np.minimum(u[straight], u_b), u_side)
                 unclear[straight] |= unclear_b | unclear_side
             for pair in np.flatnonzero(unclear).tolist():
-                found = self._obstacle(int(what[pair]), int(shots[path[pair]])).first_touch(arc(int(path[pair])))
+                found = self.obstacle(int(what[pair]), int(shots[path[pair]])).first_touch(arc(int(path[pair])))
                 u[pair] = np.inf if found is None else found
             np.minimum.at(touch, path, u)
         return touch, np.bincount(path, minlength=len(shots))
 
-    def _obstacle(self, surface: int, shot: int) -> Obstacle:
+    def obstacle(self, surface: int, shot: int) -> Obstacle:
+        """One surface, for the ball of one shot."""
         key = (surface, shot)
         if key not in self._obstacles:
             setup = self._setups[shot]

@@ -107,18 +107,30 @@ class Simulation:
         arcs = {track.ball.name: Path(track.path) for track in self._tracks}
         return Run(self._setup, self._accuracy, arcs, self._events, self._numerics, t, ended)
 
-    def take_over(self, t: float, state: State, arcs: list[Arc], events: list[Event], step: float, how: str) -> Run:
+    def take_over(
+        self,
+        t: float,
+        state: State,
+        arcs: list[Arc],
+        events: list[Event],
+        step: float,
+        how: str,
+        contact: LastingContact | None,
+    ) -> Run:
         """Finish a run of one ball that batch.py has computed up to ``t`` (s), with its ``arcs`` and ``events`` so far.
 
-        The ball is in flight (``how`` is "flight"), or touches something, just before the impact ("before") or after
-        it ("after"). ``step`` is the step in s that the integrator would try next.
+        The ball is on its way (``how`` is "flight"), in ``contact`` or not, or touches something else, just before the
+        impact ("before") or after it ("after"). ``step`` is the step in s that the integrator would try next.
         """
         started = perf_counter()
         track = self._tracks[0]
-        track.arc, track.state, track.path = still(t, t, state), state, arcs
-        track.next_step = step
+        if contact is not None:
+            surface = contact.obstacle.surface
+            contact = contact._replace(obstacle=next(each for each in track.obstacles if each.surface is surface))
+        track.arc, track.state, track.path = still(t, t, state, contact), state, arcs
+        track.next_step, track.contact = step, contact
         self._events = events
-        if how == "after" and events:
+        if how == "after" and contact is None and events:
             self._over = self._setup.ends_with(events)  # the earlier events were checked before
         if how == "flight":
             self._plan(0, t)

@@ -26,7 +26,7 @@ TOUCHING_GAP = 1e-10
 _FLUSH = 1.0 - 1e-12
 
 #: Distance in m along a side within which a ball counts as at the side's end.
-_SEAM = 1e-11
+SEAM = 1e-11
 
 #: Change of a gap in m that is rounding: a path closer than this to parallel neither closes nor opens a gap.
 NOISE = 1e-13
@@ -166,9 +166,9 @@ class Obstacle:
             return touching
         along = outline.along(x, y)
         forward = mx * outline.tx + my * outline.ty
-        if abs(along) <= _SEAM:
+        if abs(along) <= SEAM:
             return self.on_feature(CORNER_A if forward < 0.0 else SIDE, x, y)
-        if abs(along - outline.length) <= _SEAM:
+        if abs(along - outline.length) <= SEAM:
             return self.on_feature(CORNER_B if forward > 0.0 else SIDE, x, y)
         return touching
 

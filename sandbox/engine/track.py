@@ -13,7 +13,7 @@ from math import hypot, isfinite
 from sandbox.engine.accuracy import Accuracy
 from sandbox.engine.acting import acceleration, checked
 from sandbox.engine.arc import Arc, crossing, still, through
-from sandbox.engine.lasting import RESTING, ROLLING, SLIDING, LastingContact, contact_on, wedged
+from sandbox.engine.lasting import BECOMES, RESTING, LastingContact, contact_on, wedged
 from sandbox.engine.run import Numerics
 from sandbox.engine.setup import Ball, Setup
 from sandbox.engine.step_control import LONGEST, StepControl, before_break, within
@@ -27,9 +27,6 @@ PRESSED = "pressed"
 
 #: Difference in m/s and rad/s below which it is rounding.
 _SAME = 1e-9
-
-#: How a ball moves exactly at the end of an arc that ended for one of these reasons.
-_BECOMES = {"grip": ROLLING, "stop": RESTING}
 
 
 class Track:
@@ -192,7 +189,7 @@ class Track:
         ends: list[tuple[float, str]] = []
         last = arc.state(arc.t1)
         if progress(arc.t1, last) < 0.0:
-            ends.append((crossing(arc, progress), "grip" if contact.mode == SLIDING else "stop"))
+            ends.append((crossing(arc, progress), "ends"))
         _, normal, spare = held(arc.t1, last)
         if normal < 0.0:
             ends.append((crossing(arc, lambda t, state: held(t, state)[1]), "leave"))
@@ -208,7 +205,7 @@ class Track:
         """Move the ball exactly onto its surface, which the arc follows only closely; make it exactly rolling, or
         exactly at rest, if that is why the arc ended."""
         if self.contact is not None:
-            mode = _BECOMES.get(reason, self.contact.mode)
+            mode = BECOMES[self.contact.mode] if reason == "ends" else self.contact.mode
             self.state = self.contact._replace(mode=mode).placed(self.ball, self.state)
         self._slips = reason == "slip"
 

@@ -36,8 +36,7 @@ _BLOCK = 1024
 _SMALLEST_BLOCK, _LARGEST_BLOCK = 32, 2560
 
 #: Most evaluations of the forces in a block, about a second: a sweep that is interrupted loses what is not yet a row.
-#: For shots that roll on after the flight, which are then computed one by one, an evaluation counts as several.
-_WORK, _ONE_BY_ONE = 1_200_000, 4
+_WORK = 1_200_000
 
 #: One run as a row: swept parameters, results, flags, and ``error``, which is empty if the run was completed.
 Record = dict[str, Any]
@@ -99,8 +98,6 @@ class Plan:
             return 1
         run = self._first_run()
         cost = 1 if isinstance(run, Exception) else run.numerics.force_evaluations
-        if self.scene.settles(self.asked) is None:
-            cost *= _ONE_BY_ONE
         most = min(_LARGEST_BLOCK, _WORK // max(cost, 1))
         if most < _SMALLEST_BLOCK:
             return 1

@@ -511,7 +511,7 @@ def everybody_gone(group: int) -> bool:
 
 def test_few_shots_that_fly_together_do_without_processes(monkeypatch: pytest.MonkeyPatch):
     monkeypatch.setattr("sandbox.lab.sweep.cores", lambda: 4)
-    few, many = (grid(load("golf"), f"launch.angle=5:40:{n}") for n in (3, 500))
+    few, many = (grid(load("golf"), f"launch.angle=5:40:{n}") for n in (3, 3000))
     table = grid(load("billiards"), "cue.angle=-5:5:3")  # its balls meet: one shot at a time
     assert [jobs_that_pay(plan) for plan in (few, many, table)] == [1, 4, 3]
 
