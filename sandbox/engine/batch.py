@@ -341,7 +341,7 @@ class Batch:
                 continue
             if over:
                 self._how[lane] = "until"
-        ended = at[begins & (self._how[at] == "until")]  # the outcome of the impact is included, though no arc follows
+        ended = at[rests | (self._how[at] == "until")]  # the last state is included, though no arc follows
         self._paths.append((self._shot[ended], still_rows(self._t[ended], self._state[:, ended])))
 
     # ------------------------------------------------------------------ travelling

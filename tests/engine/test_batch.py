@@ -75,6 +75,12 @@ def assert_same(together: Run | Exception, alone: Run) -> None:
         assert (mine.t, mine.x, mine.y, mine.speed) == pytest.approx(
             (theirs.t, theirs.x, theirs.y, theirs.speed), abs=1e-5
         )
+    ends = [tuple(run.state(name, run.duration)) for run in (together, alone)]
+    assert ends[0] == pytest.approx(ends[1], abs=1e-4)
+    modes = [
+        [getattr(arc.contact, "mode", "") for arc in run.arcs[name] if arc.t1 > arc.t0] for run in (together, alone)
+    ]
+    assert modes[0] == modes[1]
     counted = ("steps", "refined_steps", "impacts", "queries")
     assert [getattr(together.numerics, c) for c in counted] == [getattr(alone.numerics, c) for c in counted]
 
@@ -134,6 +140,54 @@ def test_a_passage_just_where_an_arc_ends_is_found_once():
         passed = [[t for t, _ in run.crossings("ball", point, (-1.0, 0.0))] for run in (together, alone)]
         assert passed[0] == pytest.approx(passed[1])
         assert len(passed[0]) == 1
+
+
+def rolled(i: int, rise: float, torque: float = 0.0, **others: Any) -> Setup:
+    """On a slope, with another spin and speed each."""
+    slope = {"friction": 0.05 + 0.02 * i, "rolling_resistance": 0.03, **others}
+    ball = Ball(
+        "ball",
+        0.4,
+        0.1,
+        (-2.0, 0.12 - 0.04 * rise),
+        (0.15 * i, 0.0),
+        20.0 - i,
+        forces=[Gravity(0.4, 9.81), Drag(0.1, 1.2, Constant(0.5))],
+        torques=[Torque(torque)] if torque else [],
+    )
+    wall = Surface("wall", Segment((3.0, -2.0), (3.0, 2.0)), 0.5, 0.2)
+    return Setup([ball], [Surface("slope", Segment((-5.0, -0.1 * rise), (5.0, 0.1 * rise)), 0.3, **slope), wall], 6.0)
+
+
+@dataclass(frozen=True)
+class Torque:
+    size: float
+
+    def __call__(self, t: Any, position: Any, velocity: Any, spin: Any) -> Any:
+        return self.size
+
+
+@pytest.mark.parametrize(
+    ("rise", "torque", "others"),
+    [
+        (0.0, 0.0, {}),
+        (1.0, 0.0, {}),  # back down again
+        (-1.0, 0.0, {"rolling_resistance": 0.0}),
+        (0.3, 0.0, {"friction": 0.01}),  # down without grip
+        (0.0, 0.05, {}),  # driven
+        (0.0, 0.0, {"lowest_bounce": 0.05}),
+    ],
+)
+def test_sliding_and_rolling_agree_with_the_engine_one_by_one(
+    monkeypatch: pytest.MonkeyPatch, rise: float, torque: float, others: dict[str, float]
+):
+    monkeypatch.setattr(batch, "FEWEST", 1)
+    setups = [rolled(i, rise, torque, **others) for i in range(30)]
+    for setup, together in zip(setups, simulate_many(setups, resolve()), strict=True):
+        alone = simulate(setup, resolve())
+        assert_same(together, alone)
+        meets_both = any(event.partner == "wall" for event in alone.events)
+        assert isinstance(together.arcs["ball"], ArcRows) is not meets_both or torque
 
 
 def test_a_patch_is_stepped_through_as_alone():
