@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator
 from dataclasses import dataclass
-from math import atan2, ceil, dist, floor, hypot, inf, pi
+from math import atan2, ceil, dist, hypot, inf, pi
 
 import numpy as np
 
@@ -75,20 +75,10 @@ class Path:
         self.run, self.name = run, name
         self.radius: float = next(ball.radius for ball in run.setup.balls if ball.name == name)
         self.until = run.duration if until is None else until
+        samples = run.trajectory(name, max(SAMPLING, run.duration / MOST_SAMPLES), ends=True)[:, :3]  # t, x, y
         end = (self.until, *run.state(name, self.until)[:2])
-        self.samples = np.array([*self._moving(), end])  # t, x, y
+        self.samples = np.vstack([samples[samples[:, 0] < self.until], end])
         self.points = self.samples[:, 1:]
-
-    def _moving(self) -> Iterator[tuple[float, float, float]]:
-        """Times in s and places in m: where each piece of the path begins, and at even times while the ball moves."""
-        every = max(SAMPLING, self.run.duration / MOST_SAMPLES)
-        for arc in self.run.arcs[self.name]:
-            last = min(arc.t1, self.until)
-            if arc.t0 < last:
-                yield arc.t0, *arc.position(arc.t0)
-            if len(arc.x) > 1:
-                for i in range(floor(arc.t0 / every) + 1, ceil(last / every)):
-                    yield i * every, *arc.position(i * every)
 
     def even_times(self, span: float) -> tuple[float, list[float]]:
         """The time between balls along the path, and the times of all of them but the one at its end; in s.
