@@ -5,7 +5,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from math import ceil, hypot, pi
 from typing import Any, NamedTuple
 
@@ -18,10 +18,10 @@ from sandbox.picture.energy import course
 from sandbox.picture.palette import Colour, mix, palette
 from sandbox.picture.path import hardest, instants
 from sandbox.picture.plain import view_of
-from sandbox.picture.plot import CHART, plotted
+from sandbox.picture.plot import CHART, Curve, plotted
 from sandbox.picture.sheet import CARD, Sheet
 from sandbox.picture.side import SideView
-from sandbox.picture.vectors import Vectors, colour_of
+from sandbox.picture.vectors import colour_of
 from sandbox.picture.view import View
 from sandbox.sport.amounts import ladder
 from sandbox.units import convert
@@ -35,22 +35,12 @@ COLUMNS, NARROW = 4, 1.3
 PALE, LIGHTER = 0.75, 0.25
 
 
-class Curve(NamedTuple):
-    """One line of a panel: times in s, values in the panel's unit (NaN where there is none)."""
-
-    name: str
-    times: np.ndarray
-    values: np.ndarray
-    colour: Colour
-    opacity: float = 1.0
-
-
 class Panel(NamedTuple):
     """One graph over time; the names of its curves are written where ``named``."""
 
     title: str
     unit: str
-    curves: Sequence[Curve]
+    curves: Sequence[Curve] = ()
     named: bool = False
 
     @property
@@ -65,22 +55,17 @@ class Panel(NamedTuple):
 
 def panels_of(runs: Mapping[str, Run]) -> list[Panel]:
     """The panels of runs of one scene by name, the first on top."""
-    colours = [mix(colour, CARD["text"], LIGHTER) for colour in TRACES]
-    views = [view_of(run, (1280, 720)) for run in runs.values()]
     found: dict[str, Panel] = {}
-    for i, (name, run, view) in reversed(list(enumerate(zip(runs, runs.values(), views, strict=True)))):
-        colour, opacity = colours[i % len(colours)], 1.0 if i == 0 else PALE
-        for title, unit, curves in _courses(run, view):
-            lines = [
-                Curve(cause or name, times, values, own or colour, opacity) for cause, times, values, own in curves
-            ]
-            before = found[title].curves if title in found else ()
-            found[title] = Panel(title, unit, [*before, *lines], named=title == FORCES)
+    for i, (name, run) in reversed(list(enumerate(runs.items()))):
+        for panel in _panels(run, Curve(name, np.empty(0), np.empty(0), _colour(i), PALE if i else 1.0)):
+            before = found.get(panel.title, panel._replace(curves=()))
+            found[panel.title] = before._replace(curves=[*before.curves, *panel.curves])
     return list(found.values())
 
 
-FORCES = "forces"
-Course = tuple[str, np.ndarray, np.ndarray, Colour | None]
+def _colour(number: int) -> Colour:
+    """Of the curves of a run."""
+    return mix(TRACES[number % len(TRACES)], CARD["text"], LIGHTER)
 
 
 def motion(run: Run, view: View[Any]) -> tuple[np.ndarray, dict[str, tuple[str, np.ndarray]]]:
@@ -97,27 +82,21 @@ def motion(run: Run, view: View[Any]) -> tuple[np.ndarray, dict[str, tuple[str, 
     return times, {"x": ("m", x), **places, "speed": ("m/s", np.hypot(vx, vy)), "spin": ("rpm", spin * 30 / pi)}
 
 
-def _courses(run: Run, view: View[Any]) -> list[tuple[str, str, list[Course]]]:
-    """Title, unit and curves of each panel of one run: its name and colour where they are not the run's."""
-    ball = view.ball
+def _panels(run: Run, curve: Curve) -> Iterator[Panel]:
+    """Of one run, each of its curves as that one is: those of forces have their own names and colours."""
+    view = view_of(run, (1280, 720))
     times, moves = motion(run, view)
-    moved: list[tuple[str, str, list[Course]]] = [
-        (name, unit, [("", times, values, None)]) for name, (unit, values) in moves.items()
-    ]
-    pulls = [Vectors(run, ball).forces(float(t)) for t in times]
-    causes = dict.fromkeys(name for forces in pulls for name in forces)
-    forces: list[Course] = [
-        (name, times, np.array([hypot(*each[name]) if name in each else np.nan for each in pulls]), colour_of(name))
-        for name in causes
-    ]
-    energy = course(run)
-    return [
-        *moved,
-        ("acceleration", "m/s^2", [("", times, _accelerations(run, ball, times), None)]),
-        (FORCES, "N", forces),
-        ("energy" if len(run.setup.balls) == 1 else "energy of all balls", "J",
-         [("", energy.times, np.sum(list(energy.has.values()), axis=0), None)]),
-    ]  # fmt: skip
+    for name, (unit, values) in moves.items():
+        yield Panel(name, unit, [curve._replace(times=times, values=values)])
+    yield Panel("acceleration", "m/s^2", [curve._replace(times=times, values=_accelerations(run, view.ball, times))])
+    pulls = [view.vectors.forces(float(t)) for t in times]
+    forces = []
+    for name in dict.fromkeys(name for acting in pulls for name in acting):
+        sizes = np.array([hypot(*acting[name]) if name in acting else np.nan for acting in pulls])
+        forces.append(Curve(name, times, sizes, colour_of(name), curve.opacity))
+    yield Panel("forces", "N", forces, named=True)
+    energy, whose = course(run), "energy" if len(run.setup.balls) == 1 else "energy of all balls"
+    yield Panel(whose, "J", [curve._replace(times=energy.times, values=np.sum(list(energy.has.values()), axis=0))])
 
 
 def _accelerations(run: Run, ball: str, times: np.ndarray) -> np.ndarray:
@@ -140,7 +119,7 @@ def draw_panel(
     """One graph with its axes in a rectangle: time from 0 to ``until`` s; ``t`` and the times of impacts are marked,
     ``said`` is written over it at the right.
     """
-    unit, gap, letters, painter = sheet.unit, sheet.gap, sheet.lettering, sheet.painter
+    unit, gap, letters = sheet.unit, sheet.gap, sheet.lettering
     panel = panel.shown
     known = np.concatenate([curve.values[np.isfinite(curve.values)] for curve in panel.curves] or [np.zeros(1)])
     low, high = min(0.0, float(known.min(initial=0.0))), float(known.max(initial=0.0))
@@ -150,15 +129,11 @@ def draw_panel(
     plot = plotted(sheet, place, until, low, high)
     plot.mark(sheet, hits)
     for curve in panel.curves:
-        points = np.column_stack([plot.column(curve.times), plot.row(curve.values)])
-        for piece in np.split(points, np.flatnonzero(~np.isfinite(curve.values))):
-            line = piece[np.isfinite(piece[:, 1])]
-            if len(line) > 1:
-                painter.line(line, max(1.2, 2.0 * unit), curve.colour, curve.opacity)
+        plot.draw(sheet, curve)
         if t is not None and len(curve.times):
             value = float(np.interp(t, curve.times, curve.values))
             if np.isfinite(value):
-                painter.disc((plot.column(min(t, until)), plot.row(value)), 4 * unit, curve.colour)
+                sheet.painter.disc((plot.column(min(t, until)), plot.row(value)), 4 * unit, curve.colour)
     if t is not None:
         thin = max(1, round(unit))
         sheet.surface.fill(CARD["quiet"], (round(plot.column(t)), plot.rect.top, thin, plot.rect.height))
@@ -183,8 +158,7 @@ def graph(run: Run, size: tuple[int, int] = (1280, 720), others: Mapping[str, Ru
     gap, letters, across = sheet.gap, sheet.lettering, sheet.frame.left
     row = sheet.frame.top + letters.height(sheet.head) + gap
     for i, name in enumerate(runs):
-        colour = mix(TRACES[i % len(TRACES)], CARD["text"], LIGHTER)
-        across = sheet.write(name, "small", (across, row), colour, bold=True).right + 3 * gap
+        across = sheet.write(name, "small", (across, row), _colour(i), bold=True).right + 3 * gap
     columns = COLUMNS if size[0] > NARROW * size[1] else 2
     rows = ceil(len(panels) / columns)
     top = row + letters.height("small") + 3 * gap

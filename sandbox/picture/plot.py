@@ -1,4 +1,5 @@
-"""The axes of every chart over time: values up, time to the right, the hardest impacts as dashed lines."""
+"""What every chart over time is made of: axes with values up and time to the right, curves and bands, and the hardest
+impacts as dashed lines."""
 
 from __future__ import annotations
 
@@ -6,13 +7,26 @@ from collections.abc import Callable, Sequence
 from math import ceil, floor
 from typing import Any, NamedTuple
 
+import numpy as np
 import pygame
 
-from sandbox.picture.palette import palette
+from sandbox.picture.palette import Colour, palette
 from sandbox.picture.sheet import CARD, Sheet, nice
 from sandbox.sport.amounts import signed
 
 CHART = palette("energy")
+
+
+class Curve(NamedTuple):
+    """A line over times in s: values, NaN where there is none; with a ``foot`` the upper edge of a band that stands on
+    those values."""
+
+    name: str
+    times: np.ndarray
+    values: np.ndarray
+    colour: Colour
+    opacity: float = 1.0
+    foot: np.ndarray | None = None
 
 
 class Plot(NamedTuple):
@@ -30,6 +44,19 @@ class Plot(NamedTuple):
     def row(self, value: Any) -> Any:
         """Of a value, in px."""
         return self.rect.bottom - self.rect.height * (value - self.low) / (self.high - self.low)
+
+    def draw(self, sheet: Sheet, curve: Curve) -> None:
+        """A curve or a band."""
+        painter, unit = sheet.painter, sheet.unit
+        line = np.column_stack([self.column(curve.times), self.row(curve.values)])
+        if curve.foot is None:
+            for piece in np.split(line, np.flatnonzero(~np.isfinite(curve.values))):
+                if len(known := piece[np.isfinite(piece[:, 1])]) > 1:
+                    painter.line(known, max(1.2, 2.0 * unit), curve.colour, curve.opacity)
+            return
+        foot = np.column_stack([line[:, 0], self.row(curve.foot)])
+        painter.polygon(np.concatenate([line, foot[::-1]]), curve.colour)
+        painter.line(line, max(1.0, 1.2 * unit), CHART["ground"], 0.8)
 
     def mark(self, sheet: Sheet, hits: Sequence[float]) -> None:
         """Dashed lines at these times in s."""

@@ -137,7 +137,7 @@ def test_a_name_within_a_band_stays_in_it(sheets):
 
 def test_a_cause_has_its_words_and_its_own_colour_in_every_chart():
     bands = {
-        name: {band[0]: band[2] for band in bands_of(course(run_of(name)))} for name in ("golf/pond", "golf/splash")
+        name: {band.name: band.colour for band in bands_of(course(run_of(name)))[0]} for name in ("golf/pond", "golf/splash")
     }
     assert bands["golf/pond"]["spin decay"] == bands["golf/splash"]["spin decay"]
     assert bands["golf/pond"]["spin decay"] != bands["golf/pond"]["green"]
