@@ -59,8 +59,8 @@ def energy_chart(run: Run, size: tuple[int, int] = (1280, 720)) -> pygame.Surfac
     whole = [("at the start", energy.start), *((line.name, _last(line)) for line in put_in)]
     total = sum(amount for _, amount in whole)
     told = " + ".join(f"{joules(amount)} {name}" for name, amount in whole)
-    title, shares = run.scene.title if run.scene else "", f"{joules(total)}: " if put_in else ""
-    sheet.headline("Where the energy goes", [f"shares of {shares}{told}", title], sheet.frame.width)
+    shares = f"shares of {f'{joules(total)}: ' if put_in else ''}{told}"
+    sheet.headline("Where the energy goes", [shares, run.scene.title], sheet.frame.width)
     entries: list[Entry] = [("at the start", joules(energy.start))]
     entries += [(line.name, joules(_last(line)), _light(line)) for line in put_in]
     parts = [(band, 100 * _last(band) / max(total, 1e-12)) for band in bands]

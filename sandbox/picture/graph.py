@@ -94,7 +94,8 @@ def _panels(run: Run, curve: Curve) -> Iterator[Panel]:
     for name in dict.fromkeys(name for acting in pulls for name in acting):
         sizes = np.array([hypot(*acting[name]) if name in acting else np.nan for acting in pulls])
         forces.append(Curve(name, times, sizes, colour_of(name), curve.opacity))
-    yield Panel("forces", "N", forces, named=True)
+    if forces:
+        yield Panel("forces", "N", forces, named=True)
     energy, whose = course(run), "energy" if len(run.setup.balls) == 1 else "energy of all balls"
     yield Panel(whose, "J", [curve._replace(times=energy.times, values=np.sum(list(energy.has.values()), axis=0))])
 
@@ -149,12 +150,10 @@ def graph(run: Run, size: tuple[int, int] = (1280, 720), others: Mapping[str, Ru
     """All graphs of a run, with other runs by name laid over them."""
     sheet = Sheet(size, on_dark=True)
     sheet.surface.fill(CHART["ground"])
-    scene = run.scene
-    title = "over time" if scene is None else scene.title
-    runs = {title: run, **(others or {})}
+    runs = {run.scene.title: run, **(others or {})}
     panels = panels_of(runs)
     until = max(max(each.duration for each in runs.values()), 1e-9)
-    sheet.headline("Over time" if scene is None else scene.verdict(run), [], sheet.frame.width)
+    sheet.headline(run.scene.verdict(run), [], sheet.frame.width)
     gap, letters, across = sheet.gap, sheet.lettering, sheet.frame.left
     row = sheet.frame.top + letters.height(sheet.head) + gap
     for i, name in enumerate(runs):

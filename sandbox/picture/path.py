@@ -147,10 +147,7 @@ def draw_mark(sheet: Sheet, at: tuple[float, float]) -> None:
 
 
 def mark_impacts(
-    sheet: Sheet,
-    camera: Camera,
-    marks: Iterable[Mark],
-    last: tuple[tuple[float, float], float] | None = None,
+    sheet: Sheet, camera: Camera, marks: Iterable[Mark], last: tuple[tuple[float, float], float] | None = None
 ) -> None:
     """Impacts as marks with the speed at which the ball came; those at one place share a label, the first first.
 

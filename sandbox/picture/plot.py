@@ -71,12 +71,7 @@ def _number(value: float) -> str:
 
 
 def plotted(
-    sheet: Sheet,
-    rect: pygame.Rect,
-    until: float,
-    low: float,
-    high: float,
-    write: Callable[[float], str] = _number,
+    sheet: Sheet, rect: pygame.Rect, until: float, low: float, high: float, write: Callable[[float], str] = _number
 ) -> Plot:
     """Draw axes with round values and times inside a rectangle."""
     letters, gap, thin = sheet.lettering, sheet.gap, max(1, round(sheet.unit))

@@ -85,12 +85,7 @@ class Sheet:
         return self.labels.take(rect)
 
     def label(
-        self,
-        text: str,
-        size: str,
-        spots: Iterable[tuple[float, float, str]],
-        colour: Colour,
-        bold: bool = False,
+        self, text: str, size: str, spots: Iterable[tuple[float, float, str]], colour: Colour, bold: bool = False
     ) -> pygame.Rect | None:
         """Write a text at the first of the spots (x, y, anchor) with room for it; None if there is none."""
         rect = self.labels.place(self.lettering.rect(text, size, (x, y), anchor, bold) for x, y, anchor in spots)

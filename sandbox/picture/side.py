@@ -15,10 +15,9 @@ from sandbox.picture.ball import enlarged, mark_radius
 from sandbox.picture.camera import Area, Box, Camera
 from sandbox.picture.chase import Chase
 from sandbox.picture.depth import Eye
-from sandbox.picture.overview import Overview
 from sandbox.picture.painter import Painter, Point
 from sandbox.picture.palette import Colour
-from sandbox.picture.path import draw_mark, label_mark
+from sandbox.picture.path import FINEST, apart, draw_mark, label_mark
 from sandbox.picture.places import Ground, Scenery, Thing
 from sandbox.picture.sheet import CARD, Entry, Sheet, SideRows
 from sandbox.picture.view import P, View
@@ -31,6 +30,8 @@ LEAST_WIDTH = 60
 LEAST_RISE, LOW_FLIGHT, LARGE_BALL = 24, 0.45, 3
 #: Columns, as shares of the width, between which frames keep the ball: where all is in sight, and on its way.
 AT_HOME, ON_ITS_WAY = (0.1, 0.9), (0.25, 0.45)
+#: Width and height of the map of frames, as shares of the picture's.
+MAP = 0.24, 0.15
 #: A shadow is half as dark where the ball is so high over the ground, in px on 720 rows.
 SHADOW_FADES = 80
 
@@ -208,14 +209,37 @@ class SideView(View[P]):
             low, high = 1 - high, 1 - low
         return low * self.size[0], high * self.size[0]
 
-    @cached_property
-    def overview(self) -> Overview:
-        """The map of frames."""
-        return Overview(self)
-
     def inset(self, sheet: Sheet, camera: Camera, t: float | None) -> pygame.Rect | None:
-        """A map, in frames from nearer than the poster."""
-        return None if t is None or self.camera in (self.home, camera) else self.overview.draw(sheet.painter, t)
+        """In frames from nearer than the poster a map of the whole path, and where on it the ball is."""
+        if t is None or self.camera in (self.home, camera):
+            return None
+        painter, unit, (rect, seen, kept, ground) = sheet.painter, self.unit, self._map
+        painter.panel(rect, CARD["background"], CARD["opacity"], 8 * unit)
+        painter.thread(ground, max(1, round(1.6 * unit)), self.turf)
+        for ghost in self.ghosts:
+            points = seen.pixels(ghost.points)
+            painter.thread(points[apart(points, FINEST)], 1, ghost.light)
+        path, past = seen.pixels(self.path.points[kept]), self.path.samples[kept, 0] <= t
+        at = seen.pixel(*self.run.state(self.ball, t)[:2])
+        painter.thread(path, 1, CARD["quiet"])
+        painter.thread([*path[past], at], max(1, round(1.6 * unit)) + 1, self.TRACE)
+        self.on_map(painter, seen)
+        painter.disc(at, max(2.5, 4 * unit), CARD["accent"])
+        return rect
+
+    @cached_property
+    def _map(self) -> tuple[pygame.Rect, Camera, list[int], np.ndarray]:
+        """Where it is in px, its camera, the points of the path that can be told apart on it, and the ground in px."""
+        gap, (goal, _), (wide, tall) = self.sheet.gap, self.datum[0], np.multiply(MAP, self.size).round().astype(int)
+        rect = pygame.Rect(self.sheet.frame.right - wide, self.sheet.frame.top, wide, tall)
+        (left, _), (right, top) = self.points.min(axis=0), self.points.max(axis=0)
+        left, right = min(left, goal), max(right, goal, left + LEAST_WIDTH * self.radius)
+        heights, inset = self.profile(left, right)[:, 1], 2.4 * gap
+        area = Area(rect.left + inset, rect.top + inset, rect.right - 2 * inset, rect.bottom - inset)
+        camera = Camera.fit(Box(left, heights.min(), right, max(top, heights.max())), area, self.camera.stretch)
+        low, high = (camera.world(px, 0)[0] for px in (rect.left + gap, rect.right - gap))
+        kept = apart(camera.pixels(self.path.points), FINEST)
+        return rect, camera, kept, camera.pixels(self.profile(low, high))
 
     @cached_property
     def chase(self) -> Chase:
@@ -304,6 +328,17 @@ class SideView(View[P]):
             for aside, side in ((0, 0), (10, -1), (10, 1))
         ]
         sheet.chip(f"{metres(high - low)} {text}", spots, ink)
+
+
+class NetView(SideView[P]):
+    """Of a ball that is played over a net: a game whose facts are ``sandbox.sport.net_game.FACTS``."""
+
+    def annotate(self, sheet: Sheet, camera: Camera) -> None:
+        """How far over the net the ball is as it passes."""
+        gap, place = self.run.result["net_clearance"], self.parameters
+        if gap is not None and gap > 0.0:
+            middle, high = 0.5 * place.court.length, place.net.height  # type: ignore[attr-defined]
+            self.gap(sheet, camera, middle, high, high + gap, "over the net")
 
 
 def _joined(box: Box, other: Box | None) -> Box:

@@ -245,7 +245,6 @@ class View(Generic[P]):
 
         Raises RequestError where it cannot be: from the side, all share one ground.
         """
-        assert run.scene is not None
         other = type(self)(run, run.scene.parameters, self.size)
         ((x, y), what), ((there_x, there_y), _) = self.datum, other.datum
         if self.ONE_GROUND and there_y != y:
@@ -413,11 +412,11 @@ class View(Generic[P]):
 
     def verdict(self) -> str:
         """What happened, in a sentence."""
-        return f"{self.run.duration:.2f} s" if self.run.scene is None else self.run.scene.verdict(self.run)
+        return self.run.scene.verdict(self.run)
 
     def numbers(self) -> list[Entry]:
         """The run's facts, the most important first."""
-        return [] if self.run.scene is None else self.run.scene.rows(self.run)
+        return self.run.scene.rows(self.run)
 
     def look_of(self, name: str) -> Look:
         """How a ball looks."""
@@ -558,12 +557,8 @@ class View(Generic[P]):
 
     def present(self, t: float) -> list[str]:
         """The balls that have not been caught at time t in s."""
-        return [name for name in self.balls if t < self._caught.get(name, inf)]
-
-    @cached_property
-    def _caught(self) -> dict[str, float]:
-        """When balls were caught, in s."""
-        return {event.ball: event.t for event in self.run.events if event.kind == "caught"}
+        gone = {event.ball for event in self.run.events if event.kind == "caught" and event.t <= t}
+        return [name for name in self.balls if name not in gone]
 
     def traced(self, camera: Camera, points: np.ndarray) -> np.ndarray:
         """A path in px, in as many points as can be told apart."""

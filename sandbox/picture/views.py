@@ -6,34 +6,12 @@ from sandbox.picture.camera import Area, Box, Camera
 from sandbox.picture.depth import Eye
 from sandbox.picture.lens import LensView
 from sandbox.picture.long import LongView
-from sandbox.picture.net_game import NetView
 from sandbox.picture.painter import Painter
 from sandbox.picture.sheet import Entry, Sheet, SideRows, nice
-from sandbox.picture.side import Length, Place, SideView
+from sandbox.picture.side import Length, NetView, Place, SideView
 
 __all__ = [
-    "AboveView",
-    "Area",
-    "Box",
-    "Camera",
-    "Entry",
-    "Eye",
-    "Length",
-    "LensView",
-    "LongView",
-    "Look",
-    "Mark",
-    "NetView",
-    "Painter",
-    "Place",
-    "Sheet",
-    "SideRows",
-    "SideView",
-    "Silhouette",
-    "dimples",
-    "near",
-    "nice",
-    "patches",
-    "seams",
-    "turned",
-]
+    "AboveView", "Area", "Box", "Camera", "Entry", "Eye", "Length", "LensView", "LongView", "Look", "Mark",
+    "NetView", "Painter", "Place", "Sheet", "SideRows", "SideView", "Silhouette", "dimples", "near", "nice",
+    "patches", "seams", "turned"
+]  # fmt: skip

@@ -6,25 +6,6 @@ from sandbox.picture.places.scenery import Hall, Scenery, Stands
 from sandbox.picture.places.things import Net, Person, Post, Shape, Size, Thing, goal, net_across, standing_table
 
 __all__ = [
-    "COURT_WIDTH",
-    "Ground",
-    "Hall",
-    "Landscape",
-    "Line",
-    "Net",
-    "Person",
-    "Planks",
-    "Post",
-    "Scenery",
-    "Shape",
-    "Size",
-    "Stands",
-    "Stripes",
-    "Thing",
-    "boards",
-    "goal",
-    "net_across",
-    "standing_table",
-    "tennis_court",
-    "turf",
-]
+    "COURT_WIDTH", "Ground", "Hall", "Landscape", "Line", "Net", "Person", "Planks", "Post", "Scenery", "Shape",
+    "Size", "Stands", "Stripes", "Thing", "boards", "goal", "net_across", "standing_table", "tennis_court", "turf"
+]  # fmt: skip
