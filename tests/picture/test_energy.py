@@ -136,11 +136,9 @@ def test_a_name_within_a_band_stays_in_it(sheets):
 
 
 def test_a_cause_has_its_words_and_its_own_colour_in_every_chart():
-    bands = {
-        name: {band.name: band.colour for band in bands_of(course(run_of(name)))[0]} for name in ("golf/pond", "golf/splash")
-    }
-    assert bands["golf/pond"]["spin decay"] == bands["golf/splash"]["spin decay"]
-    assert bands["golf/pond"]["spin decay"] != bands["golf/pond"]["green"]
+    pond, splash = (bands_of(course(run_of(name)))[0] for name in ("golf/pond", "golf/splash"))
+    pond, splash = ({band.name: band.colour for band in bands} for bands in (pond, splash))
+    assert pond["spin decay"] == splash["spin decay"] != pond["green"]
 
 
 @pytest.mark.parametrize(
