@@ -19,16 +19,10 @@ from sandbox.errors import RequestError
 from sandbox.parameters import Group, read_toml, walk
 from sandbox.scene import listings, reference
 from sandbox.scene.finding import folder_of, is_installed
+from tests.own_scene import DROP, change
 
-DROP = Path(__file__).parent / "scenes" / "drop"
 SCENES = resources.folder("scenes")
 NAMES = [listing.name for listing in listings()]
-
-
-@pytest.fixture
-def drop(tmp_path: Path) -> Path:
-    """A scene of the user's own: a copy of the folder ``drop``."""
-    return Path(shutil.copytree(DROP, tmp_path / "drop", ignore=shutil.ignore_patterns("__pycache__")))
 
 
 def refusal(*args: Any) -> str:
@@ -271,17 +265,14 @@ def test_a_reference_leads_back_to_its_scene(drop: Path, tmp_path: Path):
 
 def test_a_scene_may_import_its_neighbours(drop: Path):
     (drop / "weights.py").write_text("GRAVITY = 1.5")
-    source = (
-        (drop / "scene.py").read_text("utf-8").replace("from sandbox", "from .weights import GRAVITY\nfrom sandbox", 1)
-    )
-    (drop / "scene.py").write_text(source, "utf-8")
+    change(drop / "scene.py", "from sandbox", "from .weights import GRAVITY\nfrom sandbox")
     assert sandbox.load(drop).module.GRAVITY == 1.5
 
 
 def test_two_folders_of_one_name_do_not_mix(drop: Path, tmp_path: Path):
     other = tmp_path / "elsewhere" / "drop"
     shutil.copytree(drop, other)
-    (other / "scene.py").write_text((other / "scene.py").read_text("utf-8").replace('9.81, "m/s^2"', '1.0, "m/s^2"'))
+    change(other / "scene.py", '9.81, "m/s^2"', '1.0, "m/s^2"')
     assert sandbox.load(drop).parameters.gravity == 9.81
     assert sandbox.load(other).parameters.gravity == 1.0
     assert sandbox.load(drop).parameters.gravity == 9.81
@@ -399,30 +390,6 @@ def test_a_file_for_another_scene_is_refused(drop: Path):
     assert 'scene = "golf", but a file in this folder is for drop' in refusal(drop)
 
 
-@pytest.mark.parametrize(
-    ("old", "new", "expected"),
-    [
-        ("def build", "def construct", "a scene needs Parameters, build; build is missing"),
-        ("class Parameters(SceneParameters)", "class Numbers(SceneParameters)", "Parameters is missing"),
-        (
-            "class Parameters(SceneParameters)",
-            "class Parameters(dict)",
-            "must be a sandbox.parameters.SceneParameters",
-        ),
-        (
-            "class Parameters(SceneParameters)",
-            "class Parameters(Group)",
-            "must be a sandbox.parameters.SceneParameters",
-        ),
-    ],
-)
-def test_a_folder_that_is_no_scene_is_refused(drop: Path, old: str, new: str, expected: str):
-    source = (drop / "scene.py").read_text("utf-8")
-    assert old in source
-    (drop / "scene.py").write_text(source.replace(old, new), "utf-8")
-    assert expected in refusal(drop)
-
-
 # Checking -----------------------------------------------------------------------------------------------------------
 
 
@@ -437,12 +404,11 @@ def test_check_estimates_the_error_of_each_number():
 
 
 def test_check_tells_what_hangs_on_the_accuracy(drop: Path):
-    source = (drop / "scene.py").read_text("utf-8")
     more = """
     Fact("verdict", "", "", lambda run, parameters: "in" if run.accuracy.tolerance < 5e-4 else "out"),
     Fact("nothing", "", "", lambda run, parameters: float("nan")),
 """
-    (drop / "scene.py").write_text(source.replace("FACTS = (", f"FACTS = ({more}", 1), "utf-8")
+    change(drop / "scene.py", "FACTS = (", f"FACTS = ({more}")
     check = sandbox.check(sandbox.load(drop))
     assert check.changed == {"verdict": ("out", "in")}
     assert check.errors.keys() == {"bounces", "first_touch", "final_height"}
@@ -450,15 +416,7 @@ def test_check_tells_what_hangs_on_the_accuracy(drop: Path):
 
 def test_walking_the_parameters_of_a_file_covers_it():
     """Every key in golf.toml is a parameter that sliders and sweeps can name."""
-
-    def dotted(table: dict[str, Any], prefix: str = "") -> set[str]:
-        return {
-            key
-            for name, value in table.items()
-            for key in (dotted(value, f"{prefix}{name}.") if isinstance(value, dict) else {prefix + name})
-        }
-
-    keys = dotted(read_toml(SCENES / "golf" / "golf.toml")) - {"scene"}
+    keys = set(keys_in(read_toml(SCENES / "golf" / "golf.toml"))) - {"scene"}
     assert keys <= {parameter.key for parameter in walk(sandbox.load("golf").parameters)}
 
 
@@ -470,8 +428,8 @@ def test_walking_the_parameters_of_a_file_covers_it():
     ],
 )
 def test_a_scene_without_facts_and_verdict_has_some(drop: Path, changes: dict[str, Any], said: str):
-    source = (drop / "scene.py").read_text("utf-8")
-    (drop / "scene.py").write_text(source.replace("FACTS = (", "_FACTS = (").replace("def verdict", "def _verdict"))
+    change(drop / "scene.py", "FACTS = (", "_FACTS = (")
+    change(drop / "scene.py", "def verdict", "def _verdict")
     run = sandbox.simulate(sandbox.load(drop, changes))
     assert list(run.result) == ["distance", "duration", "ended"]
     assert run.scene.verdict(run) == said

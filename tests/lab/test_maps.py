@@ -14,8 +14,7 @@ from sandbox.lab.axes import parse_axis
 from sandbox.lab.plan import Plan
 from sandbox.lab.sweep import sweep_to_file, workers
 from sandbox.scene import load
-
-DROP = Path(__file__).parents[1] / "scenes" / "drop"
+from tests.own_scene import DROP
 
 
 def plan_of(source: str, *over: str) -> Plan:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import shutil
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
@@ -25,8 +24,7 @@ from sandbox.new import new_scene
 from sandbox.physics.coefficients import Constant
 from sandbox.physics.forces import Drag
 from sandbox.scene import load
-
-DROP = Path(__file__).parents[1] / "scenes" / "drop"
+from tests.own_scene import DROP, change
 
 #: A free throw that rattles in the ring: every impact on the round tube multiplies errors.
 RATTLE = "basketball/rattle"
@@ -94,12 +92,10 @@ def test_a_break_is_looked_at_before_it_diverges():
     assert reference.error < DIVERGED
 
 
-def test_a_scene_may_have_a_measure_of_its_own(tmp_path: Path):
-    folder = Path(shutil.copytree(DROP, tmp_path / "drop", ignore=shutil.ignore_patterns("__pycache__")))
-    source = (folder / "scene.py").read_text("utf-8")
-    own = "\n\ndef measure(run, parameters):\n    return 0.0, run.events[0].t  # when it lands\n"
-    (folder / "scene.py").write_text(source + own, "utf-8")
-    (point,) = converge(load(folder)).points
+def test_a_scene_may_have_a_measure_of_its_own(drop: Path):
+    own = "def measure(run, parameters):\n    return 0.0, run.events[0].t  # when it lands\n\n\n"
+    change(drop / "scene.py", "def verdict", own + "def verdict")
+    (point,) = converge(load(drop)).points
     assert point[1] == pytest.approx((2.0 * 1.95 / 9.81) ** 0.5)
 
 

@@ -1,0 +1,169 @@
+"""Mistakes in a scene of the user's own: told in a line, or by the user's own lines of a traceback."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from sandbox.new import new_scene
+from tests.own_scene import BUILD, DROP, Outcome, assert_refused, change, copy_of
+
+Call = Callable[..., Outcome]
+
+NAME = "beachvolley"
+#: A file of ``drop``, or of what ``sandbox new`` writes.
+OF_DROP, OF_NEW, PICTURE = "drop/scene.py", f"{NAME}/scene.py", f"{NAME}/picture.py"
+#: Where a method of the new picture, of the drop's force, and of its surface begin.
+PLACE, FORCE, FLOOR = "    @cached_property", "        return 0.0 * velocity[0]", "friction=0.5)"
+BALL = "    ball = Ball("
+
+
+@pytest.fixture(scope="module")
+def written(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("written") / NAME
+    new_scene(folder)
+    return folder
+
+
+@pytest.fixture
+def scene(written: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A folder with both scenes, in which we are."""
+    copy_of(DROP, tmp_path / "drop")
+    copy_of(written, tmp_path / NAME)
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+@pytest.mark.parametrize(
+    ("file", "old", "new", "expected"),
+    [
+        (OF_DROP, "class Launch", "1 / 0\nclass Launch", "ZeroDivisionError: division by zero"),
+        (OF_DROP, BALL, "    ball = nowhere(", "NameError: name 'nowhere' is not defined"),
+        (OF_DROP, FORCE, "        return velocity[2], self", "IndexError: tuple index out of range"),
+        (OF_DROP, "bounces(run, parameters) > 0", "run.events[99]", "IndexError: list index out of range"),
+        (OF_DROP, "FACTS = (", "FACTS = [", "SyntaxError: "),
+        (OF_DROP, 'return "Bounced"', 'return run.result["gone"] and "Bounced"', "KeyError: 'gone'"),
+        (OF_DROP, "duration=parameters.duration", "length=parameters.duration", "TypeError: "),
+        (OF_DROP, '"m/s", low=0', '"furlong", low=0', 'ValueError: "furlong" is not a known unit; use'),
+        (OF_DROP, '"m/s", low=0', '"MPH", low=0', 'ValueError: "MPH" is not a known unit; did you me'),
+        (OF_DROP, "import Group,", "import Accuracies, Group,", "ImportError: cannot import name 'Accuracies'"),
+        (OF_DROP, "class Launch", "raise SystemExit(0)\nclass Launch", "ExitCalled: SystemExit(0)"),
+        (OF_DROP, BALL, f"    exit(0)\n{BALL}", "ExitCalled: SystemExit(0)"),
+        (OF_DROP, FORCE, "        raise SystemExit('well')\n        return 0", "ExitCalled: SystemExit('we"),
+        (OF_DROP, FLOOR, "friction=0.5, law=lambda *_: exit(0))", "ExitCalled: SystemExit(0)"),
+        (OF_DROP, BALL, f"    raise GeneratorExit\n{BALL}", "ExitCalled: GeneratorExit()"),
+        (OF_NEW, "launch.height, parameters", "launch.hight, parameters", "AttributeError: 'Toss' object has no"),
+        (OF_NEW, "def build(", "\udcff\ndef build(", "SyntaxError: "),
+        (OF_NEW, 'at(landing, "x")', 'at(landing, "ex")', 'ValueError: at(..., "ex"): a Moment has t'),
+        (OF_NEW, 'until=Touches("floor", 4)', "until=lambda event: event.foo", "AttributeError: 'Event'"),
+        (OF_NEW, "Fan(fan.place, fan.width, fan.push))", "Fan)", "ValueError: ball 'ball': 'Fan' is not a force"),
+        (OF_NEW, "duration=20.0", "duration=-20.0", "duration = -20.0 s must be positive"),
+        (PICTURE, "Place(Hall", "Place(Hole", "NameError: name 'Hole' is not defined"),
+        (PICTURE, "launch.height)", "launch.hight)", "AttributeError: 'Toss' object has no"),
+        (PICTURE, "picture.places", "picture.plaices", "ModuleNotFoundError: No module named 'sandbox.picture.plai"),
+        (PICTURE, PLACE, f"    def poster(self): exit(0)\n\n{PLACE}", "SystemExit: 0"),
+        (PICTURE, PLACE, f"    def poster(self): open('gone')\n\n{PLACE}", "FileNotFoundError: "),
+    ],
+)
+def test_a_failure_shows_the_users_lines_only(call: Call, scene: Path, file: str, old: str, new: str, expected: str):
+    change(scene / file, old, new)
+    code, out, err = call("run", f"./{file.partition('/')[0]}", "--poster", "poster.png", "--json")
+    assert (code, out) == (1, "")
+    assert err.startswith("error: your scene failed\n")
+    assert expected in err.splitlines()[-1]
+    files = [line.split('"')[1] for line in err.splitlines() if line.startswith("  File ")]
+    assert set(files) == {str(scene / file)}
+    assert not Path("poster.png").exists()
+
+
+#: What an engine or a sweep is given: told by ``run``, and by ``sweep`` as well.
+HANDED_OVER = [
+    (OF_DROP, "parameters.duration)", "parameters.duration, until=lambda: True)", "until is called as until(event): "),
+    (OF_DROP, FLOOR, "friction=0.5, law=lambda: None)", "is called as law(normal_speed, tangential_speed): "),
+    (OF_DROP, FLOOR, "friction=0.5, law=lambda *_: None)", "must return a Bounce of numbers, such as Bounce(rest"),
+    (OF_DROP, FLOOR, "friction=0.5, law=lambda *_: (0.5, 0.5))", "and returned (0.5, 0.5)"),
+    (OF_DROP, FLOOR, "friction=0.5, law=lambda *_: 'hard')", "and returned 'hard'"),
+    (OF_DROP, f"{FORCE},", "        return 1j,", "Gravity is called with (t, position, velocity, spin)"),
+    (OF_DROP, f"{FORCE},", "        return 10**400,", "int too large to convert to float"),
+    *(
+        (OF_DROP, "FACTS = (", f"x = []\nx.append(x)\nFACTS = (Fact('odd', '', '', lambda run, _: {what}),", said)
+        for what, said in (
+            ("x", "the fact odd must return a number, a text, true or false, or a list of those, but returned [[...]]"),
+            ("[1j]", "or a list of those, but returned [1j]"),
+            ("10**400", "the fact odd must return a num"),
+            ("run", "or a list of those, but returned <Run"),
+        )
+    ),
+]
+#: What a scene defines.
+DEFINED = [
+    (OF_DROP, '"bounces", "bounces"', '"bounces", 5', "FACTS: key and label must be text, but are 'bounces' and 5"),
+    (OF_DROP, '"", bounces)', '"", lambda run: 1)', "FACTS: bounces is computed as how(run, parameters): too many"),
+    (OF_DROP, '"", bounces)', '"", 1)', "FACTS: bounces is computed as how(run, parameters): 1 is not a callable"),
+    (OF_DROP, "def build", "def construct", "a scene needs Parameters, build; build is missing"),
+    (OF_DROP, "class Parameters(SceneParameters)", "class Numbers(SceneParameters)", "Parameters is missing"),
+    (OF_DROP, "class Parameters(SceneParameters)", "class Parameters(dict)", "must be a sandbox.parameters.SceneParam"),
+    (OF_DROP, "class Parameters(SceneParameters)", "class Parameters(Group)", "must be a sandbox.parameters.ScenePar"),
+    (OF_NEW, "return Setup([", "Setup([", "scene.py: build must return a Setup, but returned None"),
+    (OF_NEW, 'return "Never', '"Never', "verdict must return text, but returned None"),
+    (OF_NEW, "FACTS = (", "FACTS = (3,", "FACTS must be a tuple of facts, but 3 is not one"),
+    (OF_NEW, '"apex", "m"', '"apex", "metres"', 'FACTS: apex has the unit "metres", which is not known'),
+    (OF_NEW, '"apex", "apex"', '"distance", "apex"', "FACTS: two are called distance"),
+    (OF_NEW, "def build(parameters: Parameters)", "def build()", "build is called as build(parameters)"),
+    (OF_NEW, "def verdict(run: Run, ", "def verdict(", "verdict is called as verdict(run, parameters)"),
+    (OF_NEW, "return 0.0, self.push", "0.0, self.push", "must return"),
+    (OF_NEW, "return 0.0, self.push", "return self.push", "must return"),
+    (OF_NEW, "velocity: Any, spin: Any)", "velocity: Any)", "is called with"),
+    (OF_NEW, "CONTROLS = Controls(", "CONTROLS = dict(", "CONTROLS must be a sandbox.sport.controls.Controls"),
+    (OF_NEW, 'Handle("fan.place"', 'Handle("fan.plaice"', 'CONTROLS handles "fan.plaice": unknown key; did you mean f'),
+    (OF_NEW, "strongest=20.0", 'speed="launch.sped"', 'CONTROLS speed "launch.sped": unknown key; did'),
+    (OF_NEW, '(Spin("launch.spin", 20.0),)', '(Spin("launch.spin", 20.0))', "CONTROLS spins = Spin("),
+    (OF_NEW, "strongest=20.0", 'scores="enbed"', 'CONTROLS scores "enbed": no such result; did you mean ended?'),
+    (OF_NEW, "strongest=20.0", 'fan_fact="apx"', 'CONTROLS fan_fact "apx": no such result; did you mean apex?'),
+    (PICTURE, "class Picture", "class Pictures", "Picture(run, parameters, size) is missing"),
+    (PICTURE, PLACE, f"    poster = None\n\n{PLACE}", "picture.py: Picture.poster(self) is missing"),
+    (PICTURE, PLACE, f"    def __init__(self, run): ...\n{PLACE}", "called as Picture(run, parameters, size)"),
+    (PICTURE, PLACE, f"    def frame(self, x, t): ...\n{PLACE}", "called as Picture.frame(self, t)"),
+    (PICTURE, PLACE, f"    def poster(self): ...\n{PLACE}", "must return a pygame.Surface, and returned None"),
+    *((file, "import", "import\0", f"{file}: not a text file, it holds NUL bytes") for file in (OF_NEW, PICTURE)),
+]
+
+
+@pytest.mark.parametrize(("file", "old", "new", "expected"), HANDED_OVER + DEFINED)
+def test_what_is_given_wrongly_is_said_in_a_line(call: Call, scene: Path, file: str, old: str, new: str, expected: str):
+    change(scene / file, old, new)
+    outcome = call("run", f"./{file.partition('/')[0]}", "--poster", "poster.png")
+    assert_refused(outcome, expected, code=outcome.code or 1)
+
+
+@pytest.mark.parametrize(("file", "old", "new", "expected"), HANDED_OVER)
+def test_a_sweep_says_it_too(call: Call, scene: Path, file: str, old: str, new: str, expected: str):
+    change(scene / file, old, new)
+    outcome = call("sweep", "./drop", "--over", "launch.height=1:2:30", "--jobs", 1, "--out", "rows.csv")
+    assert_refused(outcome._replace(out=""), expected, code=1)
+
+
+def test_a_range_in_which_all_runs_fail_says_where(call: Call, scene: Path):
+    change(scene / OF_DROP, BUILD, f"{BUILD}    raise StopIteration\n")
+    outcome = call("aim", "./drop", "--vary", "launch.height=1:2", "--target", "bounces=2")
+    assert_refused(outcome, "the first error: StopIteration (drop/scene.py, line ", code=1)
+
+
+@pytest.mark.parametrize("jobs", [1, 2])
+def test_exit_in_a_sweep_fails_its_points(call: Call, scene: Path, jobs: int):
+    change(scene / OF_DROP, BUILD, f"{BUILD}    if parameters.launch.height < 1.5: raise SystemExit(0)\n")
+    assert call("sweep", "./drop", "--over", "launch.height=1,2", "--out", "rows.csv", "--jobs", jobs).code == 0
+    head, failed, ran = Path("rows.csv").read_text("utf-8").splitlines()
+    assert head.endswith(",error")
+    assert re.search(r"ExitCalled: SystemExit\(0\): .* \(drop/scene\.py, line \d+\)", failed)
+    assert ran.endswith(",")
+
+
+def test_a_bug_of_ours_is_not_hidden(call: Call, monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr("sandbox.report.card", lambda *_: [][0])
+    monkeypatch.setattr("sandbox.tracebacks.is_ours", lambda filename: True)  # this test stands in for our own code
+    with pytest.raises(IndexError):
+        call("run", "golf")
