@@ -11,7 +11,7 @@ from collections import defaultdict
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict, dataclass, replace
 from itertools import pairwise, takewhile
-from math import isfinite
+from math import inf, isfinite
 from time import perf_counter
 from typing import Any
 
@@ -23,8 +23,9 @@ from sandbox.engine.ledger import ledger
 from sandbox.engine.meeting import discs, standing
 from sandbox.engine.nearest import Pose, nearest
 from sandbox.engine.run import Run
-from sandbox.engine.setup import Ball, Circle, Surface, kinetic, outline_of
+from sandbox.engine.setup import Ball, kinetic, outline_of
 from sandbox.engine.shapes import Shape
+from sandbox.engine.touch import Outline
 from sandbox.engine.track import PRESSED
 from sandbox.errors import RequestError, SandboxError
 from sandbox.lab.extremes import Extreme, bare, of_scene
@@ -170,20 +171,18 @@ def _energy_gained(run: Run) -> float:
 
 def _overlap(run: Run) -> tuple[float, str]:
     """The deepest overlap in m of any ball with anything, and what a ball passed through, if anything."""
-    deepest, through = 0.0, ""
+    deepest, through = _overlap_of_balls(run), ""
     for ball in run.setup.balls:
-        rows = run.trajectory(ball.name, max(run.duration, 1e-9) / _SAMPLES, ends=True)
-        path = rows[:, 1:3]
+        times, x, y = run.trajectory(ball.name, max(run.duration, 1e-9) / _SAMPLES, ends=True)[:, :3].T
         for surface in run.setup.surfaces:
-            gaps = _clearance(path, surface) - ball.radius
+            outline = Outline.of(surface.shape, np.full_like(x, ball.radius))
+            gaps = outline.near(x, y).gap
             if ball.turns:  # the disc around it may overlap: its outline counts
-                fixed = standing(surface.shape).shape
-                close = rows[gaps < 0.0, 0]
+                fixed, close = standing(surface.shape).shape, times[gaps < 0.0]
                 gaps = np.array([nearest(*_outline(run, ball, t), fixed, Pose(0.0, 0.0, 0.0)).gap for t in close])
             deepest = max(deepest, -float(gaps.min(initial=0.0)))
-            if not through and _crosses(path, surface):
-                through = surface.name
-    return max(deepest, _overlap_of_balls(run)), through
+            through = through or (surface.name if _crosses(outline, x, y) else "")
+    return deepest, through
 
 
 def _outline(run: Run, ball: Ball, t: float) -> tuple[Shape, Pose]:
@@ -191,51 +190,29 @@ def _outline(run: Run, ball: Ball, t: float) -> tuple[Shape, Pose]:
     return outline_of(ball), Pose(*run.state(ball.name, t)[:2], run.angle(ball.name, t) if ball.turns else 0.0)
 
 
-def _clearance(path: np.ndarray, surface: Surface) -> np.ndarray:
-    """Distance in m from each position to the surface."""
-    shape = surface.shape
-    if isinstance(shape, Circle):
-        return np.hypot(path[:, 0] - shape.center[0], path[:, 1] - shape.center[1]) - shape.radius
-    a, d = np.array(shape.a), np.array(shape.b) - np.array(shape.a)
-    along = np.clip((path - a) @ d / max(float(d @ d), 1e-300), 0.0, 1.0)
-    nearest = a + along[:, None] * d
-    return np.hypot(*(path - nearest).T) - shape.radius
-
-
-def _crosses(path: np.ndarray, surface: Surface) -> bool:
-    """Whether a path crosses the surface's centre line."""
-    shape = surface.shape
-    if isinstance(shape, Circle):
-        return False  # shows as overlap
-    (ax, ay), (bx, by) = shape.a, shape.b
-    start, end = path[:-1], path[1:]
-    before = (start[:, 0] - ax) * (by - ay) - (start[:, 1] - ay) * (bx - ax)
-    after = (end[:, 0] - ax) * (by - ay) - (end[:, 1] - ay) * (bx - ax)
-    step = end - start
-    side_a = step[:, 0] * (ay - start[:, 1]) - step[:, 1] * (ax - start[:, 0])
-    side_b = step[:, 0] * (by - start[:, 1]) - step[:, 1] * (bx - start[:, 0])
-    return bool(np.any((before * after < 0.0) & (side_a * side_b < 0.0)))
+def _crosses(outline: Outline, x: np.ndarray, y: np.ndarray) -> bool:
+    """Whether a path crosses the line in the middle of a surface, between its ends."""
+    across, along = outline.across(x, y), outline.along(x, y)
+    before, after = across[:-1], across[1:]
+    share = before / np.where(before == after, 1.0, before - after)
+    met = along[:-1] + share * (along[1:] - along[:-1])
+    return bool(np.any((before * after < 0.0) & (met > 0.0) & (met < outline.length[1:])))
 
 
 def _overlap_of_balls(run: Run) -> float:
     """Deepest overlap in m of two balls, at the ends of their arcs, but not within a contact that is simulated, which
     compresses them; for a pile, at the end of the run."""
-    balls = run.setup.balls
-    if len(balls) < 2:
-        return 0.0
-    times = [run.duration]
+    balls, times = run.setup.balls, [run.duration]
     if len(balls) <= _MOST_PAIRED:
-        contacts = {(arc.t0, arc.t1) for arcs in run.arcs.values() for arc in arcs if arc.contact == PRESSED}
-        ends = {arc.t1 for arcs in run.arcs.values() for arc in arcs}
-        times = sorted(t for t in ends if not any(start < t < end for start, end in contacts))
+        arcs = [arc for own in run.arcs.values() for arc in own]
+        contacts = {(arc.t0, arc.t1) for arc in arcs if arc.contact == PRESSED}
+        times = sorted(t for t in {arc.t1 for arc in arcs} if not any(start < t < end for start, end in contacts))
         times = times[:: max(1, len(times) // _LOOKS)]
-    caught = {ball.name: run.caught_at(ball.name) for ball in balls}
+    gone = {ball.name: inf if (t := run.caught_at(ball.name)) is None else t for ball in balls}
     deepest = 0.0
     for t in times:
-        there = [ball for ball in balls if caught[ball.name] is None or t < (caught[ball.name] or 0.0)]
-        if len(there) < 2:
-            continue
-        places = np.array([run.state(ball.name, t)[:2] for ball in there])
+        there = [ball for ball in balls if t < gone[ball.name]]
+        places = np.array([run.state(ball.name, t)[:2] for ball in there]).reshape(-1, 2)
         radii = np.array([ball.radius for ball in there])
         gaps = np.hypot(*(places[:, None] - places[None]).transpose(2, 0, 1)) - radii[:, None] - radii[None]
         for i, j in np.argwhere(np.triu(gaps < -deepest, 1)):
