@@ -34,6 +34,7 @@ import pytest
 
 from sandbox import record
 from sandbox.errors import RunError
+from sandbox.record import Record
 from sandbox.text import printable
 
 if TYPE_CHECKING:
@@ -182,7 +183,9 @@ class Golden:
         self._check_damage(name, {png: _damaged_picture(png), text: None if run is None else _damaged_run(text)})
         expected = _read(png)
         drawing = _changed_drawing(expected, image)
-        physics = None if run is None else _changed_physics(text, run, until)
+        known = json.loads(text.read_text("utf-8")) if run is not None and text.exists() else None
+        actual = {} if run is None else record.record(run, until, known and record.times_of(known))
+        physics = None if run is None else _changed_physics(known, actual)
         if drawing is None and physics is None:
             return
         if update:
@@ -194,13 +197,12 @@ class Golden:
             what, path = ("picture", png) if expected is None else ("run", text)
             _fail(f"{name} has no golden {what} at {path}; make it with pytest --golden-update")
         else:
-            said = list(_kind_of_change(name, text, run, until, physics, drawing))
+            said = list(_kind_of_change(name, known, actual, physics, drawing))
             if self.with_page:
                 from sandbox.page.golden_report import failure
 
-                compared = expected is not None and expected.size == image.size
-                images = (expected, image, what_changed(expected, image)) if expected and compared else None
-                changes = [] if run is None else _all_changes(text, run, until)
+                images = (expected, image, what_changed(expected, image)) if expected.size == image.size else None
+                changes = [] if known is None else _all_changes(known, actual)
                 self.note(FAILED, json.dumps(failure(name, said, changes, images)))
             _fail(*said, *self._shown(name, expected, image, drawing), HOW_TO_ACCEPT)
 
@@ -235,32 +237,28 @@ class Golden:
 
 
 def _kind_of_change(
-    name: str, path: Path, run: Run | None, until: float | None, physics: str | None, drawing: str | None
+    name: str, known: Record | None, actual: Record, physics: str | None, drawing: str | None
 ) -> Iterator[str]:
     """What kind of change it is, one line each."""
+    small = None if known is None or physics is not None else _difference_below_tolerance(known, actual)
     if physics is not None:
         yield f"{name} differs from its golden run: {physics}"
         if drawing is not None:
             yield f"the drawing: {drawing}"
-        return
-    small = None if run is None else _difference_below_tolerance(path, run, until)
-    if small is not None:
+    elif small is not None:
         yield f"{name}: the run differs from its golden run by less than the tolerance of {record.TOLERANCE:g}: {small}"
         yield f"the picture shows it: {drawing}"
     else:
-        yield f"{name} differs from its golden picture: {'same physics, the drawing changed: ' if run else ''}{drawing}"
+        yield f"{name} differs from its golden picture: {'same physics, the drawing changed: ' * bool(actual)}{drawing}"
 
 
-def _difference_below_tolerance(path: Path, run: Run, until: float | None) -> str | None:
+def _difference_below_tolerance(known: Record, actual: Record) -> str | None:
     """The first event or result whose digits differ from those of the golden run, in words; None if there is none.
 
     States are left out: their times are rounded, which moves a fast ball by a few nanometres.
     """
-    expected = {**json.loads(path.read_text("utf-8")), "states": {}}
-    actual = {**record.record(run, until), "states": {}}
-    first = record.first_change(expected, actual, tolerance=0.0)
-    results = record.changed_results(expected, actual, tolerance=0.0)
-    return first[1] if first is not None else next(iter(results), None)
+    one, other = ({**each, "states": {}} for each in (known, actual))
+    return next(iter(_all_changes(one, other, tolerance=0.0)), None)
 
 
 def _fail(*lines: str) -> NoReturn:
@@ -278,32 +276,25 @@ def _changed_drawing(expected: Image.Image | None, actual: Image.Image) -> str |
     return str(difference) if difference.matters else None
 
 
-def _changed_physics(path: Path, run: Run, until: float | None) -> str | None:
+def _changed_physics(known: Record | None, actual: Record) -> str | None:
     """How the run differs from the golden one, in words; None if it is the same."""
-    if not path.exists():
+    if known is None:
         return NEW
-    expected = json.loads(path.read_text("utf-8"))
-    if expected.get("until") != until:
-        return f"recorded until {expected.get('until', 'its end')} and checked until {until or 'its end'}"
-    actual = record.record(run, until, record.times_of(expected))
-    first, results = record.first_change(expected, actual), record.changed_results(expected, actual)
+    before, now = (recorded.get("until", "its end") for recorded in (known, actual))
+    if before != now:
+        return f"recorded until {before} and checked until {now}"
+    first, results = record.first_change(known, actual), record.changed_results(known, actual)
     if first is None and not results:
         return None
-    found = [
-        "same motion, different result" if first is None else f"the physics changed: first at {first[1]}",
-        *results,
-    ]
-    shown = (
-        found if len(found) <= MOST_CHANGES else [*found[: MOST_CHANGES - 1], f"{len(found) - MOST_CHANGES + 1} more"]
-    )
-    return "; ".join(shown)
+    moved = "same motion, different result" if first is None else f"the physics changed: first at {first[1]}"
+    shown, more = results[: MOST_CHANGES - 2], results[MOST_CHANGES - 2 :]
+    return "; ".join([moved, *shown, *(more if len(more) < 2 else [f"{len(more)} more"])])
 
 
-def _all_changes(path: Path, run: Run, until: float | None) -> list[str]:
+def _all_changes(known: Record, actual: Record, tolerance: float = record.TOLERANCE) -> list[str]:
     """How each ball, the events and the results differ from the golden run, in words."""
-    expected = json.loads(path.read_text("utf-8"))
-    actual = record.record(run, until, record.times_of(expected))
-    return [*(text for _, text in record.changes(expected, actual)), *record.changed_results(expected, actual)]
+    moved = [text for _, text in record.changes(known, actual, tolerance)]
+    return [*moved, *record.changed_results(known, actual, tolerance)]
 
 
 def _damaged_picture(path: Path) -> str | None:

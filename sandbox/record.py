@@ -28,7 +28,7 @@ NUDGE = 1e-12
 #: Longest text of a result in a message, in characters.
 LONGEST_WORD = 48
 
-COLUMNS = ("t", "x", "y", "vx", "vy", "spin")
+COLUMNS, EVENT = ("t", "x", "y", "vx", "vy", "spin"), ("t", "kind", "ball", "partner", "speed")
 UNITS = {"t": "s", "x": "m", "y": "m", "vx": "m/s", "vy": "m/s", "spin": "rad/s", "speed": "m/s"}
 
 Record = dict[str, Any]
@@ -65,26 +65,20 @@ def _samples(balls: int) -> int:
 
 def damage(recorded: Any) -> str | None:
     """What is missing from a record that was read from a file, in words; None if it is complete."""
-    if not isinstance(recorded, dict) or not {"states", "events"} <= set(recorded):
-        return "not a record of a run"
-    states, events = recorded["states"], recorded["events"]
-    if not isinstance(states, dict) or not states or not isinstance(events, list):
-        return "it has no states or no list of events"
-    if "until" not in recorded and not {"ended", "duration", "result"} <= set(recorded):
-        return "ended, duration or result is missing"
-    if not all(isinstance(row, list) and len(row) == 5 for row in events):
-        return "an event is not a row of time, kind, ball, partner and speed"
-    end = recorded.get("duration")
-    for ball, rows in states.items():
-        if not isinstance(rows, list) or len(rows) != _samples(len(states)):
-            found = len(rows) if isinstance(rows, list) else 0
-            return f"{ball} has {found} states, of {_samples(len(states))} that were recorded"
-        if not all(isinstance(row, list) and len(row) == len(COLUMNS) and all(map(_is_number, row)) for row in rows):
-            return f"a state of {ball} is not a row of {', '.join(COLUMNS)}"
-        last = rows[-1][0] if end is None else end
-        spread = [last * i / (len(rows) - 1) for i in range(len(rows))]
-        if not all(_same(row[0], t) for row, t in zip(rows, spread, strict=True)):
-            return f"the times of {ball} are not spread evenly from 0 to the end"
+    try:
+        states, count = recorded["states"], _samples(len(recorded["states"]))
+        end = [] if "until" in recorded else [recorded[name] for name in ("duration", "ended", "result")]
+        if not states or any(len(row) != len(EVENT) for row in recorded["events"]):
+            return f"it has no states, or an event is not a row of {', '.join(EVENT)}"
+        for ball, rows in states.items():
+            if len(rows) != count:
+                return f"{ball} has {len(rows)} states, of {count} that were recorded"
+            for i, row in enumerate(rows):
+                evenly = (end[0] if end else rows[-1][0]) * i / (count - 1)
+                if len(row) != len(COLUMNS) or not all(map(_is_number, row)) or not _same(row[0], evenly):
+                    return f"state {i} of {ball} is not a row of {', '.join(COLUMNS)} at {evenly:.3g} s"
+    except (KeyError, TypeError, AttributeError):
+        return "not a record of a run, or not a whole one"
     return None
 
 

@@ -194,7 +194,7 @@ class TestRuns:
         ("name", "content", "told"),
         [
             ("it.json", "<<<<<<< HEAD\n", "not JSON: Expecting value: line 1 column 1*"),
-            ("it.json", "[]", "not a record of a run"),
+            ("it.json", "[]", "not a record of a run*"),
             ("it.png", "", "not a picture, or an incomplete one"),
             ("it.png", None, "not a picture, or an incomplete one"),
         ],
@@ -215,12 +215,15 @@ class TestRuns:
             (lambda kept: kept["states"]["ball"].clear(), "ball has 0 states, of 24 that were recorded"),
             (lambda kept: kept["states"]["ball"].pop(), "ball has 23 states, of 24 that were recorded"),
             (lambda kept: kept["states"]["ball"].pop(5), "ball has 23 states, of 24 that were recorded"),
-            (lambda kept: kept["states"]["ball"][3].pop(), "a state of ball is not a row of t, x, y, vx, vy, spin"),
-            (lambda kept: kept["states"]["ball"][3].__setitem__(1, None), "a state of ball is not a row of t, x, *"),
-            (lambda kept: kept["states"]["ball"][3].__setitem__(0, 0.0), "the times of ball are not spread evenly *"),
-            (lambda kept: kept["states"].clear(), "it has no states or no list of events"),
-            (lambda kept: kept["events"][0].pop(), "an event is not a row of *"),
-            (lambda kept: kept.pop("result"), "ended, duration or result is missing"),
+            (
+                lambda kept: kept["states"]["ball"][3].pop(),
+                "state 3 of ball is not a row of t, x, y, vx, vy, spin *",
+            ),
+            (lambda kept: kept["states"]["ball"][3].__setitem__(1, None), "state 3 of ball is not a row of t, x, *"),
+            (lambda kept: kept["states"]["ball"][3].__setitem__(0, 0.0), "state 3 of ball is not a row *"),
+            (lambda kept: kept["states"].clear(), "it has no states, or *"),
+            (lambda kept: kept["events"][0].pop(), "it has no states, or an event is not a row of *"),
+            (lambda kept: kept.pop("result"), "not a record of a run, or not a whole one"),
         ],
     )
     def test_rows_that_are_gone_are_named(self, scene_project, spoil, told: str):
