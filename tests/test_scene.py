@@ -317,10 +317,14 @@ def test_a_scene_file_elsewhere_says_what_it_is(tmp_path: Path):
     assert sandbox.load(file).about == sandbox.load("golf").about
 
 
-def test_a_preset_begins_from_no_other(drop: Path):
-    preset = next((drop / "presets").glob("*.toml"))
-    preset.write_text(f'scene = "drop/{preset.stem}"')
-    assert "but a file in this folder is for drop" in refusal(drop / preset.stem)
+def test_a_preset_may_begin_from_another_but_not_from_itself(drop: Path):
+    (drop / "presets" / "high.toml").write_text('scene = "drop/moon"\nlaunch.height = 50')
+    (drop.parent / "shot.toml").write_text('scene = "./drop/high"\nlaunch.speed = 1')
+    own = sandbox.load(drop.parent / "shot.toml").parameters
+    assert (own.gravity, own.launch.height, own.launch.speed) == (1.62, 50.0, 1.0)
+    (drop / "presets" / "high.toml").write_text('scene = "drop/moon"')
+    (drop / "presets" / "moon.toml").write_text('scene = "drop/high"')
+    assert 'high.toml: scene = "drop/moon": begins from itself' in refusal(drop / "moon")
 
 
 def test_a_scene_can_be_sent_to_another_process(drop: Path):

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import importlib.util
 import os
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -30,13 +30,12 @@ LARGEST_FILE = 1_000_000
 
 @dataclass(frozen=True)
 class Found:
-    """What a name or a path refers to."""
+    """What a name or a path refers to: a scene, and a file for it after the presets that this begins from."""
 
     name: str
     folder: Path
-    file: Path | None  # the scene file to read; None for a folder without one
-    base: Path | None = None  # the preset that the file begins from
-    preset: str | None = None  # which preset the file is
+    files: Sequence[tuple[Path, dict[str, Any]]] = ()  # with what is written in them; none for a folder without one
+    preset: str | None = None  # which preset the last file is
 
 
 def load(source: str | Path, overrides: Mapping[str, Any] | None = None, *, overrides_from: str = "override") -> Scene:
@@ -52,8 +51,8 @@ def load(source: str | Path, overrides: Mapping[str, Any] | None = None, *, over
         )
     found = _find(source)
     parameters = _parameters(found, overrides, overrides_from)
-    elsewhere = found.file is not None and found.folder not in found.file.resolve().parents
-    note = first_comment(found.file) if found.file is not None and elsewhere else ""
+    file = found.files[-1][0] if found.files else found.folder
+    note = "" if file.resolve().is_relative_to(found.folder) else first_comment(file)
     return Scene(found.name, found.preset, parameters, found.folder, note)
 
 
@@ -62,40 +61,34 @@ def as_scene(scene: Scene | str | Path) -> Scene:
     return scene if isinstance(scene, Scene) else load(scene)
 
 
-def _parameters(found: Found, overrides: Mapping[str, Any] | None = None, overrides_from: str = "") -> declared.Group:
-    """The parameters in the scene's own file, in the preset that the file begins from, and in the file, each over the
-    one before."""
-    own, where = _default_file(found.folder), shown(found.file or found.folder)
-    files = {file.resolve(): file for file in (own, found.base, found.file) if file is not None}
-    layers = [(shown(file) if file is own else where, declared.read_toml(file)) for file in files.values()]
-    for _, values in layers:
-        values.pop("scene", None)
-    return _read(parameters_class(found.folder), layers, where, overrides, overrides_from)
+def _parameters(
+    found: Found, overrides: Mapping[str, Any] | None = None, overrides_from: str = ""
+) -> declared.SceneParameters:
+    """The parameters in the scene's own file and in the files that were found, each over the ones before. Raises
+    RequestError, which names the first file that is invalid."""
+    schema, own, files = parameters_class(found.folder), _default_file(found.folder), list(found.files)
+    if own is not None and own not in (file.resolve() for file, _ in files):
+        files.insert(0, (own, declared.read_toml(own)))
 
+    def first(count: int) -> dict[str, Any]:
+        values: dict[str, Any] = {}
+        for _, layer in files[:count]:
+            values = declared.over(schema, values, {key: value for key, value in layer.items() if key != "scene"})
+        return values
 
-def _read(
-    schema: type[declared.Group],
-    layers: list[tuple[str, dict[str, Any]]],
-    where: str,
-    overrides: Mapping[str, Any] | None,
-    overrides_from: str,
-) -> declared.Group:
-    """The parameters in these layers. Raises RequestError, which names the first layer that is invalid."""
-    values: dict[str, Any] = {}
-    for _, layer in layers:
-        values = declared.over(schema, values, layer)
+    where = shown(files[-1][0] if files else found.folder)
     try:
-        return declared.validate(schema, values, where, overrides, overrides_from)
+        return declared.validate(schema, first(len(files)), where, overrides, overrides_from)
     except RequestError:
-        for count in range(1, len(layers)):
-            _read(schema, layers[:count], layers[count - 1][0], None, "")
+        for count, (file, _) in enumerate(files[:-1], 1):
+            declared.validate(schema, first(count), shown(file))
         raise
 
 
-def parameters_of(source: str | Path) -> tuple[str, declared.Group]:
+def parameters_of(source: str | Path) -> tuple[str, declared.SceneParameters]:
     """Name and default parameters of the scene that ``source`` names; only the key ``scene`` of a file matters."""
     found = _find(source)
-    return found.name, _parameters(Found(found.name, found.folder, _default_file(found.folder)))
+    return found.name, _parameters(Found(found.name, found.folder))
 
 
 def folder_of(source: str | Path) -> Path | None:
@@ -187,10 +180,8 @@ def _find(source: str | Path) -> Found:
 def _named(source: str) -> Found:
     name, _, preset = source.partition("/")
     folder = installed_folder(name)
-    if folder is not None and not preset:
-        return Found(name, folder, _default_file(folder))
-    if folder is not None and _is_word(preset):
-        return Found(name, folder, _preset(name, folder, preset), preset=preset)
+    if folder is not None and (not preset or _is_word(preset)):
+        return _in_folder(name, folder, preset)
     if not source:
         raise RequestError(_unknown('""'))
     path = Path(source)
@@ -210,32 +201,20 @@ def _is_path(text: str) -> bool:
 
 def _at(path: Path) -> Found:
     if (path / "scene.py").is_file():
-        return _in_folder(path)
+        return _in_folder(path.resolve().name, path)
     if path.is_file() or (path.suffix == ".toml" and not path.is_dir()):
         return _of_file(path)
     if (path.parent / "scene.py").is_file() and not path.exists():  # ./volleyball/float, as golf/driver
-        return _in_folder(path.parent, path.name)
+        return _in_folder(path.parent.resolve().name, path.parent, path.name)
     if path.is_dir():
         raise RequestError(f"{path}: a folder without scene.py is not a scene")
     raise RequestError(_unknown(str(path)))
 
 
-def _in_folder(path: Path, preset: str = "") -> Found:
-    """The scene in a folder that was given by its path, or a preset of it."""
-    folder = path.resolve()
-    file = _preset(folder.name, path, preset) if preset else _default_file(path)
-    if file is not None:
-        written = declared.read_toml(file).get("scene", folder.name)
-        if written != folder.name and not _leads_to(folder, file, written):
-            raise RequestError(
-                f"{shown(file)}: scene = {declared.shown(written)}, but a file in this folder is for {folder.name}"
-            )
-    return Found(folder.name, folder, file, preset=preset or None)
-
-
-def _leads_to(folder: Path, file: Path, written: Any) -> bool:
-    """Whether a scene file names its scene by a path to this folder."""
-    return isinstance(written, str) and _is_path(written) and (file.parent / written).resolve() == folder
+def _in_folder(name: str, path: Path, preset: str = "") -> Found:
+    """The scene of that name in a folder, or a preset of it."""
+    folder, file = path.resolve(), _preset(name, path, preset) if preset else _default_file(path)
+    return Found(name, folder, [] if file is None else _files(file, name, folder), preset or None)
 
 
 def _is_word(name: str) -> bool:
@@ -291,48 +270,55 @@ def _preset(name: str, folder: Path, preset: str, where: str = "") -> Path:
 
 
 def _of_file(path: Path) -> Found:
-    """The scene that a scene file is for. A name means an installed scene, whatever is next to the file; a path means
-    the user's own."""
+    """The scene that a scene file is for."""
     values = declared.read_toml(path)
     if "scene" not in values:
         raise RequestError(f'{path}: needs a line that names its scene, such as scene = "golf"{_own_folder(path)}')
-    written = values["scene"]
+    name, folder, _ = _meant(path, values["scene"])
+    is_preset = path.resolve().parent == folder / "presets"
+    return Found(name, folder, _files(path, name, folder), path.stem if is_preset else None)
+
+
+def _files(file: Path, name: str, folder: Path, after: Sequence[Path] = ()) -> list[tuple[Path, dict[str, Any]]]:
+    """A file for the scene in a folder, with what is written in it, after those of the preset that it begins from."""
+    values = declared.read_toml(file)
+    written = values.get("scene", name)
+    _, meant, preset = _meant(file, written, (name, folder))
+    if meant != folder:
+        raise RequestError(f"{shown(file)}: scene = {declared.shown(written)}, but a file in this folder is for {name}")
+    if not preset:
+        return [(file, values)]
+    base = _preset(name, folder, preset, f"{file}: ")
+    if base in (*after, file.resolve()):
+        raise RequestError(f"{shown(file)}: scene = {declared.shown(written)}: begins from itself")
+    return [*_files(base, name, folder, (*after, file.resolve())), (file, values)]
+
+
+def _meant(file: Path, written: Any, own: tuple[str, Path] = ("", Path())) -> tuple[str, Path, str]:
+    """Name, folder and preset of the scene that a file names. A name means an installed scene, whatever is next to the
+    file, or the file's ``own``; a path means the user's own."""
     if isinstance(written, str) and _is_path(written):
-        return _by_path(path, written)
+        place = file.parent / written
+        folder, preset = (place, "") if (place / "scene.py").is_file() else (place.parent, place.name)
+        if not (folder / "scene.py").is_file():
+            raise RequestError(f"{file}: scene = {declared.shown(written)}: there is no scene.py in that folder")
+        return folder.resolve().name, folder.resolve(), preset
     name, slash, preset = written.partition("/") if isinstance(written, str) else ("", "", "")
     if not _is_word(name) or (slash and not _is_word(preset)):
         raise RequestError(
-            f'{path}: scene = {declared.shown(written)}: must be the name of a scene or preset, such as "golf" or '
+            f'{file}: scene = {declared.shown(written)}: must be the name of a scene or preset, such as "golf" or '
             '"golf/moon", or the path of a scene of your own, such as "./volleyball"'
         )
-    folder = installed_folder(name)
-    if folder is None:
-        own = path.parent / name
-        if (own / "scene.py").is_file():
+    if name == own[0]:
+        return *own, preset
+    installed = installed_folder(name)
+    if installed is None:
+        if (file.parent / name / "scene.py").is_file():
             raise RequestError(
-                f'{path}: {_unknown(name)}; for the folder next to this file write scene = "./{written}"'
+                f'{file}: {_unknown(name)}; for the folder next to this file write scene = "./{written}"'
             )
-        raise RequestError(f"{path}: {_unknown(name)}{_own_folder(path)}")
-    if preset and path.resolve().parent == folder / "presets":
-        raise RequestError(f'{path}: scene = "{written}", but a file in this folder is for {name}')
-    return _based(path, name, folder, preset)
-
-
-def _by_path(path: Path, written: str) -> Found:
-    """The scene of a scene file that gives the path of its folder."""
-    place = path.parent / written
-    folder, preset = (place, "") if (place / "scene.py").is_file() else (place.parent, place.name)
-    if not (folder / "scene.py").is_file():
-        raise RequestError(f"{path}: scene = {declared.shown(written)}: there is no scene.py in that folder")
-    folder = folder.resolve()
-    return _based(path, folder.name, folder, preset)
-
-
-def _based(path: Path, name: str, folder: Path, preset: str) -> Found:
-    """A scene and the file for it, which begins from one of its presets, if any."""
-    base = _preset(name, folder, preset, f"{path}: ") if preset else None
-    is_preset = path.resolve().parent == folder / "presets"
-    return Found(name, folder, path, base, path.stem if is_preset else None)
+        raise RequestError(f"{file}: {_unknown(name)}{_own_folder(file)}")
+    return name, installed, preset
 
 
 def _as_path(folder: Path) -> str:
