@@ -22,7 +22,7 @@ def of_user_code(error: BaseException) -> str | None:
     return "".join([*head, *traceback.format_list(shown), *traceback.format_exception_only(error)])
 
 
-def one_line_error(error: Exception) -> str:
+def one_line_error(error: BaseException) -> str:
     """The error on one line, for a table cell; for a user's code with file and line: ``"ZeroDivisionError: division by
     zero (volleyball/scene.py, line 12)"``."""
     text = " ".join(str(error).split())

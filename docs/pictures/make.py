@@ -14,7 +14,6 @@ from PIL import Image
 import sandbox
 from sandbox.cli import main as program
 from sandbox.picture.frames import to_image
-from sandbox.window import aim
 from sandbox.window.app import App
 from sandbox.window.game import Game
 from sandbox.window.session import Session
@@ -26,6 +25,8 @@ HERE = Path(__file__).resolve().parent
 SPORTS = ("golf", "basketball/bank-shot", "billiards/nine-ball-break", "soccer/dipping-free-kick")
 SIZE, GAP = (720, 405), 6  # px
 WINDOW, FRAME = (1280, 720), 1 / 60  # px, s
+#: The pull of the free throw that goes in, in px.
+PULL = (-111, 142)
 QUALITY = 88  # of JPEG: the smallest at which letters stay clean
 
 SWEEP = ("sweep", "basketball", "--over", "launch.speed=6.8:8.6:73", "--over", "launch.angle=40:70:61")
@@ -78,8 +79,7 @@ def window() -> None:
     for key in (pygame.K_TAB, pygame.K_f):
         post(app, pygame.KEYDOWN, key=key, mod=0, unicode="", scancode=0)
     x, y = (round(value) for value in view.stage.ball_at(game.shot))
-    pull = aim.Pull((x, y), aim.strongest(game.session), view.area.height, 1.0)
-    across, down = pull.vector_of(game.session)
+    across, down = PULL
     post(app, pygame.MOUSEBUTTONDOWN, pos=(x, y), button=1)
     for share in (0.4, 0.7, 1.0):
         place = round(x + share * across), round(y + share * down)

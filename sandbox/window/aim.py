@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import atan2, cos, degrees, hypot, radians, sin
+from math import atan2, degrees, hypot
 from typing import Any
 
 from sandbox.parameters import Parameter
@@ -72,18 +72,6 @@ class Pull:
             controls.speed: speed.within(float(f"{self.strongest * self.share**1.5:.4g}")),
             controls.angle: _turned(angle, round(degrees(atan2(down / self.stretch, -along)), 2)),
         }
-
-    def vector_of(self, session: Session) -> tuple[float, float]:
-        """The pull that would give the current shot."""
-        controls = session.controls
-        speed, angle = session.value(controls.speed), session.value(controls.angle)
-        if not isinstance(speed, float) or not isinstance(angle, float):
-            return (0.0, 0.0)
-        share = min(1.0, max(0.0, speed / self.strongest)) ** (2 / 3)
-        length = LEAST + share * (FULL * self.height - LEAST)
-        along, up = cos(radians(angle)), sin(radians(angle)) * self.stretch
-        scale = length / (hypot(along, up) or 1.0)
-        return (-along * scale, up * scale)
 
 
 def nudged(session: Session, turn: float = 0.0, push: float = 0.0) -> dict[str, Any]:

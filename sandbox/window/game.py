@@ -11,7 +11,9 @@ from concurrent.futures import Future
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from sandbox.errors import RunError, SandboxError
+from sandbox.errors import RunError
+from sandbox.scene.modules import forget
+from sandbox.tracebacks import one_line_error
 from sandbox.window import replay
 from sandbox.window.aim import Pull, strongest
 from sandbox.window.background import PATIENCE, Latest
@@ -23,7 +25,7 @@ from sandbox.window.replay import run_of
 from sandbox.window.session import Session
 from sandbox.window.shots import Played, Shot, Shots
 from sandbox.window.watch import Watch
-from sandbox.window.worker import computed, described, reread, warm_up
+from sandbox.window.worker import computed, warm_up
 from sandbox.workers import Processes, WorkerLost
 
 #: How long a message stays, in s.
@@ -65,8 +67,7 @@ class Game:
         self.runs: Latest[tuple[dict[str, Any], float]] = Latest()  # of worker.computed
         self.aimed: Shot | None = None  # of the last run that did not fail
         self.shooting = False  # the shot is watched as soon as it is computed
-        self.watched: Shot | None = None
-        self.playback: Playback | None = None  # of that; None while aiming
+        self.playback: Playback | None = None  # of the shot that is watched; None while aiming
         self.table = Shots()  # all shots
         self.before_save: Shot | None = None  # the shot as it was before the scene file was saved
         self.pull: Pull | None = None
@@ -88,7 +89,7 @@ class Game:
     @property
     def shot(self) -> Shot | None:
         """The shot as it is watched, or as it is aimed."""
-        return self.watched if self.playback is not None else self.aimed
+        return self.playback.shot if self.playback is not None else self.aimed
 
     @property
     def wanted(self) -> tuple[Any, ...]:
@@ -179,9 +180,7 @@ class Game:
         """An error in a line or two."""
         if isinstance(error, WorkerLost):
             return "the process that ran it was killed: out of memory?"
-        if isinstance(error, SandboxError) or not isinstance(error, Exception):
-            return str(error)
-        return described(error, self.session.base.folder)
+        return one_line_error(error)
 
     # ----------------------------------------------------------------------------------------------------- time passes
 
@@ -286,15 +285,24 @@ class Game:
         self.aim_again(from_rest=True)
         return self._changing(lambda: self.session.change(values), frozenset(values))
 
-    def _changing(self, action: Callable[[], object], what: object = None) -> bool:
-        """Do something that changes the parameters, of a kind ``what``; returns whether they are valid."""
+    def _changing(self, action: Callable[[], object], what: object = None, again: bool = False) -> bool:
+        """Do something that changes the parameters, of a kind ``what``, or does so ``again``, as undo does; returns
+        whether they are valid."""
+        base = self.session.base
         if not self.trying(action):
             return False
-        self.history.add(self.session.changes, what)
+        if not again:
+            self.history.add(self.session.changes, what)
         self.shooting = False
         if self.message is not None and self.message.bad:  # what was refused on the way
             self.message = None
+        if self.session.base is not base:
+            self._opened()
         return True
+
+    def _restore(self, changes: Changes, again: bool = True) -> bool:
+        """Aim with these parameters, maybe of another scene file; returns whether they are valid."""
+        return self._changing(lambda: self.session.restore(changes), again=again)
 
     def reset(self, key: str | None = None) -> None:
         """Take back what was changed in the window: one parameter, or all of them."""
@@ -322,16 +330,6 @@ class Game:
             shot = next((shot for shot in self.shots if shot.number == step.shot), None)
             if again and shot is not None:
                 self.watch(shot)
-
-    def _restore(self, changes: Changes) -> bool:
-        """Aim with these parameters, maybe of another scene file; returns whether they are valid."""
-        other = changes.source != self.session.source
-        if not self.trying(lambda: self.session.restore(changes)):
-            return False
-        self.shooting = False
-        if other:
-            self._opened()
-        return True
 
     def begin_again(self) -> None:
         """Put the balls back where the first of the continued shots began."""
@@ -406,9 +404,8 @@ class Game:
 
     def watch(self, shot: Shot) -> None:
         """Play one of the shots so far from its start."""
-        self.watched, self.still, self.shooting = shot, 0.0, False
-        rate = self.playback.rate if self.playback is not None else 1.0
-        self.playback = Playback(shot.run.duration, rate)
+        self.still, self.shooting = 0.0, False
+        self.playback = Playback(shot, self.playback.rate if self.playback is not None else 1.0)
 
     def watch_other(self, by: int) -> None:
         """Play the shot ``by`` places after the one that is watched."""
@@ -421,8 +418,7 @@ class Game:
     def aim_as(self, row: Played) -> None:
         """Aim with the parameters of an earlier shot."""
         self.aim_again()
-        if self._restore(row.changes):
-            self.history.add(self.session.changes)
+        if self._restore(row.changes, again=False):
             self.tell(f"aimed as shot {row.number}: {row.verdict}")
 
     def pin(self, row: Played) -> None:
@@ -437,15 +433,14 @@ class Game:
 
     def aim_again(self, from_rest: bool = False) -> None:
         """Stop watching a shot; with ``from_rest``, if it is over, the next begins where the balls came to rest."""
-        playback, shot = self.playback, self.shot
+        playback, self.playback = self.playback, None
         if playback is None:
             return
-        self.playback, self.still = None, 0.0
-        ours = shot is not None and shot.changes.source == self.session.source
-        if from_rest and playback.over and ours and self.session.controls.next_start is not None:
-            assert shot is not None
-            if self._changing(lambda: self.session.start_from(shot)):
-                self.tell("from where the balls rest; B puts them back where they began")
+        self.still = 0.0
+        ours = playback.shot.changes.source == self.session.source
+        goes_on = from_rest and playback.over and ours and self.session.controls.next_start is not None
+        if goes_on and self._changing(lambda: self.session.start_from(playback.shot)):
+            self.tell("from where the balls rest; B puts them back where they began")
 
     # ----------------------------------------------------------------------------------------------------- scene files
 
@@ -453,8 +448,8 @@ class Game:
         """Play another scene or preset, or watch a replay."""
         if source.endswith(replay.SUFFIX):
             self.trying(lambda: self.open_replay(Path(source)))
-        elif self._changing(lambda: self.session.open(source)):
-            self._opened()
+        else:
+            self._changing(lambda: self.session.open(source))
 
     def open_replay(self, path: Path, scene: str | None = None) -> None:
         """Watch a recorded shot, of ``scene`` if that is given. Raises RequestError."""
@@ -481,7 +476,7 @@ class Game:
             self.unreadable = self.reason(error)
             return
         if code:
-            self._everywhere(reread, folder)
+            self._everywhere(forget, folder)
         self.unreadable = None
         if self.session.base.folder != folder:
             self._opened()

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from sandbox.window.shots import Shot
+
 RATES = (1 / 16, 1 / 8, 1 / 4, 1 / 2, 1.0, 2.0, 4.0, 8.0)
 STEP = 1 / 60  # s of the shot, for one step by hand
 #: Longest time in s that one frame moves the clock at rate 1: a late frame slows the shot down instead of skipping.
@@ -9,12 +11,11 @@ LONGEST_FRAME = 1 / 30
 
 
 class Playback:
-    """The current time in a shot of ``duration`` s."""
+    """The current time in a shot."""
 
-    def __init__(self, duration: float, rate: float = 1.0) -> None:
-        self.duration, self.rate = duration, rate
-        self.t = 0.0
-        self.playing = True
+    def __init__(self, shot: Shot, rate: float) -> None:
+        self.shot, self.duration, self.rate = shot, shot.run.duration, rate
+        self.t, self.playing = 0.0, True
 
     @property
     def over(self) -> bool:

@@ -126,7 +126,7 @@ class TestAFailure:
         line = (game.session.base.folder / "scene.py").read_text("utf-8").splitlines().index(
             "    return 1 / (velocity[0] < 9), 0.0"
         )  # fmt: skip
-        assert f"scene.py, line {line + 1}: " in text
+        assert f"scene.py, line {line + 1})" in text
         game.shoot()
         assert game.playback is None
         game.change({"launch.speed": 8.0})

@@ -13,10 +13,8 @@ import pytest
 
 import sandbox
 from sandbox.scene import listings
-from sandbox.window import aim
 from sandbox.window.keys import TABLE
 from sandbox.window.playback import LONGEST_FRAME, STEP
-from sandbox.window.session import Session
 from sandbox.window.view import SMALLEST
 
 
@@ -73,17 +71,6 @@ def test_a_longer_pull_is_stronger_and_escape_leaves_it(player):
     assert not player.game.shots
     player.release((5, 5))
     assert not player.game.shots
-
-
-@pytest.mark.parametrize("source", ["golf", "basketball", "billiards", "soccer", "soccer-curl"])
-def test_the_pull_of_a_shot_gives_that_shot(source):
-    session = Session(source)
-    controls = session.controls
-    pull = aim.Pull((0, 0), aim.strongest(session), 672, 2.0)
-    pull.vector = pull.vector_of(session)
-    again = pull.changes(session)
-    assert again[controls.speed] == pytest.approx(session.value(controls.speed), abs=0.01)
-    assert again[controls.angle] == pytest.approx(session.value(controls.angle), abs=0.01)
 
 
 def test_a_click_is_no_shot(player):
