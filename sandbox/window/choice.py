@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 import numpy as np
 import pygame
 
 from sandbox.picture.palette import Colour, mix, palette
-from sandbox.window.canvas import Canvas
 from sandbox.window.measure import away_from
 from sandbox.window.overlay import Board, Row
 from sandbox.window.stage import draw_line
@@ -49,10 +48,10 @@ class Choice(Board):
         least, action = min(marks, default=(np.inf, found))
         return action if least <= self.near else found
 
-    def draw(self, sheet: Canvas, mouse: tuple[int, int], on: Collection[str]) -> None:
-        unit, painter = sheet.unit, sheet.painter
+    def compose(self) -> None:
+        sheet, unit, painter = self.sheet, self.sheet.unit, self.sheet.painter
         self.near = NEAR * unit
-        hovered = self.at(mouse) or self.chosen
+        hovered = self.at(self.mouse) or self.chosen
         for mark in sorted(self.marks(), key=lambda mark: mark.action == hovered):
             here, middle = mark.action == hovered, tuple(mark.line[len(mark.line) // 2])
             colour = mark.colour if here else mix(mark.colour, CARD["background"], 0.25)
@@ -63,4 +62,4 @@ class Choice(Board):
             painter.disc(middle, 12 * unit, CARD["background"], 0.85)
             painter.ring(middle, 11 * unit, 2.2 * unit, CARD["accent"] if here else colour)
             sheet.lettering.write(sheet.surface, mark.name, "small", middle, CARD["text"], "center", bold=True)
-        super().draw(sheet, mouse, on)
+        super().compose()

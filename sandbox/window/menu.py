@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Future
 
 import pygame
@@ -10,8 +10,7 @@ import pygame
 from sandbox.errors import SandboxError
 from sandbox.picture.palette import palette
 from sandbox.scene import load, simulate
-from sandbox.window.canvas import Canvas
-from sandbox.window.overlay import Row, Scrolled
+from sandbox.window.overlay import HOVERED, Row, Scrolled
 
 CARD = palette("card")
 
@@ -82,47 +81,41 @@ class Menu(Scrolled):
             self.chosen = self.rows[place]
             self.show(place)
 
-    def draw(self, sheet: Canvas, mouse: tuple[int, int], on: Collection[str]) -> None:
-        letters, gap, unit = sheet.lettering, sheet.gap, sheet.unit
+    def compose(self) -> None:
+        sheet, letters, gap, unit = self.sheet, self.sheet.lettering, self.sheet.gap, self.sheet.unit
         rect = sheet.surface.get_rect().inflate(-4 * gap, -4 * gap)
         sheet.board(rect)
         small, top = letters.height("small"), rect.top + letters.height("medium") + 3 * gap
         at, title = (rect.left + 3 * gap, rect.top + 2 * gap), letters.cut(TITLE, "medium", rect.width, bold=True)
-        letters.write(sheet.surface, title, "medium", at, CARD["text"], bold=True)
-        self.places.clear()
+        sheet.write(title, "medium", at, CARD["text"], bold=True)
         wide = max(round(COLUMN * unit), max(letters.width(name, "small", True) for name in self.groups) + 4 * gap)
         wide = min(wide, rect.width // 3)
         tall = min(small + gap, (rect.bottom - top - gap) // len(self.groups))
         for number, name in enumerate(self.groups):
             place = pygame.Rect(rect.left + gap, top + number * tall, wide, tall)
-            self.places.append((place, name))
             here = name == self.group
-            lit = 0.3 if here else 0.15 * place.collidepoint(mouse)
-            sheet.item(place, name, CARD["accent" if here else "quiet"], lit, here, place.left + 2 * gap)
+            self.part(place, name, name, "accent" if here else "quiet", lit=HOVERED * here, left=place.left + 2 * gap)
         frame = pygame.Rect((0, 0), [round(length * max(0.6, min(1.0, unit))) for length in THUMBNAIL])
         left, row_height = rect.left + wide + 3 * gap, max(frame.height + 2 * gap, 3 * small)
         self.seen = max(1, (rect.bottom - top - gap) // row_height)
         for number, row in enumerate(self.shown):
             place = pygame.Rect(left, top + number * row_height, rect.right - gap - left, row_height - gap)
-            self.places.append((place, row))
-            if row == self.chosen or place.collidepoint(mouse):
-                sheet.painter.panel(place, CARD["quiet"], 0.25, 6 * unit)
+            self.part(place, row)
             frame.midleft = place.left + gap, place.centery
-            self._picture(sheet, row.action, frame)
+            self._picture(row.action, frame)
             x, y, room = frame.right + 2 * gap, place.top + gap, place.right - frame.right - 3 * gap
-            colour = CARD["accent" if row.action in on else "text"]
-            letters.write(sheet.surface, letters.cut(row.text, "small", room, True), "small", (x, y), colour, bold=True)
+            colour = CARD["accent" if row.action in self.on else "text"]
+            sheet.write(letters.cut(row.text, "small", room, True), "small", (x, y), colour, bold=True)
             lines, most = letters.wrapped(row.about, "small", room), max(1, (place.height - gap) // small - 1)
             if len(lines) > most:
                 lines = [*lines[: most - 1], letters.cut(" ".join(lines[most - 1 :]), "small", room)]
             for line, text in enumerate(lines, 1):
-                letters.write(sheet.surface, text, "small", (x, y + line * small), CARD["quiet"])
+                sheet.write(text, "small", (x, y + line * small), CARD["quiet"])
         if len(self.rows) > self.seen:
             text = f"{self.first + 1} to {self.first + len(self.shown)} of {len(self.rows)}"
-            at = rect.right - 2 * gap, rect.top + 2 * gap
-            letters.write(sheet.surface, text, "small", at, CARD["quiet"], "topright")
+            sheet.write(text, "small", (rect.right - 2 * gap, rect.top + 2 * gap), CARD["quiet"], "topright")
 
-    def _picture(self, sheet: Canvas, source: str, frame: pygame.Rect) -> None:
+    def _picture(self, source: str, frame: pygame.Rect) -> None:
         """A thumbnail, asked for once it is seen."""
         if source not in self.pictures:
             self.pictures[source] = self.picture_of(source)
@@ -130,6 +123,6 @@ class Menu(Scrolled):
         pixels = picture.result() if picture.done() and not picture.cancelled() and not picture.exception() else b""
         if pixels:
             image = pygame.image.frombuffer(pixels, THUMBNAIL, "RGB")
-            sheet.surface.blit(pygame.transform.smoothscale(image, frame.size), frame)
+            self.sheet.surface.blit(pygame.transform.smoothscale(image, frame.size), frame)
         else:
-            sheet.painter.panel(frame, CARD["quiet"], 0.12, 4 * sheet.unit)
+            self.sheet.painter.panel(frame, CARD["quiet"], 0.12, 4 * self.sheet.unit)

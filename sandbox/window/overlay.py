@@ -13,6 +13,8 @@ from sandbox.window.canvas import Canvas
 
 CARD = palette("card")
 
+#: Opacity of the pale panel under what is chosen, or under the mouse.
+HOVERED = 0.27
 #: The step of each in columns and rows.
 ARROWS = {pygame.K_LEFT: (-1, 0), pygame.K_RIGHT: (1, 0), pygame.K_UP: (0, -1), pygame.K_DOWN: (0, 1)}
 
@@ -28,9 +30,22 @@ class Overlay:
         self.places: list[tuple[pygame.Rect, Any]] = []  # of what can be chosen
         self.chosen: Any = None  # by key
 
-    def draw(self, sheet: Canvas, mouse: tuple[int, int], on: Collection[str]) -> None:
+    def draw(self, sheet: Canvas, mouse: tuple[int, int], on: Collection[str] = ()) -> None:
         """Draw it; ``on`` are the actions that are switched on."""
+        self.sheet, self.mouse, self.on = sheet, mouse, on
+        self.places.clear()
+        self.compose()
+
+    def compose(self) -> None:
+        """Draw its parts."""
         raise NotImplementedError
+
+    def part(self, place: pygame.Rect, what: Any, text: str = "", colour: str = "text", **how: Any) -> None:
+        """Draw a text, or nothing, on what can be chosen: lit if it is chosen or under the mouse."""
+        self.places.append((place, what))
+        here = what == self.chosen or place.collidepoint(self.mouse)
+        colour = "text" if here and colour == "quiet" else colour
+        self.sheet.item(place, text, CARD[colour], max(how.pop("lit", 0.0), HOVERED * here), **how)
 
     def at(self, position: tuple[int, int]) -> Any:
         """What can be chosen at a place."""
@@ -76,10 +91,10 @@ class Chart(Overlay):
     def progress(self) -> bool:  # type: ignore[override]
         return self.work.done()
 
-    def draw(self, sheet: Canvas, mouse: tuple[int, int], on: Collection[str]) -> None:
+    def compose(self) -> None:
         if self.work.done():
-            surface = self.work.result()
-            sheet.surface.blit(surface, surface.get_rect(center=sheet.surface.get_rect().center))
+            surface, onto = self.work.result(), self.sheet.surface
+            onto.blit(surface, surface.get_rect(center=onto.get_rect().center))
 
 
 class Scrolled(Overlay):
@@ -115,10 +130,6 @@ class Row(NamedTuple):
     text: str
     key: str = ""
     about: str = ""
-
-    @property
-    def heading(self) -> bool:
-        return not self.action
 
 
 class Board(Overlay):
@@ -161,8 +172,8 @@ class Board(Overlay):
 
     # Drawing
 
-    def draw(self, sheet: Canvas, mouse: tuple[int, int], on: Collection[str]) -> None:
-        letters, gap = sheet.lettering, sheet.gap
+    def compose(self) -> None:
+        sheet, gap = self.sheet, self.sheet.gap
         head, row, columns, widths = self._fitted(sheet)
         rect = pygame.Rect(0, 0, sum(widths) + 2 * gap, head + row * max(map(len, columns)) + 2 * gap)
         if self.foot is None:
@@ -174,18 +185,12 @@ class Board(Overlay):
                 rect.bottom = min(self.foot.top, sheet.size[1]) - gap
         rect.clamp_ip(sheet.surface.get_rect())
         sheet.board(rect)
-        hovered = self.at(mouse) or self.chosen
         if head:
-            at = rect.left + 3 * gap, rect.top + gap
-            letters.write(sheet.surface, self.title, "medium", at, CARD["text"], bold=True)
-        self.places.clear()
+            sheet.write(self.title, "medium", (rect.left + 3 * gap, rect.top + gap), CARD["text"], bold=True)
         left = rect.left + gap
         for column, width in zip(columns, widths, strict=True):
             for number, each in enumerate(column):
-                place = pygame.Rect(left, rect.top + gap + head + number * row, width, row)
-                if each.action:
-                    self.places.append((place, each.action))
-                self._row(sheet, each, place, bool(each.action) and each.action == hovered, each.action in on)
+                self._row(each, pygame.Rect(left, rect.top + gap + head + number * row, width, row))
             left += width
 
     def _fitted(self, sheet: Canvas) -> tuple[int, int, list[list[Row]], list[int]]:
@@ -204,24 +209,25 @@ class Board(Overlay):
                 return head, row, columns, widths
         return head, row, columns, [room // len(columns)] * len(columns)
 
-    @staticmethod
-    def _row(sheet: Canvas, row: Row, place: pygame.Rect, hovered: bool, on: bool) -> None:
-        letters, gap = sheet.lettering, sheet.gap
-        colour = CARD["accent" if on or row.heading else "text" if hovered else "quiet"]
+    def _row(self, row: Row, place: pygame.Rect) -> None:
+        sheet, gap, right = self.sheet, self.sheet.gap, place.right - 2 * self.sheet.gap
+        if not row.action:
+            sheet.item(place, row.text, CARD["accent"], bold=True, left=place.left + 2 * gap)
+            return
+        on, key = row.action in self.on, sheet.lettering.width(row.key, "small", bold=True) + 2 * gap if row.key else 0
+        self.part(
+            place, row.action, row.text, "accent" if on else "quiet", left=place.left + 2 * gap, right=right - key
+        )
         if on:
             sheet.painter.disc((place.left + gap, place.centery), 3.5 * sheet.unit, CARD["accent"])
-        key = letters.width(row.key, "small", bold=True) + 2 * gap if row.key else 0
-        lit = 0.25 if hovered else 0.0
-        sheet.item(place, row.text, colour, lit, row.heading, place.left + 2 * gap, place.right - 2 * gap - key)
         if row.key:
-            at = place.right - 2 * gap, place.centery
-            letters.write(sheet.surface, row.key, "small", at, CARD["text"], "midright", bold=True)
+            sheet.write(row.key, "small", (right, place.centery), CARD["text"], "midright", bold=True)
 
     @staticmethod
     def _width(sheet: Canvas, row: Row) -> int:
         letters, gap = sheet.lettering, sheet.gap
         key = letters.width(row.key, "small", bold=True) + 4 * gap if row.key else 0
-        return letters.width(row.text, "small", bold=row.heading) + key + 4 * gap
+        return letters.width(row.text, "small", bold=not row.action) + key + 4 * gap
 
     def _columns(self, most: int) -> list[list[Row]]:
         """The rows in columns of at most so many; a group is split only if it is longer than a column."""

@@ -21,6 +21,8 @@ CARD = palette("card")
 WIDTH, NARROWEST = 320, 280  # px on 720 rows; px
 #: A slider reaches this many times the value in the file to either side, and at least this share of the bounds.
 REACH, LEAST_REACH = 1.5, 0.02
+#: Opacity of the pale panel under a field or a button.
+FIELD_LIT = 0.16
 #: Width of the field of a number in px where a line has 24, and radius of a slider's knob in px on 720 rows.
 FIELD, KNOB = 84, 7
 FAVOURITES, RESET_ALL = "this shot", "reset all"
@@ -278,54 +280,45 @@ class Panel(Scrolled):
         wide = min(max(NARROWEST, round(WIDTH * sheet.unit)), sheet.size[0] // 2)
         self.rect = pygame.Rect(sheet.size[0] - wide, 0, wide, height)
 
-    def draw_on(self, sheet: Canvas, mouse: tuple[int, int]) -> None:
-        """The group's name, and its rows."""
-        gap, self.knob = sheet.gap, round(KNOB * sheet.unit)
+    def compose(self) -> None:
+        sheet, gap, self.knob = self.sheet, self.sheet.gap, round(KNOB * self.sheet.unit)
         line = sheet.lettering.height("small") + gap
         sheet.surface.fill(CARD["background"], self.rect)
-        self.places.clear()
         inner = self.rect.inflate(-4 * gap, -3 * gap)
         half = (inner.width - gap) * 6 // 10
-        self._box(sheet, pygame.Rect(inner.topleft, (half, line)), self.group, FAVOURITES, mouse, mark=1)
+        self.part(pygame.Rect(inner.topleft, (half, line)), FAVOURITES, self.group, lit=FIELD_LIT, mark=1)
         place = pygame.Rect(inner.left + half + gap, inner.top, inner.width - half - gap, line)
-        self._box(sheet, place, RESET_ALL, RESET_ALL, mouse)
+        self.part(place, RESET_ALL, RESET_ALL, lit=FIELD_LIT)
         top, tall = inner.top + line + 2 * gap, 2 * line + gap // 2
         self.seen = max(1, (inner.bottom - top) // tall)
         rows = self.rows
         hovered = None
         for number, row in enumerate(self.shown):
             place = pygame.Rect(inner.left, top + number * tall, inner.width - gap, tall)
-            self._row(sheet, row, place, line, mouse)
-            hovered = row if place.collidepoint(mouse) else hovered
+            self._row(row, place, line)
+            hovered = row if place.collidepoint(self.mouse) else hovered
         if len(rows) > self.seen:
             bar = pygame.Rect(inner.right - gap // 2, top, max(2, gap // 2), self.seen * tall)
             sheet.surface.fill(mix(CARD["background"], CARD["quiet"], 0.2), bar)
             bar.top, bar.height = bar.top + bar.height * self.first // len(rows), bar.height * self.seen // len(rows)
             sheet.surface.fill(CARD["quiet"], bar)
         if hovered is not None:
-            self._tip(sheet, hovered.parameter, mouse[1])
+            self._tip(hovered.parameter, self.mouse[1])
 
-    def _box(
-        self, sheet: Canvas, place: pygame.Rect, text: str, what: Any, mouse: tuple[int, int], mark: int = 0
-    ) -> None:
-        """A button or a field with a text; one that opens a list has a mark."""
-        self.places.append((place, what))
-        sheet.item(place, text, CARD["text"], 0.3 if place.collidepoint(mouse) else 0.16, mark=mark)
-
-    def _row(self, sheet: Canvas, row: Setting, place: pygame.Rect, line: int, mouse: tuple[int, int]) -> None:
-        gap, words = sheet.gap, bool(row.parameter.choices)
+    def _row(self, row: Setting, place: pygame.Rect, line: int) -> None:
+        sheet, gap, words = self.sheet, self.sheet.gap, bool(row.parameter.choices)
         top = pygame.Rect(place.topleft, (place.width, line))
         below = top.move(0, line)
         reset = pygame.Rect(top.right - line, top.top, line, line)
         field = pygame.Rect(reset.left - gap // 2 - FIELD * line // 24, top.top, FIELD * line // 24, line)
         right = (reset.left if words else field.left) - gap
         colour = CARD["accent" if row.key == self.chosen else "text"]
-        sheet.item(top, self._name(sheet, row, right - top.left), colour, left=top.left, right=right)
+        sheet.item(top, self._name(row, right - top.left), colour, left=top.left, right=right)
         if row.value != row.base:
-            self._box(sheet, reset, "×", (row, RESET_OF), mouse)
+            self.part(reset, (row, RESET_OF), "×", lit=FIELD_LIT)
         typed = row.key == self.typing
-        text = self._typed(sheet, field.width - 2 * gap) if typed else row.written
-        self._box(sheet, below if words else field, text, (row, FIELD_OF), mouse, mark=words)
+        text = self._typed(field.width - 2 * gap) if typed else row.written
+        self.part(below if words else field, (row, FIELD_OF), text, lit=FIELD_LIT, mark=words)
         if typed:
             pygame.draw.rect(sheet.surface, CARD["accent"], field, 1, border_radius=gap)
             if self.whole:
@@ -340,14 +333,14 @@ class Panel(Scrolled):
             share = min(max((row.value - low) / ((high - low) or 1.0), 0.0), 1.0)
             sheet.painter.disc((groove.left + share * groove.width, groove.centery), self.knob, CARD["accent"])
 
-    def _typed(self, sheet: Canvas, room: int) -> str:
+    def _typed(self, room: int) -> str:
         """The text that is typed with its caret, from so far left that the caret is seen in ``room`` px."""
         before, caret = self.before, "" if self.whole else "|"
-        while sheet.lettering.width(before + caret, "small") > room:
+        while self.sheet.lettering.width(before + caret, "small") > room:
             before = before[1:]
         return before + caret + self.after
 
-    def _name(self, sheet: Canvas, row: Setting, room: int) -> str:
+    def _name(self, row: Setting, room: int) -> str:
         """The parameter's name with its unit, as much of it as fits."""
         key, unit = row.key, row.parameter.unit
         if key.endswith("]"):
@@ -355,12 +348,12 @@ class Panel(Scrolled):
         names = [key, key.rpartition(".")[2]] if self.group == FAVOURITES else [key.rpartition(".")[2]]
         texts = [name.replace("_", " ").replace(".", " ") for name in names]
         texts = [*(f"{text}  [{unit}]" if unit else text for text in texts), texts[-1]]
-        return next((text for text in texts if sheet.lettering.width(text, "small") <= room), texts[-1])
+        return next((text for text in texts if self.sheet.lettering.width(text, "small") <= room), texts[-1])
 
-    def _tip(self, sheet: Canvas, parameter: Parameter, row: int) -> None:
+    def _tip(self, parameter: Parameter, row: int) -> None:
         """What a parameter means, and its bounds, next to the panel."""
         text = f"{parameter.key}: {parameter.meaning}"
         if parameter.low is not None and parameter.high is not None:
             text += f"; from {parameter.low:g} to {parameter.high:g} {parameter.unit}".rstrip()
-        lines = sheet.lettering.wrapped(text, "small", self.rect.width)
-        sheet.card([(each, CARD["text"]) for each in lines], "topright", (self.rect.left - sheet.gap, row))
+        lines, left = self.sheet.lettering.wrapped(text, "small", self.rect.width), self.rect.left - self.sheet.gap
+        self.sheet.card([(each, CARD["text"]) for each in lines], "topright", (left, row))

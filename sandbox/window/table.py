@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 import pygame
 
 from sandbox.picture.palette import Colour, palette
 from sandbox.sport.amounts import amount
-from sandbox.window.canvas import Canvas
 from sandbox.window.overlay import Scrolled
 from sandbox.window.shots import Played, share_of, values_of
 
@@ -94,8 +93,8 @@ class Table(Scrolled):
 
     # Drawing
 
-    def draw(self, sheet: Canvas, mouse: tuple[int, int], on: Collection[str]) -> None:
-        gap, unit, letters = sheet.gap, sheet.unit, sheet.lettering
+    def compose(self) -> None:
+        sheet, gap, unit, letters = self.sheet, self.sheet.gap, self.sheet.unit, self.sheet.lettering
         rows, row = self.rows, letters.height("small") + gap
         wide, most = (round(share * side) for share, side in zip(SHARE, sheet.size, strict=True))
         tall = letters.height("medium") + (1 + len(rows)) * row + round(TALL * unit) + 7 * gap
@@ -104,12 +103,11 @@ class Table(Scrolled):
         sheet.board(rect)
         inner = rect.inflate(-4 * gap, -3 * gap)
         title = f"{len(rows)} shots" if len(rows) != 1 else "1 shot"
-        letters.write(sheet.surface, title, "medium", inner.topleft, CARD["text"], bold=True)
-        self.places.clear()
+        sheet.write(title, "medium", inner.topleft, CARD["text"], bold=True)
         right = inner.right
         for action, (_, text) in reversed(ACTIONS.items()):
             place = letters.rect(text, "small", (right, inner.top), "topright", bold=True).inflate(2 * gap, gap)
-            self._button(sheet, place, text, action, mouse)
+            self.part(place, action, text, "quiet", bold=True)
             right = place.left - 2 * gap
         top = inner.top + letters.height("medium") + gap
         columns: dict[str, tuple[int, int]] = {}  # left end and width of each
@@ -121,36 +119,20 @@ class Table(Scrolled):
                 break
             columns[key] = left, wide
             mark = 0 if key != self.by else 1 if self.falling else -1
-            self._button(sheet, pygame.Rect(left, top, wide, row), label, f"={key}", mouse, mark)
+            colour = "accent" if mark else "quiet"
+            self.part(pygame.Rect(left, top, wide, row), f"={key}", label, colour, bold=True, mark=mark)
             left += wide
         foot = inner.bottom - round(TALL * unit) - 2 * gap
         self.seen = max(1, (foot - top - row) // row)
         for number, played in enumerate(self.shown, 1):
-            place = pygame.Rect(inner.left, top + row * number, inner.width, row)
-            self.places.append((place, played))
-            self._row(sheet, played, place, columns, mouse)
+            self._row(played, pygame.Rect(inner.left, top + row * number, inner.width, row), columns)
         self.places.append((rect, ""))  # a click beside them does nothing
-        self._statistics(sheet, rows, pygame.Rect(inner.left, foot + gap, inner.width, inner.bottom - foot - gap))
+        self._statistics(rows, pygame.Rect(inner.left, foot + gap, inner.width, inner.bottom - foot - gap))
 
-    def _button(
-        self, sheet: Canvas, place: pygame.Rect, text: str, action: str, mouse: tuple[int, int], mark: int = 0
-    ) -> None:
-        self.places.append((place, action))
-        colour, lit = CARD["accent" if mark else "quiet"], 0.25 * place.collidepoint(mouse)
-        sheet.item(place, text, colour, lit, bold=True, mark=mark)
-
-    def _row(
-        self,
-        sheet: Canvas,
-        played: Played,
-        place: pygame.Rect,
-        columns: dict[str, tuple[int, int]],
-        mouse: tuple[int, int],
-    ) -> None:
-        gap, unit = sheet.gap, sheet.unit
-        lit = 0.35 if played is self.chosen else 0.15 * place.collidepoint(mouse)
+    def _row(self, played: Played, place: pygame.Rect, columns: dict[str, tuple[int, int]]) -> None:
+        sheet, gap, unit = self.sheet, self.sheet.gap, self.sheet.unit
         left = sum(list(columns.values())[-1])
-        sheet.item(place, played.verdict, CARD["good" if played.scored else "quiet"], lit, left=left + gap)
+        self.part(place, played, played.verdict, "good" if played.scored else "quiet", left=left + gap)
         if played.shot is not None:  # its path is kept
             spot, colour = (place.left + 2 * gap, place.centery), self.colour_of(played.number)
             if played.pinned:
@@ -163,9 +145,10 @@ class Table(Scrolled):
             cell = pygame.Rect(left, place.top, wide, place.height)
             sheet.item(cell, text, CARD["text"], left=left + (gap if key else 4 * gap))
 
-    def _statistics(self, sheet: Canvas, rows: Sequence[Played], room: pygame.Rect) -> None:
+    def _statistics(self, rows: Sequence[Played], room: pygame.Rect) -> None:
         """Mean and standard deviation of the column that the table is sorted by, its histogram, and who scores."""
-        letters, unit, small = sheet.lettering, sheet.unit, sheet.lettering.height("small")
+        sheet, letters, unit = self.sheet, self.sheet.lettering, self.sheet.unit
+        small = letters.height("small")
         lines, share, values = [], share_of(rows), values_of(rows, self.by)
         if share is not None:
             low, high = share.interval
@@ -178,7 +161,7 @@ class Table(Scrolled):
             lines.append(f"{self._label(self.by, rows)}: mean {mean}, standard deviation {spread}")
         for number, text in enumerate(lines):
             at = room.left, room.top + number * (small + sheet.gap)
-            letters.write(sheet.surface, letters.cut(text, "small", 0.62 * room.width), "small", at, CARD["text"])
+            sheet.write(letters.cut(text, "small", 0.62 * room.width), "small", at, CARD["text"])
         if len(values) < 2:
             return
         counts, ends = np.histogram(values, BINS)
@@ -190,7 +173,7 @@ class Table(Scrolled):
             sheet.surface.fill(CARD["accent"], bar)
         for value, anchor, x in ((ends[0], "topleft", plot.left), (ends[-1], "topright", plot.right)):
             text = self._amount(self.by, rows, float(value))
-            letters.write(sheet.surface, text, "small", (x, plot.bottom), CARD["quiet"], anchor)
+            sheet.write(text, "small", (x, plot.bottom), CARD["quiet"], anchor)
 
     @staticmethod
     def _label(key: str, rows: Sequence[Played]) -> str:

@@ -402,7 +402,7 @@ class View:
             sheet.messages([(text, True)])
         whole = Canvas(self.canvas)
         if self.has_panel:
-            self.panel.draw_on(whole, self.at if self.over is None else (-1, -1))
+            self.panel.draw(whole, self.at if self.over is None else (-1, -1))
         self.bar.draw(whole, self._bar_shown(), self.at)
         if self.over is not None:
             sheet = Canvas(self.canvas.subsurface((0, 0), (self.canvas.get_width(), self.area.height)))

@@ -123,7 +123,7 @@ def test_nothing_of_the_panel_overlaps_and_what_is_written_has_room(player, size
     for group in panel.groups:
         panel.turn_to(group)
         written.clear()
-        panel.draw_on(Canvas(player.view.canvas), (-1, -1))
+        panel.draw(Canvas(player.view.canvas), (-1, -1))
         places = [rect for rect, _ in panel.places]
         assert all(panel.rect.contains(rect) for rect in places)
         for rects in (places, [rect for _, rect in written]):
