@@ -167,7 +167,8 @@ class Impacts:
                     place = *point, *(track.ball.radius * part for part in found.normal)
                     if all(dist(place, other) > _SAME_POINT * track.ball.radius for other in met):
                         met.append(place)
-                        yield with_surface(index, track.ball, states[index], obstacle.surface, found, number)
+                        contact = with_surface(index, track.ball, states[index], obstacle.surface, found, number)
+                        yield self._hopping(contact)
 
     def _soft(self, surface: Surface) -> bool:
         return self._all_soft or surface.nose_height is not None
@@ -177,7 +178,7 @@ class Impacts:
             balls = [self._tracks[index].ball for index in pair]
             found = meeting(balls[0], states[pair[0]], balls[1], states[pair[1]], self.gap)
             for number in range(len(found.points)) if found.gap <= self.gap else ():
-                yield of_two(pair, balls, self._setup, found, number)
+                yield self._hopping(of_two(pair, balls, self._setup, found, number))
 
     # ------------------------------------------------------------------ impulses
 
@@ -185,11 +186,6 @@ class Impacts:
         """A single contact of balls."""
         balls, self._numerics.pymunk_steps = self._balls(contact), self._numerics.pymunk_steps + 1
         after = after_one(balls, [states[index] for index in contact.balls], contact)
-        apart = [state[2] * contact.nx + state[3] * contact.ny for state in after]
-        lacking = self._slowest_hop - (apart[0] - sum(apart[1:]))
-        if lacking > 0.0:
-            push = lacking / sum([1.0 / ball.mass for ball in balls])
-            after = after_impulses(balls, after, contact.nx, contact.ny, (push, 0.0, 0.0))
         states.update(zip(contact.balls, after, strict=True))
 
     def _exchange_at_once(self, states: dict[int, State], found: Sequence[Contact]) -> None:
@@ -204,7 +200,7 @@ class Impacts:
         balls = [track.ball for track in self._tracks]
         most = (1.0 + _GAIN) * self._energy(states) + len(found) * self._heaviest * self._slowest_hop**2
         wanted = [
-            (self._hopping(contact).restitution, friction_in_plane(contact.bounce.friction, *contact.speeds[1:]))
+            (contact.bounce.restitution, friction_in_plane(contact.bounce.friction, *contact.speeds[1:]))
             for contact in found
         ]
         friction = restitution = 1.0
@@ -242,12 +238,12 @@ class Impacts:
     def _balls(self, contact: Contact) -> list[Ball]:
         return [self._tracks[index].ball for index in contact.balls]
 
-    def _hopping(self, contact: Contact) -> Bounce:
-        """The bounce with enough restitution to separate no slower than the slowest hop."""
+    def _hopping(self, contact: Contact) -> Contact:
+        """The contact with enough restitution to separate no slower than the slowest hop."""
         bounce, slowest = contact.bounce, self._slowest_hop
         if contact.speed <= CLOSING or bounce.restitution * contact.speed >= slowest:
-            return bounce
-        return bounce._replace(restitution=slowest / contact.speed)
+            return contact
+        return contact._replace(bounce=bounce._replace(restitution=slowest / contact.speed))
 
     def _pay_for_hops(self, before: dict[int, State], after: dict[int, State]) -> None:
         """Remove the energy that minimum hops added from the motion of all balls: energy never increases."""

@@ -182,15 +182,11 @@ class Simulation:
 
     def _end_arc(self, t: float, index: int, reason: str) -> None:
         """Handle the end of an arc."""
-        track = self._tracks[index]
-        track.keep(t)
-        track.state = track.arc.state(track.arc.t1)
+        track, until = self._tracks[index], self._setup.until
+        track.arrive(t, track.arc.state(track.arc.t1))
         track.conclude(reason)
-        until = self._setup.until
-        if reason == "" and isinstance(until, Until) and until.passed(track.arc.start, track.state):
-            self._over = True
-            track.arc = still(t, t, track.state, track.contact)
-        elif reason == "":
+        if reason == "":
+            self._over = isinstance(until, Until) and bool(until.passed(track.arc.start, track.state))
             self._plan(index, t)
         else:
             track.arc = still(t, t, track.state)
@@ -209,14 +205,13 @@ class Simulation:
         for hit in outcome.hits:
             self._numerics.impacts += 1
             track = self._tracks[hit.ball]
-            x, y = touching[hit.ball][:2] if hit.ball in touching else track.arc.position(t)
-            self._note(Event(hit.t, "impact", track.ball.name, hit.partner, hit.speed, x, y))
+            at = touching[hit.ball][:2] if hit.ball in touching else track.arc.position(t)
+            self._note(hit.t, "impact", track, hit.partner, at, hit.speed)
         if outcome.t > t:
             self._go_through(t, touching, outcome)
             return
         for index, state in outcome.states.items():
-            self._tracks[index].keep(t)
-            self._tracks[index].state = state
+            self._tracks[index].arrive(t, state)
         held: Collection[int] = ()
         if self._heaps_up and self._heap.presses(t, outcome.states):
             held = self._press_on(t, outcome.states.keys())
@@ -228,9 +223,7 @@ class Simulation:
         """Step the heap from t, with these balls if they press on others. Returns the balls in it."""
         members = set(self._heap.members)
         for index in members - set(joining):
-            track = self._tracks[index]
-            track.keep(t)
-            track.state = track.arc.state(t)
+            self._tracks[index].arrive(t, self._tracks[index].arc.state(t))
         states = {index: self._tracks[index].state for index in sorted(members.union(joining))}
         stepped = self._heap.step(t, self._setup.duration, states)
         for index, arc in stepped.items():
@@ -255,12 +248,10 @@ class Simulation:
         self._numerics.clusters += 1
         self._heap.release(parted.states.keys())
         for index, state in parted.states.items():
-            self._tracks[index].keep(t)
             self._tracks[index].meet(t, parted.t, state)
             self._push(parted.t, "part", index)
         for index in touching.keys() - parted.states.keys() - self._heap.members:
-            self._tracks[index].keep(t)
-            self._tracks[index].state = touching[index]
+            self._tracks[index].arrive(t, touching[index])
             self._resume(index, t)
         if self._heap.members:
             self._press_on(t, ())
@@ -268,15 +259,16 @@ class Simulation:
     def _catch(self, t: float, index: int) -> None:
         """Remove a ball that is caught."""
         track = self._tracks[index]
-        track.keep(t)
+        x, y, vx, vy = track.arc.state(t)[:4]
+        track.arrive(t, track.arc.state(t))
         track.version += 1
         track.caught = True
-        x, y, vx, vy = track.arc.state(t)[:4]
         nearest = min(track.catches, key=lambda catch: catch.near(x, y).gap)
-        self._note(Event(t, "caught", track.ball.name, nearest.surface.name, (vx * vx + vy * vy) ** 0.5, x, y))
+        self._note(t, "caught", track, nearest.surface.name, (x, y), (vx * vx + vy * vy) ** 0.5)
 
-    def _note(self, event: Event) -> None:
-        self._events.append(event)
+    def _note(self, t: float, kind: str, track: Track, partner: str, at: Sequence[float], speed: float = 0.0) -> None:
+        """Note an event of the ball ``at`` a place, in m."""
+        self._events.append(Event(t, kind, track.ball.name, partner, speed, at[0], at[1]))
         if self._setup.ends_with(self._events):
             self._over = True
 
@@ -285,39 +277,29 @@ class Simulation:
     def _resume(self, index: int, t: float) -> None:
         """Continue from the ball's state: find its contacts and plan its next arc."""
         track = self._tracks[index]
-        before = track.contact
+        was = track.on
         track.settle(t, self._accuracy.settle)
-        self._note_contact(track, t, before)
-        if self._over:
-            track.arc = still(t, t, track.state, track.contact)  # nothing left to plan
-        else:
-            self._plan(index, t)
-
-    def _note_contact(self, track: Track, t: float, before: LastingContact | None) -> None:
-        after = track.contact
-        was = "" if before is None else before.obstacle.surface.name
-        now = "" if after is None else after.obstacle.surface.name
-        x, y = track.state[:2]
-        if was and was != now:
-            self._note(Event(t, "leave", track.ball.name, was, 0.0, x, y))
-        if after is not None and was != now and after.mode != RESTING:
-            self._note(Event(t, "contact", track.ball.name, now, 0.0, x, y))
+        if was and was != track.on:
+            self._note(t, "leave", track, was, track.state)
+        if track.contact is not None and was != track.on and track.contact.mode != RESTING:
+            self._note(t, "contact", track, track.on, track.state)
+        self._plan(index, t)
 
     def _note_rest(self, track: Track, t: float) -> None:
         rested, track.at_rest = track.at_rest, track.arc.rests
-        if track.at_rest and not rested and (t > 0.0 or track.contact is not None):
-            on = "" if track.contact is None else track.contact.obstacle.surface.name
-            self._note(Event(t, "rest", track.ball.name, on, 0.0, *track.state[:2]))
+        if track.at_rest and not rested and (t > 0.0 or track.on):
+            self._note(t, "rest", track, track.on, track.state)
 
     def _plan(self, index: int, t: float) -> None:
         """Create a new arc from the ball's state at t, and predict the first event on it."""
-        track = self._tracks[index]
+        track, kind = self._tracks[index], ""
         track.version += 1
-        if t < self._setup.duration:
-            arc, kind = track.advance(t, self._setup.duration)
+        if t < self._setup.duration and not self._over:
+            track.arc, kind = track.advance(t, self._setup.duration)
         else:
-            arc, kind = still(t, t, track.state, track.contact), ""
-        track.arc = arc
+            track.arc = still(t, t, track.state, track.contact)
+        if self._over:
+            return  # nothing left to plan
         self._note_rest(track, t)
         own = None if track.contact is None else track.contact.obstacle
         self._predict(index, t, kind, lambda other: other is own, range(len(self._tracks)))

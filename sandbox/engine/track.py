@@ -68,7 +68,17 @@ class Track:
         u = obstacle.first_touch(self.arc)
         return None if u is None else self.arc.t0 + u * (self.arc.t1 - self.arc.t0)
 
-    def keep(self, t: float) -> None:
+    @property
+    def on(self) -> str:
+        """The name of the surface that it is in lasting contact with, if any."""
+        return "" if self.contact is None else self.contact.obstacle.surface.name
+
+    def arrive(self, t: float, state: State) -> None:
+        """It has moved on its arc up to t, and is in this state there."""
+        self._keep(t)
+        self.state = state
+
+    def _keep(self, t: float) -> None:
         """Add the arc up to t to the path."""
         if t < self.arc.t0:
             return  # within a contact that is already in the path
@@ -77,7 +87,8 @@ class Track:
             self.path.append(arc)
 
     def meet(self, t: float, until: float, state: State) -> None:
-        """Add a contact that lasts from t to ``until`` and ends in ``state``; the path is complete up to t."""
+        """Add the arc up to t, and a contact that lasts from then to ``until`` and ends in ``state``."""
+        self._keep(t)
         before = self.arc.state(t)
         arc = through(t, until - t, before[:5], (0.0, 0.0, 0.0), state[:5], (0.0, 0.0, 0.0), PRESSED)
         arc.start, arc.end = before, state
@@ -91,7 +102,7 @@ class Track:
         follows."""
         if t < self.arc.t0:
             return  # within a contact
-        self.keep(t)
+        self._keep(t)
         last, before = self.arc.until(t), self.path[-1]
         if last.t1 == last.t0 and any(
             abs(a - b) > _SAME for a, b in zip(last.start[2:], before.state(t)[2:], strict=True)
@@ -143,12 +154,12 @@ class Track:
             self._numerics.refined_steps += 1
             h = wanted = following
         self.next_step = following
-        self._check(t + h, end)
+        self._setup.bounds.check(t + h, ball.name, end)
         self._known = (end, last)
         return through(t, h, state, acceleration, end, last, contact)
 
     def _too_short(self, t: float, h: float, after: State, acceleration: Acceleration) -> RunError:
-        self._check(t + h, after)
+        self._setup.bounds.check(t + h, self.ball.name, after)
         if not all(map(isfinite, acceleration)):
             return RunError(
                 f"t = {t + h:.6g} s, ball {self.ball.name!r}: a force or torque is not finite; check the scene's forces"
@@ -156,25 +167,6 @@ class Track:
         return RunError(
             f"t = {t:.6g} s, ball {self.ball.name!r}: the velocity changes too fast for any step "
             f"(down to {h:.1e} s); look for a force that is not smooth, or raise accuracy.tolerance"
-        )
-
-    def _check(self, t: float, state: State) -> None:
-        if self._setup.bounds.hold(state):
-            return
-        where = f"t = {t:.6g} s, ball {self.ball.name!r}: "
-        names, units = ("x", "y", "vx", "vy", "spin", "angle"), ("m", "m", "m/s", "m/s", "rad/s", "rad")
-        for quantity, unit, value in zip(names, units, state, strict=False):
-            if not isfinite(value):
-                raise RunError(
-                    f"{where}{quantity} is {value} {unit}; "
-                    "check the forces, or lower accuracy.step or accuracy.tolerance"
-                )
-        x, y = state[:2]
-        left, bottom, right, top = self._setup.bounds
-        quantity, value, low, high = ("x", x, left, right) if not left <= x <= right else ("y", y, bottom, top)
-        raise RunError(
-            f"{where}{quantity} = {value:.6g} m is outside the world ({low:g} to {high:g} m); shorten the duration, or "
-            "widen the scene's bounds"
         )
 
     # ------------------------------------------------------------------ lasting contact
