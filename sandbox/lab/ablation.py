@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict, dataclass, replace
+from functools import partial
 from math import hypot, isclose
 from typing import Any, NamedTuple
 
@@ -20,6 +21,7 @@ from sandbox.physics.air import UniformWind
 from sandbox.physics.coefficients import Constant, spin_ratio_lift
 from sandbox.physics.forces import Drag, Magnus, SpinDecay
 from sandbox.physics.plane import without
+from sandbox.scene import compare
 from sandbox.scene.running import simulate_at
 from sandbox.sport.amounts import significant
 
@@ -148,29 +150,24 @@ def ablation(reference: Reference) -> list[Ablated]:
             rows.append(replace(row, problem=str(error)))
             continue
         touch = min([reference.first_touch, *(event.t for event in run.events)])
-        rows.append(
-            replace(
-                row,
-                verdict=(before, verdict(scene, run.result)),
-                shift_m=apart(*(looked_at(scene, one, reference.time) for one in (whole, run))),
-                flight_m=apart(*(places(one, names, touch) for one in (whole, run))),
-                results=_differences(whole, run),
-            )
+        row = replace(
+            row,
+            verdict=(before, verdict(scene, run.result)),
+            shift_m=apart(*(looked_at(scene, one, reference.time) for one in (whole, run))),
+            flight_m=apart(*(places(one, names, touch) for one in (whole, run))),
+            results=_differences(whole, run),
         )
+        rows.append(row)
     return rows
 
 
 def _differences(a: Run, b: Run) -> dict[str, tuple[float, float]]:
     """The numbers of the result that differ, in the scene's order."""
-    numbers = [
-        {name: float(value) for name, value in run.result.items() if isinstance(value, int | float)} for run in (a, b)
-    ]
+    both = {name: (a.result[name], b.result[name]) for name in compare(a, b).errors}
     return {
-        name: (value, numbers[1][name])
-        for name, value in numbers[0].items()
-        if not isinstance(a.result[name], bool)
-        and name in numbers[1]
-        and not isclose(value, numbers[1][name], rel_tol=_SAME)
+        name: (float(one), float(other))
+        for name, (one, other) in both.items()
+        if isinstance(one, int | float) and not isclose(one, other, rel_tol=_SAME)
     }
 
 
@@ -210,24 +207,23 @@ def _without(setup: Setup, name: str) -> Setup:
 
 def _in_air(setup: Setup) -> Iterator[tuple[str, str, Setup]]:
     """Coefficients as at the start; wind, lift and spin decay."""
-    if any(ball.loss is not None for ball in setup.balls):
+    balls = setup.balls
+    if any(ball.loss is not None for ball in balls):
         yield "loss of mass", "left out", _on_balls(setup, lambda ball: replace(ball, loss=None))
-    forces = [force for ball in setup.balls for force in ball.forces if hasattr(force, "wind")]
     for kind, part in ((Drag, "drag coefficient"), (Magnus, "lift coefficient")):
-        for ball in setup.balls[:1]:
+        for ball in balls[:1]:
             start = [_at_start(ball, force) for force in ball.forces if isinstance(force, kind) and _varies(force)]
             if any(start):
-                how = f"{start[0]:.3f} as at the start"
-                yield part, how, _on_balls(setup, lambda ball, kind=kind: _steady(ball, kind))  # type: ignore[misc]
+                yield part, f"{start[0]:.3f} as at the start", _on_balls(setup, partial(_steady, kind=kind))
+    forces = [force for ball in balls for force in ball.forces if hasattr(force, "wind")]
     if any(force.wind is not None for force in forces):
-        yield "wind", "left out", _on_balls(setup, lambda ball: _in_wind(ball, None))
+        yield "wind", "left out", _on_balls(setup, partial(_in_wind, wind=None))
     elif forces:
-        headwind = UniformWind(-1.0, 0.0)
-        yield "wind", "added, 1 m/s headwind", _on_balls(setup, lambda ball: _in_wind(ball, headwind))
-    if not any(isinstance(force, Magnus) for force in forces):
+        yield "wind", "added, 1 m/s headwind", _on_balls(setup, partial(_in_wind, wind=UniformWind(-1.0, 0.0)))
+    lifted = [ball for ball in balls if any(isinstance(force, Magnus) for force in ball.forces)]
+    if not lifted:
         yield "lift", "added, equal to the spin ratio", _on_balls(setup, _with_lift)
-    spins = any(ball.spin and isinstance(force, Magnus) for ball in setup.balls for force in ball.forces)
-    if spins and not any(ball.torques for ball in setup.balls):
+    if any(ball.spin for ball in lifted) and not any(ball.torques for ball in balls):
         yield "spin decay", "added, as of a golf ball", _on_balls(setup, _with_decay)
 
 
@@ -275,32 +271,18 @@ def _with_decay(ball: Ball) -> Ball:
 
 
 def _at_contacts(setup: Setup) -> Iterator[tuple[str, str, Setup]]:
-    def surfaces(change: Callable[[Surface], Surface]) -> Setup:
-        return replace(setup, surfaces=[change(surface) for surface in setup.surfaces])
-
-    yield "bounce law", "as for a slow bounce", surfaces(lambda s: replace(s, law=None))
-    for part, name in (("deformation of the ground", "tilt"), ("restitution along surfaces", "tangential")):
-        yield part, "left out", surfaces(lambda s, name=name: replace(s, law=s.law and _law_without(s.law, name)))  # type: ignore[misc]
-    yield (
-        "friction of surfaces",
-        "left out",
-        surfaces(lambda s: replace(s, friction=0.0, law=s.law and _law_without(s.law, "friction"))),
-    )
-    yield "rolling resistance", "left out", surfaces(lambda s: replace(s, rolling_resistance=0.0))
-    lower = surfaces(lambda s: replace(s, lowest_bounce=0.1 * s.lowest_bounce))
-    yield "loss of low bounces", "a tenth of the height", lower
-    yield "cushion nose", "at the ball's centre", surfaces(lambda s: replace(s, nose_height=None))
+    for (part, change), changed in _OF_SURFACES.items():
+        yield part, change, replace(setup, surfaces=[changed(surface) for surface in setup.surfaces])
     if len(setup.balls) > 1:
-        rigid = replace(setup, contact=replace(setup.contact, name="rigid"))
-        yield "contact mechanics", "one impact after another", rigid
-        law = setup.between_balls
-        yield "friction of balls (throw)", "left out", replace(setup, between_balls=_law_without(law, "friction"))
+        law, throw = setup.between_balls, "friction of balls (throw)"
+        yield (
+            "contact mechanics",
+            "one impact after another",
+            replace(setup, contact=replace(setup.contact, name="rigid")),
+        )
+        yield throw, "left out", replace(setup, between_balls=_law_without(law, "friction"))
         if law(*_FAST) != law(*_SLOW):
-            yield (
-                "friction of balls (throw)",
-                "at any speed as at 1 m/s",
-                replace(setup, between_balls=Always(law(*_SLOW))),
-            )
+            yield throw, "at any speed as at 1 m/s", replace(setup, between_balls=Always(law(*_SLOW)))
 
 
 @dataclass(frozen=True)
@@ -319,13 +301,27 @@ def _law_without(law: Law, part: str) -> Law:
     return law if not getattr(law(*_FAST), part) else _Without(law, part)
 
 
+def _less(surface: Surface, part: str) -> Surface:
+    """The surface without a part of its law, if it has one."""
+    return replace(surface, law=surface.law and _law_without(surface.law, part))
+
+
+#: How each part of what surfaces do is left out, or simplified.
+_OF_SURFACES: dict[tuple[str, str], Callable[[Surface], Surface]] = {
+    ("bounce law", "as for a slow bounce"): lambda s: replace(s, law=None),
+    ("deformation of the ground", "left out"): lambda s: _less(s, "tilt"),
+    ("restitution along surfaces", "left out"): lambda s: _less(s, "tangential"),
+    ("friction of surfaces", "left out"): lambda s: replace(_less(s, "friction"), friction=0.0),
+    ("rolling resistance", "left out"): lambda s: replace(s, rolling_resistance=0.0),
+    ("loss of low bounces", "a tenth of the height"): lambda s: replace(s, lowest_bounce=0.1 * s.lowest_bounce),
+    ("cushion nose", "at the ball's centre"): lambda s: replace(s, nose_height=None),
+}
+
+
 def _on_plane(setup: Setup) -> Iterator[tuple[str, str, Setup]]:
     every = [] if setup.plane is None else [setup.plane, *(plane for _, plane in setup.planes)]
     parts = {(term, plane.name): called for plane in every for term, called in plane.TERMS.items()}
     for (term, name), called in parts.items():
-
-        def change(plane: Any, term: str = term, name: str = name) -> Any:
-            return without(plane, term) if plane.name == name else plane
-
-        planes = [(ball, change(plane)) for ball, plane in setup.planes]
-        yield f"{called} of the {name}", "left out", replace(setup, plane=change(setup.plane), planes=planes)
+        own, *others = [without(plane, term) if plane.name == name else plane for plane in every]
+        planes = [(ball, plane) for (ball, _), plane in zip(setup.planes, others, strict=True)]
+        yield f"{called} of the {name}", "left out", replace(setup, plane=own, planes=planes)
