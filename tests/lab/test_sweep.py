@@ -31,18 +31,13 @@ from sandbox.lab.plan import CHANGED, Plan, records
 from sandbox.lab.provenance import provenance
 from sandbox.lab.row_file import RowFile, cell
 from sandbox.lab.runs import runs
-from sandbox.lab.sweep import RowsInOrder, jobs_that_pay, sweep_to_file, workers
+from sandbox.lab.sweep import RowsInOrder, Written, jobs_that_pay, sweep_to_file, workers
 from sandbox.scene import Scene, compare, load, simulate
 from sandbox.scene.modules import read_again
 from sandbox.scene.running import simulate_at
 from sandbox.workers import Processes
 from sandbox.workers import cluster as cluster_of
-
-DROP = Path(__file__).parents[1] / "scenes" / "drop"
-COMMAND = [sys.executable, "-c", "import sys; from sandbox.cli import main; sys.exit(main())"]
-
-#: In scene.py of drop, where a test puts code of its own.
-BUILD = "def build(parameters: Parameters) -> Setup:\n"
+from tests.own_scene import BUILD, COMMAND, DROP, change, copy_of
 
 
 @pytest.fixture
@@ -52,10 +47,8 @@ def drop() -> Scene:
 
 def own_scene(folder: Path, in_build: str) -> Path:
     """A copy of drop that does something more in ``build``."""
-    scene = Path(shutil.copytree(DROP, folder / "drop", ignore=shutil.ignore_patterns("__pycache__")))
-    source = (scene / "scene.py").read_text("utf-8")
-    assert BUILD in source
-    (scene / "scene.py").write_text(source.replace(BUILD, BUILD + in_build), "utf-8")
+    scene = copy_of(DROP, folder / "drop")
+    change(scene / "scene.py", BUILD, BUILD + in_build)
     return scene
 
 
@@ -222,24 +215,11 @@ def test_a_checked_sweep_tells_errors_and_what_hangs_on_the_accuracy():
 
 
 def test_cells():
-    values = [
-        None,
-        float("nan"),
-        True,
-        1.0,
-        0.1 + 0.2,
-        3,
-        "a\nb",
-        ["x", 1.5],
-        {"a": [1]},
-        np.float64(2.5),
-        np.bool_(False),
-        [float("nan"), "\x9b"],
-    ]
-    assert [cell(value) for value in values] == [
-        "", "", "true", "1.0", "0.30000000000000004", "3", "a b", '["x", 1.5]', '{"a": [1]}', "2.5", "false",
-        '[null, "\\u009b"]',
-    ]  # fmt: skip
+    values = [None, float("nan"), True, 1.0, 0.1 + 0.2, 3, "a\nb", np.float64(2.5), np.bool_(False)]
+    texts = ["", "", "true", "1.0", "0.30000000000000004", "3", "a b", "2.5", "false"]
+    assert [cell(value) for value in values] == texts
+    values = [["x", 1.5], {"a": [1]}, [float("nan"), "\x9b"]]
+    assert [cell(value) for value in values] == ['["x", 1.5]', '{"a": [1]}', '[null, "\\u009b"]']
 
 
 # The file ------------------------------------------------------------------------------------------------------------
@@ -261,89 +241,63 @@ def test_two_processes_write_the_same_file_as_one(drop, tmp_path):
     assert len(table(tmp_path / "two.csv")) == done.points == plan.size
 
 
+def resumed(plan: Plan, path: Path, left: bytes) -> Written:
+    """A sweep into a file in which an interrupted one left this."""
+    path.write_bytes(left)
+    path.with_name(f"{path.name}.resume").write_text(plan.fingerprint + "\n")
+    with workers(1) as pool:
+        return sweep_to_file(plan, path, pool)
+
+
 @pytest.mark.parametrize("kept", [0.05, 0.3, 0.61, 0.98])
 def test_a_file_cut_off_anywhere_is_gone_on_with(drop, tmp_path, kept):
     plan, path = grid(drop, "launch.height=0.5:2:40"), tmp_path / "rows.csv"
     expected = whole(plan, path)
-    path.write_bytes(expected[: int(kept * len(expected))])
-    path.with_name("rows.csv.resume").write_text(plan.fingerprint + "\n")
-    with workers(1) as pool:
-        done = sweep_to_file(plan, path, pool)
+    left = expected[: int(kept * len(expected))]
+    assert resumed(plan, path, left).resumed == max(0, left.count(b"\n") - 1)
     assert path.read_bytes() == expected
-    assert done.resumed == max(0, expected[: int(kept * len(expected))].count(b"\n") - 1)
 
 
-def damaged(content: bytes, kind: str) -> bytes:
-    lines = content.splitlines(keepends=True)
-    row = len(lines) // 2
-    old = lines[row]
-    lines[row] = {
-        "a row is missing": b"",
-        "NULs": b"\0" * len(old),
-        "a stray quote": b'"' + old,
-        "CRLF": old.replace(b"\n", b"\r\n"),
-        "no UTF-8": b"\xff" + old,
-        "another point": b"9" + old,
-        "a row twice": old + old,
-        "a cell too many": old.replace(b"\n", b",\n"),
-    }[kind]
-    return b"".join(lines)
+#: What may have become of a row in the middle of the file.
+DAMAGE = {
+    "missing": lambda row: b"",
+    "NULs": lambda row: b"\0" * len(row),
+    "a stray quote": lambda row: b'"' + row,
+    "CRLF": lambda row: row.replace(b"\n", b"\r\n"),
+    "no UTF-8": lambda row: b"\xff" + row,
+    "another point": lambda row: b"9" + row,
+    "twice": lambda row: row + row,
+    "a cell too many": lambda row: row.replace(b"\n", b",\n"),
+}
 
 
-@pytest.mark.parametrize(
-    "kind",
-    [
-        "a row is missing",
-        "NULs",
-        "a stray quote",
-        "CRLF",
-        "no UTF-8",
-        "another point",
-        "a row twice",
-        "a cell too many",
-    ],
-)
+@pytest.mark.parametrize("kind", DAMAGE)
 def test_damaged_rows_are_computed_again(drop, tmp_path, kind):
     plan, path = grid(drop, "launch.height=0.5:2:40"), tmp_path / "rows.csv"
     expected = whole(plan, path)
-    found = damaged(expected[: len(expected) * 4 // 5], kind)
-    path.write_bytes(found)
-    path.with_name("rows.csv.resume").write_text(plan.fingerprint + "\n")
-    with workers(1) as pool:
-        done = sweep_to_file(plan, path, pool)
+    lines = expected[: len(expected) * 4 // 5].splitlines(keepends=True)
+    lines[len(lines) // 2] = DAMAGE[kind](lines[len(lines) // 2])
+    done = resumed(plan, path, b"".join(lines))
     assert path.read_bytes() == expected
-    assert (tmp_path / "rows.csv~").read_bytes() == found
+    assert (tmp_path / "rows.csv~").read_bytes() == b"".join(lines)
     assert done.damaged == done.resumed + 1
     assert f"row {done.damaged} was damaged: computed again" in done.as_text()
 
 
-@pytest.mark.parametrize("found", ["{}\n", "{:.20}", "{}\n1.0,"])
-def test_a_first_line_without_rows_is_written_again(drop, tmp_path, found: str):
+def test_what_is_before_or_after_the_rows_is_mended(drop, tmp_path):
+    """A first line without rows is written again, rows beyond the last point are dropped, another header is refused."""
     plan, path = grid(drop, "launch.height=0.5:2:5"), tmp_path / "rows.csv"
-    expected = whole(plan, path)
-    path.write_text(found.format(",".join(plan.columns)))
-    path.with_name("rows.csv.resume").write_text(plan.fingerprint + "\n")
-    assert whole(plan, path) == expected
-    assert not path.with_name("rows.csv~").exists()
-
-
-def test_rows_beyond_the_last_point_are_dropped(drop, tmp_path):
-    plan, path = grid(drop, "launch.height=0.5:2:5"), tmp_path / "rows.csv"
-    expected = whole(plan, path)
-    path.write_bytes(expected + expected.splitlines(keepends=True)[-1])
-    path.with_name("rows.csv.resume").write_text(plan.fingerprint + "\n")
-    assert whole(plan, path) == expected
-
-
-@pytest.mark.parametrize("header", [b"\xff", b"speed,", b"error,", b'"'])
-def test_a_damaged_header_is_refused(drop, tmp_path, header):
-    plan, path = grid(drop, "launch.height=0.5:2:5"), tmp_path / "rows.csv"
-    found = header + whole(plan, path)
-    path.write_bytes(found)
-    path.with_name("rows.csv.resume").write_text(plan.fingerprint + "\n")
-    with workers(1) as pool, pytest.raises(RequestError, match="its first line is not what this sweep wrote"):
-        sweep_to_file(plan, path, pool)
-    assert path.read_bytes() == found
+    expected, header = whole(plan, path), ",".join(plan.columns).encode()
+    for left in (header + b"\n", header[:20], header + b"\n1.0,", expected + expected.splitlines(keepends=True)[-1]):
+        resumed(plan, path, left)
+        assert path.read_bytes() == expected
+        before = path.with_name("rows.csv~")
+        assert before.exists() is left.startswith(expected)
+        before.unlink(missing_ok=True)
+    for wrong in (b"\xff", b"speed,", b"error,", b'"'):
+        with pytest.raises(RequestError, match="its first line is not what this sweep wrote"):
+            resumed(plan, path, wrong + expected)
+        assert path.read_bytes() == wrong + expected
 
 
 def test_one_sweep_at_a_time_writes_a_file(drop, tmp_path, capsys):
@@ -702,17 +656,12 @@ def test_a_worker_that_loaded_the_scene_before_a_change_is_refused(tmp_path):
             plan = grid(load(folder), "launch.height=0.5:2:3")
         return [row["final_height"] for rows in RowsInOrder(plan, pool) for row in rows]
 
-    def change(old: str, new: str) -> None:
-        source = (folder / "scene.py").read_text("utf-8")
-        assert old in source
-        (folder / "scene.py").write_text(source.replace(old, new), "utf-8")
-
     try:
         before = heights()
-        change("-self.mass * self.gravity", "-self.mass * self.gravity * 1.5")
+        change(folder / "scene.py", "-self.mass * self.gravity", "-self.mass * self.gravity * 1.5")
         with pytest.raises(RunError, match="it differs in: the scene; restart it"):
             heights()
-        change(" * 1.5", "")
+        change(folder / "scene.py", " * 1.5", "")
         assert heights() == before
     finally:
         pool.close(abandon=True)
@@ -747,18 +696,21 @@ def test_rows_on_stdout(tmp_path):
     assert done.stdout.startswith("launch.height,bounces,")
 
 
+ROWS = ("--over", "launch.speed=1:2:3", "--out", "x.csv")
+
+
 @pytest.mark.parametrize(
     ("args", "told"),
     [
         (["--over", "launch.speed=1:2:3", "--out", "x.txt"], "must end in .csv"),
         (["--over", "launch.speed=1:2:3", "--out", "no/x.csv"], "there is no folder"),
-        (["--over", "launch.speed=1:2:3", "--out", "x.csv", "--of", "carry"], "goes with --plot"),
-        (["--over", "launch.speed=1:2:3", "--out", "x.csv", "--plot", "x.jpg"], "must end in .png"),
-        (["--over", "launch.speed=1:2:3", "--out", "x.csv", "--plot", "x.png", "--of", "aped"], "did you mean apex?"),
+        ([*ROWS, "--of", "carry"], "goes with --plot"),
+        ([*ROWS, "--plot", "x.jpg"], "must end in .png"),
+        ([*ROWS, "--plot", "x.png", "--of", "aped"], "did you mean apex?"),
         (["--over", "launch.speed=1:2:1", "--out", "x.csv", "--plot", "x.png"], "two values or more"),
-        (["--over", "launch.speed=1:2:3", "--out", "x.csv", "--samples", "0"], "--samples 0: must be a whole number"),
-        (["--over", "launch.speed=1:2:3", "--out", "x.csv", "--seed", "2"], "--seed 2: goes with --samples"),
-        (["--over", "launch.speed=1:2:3", "--out", "x.csv", "--plot", "x.png", "--of", "xyz"], "refined_steps\n"),
+        ([*ROWS, "--samples", "0"], "--samples 0: must be a whole number"),
+        ([*ROWS, "--seed", "2"], "--seed 2: goes with --samples"),
+        ([*ROWS, "--plot", "x.png", "--of", "xyz"], "refined_steps\n"),
         (["--out", "x.csv"], "--over"),
         (["--over", "launch.speed=1:2:3"], "--out"),
     ],
