@@ -20,11 +20,6 @@ def touched(run: Run) -> set[str]:
     return {event.partner for event in run.events}
 
 
-def test_the_card_says_nothing_of_a_wall_that_is_not_there():
-    there, gone = (dict((run := kick(wall__present=present)).scene.rows(run)) for present in (True, False))
-    assert set(there) - set(gone) == {"height at wall", "over the wall"}
-
-
 # Presets ------------------------------------------------------------------------------------------------------------
 
 
