@@ -1,4 +1,4 @@
-"""Arguments that several commands share: a scene, changes to it, whole numbers; read and checked."""
+"""Arguments that several commands share: a scene, and changes to it."""
 
 from __future__ import annotations
 
@@ -7,8 +7,6 @@ from functools import wraps
 from typing import TYPE_CHECKING, Any
 
 import click
-
-from sandbox.errors import RequestError
 
 if TYPE_CHECKING:
     from sandbox.scene import Scene
@@ -37,7 +35,7 @@ def changes_options(command: Command) -> Command:
     )
     @click.option(
         "--accuracy",
-        metavar="|".join(LEVELS),
+        type=click.Choice(LEVELS),
         help="Speed against accuracy, in place of the scene file's accuracy.level.",
     )
     @wraps(command)
@@ -46,8 +44,6 @@ def changes_options(command: Command) -> Command:
 
         changes = dict(map(parse_assignment, settings))
         if accuracy is not None:
-            if accuracy not in LEVELS:
-                raise RequestError(f"--accuracy {accuracy}: must be {', '.join(LEVELS[:-1])} or {LEVELS[-1]}")
             changes["accuracy.level"] = accuracy
         command(changes=changes, **arguments)
 
@@ -70,22 +66,6 @@ def units_option(command: Command) -> Command:
             command(**arguments)
 
     return in_units
-
-
-def whole_number(option: str, low: int, high: float = float("inf"), unit: str = "") -> Callable[[str], int]:
-    """A parser for the whole number of an option; its bounds are in ``unit``."""
-    bounds = f"of {low} or more" if high == float("inf") else f"from {low} to {high}"
-
-    def read(text: str) -> int:
-        try:
-            number = int(text)
-        except ValueError:
-            number = low - 1
-        if not low <= number <= high:
-            raise RequestError(f"{option} {text}: must be a whole number {bounds} {unit}".rstrip())
-        return number
-
-    return read
 
 
 def load(source: str, changes: dict[str, Any]) -> Scene:

@@ -7,7 +7,7 @@ from typing import Any
 
 import click
 
-from sandbox.cli.arguments import changes_options, json_option, load, optional_scene, scene_argument, whole_number
+from sandbox.cli.arguments import changes_options, json_option, load, optional_scene, scene_argument
 from sandbox.cli.say import json_text, say
 from sandbox.errors import RequestError, RunError
 from sandbox.files import writing
@@ -90,10 +90,10 @@ def aim(
 @click.option(
     "--samples",
     metavar="N",
-    type=whole_number("--samples", 1),
+    type=click.IntRange(1),
     help="Number of random points, within ranges and from lists.",
 )
-@click.option("--seed", metavar="N", type=whole_number("--seed", 0), help="Seed of the random points.  [default: 0]")
+@click.option("--seed", metavar="N", type=click.IntRange(0), help="Seed of the random points.  [default: 0]")
 @click.option("--check", is_flag=True, help="Run each point again, finer, and add its errors.")
 @click.option("--plot", metavar="F.png", type=Path, help="A map over two parameters, a curve over one.")
 @click.option(
@@ -103,7 +103,7 @@ def aim(
 @click.option(
     "--jobs",
     metavar="N",
-    type=whole_number("--jobs", 1, unit="processes"),
+    type=click.IntRange(1),
     help="Number of processes.  [default: as many as save time]",
 )
 @click.option("--scheduler", metavar="ADDRESS", help="Run on the workers of a Dask scheduler.")

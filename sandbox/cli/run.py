@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from sandbox.cli import outputs
-from sandbox.cli.arguments import changes_options, json_option, load, scene_argument, units_option, whole_number
+from sandbox.cli.arguments import changes_options, json_option, load, scene_argument, units_option
 from sandbox.cli.say import say
 from sandbox.errors import RequestError
 
@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 @click.option(
     "--fps",
     metavar="N",
-    type=whole_number("--fps", 1, 240, "frames per second"),
+    type=click.IntRange(1, 240),
     help="Frames per second of the run, from 1 to 240.  [default: 60 for --frames and --video, else 25]",
 )
 @click.option(

@@ -708,7 +708,7 @@ ROWS = ("--over", "launch.speed=1:2:3", "--out", "x.csv")
         ([*ROWS, "--plot", "x.jpg"], "must end in .png"),
         ([*ROWS, "--plot", "x.png", "--of", "aped"], "did you mean apex?"),
         (["--over", "launch.speed=1:2:1", "--out", "x.csv", "--plot", "x.png"], "two values or more"),
-        ([*ROWS, "--samples", "0"], "--samples 0: must be a whole number"),
+        ([*ROWS, "--samples", "0"], "'--samples': 0 is not in the range x>=1"),
         ([*ROWS, "--seed", "2"], "--seed 2: goes with --samples"),
         ([*ROWS, "--plot", "x.png", "--of", "xyz"], "refined_steps\n"),
         (["--out", "x.csv"], "--over"),
