@@ -16,7 +16,6 @@ from sandbox.errors import RequestError
 from sandbox.window import commands, replay
 from sandbox.window.background import steady
 from sandbox.window.game import Game
-from sandbox.window.keys import pressed
 from sandbox.window.memory import Memory, usual_place
 from sandbox.window.pointer import Pointer
 from sandbox.window.session import Session
@@ -43,7 +42,7 @@ class App:
 
     def __init__(self, game: Game, screen: pygame.Surface, sound: Sound | None = None, patience: float = 0.0) -> None:
         self.game, self.sound = game, sound
-        self.view = View(game, screen, sound, patience)
+        self.view = View(game, screen, sound, patience, commands.hint_of)
         self.pointer = Pointer(self.view)
         self.hidden = False  # minimised
         self.held: set[int] = set()  # keys
@@ -136,7 +135,7 @@ class App:
             case pygame.DROPFILE:
                 self.game.open(event.file)
             case pygame.KEYDOWN:
-                found, over = pressed(event.key, event.mod), view.over
+                found, over = commands.pressed(event.key, event.mod), view.over
                 stays = over.key(event.key) if over is not None and not event.mod & MODIFIED else None
                 if stays is not None:
                     view.over, view.changed = view.over if stays or view.over is not over else None, True
@@ -152,7 +151,7 @@ class App:
         self.held.add(event.key)
         if not repeats or typing:
             return True
-        found = pressed(event.key, event.mod)
+        found = commands.pressed(event.key, event.mod)
         if found is None or not found[0].repeats or event.key in self._repeated:
             return False
         self._repeated.add(event.key)

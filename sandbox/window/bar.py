@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Collection
 from functools import lru_cache
 
 import pygame
@@ -11,10 +11,13 @@ from sandbox.picture.lettering import Lettering
 from sandbox.picture.painter import OVERSAMPLING, scratch
 from sandbox.picture.palette import Colour, mix, palette
 from sandbox.window.canvas import Canvas
-from sandbox.window.keys import named
+from sandbox.window.playback import Playback
+from sandbox.window.shots import Shot
 
 CARD, TRACE = palette("card"), palette("trace")
 HEIGHT = 48  # px on 720 rows
+WORDS = "see", "keep", "more", "panel", "help"  # commands that are words, on the right
+MOST_TICKS = 200  # on the time line
 APART = 8  # px, at least, between two marks on the time line
 LEAST = 160  # px on 720 rows, of the time line
 WIDEST_RATE = "×1/16"
@@ -28,6 +31,7 @@ SPARED = (
     frozenset({"-faster", "rate", "faster"}),
     frozenset({"-step", "step"}),
 )
+Place = tuple[int, int]  # px
 GROOVE = mix(CARD["background"], CARD["quiet"], 0.35)
 
 _RIGHT = [(0.22, 0.1), (0.86, 0.5), (0.22, 0.9)]
@@ -55,21 +59,6 @@ ICONS = {
     "faster": [[(0.15, 0.42), (0.85, 0.42), (0.85, 0.58), (0.15, 0.58)], _block(0.42, 0.58)],
 }
 
-#: What the buttons that open lists say; the others say what the help does.
-HINTS = {
-    "see": "what is shown: fan, map, arrows, charts, tape, accuracy",
-    "keep": "pictures, replays, scene files",
-    "more": "scenes, sound, full screen",
-}
-
-
-def hint_of(button: str) -> str:
-    """What a button does, and by which key; a button with a minus does the opposite of its command."""
-    if button in HINTS:
-        return HINTS[button]
-    command = named(button.removeprefix("-"))
-    return f"{command.meaning} ({command.shown})"
-
 
 @lru_cache(maxsize=64)
 def _icon(name: str, side: int, colour: Colour) -> pygame.Surface:
@@ -80,20 +69,6 @@ def _icon(name: str, side: int, colour: Colour) -> pygame.Surface:
     return pygame.transform.smoothscale(mask, (side, side))
 
 
-@dataclass(frozen=True)
-class Shown:
-    """What the bar shows."""
-
-    title: str
-    playing: bool
-    t: float | None  # s; None while aiming
-    duration: float  # s
-    ticks: tuple[float, ...]  # s, of impacts
-    rate: float
-    texts: tuple[str, ...]  # commands that are words, on the right
-    on: frozenset[str] = frozenset()  # those of them that are open
-
-
 class Bar:
     """The bar in ``rect`` of a window that is laid out for ``rows`` rows."""
 
@@ -102,7 +77,7 @@ class Bar:
         self.lettering = Lettering(rows)
         self.places: dict[str, pygame.Rect] = {}  # of everything by name: commands, "rate", "line" and "time"
         self.title = ""  # cut to fit
-        self._laid_out: tuple[str, tuple[str, ...], str] | None = None
+        self._laid_out: tuple[str, str] | None = None
 
     @property
     def line(self) -> pygame.Rect:
@@ -127,25 +102,25 @@ class Bar:
 
     # Places
 
-    def _lay_out(self, shown: Shown) -> None:
+    def _lay_out(self, title: str, duration: float) -> None:
         """Place everything that fits."""
         letters, least = self.lettering, round(LEAST * self.unit)
-        time = "0" * max(2, len(f"{shown.duration:.0f}")) + ".00 s"
-        if self._laid_out == (shown.title, shown.texts, time):
+        time = "0" * max(2, len(f"{duration:.0f}")) + ".00 s"
+        if self._laid_out == (title, time):
             return
-        self._laid_out = shown.title, shown.texts, time
+        self._laid_out = title, time
         without: frozenset[str] = frozenset()
         for spared in (frozenset(), *SPARED):
             without |= spared
-            self.title = shown.title.rpartition("/")[2] if "scene" in without else shown.title
-            self._place(shown, time if "duration" in without else f"{time[:-2]} / {time}", without)
+            self.title = title.rpartition("/")[2] if "scene" in without else title
+            self._place(time if "duration" in without else f"{time[:-2]} / {time}", without)
             if self.line.width >= least:
                 return
         room = letters.width(self.title, "small", bold=True) - (least - self.line.width)
         self.title = letters.cut(self.title, "small", room, bold=True)
-        self._place(shown, time, without)
+        self._place(time, without)
 
-    def _place(self, shown: Shown, time: str, without: frozenset[str]) -> None:
+    def _place(self, time: str, without: frozenset[str]) -> None:
         """Place everything except ``without``; the time line takes the rest."""
         gap, side, thick = round(8 * self.unit), round(30 * self.unit), max(3, round(4 * self.unit))
         places = self.places = {}
@@ -159,7 +134,7 @@ class Bar:
             if name not in without:
                 left = put(name, left, side).right + gap // 4
         right = self.rect.right - 2 * gap
-        for name in reversed(shown.texts):
+        for name in reversed(WORDS):
             if name not in without:
                 width = self._word_width(name)
                 right = put(name, right - width, width).left - gap // 2
@@ -177,48 +152,49 @@ class Bar:
 
     # Drawing
 
-    def draw(self, sheet: Canvas, shown: Shown, mouse: tuple[int, int]) -> None:
-        """Draw it on the window's sheet, with a hint at the button under the mouse."""
+    def draw(
+        self, sheet: Canvas, title: str, shot: Shot | None, playback: Playback | None, on: Collection[str], mouse: Place
+    ) -> None:
+        """Draw it on the window's sheet, for a shot and its clock; ``on`` are the commands whose lists are open."""
         sheet.surface.fill(CARD["background"], self.rect)
-        self._lay_out(shown)
+        duration, rate = shot.run.duration if shot is not None else 0.0, playback.rate if playback is not None else 1.0
+        self._lay_out(title, duration)
         for name, rect in self.buttons.items():
-            here, on, bold = rect.collidepoint(mouse), name in shown.on, name == "menu"
-            if bold or name in shown.texts:
-                text, lit = self.title if bold else name, 0.22 if on or bold or here else 0.0
-                sheet.item(rect, text, CARD["accent" if on else "text"], lit, bold, rect.left + 8 * self.unit)
+            here, bold = rect.collidepoint(mouse), name == "menu"
+            if bold or name in WORDS:
+                text, lit = self.title if bold else name, 0.22 if name in on or bold or here else 0.0
+                sheet.item(rect, text, CARD["accent" if name in on else "text"], lit, bold, rect.left + 8 * self.unit)
                 continue
             if here:
                 sheet.painter.panel(rect, CARD["quiet"], 0.22, 6 * self.unit)
-            icon = ("pause" if shown.playing else "play") if name == "go" else name
+            playing = playback is not None and playback.playing
+            icon = ("pause" if playing else "play") if name == "go" else name
             image = _icon(icon, round(0.5 * rect.height), CARD["accent" if name == "go" else "text"])
             sheet.surface.blit(image, image.get_rect(center=rect.center))
         if "rate" in self.places:
-            rate = f"×{shown.rate:g}" if shown.rate >= 1 else f"×1/{round(1 / shown.rate)}"
-            sheet.lettering.write(sheet.surface, rate, "small", self.places["rate"].center, CARD["text"], "center")
-        self._time(sheet, shown)
-        hovered = self.command_at(mouse)
-        if hovered is not None and hovered not in shown.on:
-            at = self.places[hovered].centerx, self.rect.top - sheet.gap
-            sheet.card([(hint_of(hovered), CARD["text"])], "midbottom", at)
+            text = f"×{rate:g}" if rate >= 1 else f"×1/{round(1 / rate)}"
+            sheet.lettering.write(sheet.surface, text, "small", self.places["rate"].center, CARD["text"], "center")
+        impacts = [event.t for event in shot.run.events if event.kind == "impact"] if shot is not None else []
+        self._time(sheet, duration, impacts[:MOST_TICKS], playback.t if playback is not None else None)
 
-    def _time(self, sheet: Canvas, shown: Shown) -> None:
+    def _time(self, sheet: Canvas, duration: float, impacts: list[float], now: float | None) -> None:
         surface, room, thick = sheet.surface, self.places["time"], self.line.height
-        times = [f"{shown.duration:.2f} s"]
-        if shown.t is not None:
-            times = [f"{shown.t:.2f} / {times[0]}", f"{shown.t:.2f} s"]
+        times = [f"{duration:.2f} s"]
+        if now is not None:
+            times = [f"{now:.2f} / {times[0]}", f"{now:.2f} s"]
         text = next(text for text in times if text is times[-1] or self.lettering.width(text, "small") <= room.width)
         self.lettering.write(surface, text, "small", room.midright, CARD["quiet"], "midright")
         surface.fill(GROOVE, self.line)
 
         def column(t: float) -> int:
-            return self.line.left + round(self.line.width * t / max(shown.duration, 1e-9))
+            return self.line.left + round(self.line.width * t / max(duration, 1e-9))
 
         last = -APART
-        for tick in map(column, shown.ticks):
+        for tick in map(column, impacts):
             if tick - last >= APART:
                 surface.fill(CARD["accent"], (tick - 1, self.line.top - thick, 2, 3 * thick))
                 last = tick
-        if shown.t is not None:
-            at = column(shown.t)
+        if now is not None:
+            at = column(now)
             surface.fill(TRACE["colours"][0], (self.line.left, self.line.top, at - self.line.left, thick))
             sheet.painter.disc((at, self.rect.centery), 7 * self.unit, CARD["text"])

@@ -1,4 +1,4 @@
-"""What each command of the keys, the bar's buttons and its lists does."""
+"""What each command of the keys, the bar's buttons and its lists does, in one table."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from sandbox.window import aim, export, replay
 from sandbox.window.choice import Choice, Mark
 from sandbox.window.find import Found, Question, find, questions
 from sandbox.window.game import WIDEST
-from sandbox.window.keys import GROUPS, LISTED, of_groups
+from sandbox.window.keys import Command, name_of
 from sandbox.window.measure import Tape
 from sandbox.window.menu import Menu, thumbnail
 from sandbox.window.overlay import Board, Chart, Overlay, Row
@@ -34,8 +34,6 @@ from sandbox.window.worker import cost_and_errors
 CARD = palette("card")
 #: How much larger than usual letters can be.
 TEXT_SIZES = (1.0, 1.15, 1.3, 1.5)
-#: What can be shown or hidden: the command of the same name switches it.
-SWITCHES = ("view", "pad", "ghosts", "arrows", "charts", "cost", "fan", "map", "panel")
 #: Earlier shots in the graphs over time.
 MOST_GRAPHS = 5
 #: One step enlarges the picture by this factor, or moves it by this many px.
@@ -50,14 +48,17 @@ def do(view: View, command: str, by: float = 1) -> None:
     """Carry out a command; "-" before its name, or a negative ``by``, means its opposite."""
     view.changed = True
     name = command.removeprefix("-")
-    by = by if name == command else -by
-    if name in SWITCHES:
+    if name in HINTS:
+        _list(view, name)
+        return
+    found = _BY_NAME[name]
+    if found.do is None:
         view.on ^= {name}
         view.lay_out()
-    elif name in PANEL and not view.has_panel:
+    elif found.group == "Panel" and not view.has_panel:
         do(view, "panel")
     else:
-        COMMANDS[name](view, by)
+        found.do(view, by if name == command else -by)
 
 
 # Play and watch
@@ -128,18 +129,14 @@ def _rows(view: View, groups: tuple[str, ...], headings: bool) -> list[list[Row]
     """The commands of groups, each with its key."""
     meanings = {"accuracy": f"accuracy: {view.game.session.value('accuracy.level')}, and the next",
                 "predict": f"path while aiming: {view.ahead}, and the next"}  # fmt: skip
-    return [
-        [Row("", group)] * headings
-        + [Row(command.name, meanings.get(command.name, command.meaning), command.shown) for command in commands]
-        for group, commands in of_groups(groups)
-    ]
+    rows = [(it.group, Row(it.name, meanings.get(it.name, it.meaning), it.shown)) for it in TABLE if it.meaning]
+    return [[Row("", name)] * headings + [row for group, row in rows if group == name] for name in groups]
 
 
-def _list(view: View, by: float, group: str) -> None:
+def _list(view: View, name: str) -> None:
     """The commands of a group, above its button; several can be switched in turn."""
-    name = group.lower()
-    rows, button = _rows(view, (group,), headings=False), view.bar.places[name]
-    _open(view, name, lambda: Board("", rows, partial(do, view), button, stays=group == "See"))
+    rows, button = _rows(view, (name.capitalize(),), headings=False), view.bar.places[name]
+    _open(view, name, lambda: Board("", rows, partial(do, view), button, stays=name == "see"))
 
 
 def _shots(view: View, by: float) -> None:
@@ -374,55 +371,115 @@ def _text_size(view: View, by: float) -> None:
     view.set_look(TEXT_SIZES[min(max(place, 0), len(TEXT_SIZES) - 1)], contrast)
 
 
-#: Commands for the panel, which they open if it is closed.
-PANEL = ("row", "value", "row_reset", "group")
-
-COMMANDS: dict[str, Callable[[View, float], object]] = {
-    "go": _go,
-    "again": lambda view, by: view.game.aim_again(from_rest=True),
-    "turn": lambda view, by: _move(view, -by, 0) or view.game.nudge(aim.nudged(view.game.session, turn=by)),
-    "push": lambda view, by: _move(view, 0, by) or view.game.nudge(aim.nudged(view.game.session, push=by)),
-    "handle": _pick,
-    "spin": lambda view, by: view.game.nudge(aim.spun(view.game.session, 0, by)),
-    "other_spin": lambda view, by: view.game.nudge(aim.spun(view.game.session, 1, by)),
-    "restart": lambda view, by: _watching(view, "restart"),
-    "step": lambda view, by: _watching(view, "step", int(by)),
-    "faster": lambda view, by: _watching(view, "change_rate", int(by)),
-    "next_shot": lambda view, by: view.game.watch_other(int(by)),
-    "wider": _wider,
-    "energy": lambda view, by: _chart(view, "energy", lambda shot, size: energy_chart(shot.run, size)),
-    "graphs": _graphs,
-    "shots": _shots,
-    "find": _find,
-    "predict": _predict,
-    "tape": _tape,
-    "accuracy": lambda view, by: view.game.trying(lambda: _accuracy(view, by)),
-    "zoom": lambda view, by: view.zoom(ZOOM**by, view.at if view.area.collidepoint(view.at) else view.area.center),
-    "pan_across": lambda view, by: view.pan(PAN * by, 0),
-    "pan_down": lambda view, by: view.pan(0, PAN * by),
-    "fit": lambda view, by: view.look(None),
-    "save_scene": lambda view, by: _export(view, lambda: export.scene_file(view.game.session)),
-    "copy": _copy,
-    "screenshot": _screenshot,
-    "animation": lambda view, by: _with_shot(view, lambda shot: _animate(view, shot)),
-    "save_replay": lambda view, by: _with_shot(view, lambda shot: _export(view, lambda: _save_replay(view, shot))),
-    "compare": lambda view, by: _with_shot(view, view.game.compare),
-    "open_replay": _open_replay,
-    "menu": _menu,
-    "next_preset": _other_preset,
-    "reset": lambda view, by: view.game.reset(),
-    "undo": lambda view, by: view.game.undo() if by > 0 else view.game.redo(),
-    "rack": lambda view, by: view.game.begin_again(),
-    "sound": _sound,
-    "text_size": _text_size,
-    "contrast": lambda view, by: view.set_look(view.game.memory.look[0], not view.game.memory.look[1]),
-    "fullscreen": lambda view, by: view.toggle_full_screen(),
-    "help": lambda view, by: _open(view, "help", lambda: Board("Keys", _rows(view, GROUPS, True), partial(do, view))),
-    "back": _back,
-    "quit": lambda view, by: setattr(view.game, "running", False),
-    "row": lambda view, by: view.panel.choose(int(by)),
-    "value": lambda view, by: view.panel.nudge(by),
-    "row_reset": lambda view, by: view.panel.reset_row(),
-    "group": lambda view, by: view.panel.turn(int(by)),
-    **{group.lower(): partial(_list, group=group) for group in LISTED},
+# fmt: off
+#: Every command; keys, help, lists and the hints of the bar are made from it.
+TABLE: tuple[Command, ...] = (
+    Command("go", ("space",), "shoot; pause, resume", "Play", _go, mouse="pull back and let go"),
+    Command("again", ("return",), "aim again; in billiards go on", "Play",
+            lambda view, by: view.game.aim_again(from_rest=True)),
+    Command("turn", ("left", "right"), "turn the shot (Shift: finely)", "Play",
+            lambda view, by: _move(view, -by, 0) or view.game.nudge(aim.nudged(view.game.session, turn=by)),
+            repeats=True, fine=True),
+    Command("push", ("up", "down"), "stronger, weaker (Shift: finely)", "Play",
+            lambda view, by: _move(view, 0, by) or view.game.nudge(aim.nudged(view.game.session, push=by)),
+            repeats=True, fine=True),
+    Command("spin", ("e", "d"), "spin (Shift: finely)", "Play",
+            lambda view, by: view.game.nudge(aim.spun(view.game.session, 0, by)),
+            mouse="wheel", repeats=True, fine=True),
+    Command("other_spin", ("x", "z"), "second spin, if any", "Play",
+            lambda view, by: view.game.nudge(aim.spun(view.game.session, 1, by)),
+            mouse="Shift wheel", repeats=True, fine=True),
+    Command("handle", ("k", "i"), "take hold of the next thing; arrows move it, Esc lets go", "Play",
+            _pick, mouse="drag it"),
+    Command("pad", ("2",), "set spin on a ball, or where the (level) cue's tip hits", "Play", mouse="drag on it"),
+    Command("restart", ("r",), "from the start", "Watch", lambda view, by: _watching(view, "restart")),
+    Command("step", (".", ","), "one step on, back", "Watch",
+            lambda view, by: _watching(view, "step", int(by)), repeats=True),
+    Command("faster", ("+", "-"), "faster to 8, slower to 1/16", "Watch",
+            lambda view, by: _watching(view, "change_rate", int(by))),
+    Command("next_shot", ("n", "p"), "next, previous shot", "Watch", lambda view, by: view.game.watch_other(int(by))),
+    Command("shots", ("q",), "table of shots: sort, pin, delete, CSV, statistics", "See", _shots),
+    Command("find", ("/",), "find me a shot: at the ring, a pocket, the pin ...", "See", _find),
+    Command("view", ("v",), "follow the ball", "See"),
+    Command("predict", ("y",), "path while aiming: all, to the first contact, a metre, nothing", "See", _predict),
+    Command("ghosts", ("g",), "earlier shots", "See"),
+    Command("fan", ("f",), "fan: 100 similar shots, how many score", "See"),
+    Command("wider", ("]", "["), "a wider, narrower fan", "See", _wider),
+    Command("map", ("m",), "map: which speeds and angles score", "See"),
+    Command("zoom", ("ctrl +", "ctrl -"), "larger, smaller", "See",
+            lambda view, by: view.zoom(ZOOM**by, view.at if view.area.collidepoint(view.at) else view.area.center),
+            mouse="Ctrl wheel, pinch", repeats=True),
+    Command("pan_across", ("alt left", "alt right"), "move the picture", "See",
+            lambda view, by: view.pan(PAN * by, 0), mouse="Ctrl drag, two fingers", repeats=True),
+    Command("pan_down", ("alt up", "alt down"), "", "See", lambda view, by: view.pan(0, PAN * by), repeats=True),
+    Command("fit", ("ctrl 0",), "see all of the shot", "See", lambda view, by: view.look(None)),
+    Command("arrows", ("o",), "arrows: velocity and forces", "See"),
+    Command("charts", ("w",), "charts over time", "See"),
+    Command("graphs", ("alt w",), "charts over time, large, with earlier shots", "See", _graphs),
+    Command("energy", ("j",), "where the energy goes", "See",
+            lambda view, by: _chart(view, "energy", lambda shot, size: energy_chart(shot.run, size))),
+    Command("tape", ("t",), "tape; arrows move its end, K the other", "See", _tape, mouse="right drag"),
+    Command("accuracy", ("a",), "accuracy: fast, balanced, precise", "See",
+            lambda view, by: view.game.trying(lambda: _accuracy(view, by))),
+    Command("save_scene", ("s",), "a scene file with what was changed", "Keep",
+            lambda view, by: _export(view, lambda: export.scene_file(view.game.session))),
+    Command("copy", ("c",), "copy the command line of this shot", "Keep", _copy),
+    Command("screenshot", ("f12",), "picture of the window", "Keep", _screenshot),
+    Command("animation", ("f9",), "animation of the last shot", "Keep",
+            lambda view, by: _with_shot(view, lambda shot: _animate(view, shot))),
+    Command("save_replay", ("f5",), "replay file of the last shot", "Keep",
+            lambda view, by: _with_shot(view, lambda shot: _export(view, lambda: _save_replay(view, shot)))),
+    Command("compare", ("f6",), "compute the shot again, and compare", "Keep",
+            lambda view, by: _with_shot(view, view.game.compare)),
+    Command("open_replay", ("f7",), "see the newest replay; or drop one here", "Keep", _open_replay),
+    Command("menu", ("l",), "all scenes and presets", "More", _menu),
+    Command("next_preset", ("page down", "page up"), "next, previous preset", "More", _other_preset),
+    Command("panel", ("tab",), "the panel of parameters", "More"),
+    Command("reset", ("backspace",), "all parameters as in the file", "More", lambda view, by: view.game.reset()),
+    Command("undo", ("ctrl z", "ctrl y"), "undo, redo the last of 200 changes", "More",
+            lambda view, by: view.game.undo() if by > 0 else view.game.redo(), repeats=True),
+    Command("rack", ("b",), "the balls back where they began", "More", lambda view, by: view.game.begin_again()),
+    Command("sound", ("u",), "sound", "More", _sound),
+    Command("text_size", ("alt +", "alt -"), "larger, smaller text", "More", _text_size),
+    Command("contrast", ("alt c",), "high contrast", "More",
+            lambda view, by: view.set_look(view.game.memory.look[0], not view.game.memory.look[1])),
+    Command("cost", ("f3",), "what a frame and a run cost", "More"),
+    Command("fullscreen", ("f11",), "full screen", "More", lambda view, by: view.toggle_full_screen()),
+    Command("help", ("h",), "all keys", "More",
+            lambda view, by: _open(view, "help", lambda: Board("Keys", _rows(view, GROUPS, True), partial(do, view)))),
+    Command("back", ("escape",), "close what is open, stop a run; aim again", "More", _back),
+    Command("quit", ("ctrl q",), "exit", "More", lambda view, by: setattr(view.game, "running", False)),
+    Command("row", ("ctrl down", "ctrl up"), "another row of the panel", "Panel",
+            lambda view, by: view.panel.choose(int(by)), repeats=True),
+    Command("value", ("ctrl right", "ctrl left"), "more, less of it (Shift: finely)", "Panel",
+            lambda view, by: view.panel.nudge(by), repeats=True, fine=True),
+    Command("group", ("ctrl page down", "ctrl page up"), "another group", "Panel",
+            lambda view, by: view.panel.turn(int(by))),
+    Command("row_reset", ("ctrl backspace",), "as in the file", "Panel", lambda view, by: view.panel.reset_row()),
+)
+# fmt: on
+GROUPS: tuple[str, ...] = tuple(dict.fromkeys(command.group for command in TABLE))
+#: What the bar's buttons say that open a list of a group of commands; its others say what the help does.
+HINTS = {
+    "see": "what is shown: fan, map, arrows, charts, tape, accuracy",
+    "keep": "pictures, replays, scene files",
+    "more": "scenes, sound, full screen",
 }
+_BY_NAME = {command.name: command for command in TABLE}
+_BY_KEY = {key: (command, by) for command in TABLE for key, by in zip(command.keys, (1, -1), strict=False)}
+
+
+def pressed(key: int, modifiers: int) -> tuple[Command, float] | None:
+    """The command of a key, and 1, or -1 for its opposite; a tenth of it with Shift if it can be done finely."""
+    command, by = _BY_KEY.get(name_of(key, modifiers), (None, 0.0))
+    if command is None:
+        return None
+    return command, 0.1 * by if command.fine and modifiers & pygame.KMOD_SHIFT else by
+
+
+def hint_of(button: str) -> str:
+    """What a button of the bar does, and by which key; one with a minus does the opposite of its command."""
+    if button in HINTS:
+        return HINTS[button]
+    command = _BY_NAME[button.removeprefix("-")]
+    return f"{command.meaning} ({command.shown})"

@@ -6,7 +6,7 @@ ready, the last picture stays: a path is never drawn on the stage of another pla
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from concurrent.futures import Future
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
@@ -23,7 +23,7 @@ from sandbox.picture.vectors import Vectors
 from sandbox.picture.view import View as Picture
 from sandbox.window import hand
 from sandbox.window.background import Background, Latest, Once
-from sandbox.window.bar import HEIGHT, Bar, Shown
+from sandbox.window.bar import HEIGHT, Bar
 from sandbox.window.canvas import Canvas
 from sandbox.window.charts import Charts
 from sandbox.window.fan import Cloud, cloud
@@ -64,13 +64,20 @@ HIGHEST = 0.3
 class View:
     """Draws a game on a screen; ``tick`` passes time, ``draw`` makes the current picture."""
 
-    def __init__(self, game: Game, screen: pygame.Surface, sound: Sound | None = None, patience: float = 0.0) -> None:
+    def __init__(
+        self,
+        game: Game,
+        screen: pygame.Surface,
+        sound: Sound | None = None,
+        patience: float = 0.0,
+        hint_of: Callable[[str], str] = str,
+    ) -> None:
         """A frame waits up to ``patience`` s for a stage; in a window, where the last picture stays until then, it does
-        not wait."""
-        self.patience = patience
+        not wait. ``hint_of`` says what a button of the bar does."""
+        self.patience, self.hint_of = patience, hint_of
         self.game, self.screen, self.sound = game, screen, sound
         self.background, self.writer = Background(), Background()  # for what is seen, and for files
-        self.on = {"ghosts"}  # which of commands.SWITCHES
+        self.on = {"ghosts"}  # commands that are switched on
         self.at = (-1, -1)  # px, the mouse
         self.over: Overlay | None = None
         self.ahead = AHEAD[0]
@@ -403,7 +410,7 @@ class View:
         whole = Canvas(self.canvas)
         if self.has_panel:
             self.panel.draw(whole, self.at if self.over is None else (-1, -1))
-        self.bar.draw(whole, self._bar_shown(), self.at)
+        self._draw_bar(whole)
         if self.over is not None:
             sheet = Canvas(self.canvas.subsurface((0, 0), (self.canvas.get_width(), self.area.height)))
             self.over.draw(sheet, self.at, self.switched)
@@ -412,6 +419,17 @@ class View:
         if self.caption != self.game.session.title:
             self.caption = self.game.session.title
             pygame.display.set_caption(f"{self.caption} – Sports sandbox")
+
+    def _draw_bar(self, sheet: Canvas) -> None:
+        """The bar, with a hint at the button under the mouse."""
+        game, on = self.game, {*self.on, *([self.over.name] if self.over is not None else [])}
+        title = game.session.title + " *" * bool(game.session.changes.values)
+        known = not (self.hidden or game.failure or game.late)
+        self.bar.draw(sheet, title, game.shot if known else None, game.playback, on, self.at)
+        button = self.bar.command_at(self.at)
+        if button is not None and button not in on:
+            at = self.bar.places[button].centerx, self.bar.rect.top - sheet.gap
+            sheet.card([(self.hint_of(button), CARD["text"])], "midbottom", at)
 
     def _draw_picture(self) -> None:
         """Everything above the bar."""
@@ -600,21 +618,6 @@ class View:
         if known is None or not rect.collidepoint(at):
             return None
         return known.aim((at[0] - rect.left) / rect.width, (rect.bottom - at[1]) / rect.height)
-
-    def _bar_shown(self) -> Shown:
-        """The contents of the bar."""
-        game, playback = self.game, self.game.playback
-        shot = game.shot if not (self.hidden or game.failure or game.late) else None
-        return Shown(
-            title=game.session.title + (" *" if game.session.changes.values else ""),
-            playing=playback is not None and playback.playing,
-            t=playback.t if playback is not None else None,
-            duration=shot.run.duration if shot else 0.0,
-            ticks=tuple(e.t for e in shot.run.events if e.kind == "impact")[:200] if shot else (),
-            rate=playback.rate if playback is not None else 1.0,
-            texts=("see", "keep", "more", "panel", "help"),
-            on=frozenset(self.on | ({self.over.name} if self.over is not None else set())),
-        )
 
 
 def _zoomed(camera: Camera, factor: float, ball: Sequence[float]) -> Camera:

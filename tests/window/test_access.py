@@ -10,7 +10,7 @@ import pytest
 
 from sandbox.picture.lettering import Lettering
 from sandbox.picture.palette import mix, palette, set_contrast
-from sandbox.window.keys import TABLE
+from sandbox.window.commands import TABLE
 from sandbox.window.memory import Memory
 
 CARD, TRACE = palette("card"), palette("trace")["colours"]

@@ -13,7 +13,7 @@ import pytest
 
 import sandbox
 from sandbox.scene import listings
-from sandbox.window.keys import TABLE
+from sandbox.window.commands import TABLE
 from sandbox.window.playback import LONGEST_FRAME, STEP
 from sandbox.window.view import SMALLEST
 

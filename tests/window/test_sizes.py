@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from concurrent.futures import Future
 from itertools import combinations
+from types import SimpleNamespace
 
 import pygame
 import pytest
@@ -11,9 +12,10 @@ import pytest
 from sandbox.picture.sheet import rows_of
 from sandbox.scene import listings
 from sandbox.window import commands
-from sandbox.window.bar import HEIGHT, ICONS, LEAST, Bar, Shown
+from sandbox.window.bar import HEIGHT, ICONS, LEAST, WORDS, Bar
 from sandbox.window.canvas import Canvas
-from sandbox.window.keys import TABLE
+from sandbox.window.commands import TABLE
+from sandbox.window.playback import Playback
 
 #: From half as wide as high to three times as wide.
 SIZES = [
@@ -24,14 +26,17 @@ SIZES = [
 ]
 TITLES = ("golf", "billiards/three-rail-carom *", "soccer-curl/roberto-carlos-1997 *")
 PUTT = "golf/putt"
-WORDS = ("see", "keep", "more", "panel", "help")
 
 
 def bar_of(size: tuple[int, int], title: str, duration: float, t: float | None = None) -> Bar:
     """The bar of such a window, drawn."""
     tall = round(HEIGHT * rows_of(size) / 720)
     bar = Bar(pygame.Rect(0, size[1] - tall, size[0], tall), rows_of(size))
-    bar.draw(Canvas(pygame.Surface(size)), Shown(title, False, t, duration, (0.5, 1.0), 1 / 16, WORDS), (-1, -1))
+    events = [SimpleNamespace(kind="impact", t=0.5), SimpleNamespace(kind="impact", t=1.0)]
+    shot = SimpleNamespace(run=SimpleNamespace(duration=duration, events=events))
+    playback = Playback(shot, 1 / 16)
+    playback.t = t
+    bar.draw(Canvas(pygame.Surface(size)), title, shot, playback if t else None, (), (-1, -1))
     return bar
 
 
