@@ -317,7 +317,7 @@ class View(Generic[P]):
         """What is not drawn as it is."""
         notes = [*self._stretched(camera), *self.remarks(camera)]
         if (factor := self.least / (self.radius * camera.scale)) > UNSAID:
-            who, whose = (self.THING, "its") if len(self.balls) == 1 else (f"{self.THING}s", "their")
+            who, whose = (self.thing, "its") if len(self.balls) == 1 else (f"{self.THING}s", "their")
             notes.append(f"{who} drawn {times(factor)} {whose} size")
         return [*notes, *filter(None, [self.CAVEAT])]
 
@@ -390,10 +390,11 @@ class View(Generic[P]):
         over = t >= self.told
         headline, *notes = (self.verdict(),) if over else self.progress(t)
         notes += [*(f"compared with {ghost.label}" for ghost in self.ghosts), *self.aligned, *self._stretched(camera)]
+        notes += [self.CAVEAT]
         if any(radius > UNSAID * self.radii[name] * camera.scale for name, (_, radius) in placed.items()):
             one = len(self.balls) == 1
             notes.append(
-                f"{self.THING} drawn larger than it is" if one else f"{self.THING}s drawn larger than they are"
+                f"{self.thing} drawn larger than it is" if one else f"{self.THING}s drawn larger than they are"
             )
         sheet.headline(headline, [note for note in notes if note], room)
         sheet.columns(self.card_row, self.live(t), [ghost.live(t) for ghost in self.ghosts])
@@ -409,6 +410,11 @@ class View(Generic[P]):
     def _stretched(self, camera: Camera) -> list[str]:
         """To note how much larger heights are drawn than lengths."""
         return [f"{self.STRETCHED} drawn {camera.stretch:g} times as large as lengths"] if camera.stretch != 1 else []
+
+    @property
+    def thing(self) -> str:
+        """What the ball that is played is called."""
+        return "body" if isinstance(self.looks[self.ball], Flat) else self.THING
 
     def verdict(self) -> str:
         """What happened, in a sentence."""
@@ -501,10 +507,8 @@ class View(Generic[P]):
             else:
                 look.draw(painter, at, radius, self.turn(self.ball, t), self.unit)
                 last = at
-        return [
-            f"a {self.THING} every {every:g} s",
-            *([f"a bead where {self.THING}s would overlap"] if crowded else []),
-        ]
+        things = "bodies" if self.thing == "body" else f"{self.thing}s"
+        return [f"a {self.thing} every {every:g} s", *([f"a bead where {things} would overlap"] if crowded else [])]
 
     def place_balls(self, painter: Painter, camera: Camera, t: float) -> None:
         """All that are there at time t in s, over their shadows."""

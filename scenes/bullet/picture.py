@@ -52,7 +52,7 @@ class Picture(SideView[Parameters]):
             return
         tall, top = sheet.lettering.height("small"), self.area.top - 2.0 * sheet.gap
         line = camera.pixel(0.0, 0.0)[1]
-        sheet.write("line of sight", "small", (sheet.frame.left, line - sheet.gap), sheet.ink, "bottomleft")
+        sheet.write("sight line", "small", (sheet.frame.left, line - sheet.gap), sheet.ink, "bottomleft")
         room = sheet.lettering.width("−000.0 cm", "small", bold=True) + 2.0 * sheet.gap
         every = ceil(room / (100.0 * YARD * camera.scale))
         for row in table(self.run, self.parameters)[every::every]:

@@ -192,6 +192,6 @@ class Picture(AboveView[Parameters]):
                 ends[part > 0.0] = end = start + part * scale
                 sheet.painter.polygon([(start, top), (end, top), (end, top + thick), (start, top + thick)], colour)
             total = left + (sum(parts) - least) * scale
-            sheet.painter.line([(total, top - 3 * unit), (total, top + thick + 3 * unit)], 2 * unit, CARD["accent"])
+            sheet.painter.line([(total, top), (total, top + thick + 3 * unit)], 2 * unit, CARD["accent"])
             sheet.write(word, "small", (left - 8 * unit, top + thick / 2), CARD["quiet"], "midright")
             top += thick
