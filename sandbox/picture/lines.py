@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import lru_cache
-from math import comb
 from typing import TYPE_CHECKING
 
 import numpy as np
+
+from sandbox.engine.bernstein_many import evaluate
 
 if TYPE_CHECKING:
     from sandbox.engine.run import Run
@@ -16,14 +16,6 @@ if TYPE_CHECKING:
 POINTS = 9
 #: A drawn line has no points nearer to each other than this, none farther, in px, and bends by no more at one, in rad.
 CLOSEST, LONGEST, BEND = 3.0, 60.0, 0.12
-
-
-@lru_cache
-def _basis(terms: int) -> np.ndarray:
-    """Bernstein polynomials at POINTS evenly spaced points, shape (POINTS, terms)."""
-    u = np.linspace(0.0, 1.0, POINTS)[:, None]
-    k = np.arange(terms)[None, :]
-    return np.array([comb(terms - 1, i) for i in range(terms)]) * u**k * (1 - u) ** (terms - 1 - k)
 
 
 def points(paths: Sequence[tuple[Run, str]]) -> list[np.ndarray]:
@@ -37,8 +29,7 @@ def points(paths: Sequence[tuple[Run, str]]) -> list[np.ndarray]:
         lengths = np.array([len(curve) for curve in curves])
         for terms in set(lengths.tolist()):
             rows = np.flatnonzero(lengths == terms)
-            coefficients = np.array([curves[row] for row in rows])
-            out[rows, :, column] = coefficients @ _basis(terms).T
+            out[rows, :, column] = evaluate(np.array([curves[row] for row in rows]).T[:, :, None], u)
     return np.split(out.reshape(-1, 3), POINTS * np.cumsum([len(run.arcs[ball]) for run, ball in paths])[:-1])
 
 

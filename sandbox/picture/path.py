@@ -9,7 +9,11 @@ from math import atan2, ceil, dist, hypot, inf, pi
 import numpy as np
 
 from sandbox.engine.event import Event
+from sandbox.engine.meeting import standing
+from sandbox.engine.nearest import Pose, meeting_points, nearest
 from sandbox.engine.run import Run
+from sandbox.engine.setup import outline_of
+from sandbox.engine.shapes import Shape
 from sandbox.picture.camera import Camera
 from sandbox.picture.lettering import around
 from sandbox.picture.palette import Colour, palette
@@ -96,28 +100,18 @@ class Path:
                 yield self._mark(event, other)
 
     def _mark(self, event: Event, other: str) -> Mark:
-        x, y, *_ = self.run.state(self.name, event.t)
-        near = min(self._nearest_points(x, y, other, event.t), key=lambda point: hypot(point[0] - x, point[1] - y))
-        away = hypot(near[0] - x, near[1] - y) or 1.0
-        towards = (near[0] - x) / away, (near[1] - y) / away
-        at = x + towards[0] * self.radius, y + towards[1] * self.radius
-        return Mark(event.t, other, at, towards, self.run.closing_speed(event), event.speed)
+        surfaces = [s.shape for s in self.run.setup.surfaces if s.name == other]
+        others = [(standing(shape).shape, Pose(0.0, 0.0, 0.0)) for shape in surfaces] or [self._outline(other, event.t)]
+        own, here = self._outline(self.name, event.t)
+        found, it, there = min(((nearest(own, here, *it), *it) for it in others), key=lambda near: near[0].gap)
+        at = meeting_points(own, here, it, there, (found.nx, found.ny), 0.0)[0]
+        return Mark(event.t, other, at, (-found.nx, -found.ny), self.run.closing_speed(event), event.speed)
 
-    def _nearest_points(self, x: float, y: float, other: str, t: float) -> Iterator[tuple[float, float]]:
-        """Of each thing with that name, the point nearest to (x, y), in m; a ball's or circle's is its middle."""
-        for surface in self.run.setup.surfaces:
-            if surface.name == other:
-                shape = surface.shape
-                if hasattr(shape, "center"):
-                    yield shape.center
-                    continue
-                (ax, ay), (bx, by) = shape.a, shape.b
-                length = shape.length**2 or 1.0
-                share = min(1.0, max(0.0, ((x - ax) * (bx - ax) + (y - ay) * (by - ay)) / length))
-                yield ax + share * (bx - ax), ay + share * (by - ay)
-        for ball in self.run.setup.balls:
-            if ball.name == other:
-                yield self.run.state(other, t)[:2]
+    def _outline(self, name: str, t: float) -> tuple[Shape, Pose]:
+        """The outline of a ball or body, and where it is at time t in s."""
+        ball = next(ball for ball in self.run.setup.balls if ball.name == name)
+        angle = self.run.angle(name, t) if ball.turns else 0.0
+        return outline_of(ball), Pose(*self.run.state(name, t)[:2], angle)
 
 
 def apart(points: np.ndarray, least: float) -> list[int]:
