@@ -55,8 +55,7 @@ def test_every_instant_is_that_of_python(browser, pages, name: str):
         "arguments[0].map((t) => player.data.balls.slice(0, 4).map((ball) => ball.path.state(t)))", times
     )
     matrices = browser.run(
-        "arguments[0].map((t) => player.data.balls.slice(0, 4).map((ball) => ball.turning?.at(t) ?? null))",
-        times,
+        "arguments[0].map((t) => player.data.balls.slice(0, 4).map((ball) => ball.turning?.at(t) ?? null))", times
     )
     angles = browser.run(
         "arguments[0].map((t) => player.data.balls.slice(0, 4).map((ball) => ball.path.angle(t)))", times

@@ -35,11 +35,7 @@ def test_up_in_the_world_is_up_on_the_picture(camera, x, y, up):
 
 
 @given(
-    left=metres,
-    bottom=metres,
-    width=st.floats(0.1, 1e4),
-    height=st.floats(0, 1e4),
-    stretch=st.sampled_from([1.0, 2.0]),
+    left=metres, bottom=metres, width=st.floats(0.1, 1e4), height=st.floats(0, 1e4), stretch=st.sampled_from([1.0, 2.0])
 )
 def test_a_fitted_box_is_inside_and_stands_on_the_floor(left, bottom, width, height, stretch):
     area = Area(40, 30, 600, 300)

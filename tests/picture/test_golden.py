@@ -14,14 +14,7 @@ import sandbox
 from sandbox.golden import LOWEST, NEIGHBOURHOOD, ROUNDING_LEVELS, coarser, compare
 from sandbox.picture.frames import to_image
 from sandbox.picture.painter import Painter, blank
-from sandbox.record import (
-    SAMPLES,
-    TOLERANCE,
-    as_text,
-    changed_results,
-    first_change,
-    record,
-)
+from sandbox.record import SAMPLES, TOLERANCE, as_text, changed_results, first_change, record
 
 pytest_plugins = ["pytester"]
 
