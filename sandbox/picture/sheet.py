@@ -159,7 +159,8 @@ class Sheet:
         rect = self.write(text, size, self.frame.topleft, self.ink, bold=True)
         lines = ["   ·   ".join(notes[:count]) for count in range(len(notes), 0, -1)]
         line = next((line for line in lines if self.lettering.width(line, "small") <= room), "")
-        self.write(line, "small", (rect.left, rect.bottom + self.gap), self.quiet_ink)
+        ink = self.quiet_ink if self.rows >= ROWS_FOR_LENGTHS else self.ink  # in a low picture the sky is bright here
+        self.write(line, "small", (rect.left, rect.bottom + self.gap), ink)
 
     def columns(
         self, top: float, entries: Sequence[Entry], others: Sequence[tuple[Colour, Sequence[Entry]]] = ()

@@ -30,7 +30,7 @@ LEAST_WIDTH = 60
 LEAST_RISE, LOW_FLIGHT, LARGE_BALL = 24, 0.45, 3
 #: Columns, as shares of the width, between which frames keep the ball: where all is in sight, and on its way.
 AT_HOME, ON_ITS_WAY = (0.1, 0.9), (0.25, 0.45)
-#: Width and height of the map of frames, as shares of the picture's.
+#: Width and height of the map of frames, as shares of the picture's width and rows.
 MAP = 0.24, 0.15
 #: A shadow is half as dark where the ball is so high over the ground, in px on 720 rows.
 SHADOW_FADES = 80
@@ -230,8 +230,9 @@ class SideView(View[P]):
     @cached_property
     def _map(self) -> tuple[pygame.Rect, Camera, list[int], np.ndarray]:
         """Where it is in px, its camera, the points of the path that can be told apart on it, and the ground in px."""
-        gap, (goal, _), (wide, tall) = self.sheet.gap, self.datum[0], np.multiply(MAP, self.size).round().astype(int)
-        rect = pygame.Rect(self.sheet.frame.right - wide, self.sheet.frame.top, wide, tall)
+        gap, (goal, _), rect = self.sheet.gap, self.datum[0], pygame.Rect(self.sheet.frame)
+        rect.size = round(MAP[0] * self.size[0]), round(MAP[1] * self.rows)
+        rect.right = self.sheet.frame.right
         (left, _), (right, top) = self.points.min(axis=0), self.points.max(axis=0)
         left, right = min(left, goal), max(right, goal, left + LEAST_WIDTH * self.radius)
         heights, inset = self.profile(left, right)[:, 1], 2.4 * gap

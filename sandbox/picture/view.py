@@ -138,6 +138,11 @@ class View(Generic[P]):
         """The point in m that runs have in common when they are compared, and what it is."""
         return (0.0, 0.0), "the start"
 
+    @property
+    def thing(self) -> str:
+        """What the ball that is played is called."""
+        return self.THING
+
     def progress(self, t: float) -> tuple[str, str]:
         """Headline and note of a frame at time t in s, before the verdict is in."""
         return self.clock(t), ""
@@ -410,11 +415,6 @@ class View(Generic[P]):
     def _stretched(self, camera: Camera) -> list[str]:
         """To note how much larger heights are drawn than lengths."""
         return [f"{self.STRETCHED} drawn {camera.stretch:g} times as large as lengths"] if camera.stretch != 1 else []
-
-    @property
-    def thing(self) -> str:
-        """What the ball that is played is called."""
-        return "body" if isinstance(self.looks[self.ball], Flat) else self.THING
 
     def verdict(self) -> str:
         """What happened, in a sentence."""
