@@ -13,8 +13,8 @@ from pathlib import Path
 from sandbox import resources
 from sandbox.errors import RequestError, RunError
 from sandbox.files import reason
-from sandbox.parameters import json_schema
 from sandbox.scene import listings, parameters_of
+from sandbox.schema import json_schema
 
 #: The folder of each template, which is also the name of its scene, in file names and in the files.
 FROM_SIDE, FROM_ABOVE = "template", "template_above"

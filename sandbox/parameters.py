@@ -322,64 +322,6 @@ def every_key(schema: type[Group], prefix: str = "") -> Iterator[str]:
                 yield from every_key(chosen, f"{prefix}{name}.")
 
 
-def json_schema(parameters: Group, scene: str) -> dict[str, Any]:
-    """JSON schema of the files of ``scene``; numbers may be strings with a unit. A file may leave every key out; the
-    defaults are ``parameters``, the scene's own."""
-    body = _relaxed(type(parameters).model_json_schema())
-    path = r"|\.\.?(/.*)?|/.+"  # of a scene that is not installed
-    named = {
-        "anyOf": [{"const": scene}, {"type": "string", "pattern": f"^({scene}/[A-Za-z0-9_-]+{path})$"}],
-        "description": "the scene that this file is for, or the preset that it begins from",
-    }
-    _fill_in(body, body["$defs"], parameters, json.dumps(body))
-    properties = {"scene": named, **body["properties"]}
-    # The draft that the TOML extensions of editors support.
-    head = {"$schema": "http://json-schema.org/draft-07/schema#", "title": f"{scene} scene file"}
-    return {**head, **body, "properties": properties}
-
-
-def _fill_in(node: dict[str, Any], groups: dict[str, Any], values: Group, whole: str) -> None:
-    """Write the defaults into the schema of a group. A group that several keys refer to is left as it is; ``whole`` is
-    the schema as text, to count them."""
-    node.pop("required", None)
-    for name, value in values:
-        entry = node.get("properties", {}).get(name, {})
-        if not isinstance(value, Group):
-            if value is not None:
-                entry["default"] = _json_value(value)
-            continue
-        entry["default"] = value.model_dump(mode="json")
-        for reference in re.findall(r'"#/\$defs/(\w+)"', json.dumps(entry)):
-            chosen = groups[reference]
-            if type(value).__name__ == reference and whole.count(f'"#/$defs/{reference}"') == 1:
-                _fill_in(chosen, groups, value, whole)
-            chosen.pop("required", None)
-
-
-def _json_value(value: Any) -> Any:
-    """A value as JSON has it."""
-    if isinstance(value, Group):
-        return value.model_dump(mode="json")
-    return [_json_value(item) for item in value] if isinstance(value, list | tuple) else value
-
-
-def _relaxed(node: Any) -> Any:
-    """The same schema for a file that may leave the word of a choice out: ``anyOf`` in place of ``oneOf``; without
-    titles, which only repeat the key."""
-    if isinstance(node, list):
-        return [_relaxed(item) for item in node]
-    if not isinstance(node, dict):
-        return node
-    renamed = {
-        "anyOf" if key == "oneOf" else key: _relaxed(item)
-        for key, item in node.items()
-        if key != "title" or not isinstance(item, str)
-    }
-    if "mapping" in renamed.get("discriminator", {}):
-        del renamed["discriminator"]
-    return renamed
-
-
 # ---------------------------------------------------------------------------------------------------------------------
 # Reading
 # ---------------------------------------------------------------------------------------------------------------------

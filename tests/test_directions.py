@@ -23,6 +23,7 @@ FLOORS = {
     "files": 3,
     "resources": 3,
     "parameters": 3,
+    "schema": 3,
     "sport": 3,
     "scene": 3,
     "picture": 4,

@@ -23,7 +23,6 @@ from sandbox.parameters import (
     every_key,
     group,
     groups,
-    json_schema,
     known_keys,
     merged,
     nested,
@@ -36,6 +35,7 @@ from sandbox.parameters import (
     vectors,
     walk,
 )
+from sandbox.schema import json_schema
 
 
 class Launch(Group):

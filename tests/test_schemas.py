@@ -11,8 +11,8 @@ import pytest
 from jsonschema import Draft7Validator
 
 from sandbox import resources
-from sandbox.parameters import json_schema
 from sandbox.scene import parameters_of
+from sandbox.schema import json_schema
 
 SCENES = sorted(path.parent for path in resources.folder("scenes").glob("*/scene.py"))
 FILES = sorted(

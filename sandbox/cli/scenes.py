@@ -45,8 +45,8 @@ def schema(scene: str) -> None:
     """
     import json
 
-    from sandbox.parameters import json_schema
     from sandbox.scene import parameters_of
+    from sandbox.schema import json_schema
 
     name, parameters = parameters_of(scene)
     say(json.dumps(json_schema(parameters, name), indent=2))
