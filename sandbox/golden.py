@@ -34,6 +34,7 @@ import pytest
 
 from sandbox import record
 from sandbox.errors import RunError
+from sandbox.files import written_whole
 from sandbox.record import Record
 from sandbox.text import printable
 
@@ -224,14 +225,12 @@ class Golden:
         self._write(path, record.as_text(record.record(run, until)).encode(), change)
 
     def _write(self, path: Path, data: bytes, change: str) -> None:
-        path.parent.mkdir(parents=True, exist_ok=True)
         _save(path, data)
         self.note(WRITTEN, f"{path}: {change}")
 
     def _shown(self, name: str, expected: Image.Image, actual: Image.Image, drawing: str | None) -> Iterator[str]:
         if drawing is not None:
             path = self.report / f"{name}.png"
-            path.parent.mkdir(parents=True, exist_ok=True)
             _save(path, _png(side_by_side(expected, actual)))
             yield f"expected, actual and difference, side by side: {path}"
 
@@ -361,13 +360,9 @@ def _png(image: Image.Image) -> bytes:
 
 
 def _save(path: Path, data: bytes) -> None:
-    """Write the file completely or not at all."""
-    part = path.with_suffix(f"{path.suffix}.{os.getpid()}.part")
-    try:
-        part.write_bytes(data)
-        part.replace(path)
-    finally:
-        part.unlink(missing_ok=True)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    with written_whole(path) as file:
+        file.buffer.write(data)
 
 
 def _folder_for(test: Path, root: Path) -> Path:
