@@ -75,7 +75,7 @@ TESTS: dict[str, dict[str, str]] = {
         "impulse": "cushion engine/cloth engine/contact engine/batch",
         "coefficients": "coefficients soccer_ball air scenes/golf",
         "ballistics": "ballistics scenes/bullet",
-        "court": "scenes/tennis scenes/volleyball",
+        "court": "scenes/tennis scenes/outcomes",
         "swing": "swing scenes/tennis",
         "throw": "scenes/billiards",
         "": "{name} scenes/golf",
@@ -85,7 +85,7 @@ TESTS: dict[str, dict[str, str]] = {
             ["{name}", "schemas", *(f"scenes/{file.stem[5:]}" for file in sorted(ROOT.glob("tests/scenes/test_*.py")))]
         )
     },
-    "sandbox/scene": {"checking": "checking", "": "scene cli"},
+    "sandbox/scene": {"checking": "checking", "": "scene mistakes cli"},
     "sandbox/lab": {
         "maps": "maps",
         "stress": "stress",
@@ -110,12 +110,15 @@ TESTS: dict[str, dict[str, str]] = {
         "new": "new",
         "parameters": "parameters scene cli",
         "report": "cli",
-        "tracebacks": "cli lab/sweep",
+        "schema": "schemas parameters",
+        "tracebacks": "mistakes cli lab/sweep",
         "units": "parameters",
         "": "{name} cli",
     },
     **{
-        f"scenes/{file.parent.name}": {"": f"schemas scenes/{file.parent.name.replace('-', '_')} golden_runs"}
+        f"scenes/{file.parent.name}": {
+            "": f"schemas scenes/{file.parent.name.replace('-', '_')} scenes/outcomes golden_runs"
+        }
         for file in sorted(ROOT.glob("scenes/*/scene.py"))
     },
 }
