@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from sandbox.engine.arc import Arc
-from sandbox.engine.bernstein import downward_crossings
+from sandbox.engine.bernstein import downward_crossings, elevate
 from sandbox.engine.bernstein_many import downward_crossings as crossings_of_many
 from sandbox.engine.bernstein_many import evaluate, until
 from sandbox.engine.path import Curve, Passage, Path, climb, height
@@ -132,6 +132,12 @@ def cut(rows: np.ndarray, t: np.ndarray, u: np.ndarray) -> np.ndarray:
         curves[...] = until(curves, u)
     rows[END] = rows[[curve.stop - 1 for curve in CURVES]]
     return rows
+
+
+def row_of(arc: Arc, contact: int) -> list[float]:
+    """The row of an arc whose contact has this number."""
+    x, y, vx, vy, spin = (elevate(curve, degree) for curve, degree in zip(arc.curves, (5, 5, 4, 4, 3), strict=True))
+    return [arc.t0, arc.t1, *arc.start, *x, *y, *vx, *vy, *spin, *arc.state(arc.t1), contact]
 
 
 def still_rows(t: np.ndarray, state: np.ndarray) -> np.ndarray:

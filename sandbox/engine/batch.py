@@ -10,14 +10,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from time import perf_counter
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from sandbox.engine.accuracy import Accuracy
 from sandbox.engine.acting import acceleration, by_cause
-from sandbox.engine.arc import through
-from sandbox.engine.arc_rows import COLUMNS, CURVES, END, START, T0, T1, ArcRows, Paths, X, Y, arc_of, cut, still_rows
+from sandbox.engine.arc import Arc, through
+from sandbox.engine.arc_rows import COLUMNS, CURVES, END, START, T0, T1, Paths, X, Y, arc_of, cut, row_of, still_rows
 from sandbox.engine.bernstein import elevate
 from sandbox.engine.bernstein_many import first_downward_crossing
 from sandbox.engine.event import Event
@@ -28,7 +28,7 @@ from sandbox.engine.outlines import Outlines
 from sandbox.engine.run import Numerics, Run
 from sandbox.engine.setup import Ball, Setup, Until
 from sandbox.engine.setup_errors import setup_errors_named
-from sandbox.engine.simulation import Simulation
+from sandbox.engine.simulation import Left, Simulation
 from sandbox.engine.stacking import FEWEST, Stack, selector
 from sandbox.engine.step_control import LONGEST, StepControl, before_break, within
 from sandbox.engine.surfaces import CLOSING, bounce_off, leaves_at, press, tilted
@@ -48,7 +48,8 @@ _OF_EACH = (
     "_again",
     "_how",
     "_surface",
-    "_touches",
+    "_met",
+    "_ends",
     "_mode",
     "_direction",
     "_contact",
@@ -101,16 +102,8 @@ class _OnlyFloats(Exception):
     """Forces that cannot take arrays, or that return other values for arrays than for floats."""
 
 
-class _Left(NamedTuple):
-    """How a shot left the batch: at its end (``how`` is "until", "rest" or "duration"), or to be continued by
-    simulation.py: from its start ("start"), on its way, or where it touches something, "before" an impact or "after"
-    it."""
-
-    t: float  # s
-    how: str
-    state: State
-    wanted: float  # s, the next step
-    contact: LastingContact | None
+#: How a shot that is complete left the batch.
+_ENDS = ("until", "rest", "duration")
 
 
 class _Held(NamedTuple):
@@ -134,8 +127,8 @@ class Batch:
         self._outlines = Outlines(setups, accuracy.skin)
         self._lanes = impact_lanes(MANY)
         self._events: list[list[Event]] = [[] for _ in setups]
-        self._left: dict[int, _Left] = {}
-        self._contacts: list[LastingContact] = []
+        self._left: dict[int, Left] = {}
+        self._contacts: list[Any] = []
         nothing = (np.zeros(0, dtype=int), np.zeros((COLUMNS, 0)))
         self._paths = [nothing]  # of each round: shots, and the rows of their arcs as columns
         self._counts = np.zeros((4, len(setups)), dtype=int)  # of all shots
@@ -148,9 +141,10 @@ class Batch:
         self._state = np.array([np.broadcast_to(part, len(setups)) for part in start], float)
         self._wanted = np.full(len(setups), self._control.first)  # s, the next step
         self._again = np.zeros(len(setups), dtype=bool)  # the last step was too long and is repeated
-        self._how = np.full(len(setups), "", dtype="U8")  # why it leaves now, as in _Left; "" if it stays
-        self._surface = np.full(len(setups), -1)  # that it touches, or on which it slides or rolls; -1 in flight
-        self._touches = np.zeros(len(setups), dtype=bool)  # it is to be seen whether it stays on this surface, and how
+        self._how = np.full(len(setups), "", dtype="U8")  # why it leaves now, as in Left; "" if it stays
+        self._met = np.full(len(setups), -1)  # surface that it has just met, or -1
+        self._ends = np.zeros(len(setups), dtype=bool)  # its way of sliding or rolling has just ended
+        self._surface = np.full(len(setups), -1)  # on which it slides or rolls; -1 in flight
         self._mode = np.full(len(setups), FLYING, dtype="U8")
         self._direction = np.zeros(len(setups))  # of the motion in contact, as in LastingContact
         self._contact = np.full(len(setups), -1)  # index in _contacts
@@ -169,18 +163,21 @@ class Batch:
                 self._advance_all(rounds % len(self._shot))
                 rounds += 1
                 pieces += len(self._paths[-1][0])
-        self._how = np.where(self._touches, "after", "flight")
+        self._how = np.where(self._met >= 0, "after", np.where(self._ends, "ended", "flight"))
         self._drop()
         self._seconds = perf_counter() - started
 
     def runs(self) -> Iterator[Run | Exception]:
         """Each shot's run, in order."""
+        found = [self._run(number) for number in range(len(self.setups))]
         shots = np.concatenate([shots for shots, _ in self._paths])
         order = np.argsort(shots, kind="stable")
         rows = np.concatenate([columns for _, columns in self._paths], axis=1)[:, order].T
         paths = Paths(rows, np.cumsum(np.bincount(shots, minlength=len(self.setups))).tolist(), self._contacts)
-        for number in range(len(self.setups)):
-            yield self._run(number, paths[number])
+        for number, run in enumerate(found):
+            if isinstance(run, Run):
+                run.arcs = {run.setup.balls[0].name: paths[number]}
+            yield run
 
     # ------------------------------------------------------------------ forces
 
@@ -216,9 +213,8 @@ class Batch:
     def _begin(self) -> None:
         count, obstacle, near = self._outlines.near(self._shot, self._state[0], self._state[1])
         away = self._state[2] * near.nx + self._state[3] * near.ny
-        self._touches = count == 1
-        self._surface[self._touches] = obstacle[self._touches]
-        self._how[~((count == 0) | (self._touches & (near.gap >= -1e-12) & (away >= -CLOSING)))] = "start"
+        self._met = np.where(count == 1, obstacle, -1)
+        self._how[~((count == 0) | ((count == 1) & (near.gap >= -1e-12) & (away >= -CLOSING)))] = "start"
         self._drop()
 
     def _advance_all(self, watched: int) -> None:
@@ -296,53 +292,79 @@ class Batch:
         return changes, lasts
 
     def _settle(self, acceleration: np.ndarray) -> None:
-        """Whether the shots that touch a surface, and do not approach it, fly on, or slide, roll or rest on it."""
-        at = np.flatnonzero(self._touches)
+        """Whether shots that have met a surface, or whose slide or roll has ended, fly on, or slide, roll or rest."""
+        hit = self._met >= 0
+        at = np.flatnonzero(hit | self._ends)
         if not len(at):
             return
-        self._touches[at] = False
-        shots, (x, y, vx, vy, spin), applied = self._shot[at], self._state[:, at], tuple(acceleration[:, at])
-        obstacles = self._outlines.of(self._surface[at], shots)
+        hit, held, shots = hit[at], self._mode[at] != FLYING, self._shot[at]
+        on = np.where(held, self._surface[at], self._met[at])
+        (x, y, vx, vy, spin), applied = self._state[:, at], tuple(acceleration[:, at])
+        obstacles = self._outlines.of(on, shots)
         touching, along = obstacles.near(x, y), obstacles.outline.along(x, y)
         nx, ny = touching.nx, touching.ny
-        away = vx * nx + vy * ny
         pressed = press((x, y, vx, vy, spin), applied, nx, ny, touching.curvature)
+        away = vx * nx + vy * ny
         stays = away <= leaves_at(pressed, np.maximum(self._accuracy.settle, obstacles.surface.lowest_bounce))
-        state = np.array((x, y, vx - away * nx, vy - away * ny, spin))
-        mode, direction = motion_on(self._select(shots).balls[0], tuple(state), obstacles.surface, touching, applied)
-        begins = self._mode[at] == FLYING  # not at the end of a slide or a roll
-        inside = stays & (along > SEAM) & (along < obstacles.outline.length - SEAM)
-        flies, rests = begins & ~stays, inside & ~begins & (mode == RESTING)
-        holds = inside & ((mode == SLIDING) | (mode == ROLLING))
-        held = at[holds]
-        self._state[:, held], self._mode[held], self._direction[held] = state[:, holds], mode[holds], direction[holds]
-        goes_on = flies | holds
-        self._how[at] = np.where(goes_on, "", np.where(rests, "rest", "after"))
-        self._surface[at[flies]] = -1
-        for i in np.flatnonzero(goes_on | rests).tolist():
+        known = ~(hit & held)
+        if not known.all():
+            known |= self._leaves(at, abs(applied[0]) + abs(applied[1]) + obstacles.surface.friction * pressed)
+        flies = hit & ~stays & known
+        self._met[at], self._ends[at], self._surface[at] = -1, False, np.where(flies, -1, on)
+        self._how[at[~flies]] = np.where(hit, "after", "ended")[~flies]
+        self._mode[at[flies]] = FLYING
+        holds = rests = np.zeros(len(at), dtype=bool)
+        mode = direction = np.zeros(0)
+        if stays.any():
+            state = np.array((x, y, vx - away * nx, vy - away * ny, spin))
+            ball = self._select(shots).balls[0]
+            mode, direction = motion_on(ball, tuple(state), obstacles.surface, touching, applied)
+            inside = known & stays & (along > SEAM) & (along < obstacles.outline.length - SEAM)
+            holds, rests = inside & ((mode == SLIDING) | (mode == ROLLING)), inside & ~hit & (mode == RESTING)
+            here = at[holds]
+            self._state[:, here], self._mode[here], self._direction[here] = (
+                state[:, holds],
+                mode[holds],
+                direction[holds],
+            )
+        for i in np.flatnonzero(flies | holds | rests).tolist():
             lane, shot = int(at[i]), int(shots[i])
             setup, events = self.setups[shot], self._events[shot]
             noted = len(events)
+            what = (
+                "rest"
+                if rests[i]
+                else "leave"
+                if flies[i] and held[i]
+                else "contact"
+                if holds[i] and not held[i]
+                else ""
+            )
             try:
-                over = bool(begins[i] and events and setup.ends_with(events))
-                if not flies[i]:
-                    obstacle = self._outlines.obstacle(int(self._surface[lane]), shot)
-                    if begins[i] or rests[i]:
-                        what, where = "rest" if rests[i] else "contact", (float(x[i]), float(y[i]))
-                        name = setup.balls[0].name
-                        events.append(Event(float(self._t[lane]), what, name, obstacle.surface.name, 0.0, *where))
-                        over = setup.ends_with(events) or over
-                    side = obstacle.on_feature(SIDE, float(x[i]), float(y[i]))
-                    self._contact[lane] = len(self._contacts)
-                    self._contacts.append(LastingContact(str(mode[i]), obstacle, side, float(direction[i])))
+                over = bool(hit[i] and events and setup.ends_with(events))
+                if what:
+                    names = setup.balls[0].name, setup.surfaces[on[i]].name
+                    events.append(Event(float(self._t[lane]), what, *names, 0.0, float(x[i]), float(y[i])))
+                    over = setup.ends_with(events) or over
             except FAILURES:
-                del events[noted:]
-                self._how[lane] = "after"  # run alone, the shot raises the error
+                del events[noted:]  # run alone, the shot raises the error
+                self._how[lane] = "after" if hit[i] else "ended"
                 continue
-            if over:
-                self._how[lane] = "until"
+            self._how[lane] = "until" if over else "rest" if rests[i] else ""
+            self._contact[lane] = -1 if flies[i] else len(self._contacts)
+            if not flies[i]:
+                obstacle = self._outlines.obstacle(int(on[i]), shot)
+                side = obstacle.on_feature(SIDE, float(x[i]), float(y[i]))
+                self._contacts.append(LastingContact(str(mode[i]), obstacle, side, float(direction[i])))
         ended = at[rests | (self._how[at] == "until")]  # the last state is included, though no arc follows
         self._paths.append((self._shot[ended], still_rows(self._t[ended], self._state[:, ended])))
+
+    def _leaves(self, at: np.ndarray, most: np.ndarray) -> np.ndarray:
+        """Whether these shots leave what they have met, on which no more than this presses them, in m/s^2."""
+        (x, y, vx, vy, _), met = self._state[:, at], self._outlines.of(self._met[at], self._shot[at])
+        near, height = met.near(x, y), np.maximum(self._accuracy.settle, met.surface.lowest_bounce)
+        leaves: np.ndarray = vx * near.nx + vy * near.ny > leaves_at(most, height)
+        return leaves
 
     # ------------------------------------------------------------------ travelling
 
@@ -364,9 +386,9 @@ class Batch:
             changes[hits] = np.inf
         self._paths.append((shots, rows))
         self._t[lanes], self._state[:, lanes] = rows[T1], rows[END]
-        self._touches[lanes] = changes < np.inf
+        self._ends[lanes] = changes < np.inf
         for mode, becomes in BECOMES.items():
-            if (ended := self._touches & (self._mode == mode)).any():
+            if (ended := self._ends & (self._mode == mode)).any():
                 self._placed(ended, becomes)
         how = np.where(rows[T1] >= np.broadcast_to(self._now.duration, self._t.shape)[lanes], "duration", "")
         if isinstance(self._now.until, Until):
@@ -383,10 +405,10 @@ class Batch:
         """Let pymunk change the velocities of shots that touch a surface."""
         shots = self._shot[lanes]
         x, y, vx, vy, _ = self._state[:, lanes]
-        count, obstacle, near = self._outlines.near(shots, x, y)
+        count, obstacle, near = self._outlines.near(shots, x, y, self._surface[lanes])
         approach = -(vx * near.nx + vy * near.ny)
         along = vx * near.ny - vy * near.nx
-        plain = (count == 1) & (approach > CLOSING) & (self._mode[lanes] == FLYING)
+        plain = (count == 1) & (approach > CLOSING)
         bounces = np.zeros((len(lanes), 4))  # as in Bounce
         for i in np.flatnonzero(plain).tolist():
             setup = self.setups[shots[i]]
@@ -395,28 +417,33 @@ class Batch:
                 bounces[i] = bounce_off(surface, speed, float(along[i]))
             except FAILURES:
                 plain[i] = False  # run alone, the shot reports what is wrong with the surface's law
-                continue
-            t = float(self._t[lanes[i]])
-            event = Event(t, "impact", setup.balls[0].name, surface.name, speed, float(x[i]), float(y[i]))
-            self._events[shots[i]].append(event)
+        motion = self._exchanged(lanes, *tilted(near.nx, near.ny, bounces[:, 2], along), bounces)
+        held = np.flatnonzero(self._surface[lanes] >= 0)
+        if len(held):  # what it is on may act, too, and does not if it is not pressed on that
+            own = self._outlines.of(self._surface[lanes[held]], shots[held]).on_feature(SIDE, x[held], y[held])
+            plain[held] &= motion[0][held] * own.nx + motion[1][held] * own.ny >= -CLOSING
         self._how[lanes[~plain]] = "before"
-        at = np.flatnonzero(plain)
-        if len(at):
-            here = lanes[at]
-            self._counts[IMPACTS, shots[at]] += 1
-            nx, ny = near.nx[at], near.ny[at]
-            self._exchange(here, *tilted(nx, ny, bounces[at, 2], along[at]), bounces[at])
-            self._surface[here], self._touches[here] = obstacle[at], True
+        lanes, shots, obstacle = lanes[plain], shots[plain], obstacle[plain]
+        self._counts[IMPACTS, shots] += 1
+        self._state[2:, lanes] = np.array(motion)[:, plain]
+        self._met[lanes] = obstacle
+        places = zip(
+            self._t[lanes].tolist(), approach[plain].tolist(), x[plain].tolist(), y[plain].tolist(), strict=True
+        )
+        for shot, what, (t, speed, *place) in zip(shots.tolist(), obstacle.tolist(), places, strict=True):
+            setup = self.setups[shot]
+            names = setup.balls[0].name, setup.surfaces[what].name
+            self._events[shot].append(Event(t, "impact", *names, speed, *place))
 
-    def _exchange(self, lanes: np.ndarray, nx: np.ndarray, ny: np.ndarray, bounces: np.ndarray) -> None:
-        """Change velocities and spins by impacts on surfaces with these normals."""
+    def _exchanged(self, lanes: np.ndarray, nx: np.ndarray, ny: np.ndarray, bounces: np.ndarray) -> Acceleration:
+        """The velocities and spins after impacts on surfaces with these normals."""
         motion, ball = tuple(self._state[2:, lanes]), self._now.balls[0]
         r, factor = (np.broadcast_to(part, self._t.shape)[lanes] for part in (ball.radius, ball.inertia_factor))
         approach, slip, _ = surface_speeds(motion, nx, ny, r)
         push, rub = self._lanes.exchange_all(
             approach, (1.0 + bounces[:, 3]) * slip, np.column_stack((bounces[:, :2], factor))
         )
-        self._state[2:, lanes] = after_impulse(motion, nx, ny, r, factor, (push, rub, 0.0))
+        return after_impulse(motion, nx, ny, r, factor, (push, rub, 0.0))
 
     # ------------------------------------------------------------------ leaving the batch
 
@@ -426,27 +453,39 @@ class Batch:
         for lane in np.flatnonzero(~staying).tolist():
             state, number = tuple(self._state[:, lane].tolist()), int(self._contact[lane])
             contact = self._contacts[number] if number >= 0 else None
-            left = _Left(float(self._t[lane]), str(self._how[lane]), state, float(self._wanted[lane]), contact)
-            self._left[int(self._shot[lane])] = left
+            shot, how = int(self._shot[lane]), str(self._how[lane])
+            arcs = [] if how in _ENDS else self._last_arc(shot)
+            self._left[shot] = Left(float(self._t[lane]), how, state, float(self._wanted[lane]), contact, arcs)
         if not staying.all():
             for name in _OF_EACH:
                 setattr(self, name, getattr(self, name)[..., staying])
             self._now = self._select(self._shot)
         return staying
 
-    def _run(self, number: int, path: ArcRows) -> Run | Exception:
+    def _last_arc(self, shot: int) -> list[Arc]:
+        """The last arc of a shot, if it has one."""
+        for shots, rows in reversed(self._paths):
+            if shot in shots:
+                return [arc_of(rows[:, np.flatnonzero(shots == shot)[-1]].tolist(), self._contacts)]
+        return []
+
+    def _run(self, number: int) -> Run | Exception:
+        """The run of a shot, without its arcs, which become rows if they are not."""
         setup, left, events = self.setups[number], self._left[number], self._events[number]
         steps, refined, impacts, queries = self._counts[:, number].tolist()
         seconds = self._seconds / len(self.setups)
         numerics = Numerics((self._control.evaluations + 1) * steps, steps, refined, impacts, impacts, queries, seconds)
-        if left.how in ("until", "rest", "duration"):
-            arcs = {setup.balls[0].name: path}
-            return Run(setup, self._accuracy, arcs, events, numerics, left.t, left.how)
+        if left.how in _ENDS:
+            return Run(setup, self._accuracy, {}, events, numerics, left.t, left.how)
         try:
             with setup_errors_named():
                 simulation = Simulation(setup, self._accuracy, numerics)
-                if left.how == "start":
-                    return simulation.run()
-                return simulation.take_over(left.t, left.state, list(path), events, left.wanted, left.how, left.contact)
+                run = simulation.run() if left.how == "start" else simulation.take_over(left, events)
         except Exception as error:
             return error
+        arcs = list(run.arcs[setup.balls[0].name])[len(left.arcs) :]
+        contacts = range(len(self._contacts), len(self._contacts) + len(arcs))
+        self._contacts += [arc.contact for arc in arcs]
+        rows = np.array([row_of(arc, at) for arc, at in zip(arcs, contacts, strict=True)]).reshape(-1, COLUMNS).T
+        self._paths.append((np.full(len(arcs), number), rows))
+        return run

@@ -111,14 +111,22 @@ class Impacts:
 
     def _close_at_once(self, states: dict[int, State], softness: Sequence[bool]) -> list[Contact]:
         """Close all contacts of balls with each other and with hard or soft walls, or both, at once; returns those that
-        were closing."""
+        were closing. If a ball closes one, and does not come to close the others by that, these do not act."""
         found = [*self._with_surfaces(states, softness), *self._with_balls(states)]
         closed = [contact for contact in found if contact.speed > CLOSING]
-        if len(found) == 1 and closed and not self._with_bodies(found[0].balls):
-            self._exchange_alone(states, found[0])
-        elif closed:
+        if len(closed) == 1 == min(len(found), len(states)) and not self._with_bodies(states):
+            before = dict(states)
+            self._exchange_alone(states, closed[0])
+            if not any(self._closes(other, states) for other in found if other is not closed[0]):
+                return closed
+            states.update(before)
+        if closed:
             self._exchange_at_once(states, found)
         return closed
+
+    def _closes(self, contact: Contact, states: dict[int, State]) -> bool:
+        balls, meeting = self._balls(contact), [states[index] for index in contact.balls]
+        return speeds_where_touching(balls, meeting, contact.nx, contact.ny, contact.sine)[0] > CLOSING
 
     def _close_soft_walls(self, states: dict[int, State]) -> list[Contact]:
         """Close the contacts with soft walls, one after another; returns them."""

@@ -63,11 +63,14 @@ class Outlines:
         """The surface with the given index, of each of these shots."""
         return Obstacles(Grip(*self._grips[:, surfaces, shots]), Outline(*self._table[:, surfaces, shots]))
 
-    def near(self, shots: np.ndarray, x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray, Touching]:
-        """How many surfaces touch the balls of these shots, centred at x and y (m), of which flush ones count as one;
-        the index of the first that does, or else of the nearest; and its Touching."""
+    def near(
+        self, shots: np.ndarray, x: np.ndarray, y: np.ndarray, held: np.ndarray | int = -1
+    ) -> tuple[np.ndarray, np.ndarray, Touching]:
+        """How many surfaces touch the balls of these shots, centred at x and y (m), without those by which they are
+        ``held`` (-1 for none), and of which flush ones count as one; the index of the first that does, or else of the
+        nearest; and its Touching."""
         touching = Outline(*self._table[:, :, shots]).near(x, y)
-        touches = touching.gap <= TOUCHING_GAP
+        touches = (touching.gap <= TOUCHING_GAP) & (np.arange(len(touching.gap))[:, None] != held)
         first = np.where(touches.any(axis=0), touches.argmax(axis=0), touching.gap.argmin(axis=0))
         pick = (first, np.arange(len(shots)))
         center = touching.center[0][pick], touching.center[1][pick]

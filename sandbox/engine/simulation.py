@@ -11,7 +11,7 @@ from collections.abc import Callable, Collection, Mapping, Sequence
 from functools import cached_property, partial
 from itertools import count
 from time import perf_counter
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from sandbox.engine.accuracy import Accuracy
 from sandbox.engine.arc import Arc, still
@@ -43,6 +43,19 @@ _MOST_IMPACTS = 200_000
 
 #: Most steps in one run, beyond which its forces are too stiff: about 5 s of computing.
 MOST_STEPS = 100_000
+
+
+class Left(NamedTuple):
+    """How a shot left a batch of many (batch.py): at its end (``how`` is "until", "rest" or "duration"), or to be
+    continued here: from its start ("start"), on its way ("flight"), where it touches something, just before the impact
+    ("before") or after it ("after"), or where a slide or a roll has ended ("ended")."""
+
+    t: float  # s
+    how: str
+    state: State
+    step: float  # s, that the integrator would try next
+    contact: LastingContact | None
+    arcs: list[Arc]  # the last one, if there is any and it is to be continued
 
 
 class Simulation:
@@ -107,30 +120,18 @@ class Simulation:
         arcs = {track.ball.name: Path(track.path) for track in self._tracks}
         return Run(self._setup, self._accuracy, arcs, self._events, self._numerics, t, ended)
 
-    def take_over(
-        self,
-        t: float,
-        state: State,
-        arcs: list[Arc],
-        events: list[Event],
-        step: float,
-        how: str,
-        contact: LastingContact | None,
-    ) -> Run:
-        """Finish a run of one ball that batch.py has computed up to ``t`` (s), with its ``arcs`` and ``events`` so far.
-
-        The ball is on its way (``how`` is "flight"), in ``contact`` or not, or touches something else, just before the
-        impact ("before") or after it ("after"). ``step`` is the step in s that the integrator would try next.
-        """
+    def take_over(self, left: Left, events: list[Event]) -> Run:
+        """Finish a run of one ball that batch.py has begun, with these events so far."""
         started = perf_counter()
+        t, how, state, step, contact, arcs = left
         track = self._tracks[0]
         if contact is not None:
             surface = contact.obstacle.surface
             contact = contact._replace(obstacle=next(each for each in track.obstacles if each.surface is surface))
-        track.arc, track.state, track.path = still(t, t, state, contact), state, arcs
+        track.arc, track.state, track.path = still(t, t, state, contact), state, [*arcs]
         track.next_step, track.contact = step, contact
         self._events = events
-        if how == "after" and contact is None and events:
+        if how == "after" and events:
             self._over = self._setup.ends_with(events)  # the earlier events were checked before
         if how == "flight":
             self._plan(0, t)
