@@ -212,10 +212,10 @@ class PlainSimulation:
         state = tracked.state()
         x, y, vx, vy, spin = state[:5]
         acceleration = checked(tracked.ball, self._t, state if tracked.turns else state[:5])
-        if tracked.last is not None:
-            self._refuse_leap(tracked, tracked.last[0][:2], (x, y))
-            if tracked.touched != self._steps:
-                self._refuse_reversal(tracked, *tracked.last, state, acceleration, h)
+        before = tracked.ball.position if tracked.last is None else tracked.last[0][:2]
+        self._refuse_leap(tracked, before, (x, y))
+        if tracked.last is not None and tracked.touched != self._steps:
+            self._refuse_reversal(tracked, *tracked.last, state, acceleration, h)
         tracked.last = state, acceleration
         ax, ay, alpha = acceleration
         after: State = (x, y, vx + h * ax, vy + h * ay, *state[4:])
