@@ -8,7 +8,7 @@ from typing import Any
 from sandbox.engine.setup import Ball
 from sandbox.engine.setup_errors import is_from_inside
 from sandbox.errors import RunError
-from sandbox.physics.integrators import Acceleration, State
+from sandbox.physics.integrators import Acceleration, Law, State
 
 #: Everyday names of causes.
 CALLED = {"magnus": "lift", "bullet drag": "drag"}
@@ -29,41 +29,46 @@ def _place(state: State) -> tuple[Any, ...]:
     return position
 
 
-def acceleration(ball: Ball, t: Any, state: State) -> Acceleration:
-    """Acceleration of a ball in flight from its forces and torques, in m/s^2 and rad/s^2. Raises RunError if one of
-    them returns anything but numbers."""
-    position: tuple[Any, ...]
-    if len(state) == 5:  # as _place does, where it must be fast
-        x, y, vx, vy, spin = state
-        position, velocity = (x, y), (vx, vy)
-    else:
-        position, velocity, spin = _place(state), state[2:4], state[4]
-    fx = fy = torque = 0.0
-    term: Any = None
-    try:
-        for term in ball.forces:
-            px, py = term(t, position, velocity, spin)
-            fx = fx + px
-            fy = fy + py
-        for term in ball.torques:
-            torque = torque + term(t, position, velocity, spin)
-    except (TypeError, ValueError, OverflowError) as error:
-        if is_from_inside(error):
-            raise
-        raise RunError(f"{_rule(term)}: {error}") from None
-    mass, inertia = ball.mass, ball.inertia
-    if ball.loss is not None:
+def law_of(ball: Ball) -> Law:
+    """The acceleration of a ball in flight from its forces and torques, in m/s^2 and rad/s^2, by time and state.
+
+    It raises RunError if one of them returns anything but real numbers, or arrays for many shots.
+    """
+    forces, torques, mass, inertia, loss = ball.forces, ball.torques, ball.mass, ball.inertia, ball.loss
+
+    def law(t: Any, state: State) -> Acceleration:
+        position: tuple[Any, ...]
+        if len(state) == 5:  # as _place does, where it must be fast
+            x, y, vx, vy, spin = state
+            position, velocity = (x, y), (vx, vy)
+        else:
+            position, velocity, spin = _place(state), state[2:4], state[4]
+        fx = fy = torque = 0.0
+        term: Any = None
+        try:
+            for term in forces:
+                px, py = term(t, position, velocity, spin)
+                fx = fx + px
+                fy = fy + py
+            for term in torques:
+                torque = torque + term(t, position, velocity, spin)
+        except (TypeError, ValueError, OverflowError) as error:
+            if is_from_inside(error):
+                raise
+            raise RunError(f"{_rule(term)}: {error}") from None
+        if not isinstance(fx + fy + torque, float) and isinstance(spin, float):
+            raise _not_real(ball, t, state)
+        if loss is None:
+            return fx / mass, fy / mass, torque / inertia
         left = ball.left(t)
-        mass, inertia = mass * left, inertia * left
-    return fx / mass, fy / mass, torque / inertia
+        return fx / (mass * left), fy / (mass * left), torque / (inertia * left)
+
+    return law
 
 
-def checked(ball: Ball, t: float, state: State) -> Acceleration:
-    """The same for one ball. Raises RunError if it is not made of real numbers."""
-    found = acceleration(ball, t, state)
-    if not isinstance(found[0] + found[1] + found[2], float):
-        raise _not_real(ball, t, state)
-    return found
+def acceleration(ball: Ball, t: Any, state: State) -> Acceleration:
+    """The same at one time, in one state."""
+    return law_of(ball)(t, state)
 
 
 def by_cause(terms: Sequence[Any], t: float, state: State) -> Iterator[tuple[str, Any]]:

@@ -23,7 +23,6 @@ from typing import NamedTuple
 import pymunk
 
 from sandbox.engine.accuracy import Accuracy
-from sandbox.engine.acting import checked
 from sandbox.engine.arc import Arc, still
 from sandbox.engine.meeting import Meeting, discs, kept, meeting, returns, rounding, surface_met
 from sandbox.engine.one_point import one_point
@@ -253,8 +252,7 @@ class Heap:
         return hypot(*state[2:4], turning)
 
     def _applied(self, index: int, t: float, state: State) -> Acceleration:
-        self._numerics.force_evaluations += 1
-        return checked(self._tracks[index].ball, t, state)
+        return self._tracks[index].applied(t, state)
 
     def _take(self, indices: Collection[int]) -> None:
         """Make these balls the members."""

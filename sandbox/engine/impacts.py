@@ -94,10 +94,10 @@ class Impacts:
             elif turn % 2 == 0 and (parted := through(t, states)) is not None:
                 return Outcome(parted.t, {**_drifted(states, parted.t - t), **parted.states}, hits + parted.hits)
             before = dict(states)
-            if turn == last:
-                closed = self._close_at_once(states, (False, True))
+            if turn < last and turn % 2:
+                closed = self._close_soft_walls(states)
             else:
-                closed = self._close_soft_walls(states) if turn % 2 else self._close_at_once(states, (False,))
+                closed = self._close_at_once(states, None if turn == last else False)
             if turn > 0 and not closed:
                 break
             if self._slowest_hop > 0.0:
@@ -109,10 +109,10 @@ class Impacts:
         """Whether some of these are no balls."""
         return not self._all_round and any(self._tracks[index].ball.turns for index in indices)
 
-    def _close_at_once(self, states: dict[int, State], softness: Sequence[bool]) -> list[Contact]:
-        """Close all contacts of balls with each other and with hard or soft walls, or both, at once; returns those that
+    def _close_at_once(self, states: dict[int, State], soft: bool | None) -> list[Contact]:
+        """Close all contacts of balls with each other and with soft or hard walls, or both, at once; returns those that
         were closing. If a ball closes one, and does not come to close the others by that, these do not act."""
-        found = [*self._with_surfaces(states, softness), *self._with_balls(states)]
+        found = [*self._with_surfaces(states, soft), *self._with_balls(states)]
         closed = [contact for contact in found if contact.speed > CLOSING]
         if len(closed) == 1 == min(len(found), len(states)) and not self._with_bodies(states):
             before = dict(states)
@@ -131,7 +131,7 @@ class Impacts:
     def _close_soft_walls(self, states: dict[int, State]) -> list[Contact]:
         """Close the contacts with soft walls, one after another; returns them."""
         closed = []
-        for contact in self._with_surfaces(states, (True,)):
+        for contact in self._with_surfaces(states, True):
             if contact.speed > CLOSING:
                 self._exchange_alone(states, contact)
                 closed.append(contact)
@@ -164,12 +164,12 @@ class Impacts:
 
     # ------------------------------------------------------------------ contacts
 
-    def _with_surfaces(self, states: dict[int, State], softness: Sequence[bool]) -> Iterator[Contact]:
-        """The contacts with hard or soft walls, or both, each from the states when it is asked for. Where surfaces
+    def _with_surfaces(self, states: dict[int, State], soft: bool | None) -> Iterator[Contact]:
+        """The contacts with soft or hard walls, or both, each from the states when it is asked for. Where two surfaces
         join, a point of both counts once."""
         for index in states:
             track, met = self._tracks[index], list[tuple[float, ...]]()
-            asked = [each for each in track.obstacles if self._soft(each.surface) in softness]
+            asked = [each for each in track.obstacles if soft is None or self._soft(each.surface) is soft]
             for obstacle, found in surfaces_met(track.ball, asked, states[index], self.gap):
                 for number, point in enumerate(found.points):
                     place = *point, *(track.ball.radius * part for part in found.normal)

@@ -18,7 +18,7 @@ from typing import Any
 import pymunk
 
 from sandbox.engine.accuracy import Accuracy
-from sandbox.engine.acting import checked
+from sandbox.engine.acting import law_of
 from sandbox.engine.arc import Arc
 from sandbox.engine.event import Event
 from sandbox.engine.impacts import after_one, of_two, with_surface
@@ -67,6 +67,7 @@ class _Tracked:
         self.rolling_spin: tuple[float, ...] = ball.rolling_spin if rolls else ()  # rad/s
         self.turns = ball.turns
         self.body = body
+        self.law = law_of(ball)
         self.path: list[Arc] = []
         self.since = 0.0  # s, start of the current arc
         self.start: State = self.state()
@@ -211,7 +212,7 @@ class PlainSimulation:
         tracked, setup = self._tracked[body], self._setup
         state = tracked.state()
         x, y, vx, vy, spin = state[:5]
-        acceleration = checked(tracked.ball, self._t, state if tracked.turns else state[:5])
+        acceleration = tracked.law(self._t, state if tracked.turns else state[:5])
         before = tracked.ball.position if tracked.last is None else tracked.last[0][:2]
         self._refuse_leap(tracked, before, (x, y))
         if tracked.last is not None and tracked.touched != self._steps:

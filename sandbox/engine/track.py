@@ -7,11 +7,10 @@ the surface adds a force, so a roll is as accurate as a flight.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import partial
 from math import hypot, isfinite
 
 from sandbox.engine.accuracy import Accuracy
-from sandbox.engine.acting import acceleration, checked
+from sandbox.engine.acting import law_of
 from sandbox.engine.arc import Arc, crossing, still, through
 from sandbox.engine.lasting import BECOMES, RESTING, LastingContact, contact_on, wedged
 from sandbox.engine.run import Numerics
@@ -55,7 +54,7 @@ class Track:
         self._setup = setup
         self._accuracy = accuracy
         self._numerics = numerics
-        self._law: Law = partial(acceleration, ball)
+        self._law = law_of(ball)
         self._control = StepControl(accuracy, turns=ball.turns)
         self._known: tuple[State, Acceleration] = ((), (0.0, 0.0, 0.0))  # the end of the last step: the next start
         self._slips = False  # it has just lost its grip
@@ -125,7 +124,7 @@ class Track:
             return self._integrate(t, until, self._law), ""
         if contact.mode == RESTING:
             return still(t, until, self.state, contact), ""
-        arc = self._integrate(t, until, lambda at, state: contact.forces(ball, checked(ball, at, state), state)[0])
+        arc = self._integrate(t, until, lambda at, state: contact.forces(ball, self._law(at, state), state)[0])
         return self._cut_where_contact_changes(arc, contact)
 
     def _integrate(self, t: float, until: float, law: Law) -> Arc:
@@ -144,9 +143,6 @@ class Track:
             fits, following, end, last = control.attempt(law, t, state, acceleration, h, wanted, ball.radius)
             self._numerics.steps += 1
             self._numerics.force_evaluations += control.evaluations
-            if not isinstance(acceleration[0] + last[0] + last[1] + last[2], float):
-                exact = partial(checked, ball)  # raises the error, with its cause
-                control.attempt(exact, t, state, exact(t, state), h, wanted, ball.radius)
             if fits:
                 break
             if following < shortest:
@@ -176,7 +172,7 @@ class Track:
             return contact.progress(self.ball, state)
 
         def held(t: float, state: State) -> tuple[Acceleration, float, float]:
-            return contact.forces(self.ball, self._applied(t, state), state)
+            return contact.forces(self.ball, self.applied(t, state), state)
 
         ends: list[tuple[float, str]] = []
         last = arc.state(arc.t1)
@@ -213,7 +209,7 @@ class Track:
         if not near:
             return
         x, y, vx, vy, spin = self.state
-        applied = self._applied(t, self.state)
+        applied = self.applied(t, self.state)
         pressed = [press(self.state, applied, touch.nx, touch.ny, touch.curvature) for _, touch in near]
         kept, hardest = list[Near](), 0.0
         for (obstacle, touch), by in zip(near, pressed, strict=True):
@@ -273,7 +269,7 @@ class Track:
                 x, y = x - gap * touching.nx, y - gap * touching.ny
             self.state = (x, y, 0.0, 0.0, 0.0 if self.contact.mode == RESTING else spin)
 
-    def _applied(self, t: float, state: State) -> Acceleration:
+    def applied(self, t: float, state: State) -> Acceleration:
         """Acceleration from the applied forces, without the contact's; m/s^2, rad/s^2. Counts evaluations."""
         self._numerics.force_evaluations += 1
-        return checked(self.ball, t, state)
+        return self._law(t, state)

@@ -18,7 +18,7 @@ class Turning(Track):
         of ``height`` (m). What is touched at more points, or elsewhere, is left to the heap."""
         self.contact = None
         slips, self._slips = self._slips, False
-        applied = self._applied(t, self.state)
+        applied = self.applied(t, self.state)
         found = kept(self.ball, self.obstacles, self.state, TOUCHING_GAP, applied, height)
         if len(found) == 1:
             self.contact = one_point(self.ball, self.state, *found[0], applied, slips)
