@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator
 from dataclasses import dataclass
-from math import atan2, ceil, dist, hypot, inf, pi
+from math import atan2, ceil, dist, floor, hypot, inf, pi
 
 import numpy as np
 
@@ -79,9 +79,11 @@ class Path:
         self.run, self.name = run, name
         self.radius: float = next(ball.radius for ball in run.setup.balls if ball.name == name)
         self.until = run.duration if until is None else until
-        samples = run.trajectory(name, max(SAMPLING, run.duration / MOST_SAMPLES), ends=True)[:, :3]  # t, x, y
-        end = (self.until, *run.state(name, self.until)[:2])
-        self.samples = np.vstack([samples[samples[:, 0] < self.until], end])
+        every, found = max(SAMPLING, run.duration / MOST_SAMPLES), list[tuple[float, float, float]]()  # t, x, y
+        for arc in (arc for arc in run.arcs[name] if arc.t0 < min(arc.t1, self.until)):
+            between = range(floor(arc.t0 / every) + 1, 0 if arc.rests else ceil(min(arc.t1, self.until) / every))
+            found += [(t, *arc.position(t)) for t in (arc.t0, *(i * every for i in between))]
+        self.samples = np.array([*found, (self.until, *run.state(name, self.until)[:2])])
         self.points = self.samples[:, 1:]
 
     def even_times(self, span: float) -> tuple[float, list[float]]:
