@@ -48,11 +48,11 @@ class Animation:
 
 def poster(run: Run, path: Path | str | None, size: Size | None) -> Image.Image | None:
     """The whole run as one picture: written to ``path``, or handed back."""
-    drawn = _picture(run, size or POSTER)
+    drawn = frames.poster_of(_picture(run, size or POSTER))
     if path is None:
-        return frames.to_image(frames.poster_of(drawn))
+        return frames.to_image(drawn)
     _check(path, ".png")
-    frames.save_poster(drawn, path)
+    frames.save_png(drawn, path)
     return None
 
 

@@ -121,11 +121,6 @@ def quick_png(image: Image.Image) -> bytes:
     return b"\x89PNG\r\n\x1a\n" + b"".join(chunks)
 
 
-def save_poster(picture: Picture, path: Path | str) -> None:
-    """Write the whole run as one PNG. Raises OSError where it cannot be written."""
-    save_png(poster_of(picture), path)
-
-
 def save_frames(picture: Picture, run: Run, folder: Path | str, fps: float, progress: Progress | None = None) -> int:
     """Write frame_00000.png, frame_00001.png, ... into a folder, all or none; returns how many.
 

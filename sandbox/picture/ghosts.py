@@ -22,8 +22,6 @@ if TYPE_CHECKING:
 LIGHTER = 0.45
 #: The label of a ghost may stand at about so many points of its path.
 ANCHORS = 12
-#: The path of a ghost in a frame has so many points at most.
-MOST_POINTS = 480
 
 
 @dataclass(frozen=True)
@@ -77,8 +75,7 @@ class Ghost:
         """Its path (px, shape (n, 2)) as a thin line, and where its ball is (px)."""
         colour = self.colour_on(sheet)
         if len(points) > 1:
-            kept = np.unique(np.linspace(0, len(points) - 1, MOST_POINTS).astype(int))
-            sheet.painter.thread(points[kept], sheet.unit, colour)
+            sheet.painter.thread(points, sheet.unit, colour)
         sheet.painter.disc((at[0], at[1]), max(2.5, 5 * sheet.unit), colour, 0.9)
 
     def draw(self, sheet: Sheet, points: np.ndarray) -> None:

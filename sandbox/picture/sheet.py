@@ -15,6 +15,7 @@ from sandbox.picture.lettering import Labels, Lettering, Spot
 from sandbox.picture.painter import Painter, blank
 from sandbox.picture.palette import Colour, palette
 from sandbox.sport.amounts import amount, scale_unit, signed
+from sandbox.units import convert
 
 CARD = palette("card")
 
@@ -24,8 +25,6 @@ Entry = tuple[str, str] | tuple[str, str, Colour]
 #: Nearest that anything important comes to an edge, as a share of the picture's width and height.
 MARGIN = 0.05
 YARD = 0.9144  # m
-#: What a ruler's second row may count, in m.
-UNITS = {"yd": YARD, "ft": YARD / 3}
 #: Letters and lines go with a picture's height; where it is narrower than this, width over height, with its width.
 SQUAREST = 4 / 3
 #: Under so many rows a ruler has no second row of figures; under so few there is no room for a large headline, nor for
@@ -216,7 +215,7 @@ class Sheet:
         self.surface.fill(CARD["rule"], (self.frame.left, y, self.frame.width, thin))
         self._scale(camera, y, thin, "m", 1.0, upward=True)
         if self.rows >= ROWS_FOR_YARDS:
-            self._scale(camera, y, thin, below, UNITS[below], upward=False)
+            self._scale(camera, y, thin, below, convert(1.0, below, "m"), upward=False)
 
     def _scale(self, camera: Camera, row: int, thin: int, unit: str, metre: float, upward: bool) -> None:
         room = max(self.lettering.width("−000.0 ", "small"), 104 * self.unit)

@@ -192,21 +192,20 @@ class SideView(View[P]):
         width, scale = self.size[0], self.size[0] / self.near_view
         if self.camera.scale >= scale:
             return self.camera
-        ahead = ON_ITS_WAY[0] if self._forward else 1 - ON_ITS_WAY[0]
         (x, *_), base = self.path.points[0], self.base(self.sheet.side_rows(len(self.ghosts), 0), scale)
-        return Camera((float(x), self._under(x)), (ahead * width, base), scale)
+        behind, _ = self._way
+        return Camera((float(x), self._under(x)), (behind * width, base), scale)
 
     @property
-    def _forward(self) -> bool:
-        """Whether the ball sets off to the right."""
-        return self.run.state(self.ball, 0.0)[2] >= 0.0
+    def _way(self) -> tuple[float, float]:
+        """Between which shares of the width a ball on its way is, that behind it first."""
+        forward = self.run.state(self.ball, 0.0)[2] >= 0.0
+        return ON_ITS_WAY if forward else (1 - ON_ITS_WAY[0], 1 - ON_ITS_WAY[1])
 
     @cached_property
     def columns(self) -> tuple[float, float]:
         """Where frames keep the ball, in px."""
-        low, high = AT_HOME if self.home == self.camera else ON_ITS_WAY
-        if self.home != self.camera and not self._forward:
-            low, high = 1 - high, 1 - low
+        low, high = sorted(AT_HOME if self.home == self.camera else self._way)
         return low * self.size[0], high * self.size[0]
 
     def inset(self, sheet: Sheet, camera: Camera, t: float | None) -> pygame.Rect | None:

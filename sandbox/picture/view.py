@@ -381,8 +381,7 @@ class View(Generic[P]):
             self.shadow(painter, camera, name, t, at, radius)
         sheet.surface.set_clip((0, sheet.top_row, *self.size))
         for ghost in self.ghosts:
-            points = self.spots(camera, ghost.points, 0.0)
-            ghost.draw_in_frame(sheet, points, self.spots(camera, ghost.at(t), 0.0)[0])
+            ghost.draw_in_frame(sheet, self.traced(camera, ghost.points), self.spots(camera, ghost.at(t), 0.0)[0])
         self.trails(painter, camera, t)
         sheet.surface.set_clip(None)
         if self.ball in placed:
