@@ -105,8 +105,7 @@ class Heap:
         self._numerics = numerics
         self._members: dict[int, _Member] = {}
         self._of_disc: dict[pymunk.Shape, int] = {}
-        self._pressed: dict[frozenset[int], int] = {}  # the last step in which two balls pressed on each other
-        self._steps = 0
+        self._pressed: dict[frozenset[int], float] = {}  # s, when two balls pressed on each other last
         self._slow_for = 0.0  # s
         self._forced = 0.0  # m/s^2, the largest acceleration by forces in this step
         self._fastest = 0.0  # m/s, approach in the heap that is no impact of its own
@@ -135,17 +134,18 @@ class Heap:
         for i, state in states.items():
             if self._lies(i, t, state):
                 found = True
-                self._pressed[frozenset((i,))] = self._steps
+                self._pressed[frozenset((i,))] = t
         forced = {index: self._forced_in_a_step(index, t, state) for index, state in states.items()}
         for (i, a), (j, b) in combinations(states.items(), 2):
             balls = self._tracks[i].ball, self._tracks[j].ball
             met = meeting(balls[0], a, balls[1], b, self.margin)
             if met.gap <= self.margin and (
                 -met.closing < max(forced[i], forced[j])
+                or (met.closing <= 0.0 and not self._members.keys().isdisjoint((i, j)))
                 or (not discs(*balls) and self._come_back(t, (i, j), (a, b), met))
             ):
                 found = True
-                self._pressed[frozenset((i, j))] = self._steps
+                self._pressed[frozenset((i, j))] = t
         return found
 
     def _come_back(self, t: float, indices: Sequence[int], states: Sequence[State], met: Meeting) -> bool:
@@ -194,7 +194,6 @@ class Heap:
         self._t = t
         fresh = states.keys() - self._members.keys()
         self._take(states)
-        self._steps += 1
         applied = {}
         for index, (x, y, vx, vy, spin, *angle) in states.items():
             turned = [angle[0] + 0.5 * h * spin] if angle else []
@@ -274,7 +273,7 @@ class Heap:
         """The balls of the pairs that pressed on each other in the last steps."""
         held: set[int] = set()
         for pair, last in list(self._pressed.items()):
-            if self._steps - last <= _PATIENCE and pair <= self._members.keys():
+            if self._t - last < _PATIENCE * self._longest and pair <= self._members.keys():
                 held |= pair
             else:
                 del self._pressed[pair]
@@ -292,8 +291,8 @@ class Heap:
         curves = (
             (x, x + 0.5 * (h * ux + dx), end[0]),
             (y, y + 0.5 * (h * uy + dy), end[1]),
-            (ux + dx / h, vx + dx / h),
-            (uy + dy / h, vy + dy / h),
+            (ux, vx),
+            (uy, vy),
             (spun, spin),
             *turned,
         )
@@ -354,7 +353,7 @@ class Heap:
                 height = abs(arbiter.normal.dot(arbiter.contact_point_set.points[0].point_a - here.body.position))
             here.resist(self._setup.surfaces[self._real.surface_of[second]], push / self._h, height)
         if not (on_surface and discs(here.ball)) and push > _PRESSURE * here.ball.mass * self._forced * self._h:
-            self._pressed[frozenset((i,) if on_surface else (i, self._of_disc[second]))] = self._steps
+            self._pressed[frozenset((i,) if on_surface else (i, self._of_disc[second]))] = self._t
 
 
 def _thickness(body: Ball) -> float:

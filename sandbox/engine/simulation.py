@@ -199,7 +199,7 @@ class Simulation:
         touching = self._impacts.touching(t, seeds)
         outcome = self._through(t, touching)
         if outcome is None:
-            if not self._all_round and self._heap.members & set(seeds):
+            if self._heap.members & set(seeds):
                 self._impacts.gap = self._heap.margin
                 touching = self._impacts.touching(t, seeds)
             outcome = self._impacts.exchange(t, touching, self._through)
