@@ -16,7 +16,6 @@ from __future__ import annotations
 
 from collections.abc import Collection, KeysView, Mapping, Sequence
 from functools import cached_property
-from itertools import combinations
 from math import hypot, inf, prod
 from typing import NamedTuple
 
@@ -127,19 +126,19 @@ class Heap:
         """The balls in the heap."""
         return self._members.keys()
 
-    def presses(self, t: float, states: Mapping[int, State]) -> bool:
-        """Whether balls that touch at t belong in the heap: some are in it, or two part too slowly to stay apart for
-        two steps."""
+    def presses(self, t: float, states: Mapping[int, State], pairs: Sequence[tuple[int, int]]) -> bool:
+        """Whether balls that touch at t, in ``pairs``, belong in the heap: some are in it, or two part too slowly to
+        stay apart for two steps."""
         found = not self._members.keys().isdisjoint(states)
         for i, state in states.items():
             if self._lies(i, t, state):
                 found = True
                 self._pressed[frozenset((i,))] = t
         forced = {index: self._forced_in_a_step(index, t, state) for index, state in states.items()}
-        for (i, a), (j, b) in combinations(states.items(), 2):
-            balls = self._tracks[i].ball, self._tracks[j].ball
+        for i, j in pairs:
+            a, b, balls = states[i], states[j], (self._tracks[i].ball, self._tracks[j].ball)
             met = meeting(balls[0], a, balls[1], b, self.margin)
-            if met.gap <= self.margin and (
+            if (
                 -met.closing < max(forced[i], forced[j])
                 or (met.closing <= 0.0 and not self._members.keys().isdisjoint((i, j)))
                 or (not discs(*balls) and self._come_back(t, (i, j), (a, b), met))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from itertools import combinations
 from math import dist, hypot
 from typing import NamedTuple
 
@@ -71,6 +70,7 @@ class Impacts:
         self._tracks = tracks
         self._numerics = numerics
         self.gap = TOUCHING_GAP  # m, up to which shapes touch; wider in a heap
+        self.pairs: list[tuple[int, int]] = []  # of balls that touch, of those found last
         self._slowest_hop = slowest_hop  # m/s, minimum speed at which balls on cloth separate
         # Walls softer than balls push back after the balls have separated.
         model = setup.contact
@@ -140,7 +140,7 @@ class Impacts:
     def touching(self, t: float, seeds: Sequence[int]) -> dict[int, State]:
         """The states at t of all balls that touch those in ``seeds``, directly or through others."""
         states: dict[int, State] = {}
-        waiting = list(seeds)
+        waiting, pairs = list(seeds), list[tuple[int, int]]()
         while waiting:
             index = waiting.pop(0)
             if index in states:
@@ -160,6 +160,9 @@ class Impacts:
                     or meeting(track.ball, state, neighbour.ball, neighbour.arc.state(t)).gap <= self.gap
                 ):
                     waiting.append(other)
+                    pairs.append((index, other))
+        place = {index: number for number, index in enumerate(states)}
+        self.pairs = sorted(pairs, key=lambda pair: (place[pair[0]], place[pair[1]]))
         return states
 
     # ------------------------------------------------------------------ contacts
@@ -182,7 +185,7 @@ class Impacts:
         return self._all_soft or surface.nose_height is not None
 
     def _with_balls(self, states: dict[int, State]) -> Iterator[Contact]:
-        for pair in combinations(states, 2):
+        for pair in self.pairs:
             balls = [self._tracks[index].ball for index in pair]
             found = meeting(balls[0], states[pair[0]], balls[1], states[pair[1]], self.gap)
             for number in range(len(found.points)) if found.gap <= self.gap else ():

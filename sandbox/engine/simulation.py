@@ -214,7 +214,7 @@ class Simulation:
         for index, state in outcome.states.items():
             self._tracks[index].arrive(t, state)
         held: Collection[int] = ()
-        if self._heaps_up and self._heap.presses(t, outcome.states):
+        if self._heaps_up and self._heap.presses(t, outcome.states, self._impacts.pairs):
             held = self._press_on(t, outcome.states.keys())
         for index in outcome.states:
             if index not in held:

@@ -12,6 +12,7 @@ from scipy.integrate import solve_ivp
 
 from sandbox.engine import simulate
 from sandbox.engine.accuracy import resolve
+from sandbox.engine.heap import Heaped
 from sandbox.engine.ledger import ledger
 from sandbox.engine.setup import Always, Ball, Bounce, ContactModel, Segment, Setup, Surface
 from sandbox.engine.touch import Outline
@@ -82,6 +83,10 @@ def overlap(run, t):
     return max(*between, *within) / R
 
 
+def heaped(run):
+    return [arc for path in run.arcs.values() for arc in path if isinstance(arc.contact, Heaped)]
+
+
 HEAPS = {
     "one on one": ([ball(0, 0.0, R), ball(1, 0.005, 0.3)], FLOOR),
     "one on two": ([ball(0, -R, R), ball(1, R, R), ball(2, 0.0, 0.2)], FLOOR),
@@ -107,6 +112,10 @@ def test_a_heap_comes_to_rest_without_overlap_and_its_energy_is_accounted_for(he
     assert book.work["gravity"] == pytest.approx(M * G * fallen, rel=0.02)  # but for what it does during impacts
     assert book.contacts.get("heap", 0.0) < 1e-3 * sum(book.work.values())  # a few steps may err by that
     assert -1e-12 <= book.contacts["position correction"] < 0.02 * sum(book.work.values())
+    assert any(abs(arc.contact.dy) > 1e-7 for arc in heaped(run))
+    for arc in heaped(run):  # what position correction moves is no speed, wherever a step is cut
+        start, middle, end = (np.array(arc.state(t)[2:4]) for t in (arc.t0, 0.5 * (arc.t0 + arc.t1), arc.t1))
+        assert middle == pytest.approx(0.5 * (start + end), abs=1e-9)
 
 
 @pytest.mark.parametrize("restitution", [0.0, 0.95, 1.0])
