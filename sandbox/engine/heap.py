@@ -66,10 +66,11 @@ _LEFT = 0.6
 
 
 class Heaped(NamedTuple):
-    """Value of ``Arc.contact`` for a ball in a heap: how far position correction moves it along the arc, in m."""
+    """Value of ``Arc.contact`` for a ball in a heap: how fast position correction moves it along the arc, in m/s; that
+    is no part of its velocity."""
 
-    dx: float = 0.0
-    dy: float = 0.0
+    vx: float = 0.0
+    vy: float = 0.0
 
 
 class _Member:
@@ -295,7 +296,7 @@ class Heap:
             (spun, spin),
             *turned,
         )
-        return Arc(t, t + h, member.start, curves, Heaped(dx, dy), end)
+        return Arc(t, t + h, member.start, curves, Heaped(dx / h, dy / h), end)
 
     def keeps_apart(self, index: int, other: Obstacle | int) -> bool:
         """Whether the heap keeps a ball from this obstacle or ball, so that they have no impact of their own: they

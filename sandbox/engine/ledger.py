@@ -117,7 +117,7 @@ class _Impacts:
 def _work_of_forces(ball: Ball, arc: Arc, moved: Heaped) -> float:
     """The work in J of the forces on a ball while position correction moves it."""
     forces = [force for _, force in by_cause(ball.forces, arc.t0, arc.start)]
-    return sum(fx * moved.dx + fy * moved.dy for fx, fy in forces)
+    return (arc.t1 - arc.t0) * sum(fx * moved.vx + fy * moved.vy for fx, fy in forces)
 
 
 def _book(ball: Ball, arc: Arc, work: dict[str, float], contacts: dict[str, float]) -> float:

@@ -234,16 +234,19 @@ def _path(arcs: Path) -> dict[str, Any]:
         else:
             last = [0, 0, 0]
         times = arc.t0 if arc.t1 == end else [arc.t0, arc.t1]
-        rows.append([times, *curves, 1 if heaped else _within(arc)])
+        rows.append([times, *curves, _within(arc)])
         if arc.curves[5:]:
             rows[-1].append([list(curve) for curve in arc.curves[5:]])
     return {"arcs": rows, "until": arcs[-1].t1}
 
 
 def _within(arc: Arc) -> Any:
-    """The polynomials of its velocity where they are not the derivatives: within an impact, and at its end; else 0."""
+    """The polynomials of its velocity where they are not the derivatives: within an impact, and at its end; else 0. In
+    a heap, what position correction adds to it, in m/s."""
     if arc.t1 <= arc.t0:
         return [[arc.start[2]], [arc.start[3]]]
+    if isinstance(arc.contact, Heaped):
+        return [round(speed, 9) for speed in arc.contact]
     return [list(arc.vx), list(arc.vy)] if arc.contact == PRESSED else 0
 
 

@@ -46,17 +46,18 @@ function integral(curve, u) {
 }
 
 /** The path of one ball: arcs [t0, t1, x, y, spin, vx and vy if they are not derivatives, spins about x
- * and y], one after the other. Those in a heap come as steps of `heaped` from coefficient to coefficient. */
+ * and y], one after the other. Those in a heap come as steps of `heaped` from coefficient to coefficient, and with
+ * speeds along x and y that are no part of the velocity. */
 class Path {
   constructor({ arcs, until }, heaped) {
     const ends = [...arcs.slice(1).map(([next]) => (Array.isArray(next) ? next[0] : next)), until], last = [0, 0, 0];
     this.arcs = arcs = arcs.map(([t0, x, y, spin, within, ...across], i) => {
       const times = Array.isArray(t0) ? t0 : [t0, ends[i]];
-      if (within !== 1) {
+      if (!Number.isFinite(within[0])) {
         last.fill(0);
         return [...times, x, y, spin, within, ...across];
       }
-      return [...times, ...[x, y, spin].map((steps, k) => steps.map((step) => (last[k] += step) * heaped)), 0, ...across];
+      return [...times, ...[x, y, spin].map((steps, k) => steps.map((step) => (last[k] += step) * heaped)), within, ...across];
     });
     let turned = 0;
     this.turned = arcs.map((arc) => {
@@ -81,7 +82,9 @@ class Path {
   /** [x, y, vx, vy, spin] at time t, after an impact at t. */
   state(t) {
     const [i, u] = this.find(t), [t0, t1, x, y, spin, within] = this.arcs[i];
-    const speeds = within || [x, y].map((curve) => derivative(curve).map((value) => value / (t1 - t0)));
+    const moved = Number.isFinite(within[0]) ? within : [0, 0];
+    const speeds = Array.isArray(within[0])
+      ? within : [x, y].map((curve, k) => derivative(curve).map((value) => value / (t1 - t0) - moved[k]));
     return [x, y, ...speeds, spin].map((curve) => evaluate(curve, u));
   }
 
