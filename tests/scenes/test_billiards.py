@@ -16,6 +16,7 @@ from sandbox import resources
 from sandbox.engine.run import Run
 from sandbox.errors import RequestError
 from sandbox.physics.throw import friction_by_speed
+from tests.scenes.play import playing
 
 R = 0.028575  # m
 G = 9.81  # m/s^2
@@ -28,14 +29,16 @@ PRESETS = sorted(path.stem for path in (resources.folder("scenes") / "billiards"
 IDEAL = {"ball.restitution": 1.0, "ball.friction": 0.0}
 
 
+play = playing("billiards")
+
+
 def spot(name: str, x: float, y: float) -> dict[str, Any]:
     return {"name": name, "x": x, "y": y}
 
 
 def shot(*balls: dict[str, Any], **overrides: Any) -> Run:
-    """A run with these balls; ``cue__speed`` stands for ``cue.speed``."""
-    dotted = {key.replace("__", "."): value for key, value in overrides.items()}
-    return sandbox.simulate(sandbox.load("billiards", {"balls": list(balls), **dotted}))
+    """A run with these balls."""
+    return play(balls=list(balls), **overrides)
 
 
 def ghost(cut: float, gap: float, x: float = 0.0) -> tuple[dict[str, Any], dict[str, Any]]:
@@ -46,21 +49,6 @@ def ghost(cut: float, gap: float, x: float = 0.0) -> tuple[dict[str, Any], dict[
 def impact(run: Run) -> float:
     """Time of the first impact."""
     return next(event.t for event in run.events if event.kind == "impact")
-
-
-def just_before(run: Run, ball: str, t: float) -> tuple[float, ...]:
-    """(x, y, vx, vy, wz, wx, wy) just before t."""
-    return *run.before(ball, t), *run.rolling_spin(ball, nextafter(t, 0.0))
-
-
-def just_after(run: Run, ball: str, t: float) -> tuple[float, ...]:
-    return *run.state(ball, t), *run.rolling_spin(ball, t)
-
-
-def rolling_velocity(state: tuple[float, ...]) -> tuple[float, float]:
-    """What a ball's velocity becomes once it rolls: (5/7) v + (2/7) r (wy, -wx)."""
-    _, _, vx, vy, _, wx, wy = state
-    return (5.0 * vx + 2.0 * R * wy) / 7.0, (5.0 * vy - 2.0 * R * wx) / 7.0
 
 
 def velocity_once_rolling(run: Run, ball: str, t: float) -> tuple[float, float]:
@@ -233,15 +221,11 @@ def test_a_cushion_met_squarely_gives_back_its_restitution():
 
 def test_a_carom_ball_off_the_nose_goes_as_tracked_ones_do():
     """45 deg in, 50.4 deg out once it rolls again, at 0.646 of its speed (329 tracked rebounds)."""
-    numbers = {
-        "table.kind": "carom",
-        "ball.radius": 0.03075,
-        "cloth.sliding_friction": 0.202,
-        "cloth.rolling_friction": 0,
-    }
+    numbers = {"table.kind": "carom", "ball.radius": 0.03075}
+    cloth = {"cloth.sliding_friction": 0.202, "cloth.rolling_friction": 0, "cloth.spinning_friction": 0.0}
     nose = {"cushion.nose_height": 0.037, "cushion.restitution": 0.88, "cushion.friction": 0.265}
-    stroke = {"cue.speed": 1.0, "cue.angle": 45.0, "cue.follow": 0.4, "cloth.spinning_friction": 0.0}
-    run = sandbox.simulate(sandbox.load("billiards", {"balls": [spot("cue", 0.9, -0.3)], **numbers, **nose, **stroke}))
+    stroke = {"cue.speed": 1.0, "cue.angle": 45.0, "cue.follow": 0.4}
+    run = shot(spot("cue", 0.9, -0.3), **numbers, **cloth, **nose, **stroke)
     t = impact(run)
     vx, vy = next(run.state("cue", t + 0.01 * k)[2:4] for k in range(200) if rolls(run, t + 0.01 * k))
     assert degrees(atan2(vy, -vx)) == pytest.approx(50.4, abs=0.1)
@@ -267,13 +251,8 @@ def test_a_slanting_cushion_shot_without_spin_takes_friction_along_the_cushion()
 @pytest.mark.parametrize("friction", [0.05, 0.1, 0.2, 1.0])
 def test_a_cushion_takes_up_roll_until_it_grips(friction: float):
     """Head on, the front of a rolling ball moves down at v: friction takes (5/2) min(mu (1 + e), 2/7) v off r w."""
-    run = shot(
-        spot("cue", 1.27 - R - NEAR, 0.2),
-        cushion__model="vertical",
-        cue__speed=2.0,
-        cue__follow=0.4,
-        cushion__friction=friction,
-    )
+    stroke = {"cue.speed": 2.0, "cue.follow": 0.4}
+    run = shot(spot("cue", 1.27 - R - NEAR, 0.2), cushion__model="vertical", cushion__friction=friction, **stroke)
     roll = R * run.rolling_spin("cue", impact(run))[1]
     assert roll == pytest.approx(2.0 - 2.5 * min(friction * 1.85, 2.0 / 7.0) * 2.0, rel=1e-4)
 
@@ -351,20 +330,10 @@ def test_a_ball_in_the_mouth_of_a_pocket_drops_and_none_leaves_the_table(kind: s
     radius = 0.02625 if kind == "snooker" else R
     dropped = 0
     for angle in range(0, 360, 3):
-        scene = sandbox.load(
-            "billiards",
-            {
-                "balls": [spot("cue", 0.05, 0.02)],
-                "table.kind": kind,
-                "ball.radius": radius,
-                "cue.speed": 8.0,
-                "cue.angle": float(angle),
-                "cue.english": 0.3,
-            },
-        )
-        run = sandbox.simulate(scene)
+        stroke = {"cue.speed": 8.0, "cue.angle": float(angle), "cue.english": 0.3}
+        run = shot(spot("cue", 0.05, 0.02), table__kind=kind, ball__radius=radius, **stroke)
         x, y = run.state("cue", run.duration)[:2]
-        table = scene.parameters.table
+        table = run.scene.parameters.table
         if run.result["scratch"]:
             dropped += 1
             nearest = min(hypot(x - c.center[0], y - c.center[1]) - c.radius for c in run.setup.catches)
@@ -444,7 +413,7 @@ def test_the_rack_is_nine_ball_unless_balls_are_listed():
 
 @pytest.fixture(scope="module")
 def eight_ball() -> Run:
-    return sandbox.simulate(sandbox.load("billiards/eight-ball-break"))
+    return play("billiards/eight-ball-break")
 
 
 def test_momentum_is_kept_and_energy_never_grows_at_any_impact(eight_ball: Run):
@@ -456,8 +425,8 @@ def test_momentum_is_kept_and_energy_never_grows_at_any_impact(eight_ball: Run):
     for t in instants:
         here = [event for event in run.events if event.t == t and event.kind == "impact"]
         met = {name for event in here for name in (event.ball, event.partner) if name in names}
-        before = [just_before(run, name, t) for name in met]
-        after = [just_after(run, name, t) for name in met]
+        before = [(*run.before(name, t), *run.rolling_spin(name, nextafter(t, 0.0))) for name in met]
+        after = [(*run.state(name, t), *run.rolling_spin(name, t)) for name in met]
         assert energy(after) <= energy(before) * (1.0 + 1e-12)
         if all(event.partner in names for event in here):
             for component in (2, 3):
@@ -472,7 +441,8 @@ def energy(states: list[tuple[float, ...]]) -> float:
 def test_energy_never_grows_between_impacts_either(eight_ball: Run):
     times = sorted({0.0, eight_ball.duration, *(0.02 * k for k in range(int(eight_ball.duration / 0.02)))})
     names = [ball.name for ball in eight_ball.setup.balls]
-    energies = [energy([just_after(eight_ball, name, t) for name in names]) for t in times]
+    states = [[(*eight_ball.state(name, t), *eight_ball.rolling_spin(name, t)) for name in names] for t in times]
+    energies = [energy(state) for state in states]
     assert all(later <= earlier * (1.0 + 1e-12) for earlier, later in pairwise(energies))
 
 
@@ -509,9 +479,7 @@ def test_the_rack_breaks_alike_for_any_small_gap(gap: str):
     """The cue ball comes back from a rack hit head on at much the same speed, not at the 5.7 m/s of a rigid lump."""
     speeds = []
     for rack_gap in ("0.01 mm", gap):
-        run = sandbox.simulate(
-            sandbox.load("billiards", {"rack": "eight-ball", "rack_gap": rack_gap, "cue.speed": 8.0})
-        )
+        run = play(**{"rack": "eight-ball", "rack_gap": rack_gap, "cue.speed": 8.0})
         speeds.append(run.state("cue", impact(run) + 0.01)[2])
     assert speeds[0] == pytest.approx(speeds[1], abs=0.2)
     assert -2.5 < speeds[0] < 0.0
@@ -534,15 +502,11 @@ def test_a_break_is_equal_bit_for_bit_in_another_process():
         "print(json.dumps(r, sort_keys=True))"
     )
     told = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True).stdout
-    here = sandbox.simulate(sandbox.load("billiards/nine-ball-break")).result
+    here = play("billiards/nine-ball-break").result
     assert told.strip() == json.dumps(here, sort_keys=True)
 
 
 # Presets --------------------------------------------------------------------------------------------------------------
-
-
-def preset(name: str) -> dict[str, Any]:
-    return sandbox.simulate(sandbox.load(f"billiards/{name}")).result
 
 
 @pytest.mark.parametrize(
@@ -557,7 +521,7 @@ def preset(name: str) -> dict[str, Any]:
     ],
 )
 def test_the_shots_pot_their_ball_and_keep_the_cue_ball(name: str, pocket: str):
-    result = preset(name)
+    result = play(f"billiards/{name}").result
     assert result["potted"] == ["1"]
     assert result["pockets"] == {"1": pocket}
     assert result["scratch"] is False
@@ -568,7 +532,7 @@ def test_stop_draw_and_follow_leave_the_cue_ball_where_their_names_say():
     """Along the line of the shot, from where it met the object ball."""
     along = {}
     for name in ("stop", "draw", "follow"):
-        run = sandbox.simulate(sandbox.load(f"billiards/{name}"))
+        run = play(f"billiards/{name}")
         x0, y0 = run.state("cue", impact(run))[:2]
         x, y = run.result["positions"]["cue"]
         along[name] = (x - x0) * cos(radians(32.074)) + (y - y0) * sin(radians(32.074))
@@ -578,13 +542,13 @@ def test_stop_draw_and_follow_leave_the_cue_ball_where_their_names_say():
 
 
 def test_the_bank_and_the_kick_go_off_the_right_cushion():
-    run = sandbox.simulate(sandbox.load("billiards/bank"))
+    run = play("billiards/bank")
     assert [e.partner for e in run.events if e.ball == "1" and e.kind == "impact"][:2] == ["cue", "right long cushion"]
-    assert preset("kick")["touches"][:2] == ["right long cushion", "1"]
+    assert play("billiards/kick").result["touches"][:2] == ["right long cushion", "1"]
 
 
 def test_the_carom_makes_three_cushions_between_the_balls():
-    result = preset("three-rail-carom")
+    result = play("billiards/three-rail-carom").result
     assert result["touches"][:5] == ["red", "foot cushion", "left long cushion", "right long cushion", "yellow"]
     assert result["potted"] == []
     assert (result["point"], result["scored"]) == (3, True)
@@ -602,7 +566,7 @@ def test_a_point_needs_all_others_and_a_pocket_no_scratch():
 
 def test_in_newtons_cradle_little_but_the_last_ball_leaves():
     """Balls that touch share the blow: the last gets 98.5 % of it, and the first comes back a little (Hertz)."""
-    run = sandbox.simulate(sandbox.load("billiards/newtons-cradle"))
+    run = play("billiards/newtons-cradle")
     t = impact(run)
     arriving = run.before("cue", t)[2]
     later = {name: run.state(name, t + 0.01)[2] for name in ("cue", "1", "2", "3", "4", "5")}
@@ -611,7 +575,7 @@ def test_in_newtons_cradle_little_but_the_last_ball_leaves():
 
 
 def test_the_snooker_break_has_22_balls_and_comes_back_to_baulk():
-    run = sandbox.simulate(sandbox.load("billiards/snooker-break"))
+    run = play("billiards/snooker-break")
     assert len(run.setup.balls) == 22
     assert run.result["first_contact"].startswith("red")
     assert run.result["potted"] == []
