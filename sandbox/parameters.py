@@ -144,6 +144,8 @@ def _declared(default: Any, meaning: str, kind: Quantity) -> Any:
         meant = units.suggestion(kind.unit)
         known = f"did you mean {meant}?" if meant else f"use {', '.join(unit for unit in units.KIND_OF if unit)}"
         raise ValueError(f'"{kind.unit}" is not a known unit; {known}; or "" for a number without one')
+    if kind.low > kind.high:
+        raise ValueError(f"the lowest value, {kind.low:g}, is above the highest, {kind.high:g}")
     return _field(default, meaning, kind.read, json_schema_extra=kind)
 
 

@@ -87,6 +87,12 @@ HANDED_OVER = [
     (OF_DROP, FLOOR, "friction=0.5, law=lambda *_: (0.5, 0.5))", "and returned (0.5, 0.5)"),
     (OF_DROP, FLOOR, "friction=0.5, law=lambda *_: 'hard')", "and returned 'hard'"),
     (OF_DROP, f"{FORCE},", "        return 1j,", "Gravity is called with (t, position, velocity, spin)"),
+    (
+        OF_DROP,
+        f"{FORCE},",
+        "        return float('nan'),",
+        "spin) and must return (fx, fy) in N, a torque one number in N m",
+    ),
     (OF_DROP, f"{FORCE},", "        return 10**400,", "int too large to convert to float"),
     *(
         (OF_DROP, "FACTS = (", f"x = []\nx.append(x)\nFACTS = (Fact('odd', '', '', lambda run, _: {what}),", said)
@@ -144,6 +150,12 @@ def test_a_sweep_says_it_too(call: Call, scene: Path, file: str, old: str, new: 
     change(scene / file, old, new)
     outcome = call("sweep", "./drop", "--over", "launch.height=1:2:30", "--jobs", 1, "--out", "rows.csv")
     assert_refused(outcome._replace(out=""), expected, code=1)
+
+
+def test_a_fact_that_is_not_a_number_did_not_happen(call: Call, scene: Path):
+    change(scene / OF_DROP, "FACTS = (", "FACTS = (Fact('odd', 'odd', 'm', lambda run, _: float('nan')),")
+    assert "odd" not in call("run", "./drop").out
+    assert "nan" not in call("aim", "./drop", "--vary", "launch.height=1:2", "--target", "odd=2").out
 
 
 def test_a_range_in_which_all_runs_fail_says_where(call: Call, scene: Path):

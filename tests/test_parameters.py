@@ -208,9 +208,11 @@ def test_groups_are_frozen_and_their_defaults_are_checked():
         Wrong()
 
 
-def test_an_unknown_unit_is_an_error_of_the_scene():
+def test_an_unknown_unit_and_bounds_the_wrong_way_round_are_errors_of_the_scene():
     with pytest.raises(ValueError, match='"furlong" is not a known unit; use m, cm'):
         quantity(1.0, "furlong", low=0, high=1, meaning="")
+    with pytest.raises(ValueError, match="the lowest value, 1, is above the highest, -1"):
+        quantity(..., "m", low=1, high=-1, meaning="")
 
 
 # Refusals -----------------------------------------------------------------------------------------------------------

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from math import isfinite
 from typing import Any
 
 from sandbox.engine.setup import Ball
@@ -57,7 +58,8 @@ def law_of(ball: Ball) -> Law:
                 raise
             raise RunError(f"{_rule(term)}: {error}") from None
         if not isinstance(fx + fy + torque, float) and isinstance(spin, float):
-            raise _not_real(ball, t, state)
+            wrong = wrong_term(ball, t, state) or "the sum of its forces and torques is not a real number"
+            raise RunError(f"t = {t:.6g} s, ball {ball.name!r}: {wrong}")
         if loss is None:
             return fx / mass, fy / mass, torque / inertia
         left = ball.left(t)
@@ -84,17 +86,20 @@ def cause(term: object) -> str:
     return CALLED.get(words, words)
 
 
-def _not_real(ball: Ball, t: float, state: State) -> RunError:
-    """The error for forces and torques on a ball that do not add up to real numbers."""
-    where = f"t = {t:.6g} s, ball {ball.name!r}: "
+def wrong_term(ball: Ball, t: float, state: State) -> str | None:
+    """What a force or torque on a ball returns in place of finite numbers; None if all return those."""
     arguments = _place(state), state[2:4], state[4]
     for term in (*ball.forces, *ball.torques):
         found = term(t, *arguments)
-        parts = found if isinstance(found, tuple | list) else (found,)
-        if not all(isinstance(part, int | float) for part in parts):
-            returned = " ".join(repr(found).split())
-            return RunError(f"{where}{_rule(term)}, and returned {returned:.60}")
-    return RunError(f"{where}the sum of its forces and torques is not a real number")
+        several = isinstance(found, tuple | list) or getattr(found, "shape", ()) != ()
+        if not all(map(_is_finite, found if several else (found,))):
+            return f"{_rule(term)}, and returned {' '.join(repr(found).split()):.60}"
+    return None
+
+
+def _is_finite(part: Any) -> bool:
+    part = part.item() if getattr(part, "shape", None) == () else part
+    return isinstance(part, int | float) and isfinite(part)
 
 
 def _name(term: object) -> str:

@@ -7,10 +7,10 @@ the surface adds a force, so a roll is as accurate as a flight.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import hypot, isfinite
+from math import hypot
 
 from sandbox.engine.accuracy import Accuracy
-from sandbox.engine.acting import law_of
+from sandbox.engine.acting import law_of, wrong_term
 from sandbox.engine.arc import Arc, crossing, still, through
 from sandbox.engine.lasting import BECOMES, RESTING, LastingContact, contact_on, wedged
 from sandbox.engine.run import Numerics
@@ -146,24 +146,29 @@ class Track:
             if fits:
                 break
             if following < shortest:
-                raise self._too_short(t, h, end, last)
+                raise self._too_short(t, h, end)
             self._numerics.refined_steps += 1
             h = wanted = following
         self.next_step = following
-        self._setup.bounds.check(t + h, ball.name, end)
+        self._check(t + h, end)
         self._known = (end, last)
         return through(t, h, state, acceleration, end, last, contact)
 
-    def _too_short(self, t: float, h: float, after: State, acceleration: Acceleration) -> RunError:
-        self._setup.bounds.check(t + h, self.ball.name, after)
-        if not all(map(isfinite, acceleration)):
-            return RunError(
-                f"t = {t + h:.6g} s, ball {self.ball.name!r}: a force or torque is not finite; check the scene's forces"
-            )
-        return RunError(
-            f"t = {t:.6g} s, ball {self.ball.name!r}: the velocity changes too fast for any step "
-            f"(down to {h:.1e} s); look for a force that is not smooth, or raise accuracy.tolerance"
+    def _too_short(self, t: float, h: float, after: State) -> RunError:
+        self._check(t + h, after)
+        cause = wrong_term(self.ball, t + h, after) or (
+            f"the velocity changes too fast for any step (down to {h:.1e} s); look for a force that is not smooth, or "
+            "raise accuracy.tolerance"
         )
+        return RunError(f"t = {t + h:.6g} s, ball {self.ball.name!r}: {cause}")
+
+    def _check(self, t: float, after: State) -> None:
+        """Raise RunError, which names a force that is not finite, if a state is outside the world or not finite."""
+        if self._setup.bounds.hold(after):
+            return
+        if wrong := wrong_term(self.ball, t, self.state):
+            raise RunError(f"t = {t:.6g} s, ball {self.ball.name!r}: {wrong}")
+        self._setup.bounds.check(t, self.ball.name, after)
 
     # ------------------------------------------------------------------ lasting contact
 

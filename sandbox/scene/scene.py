@@ -14,6 +14,7 @@ import tokenize
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import takewhile
+from math import isfinite
 from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
@@ -136,7 +137,9 @@ class Scene:
             with no_exit():
                 result = {key: how(run, parameters) for key, how in hows}
             for key, value in result.items():
-                if type(value) not in _PLAIN and not _is_reportable(value):
+                if isinstance(value, float) and not isfinite(value):
+                    result[key] = None
+                elif type(value) not in _PLAIN and not _is_reportable(value):
                     raise self._wrong(f"the fact {key}", "a number, a text, true or false, or a list of those", value)
             return result
 

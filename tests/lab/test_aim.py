@@ -167,7 +167,7 @@ def test_a_word_is_aimed_at():
 
 
 def test_targets_have_units():
-    golf, basketball = load("golf"), load("basketball")
+    golf, basketball, billiards = load("golf"), load("basketball"), load("billiards")
     assert parse_target("carry=200", golf) == Target("carry", 200.0)
     assert parse_target("carry = '200 m'", golf) == Target("carry", 200.0)
     assert parse_target("carry=100 yd", golf) == Target("carry", 91.44)
@@ -176,6 +176,8 @@ def test_targets_have_units():
     assert parse_target("landing_speed=36 km/h", golf) == Target("landing_speed", 10.0)
     assert parse_target("made=true", basketball) == as_target("made", True, basketball) == Target("made", True)
     assert parse_target("verdict=swish", basketball) == Target("verdict", "swish")
+    assert parse_target('potted="1"', billiards) == as_target("potted", "1", billiards) == Target("potted", "1")
+    assert parse_target("rails=1", billiards) == Target("rails", 1.0)
     with pytest.raises(RequestError, match="--target carry=far: is not a number with a unit; use m,"):
         parse_target("carry=far", golf)
     with pytest.raises(RequestError, match="s is a unit of time; use m,"):

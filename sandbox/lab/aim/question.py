@@ -119,7 +119,8 @@ class Aim:
 
 
 def parse_target(text: str, scene: Scene) -> Target:
-    """``carry=200``, ``carry="219 yd"``, ``made=true`` or ``verdict=swish``. Raises RequestError."""
+    """``carry=200``, ``carry="219 yd"``, ``made=true``, ``verdict=swish`` or, of a ball named 1, ``potted="1"``. Raises
+    RequestError."""
     name, equals, value = (part.strip() for part in text.partition("="))
     if not name or not equals or not value:
         raise RequestError(f"--target {text}: write it as NAME=VALUE, for example --target carry=200")
@@ -134,6 +135,8 @@ def as_target(name: str, value: Any, scene: Scene, option: str = "target") -> Ta
         text, unit = value.strip().strip("\"'"), scene.units.get(name, "")
         if text in ("true", "false"):
             return Target(name, text == "true")
+        if not unit and (option == "target" or text != value.strip()):
+            return Target(name, text)
         try:
             value = units.parse(text, unit)
         except ValueError as error:

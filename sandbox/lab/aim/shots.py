@@ -148,9 +148,16 @@ class Shots:
             value = result[target.name]
             held = isinstance(value, list | dict) and isinstance(wanted, str)  # a word that a list may hold
             if value is not None and _kind(value) != _kind(wanted) and not held:
-                example = f"{value:.4g}" if isinstance(value, float) else str(value).lower()
-                hint = f", such as {target.name}={example}" if option == "--target" and _kind(value) != "a list" else ""
+                hint = f", such as {_example(target, value)}" if option == "--target" else ""
                 raise RequestError(f"{option} {target.name}: is {_kind(value)}{hint}, not {_kind(wanted)}")
+
+
+def _example(target: Target, value: Any) -> str:
+    """How to aim at a result like this value: a word that may look like a number is in quotes, also for the shell."""
+    if isinstance(value, list | dict):
+        value = next(iter(value), "1")
+    text = f"{value:.4g}" if isinstance(value, float) else str(value).lower() if isinstance(value, bool) else str(value)
+    return f"{target.name}={text}" if not isinstance(value, str) or text.isalpha() else f"""'{target.name}="{text}"'"""
 
 
 def _kind(value: Any) -> str:
