@@ -59,7 +59,6 @@ def scene(written: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Pat
         (OF_NEW, "def build(", "\udcff\ndef build(", "SyntaxError: "),
         (OF_NEW, 'at(landing, "x")', 'at(landing, "ex")', 'ValueError: at(..., "ex"): a Moment has t'),
         (OF_NEW, 'until=Touches("floor", 4)', "until=lambda event: event.foo", "AttributeError: 'Event'"),
-        (OF_NEW, "Fan(fan.place, fan.width, fan.push))", "Fan)", "ValueError: ball 'ball': 'Fan' is not a force"),
         (OF_NEW, "duration=20.0", "duration=-20.0", "duration = -20.0 s must be positive"),
         (PICTURE, "Place(Hall", "Place(Hole", "NameError: name 'Hole' is not defined"),
         (PICTURE, "launch.height)", "launch.hight)", "AttributeError: 'Toss' object has no"),

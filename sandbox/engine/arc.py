@@ -149,6 +149,8 @@ def through(
         ends = (start[5], 0.0, w0, 0.0, 0.0), (al0, 0.0, 0.0), (end[5], 0.0, w1, 0.0, 0.0), (al1, 0.0, 0.0)
         angle, _, spin, *_ = through(t, h, *ends).curves
         curves = (*curves[:4], spin, angle)
+    elif len(start) == 7:  # rolling spins change evenly
+        curves = (*curves, *zip(start[5:], end[5:], strict=True))
     return Arc(t, t + h, start, curves, contact, end)
 
 

@@ -71,11 +71,11 @@ class _Tracked:
         self.path: list[Arc] = []
         self.since = 0.0  # s, start of the current arc
         self.start: State = self.state()
-        self.last: tuple[State, Acceleration] | None = None  # before the forces of the last step
+        self.last: tuple[State, Acceleration] = self.start, (0.0, 0.0, 0.0)  # before the forces of the last step
         self.touched = -2  # number of the last step in which it touched something
         self.resisted: dict[Any, float] = {}  # rolling resistance of lasting contact, by the surface's shape
         self.caught = False
-        self.still_since: float | None = None
+        self.moved = 0.0  # s, when it last moved, or touched nothing
 
     def state(self) -> State:
         body = self.body
@@ -193,11 +193,8 @@ class PlainSimulation:
         slow = (vx * vx + vy * vy) ** 0.5 + tracked.ball.radius * abs(spin) < _REST_SPEED
         held = self._setup.plane is not None or self._steps - tracked.touched <= 1
         if not (slow and held):
-            tracked.still_since = None
-            return False
-        if tracked.still_since is None:
-            tracked.still_since = self._t
-        return self._t - tracked.still_since >= _REST_TIME
+            tracked.moved = self._t
+        return self._t - tracked.moved >= _REST_TIME
 
     def _note(self, event: Event) -> None:
         self._events.append(event)
@@ -213,9 +210,8 @@ class PlainSimulation:
         state = tracked.state()
         x, y, vx, vy, spin = state[:5]
         acceleration = tracked.law(self._t, state if tracked.turns else state[:5])
-        before = tracked.ball.position if tracked.last is None else tracked.last[0][:2]
-        self._refuse_leap(tracked, before, (x, y))
-        if tracked.last is not None and tracked.touched != self._steps:
+        self._refuse_leap(tracked, tracked.last[0][:2], (x, y))
+        if tracked.touched != self._steps:
             self._refuse_reversal(tracked, *tracked.last, state, acceleration, h)
         tracked.last = state, acceleration
         ax, ay, alpha = acceleration
@@ -248,7 +244,7 @@ class PlainSimulation:
             self._note(Event(self._t, "impact", first.ball.name, contact.partner, contact.speed, *states[0][:2]))
         bounce, lasts, lowest = contact.bounce, False, 0.0
         if surface is not None:
-            ax, ay, _ = (0.0, 0.0, 0.0) if first.last is None else first.last[1]
+            ax, ay, _ = first.last[1]
             press = max(0.0, -ax * nx - ay * ny)  # m/s^2
             # no faster than what weight alone adds in a step or two
             lasts = abs(contact.speed) <= 2.0 * press * self._accuracy.step

@@ -73,13 +73,6 @@ class Ball:
     def __post_init__(self) -> None:
         positive, points = ("mass", "radius", "inertia_factor"), ("position", "velocity", "rolling_spin")
         check(f"ball {self.name!r}", self, positive=positive, points=points, finite=["spin"])
-        for force in (*self.forces, *self.torques):
-            if isinstance(force, type) or not callable(force):
-                name = getattr(force, "__name__", force)
-                raise ValueError(
-                    f"ball {self.name!r}: {name!r} is not a force: list something that can be called with "
-                    "(t, position, velocity, spin), such as an instance, not the class itself"
-                )
         object.__setattr__(self, "inertia", self.inertia_factor * self.mass * self.radius * self.radius)
 
 

@@ -313,10 +313,8 @@ class Simulation:
         ranges = []
         for index, track in enumerate(self._tracks):
             if not track.caught:
-                left, bottom, right, top = (
-                    track.arc.box() if index in stepped else track.arc.box_within(t, self._accuracy.step)
-                )
-                radius = track.ball.radius
+                arc, radius = track.arc, track.ball.radius
+                left, bottom, right, top = arc.box() if index in stepped else arc.box_within(t, self._accuracy.step)
                 ranges.append((left - radius, right + radius, bottom - radius, top + radius, index))
         found: dict[int, list[int]] = {index: [] for index in stepped}
         passing: list[tuple[float, float, float, float, int]] = []

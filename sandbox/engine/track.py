@@ -88,11 +88,8 @@ class Track:
     def meet(self, t: float, until: float, state: State) -> None:
         """Add the arc up to t, and a contact that lasts from then to ``until`` and ends in ``state``."""
         self._keep(t)
-        before = self.arc.state(t)
-        arc = through(t, until - t, before[:5], (0.0, 0.0, 0.0), state[:5], (0.0, 0.0, 0.0), PRESSED)
-        arc.start, arc.end = before, state
-        arc.curves += tuple(zip(before[5:], state[5:], strict=True))
-        self.path.append(arc)
+        evenly = (0.0, 0.0, 0.0)
+        self.path.append(through(t, until - t, self.arc.state(t), evenly, state, evenly, PRESSED))
         self.arc, self.state = still(until, until, state), state
         self.version += 1
 
