@@ -160,6 +160,13 @@ def still(t: float, until: float, state: State, contact: object = None) -> Arc:
     return Arc(t, until, state, ((x,), (y,), (0.0,), (0.0,), *((spin,) for spin in spins)), contact)
 
 
+def straight(t: float, until: float, state: State, contact: object = None) -> Arc:
+    """A ball on which nothing acts from t to ``until``."""
+    x, y, vx, vy, *spins = state
+    h = until - t
+    return Arc(t, until, state, ((x, x + h * vx), (y, y + h * vy), (vx,), (vy,), *((spin,) for spin in spins)), contact)
+
+
 def crossing(arc: Arc, value: Callable[[float, State], float], rounding: float = 0.0) -> float:
     """The time at which ``value``, negative at the end of the arc, falls to zero; the start if it is never positive
     and more than ``rounding``."""

@@ -2,10 +2,15 @@
 
 An impulse is right for an isolated pair. If two bodies reach a third while they are in contact, the outcome depends on
 how the contacts overlap in the fraction of a millisecond they last. So the contact is simulated: positions and
-velocities under the forces of Hertz's law (``physics/hertz.py``) by Dormand and Prince's pair, and friction impulses
+velocities under the forces of Hertz's law (``physics/hertz.py``) by Kutta's method of order 4, and friction impulses
 at the ends of its steps (``rubbing.py``).
 
-All contacts are treated at once, as rows of arrays, so that the outcome does not depend on the order of the bodies.
+The force of damping, ``c d^(1/4) dd/dt``, is the rate of ``c 4/5 d^(5/4)``, which is how much of the momentum it has
+taken in all. So the velocities without that part are integrated: their forces have no steep start, and equal steps are
+accurate though contacts close and open within them.
+
+All contacts are treated at once, as entries of arrays, so that the outcome does not depend on the order of the bodies.
+Vectors in the plane are complex numbers, x + iy.
 """
 
 from __future__ import annotations
@@ -20,18 +25,18 @@ from sandbox.engine.rubbing import Rubbing
 from sandbox.engine.surfaces import CLOSING
 from sandbox.errors import RunError
 from sandbox.physics.hertz import contact_time, damping
-from sandbox.physics.integrators import DORMAND_PRINCE
+from sandbox.physics.integrators import INTEGRATORS
 
-_STAGES = [np.array(stage.weights) for stage in DORMAND_PRINCE.stages]
-_ERROR = np.array(DORMAND_PRINCE.error)
+_STAGES = [np.array(stage.weights) for stage in INTEGRATORS["rk4"].stages]
 
-#: Largest error of a step by the embedded pair, relative to the fastest speed; if it is larger, all is repeated with
-#: half the step. Steps are otherwise equal, so that the outcome depends smoothly on the input and rounding stays small.
+#: Largest error of a step, relative to the fastest speed; if it is larger, all is repeated with half the step. It is
+#: taken from the rates at the end, of the last stage and of the outcome: with those in its place the order is 3. Steps
+#: are otherwise equal, so that the outcome depends smoothly on the input and rounding stays small.
 _LARGEST_ERROR = 1e-3
+_ERROR = np.array([0.0, 0.0, 0.0, 1.0, -1.0]) / 6.0
 
-#: Up to this many links, steps end where a link closes or opens, and are graded around that time: by this ratio, so
-#: often for one link, and for more.
-_MAX_GRADED_LINKS, _RATIO, _GRADES_OF_ONE, _GRADES = 6, 4.0, 6, 2
+#: Share of the usual step for a lone pair, which has to have its restitution to 1e-6.
+_OF_A_PAIR = 0.125
 
 #: Longest contact times, for each body and in addition, after which bodies that press on one another will not separate
 #: by themselves; a chain of n equal balls takes 1 + (n - 1) / 2.
@@ -39,6 +44,9 @@ _PATIENCE = 1.0, 10.0
 
 #: Depth in m below which it is rounding.
 _TOUCH = 1e-12
+
+#: Rows of a motion: place (m), velocity (m/s) and spin (rad/s) in the plane, and out of it ``vz + i wz``.
+_PLACE, _VELOCITY, _ROLL, _OUT = range(4)
 
 
 class StaysPressed(RunError):
@@ -65,48 +73,50 @@ class Link(NamedTuple):
     stiffness: float  # N/m^1.5
     restitution: float
     friction: Callable[[float], float]  # of the slip in m/s
-    wall: Callable[[float, float], tuple[float, float, float]] | None = None  # gap (m) and normal of a body at (x, y)
+    #: Gap (m), normal, and curvature (1/m) of the path along the wall, of a body at (x, y).
+    wall: Callable[[float, float], tuple[float, float, float, float]] | None = None
 
 
 @dataclass(frozen=True)
 class ClusterOutcome:
-    """The state of a cluster after the contact: arrays with a row for each body, or an entry for each link."""
+    """A cluster through the contact: ``motion`` at the ``times``, and an entry for each link."""
 
-    duration: float  # s
-    position: np.ndarray  # m, shape (n, 2)
-    velocity: np.ndarray  # m/s, shape (n, 2)
-    spin: np.ndarray  # rad/s, shape (n, 3)
+    times: np.ndarray  # s, from 0 to the end, shape (times,)
+    motion: np.ndarray  # x, y, vx, vy and the spins about z, x, y, shape (times, bodies, 7); m, m/s, rad/s
     impulse: np.ndarray  # N s, normal, shape (links,); 0 if the link never closed
     approach: np.ndarray  # m/s, when it first closed, shape (links,)
     closed: np.ndarray  # s, time when it first closed, shape (links,)
-    steps: int
+
+    @property
+    def velocity(self) -> np.ndarray:
+        """At the end, in m/s, shape (bodies, 2)."""
+        return self.motion[-1, :, 2:4]
+
+    @property
+    def spin(self) -> np.ndarray:
+        """At the end, in rad/s about z, x and y, shape (bodies, 3)."""
+        return self.motion[-1, :, 4:]
 
 
 class Cluster:
     """Bodies and the links between them. The cost grows with all of them: leave out what cannot be reached."""
 
     def __init__(self, bodies: Sequence[Body], links: Sequence[Link]) -> None:
-        count = len(bodies)
-        self._count, self._links = count, links
-        self._bodies = bodies
-        self._first = np.array([link.first for link in links])
-        self._second = np.array([count if link.second is None else link.second for link in links])  # a wall: the last
+        count, every = len(bodies), range(len(links))
+        self._bodies, self._links = bodies, links
+        first = self._first = np.array([link.first for link in links])
+        second = self._second = np.array([count if link.second is None else link.second for link in links])
         radius = np.array([*(body.radius for body in bodies), 0.0])
-        inverse_mass = np.array([*(1.0 / body.mass for body in bodies), 0.0])
+        inverse_mass = np.array([*(1.0 / body.mass for body in bodies), 0.0])  # the last is what walls belong to
         inverse_inertia = np.array([*(1.0 / body.inertia for body in bodies), 0.0])
-        self._inertia = np.repeat([1.0 / inverse_mass[:-1], 1.0 / inverse_inertia[:-1]], 3, axis=0)  # kg, kg m^2
-        self._reach = radius[self._first] + radius[self._second]
+        self._push = np.array([*(complex(*body.push) for body in bodies), 0.0])
+        self._mass = 1.0 / (inverse_mass[first] + inverse_mass[second])  # kg, reduced
         self._stiffness = np.array([link.stiffness for link in links])
-        self._mass = 1.0 / (inverse_mass[self._first] + inverse_mass[self._second])  # kg, reduced
         self._damping = np.array([damping(link.restitution) for link in links]) * np.sqrt(self._mass * self._stiffness)
-        self._stored = 0.8 * self._stiffness / self._mass  # times depth^2.5: m^2/s^2
-        every = range(len(links))
-        self._incidence = np.zeros((count + 1, len(links)))
-        self._incidence[self._first, every] = 1.0
-        self._incidence[self._second, every] = -1.0
-        laws = [link.friction for link in links]
-        self._rubbing = Rubbing(self._incidence, radius, inverse_mass, inverse_inertia, laws)
-        self._pushed = np.ascontiguousarray((self._incidence * inverse_mass[:, None]).T)  # force to acceleration
+        self._pushed = np.zeros((len(links), count + 1), complex)  # 1/kg: by an impulse at each link
+        self._pushed[every, first], self._pushed[every, second] = inverse_mass[first], -inverse_mass[second]
+        self._rubbing = Rubbing(first, second, radius, inverse_mass, inverse_inertia, [link.friction for link in links])
+        self._reach = radius[first] + radius[second]
         self._walls = [(place, link.wall, link.first) for place, link in enumerate(links) if link.wall is not None]
 
     def pass_through(self, share: float, faint: float = 0.0) -> ClusterOutcome:
@@ -115,6 +125,7 @@ class Cluster:
 
         Raises StaysPressed if it does not end.
         """
+        share *= _OF_A_PAIR if len(self._links) == 1 else 1.0
         while True:
             passage, error = self._stepped_through(share, faint)
             if error <= _LARGEST_ERROR:
@@ -122,131 +133,125 @@ class Cluster:
             share *= 0.5
 
     def _stepped_through(self, share: float, faint: float) -> tuple[ClusterOutcome, float]:
-        count, links = self._count, len(self._links)
-        state = np.zeros((8, count + 1))  # x, y, vx, vy, vz, and the spins
+        """The same with steps that are not repeated, and their largest error relative to the fastest speed."""
+        count, links = len(self._bodies), len(self._links)
+        state = np.zeros((4, count + 1), complex)
         for i, body in enumerate(self._bodies):
-            state[:, i] = (*body.position, *body.velocity, 0.0, *body.spin)
-        origin = state[:2, :1].copy()
-        state[:2, :count] -= origin
-        state[:2, count] = 1e3  # m: a placeholder for walls, never read
-        self._origin = origin[:, 0]
-        self._push = np.array([*(body.push for body in self._bodies), (0.0, 0.0)]).T
-        before = state.copy()
-        surface = np.abs(state[5:8, :count]).max(axis=0) * [body.radius for body in self._bodies]
-        fastest = max(2.0 * float(np.hypot(*state[2:4]).max()), CLOSING)
+            wx, wy, wz = body.spin
+            state[:, i] = complex(*body.position), complex(*body.velocity), complex(wx, wy), 1j * wz
+        self._origin = state[_PLACE, 0]
+        state[_PLACE] -= self._origin
+        state[_PLACE, count] = 1e3  # m: a placeholder for walls, never read
+        surface = np.abs(state[_ROLL:, :count]).max(axis=0) * [body.radius for body in self._bodies]
+        fastest = max(2.0 * float(np.abs(state[_VELOCITY]).max()), CLOSING)
         quickest = max(fastest, float(surface.max()))
         times = [contact_time(m, k, fastest) for m, k in zip(self._mass, self._stiffness, strict=True)]
         shortest, longest = min(times), max(times)
-        scale = np.repeat([fastest * shortest, fastest], 2 * count + 2)
-        whole, t, steps, worst = share * shortest, 0.0, 0, 0.0
-        lands, grades = links <= _MAX_GRADED_LINKS, _grades(_GRADES_OF_ONE if links == 1 else _GRADES)
-        impulse, approach, closed, rubbed = (np.zeros(links) for _ in range(4))
-        rates, forces = np.empty((7, 4, count + 1)), np.empty((7, links))
-        flat = rates.reshape(7, -1)
+        scale = np.repeat([fastest * shortest, fastest], count + 1)
+        h, t, worst = share * shortest, 0.0, 0.0
+        rates, elastic = np.empty((5, 2, count + 1), complex), np.empty((5, links))
+        flat = rates.reshape(5, -1)
         # Links that are closed at the start store no energy: their distance then is where their force begins.
         self._overlap = np.zeros(links)
-        self._motion(state[:4])
+        self._rates(state[:2], rates[0])
         self._overlap = np.minimum(self._gap, 0.0)
-        rates[0], depth, closing, normal, force = self._motion(state[:4])
-        gain, gap = rates[0, 2:].copy(), self._gap  # m/s^2, m
-        approach[:] = np.where(self._gap < _TOUCH, np.maximum(closing, 0.0), 0.0)
-        plan, back = [whole * part for part in grades] if lands else [whole], 0.0
+        elastic[0] = self._rates(state[:2], rates[0])
+        pushed, rubbed, closed = (np.zeros(links) for _ in range(3))  # N s: elastic, and what has had its friction
+        force, closing = elastic[0], self._closing
+        approach = np.where(self._gap < _TOUCH, np.maximum(closing, 0.0), 0.0)
+        moments, states, ends = [0.0], list[np.ndarray](), False
         while True:
-            h = plan[0]
             # Friction of the previous and next half step: second order, and mu times the impulse in total.
-            reached = np.maximum(impulse + 0.5 * h * force, rubbed)
-            start = state.copy()
-            start[2:] = self._rubbing.after(state[2:], normal, reached - rubbed, gain, back, 0.5 * h, quickest)
-            rates[0], *_, forces[0] = self._motion(start[:4])
-            for stage, weights in enumerate(_STAGES, 1):
-                moved = start[:4] + (h * weights @ flat[:stage]).reshape(4, -1)
-                rates[stage], depth, closing_then, normal, forces[stage] = self._motion(moved)
-            if lands and len(plan) == 1:
-                kink = _first_kink(h, gap, self._gap, closing, closing_then)
-                if kink is not None:
-                    plan = [*(kink * part for part in reversed(grades)), *((h - kink) * part for part in grades)]
-                    continue
-            worst, back = max(worst, float(np.abs(_ERROR @ flat / scale).max()) * h), 0.5 * h
-            plan, gap = plan[1:] or [whole], self._gap
-            state, rubbed, force, gain = start, reached, forces[6].copy(), rates[6, 2:].copy()
-            state[:4] = moved
-            impulse += h * (_STAGES[-1] @ forces[:6])
-            first = (depth > 0.0) & (approach == 0.0)
-            approach[first], closed[first] = closing[first], t
-            closing = closing_then
-            t, steps = t + h, steps + 1
-            moving = (depth > _TOUCH) | ((self._gap < _TOUCH) & (closing > CLOSING))
-            if faint > 0.0:
-                moving &= np.maximum(closing, 0.0) ** 2 + self._stored * depth**2.5 > faint * faint
-            if not moving.any():
-                rest = np.maximum(impulse - rubbed, 0.0)
-                state[2:] = self._rubbing.after(state[2:], normal, rest, gain, back, 0.0, quickest)
+            back, ahead = (0.5 * h if t > 0.0 else 0.0), (0.0 if ends else 0.5 * h)
+            reached = np.maximum(pushed + self._held + ahead * force, rubbed)
+            gain = (force * self._normal) @ self._pushed + self._push  # m/s^2
+            state[1:] = self._rubbing.after(state[1:], self._normal, reached - rubbed, gain, back, ahead, quickest)
+            states.append(state)
+            if ends:
                 break
             if t > (_PATIENCE[0] * count + _PATIENCE[1]) * longest:
                 raise StaysPressed(f"bodies do not separate within {t:.3g} s")
-        worked = float(np.hypot(*self._push[:, :count]) @ self._inertia[0]) * fastest * t  # J, an upper bound
-        touched = np.flatnonzero(np.abs(self._incidence[:-1]) @ (impulse > 0.0))
-        if touched.size:
-            self._remove_excess_energy(state, touched, self._energy(before, touched) + worked)
-        position = (state[:2, :count] + origin).T
-        velocity, spin = state[2:4, :count].T, state[5:8, :count].T
-        return ClusterOutcome(float(t), position, velocity, spin, impulse, approach, closed, steps), worst
+            rubbed, before, gap = reached, closing, self._gap
+            start = state[:2].copy()
+            start[1] -= (self._held * self._normal) @ self._pushed
+            elastic[0] = self._rates(start, rates[0])
+            for stage, weights in enumerate(_STAGES, 1):
+                moved = start + (h * weights @ flat[:stage]).reshape(2, -1)
+                elastic[stage] = self._rates(moved, rates[stage])
+            worst = max(worst, float(np.abs(_ERROR @ flat / scale).max()) * h)
+            state = state.copy()
+            state[:2] = moved[0], rates[4, 0]
+            pushed, closing = pushed + h * (_STAGES[-1] @ elastic[:4]), self._closing
+            force = elastic[4] + self._damping * np.sqrt(np.sqrt(self._depth)) * closing
+            first = np.flatnonzero((self._depth > 0.0) & (approach == 0.0))
+            if first.size:  # sped up evenly until then
+                was, left, gained = np.maximum(before, 0.0)[first], np.maximum(gap, 0.0)[first], closing - before
+                approach[first] = np.sqrt(was**2 + 2.0 * left * np.maximum(gained[first], 0.0) / h) + CLOSING
+                closed[first] = t + np.minimum(2.0 * left / (was + approach[first]), h)
+            t += h
+            moments.append(t)
+            moving = (self._depth > _TOUCH) | ((self._gap < _TOUCH) & (closing > CLOSING))
+            if faint > 0.0:
+                energy = 0.8 * self._stiffness / self._mass * self._depth**2.5  # stored: m^2/s^2
+                moving &= np.maximum(closing, 0.0) ** 2 + energy > faint * faint
+            ends = not moving.any()
+        opened = (elastic > 0.0).any(axis=0)  # in the last step
+        early = float((self._gap / np.maximum(-closing, CLOSING))[opened].min(initial=h)) if opened.any() else 0.0
+        if early > 0.0:  # s; they flew freely since
+            moments[-1] -= early
+            state[_PLACE] -= early * state[_VELOCITY] - 0.5 * early**2 * self._push
+            state[_VELOCITY] -= early * self._push
+        impulse = pushed + self._held
+        self._remove_excess_energy(states[0], state, impulse, t * fastest)
+        motion = np.array(states)[:, :, :count]
+        motion[:, _PLACE] += self._origin
+        place, velocity, roll, out = motion.swapaxes(0, 1)
+        parts = place.real, place.imag, velocity.real, velocity.imag, out.imag, roll.real, roll.imag
+        return ClusterOutcome(np.array(moments), np.stack(parts, axis=-1), impulse, approach, closed), worst
 
-    def _motion(self, moving: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-        """The derivative of (x, y, vx, vy), and for each link the depth (m), closing speed (m/s), normal, force (N)."""
-        apart = moving @ self._incidence
-        distance = np.hypot(apart[0], apart[1])
-        normal = apart[:2] / distance
-        gap = distance - self._reach
-        for place, wall, body in self._walls:
-            x, y = moving[:2, body] + self._origin
-            gap[place], *normal[:, place] = wall(float(x), float(y))
+    def _rates(self, moving: np.ndarray, rates: np.ndarray) -> np.ndarray:
+        """Find the ``rates`` of places and of velocities without what damping has taken; returns the elastic forces in
+        N.
+
+        It leaves of each link the gap and depth (m), the normal, the closing speed (m/s), and the impulse (N s) of
+        damping since it closed.
+        """
+        place, velocity = moving
+        apart = place.take(self._first) - place.take(self._second)
+        distance = np.abs(apart)
+        normal, curvature, gap = apart / distance, 1.0 / distance, distance - self._reach
+        for link, wall, body in self._walls:
+            there = place[body] + self._origin
+            gap[link], nx, ny, curvature[link] = wall(there.real, there.imag)
+            normal[link] = complex(nx, ny)
         gap -= self._overlap
-        opening = np.add.reduce(apart[2:] * normal)
         depth = np.maximum(-gap, 0.0)
         root = np.sqrt(depth)
-        force = root * (self._stiffness * depth) - np.sqrt(root) * (self._damping * opening)
-        rate = np.concatenate([moving[2:], (force * normal) @ self._pushed + self._push])
-        self._gap = gap
-        return rate, depth, -opening, normal, force
+        held, elastic = 0.8 * self._damping * depth * np.sqrt(root), self._stiffness * depth * root
+        velocity = velocity + (held * normal) @ self._pushed
+        along = (velocity.take(self._first) - velocity.take(self._second)) * normal.conj()
+        turned = (elastic - 1j * (held * curvature * along.imag)) * normal  # damping's impulse turns with the normal
+        rates[0], rates[1] = velocity, turned @ self._pushed + self._push
+        self._gap, self._depth, self._normal, self._closing, self._held = gap, depth, normal, -along.real, held
+        return elastic
 
-    def _energy(self, state: np.ndarray, bodies: np.ndarray) -> float:
-        """Kinetic energy in J of these bodies, including rotation."""
-        return 0.5 * float((state[2:, bodies] ** 2 * self._inertia[:, bodies]).sum())
+    def _remove_excess_energy(self, start: np.ndarray, end: np.ndarray, impulse: np.ndarray, way: float) -> None:
+        """Slow the bodies that were touched towards their common motion if numerical errors have raised their energy;
+        other causes may have added what they do along the ``way`` in m."""
+        touched = np.flatnonzero(self._pushed[impulse > 0.0, :-1].any(axis=0)).tolist()
+        bodies = [self._bodies[index] for index in touched]
+        mass, inertia = (np.array([getattr(body, name) for body in bodies]) for name in ("mass", "inertia"))
 
-    def _remove_excess_energy(self, state: np.ndarray, touched: np.ndarray, before: float) -> None:
-        """Slow the bodies that were touched towards their common motion if numerical errors have raised their energy
-        above ``before``."""
-        common, inertia = np.zeros((6, 1)), self._inertia[:, touched]
-        if not self._walls:
-            common[:2, 0] = state[2:4, touched] @ inertia[0] / inertia[0].sum()
-        kept = 0.5 * float((common**2 * inertia).sum())
-        excess = self._energy(state, touched) - before
-        if excess > 0.0:
-            share = np.sqrt(max(0.0, (before - kept) / (before - kept + excess)))
-            state[2:, touched] = common + share * (state[2:, touched] - common)
+        def energy(motion: np.ndarray) -> float:
+            _, velocity, roll, out = motion
+            moving, turning = np.abs(velocity) ** 2 + out.real**2, np.abs(roll) ** 2 + out.imag**2
+            return 0.5 * float(mass @ moving + inertia @ turning)
 
-
-def _grades(count: int) -> list[float]:
-    """The parts of a step that is divided more finely towards its start, where the force has a kink."""
-    return [_RATIO**-count, *((_RATIO - 1.0) * _RATIO**-power for power in range(count, 0, -1))]
-
-
-def _first_kink(
-    h: float, gap: np.ndarray, gap_after: np.ndarray, closing: np.ndarray, closing_after: np.ndarray
-) -> float | None:
-    """The time in a step of h s at which the first link closes or opens, by the cubic through gaps and speeds, or
-    None."""
-    first = None
-    for link in np.flatnonzero(gap * gap_after < 0.0).tolist():
-        a, b = float(gap[link]), float(gap_after[link])
-        p, q = -h * float(closing[link]), -h * float(closing_after[link])
-        low, high = 0.0, 1.0
-        for _ in range(50):
-            u = 0.5 * (low + high)
-            v = 1.0 - u
-            here = v * v * (a * (1.0 + 2.0 * u) + p * u) + u * u * (b * (1.0 + 2.0 * v) - q * v)
-            low, high = (u, high) if here * a > 0.0 else (low, u)
-        if 1e-3 < low < 1.0 - 1e-3 and (first is None or low * h < first):
-            first = low * h
-    return first
+        before, common = start[:, touched], np.zeros((4, 1), complex)
+        if bodies and not self._walls:
+            common[_VELOCITY] = mass @ end[_VELOCITY, touched] / mass.sum()
+        after = end[:, touched] - common
+        kept = 0.5 * float(mass.sum() * np.abs(common[_VELOCITY, 0]) ** 2)
+        most = energy(before) + float(np.abs(self._push[touched]) @ mass) * way - kept
+        if energy(after) > most:
+            end[1:, touched] = (common + np.sqrt(max(0.0, most / energy(after))) * after)[1:]

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from math import dist, hypot
 from typing import NamedTuple
 
+from sandbox.engine.arc import Arc, straight
 from sandbox.engine.impulses import Contact, exchange_alone, exchange_at_once, lanes
 from sandbox.engine.meeting import Meeting, discs, farthest, meeting, speeds_at, surfaces_met
 from sandbox.engine.run import Numerics
@@ -21,7 +22,7 @@ from sandbox.engine.surfaces import (
     tilted,
 )
 from sandbox.engine.touch import TOUCHING_GAP
-from sandbox.engine.track import Track
+from sandbox.engine.track import Pressing, Track
 from sandbox.physics.cushion import raised
 from sandbox.physics.integrators import State
 
@@ -55,8 +56,9 @@ class Outcome(NamedTuple):
     """What follows an impact."""
 
     t: float  # s, when the last two bodies separate
-    states: dict[int, State]  # of all balls that are touched
+    states: dict[int, State]  # then, of all balls that are touched
     hits: list[Hit]  # in order of time
+    arcs: Mapping[int, Sequence[Arc]] = {}  # their paths through a contact that lasts
 
 
 Through = Callable[[float, dict[int, State]], Outcome | None]
@@ -92,7 +94,11 @@ class Impacts:
             if turn in (0, last):
                 states, hits = dict(start), []
             elif turn % 2 == 0 and (parted := through(t, states)) is not None:
-                return Outcome(parted.t, {**_drifted(states, parted.t - t), **parted.states}, hits + parted.hits)
+                marker = Pressing(t, parted.t)
+                others = {i: [straight(t, parted.t, state, marker)] for i, state in states.items()}
+                arcs = {**others, **parted.arcs}
+                ends = {i: each[-1].state(parted.t) for i, each in arcs.items()}
+                return Outcome(parted.t, ends, hits + parted.hits, arcs)
             before = dict(states)
             if turn < last and turn % 2:
                 closed = self._close_soft_walls(states)
@@ -309,11 +315,6 @@ def after_one(balls: Sequence[Ball], states: Sequence[State], contact: Contact) 
     share = rub / (slip * mobility) if slip > 0.0 else 0.0
     impulse = push / mobility, share * along, share * upward
     return after_impulses(balls, states, contact.nx, contact.ny, impulse, contact.sine)
-
-
-def _drifted(states: dict[int, State], h: float) -> dict[int, State]:
-    """The states h s later, of balls on which nothing acts meanwhile."""
-    return {i: (x + h * vx, y + h * vy, vx, vy, *more) for i, (x, y, vx, vy, *more) in states.items()}
 
 
 def _once(bounce: Bounce, approach: float) -> Bounce:

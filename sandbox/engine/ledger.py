@@ -16,7 +16,7 @@ from sandbox.engine.heap import Heaped
 from sandbox.engine.lasting import LastingContact
 from sandbox.engine.run import Run
 from sandbox.engine.setup import Ball, kinetic
-from sandbox.engine.track import PRESSED
+from sandbox.engine.track import Pressing
 from sandbox.physics.integrators import INTEGRATORS
 
 #: Gauss-Legendre nodes and weights on [0, 1]: exact for polynomials of degree 9.
@@ -55,8 +55,8 @@ def ledger(run: Run) -> Ledger:
         end += kinetic(ball, arcs[-1].state(arcs[-1].t1), arcs[-1].t1)
         for arc in arcs:
             gain = kinetic(ball, arc.state(arc.t1), arc.t1) - kinetic(ball, arc.start, arc.t0)
-            if arc.contact == PRESSED:
-                impacts[met.partner(ball.name, arc.t0, arc.t1) or ""] += gain
+            if isinstance(arc.contact, Pressing):
+                impacts[met.partner(ball.name, *arc.contact) or ""] += gain
                 continue
             if run.setup.plane is not None:
                 contacts[run.setup.plane_of(ball.name).name] += gain

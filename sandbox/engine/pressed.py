@@ -4,18 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Collection, Sequence
 from functools import partial
-from itertools import combinations
+from itertools import combinations, pairwise
 from math import hypot
 from typing import Any
 
 import numpy as np
 
+from sandbox.engine.arc import Arc
 from sandbox.engine.clusters import Body, Cluster, Link, StaysPressed
 from sandbox.engine.impacts import Hit, Outcome
 from sandbox.engine.setup import Bounce, Setup
 from sandbox.engine.surfaces import bounce_of_balls, bounce_off
 from sandbox.engine.touch import TOUCHING_GAP, Obstacle, touched
-from sandbox.engine.track import Track
+from sandbox.engine.track import Pressing, Track
 from sandbox.physics.hertz import contact_time, deepest
 from sandbox.physics.integrators import State
 
@@ -29,6 +30,9 @@ _TOO_DEEP = 1.0
 #: Share of the slowest blow on a heap that a contact among its balls leaves to lasting contact; and share of a blow
 #: that other forces may change while balls are pressed on a wall.
 _LEFT, _PUSHED = 0.0125, 0.1
+
+#: Steps through a contact in one arc of the path: the cubic that joins them is as accurate.
+_STEPS = 2
 
 #: Approach speed in m/s below which balls push rather than strike each other: these get impulses.
 FAINTEST = 1e-3
@@ -204,13 +208,13 @@ class Pressed:
             Hit(t + float(outcome.closed[link]), linked[link][0], names[link], float(outcome.approach[link]))
             for link in touched
         ]
-        states = {}
-        for index in {ball for link in touched for ball in linked[link]}:
-            (x, y), (vx, vy) = outcome.position[place[index]].tolist(), outcome.velocity[place[index]].tolist()
-            wx, wy, wz = outcome.spin[place[index]].tolist()
-            rolling = (wx, wy) if len(members[index]) > 5 else ()
-            states[index] = (x, y, vx, vy, wz, *rolling)
-        return Outcome(t + outcome.duration, states, sorted(hits))
+        times = t + outcome.times
+        arcs = {
+            index: _arcs(times, outcome.motion[:, place[index], : len(members[index])])
+            for index in {ball for link in touched for ball in linked[link]}
+        }
+        until = float(times[-1])
+        return Outcome(until, {index: each[-1].state(until) for index, each in arcs.items()}, sorted(hits), arcs)
 
     def _body(self, t: float, index: int, state: State) -> Body:
         track = self._tracks[index]
@@ -231,11 +235,29 @@ class Pressed:
         approach = max(0.0, -(state[2] * touching.nx + state[3] * touching.ny))
         bounce = bounce_off(obstacle.surface, approach, state[2] * touching.ny - state[3] * touching.nx)
 
-        def wall(x: float, y: float) -> tuple[float, float, float]:
-            near = obstacle.near(x, y)
-            return near.gap, near.nx, near.ny
+        def wall(x: float, y: float) -> tuple[float, float, float, float]:
+            gap, nx, ny, curvature, *_ = obstacle.near(x, y)
+            return gap, nx, ny, curvature
 
         return Link(place, None, stiffness, bounce.restitution, lambda slip: bounce.friction, wall)
+
+
+def _arcs(times: np.ndarray, motion: np.ndarray) -> list[Arc]:
+    """The path of a ball through its states at these times: places are the cubics that match velocities, too."""
+    times, motion = (np.concatenate((each[:-1:_STEPS], each[-1:])) for each in (times, motion))
+    here, there, h = motion[:-1], motion[1:], np.diff(times)[:, None]
+    (a, u), (b, v) = ((states[:, :2], states[:, 2:4] * h / 3.0) for states in (here, there))
+    places = np.stack((a, a + u, b - v, b), axis=-1)
+    speeds = 3.0 * np.diff(places) / h[:, :, None]
+    spins = np.stack((here[:, 4:], there[:, 4:]), axis=-1)
+    curves = zip(places.tolist(), speeds.tolist(), spins.tolist(), strict=True)
+    contact, moments, states = Pressing(*times[[0, -1]].tolist()), times.tolist(), [*map(tuple, motion.tolist())]
+    return [
+        Arc(t0, t1, start, (*place, *speed, *spin), contact, end)
+        for (t0, t1), (start, end), (place, speed, spin) in zip(
+            pairwise(moments), pairwise(states), curves, strict=True
+        )
+    ]
 
 
 def _friction(between_balls: Any, approach: float, slip: float) -> float:

@@ -14,7 +14,7 @@ import numpy as np
 
 #: Most iterations, and the change of a slip relative to the fastest speed at which they stop; after some iterations it
 #: is clear whether the interval has a kink.
-_ITERATIONS, _CONVERGED, _CLEAR = 50, 1e-6, 3
+_ITERATIONS, _CONVERGED, _CLEAR = 50, 5e-5, 3
 
 #: Length of an iteration's step over the inverse row sum; from 2 on it may diverge.
 _SHARE = 1.5
@@ -28,21 +28,29 @@ Law = Callable[[float], float]
 class Rubbing:
     """Friction in the links of a cluster.
 
-    A motion is an array of the velocities along x, y and z (m/s) and the spins about them (rad/s) of all bodies, shape
-    (6, bodies). Slips and impulses have two rows: along the contact in the plane, and out of the plane.
+    A motion has three rows of complex numbers, one for each body: ``vx + i vy``, ``wx + i wy`` and ``vz + i wz`` (m/s
+    and rad/s). Slips and impulses are complex, too: along the contact in the plane, and out of it.
     """
 
     def __init__(
-        self, incidence: np.ndarray, radius: np.ndarray, light: np.ndarray, easy: np.ndarray, laws: Sequence[Law]
+        self,
+        first: np.ndarray,
+        second: np.ndarray,
+        radius: np.ndarray,
+        light: np.ndarray,
+        easy: np.ndarray,
+        laws: Sequence[Law],
     ) -> None:
-        """``incidence`` is 1 at the first and -1 at the second body of each link, shape (bodies, links); ``light`` and
-        ``easy`` are the inverse masses (1/kg) and inertias (1/(kg m^2)); ``laws`` have the friction of each link at a
-        slip in m/s."""
-        arms = np.abs(incidence) * radius[:, None]
-        self._pull, self._turn = (incidence.T * light), (arms.T * easy)
-        self._incidence, self._arms, self._laws = incidence, arms, laws
-        self._shifts, self._twists = self._pull @ incidence, self._turn @ arms  # 1/kg: links that share a body
-        self._used = np.zeros((2, len(laws)))  # of the normal impulses, in the last interval: a first guess
+        """``first`` and ``second`` are the bodies of each link; ``light`` and ``easy`` are the inverse masses (1/kg)
+        and inertias (1/(kg m^2)) of bodies; ``laws`` have the friction of each link at a slip in m/s."""
+        every = range(len(laws))
+        self._links, self._arms, self._laws = (first, second), (radius[first], radius[second]), laws
+        signs, arms = np.zeros((2, len(laws), len(radius)))
+        signs[every, first], signs[every, second] = 1.0, -1.0
+        arms[every, first], arms[every, second] = self._arms
+        self._pull, self._turn = (signs * light).astype(complex), (arms * easy).astype(complex)
+        self._shifts, self._twists = signs * light @ signs.T, arms * easy @ arms.T  # 1/kg: links that share a body
+        self._used = np.zeros(len(laws), complex)  # of the normal impulses, in the last interval: a first guess
 
     def after(
         self,
@@ -61,20 +69,23 @@ class Rubbing:
         acting = np.flatnonzero(pressed > 0.0)
         if not acting.size:
             return motion
-        (nx, ny), pressed = normal[:, acting], pressed[acting]
-        incidence, both = self._incidence[:, acting], (acting[:, None], acting)
-        ux, uy, uz = motion[:3] @ incidence
-        wx, wy, wz = motion[3:] @ self._arms[:, acting]
-        ax, ay = gain @ incidence
-        slip = np.array([ux * ny - uy * nx + wz, uz - wx * ny + wy * nx])
+        first, second = (bodies[acting] for bodies in self._links)
+        arm, other_arm = (arms[acting] for arms in self._arms)
+        normal, pressed = normal[acting], pressed[acting]
+        one, other = motion.take(first, 1), motion.take(second, 1)
+        velocity, _, out = one - other
+        _, roll, spin = one * arm + other * other_arm
+        across = normal.conj()
+        slip = spin.imag - (velocity * across).imag + 1j * (out.real + (roll * across).imag)
         laws = [self._laws[link] for link in acting.tolist()]
-        if all(law(speed) == 0.0 for law, speed in zip(laws, _size(slip).tolist(), strict=True)):
+        if not any(law(speed) for law, speed in zip(laws, np.abs(slip).tolist(), strict=True)):
             return motion
-        drift = np.array([ax * ny - ay * nx, np.zeros_like(ax)])  # m/s^2
-        turned = nx[:, None] * nx + ny[:, None] * ny
-        shifts, twists = self._shifts[both], self._twists[both]
-        mobility = np.array([shifts * turned + twists, shifts + twists * turned])
-        total, used = np.zeros_like(slip), self._used[:, acting]
+        drift = -((gain.take(first) - gain.take(second)) * across).imag  # m/s^2
+        turned = (normal[:, None] * across).real
+        shifts, twists = (mobility.take(acting, 0).take(acting, 1) for mobility in (self._shifts, self._twists))
+        mobility = np.zeros((2 * acting.size,) * 2)  # 1/kg: of the parts along, and of those out of the plane
+        mobility[::2, ::2], mobility[1::2, 1::2] = shifts * turned + twists, shifts + twists * turned
+        total, used = np.zeros_like(slip), self._used[acting]
         waiting = [(-back, ahead, _HALVINGS)]
         while waiting:
             begun, ended, halvings = waiting.pop()
@@ -83,15 +94,16 @@ class Rubbing:
             impulse, smooth = _slid(before, after, mobility, part, laws, used * part, _CONVERGED * fastest, halvings)
             if smooth or halvings == 0:
                 total += impulse
-                slip += _times(mobility, impulse)
+                slip = slip + _times(mobility, impulse)
                 used = impulse / part
             else:
                 middle = 0.5 * (begun + ended)
                 waiting += [(middle, ended, halvings - 1), (begun, middle, halvings - 1)]
-        self._used[:, acting] = used
-        along, out = total
-        pulls, moments = np.array([along * ny, -along * nx, out]), np.array([-out * ny, out * nx, along])
-        return motion + np.concatenate([pulls @ self._pull[acting], moments @ self._turn[acting]])
+        self._used[acting] = used
+        pull, turn = self._pull.take(acting, 0), self._turn.take(acting, 0)
+        along, upward = total.real, total.imag
+        change = (-1j * along * normal) @ pull, (1j * upward * normal) @ turn, upward @ pull + 1j * (along @ turn)
+        return np.add(motion, change)
 
 
 def _slid(
@@ -110,23 +122,26 @@ def _slid(
     By projected gradient steps from a guess; their lengths are a share of what the row sums of the matrix ``mobility``
     (1/kg) allow.
     """
-    ease = np.abs(mobility).sum(axis=2).max(axis=0)
+    sums = np.abs(mobility).sum(axis=1)
+    ease = np.maximum(sums[::2], sums[1::2])
     step, smooth = _SHARE / ease, True
     end = end + _times(mobility, impulse)
     for iteration in range(_ITERATIONS):
         middle = 0.5 * (before + end)
         if iteration < 2:  # from then on the speeds change too little to matter
-            limit = pressed * [law(speed) for law, speed in zip(laws, _size(middle).tolist(), strict=True)]
+            limit = pressed * [law(speed) for law, speed in zip(laws, np.abs(middle).tolist(), strict=True)]
         holds, slides = impulse - end * step, impulse - middle * step
-        held = _size(holds) <= limit
-        change = np.where(held, holds, slides * (limit / np.maximum(_size(slides), 1e-300))) - impulse
-        impulse = impulse + change
+        held = np.abs(holds) <= limit
+        wanted = slides * (limit / np.maximum(np.abs(slides), 1e-300))
+        np.copyto(wanted, holds, where=held)
+        change, impulse = wanted - impulse, wanted
         end += _times(mobility, change)
-        done = np.abs(change * ease).max() <= tolerance
+        done = (np.abs(change) * ease).max() <= tolerance
         if done or iteration == _CLEAR:
-            own = mobility.diagonal(axis1=1, axis2=2)
-            keeps = _size((end - before) / own - impulse) <= limit
-            turns = np.add.reduce(before * end) < 0.5 * _size(before) * _size(end)
+            own = mobility.diagonal()
+            least = (end - before).real / own[::2] + 1j * ((end - before).imag / own[1::2])
+            keeps = np.abs(least - impulse) <= limit
+            turns = (before * end.conj()).real < 0.5 * np.abs(before) * np.abs(end)
             smooth = bool(np.where(held, keeps, ~turns).all())
             if done or (halvings and not smooth):
                 break
@@ -135,10 +150,5 @@ def _slid(
 
 def _times(mobility: np.ndarray, impulse: np.ndarray) -> np.ndarray:
     """The slips (m/s) that impulses (N s) change."""
-    slips: np.ndarray = np.matmul(mobility, impulse[:, :, None])[:, :, 0]
+    slips: np.ndarray = (mobility @ impulse.view(float)).view(complex)
     return slips
-
-
-def _size(vectors: np.ndarray) -> np.ndarray:
-    size: np.ndarray = np.hypot(vectors[0], vectors[1])
-    return size

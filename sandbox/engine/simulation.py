@@ -248,8 +248,8 @@ class Simulation:
         """Apply the outcome of a contact that lasts from t until the balls separate: then they go on."""
         self._numerics.clusters += 1
         self._heap.release(parted.states.keys())
-        for index, state in parted.states.items():
-            self._tracks[index].meet(t, parted.t, state)
+        for index, arcs in parted.arcs.items():
+            self._tracks[index].meet(t, arcs)
             self._push(parted.t, "part", index)
         for index in touching.keys() - parted.states.keys() - self._heap.members:
             self._tracks[index].arrive(t, touching[index])

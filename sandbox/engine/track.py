@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from math import hypot
+from typing import NamedTuple
 
 from sandbox.engine.accuracy import Accuracy
 from sandbox.engine.acting import law_of, wrong_term
@@ -21,11 +22,15 @@ from sandbox.engine.touch import TOUCHING_GAP, Near, Obstacle, flush, touched
 from sandbox.errors import RunError
 from sandbox.physics.integrators import Acceleration, Law, State
 
-#: Value of ``Arc.contact`` for a ball in a simulated contact with others.
-PRESSED = "pressed"
-
 #: Difference in m/s and rad/s below which it is rounding.
 _SAME = 1e-9
+
+
+class Pressing(NamedTuple):
+    """Value of ``Arc.contact`` for a ball in a simulated contact with others: when that begins and ends, in s."""
+
+    start: float
+    end: float
 
 
 class Track:
@@ -85,19 +90,20 @@ class Track:
         if arc.t1 > arc.t0 or not self.path:
             self.path.append(arc)
 
-    def meet(self, t: float, until: float, state: State) -> None:
-        """Add the arc up to t, and a contact that lasts from then to ``until`` and ends in ``state``."""
+    def meet(self, t: float, arcs: Sequence[Arc]) -> None:
+        """Add the arc up to t, and those through a contact with others that begins then."""
         self._keep(t)
-        evenly = (0.0, 0.0, 0.0)
-        self.path.append(through(t, until - t, self.arc.state(t), evenly, state, evenly, PRESSED))
-        self.arc, self.state = still(until, until, state), state
+        self.path += arcs
+        until, self.state = arcs[-1].t1, arcs[-1].state(arcs[-1].t1)
+        self.arc = still(until, until, self.state)
         self.version += 1
 
     def finish(self, t: float) -> None:
         """Add the rest of the path, as the run ends at t. The outcome of an impact at t is included, though no arc
         follows."""
-        if t < self.arc.t0:
-            return  # within a contact
+        if t < self.arc.t0:  # within a contact
+            self.path = [arc.until(t) for arc in self.path if arc.t0 < t]
+            return
         self._keep(t)
         last, before = self.arc.until(t), self.path[-1]
         if last.t1 == last.t0 and any(

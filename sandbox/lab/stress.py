@@ -26,7 +26,7 @@ from sandbox.engine.run import Run
 from sandbox.engine.setup import Ball, kinetic, outline_of
 from sandbox.engine.shapes import Shape
 from sandbox.engine.touch import Outline
-from sandbox.engine.track import PRESSED
+from sandbox.engine.track import Pressing
 from sandbox.errors import RequestError, SandboxError
 from sandbox.lab.extremes import Extreme, bare, of_scene
 from sandbox.lab.tables import length, paragraph, percent, table
@@ -205,7 +205,7 @@ def _overlap_of_balls(run: Run) -> float:
     balls, times = run.setup.balls, [run.duration]
     if len(balls) <= _MOST_PAIRED:
         arcs = [arc for own in run.arcs.values() for arc in own]
-        contacts = {(arc.t0, arc.t1) for arc in arcs if arc.contact == PRESSED}
+        contacts = {arc.contact for arc in arcs if isinstance(arc.contact, Pressing)}
         times = sorted(t for t in {arc.t1 for arc in arcs} if not any(start < t < end for start, end in contacts))
         times = times[:: max(1, len(times) // _LOOKS)]
     gone = {ball.name: inf if (t := run.caught_at(ball.name)) is None else t for ball in balls}

@@ -15,7 +15,7 @@ from sandbox.engine.arc import Arc
 from sandbox.engine.heap import Heaped
 from sandbox.engine.path import Path
 from sandbox.engine.run import Run
-from sandbox.engine.track import PRESSED
+from sandbox.engine.track import Pressing
 from sandbox.errors import RequestError
 from sandbox.page.parts import css, filled, fonts, html, packed, picture, rows, table, what_changed
 from sandbox.parameters import walk
@@ -221,33 +221,33 @@ def _static(view: View[Any], run: Run) -> dict[str, Any]:
 def _path(arcs: Path) -> dict[str, Any]:
     """The arcs of a ball, each until the next begins where it does not say otherwise.
 
-    Of the thousands of short steps in a heap, whose last digits are not those of the physics, each coefficient is what
-    it differs from the one before, in units of HEAPED.
+    Of the thousands of short steps in a heap and in contacts, whose last digits are not those of the physics, each
+    coefficient is what it differs from the one before, in units of HEAPED.
     """
     rows, last = [], [0, 0, 0]
     for arc, end in zip(arcs, [*arcs.starts[1:], arcs[-1].t1], strict=True):
-        curves, heaped = [list(arc.x), list(arc.y), list(arc.spin)], isinstance(arc.contact, Heaped) and arc.t1 > arc.t0
-        if heaped:
+        curves, within = [list(arc.x), list(arc.y), list(arc.spin)], _within(arc)
+        if within and isinstance(within[0], float):
             whole = [[round(value / HEAPED) for value in curve] for curve in curves]
             curves = [np.diff([start, *curve]).tolist() for start, curve in zip(last, whole, strict=True)]
             last = [curve[-1] for curve in whole]
         else:
             last = [0, 0, 0]
         times = arc.t0 if arc.t1 == end else [arc.t0, arc.t1]
-        rows.append([times, *curves, _within(arc)])
+        rows.append([times, *curves, within])
         if arc.curves[5:]:
             rows[-1].append([list(curve) for curve in arc.curves[5:]])
     return {"arcs": rows, "until": arcs[-1].t1}
 
 
 def _within(arc: Arc) -> Any:
-    """The polynomials of its velocity where they are not the derivatives: within an impact, and at its end; else 0. In
-    a heap, what position correction adds to it, in m/s."""
+    """Its velocity where it is not the derivative of its place, at an impact; else 0. In a heap and in contacts, what
+    position correction adds to it, in m/s."""
     if arc.t1 <= arc.t0:
         return [[arc.start[2]], [arc.start[3]]]
-    if isinstance(arc.contact, Heaped):
-        return [round(speed, 9) for speed in arc.contact]
-    return [list(arc.vx), list(arc.vy)] if arc.contact == PRESSED else 0
+    if isinstance(arc.contact, Pressing):
+        return [0.0, 0.0]
+    return [round(speed, 9) for speed in arc.contact] if isinstance(arc.contact, Heaped) else 0
 
 
 def _turned(view: View[Any], name: str, until: float) -> dict[str, Any] | None:

@@ -13,7 +13,7 @@ import numpy as np
 import pygame
 
 from sandbox.engine.run import Run
-from sandbox.engine.track import PRESSED
+from sandbox.engine.track import Pressing
 from sandbox.picture.energy import course
 from sandbox.picture.palette import Colour, mix, palette
 from sandbox.picture.path import hardest, instants
@@ -103,7 +103,7 @@ def _panels(run: Run, curve: Curve) -> Iterator[Panel]:
 def _accelerations(run: Run, ball: str, times: np.ndarray) -> np.ndarray:
     """Of a ball in m/s^2; an impact itself has none."""
     arcs = [run.arcs[ball].at(t) for t in times.tolist()]
-    lasting = [arc.t1 > arc.t0 and arc.contact != PRESSED for arc in arcs]
+    lasting = [arc.t1 > arc.t0 and not isinstance(arc.contact, Pressing) for arc in arcs]
     sizes = (hypot(*arc.acceleration(t)) for arc, t in zip(arcs, times.tolist(), strict=True))
     return np.where(lasting, list(sizes), np.nan)
 

@@ -18,7 +18,7 @@ from sandbox.engine.path import Path as Arcs
 from sandbox.engine.run import Event, Numerics, Run
 from sandbox.engine.setup import Ball, Setup
 from sandbox.engine.touch import Obstacle, Touching
-from sandbox.engine.track import PRESSED
+from sandbox.engine.track import Pressing
 from sandbox.errors import RequestError
 from sandbox.files import reason, writing, written_whole
 from sandbox.scene import Scene, load
@@ -147,23 +147,31 @@ def run_of(scene: Scene, record: dict[str, Any]) -> Run:
     )
 
 
+#: How a ball touches others along an arc, by name.
+_WITH_BALLS: dict[str, type[Heaped | Pressing]] = {kind.__name__: kind for kind in (Heaped, Pressing)}
+
+
 def _arc_data(arc: Arc, places: dict[int, int]) -> tuple[Any, ...]:
-    contact = arc.contact  # nothing, a name, or how far a heap moves it
+    contact: Any = arc.contact
     if isinstance(contact, LastingContact):
         mode, obstacle, touching, direction, spin_rate = contact
         contact = mode, places[id(obstacle.surface)], tuple(touching), direction, spin_rate
+    elif contact is not None:
+        contact = type(contact).__name__, *contact
     return arc.t0, arc.t1, arc.start, arc.curves, contact, arc.end
 
 
 def _arc(item: Any, setup: Setup, ball: Ball) -> Arc:
     t0, t1, start, curves, contact, end = item
-    moved = contact if isinstance(contact, list | tuple) and len(contact) == len(Heaped._fields) else ()
-    numbers = [start, *curves, moved, *([] if end is None else [end])]
+    numbers = [start, *curves, *([] if end is None else [end])]
     if not all(map(_is_time, (t0, t1))) or not all(_is_number(part) for curve in numbers for part in curve):
         raise ValueError("a path contains something that is not a number")
-    if moved:
-        contact = Heaped(*moved)
-    elif contact is not None and contact != PRESSED:
+    if contact is not None and contact[0] in _WITH_BALLS:
+        kind, *moved = contact
+        if not all(map(_is_number, moved)):
+            raise ValueError("a contact contains something that is not a number")
+        contact = _WITH_BALLS[kind](*moved)
+    elif contact is not None:
         mode, place, (gap, nx, ny, curvature, center, feature), direction, spin_rate = contact
         touching = Touching(gap, nx, ny, curvature, tuple(center), feature)
         kind = OnePoint if ball.turns else LastingContact

@@ -24,7 +24,7 @@ from pydantic import Field
 from sandbox.engine.run import Run
 from sandbox.engine.setup import Always, Ball, Bounce, ContactModel, Setup, Vector
 from sandbox.engine.touch import Obstacle
-from sandbox.engine.track import PRESSED
+from sandbox.engine.track import Pressing
 from sandbox.errors import RequestError
 from sandbox.parameters import Group, SceneParameters, choice, either, group, groups, quantity
 from sandbox.physics.cloth import Cloth
@@ -333,7 +333,7 @@ def leaving(run: Run, parameters: Parameters) -> dict[str, tuple[Vector, Vector]
     for event in meetings(run):
         for name in {event.ball, event.partner} & (run.arcs.keys() - ways.keys()):
             arc = next((arc for arc in run.arcs[name] if arc.t1 > event.t), run.arcs[name][-1])
-            t = arc.t1 if arc.contact == PRESSED else event.t
+            t = arc.contact.end if isinstance(arc.contact, Pressing) else event.t
             _, _, vx, vy, _ = run.state(name, t)
             wx, wy = run.rolling_spin(name, t)
             ways[name] = (vx, vy), ((5.0 * vx + 2.0 * radius * wy) / 7.0, (5.0 * vy - 2.0 * radius * wx) / 7.0)

@@ -19,7 +19,7 @@ from pydantic import Field
 from sandbox.engine.meeting import Meeting, meeting
 from sandbox.engine.run import Run
 from sandbox.engine.setup import Ball, ContactModel, Force, Setup, Vector, kinetic
-from sandbox.engine.track import PRESSED
+from sandbox.engine.track import Pressing
 from sandbox.errors import RequestError
 from sandbox.parameters import SceneParameters, choice, group, groups, quantity
 from sandbox.physics.coefficients import Constant
@@ -179,8 +179,8 @@ def blow(run: Run, parameters: Parameters) -> Blow | None:
     event = next((e for e in run.events if e.kind == "impact" and e.partner in run.arcs), None)
     if event is None:
         return None
-    pressed = (arc for arcs in run.arcs.values() for arc in arcs if arc.contact == PRESSED)
-    end = max((arc.t1 for arc in pressed if arc.t0 <= event.t <= arc.t1), default=event.t)
+    pressed = {arc.contact for arcs in run.arcs.values() for arc in arcs if isinstance(arc.contact, Pressing)}
+    end = max((contact.end for contact in pressed if contact.start <= event.t <= contact.end), default=event.t)
     before = {name: run.before(name, event.t) for name in run.arcs}
     pair = sorted((event.ball, event.partner), key=lambda name: before[name][0])
     return Blow(pair, before, {name: run.state(name, end) for name in run.arcs}, event.t, run)

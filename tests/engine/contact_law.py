@@ -1,0 +1,72 @@
+"""The equations of contact mechanics in docs/physics.md, integrated by scipy: what clusters are compared with."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from itertools import combinations
+from math import hypot, log, pi, sqrt
+
+import numpy as np
+from scipy.integrate import solve_ivp
+
+from sandbox.engine.clusters import Body
+
+
+def by_contact_law(
+    bodies: Sequence[Body],
+    times: Sequence[float],
+    stiffness: float,
+    restitution: float = 1.0,
+    friction: Callable[[np.ndarray], np.ndarray] | float = 0.0,
+    creep: float = 1e-3,
+    accuracy: float = 1e-8,
+) -> np.ndarray:
+    """x, y, vx, vy, vz, wx, wy, wz of bodies (m, s, rad) at these times in s from the start, shape (times, bodies, 8).
+
+    Coulomb's ``mu max(N, 0)`` against the slip s is taken as ``s / hypot(s, creep)`` of that, with ``creep`` in m/s.
+    Overlaps at the start store no energy.
+    """
+    mass, radius, inertia = np.array([body[:3] for body in bodies]).T
+    start = np.array([(*body.position, *body.velocity, 0.0, *body.spin) for body in bodies])
+    push = np.array([body.push for body in bodies])
+    i, j = np.array(list(combinations(range(len(bodies)), 2))).T
+    fading = log(restitution)
+    reduced = mass[i] * mass[j] / (mass[i] + mass[j])
+    damping = -sqrt(5) * fading / hypot(fading, pi) * np.sqrt(reduced * stiffness)
+    reach = np.minimum(radius[i] + radius[j], np.hypot(*(start[i, :2] - start[j, :2]).T))
+
+    def rates(t: float, flat: np.ndarray) -> np.ndarray:
+        state = flat.reshape(-1, 8)
+        rate = np.zeros_like(state)
+        rate[:, :2], rate[:, 2:4] = state[:, 2:4], push
+        apart = state[i, :2] - state[j, :2]
+        near = np.flatnonzero(np.hypot(*apart.T) < reach)
+        a, b, apart = i[near], j[near], apart[near]
+        distance = np.hypot(*apart.T)
+        normal = np.column_stack([apart / distance[:, None], np.zeros(len(near))])
+        depth = reach[near] - distance
+        spins = radius[a, None] * state[a, 5:] + radius[b, None] * state[b, 5:]
+        speed = state[a, 2:5] - state[b, 2:5] - _cross(spins, normal)
+        opening = (speed * normal).sum(axis=1)
+        push_back = stiffness * depth**1.5 - damping[near] * depth**0.25 * opening
+        slip = speed - opening[:, None] * normal
+        size = np.sqrt((slip**2).sum(axis=1))
+        mu = friction(size) if callable(friction) else friction
+        rub = mu * np.maximum(push_back, 0.0) / np.hypot(size, creep)
+        force = push_back[:, None] * normal - rub[:, None] * slip
+        for k, sign in ((a, 1.0), (b, -1.0)):
+            np.add.at(rate[:, 2:5], k, sign * force / mass[k, None])
+            np.add.at(rate[:, 5:], k, _cross(force, normal) * (radius / inertia)[k, None])
+        return rate.ravel()
+
+    span = (0.0, float(times[-1]))
+    found = solve_ivp(
+        rates, span, start.ravel(), "DOP853", times, rtol=accuracy, atol=1e-12, max_step=max(times[-1], 1e-9) / 30
+    )
+    return found.y.T.reshape(-1, len(bodies), 8)
+
+
+def _cross(a: np.ndarray, normal: np.ndarray) -> np.ndarray:
+    """The vector product with vectors in the plane."""
+    (x, y, z), (nx, ny, _) = a.T, normal.T
+    return np.column_stack([-z * ny, z * nx, x * ny - y * nx])
