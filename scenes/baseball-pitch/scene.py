@@ -96,8 +96,5 @@ def verdict(run: Run, parameters: Parameters) -> str:
         return "Ball, in the dirt"
     if run.result["strike"]:
         return f"Strike, {roughly(height)} over the plate"
-    return (
-        f"Ball, {roughly(height - plate.top)} too high"
-        if height > plate.top
-        else f"Ball, {roughly(plate.bottom - height)} too low"
-    )
+    off, way = (height - plate.top, "high") if height > plate.top else (plate.bottom - height, "low")
+    return f"Ball, {roughly(off)} too {way}"

@@ -28,7 +28,7 @@ from sandbox.sport.flight import DEGREE, RPM, Directed
 from sandbox.sport.readings import LAUNCH, Moment, apex, at, before, passing
 from sandbox.sport.solids import Solid, level
 
-LONGEST = 15.0  # s, after which a run is ended
+LONGEST, YARD = 15.0, 0.9144  # s, after which a run is ended; m
 
 #: Bounces lower than this, in m, are lost in the grass; assumed.
 LOWEST_BOUNCE = 0.01
@@ -193,6 +193,12 @@ def good(run: Run, parameters: Parameters) -> bool | None:
     return gap is not None and gap > 0.0
 
 
+def _nose(run: Run, parameters: Parameters) -> float | None:
+    """Angle in deg of the long axis above the horizontal as the ball lands, from -90 to 90."""
+    down = landing(run, parameters)
+    return None if down is None else (run.angle("ball", down.t) * 180.0 / pi + 90.0) % 180.0 - 90.0
+
+
 def _bounced(run: Run, parameters: Parameters) -> float | None:
     down = landing(run, parameters)
     return None if down is None else run.state("ball", run.duration)[0] - down.x
@@ -228,16 +234,7 @@ FACTS = (
     Fact("over", "over the bar", "m", over),
     Fact("good", "", "", good),
     Fact("landing_angle", "lands at", "deg", at(landing, "descent"), settled="ground"),
-    Fact(
-        "nose",
-        "nose at landing",
-        "deg",
-        lambda run, parameters: (
-            None
-            if (down := landing(run, parameters)) is None
-            else (run.angle("ball", down.t) * 180.0 / pi + 90.0) % 180.0 - 90.0
-        ),
-    ),
+    Fact("nose", "nose at landing", "deg", _nose),
     *LAUNCH,
     ENDED,
 )
@@ -245,13 +242,13 @@ FACTS = (
 
 def verdict(run: Run, parameters: Parameters) -> str:
     """What happened, in a sentence."""
-    said = run.result
+    said, spread = run.result, run.result["bounce_spread"]
+    if said["good"]:
+        return f"Good, from {parameters.goal.distance / YARD:.0f} yd, {said['over']:.1f} m over the bar"
     if said["good"] is not None:
-        if said["good"]:
-            return f"Good, from {parameters.goal.distance / 0.9144:.0f} yd, {said['over']:.1f} m over the bar"
         return "No good: short" if said["over"] is None else "No good: under the bar"
     if said["distance"] is None:
         return "Did not come down"
-    bounce, way = abs(said["bounce"]) / 0.9144, "on" if said["bounce"] >= 0.0 else "back"
-    spread = said["bounce_spread"] / 0.9144
-    return f"{said['distance'] / 0.9144:.0f} yd in {said['hang_time']:.1f} s, then {bounce:.0f} ± {spread:.0f} yd {way}"
+    bounce, way = said["bounce"] / YARD, "on" if said["bounce"] >= 0.0 else "back"
+    far = f"{said['distance'] / YARD:.0f} yd in {said['hang_time']:.1f} s"
+    return f"{far}, then {abs(bounce):.0f} ± {spread / YARD:.0f} yd {way}"

@@ -67,6 +67,8 @@ PRESETS = {
     "billiards/newtons-cradle": ("", "Nothing potted, the 5 rolls 2.1 m"),
     "billiards/snooker-break": ("", "Break at 3.0 m/s, nothing potted"),
     "billiards/three-rail-carom": ("", "Point, after 3 cushions"),
+    "football": ("", "Good, from 45 yd, 7.0 m over the bar"),
+    "football/into-the-wind": ("", "Good, from 50 yd, 2.0 m over the bar"),
     "rocket/grenade": ("", "28 m high, 922 m away after 4.5 s"),
 }
 #: Of a scene with changes, at its own accuracy.
@@ -104,6 +106,8 @@ OTHERS: list[tuple[str, dict[str, Any], str, str]] = [
     ("volleyball", {"launch.speed": 8.0}, "short", "Comes down on its own side"),
     ("volleyball", {"net.depth": 0.3, "launch.angle": -8.0}, "net", "Into the net"),  # under it
     ("volleyball", {"gravity": 0.0, "air.density": 0.0}, "gone", "Did not come down"),
+    ("football", {"launch.speed": 22.0}, "", "No good: "),
+    ("football", {"goal.height": 10.0}, "", "No good: under the bar"),
     ("baseball", {"fence.height": 15.0}, "", "Off the fence, "),
     ("baseball", {"launch.speed": 30.0}, "", "short of the fence"),
     ("baseball-pitch", {"launch.angle": 1.0}, "", "too high"),
