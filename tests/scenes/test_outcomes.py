@@ -106,8 +106,8 @@ OTHERS: list[tuple[str, dict[str, Any], str, str]] = [
     ("volleyball", {"launch.speed": 8.0}, "short", "Comes down on its own side"),
     ("volleyball", {"net.depth": 0.3, "launch.angle": -8.0}, "net", "Into the net"),  # under it
     ("volleyball", {"gravity": 0.0, "air.density": 0.0}, "gone", "Did not come down"),
-    ("football", {"launch.speed": 22.0}, "", "No good: "),
-    ("football", {"goal.height": 10.0}, "", "No good: under the bar"),
+    ("football", {"launch.speed": 22.0}, "", "No good: short"),
+    ("football", {"launch.speed": 25.0}, "", "No good: under the bar"),
     ("baseball", {"fence.height": 15.0}, "", "Off the fence, "),
     ("baseball", {"launch.speed": 30.0}, "", "short of the fence"),
     ("baseball-pitch", {"launch.angle": 1.0}, "", "too high"),
