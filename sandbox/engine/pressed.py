@@ -203,7 +203,7 @@ class Pressed:
         linked: list[tuple[int, ...]] = [*pairs, *((index,) for index, _ in walls)]  # the balls of each link
         names = [self._tracks[j].ball.name for _, j in pairs] + [obstacle.surface.name for _, obstacle in walls]
         outcome = Cluster(bodies, links).pass_through(self._step, faint)
-        touched = np.flatnonzero(outcome.impulse > 0.0).tolist()
+        touched = np.flatnonzero(outcome.approach > 0.0).tolist()
         hits = [
             Hit(t + float(outcome.closed[link]), linked[link][0], names[link], float(outcome.approach[link]))
             for link in touched

@@ -194,3 +194,12 @@ def test_a_run_may_end_within_a_contact(duration):
     run = struck(balls, duration=duration)
     assert run.duration == duration
     assert run.trajectory("2", ends=True)[-1, 0] == duration
+
+
+@pytest.mark.parametrize("model", ["auto", "hertz"])
+def test_a_ball_may_graze_a_rack_for_less_than_a_step_of_the_contact(model: str):
+    rack = [ball(f"{row}{k}", (2 * k - row) * R, -(3**0.5) * row * R) for row in range(3) for k in range(row + 1)]
+    for approach in (1.5e-3, 2e-3):  # m/s, of 7.68
+        above = 2 * R * (1.0 - (approach / 7.68) ** 2) ** 0.5
+        run = struck([ball("cue", -2e-3, above, vx=7.68), *rack], model=model, duration=0.01)
+        assert -2.0 * approach < sum(run.state(each.name, 0.01)[3] for each in rack) <= 1e-9
