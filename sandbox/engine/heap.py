@@ -17,7 +17,6 @@ from __future__ import annotations
 from collections.abc import Collection, KeysView, Mapping, Sequence
 from functools import cached_property
 from math import hypot, inf, prod
-from typing import NamedTuple
 
 import pymunk
 
@@ -30,7 +29,7 @@ from sandbox.engine.run import Numerics
 from sandbox.engine.setup import Ball, Segment, Setup, Surface, Vector, outline_of
 from sandbox.engine.surfaces import STILL, bounce_of_balls, bounce_off, press
 from sandbox.engine.touch import TOUCHING_GAP, Obstacle
-from sandbox.engine.track import Track
+from sandbox.engine.track import Heaped, Track
 from sandbox.errors import RunError
 from sandbox.physics.integrators import Acceleration, State
 
@@ -63,14 +62,6 @@ _THIN, _FINEST = 0.1, 32.0
 
 #: Share of an overlap that is left after a step.
 _LEFT = 0.6
-
-
-class Heaped(NamedTuple):
-    """Value of ``Arc.contact`` for a ball in a heap: how fast position correction moves it along the arc, in m/s; that
-    is no part of its velocity."""
-
-    vx: float = 0.0
-    vy: float = 0.0
 
 
 class _Member:

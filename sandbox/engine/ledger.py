@@ -12,11 +12,10 @@ from itertools import pairwise
 
 from sandbox.engine.acting import acceleration, by_cause
 from sandbox.engine.arc import Arc
-from sandbox.engine.heap import Heaped
 from sandbox.engine.lasting import LastingContact
 from sandbox.engine.run import Run
 from sandbox.engine.setup import Ball, kinetic
-from sandbox.engine.track import Pressing
+from sandbox.engine.track import Heaped, Pressing
 from sandbox.physics.integrators import INTEGRATORS
 
 #: Gauss-Legendre nodes and weights on [0, 1]: exact for polynomials of degree 9.

@@ -16,7 +16,6 @@ from typing import TYPE_CHECKING, NamedTuple
 from sandbox.engine.accuracy import Accuracy
 from sandbox.engine.arc import Arc, still
 from sandbox.engine.event import Event
-from sandbox.engine.heap import Heap
 from sandbox.engine.impacts import Impacts, Outcome
 from sandbox.engine.lasting import RESTING, LastingContact
 from sandbox.engine.meeting import discs, pair_touches
@@ -32,6 +31,7 @@ from sandbox.errors import RunError
 from sandbox.physics.integrators import State
 
 if TYPE_CHECKING:
+    from sandbox.engine.heap import Heap
     from sandbox.engine.pressed import Pressed
 
 #: Most events while time advances by less than _STANDSTILL s, beyond which the run has stalled.
@@ -74,7 +74,6 @@ class Simulation:
         slowest = 0.0 if setup.plane is None else slowest_hop(setup, accuracy.hop)
         self._impacts = Impacts(setup, self._tracks, self._numerics, slowest)
         self._all_round = discs(*setup.balls)
-        self._heap = Heap(setup, self._tracks, accuracy, self._numerics)
         self._heaps_up = (setup.plane is None and len(setup.balls) > 1) or not self._all_round
 
     @cached_property
@@ -83,6 +82,13 @@ class Simulation:
         from sandbox.engine.pressed import Pressed
 
         return Pressed(self._setup, self._tracks, self._accuracy.contact_step)
+
+    @cached_property
+    def _heap(self) -> Heap:
+        # here, not above: no run of one ball needs it
+        from sandbox.engine.heap import Heap
+
+        return Heap(self._setup, self._tracks, self._accuracy, self._numerics)
 
     def _make_tracks(self) -> list[Track]:
         setup = self._setup

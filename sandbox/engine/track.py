@@ -33,6 +33,14 @@ class Pressing(NamedTuple):
     end: float
 
 
+class Heaped(NamedTuple):
+    """Value of ``Arc.contact`` for a ball in a heap: how fast position correction moves it along the arc, in m/s; that
+    is no part of its velocity."""
+
+    vx: float = 0.0
+    vy: float = 0.0
+
+
 class Track:
     """A ball's state, the arc it is on, and the path behind it; a subclass is for bodies, another for planes."""
 

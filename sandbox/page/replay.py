@@ -12,10 +12,9 @@ import numpy as np
 from PIL import Image
 
 from sandbox.engine.arc import Arc
-from sandbox.engine.heap import Heaped
 from sandbox.engine.path import Path
 from sandbox.engine.run import Run
-from sandbox.engine.track import Pressing
+from sandbox.engine.track import Heaped, Pressing
 from sandbox.errors import RequestError
 from sandbox.page.parts import css, filled, fonts, html, packed, picture, rows, table, what_changed
 from sandbox.parameters import walk

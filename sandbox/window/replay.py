@@ -11,14 +11,13 @@ from typing import Any
 
 from sandbox.engine.accuracy import Accuracy
 from sandbox.engine.arc import Arc
-from sandbox.engine.heap import Heaped
 from sandbox.engine.lasting import LastingContact
 from sandbox.engine.one_point import OnePoint
 from sandbox.engine.path import Path as Arcs
 from sandbox.engine.run import Event, Numerics, Run
 from sandbox.engine.setup import Ball, Setup
 from sandbox.engine.touch import Obstacle, Touching
-from sandbox.engine.track import Pressing
+from sandbox.engine.track import Heaped, Pressing
 from sandbox.errors import RequestError
 from sandbox.files import reason, writing, written_whole
 from sandbox.scene import Scene, load

@@ -12,11 +12,10 @@ import pytest
 from sandbox.engine import simulate
 from sandbox.engine.accuracy import resolve
 from sandbox.engine.clusters import Body
-from sandbox.engine.heap import Heaped
 from sandbox.engine.ledger import ledger
 from sandbox.engine.setup import Always, Ball, Bounce, ContactModel, Segment, Setup, Surface
 from sandbox.engine.touch import Outline
-from sandbox.engine.track import Pressing
+from sandbox.engine.track import Heaped, Pressing
 from sandbox.physics.forces import Gravity
 
 from .contact_law import by_contact_law

@@ -12,9 +12,8 @@ import pytest
 from PIL import Image
 
 import sandbox
-from sandbox.engine.heap import Heaped
 from sandbox.engine.ledger import ledger
-from sandbox.engine.track import Pressing
+from sandbox.engine.track import Heaped, Pressing
 from sandbox.errors import RequestError
 from sandbox.window import export, replay, sound
 from sandbox.window.session import Session
