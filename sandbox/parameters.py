@@ -103,7 +103,7 @@ class Quantity:
         """Write the JSON schema of this number; ``schema`` is what pydantic knows of it."""
         number: dict[str, Any] = {"type": "number", "minimum": self.low, "maximum": self.high}
         ending = "|".join(other.replace("^", r"\^") for other in units.alternatives(self.unit) if other)
-        text = {"type": "string", "pattern": rf"^\s*[+-]?[0-9.]+([eE][+-]?[0-9]+)?\s*({ending})?\s*$"}
+        text = {"type": "string", "pattern": rf"^\s*{units.NUMBER}\s*({ending})?\s*$"}
         either: dict[str, Any] = {"anyOf": [number, text]}
         if self.length is not None:
             either = {"type": "array", "items": either, "minItems": self.length, "maxItems": self.length}
@@ -353,7 +353,7 @@ def _toml_hint(text: str, error: str) -> str:
     if number is None or not 1 <= int(number[1]) <= len(lines):
         return ""
     line = lines[int(number[1]) - 1]
-    bare = re.search(r"([+-]?[\d.]+(?:[eE][+-]?\d+)?)\s*([A-Za-z°%][\w/^²%.]*)\s*(?=[,\]#]|$)", line)
+    bare = re.search(rf"({units.NUMBER})\s*([A-Za-z°%][\w/^²%.]*)\s*(?=[,\]#]|$)", line)
     if bare is not None and units.suggestion(bare[2]):
         return f'; a value with a unit goes in quotes: "{bare[1]} {units.suggestion(bare[2])}"'
     word = re.fullmatch(r"\s*[\w.-]+\s*=\s*([A-Za-z][\w/-]*)\s*(#.*)?", line)

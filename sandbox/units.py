@@ -55,7 +55,9 @@ KINDS: dict[str, dict[str, tuple[float, float]]] = {
 
 KIND_OF = {unit: kind for kind, units in KINDS.items() for unit in units}
 
-_QUANTITY = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?|[+-]?(?:nan|inf))\s*(.*?)\s*")
+#: A number as files have it, for regular expressions of Python and of JSON schemas.
+NUMBER = r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?"
+_QUANTITY = re.compile(rf"\s*({NUMBER}|[+-]?(?:nan|inf))\s*(.*?)\s*")
 _SPELLINGS = str.maketrans({"²": "^2", "³": "^3", "°": "", "·": " "})
 
 

@@ -60,6 +60,7 @@ def test_the_shipped_files_are_in_order(folder: Path):
         "[launch]\nspede = 70.0",
         "[launch]\nspeed = -1.0",
         '[launch]\nspeed = "70 kg"',
+        '[launch]\nspeed = "7.0.1 m/s"',
         "[launch]\nspeed = true",
         '[accuracy]\nlevel = "best"',
         "[air]\nwind = [1.0]",
