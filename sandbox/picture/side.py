@@ -315,6 +315,7 @@ class SideView(View[P]):
     def gap(self, sheet: Sheet, camera: Camera, x: float, low: float, high: float, text: str) -> None:
         """A stroke from one height to another at x, all in m, and how long it is, off the path."""
         unit, ink = self.unit, CARD["accent"]
+        sheet.labels.take(pygame.Rect(0, 0, self.size[0], sheet.top_row))  # the headline's
         (px, top), (_, bottom) = camera.pixel(x, high), camera.pixel(x, low)
         if bottom - top > 3 * unit:
             sheet.painter.line([(px, top), (px, bottom)], 1.6 * unit, ink)

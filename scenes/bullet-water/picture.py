@@ -57,7 +57,7 @@ class Picture(SideView[Parameters]):
             for i in range(1, int(deepest / step) + 1):
                 x, y, text = sheet.frame.left, camera.pixel(0.0, -i * step)[1], f"{metres(i * step)} deep"
                 sheet.painter.dashes([(x, y), (sheet.frame.right, y)], self.unit, WATER["mark"], 6, 8, 0.35)
-                sheet.write(text, "small", (x, y - 0.4 * sheet.gap), WATER["mark"], "bottomleft")
+                sheet.label(text, "small", [(x, y - 0.4 * sheet.gap, "bottomleft")], WATER["mark"])
         start, end = entry(self.run, self.parameters), harmless(self.run, self.parameters)
         if start is None or end is None:
             return

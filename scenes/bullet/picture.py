@@ -50,9 +50,10 @@ class Picture(SideView[Parameters]):
         """The line of sight's name and height and speed every hundred yards, or so often as there is room."""
         if sheet.rows < ROWS_FOR_LENGTHS:
             return
-        tall, top = sheet.lettering.height("small"), self.area.top - 2.0 * sheet.gap
+        tall, top = sheet.lettering.height("small"), round(self.area.top - 2.0 * sheet.gap)
         line = camera.pixel(0.0, 0.0)[1]
-        sheet.write("sight line", "small", (sheet.frame.left, line - sheet.gap), sheet.ink, "bottomleft")
+        spots = ((line - 2 * sheet.gap, "bottomleft"), (line + 2 * sheet.gap, "topleft"))
+        sheet.label("sight line", "small", [(sheet.frame.left, *spot) for spot in spots], sheet.ink)
         room = sheet.lettering.width("−000.0 cm", "small", bold=True) + 2.0 * sheet.gap
         every = ceil(room / (100.0 * YARD * camera.scale))
         for row in table(self.run, self.parameters)[every::every]:

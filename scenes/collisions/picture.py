@@ -183,7 +183,7 @@ class Picture(AboveView[Parameters]):
         """Two bars of shares in the balls' colours, negative ones to the left, with a tick at their sum; what is lost
         comes last."""
         unit, right, small = self.unit, sheet.frame.right, sheet.lettering.height("small")
-        room, thick, colours = (BARS - 0.06) * self.size[0], 0.75 * small, [*map(self.colour_of, self.balls)]
+        room, thick, colours = (BARS - 0.06) * self.size[0], 0.8 * small, [*map(self.colour_of, self.balls)]
         least = min(float(np.minimum(parts, 0.0).sum()) for parts in sums)
         most = max(float(np.maximum(parts, 0.0).sum()) for parts in sums)
         scale, left = room / (most - least), right - room

@@ -13,7 +13,37 @@ from sandbox.picture.palette import scene_colours
 from tests.picture.legible import assert_legible
 
 SIZES = [(640, 360), (1920, 1080)]
+GOLF = {
+    "drive": {},
+    "putt": {"launch.speed": 2.05, "launch.angle": 0.0, "launch.spin": 0.0, "pin.distance": 3.0},
+    "moon": {"gravity": 1.62, "air.density": 0.0, "launch.speed": 50.0, "launch.angle": 35.0, "pin.distance": 1500.0},
+    "topped": {"launch.speed": 30.0, "launch.angle": -8.0, "launch.spin": -2000.0, "pin.distance": 150.0},
+    "backwards": {"launch.speed": 30.0, "launch.angle": 100.0, "launch.spin": 3000.0, "air.wind": [-3.0, 0.0]},
+    "fast": {"launch.speed": 340.0, "launch.angle": 12.0, "pin.distance": 250.0},
+    "straight up": {"launch.speed": 60.0, "launch.angle": 90.0, "launch.spin": 0.0, "air.wind": [0.0, 4.0]},
+    "not struck": {"launch.speed": 0.0, "launch.spin": 0.0},
+    "no gravity": {"gravity": 0.0, "air.density": 0.0, "launch.angle": 30.0},
+    "hills": {
+        "launch.speed": 62.0,
+        "launch.angle": 15.0,
+        "launch.spin": 6000.0,
+        "pin.distance": 185.0,
+        "ground.heights": [[0, 0], [40, 0], [60, -6], [110, -4], [150, 4], [170, 8], [200, 8], [260, 4]],
+        "ground.strips": [
+            {"kind": "tee", "start": -10, "end": 10},
+            {"kind": "rough", "start": 30, "end": 90},
+            {"kind": "bunker", "start": 207, "end": 215},
+        ],
+    },
+    "into the water": {
+        "launch.speed": 50.0,
+        "launch.angle": 16.0,
+        "pin.distance": 200.0,
+        "ground.strips": [{"kind": "water", "start": 100, "end": 180}],
+    },
+}
 SHOTS = {
+    **{f"golf, {name}": ("golf", overrides) for name, overrides in GOLF.items()},
     "soccer": ("soccer", {}),
     "soccer, dipping": ("soccer/dipping-free-kick", {}),
     "soccer, in a gale": ("soccer/goal-kick-in-a-gale", {}),
@@ -99,7 +129,7 @@ class TestEveryShot:
             assert ring == ("ball drawn larger" in texts(picture))
 
 
-@pytest.mark.parametrize("name", ["soccer, in a gale", "curl, 1997", "basketball", "basketball, brick"])
+@pytest.mark.parametrize("name", ["golf, drive", "soccer, in a gale", "curl, 1997", "basketball", "basketball, brick"])
 def test_frames_can_be_drawn_in_any_order(name):
     picture = picture_of(name)
     end = picture.run.duration
@@ -110,7 +140,7 @@ def test_frames_can_be_drawn_in_any_order(name):
     assert picture.frame(0.3 * end).get_buffer().raw == first
 
 
-@pytest.mark.parametrize("name", ["soccer", "curl", "basketball"])
+@pytest.mark.parametrize("name", ["golf, putt", "soccer", "curl", "basketball"])
 def test_the_ball_turns(name):
     picture = picture_of(name, (1280, 720))
     end = 0.5 * (picture.run.result["flight_time"] or picture.run.duration)
