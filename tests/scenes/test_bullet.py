@@ -76,4 +76,4 @@ def test_the_poster_draws_heights_as_large_as_there_is_room(distance: float):
     rows = picture.camera.pixels(picture.points)[:, 1]
     assert np.ptp([*rows, picture.camera.pixel(0.0, 0.0)[1]]) > 0.3 * (picture.area.bottom - picture.area.top)
     assert f"heights drawn {picture.camera.stretch:g} times" in picture.notes(picture.camera)[0]
-    assert "line of sight" in [text for text, _ in picture.sheet.written]
+    assert "sight line" in [text for text, _ in picture.sheet.written]
