@@ -26,11 +26,6 @@ def test_with_one_offset_fly_balls_scatter_by_20_ft(errors: list[float]):
     assert 15.0 < mean(errors) < 25.0
 
 
-def test_thin_air_carries_farther():
-    assert hit("baseball/denver")["distance"] > hit()["distance"] + 7.0
-    assert hit(air__density=1.0)["distance"] == pytest.approx(hit(air__density=1.0, air__elevation=3000.0)["distance"])
-
-
 def test_drag_grows_with_the_spin_and_not_with_the_air():
     """Cd = 0.3008 + 0.0292 per 1,000 rpm, at any density."""
     for density in (0.9, 1.2):

@@ -209,13 +209,6 @@ def test_the_swish_is_as_wide_as_the_docstring_says():
         assert shoot(launch__speed=speed).result["touches"]
 
 
-def test_an_effect_left_out_is_an_absent_term():
-    names = [type(force).__name__ for force in sandbox.load("basketball").build().balls[0].forces]
-    assert sorted(names) == ["Drag", "Gravity", "Magnus", "NetDrag"]
-    without = sandbox.load("basketball", {"ball.lift.model": "none"}).build()
-    assert "Magnus" not in [type(force).__name__ for force in without.balls[0].forces]
-
-
 # The net ------------------------------------------------------------------------------------------------------------
 
 

@@ -45,12 +45,6 @@ def test_at_mach_5_the_target_is_hit_on_its_face():
     assert result["flight_time"] == pytest.approx(3000.0 / 1700.0, rel=1e-12)
 
 
-def test_a_headwind_and_thick_air_slow_it_down():
-    calm = fire()["speed"]
-    assert fire(air__wind=[-10.0, 0.0])["speed"] < calm
-    assert fire(air__elevation=2000.0)["speed"] > calm
-
-
 @pytest.mark.parametrize(
     ("changes", "said"),
     [

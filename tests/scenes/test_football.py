@@ -31,12 +31,6 @@ def test_drag_follows_the_angle_to_the_wind(turned: float, coefficient: float):
     assert drag(0.0, position, (10.0, 0.0), 0.0) == pytest.approx((-0.5 * 1.2 * 0.02 * coefficient * 100.0, 0.0))
 
 
-def test_a_kick_is_good_over_the_bar_only():
-    assert run_of().result["good"] is True
-    assert run_of(launch__speed=22.0).result["good"] is False
-    assert run_of("football/punt").result["good"] is None
-
-
 def test_a_spiral_lands_nose_first_and_goes_farther():
     spiral, over = (
         run_of("football/punt", launch__turns=turns, launch__spin=200) for turns in ("spiral", "end-over-end")

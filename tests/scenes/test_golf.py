@@ -271,11 +271,6 @@ def test_a_ball_runs_less_far_on_rougher_ground():
     assert runs["bunker"] < runs["rough"] < runs["fairway"] == runs["tee"]
 
 
-def test_firm_turf_gives_more_run_than_soft():
-    firm, usual, soft = (play(ground__fairway__give=give).result["total"] for give in (0.3, 1.0, 1.5))
-    assert firm > usual + 5.0 > soft + 5.0
-
-
 def test_water_ends_the_shot():
     run = play(ground__strips=[{"kind": "water", "start": 200, "end": 300}], pin__distance=350)
     assert run.result["ended"] == "water"
@@ -372,17 +367,6 @@ def test_shots_that_are_meant_to_end_near_the_pin_do(name: str | None):
     found = play("golf" if name is None else f"golf/{name}").result
     short_on_purpose = {"headwind": 69.0, "topped": 139.0, "blow-up": 59.0}
     assert found["distance_to_pin"] == pytest.approx(short_on_purpose.get(name or "", 3.5), abs=3.5)
-
-
-def test_topspin_brings_the_topped_ball_down():
-    topped, clean = play("golf/topped").result, play("golf/topped", launch__spin=0.0).result
-    assert topped["carry"] < 0.7 * clean["carry"]
-
-
-def test_a_blown_up_drive_climbs_higher_and_carries_less_than_a_good_one():
-    blown_up, good = play("golf/blow-up").result, play().result
-    assert blown_up["apex"] > 1.5 * good["apex"]
-    assert blown_up["carry"] < good["carry"] - 30.0
 
 
 def test_the_pond_takes_only_the_ball_in_the_wind():

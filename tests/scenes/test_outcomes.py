@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import Any
 
 import pytest
@@ -10,6 +11,8 @@ import sandbox
 from sandbox.errors import RequestError
 from sandbox.scene import listings
 
+#: Without wall and keeper.
+ALONE = {"wall.present": False, "keeper.present": False}
 #: What is said of a scene or preset, in a word of its result where it has one, at every accuracy.
 PRESETS = {
     "basketball": ("swish", "In, nothing but net"),
@@ -180,6 +183,50 @@ def test_the_card_speaks_to_players(source: str, changes: dict[str, Any], said: 
     run = sandbox.simulate(sandbox.load(source, changes))
     card = dict(run.scene.rows(run))
     assert {label: card.get(label) for label in said} == said
+
+
+@pytest.mark.parametrize(
+    ("source", "changes", "key", "values", "grows", "least"),
+    [
+        ("soccer", {"wall.present": False}, "launch.spin", [-300, -150, 0, 300], "height_at_goal", 0.1),
+        ("soccer/goal-kick-in-a-gale", {}, "air.wind", [[-10, 0], [-5, 0], [0, 0], [5, 0], [10, 0]], "carry", 2.0),
+        ("soccer-curl", ALONE, "launch.spin", [-600, -300, 0, 300, 600], "deviation", 0.5),
+        ("soccer-curl", ALONE, "air.density", [0.9, 1.2], "deviation", 0.1),
+        ("rocket", {}, "ball.mass", [0.15, 0.1], "top_speed", 1.0),
+        ("bullet", {}, "air.wind", [[-10, 0], [0, 0]], "speed", 1.0),
+        ("bullet", {}, "air.elevation", [0, 2000], "speed", 1.0),
+        ("golf", {}, "ground.fairway.give", [1.5, 1.0, 0.3], "total", 5.0),
+        ("golf/topped", {}, "launch.spin", [-3000, 0], "carry", 5.0),
+        ("golf/blow-up", {}, "launch.spin", [2545, 8000], "apex", 10.0),
+        ("golf/blow-up", {}, "launch.spin", [8000, 2545], "carry", 5.0),
+        ("baseball", {}, "air.elevation", [0, 1600], "distance", 7.0),
+        ("baseball", {"air.density": 1.0}, "air.elevation", [0, 3000], "distance", 0.0),  # not by the weather
+        ("throws", {}, "record", [23.0, 21.0], "record_beaten", 1),
+        ("tennis", {}, "court.friction", [0.8, 0.5], "bounce_speed", 0.5),
+        ("football", {}, "launch.speed", [22.0, 28.0], "good", 1),
+    ],
+)
+def test_more_of_one_is_more_of_another(
+    source: str, changes: dict[str, Any], key: str, values: list[Any], grows: str, least: float
+):
+    """From value to value, by ``least`` or more; 0 for not at all."""
+    found = [sandbox.simulate(sandbox.load(source, {**changes, key: value})).result[grows] for value in values]
+    steps = [after - before for before, after in pairwise(found)]
+    assert min(steps) >= least if least else steps == pytest.approx([0.0] * len(steps))
+
+
+@pytest.mark.parametrize(
+    ("source", "changes", "names"),
+    [
+        ("basketball", {}, "Gravity Drag Magnus NetDrag"),
+        ("basketball", {"ball.lift.model": "none", "net.slows": False}, "Gravity Drag"),
+        ("soccer", {"ball.lift.model": "none", "ball.drag.model": "none"}, "Gravity"),
+        ("soccer", {"air.density": 0, "gravity": 0}, ""),
+    ],
+)
+def test_an_effect_left_out_is_an_absent_term(source: str, changes: dict[str, Any], names: str):
+    forces = sandbox.load(source, changes).build().balls[0].forces
+    assert " ".join(type(force).__name__ for force in forces) == names
 
 
 @pytest.mark.parametrize(

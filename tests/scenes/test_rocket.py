@@ -9,10 +9,6 @@ from tests.scenes.play import playing
 fly = playing("rocket")
 
 
-def test_a_lighter_rocket_with_the_same_motor_is_faster():
-    assert fly(ball__mass=0.1).result["top_speed"] > fly().result["top_speed"]
-
-
 def test_the_rail_guides_until_its_end():
     run = fly(launch__angle=60.0)
     left = next(event for event in run.events if event.kind == "leave")

@@ -97,19 +97,6 @@ def test_mirror_image_in_mirror_image_out(speed: float, angle: float, spin: floa
     assert one["flight_time"] == pytest.approx(other["flight_time"], abs=1e-9)
 
 
-def test_more_spin_bends_more_and_positive_spin_to_the_left():
-    bends = [kick(launch__spin=spin, **ALONE).result["deviation"] for spin in (-600, -300, 0, 300, 600)]
-    assert bends == sorted(bends)
-    assert bends[0] < 0.0 < bends[-1]
-
-
-def test_thinner_air_bends_less():
-    assert kick(air__density=0.9, **ALONE).result["deviation"] < kick(air__density=1.2, **ALONE).result["deviation"]
-
-
-# Verdicts -----------------------------------------------------------------------------------------------------------
-
-
 def test_a_ball_blown_back_from_the_line_is_no_goal():
     """A gale against the kick turns the ball on the line: over its middle, but not all of it over all of it."""
     outcomes: dict[bool, set[bool]] = {True: set(), False: set()}
@@ -158,6 +145,3 @@ def test_the_keeper_answers_by_his_restitution_and_friction(restitution: float, 
 
 def test_a_goal_narrower_than_the_ball_is_never_scored():
     assert all(not kick(goal__width=0.2, launch__angle=a).result["goal"] for a in (-10, -9, -8.5, -8.2, -8, -7.5))
-
-
-# Bad input ----------------------------------------------------------------------------------------------------------

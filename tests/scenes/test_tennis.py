@@ -9,12 +9,6 @@ from tests.scenes.play import results_of
 shot = results_of("tennis")
 
 
-def test_grass_is_faster_and_lower_than_clay():
-    clay, grass = shot("tennis/clay"), shot("tennis/grass")
-    assert grass["baseline_speed"] > clay["baseline_speed"] + 2.0
-    assert grass["bounce_angle"] < clay["bounce_angle"] - 3.0
-
-
 def test_a_ball_that_grips_springs_back_along_the_court():
     """v' = v (1 - (1 + t) a / (1 + a)), with a = 0.55 and t = 0.1."""
     steep = {"launch__angle": -60.0, "launch__spin": 0.0, "launch__speed": 20.0, "release__place": 5.0}

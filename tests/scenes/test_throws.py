@@ -24,8 +24,3 @@ def test_the_best_angle_is_the_best():
 def test_air_costs_a_shot_little():
     result = throw()
     assert 0.05 < result["vacuum_distance"] - result["distance"] < 0.3
-
-
-def test_a_light_shot_flies_beyond_the_mark():
-    assert throw(record=21.0)["record_beaten"]
-    assert not throw(record=23.0)["record_beaten"]
