@@ -12,7 +12,8 @@ as unknowns, are two linear equations:
 
 with A the acceleration by other forces. Sliding has ``F = -mu N`` against the slip in place of the second. So a body
 tips over, rocks and rolls as accurately as it flies. A curved side that rolls on a surface with resistance c has N act
-``c (h + I / (m h))`` ahead of the point: a disc is slowed by c N / m, as a ball is.
+``c (h + I / (m h))`` ahead of the point: a disc is slowed by c N / m, as a ball is. Where that would take more friction
+than there is, N acts less far ahead, so that the body still rolls.
 """
 
 from __future__ import annotations
@@ -87,22 +88,33 @@ class OnePoint(LastingContact):
         nx, ny = self.touching.nx, self.touching.ny
         (ax, ay, turning), (along, height, bend) = applied, self.arm(ball, state)
         surface, spin2, inertia = self.obstacle.surface, state[4] * state[4], ball.inertia / ball.mass
-        friction, pressing = surface.friction, along
+        friction, lever = surface.friction, along * height / inertia
         into = -(ax * nx + ay * ny + along * turning + spin2 * (height - bend))
-        across, lever = 1.0 + along * along / inertia, along * height / inertia
-        if self.mode == SLIDING:
-            normal = into / (across - self.direction * friction * lever)
-            rub, spare = -self.direction * friction * normal, 0.0
-        else:
-            if bend > 0.0:
-                pressing -= self.direction * surface.rolling_resistance * (height + inertia / height)
-            against = -(ax * ny - ay * nx + height * turning - spin2 * along)
+        against = -(ax * ny - ay * nx + height * turning - spin2 * along)
+
+        def rolling(pressing: float) -> tuple[float, float, float]:
+            """Normal force, friction, and the moment of a normal force that acts so far along."""
             across, level = 1.0 + along * pressing / inertia, 1.0 + height * height / inertia
             determinant = across * level - lever * pressing * height / inertia
             normal = (into * level - against * lever) / determinant
             rub = (against * across - into * pressing * height / inertia) / determinant
+            return normal, rub, pressing * normal
+
+        if self.mode == SLIDING:
+            normal = into / (1.0 + along * along / inertia - self.direction * friction * lever)
+            rub, moment, spare = -self.direction * friction * normal, along * normal, 0.0
+        else:
+            normal, rub, moment = rolling(along)
             spare = friction * normal * WITHIN_ROUNDING - abs(rub)
-        turning += (pressing * normal + height * rub) / inertia
+            if bend > 0.0 and surface.rolling_resistance > 0.0:
+                ahead = self.direction * surface.rolling_resistance * (height + inertia / height)
+                normal, rub, moment = rolling(along - ahead)
+                if abs(rub) > friction * normal:  # which passes on no more of the resistance than its own
+                    slope = copysign(friction, rub)
+                    normal = (height * into - along * against) / (height - along * slope)
+                    rub = slope * normal
+                    moment = (against - rub) * inertia / height - height * rub
+        turning += (moment + height * rub) / inertia
         return (ax + normal * nx + rub * ny, ay + normal * ny - rub * nx, turning), normal, spare
 
     def room(self, ball: Ball, state: State) -> float:

@@ -16,6 +16,7 @@ from sandbox.engine import simulate
 from sandbox.engine.accuracy import LEVELS
 from sandbox.engine.arc import Arc, through
 from sandbox.engine.lasting import SLIDING
+from sandbox.engine.ledger import ledger
 from sandbox.engine.meeting import meeting
 from sandbox.engine.nearest import Pose, nearest
 from sandbox.engine.run import Run
@@ -352,6 +353,16 @@ def test_an_ellipse_rocks_to_rest_where_rolling_is_resisted():
     assert run.ended == "rest"
     assert run.duration > 1.0
     assert lever <= 0.05 * (h + 0.25 * (0.09 + 0.04) / h)
+
+
+@pytest.mark.parametrize("spin", [-10.0, 2.0, 12.0])
+def test_friction_passes_on_no_more_of_the_resistance_than_its_own(spin: float):
+    """Where it would slip by resistance alone it rolls on, resisted less."""
+    surface = Surface("floor", LEVEL, 0.3, 0.3, rolling_resistance=0.05)
+    run = run_of([thrown(Ellipse(0.2, 0.12), position=(0.0, 0.3), velocity=(1.0, 0.0), spin=spin)], 20.0, [surface])
+    book = ledger(run)
+    assert run.ended == "rest"
+    assert abs(book.residue) < 1e-4 * book.start
 
 
 @pytest.mark.parametrize(
