@@ -200,9 +200,16 @@ class Impacts:
     # ------------------------------------------------------------------ impulses
 
     def _exchange_alone(self, states: dict[int, State], contact: Contact) -> None:
-        """A single contact of balls."""
-        balls, self._numerics.pymunk_steps = self._balls(contact), self._numerics.pymunk_steps + 1
-        after = after_one(balls, [states[index] for index in contact.balls], contact)
+        """A single contact of balls. Below a nose only a part of the push is along the plane: to separate there, too, no
+        slower than the slowest hop, it takes more restitution."""
+        balls, before = self._balls(contact), [states[index] for index in contact.balls]
+        after = after_one(balls, before, contact)
+        apart = after[0][2] * contact.nx + after[0][3] * contact.ny
+        if contact.sine != 0.0 and apart < self._slowest_hop:
+            more = (contact.speed + self._slowest_hop) / (contact.speed + apart)
+            bounce = contact.bounce._replace(restitution=(1.0 + contact.bounce.restitution) * more - 1.0)
+            after = after_one(balls, before, contact._replace(bounce=bounce))
+        self._numerics.pymunk_steps += 1
         states.update(zip(contact.balls, after, strict=True))
 
     def _exchange_at_once(self, states: dict[int, State], found: Sequence[Contact]) -> None:
