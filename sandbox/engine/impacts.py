@@ -200,8 +200,8 @@ class Impacts:
     # ------------------------------------------------------------------ impulses
 
     def _exchange_alone(self, states: dict[int, State], contact: Contact) -> None:
-        """A single contact of balls. Below a nose only a part of the push is along the plane: to separate there, too, no
-        slower than the slowest hop, it takes more restitution."""
+        """A single contact of balls. Below a nose only a part of the push is along the plane: it takes more restitution
+        to separate no slower than the slowest hop there, too."""
         balls, before = self._balls(contact), [states[index] for index in contact.balls]
         after = after_one(balls, before, contact)
         apart = after[0][2] * contact.nx + after[0][3] * contact.ny
