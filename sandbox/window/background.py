@@ -8,6 +8,7 @@ from collections.abc import Callable
 from concurrent.futures import Future
 from concurrent.futures import wait as wait_for
 from functools import partial
+from math import inf
 from queue import SimpleQueue
 from threading import Thread
 from time import perf_counter
@@ -60,7 +61,9 @@ class Background:
 class Latest(Generic[T]):
     """The result of work that is done again whenever what it is done for changes, one after the other."""
 
-    def __init__(self) -> None:
+    def __init__(self, abandon: Callable[[Future[T]], object] | None = None, hung: float = inf) -> None:
+        """Work that takes longer than ``hung`` s is abandoned once it is wanted for something else."""
+        self.abandon, self.hung = abandon, hung
         self.key: Any = None  # what the value is of
         self.value: T | None = None  # None if there is none yet, or if the work failed
         self.error: BaseException | None = None
@@ -84,18 +87,20 @@ class Latest(Generic[T]):
             self.value, self.error = None, error
         return True
 
-    def follow(self, key: Any, submit: Callable[[], Future[T]]) -> None:
-        """Begin the work for ``key``, unless it was done for that, or other work has not ended yet."""
-        if self.work is None and key != self.key:
-            self.work, self.work_for, self.began = submit(), key, perf_counter()
+    def follow(self, key: Any, submit: Callable[[Any], Future[T]]) -> None:
+        """Begin the work for ``key``, unless it is None or it was done for that, or other work has not ended yet."""
+        if key != self.work_for and self.takes > self.hung:
+            self.give_up(None)
+        if key is not None and key != self.key and self.work is None:
+            self.work, self.work_for, self.began = submit(key), key, perf_counter()
 
-    def give_up(self, why: BaseException | None) -> Future[T]:
-        """Take no result of the work, which is returned; ``why`` is the error of what it was done for, if given."""
-        assert self.work is not None
-        work, self.work = self.work, None
+    def give_up(self, why: BaseException | None) -> None:
+        """End the work without a result; ``why`` is the error of what it was done for, if given."""
+        if self.work is not None and self.abandon is not None:
+            self.abandon(self.work)
+        self.work = None
         if why is not None:
             self.key, self.value, self.error = self.work_for, None, why
-        return work
 
     def forget(self) -> None:
         """Drop the value."""

@@ -64,7 +64,7 @@ class Game:
         self.session, self.worker, self.patience, self.helper = session, worker, patience, helper or worker
         self.running = True
         self.history = History(session.changes)
-        self.runs: Latest[tuple[dict[str, Any], float]] = Latest()  # of worker.computed
+        self.runs: Latest[tuple[dict[str, Any], float]] = Latest(worker.abandon, LONG)  # of worker.computed
         self.aimed: Shot | None = None  # of the last run that did not fail
         self.shooting = False  # the shot is watched as soon as it is computed
         self.playback: Playback | None = None  # of the shot that is watched; None while aiming
@@ -236,10 +236,7 @@ class Game:
     def _compute(self, patience: float | None) -> None:
         """Run the scene with the current parameters, and take the path that this frame shows."""
         self._take_run(0.0)
-        if self.runs.takes >= LONG and self.runs.work_for != self.wanted:
-            self._abandon(None)
-        scene = self.session.scene
-        self.runs.follow(self.wanted, lambda: self.worker.submit(computed, scene))
+        self.runs.follow(self.wanted, lambda key: self.worker.submit(computed, key[0]))
         if patience is None or (self.cost <= patience and self.aimed is not None):
             self._take_run(patience)
 
@@ -266,15 +263,11 @@ class Game:
         if self.shooting and self.settled:
             self._keep(shot)
 
-    def _abandon(self, why: RunError | None) -> None:
-        """Give up a run, and end its process."""
-        self.worker.abandon(self.runs.give_up(why))
-
     def stop(self) -> bool:
         """Stop a long run; returns whether there was one."""
         if self.runs.takes < LONG:
             return False
-        self._abandon(RunError("stopped: this run did not end; change something to compute it again"))
+        self.runs.give_up(RunError("stopped: this run did not end; change something to compute it again"))
         self.shooting = False
         return True
 
@@ -422,14 +415,14 @@ class Game:
             self.tell(f"aimed as shot {row.number}: {row.verdict}")
 
     def pin(self, row: Played) -> None:
-        """Keep the path of a shot, or keep it no longer."""
-        self.table.pin(row, self._compute_again)
+        """Keep the path of a shot, which is computed again if it was dropped; or keep it no longer."""
 
-    def _compute_again(self, row: Played) -> None:
         def then(result: tuple[dict[str, Any], float]) -> None:
             row.shot = Shot(row.scene, run_of(row.scene, result[0]), row.changes, row.number)
 
-        self.ask(self.helper.submit(computed, row.scene), then)
+        self.table.pin(row)
+        if row.pinned and row.shot is None:
+            self.ask(self.helper.submit(computed, row.scene), then)
 
     def aim_again(self, from_rest: bool = False) -> None:
         """Stop watching a shot; with ``from_rest``, if it is over, the next begins where the balls came to rest."""

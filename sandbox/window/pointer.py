@@ -114,9 +114,10 @@ class Pointer:
             return self._lay(at)
         if pygame.key.get_mods() & pygame.KMOD_CTRL:
             return self._pan
-        if (aimed := view.aim_on_map(at)) is not None:
-            game.nudge(aim.aimed(game.session, *aimed))
-        elif view.on_charts(at):
+        card = view.card_at(at)
+        if card == "map":
+            game.nudge(aim.aimed(game.session, *view.aim_on_map(at)))
+        elif card == "charts":
             commands.do(view, "graphs")
         elif (spot := view.spot_at(at)) is not None:
             view.hold()

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import csv
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from math import isclose, sqrt
@@ -212,11 +212,9 @@ class Shots:
         """Whether the path of a shot stays."""
         return any(row.pinned for row in self.rows if row.number == shot.number)
 
-    def pin(self, row: Played, computed: Callable[[Played], None]) -> None:
-        """Keep the path of a shot, or keep it no longer; one that was dropped must be ``computed``."""
+    def pin(self, row: Played) -> None:
+        """Keep the path of a shot, or keep it no longer."""
         row.pinned = not row.pinned
-        if row.pinned and row.shot is None:
-            computed(row)
         self._drop_paths()
 
 

@@ -91,10 +91,9 @@ class View:
         self.nearer = 1.0  # where the view follows the ball
         self.holds = False  # the camera, while something is dragged
         self.picked_keys: tuple[str, str] | None = None  # the keys of the handle that was picked by key
-        self.clouds: Latest[Cloud] = Latest()  # the fan
-        self.maps: Latest[ScoreMap] = Latest()
-        self.map_at = pygame.Rect(0, 0, 0, 0)  # where its cells are drawn
-        self.charts_at = pygame.Rect(0, 0, 0, 0)
+        self.clouds: Latest[Cloud] = Latest(game.helper.abandon, HUNG)  # the fan
+        self.maps: Latest[ScoreMap] = Latest(game.helper.abandon, HUNG)
+        self.cards: dict[str, pygame.Rect] = {}  # those that can be clicked: the map's cells and the charts
         self.head = pygame.Rect(0, 0, 0, 0)  # where the headline is
         self.frame_cost = 0.0  # s, smoothed
         self.changed = True  # something other than the game
@@ -302,8 +301,10 @@ class View:
             if done:
                 game.memory.follow(hint)
         self._follow_stage()
-        self._follow_cloud()
-        self._follow_map()
+        self.changed |= self.clouds.take()
+        self.clouds.follow(self._cloud_wanted(), self._ask_cloud)
+        self.changed |= self.maps.take()
+        self.maps.follow(self._map_wanted(), lambda key: game.helper.submit(score_map, *key[1:]))
 
     # What follows the shot, computed elsewhere
 
@@ -341,8 +342,7 @@ class View:
             moving = game.pull is not None or not game.settled or game.still < AT_REST
             if moving and game.grip is None and (stage.holds(shot) or self.composed < STEADY):
                 return
-        key = self._stage_key()
-        self.stages.follow(key, lambda: self.background.submit(Stage, *key, stage))
+        self.stages.follow(self._stage_key(), lambda key: self.background.submit(Stage, *key, stage))
         self._take_stage()
 
     def _cloud_wanted(self) -> tuple[Any, ...] | None:
@@ -357,17 +357,10 @@ class View:
             return (*now, moving, 0)
         return (*now, False, known.value.left) if known.value is not None and known.value.left and not moving else None
 
-    def _follow_cloud(self) -> None:
-        """Compute a fan of the shot, one after the other while the shot changes."""
-        self.changed |= self.clouds.take()
-        key = self._cloud_wanted()
-        if key is not None:
-            if self.clouds.takes > HUNG and self.clouds.work_for[:3] != key[:3]:
-                for latest in (self.clouds, self.maps):
-                    if latest.work is not None:
-                        self.game.helper.abandon(latest.give_up(None))
-            asked = key[0].scene, *key[1:4], key[0].early, self.area.size, (CARD["good"], CARD["text"])
-            self.clouds.follow(key, lambda: self.game.helper.submit(cloud, *asked))
+    def _ask_cloud(self, key: tuple[Any, ...]) -> Future[Cloud]:
+        """Have a fan computed."""
+        (shot, *how, _), colours = key, (CARD["good"], CARD["text"])
+        return self.game.helper.submit(cloud, shot.scene, *how, shot.early, self.area.size, colours)
 
     def _map_wanted(self) -> tuple[Any, ...] | None:
         """What a map is still to be computed of: the scene apart from the aim, which stays in its middle for as long as
@@ -380,13 +373,6 @@ class View:
             finer = known is not None and self.maps.key[2] == 1 and known.seconds < QUICK
             return (*self.maps.key[:2], FINER) if finer else None
         return shot.unaimed, shot.scene, 1
-
-    def _follow_map(self) -> None:
-        """Compute the map around the shot."""
-        self.changed |= self.maps.take()
-        key = self._map_wanted()
-        if key is not None:
-            self.maps.follow(key, lambda: self.game.helper.submit(score_map, *key[1:]))
 
     # ------------------------------------------------------------------------------------------------------- drawing
 
@@ -564,6 +550,7 @@ class View:
     def _draw_cards(self, sheet: Canvas, stage: Stage, shot: Shot) -> None:
         """Cards down the right side, what the mouse reads, the tape."""
         game, top = self.game, float(sheet.frame.top)
+        self.cards.clear()
         if not self.follows:
             handle = any(spot.grip.is_wind for spot in self.spots)
             top = max(top, float(stage.foot_of_wind), top + 2 * hand.FOOT[1] * sheet.unit * handle)
@@ -586,11 +573,11 @@ class View:
             if known is None:
                 top = sheet.note([(self._why(self.maps, "the map"), CARD["text"])], top, self.head)
             else:
-                self.map_at, top = draw_map(sheet, known, shot.aim, top, self.head)
+                self.cards["map"], top = draw_map(sheet, known, shot.aim, top, self.head)
         if "charts" in self.on:
             charts: Charts = self._once("charts", shot, lambda: Charts(shot, stage.picture))
             t = game.playback.t if game.playback is not None else None
-            self.charts_at = charts.draw(sheet, top, t, self.head)
+            self.cards["charts"] = charts.draw(sheet, top, t, self.head)
         camera = self.camera
         if camera is not None and self.tape is not None:
             self.tape.draw(sheet, camera, shot.upright)
@@ -607,17 +594,15 @@ class View:
         """Why there is no such value."""
         return f"{what} ..." if latest.error is None else self.game.reason(latest.error)
 
-    def on_charts(self, at: tuple[int, int]) -> bool:
-        """Whether a place (px) is on the charts."""
-        return "charts" in self.on and not self.hidden and self.charts_at.collidepoint(at)
+    def card_at(self, at: tuple[int, int]) -> str | None:
+        """The card at a place (px)."""
+        return next((name for name, rect in self.cards.items() if rect.collidepoint(at)), None)
 
-    def aim_on_map(self, at: tuple[int, int]) -> tuple[float, float] | None:
-        """The speed and the angle at a place (px) on the map; None if it is not on it."""
-        shot, rect = self.game.shot, self.map_at
-        known = self._map_of(shot) if "map" in self.on and shot is not None and not self.hidden else None
-        if known is None or not rect.collidepoint(at):
-            return None
-        return known.aim((at[0] - rect.left) / rect.width, (rect.bottom - at[1]) / rect.height)
+    def aim_on_map(self, at: tuple[int, int]) -> tuple[float, float]:
+        """The speed and the angle at a place (px) on the map."""
+        rect = self.cards["map"]
+        assert self.maps.value is not None
+        return self.maps.value.aim((at[0] - rect.left) / rect.width, (rect.bottom - at[1]) / rect.height)
 
 
 def _zoomed(camera: Camera, factor: float, ball: Sequence[float]) -> Camera:

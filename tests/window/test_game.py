@@ -8,6 +8,7 @@ import sys
 from concurrent.futures import Future
 from graphlib import TopologicalSorter
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -63,13 +64,13 @@ def game() -> Game:
 def own(tmp_path):
     """A scene of one's own, with a force of one's own."""
 
-    def make(force: str) -> Game:
+    def make(force: str, worker: Any = None) -> Game:
         new_scene(tmp_path / "own")
         file = tmp_path / "own" / "scene.py"
         code = file.read_text("utf-8")
         assert "fan.push))" in code
         file.write_text(code.replace("fan.push))", "fan.push), stuck)") + force, "utf-8")
-        return Game(Session(str(file.parent), {"launch.speed": 8.0}), Here())
+        return Game(Session(str(file.parent), {"launch.speed": 8.0}), worker or Here())
 
     return make
 
@@ -185,8 +186,7 @@ class TestARunThatNeverEnds:
         assert not game.stop()
 
     def test_a_real_one_ends_with_its_process(self, own, worker):
-        game = own(STUCK)
-        game.worker = worker
+        game = own(STUCK, worker)
         game.settle()
         game.change({"launch.speed": 60.0})
         game.advance(0.0)

@@ -181,16 +181,17 @@ class TestTheFan:
         player.key(pygame.K_f)
         player.settle()
         killed = []
-        monkeypatch.setattr(player.game.helper, "abandon", killed.append)
         view = player.view
-        view.clouds.work, view.clouds.began, view.clouds.work_for = Future(), perf_counter() - 3.0, view.clouds.key
-        view.maps.work = Future()
+        for latest in (view.clouds, view.maps):
+            monkeypatch.setattr(latest, "abandon", killed.append)
+            latest.work, latest.began, latest.work_for = Future(), perf_counter() - 3.0, "before"
         player.key(pygame.K_UP)
         player.frames(1)
         assert not killed  # a break takes so long
-        view.clouds.began -= HUNG
+        for latest in (view.clouds, view.maps):
+            latest.began -= HUNG
         player.frames(1)
-        assert len(killed) == 2  # what it computes, and what waits for it
+        assert len(killed) == 2
         assert view.maps.work is None
         player.settle()
         assert view.clouds.key[0] is player.game.shot
@@ -219,7 +220,7 @@ class TestTheMap:
         known = player.view.maps.value
         assert known.cells.shape in (COARSE, (FINER * COARSE[0], FINER * COARSE[1]))
         assert differ(picture(player), plain) > 0.02
-        rect = player.view.map_at
+        rect = player.view.cards["map"]
         at = rect.left + rect.width // 4, rect.top + rect.height // 3
         player.click(at)
         assert player.game.playback is None
@@ -365,7 +366,7 @@ def test_the_charts_show_the_state_at_the_time(player, written):
     for text in (f"{hypot(vx, vy):.1f} m/s", f"{height:.1f} m"):
         assert texts.count(text) == 2  # over the strips, and on the card
     assert {"speed (m/s)", "height (m)", "spin (rpm)", "0 s", "2000"} <= set(texts)
-    player.click(player.view.charts_at.center)
+    player.click(player.view.cards["charts"].center)
     assert player.view.over is not None  # the same, large
     player.settle()  # it is drawn in another thread
 
