@@ -18,6 +18,7 @@ class Canvas(Sheet):
 
     def __init__(self, surface: pygame.Surface) -> None:
         super().__init__(surface.get_size(), surface=surface)
+        self.top, self.avoid = float(self.frame.top), pygame.Rect(0, 0, 0, 0)  # of the cards down the right side
 
     def ended(self, text: str, size: str, room: float, bold: bool = False) -> str:
         """The text cut to ``room`` px, at a comma if there is one."""
@@ -69,24 +70,23 @@ class Canvas(Sheet):
     def card(
         self,
         lines: Iterable[tuple[str, Any]],
-        anchor: str,
-        at: tuple[float, float],
+        anchor: str = "",
+        at: tuple[float, float] = (0.0, 0.0),
         within: pygame.Rect | None = None,
-        avoid: pygame.Rect | None = None,
     ) -> pygame.Rect:
-        """A small card whose side or corner ``anchor`` (named as by pygame.Rect) is at a place in px; where it is.
+        """A small card whose side or corner ``anchor`` (named as by pygame.Rect) is at a place in px, or the next card
+        down the right side; where it is.
 
-        Each line is a text with its colour, or a label and a value. The card is moved inside ``within``, and below
-        ``avoid`` if they overlap.
+        Each line is a text with its colour, or a label and a value. The card is moved inside ``within``.
         """
         letters, gap, lines = self.lettering, self.gap, list(lines)
         row = letters.height("small") + gap // 2
         values = [letters.width(value, "small", bold=True) + 3 * gap for _, value in lines if isinstance(value, str)]
         wide = max(letters.width(text, "small") for text, _ in lines) + max(values, default=0) + 4 * gap
-        rect = pygame.Rect(0, 0, wide, len(lines) * row + 2 * gap - gap // 2)
-        setattr(rect, anchor, (round(at[0]), round(at[1])))
-        if avoid is not None and rect.colliderect(avoid):
-            rect.top = avoid.bottom + gap
+        size = wide, len(lines) * row + 2 * gap - gap // 2
+        rect = pygame.Rect((0, 0), size) if anchor else self.stacked(size)
+        if anchor:
+            setattr(rect, anchor, (round(at[0]), round(at[1])))
         rect.clamp_ip(within or self.surface.get_rect())
         self.painter.panel(rect, CARD["background"], 0.9, 8 * self.unit)
         for number, (text, value) in enumerate(lines):
@@ -97,11 +97,19 @@ class Canvas(Sheet):
                 letters.write(self.surface, value, "small", (right, top), CARD["text"], "topright", bold=True)
         return rect
 
-    def note(self, lines: Iterable[tuple[str, Colour]], top: float, avoid: pygame.Rect) -> float:
-        """A small card at the right, below ``avoid`` if they overlap; returns the row below it."""
+    def stacked(self, size: tuple[int, int]) -> pygame.Rect:
+        """The place of the next card down the right side, below ``avoid`` if they overlap."""
+        rect = pygame.Rect((0, 0), size)
+        rect.topright = self.frame.right, round(self.top)
+        if rect.colliderect(self.avoid):
+            rect.top = self.avoid.bottom + self.gap
+        self.top = rect.bottom + self.gap
+        return rect
+
+    def note(self, *lines: tuple[str, Colour]) -> None:
+        """A small card down the right side."""
         room = self.frame.width - 4 * self.gap
-        parts = [(part, colour) for text, colour in lines for part in self.lettering.wrapped(text, "small", room)]
-        return float(self.card(parts, "topright", (self.frame.right, top), avoid=avoid).bottom + self.gap)
+        self.card((part, colour) for text, colour in lines for part in self.lettering.wrapped(text, "small", room))
 
     def messages(self, messages: Sequence[tuple[str, bool]]) -> None:
         """Messages over the bottom of the picture, each with whether it is bad, in up to ten lines."""

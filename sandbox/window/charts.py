@@ -10,9 +10,9 @@ import pygame
 from sandbox.picture.graph import Curve, Panel, draw_panel, motion
 from sandbox.picture.palette import palette
 from sandbox.picture.path import hardest
-from sandbox.picture.sheet import Sheet
 from sandbox.picture.view import View
 from sandbox.sport.amounts import amount
+from sandbox.window.canvas import Canvas
 from sandbox.window.shots import Shot
 
 CARD = palette("card")
@@ -39,11 +39,8 @@ class Charts:
             for name, (unit, values) in moves.items() if name in SHOWN
         ]  # fmt: skip
 
-    def draw(self, sheet: Sheet, top: float, t: float | None, avoid: pygame.Rect) -> pygame.Rect:
-        """A card at the right below the row ``top``, or at the left in a view from above; where it is.
-
-        ``t`` in s is marked.
-        """
+    def draw(self, sheet: Canvas, t: float | None) -> pygame.Rect:
+        """A card down the right side, or at the left in a view from above, with a mark at ``t`` in s; where it is."""
         unit, gap, letters = sheet.unit, sheet.gap, sheet.lettering
         row = letters.height("small")
         tall = round(max(CURVE * unit, 2.2 * row)) + 2 * row + 4 * gap
@@ -57,12 +54,9 @@ class Charts:
         wide = max(round(wide), written + 4 * gap)
         if t is None and wide >= written + letters.width(PEAK, "small", bold=True) + 4 * gap:
             said = [PEAK + text for text in said]
-        rect = pygame.Rect(0, 0, wide, len(self.strips) * tall + 2 * gap)
-        if self.shot.upright:
-            rect.topright = sheet.frame.right, round(top)
-            if rect.colliderect(avoid):
-                rect.top = avoid.bottom + gap
-        else:
+        size = wide, len(self.strips) * tall + 2 * gap
+        rect = sheet.stacked(size) if self.shot.upright else pygame.Rect((0, 0), size)
+        if not self.shot.upright:
             rect.bottomleft = sheet.frame.left, round(sheet.frame.bottom - sheet.card_height() - gap)
         sheet.painter.panel(rect, CARD["background"], 0.85, 10 * unit)
         until = max(self.shot.run.duration, 1e-9)

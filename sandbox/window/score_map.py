@@ -12,9 +12,9 @@ from sandbox import parameters as declared
 from sandbox.errors import RequestError
 from sandbox.lab.runs import runs
 from sandbox.picture.palette import Colour, mix, palette
-from sandbox.picture.sheet import Sheet
 from sandbox.scene import Scene
 from sandbox.sport.controls import Spread
+from sandbox.window.canvas import Canvas
 from sandbox.window.fan import ANGLE, SPEED, within
 
 CARD = palette("card")
@@ -87,19 +87,13 @@ def score_map(scene: Scene, finer: int = 1) -> ScoreMap:
     return ScoreMap(ends[0], ends[1], units, np.array(cells, np.uint8).reshape(shape), perf_counter() - started)
 
 
-def draw_map(
-    sheet: Sheet, found: ScoreMap, aim: tuple[float, float], top: float, avoid: pygame.Rect
-) -> tuple[pygame.Rect, float]:
-    """The map on a card at the right below ``top``, with a cross at the aim; returns where its cells are, and the row
-    below the card."""
+def draw_map(sheet: Canvas, found: ScoreMap, aim: tuple[float, float]) -> pygame.Rect:
+    """The map on a card down the right side, with a ring at the aim; returns where its cells are."""
     letters, gap, unit = sheet.lettering, sheet.gap, sheet.unit
     row, (wide, tall) = letters.height("small"), (round(length * unit) for length in MAP)
     (slow, fast), (low, high) = found.speeds, found.angles
     up = max(letters.width(f"{angle:.3g}", "small") for angle in (low, high))
-    card = pygame.Rect(0, 0, wide + up + 6 * gap, tall + 2 * row + 4 * gap)
-    card.topright = sheet.frame.right, round(top)
-    if card.colliderect(avoid):
-        card.top = avoid.bottom + gap
+    card = sheet.stacked((wide + up + 6 * gap, tall + 2 * row + 4 * gap))
     sheet.painter.panel(card, CARD["background"], 0.9, 8 * unit)
     cells = pygame.Rect(card.right - 2 * gap - wide, card.top + row + 2 * gap, wide, tall)
     colours = np.array([mix(CARD["background"], CARD["quiet"], 0.3), CARD["good"], CARD["bad"]], np.uint8)
@@ -123,4 +117,4 @@ def draw_map(
     write(f"{high:.3g}", (cells.left - gap, cells.top), "topright")
     write(angle, (cells.left - gap, cells.centery), "midright")
     write(f"{low:.3g}", (cells.left - gap, cells.bottom), "bottomright")
-    return cells, float(card.bottom + gap)
+    return cells

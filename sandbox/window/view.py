@@ -184,7 +184,14 @@ class View:
     def near(self, shot: Shot) -> Picture[Any]:
         """The picture of a shot that follows its ball, as near as the player has zoomed."""
         found: Picture[Any] = self._once("near", (shot, self.area.size), lambda: view_of(shot.run, self.area.size))
-        vars(found)["view"] = lambda t: _zoomed(type(found).view(found, t), self.nearer, shot.run.state(shot.ball, t))
+
+        def view(t: float) -> Camera:
+            """The picture's own, nearer, with the ball in the same place; on whole px."""
+            camera = type(found).view(found, t)
+            near = _scaled(camera, self.nearer, camera.pixel(*shot.run.state(shot.ball, t)[:2]))
+            return replace(near, anchor=(round(near.anchor[0]), round(near.anchor[1])))
+
+        vars(found)["view"] = view
         return found
 
     def zoom(self, factor: float, at: tuple[float, float]) -> None:
@@ -194,10 +201,9 @@ class View:
             self.nearer = min(max(self.nearer * factor, 1 / NEARER), NEARER)
             self.changed = True
         elif stage is not None:
-            camera = self.chosen or stage.camera
-            scale = min(max(camera.scale * factor, FARTHEST * stage.whole.scale), NEAREST * stage.whole.scale)
-            across, down = ((to + (px - to) * scale / camera.scale) for to, px in zip(at, camera.anchor, strict=True))
-            self.look(replace(camera, anchor=(across, down), scale=scale))
+            camera, whole = self.chosen or stage.camera, stage.whole.scale
+            scale = min(max(camera.scale * factor, FARTHEST * whole), NEAREST * whole)
+            self.look(_scaled(camera, scale / camera.scale, at))
 
     def pan(self, across: float, down: float) -> None:
         """Move the picture by so many px."""
@@ -549,35 +555,34 @@ class View:
 
     def _draw_cards(self, sheet: Canvas, stage: Stage, shot: Shot) -> None:
         """Cards down the right side, what the mouse reads, the tape."""
-        game, top = self.game, float(sheet.frame.top)
+        game, sheet.avoid = self.game, self.head
         self.cards.clear()
         if not self.follows:
             handle = any(spot.grip.is_wind for spot in self.spots)
-            top = max(top, float(stage.foot_of_wind), top + 2 * hand.FOOT[1] * sheet.unit * handle)
+            sheet.top = max(float(stage.foot_of_wind), sheet.top + 2 * hand.FOOT[1] * sheet.unit * handle)
         if "cost" in self.on:
             level = game.session.value("accuracy.level")
             text = f"frame {1e3 * self.frame_cost:.1f} ms; run {1e3 * game.cost:.1f} ms, {level}"
-            top = sheet.note([(text, CARD["accent"])], top, self.head)
+            sheet.note((text, CARD["accent"]))
         hints = [(text, CARD["accent"]) for text in game.memory.hints.values()]
         if hints and game.pull is None:
-            top = sheet.note(hints, top, self.head)
+            sheet.note(*hints)
         if self.hidden:
             return
         if "fan" in self.on:
             found = self._cloud_of(shot)
             share, spread = found.said if found is not None else (self._why(self.clouds, "the fan"), "")
-            lines = [(share, CARD["text"]), *([(spread, CARD["quiet"])] if spread else [])]
-            top = sheet.note(lines, top, self.head)
+            sheet.note((share, CARD["text"]), *[(spread, CARD["quiet"])] * bool(spread))
         if "map" in self.on:
             known = self._map_of(shot)
             if known is None:
-                top = sheet.note([(self._why(self.maps, "the map"), CARD["text"])], top, self.head)
+                sheet.note((self._why(self.maps, "the map"), CARD["text"]))
             else:
-                self.cards["map"], top = draw_map(sheet, known, shot.aim, top, self.head)
+                self.cards["map"] = draw_map(sheet, known, shot.aim)
         if "charts" in self.on:
             charts: Charts = self._once("charts", shot, lambda: Charts(shot, stage.picture))
             t = game.playback.t if game.playback is not None else None
-            self.cards["charts"] = charts.draw(sheet, top, t, self.head)
+            self.cards["charts"] = charts.draw(sheet, t)
         camera = self.camera
         if camera is not None and self.tape is not None:
             self.tape.draw(sheet, camera, shot.upright)
@@ -605,9 +610,7 @@ class View:
         return self.maps.value.aim((at[0] - rect.left) / rect.width, (rect.bottom - at[1]) / rect.height)
 
 
-def _zoomed(camera: Camera, factor: float, ball: Sequence[float]) -> Camera:
-    """A camera that is nearer by a factor, with the ball in the same place."""
-    x, y = camera.pixel(*ball[:2])
-    across, down = camera.anchor
-    return replace(camera, anchor=(round(x + (across - x) * factor), round(y + (down - y) * factor)),
-                   scale=camera.scale * factor)  # fmt: skip
+def _scaled(camera: Camera, factor: float, at: tuple[float, float]) -> Camera:
+    """A camera that is nearer by a factor, with what is at a place (px) still there."""
+    across, down = (to + (px - to) * factor for to, px in zip(at, camera.anchor, strict=True))
+    return replace(camera, anchor=(across, down), scale=camera.scale * factor)

@@ -377,7 +377,7 @@ def test_what_is_written_on_the_charts_does_not_overlap(shot_of, written, size, 
     shot = shot_of(Session(source))
     charts = Charts(shot, shot.scene.picture(shot.run, size))
     for t in (None, 0.5):
-        charts.draw(Canvas(pygame.Surface(size)), 20.0, t, pygame.Rect(0, 0, 0, 0))
+        charts.draw(Canvas(pygame.Surface(size)), t)
         placed = [rect for _, rect in written]
         assert len(placed) > 12  # with the numbers on the axes
         assert not any(a.colliderect(b) for a, b in combinations(placed, 2))
