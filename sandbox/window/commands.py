@@ -13,6 +13,7 @@ import pygame
 
 from sandbox.engine.accuracy import LEVELS
 from sandbox.picture.energy_chart import energy_chart
+from sandbox.picture.frames import save_png
 from sandbox.picture.graph import graph
 from sandbox.picture.palette import palette
 from sandbox.scene import listings, listings_in, scene_files_in
@@ -26,7 +27,7 @@ from sandbox.window.measure import Tape
 from sandbox.window.menu import Menu, thumbnail
 from sandbox.window.overlay import Board, Chart, Overlay, Row
 from sandbox.window.replay import run_of
-from sandbox.window.shots import Played, Shot
+from sandbox.window.shots import Played, Shot, write_csv
 from sandbox.window.table import Table
 from sandbox.window.view import AHEAD, View
 from sandbox.window.worker import cost_and_errors
@@ -163,7 +164,7 @@ def _with_row(view: View, played: Callable[[], list[Played]], action: str, row: 
         case "delete":
             game.table.rows.remove(row)
         case "csv":
-            _export(view, lambda: export.shots(played(), game.session.title))
+            _export(view, ".csv", partial(write_csv, played()), "-shots")
 
 
 def _find(view: View, by: float) -> None:
@@ -314,20 +315,23 @@ def _sound(view: View, by: float) -> None:
 # Keep
 
 
-def _export(view: View, write: Callable[[], Path]) -> None:
-    """Write a file, and say where it is."""
-    view.game.trying(lambda: view.game.tell(f"wrote {write()}"))
+def _export(view: View, suffix: str, write: Callable[[Path], object], about: str = "") -> None:
+    """Write a new file, and say where it is."""
+    game = view.game
+    game.trying(lambda: game.tell(f"wrote {export.new_file(game.session.title + about, suffix, write)}"))
+
+
+def _save_scene(view: View, by: float) -> None:
+    view.game.trying(lambda: view.game.tell(f"wrote {export.scene_file(view.game.session)}"))
 
 
 def _screenshot(view: View, by: float) -> None:
     view.draw()  # without the list that this may have been chosen from
-    _export(view, lambda: export.screenshot(view.canvas, view.game.session.title))
+    _export(view, ".png", partial(save_png, view.canvas))
 
 
-def _save_replay(view: View, shot: Shot) -> Path:
-    path = export.free(view.game.session.title, replay.SUFFIX)
-    replay.save(shot, path)
-    return path
+def _save_replay(view: View, by: float) -> None:
+    _with_shot(view, lambda shot: _export(view, replay.SUFFIX, partial(replay.save, shot)))
 
 
 def _open_replay(view: View, by: float) -> None:
@@ -341,7 +345,7 @@ def _open_replay(view: View, by: float) -> None:
 
 def _animate(view: View, shot: Shot) -> None:
     game = view.game
-    work = view.writer.submit(export.animation, shot, game.session.title)
+    work = view.writer.submit(export.new_file, game.session.title, ".gif", partial(export.animate, shot))
     game.ask(work, lambda path: game.tell(f"wrote {path}"), "writing the animation ...")
 
 
@@ -421,14 +425,12 @@ TABLE: tuple[Command, ...] = (
     Command("tape", ("t",), "tape; arrows move its end, K the other", "See", _tape, mouse="right drag"),
     Command("accuracy", ("a",), "accuracy: fast, balanced, precise", "See",
             lambda view, by: view.game.trying(lambda: _accuracy(view, by))),
-    Command("save_scene", ("s",), "a scene file with what was changed", "Keep",
-            lambda view, by: _export(view, lambda: export.scene_file(view.game.session))),
+    Command("save_scene", ("s",), "a scene file with what was changed", "Keep", _save_scene),
     Command("copy", ("c",), "copy the command line of this shot", "Keep", _copy),
     Command("screenshot", ("f12",), "picture of the window", "Keep", _screenshot),
     Command("animation", ("f9",), "animation of the last shot", "Keep",
             lambda view, by: _with_shot(view, lambda shot: _animate(view, shot))),
-    Command("save_replay", ("f5",), "replay file of the last shot", "Keep",
-            lambda view, by: _with_shot(view, lambda shot: _export(view, lambda: _save_replay(view, shot)))),
+    Command("save_replay", ("f5",), "replay file of the last shot", "Keep", _save_replay),
     Command("compare", ("f6",), "compute the shot again, and compare", "Keep",
             lambda view, by: _with_shot(view, view.game.compare)),
     Command("open_replay", ("f7",), "see the newest replay; or drop one here", "Keep", _open_replay),

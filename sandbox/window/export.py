@@ -3,18 +3,16 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
-import pygame
-
 from sandbox.errors import RunError
 from sandbox.files import reason, writing, written_whole
-from sandbox.picture.frames import save_gif, save_png
+from sandbox.picture.frames import save_gif
 from sandbox.scene import reference
 from sandbox.window.session import Session
-from sandbox.window.shots import Played, Shot, write_csv
+from sandbox.window.shots import Shot
 
 FOLDER = Path("out")
 FPS = 25
@@ -27,35 +25,24 @@ def free(stem: str, suffix: str) -> Path:
         FOLDER.mkdir(exist_ok=True)
     except OSError as error:
         raise RunError(f"{FOLDER}: cannot be made: {reason(error)}") from None
-    stem = stem.replace("/", "-").removesuffix(".toml")
+    stem = stem.replace("/", "-").replace(".toml", "")
     number = 1
     while (path := FOLDER / f"{stem}-{number}{suffix}").exists():
         number += 1
     return path
 
 
-def screenshot(surface: pygame.Surface, stem: str) -> Path:
-    """The window as it is, as a PNG file."""
-    path = free(stem, ".png")
+def new_file(stem: str, suffix: str, write: Callable[[Path], object]) -> Path:
+    """A new file in the folder of outputs, with what ``write`` writes."""
+    path = free(stem, suffix)
     with writing("", path):
-        save_png(surface, path)
+        write(path)
     return path
 
 
-def animation(shot: Shot, stem: str) -> Path:
-    """A shot as an animated GIF."""
-    path = free(stem, ".gif")
-    with writing("", path):
-        save_gif(shot.scene.picture(shot.run, GIF_SIZE), shot.run, path, FPS)
-    return path
-
-
-def shots(rows: Sequence[Played], stem: str) -> Path:
-    """The table of shots, as a CSV file."""
-    path = free(f"{stem}-shots", ".csv")
-    with writing("", path), written_whole(path) as file:
-        write_csv(rows, file)
-    return path
+def animate(shot: Shot, path: Path) -> None:
+    """Write a shot as an animated GIF."""
+    save_gif(shot.scene.picture(shot.run, GIF_SIZE), shot.run, path, FPS)
 
 
 def scene_file(session: Session) -> Path:

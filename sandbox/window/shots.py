@@ -7,10 +7,12 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from math import isclose, sqrt
-from typing import TYPE_CHECKING, Any, NamedTuple, TextIO
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from sandbox.files import written_whole
 from sandbox.physics.forces import Gravity
 from sandbox.picture.lines import moves, points
 from sandbox.scene import Scene
@@ -229,14 +231,15 @@ def values_of(rows: Sequence[Played], key: str) -> np.ndarray:
     return np.array([row.numbers[key] for row in rows if key in row.numbers])
 
 
-def write_csv(rows: Sequence[Played], file: TextIO) -> None:
+def write_csv(rows: Sequence[Played], path: Path) -> None:
     """A row for each shot: what was changed in its scene file, speed and angle, and its results."""
     changed = list(dict.fromkeys(key for row in rows for key in row.changes.values))
     numbers = list(dict.fromkeys(key for row in rows for key in row.numbers if key not in changed))
-    writer = csv.writer(file, lineterminator="\n")
-    writer.writerow(["shot", "scene", *changed, *numbers, "scored", "verdict"])
-    for row in rows:
-        values = [row.changes.values.get(key, "") for key in changed]
-        values += [row.numbers.get(key, "") for key in numbers]
-        scored = "" if row.scored is None else str(row.scored).lower()
-        writer.writerow([row.number, row.title, *values, scored, row.verdict])
+    with written_whole(path) as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(["shot", "scene", *changed, *numbers, "scored", "verdict"])
+        for row in rows:
+            values = [row.changes.values.get(key, "") for key in changed]
+            values += [row.numbers.get(key, "") for key in numbers]
+            scored = "" if row.scored is None else str(row.scored).lower()
+            writer.writerow([row.number, row.title, *values, scored, row.verdict])

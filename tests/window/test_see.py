@@ -253,16 +253,8 @@ class TestReading:
         player.move(mouse)
         assert differ(picture(player), plain) > 0.01
 
-    def test_away_from_it_nothing_is_read(self, player):
-        player = player("golf")
-        assert reading(player.game.shot, player.view.stage.camera, (600, 20), 12.0, None) is None
-
-    def test_what_has_not_been_flown_is_not_read(self, player):
-        player = player("golf")
-        game, view = player.game, player.view
-        t = 0.4 * game.shot.run.duration
-        at = view.stage.camera.pixel(*game.shot.run.state("ball", t)[:2])
-        assert reading(game.shot, view.stage.camera, (round(at[0]), round(at[1])), 12.0, 0.5 * t) is None
+        for away, until in (((600, 20), None), (mouse, 0.5 * t)):  # or where it has not flown yet
+            assert reading(game.shot, view.stage.camera, away, 12.0, until) is None
 
     def test_of_many_balls_the_nearest_is_read(self, player):
         player = player("billiards")
@@ -432,7 +424,7 @@ class TestTheLists:
             player.click(player.view.over.places[number][0].center)
             assert done[-1] == command.name
 
-    def test_a_button_opens_it_and_closes_it(self, player):
+    def test_a_button_opens_it_and_closes_it_and_it_stays_open_while_the_window_changes(self, player):
         player = player(PUTT)
         player.button("see")
         assert player.view.over.name == "see"
@@ -441,9 +433,6 @@ class TestTheLists:
         player.button("keep")
         player.key(pygame.K_ESCAPE)
         assert player.view.over is None
-
-    def test_it_stays_open_while_the_window_changes(self, player):
-        player = player(PUTT)
         player.button("more")
         player.key(pygame.K_TAB)
         assert player.view.has_panel
@@ -452,8 +441,9 @@ class TestTheLists:
         foot = max(place.bottom for place, _ in player.view.over.places)
         assert 0 < player.view.bar.rect.top - foot < 20
 
-    def test_what_is_shown_is_switched_by_mouse(self, player):
+    def test_what_is_shown_is_switched_by_mouse_and_it_says_what_is_on(self, player):
         player = player(PUTT)
+        assert player.view.switched == {"ghosts", PUTT}
         player.button("see")
         place = next(rect for rect, row in player.view.over.places if row == "charts")
         player.click(place.center)
@@ -461,13 +451,8 @@ class TestTheLists:
         player.click((300, 100))
         assert player.view.over is None
         assert player.game.pull is None
-
-    def test_it_says_what_is_on(self, player):
-        player = player(PUTT)
-        assert player.view.switched == {"ghosts", PUTT}
-        player.key(pygame.K_TAB)
         player.key(pygame.K_o)
-        assert player.view.switched == {"ghosts", "panel", "arrows", PUTT}
+        assert player.view.switched == {"ghosts", "charts", "arrows", PUTT}
 
     def test_with_the_panel_open_the_help_and_the_menu_can_still_be_clicked(self, player):
         player = player(PUTT, (640, 400))
