@@ -33,6 +33,7 @@ class Overlay:
     def draw(self, sheet: Canvas, mouse: tuple[int, int], on: Collection[str] = ()) -> None:
         """Draw it; ``on`` are the actions that are switched on."""
         self.sheet, self.mouse, self.on = sheet, mouse, on
+        self.hovered = self.at(mouse)
         self.places.clear()
         self.compose()
 
@@ -41,9 +42,9 @@ class Overlay:
         raise NotImplementedError
 
     def part(self, place: pygame.Rect, what: Any, text: str = "", colour: str = "text", **how: Any) -> None:
-        """Draw a text, or nothing, on what can be chosen: lit if it is chosen or under the mouse."""
+        """Draw a text, or nothing, on what can be chosen: lit under the mouse, or else if it is chosen by key."""
         self.places.append((place, what))
-        here = what == self.chosen or place.collidepoint(self.mouse)
+        here = place.collidepoint(self.mouse) or (what == self.chosen and self.hovered is None)
         colour = "text" if here and colour == "quiet" else colour
         self.sheet.item(place, text, CARD[colour], max(how.pop("lit", 0.0), HOVERED * here), **how)
 

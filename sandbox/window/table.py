@@ -9,7 +9,7 @@ import pygame
 
 from sandbox.picture.palette import Colour, palette
 from sandbox.sport.amounts import amount
-from sandbox.window.overlay import Scrolled
+from sandbox.window.overlay import HOVERED, Scrolled
 from sandbox.window.shots import Played, share_of, values_of
 
 CARD = palette("card")
@@ -132,7 +132,8 @@ class Table(Scrolled):
     def _row(self, played: Played, place: pygame.Rect, columns: dict[str, tuple[int, int]]) -> None:
         sheet, gap, unit = self.sheet, self.sheet.gap, self.sheet.unit
         left = sum(list(columns.values())[-1])
-        self.part(place, played, played.verdict, "good" if played.scored else "quiet", left=left + gap)
+        lit, ink = HOVERED * (played is self.chosen), "good" if played.scored else "quiet"
+        self.part(place, played, played.verdict, ink, lit=lit, left=left + gap)
         if played.shot is not None:  # its path is kept
             spot, colour = (place.left + 2 * gap, place.centery), self.colour_of(played.number)
             if played.pinned:
