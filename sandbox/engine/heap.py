@@ -49,19 +49,20 @@ _SLOW = 8.0
 #: Impulse, as a fraction of the largest that forces give a ball in a step, below which it is rounding.
 _PRESSURE = 1e-6
 
-#: Time in s for which all balls of a heap have to be slow before they rest, and for which a ball has to lie in it
-#: before a blow goes through it by contact mechanics.
-_REST_TIME = 0.25
+#: In units of sqrt(d / a), with d the thickness of the thinnest ball or body and a the acceleration by forces: the
+#: longest step, of balls and where bodies lie on others (one that turns comes down deeper than a ball does); and the
+#: time for which all have to be slow before they rest, and for which a ball has to lie in a heap before a blow goes
+#: through it by contact mechanics.
+_STEP, _STEP_OF_BODIES, _REST = 0.1, 0.033, 3.5
 
-#: How much shorter steps are where bodies lie on others: one that turns comes down deeper than a ball does.
-_FINER = 3.0
+#: An acceleration in m/s^2 that is common.
+_COMMON = 10.0
 
-#: Share of the thickness of the thinnest body that what meets in a step may move, and how much shorter than otherwise
-#: steps get for that at most.
-_THIN, _FINEST = 0.1, 32.0
+#: Share of an overlap that is left after a step; and after a unit of time at least, without underflow.
+_LEFT, _LEAST_LEFT = 0.6, 1e-300
 
-#: Share of an overlap that is left after a step.
-_LEFT = 0.6
+#: Share of the margin that position correction may move balls in a step when they part or come to rest.
+_APART = 1e-2
 
 
 class _Member:
@@ -90,8 +91,7 @@ class Heap:
     def __init__(self, setup: Setup, tracks: Sequence[Track], accuracy: Accuracy, numerics: Numerics) -> None:
         self._setup = setup
         self._tracks = tracks
-        turning = len(tracks) > 1 and not discs(*setup.balls)
-        self._longest = accuracy.step / _FINER if turning else accuracy.step
+        self._longest = accuracy.step
         self._settle = accuracy.settle
         self._numerics = numerics
         self._members: dict[int, _Member] = {}
@@ -100,7 +100,10 @@ class Heap:
         self._slow_for = 0.0  # s
         self._forced = 0.0  # m/s^2, the largest acceleration by forces in this step
         self._fastest = 0.0  # m/s, approach in the heap that is no impact of its own
-        self._thin = min((_thickness(ball) for ball in setup.balls if ball.turns), default=inf)  # m
+        self._thin = min(map(_thickness, setup.balls))  # m
+        self._share = _STEP if discs(*setup.balls) else _STEP_OF_BODIES
+        self._span = accuracy.step  # s, of a step that nothing cuts
+        self._unit = self._lasting(1.0, _COMMON)  # s, of Chipmunk's time: its correction of overlaps is per unit
         self._h, self._t = 0.0, 0.0  # s, the length of this step and its start
         self.margin = _MARGIN * min(ball.radius for ball in setup.balls)  # m, gap up to which shapes touch
 
@@ -109,7 +112,6 @@ class Heap:
         """The Space, made when there is something to step."""
         # at rest shapes stay in touch: their margins overlap
         real = RealSpace(self._setup.surfaces, _ITERATIONS, self.margin, 0.5 * self.margin)
-        real.space.collision_bias = _LEFT ** (1.0 / self._longest)
         real.on_contact(self._meet, self._press)
         return real
 
@@ -153,14 +155,17 @@ class Heap:
 
     def fresh(self, t: float) -> set[int]:
         """The balls that have come to press on others of late: a heap that is still forming."""
-        return {index for index, member in self._members.items() if t - member.since < _REST_TIME}
+        return {
+            index for index, member in self._members.items() if t - member.since < self._lasting(_REST, self._forced)
+        }
 
     def _forced_in_a_step(self, index: int, t: float, state: State) -> float:
         """The speed in m/s that forces give in a step: for a body at least what is rounding, while rounding does not
         press balls on each other."""
         ball = self._tracks[index].ball
         least = -inf if discs(ball) else rounding(ball, state)
-        speed = hypot(*self._applied(index, t, state)[:2]) * self._longest
+        forced = hypot(*self._applied(index, t, state)[:2])
+        speed = forced * min(self._longest, self._lasting(self._share, forced))
         return max(speed, least) if speed > STILL else least
 
     def _lies(self, index: int, t: float, state: State) -> bool:
@@ -180,9 +185,10 @@ class Heap:
 
         The step is half a drift, the impulses of forces and contacts, and half a drift; none goes beyond ``until``.
         """
-        thin = max(_THIN * self._thin, self._fastest * self._longest / _FINEST)
-        self._h = h = min(self._longest, thin / max(self._fastest, STILL), until - t)
-        self._t = t
+        forced = self._forced or max(hypot(*self._applied(index, t, state)[:2]) for index, state in states.items())
+        self._span = min(self._longest, self._lasting(self._share, forced))
+        self._t, self._h = t, min(self._span, until - t)
+        h, unit = self._h, self._unit
         fresh = states.keys() - self._members.keys()
         self._take(states)
         applied = {}
@@ -196,27 +202,33 @@ class Heap:
                     ball = self._tracks[index].ball
                     self._members[index].resist(obstacle.surface, ball.mass * max(0.0, pushed), ball.radius)
         self._forced = max(hypot(*applied[index][:2]) + self._swing(index, state) for index, state in states.items())
-        self._fastest = _SLOW * self._forced * self._longest
+        self._fastest = _SLOW * self._forced * self._span
         for index, (x, y, vx, vy, spin, *angle) in states.items():
             member, (ax, ay, turning) = self._members[index], applied[index]
             body, ball = member.body, member.ball
             body.position = (x - 0.5 * h * vx, y - 0.5 * h * vy)  # from which Chipmunk moves it to the middle
             body.angle = angle[0] - 0.5 * h * spin if angle else 0.0
-            body.velocity, body.angular_velocity = (vx, vy), spin
-            body.force, body.torque = (ball.mass * ax, ball.mass * ay), ball.inertia * turning
+            body.velocity, body.angular_velocity = (unit * vx, unit * vy), unit * spin
+            mass, inertia = unit * unit * ball.mass, unit * unit * ball.inertia
+            body.force, body.torque = (mass * ax, mass * ay), inertia * turning
             member.start = states[index]
             member.before, member.touching = member.touching, set()
-            member.brake.max_force, member.resistance = member.resistance, 0.0
-        self._real.step(h)
+            member.brake.max_force, member.resistance = unit * unit * member.resistance, 0.0
+        self._real.space.collision_bias = max(_LEFT ** (unit / self._span), _LEAST_LEFT)
+        self._real.step(h / unit)
         self._numerics.pymunk_steps += 1
+        arcs = {index: self._arc(t, self._members[index]) for index in sorted(states)}
+        overlapped = [i for i, arc in arcs.items() if hypot(*arc.contact) * self._span > _APART * self.margin]
+        self._pressed |= {frozenset((index,)): t for index in overlapped}
         held = self._held()
-        self._take({index: states[index] for index in held})
+        self._take(held)
+        arcs = {index: arc for index, arc in arcs.items() if index in held}
         fastest = max((self._speed(index, states[index]) for index in held), default=inf)
-        self._slow_for = self._slow_for + h if fastest * fastest <= 2.0 * self._forced * self._settle else 0.0
-        if self._slow_for >= _REST_TIME:
-            at_rest = {index: (*states[index][:2], 0.0, 0.0, 0.0, *states[index][5:]) for index in sorted(held)}
+        slow = fastest * fastest <= 2.0 * self._forced * self._settle and not overlapped
+        self._slow_for = self._slow_for + h if slow else 0.0
+        if self._slow_for >= self._lasting(_REST, self._forced):
+            at_rest = {index: (*states[index][:2], 0.0, 0.0, 0.0, *states[index][5:]) for index in arcs}
             return {index: still(t, until, state, Heaped()) for index, state in at_rest.items()}
-        arcs = {index: self._arc(t, self._members[index]) for index in sorted(held)}
         for index, arc in arcs.items():
             self._refuse_leap(index, arc)
         return arcs
@@ -231,6 +243,10 @@ class Heap:
                     f"t = {arc.t1:.6g} s, ball {ball.name!r}: it is so thin that others pressed it through "
                     f"{surface.name!r}; lower accuracy.step"
                 )
+
+    def _lasting(self, share: float, forced: float) -> float:
+        """A share of the time in s in which this acceleration (m/s^2) moves something by its own thickness."""
+        return share * (self._thin / forced) ** 0.5 if forced > 0.0 else inf
 
     def _swing(self, index: int, state: State) -> float:
         """The acceleration in m/s^2 of a turning body's farthest point: it presses on others without a force, too."""
@@ -264,7 +280,7 @@ class Heap:
         """The balls of the pairs that pressed on each other in the last steps."""
         held: set[int] = set()
         for pair, last in list(self._pressed.items()):
-            if self._t - last < _PATIENCE * self._longest and pair <= self._members.keys():
+            if self._t - last < _PATIENCE * self._span and pair <= self._members.keys():
                 held |= pair
             else:
                 del self._pressed[pair]
@@ -272,9 +288,9 @@ class Heap:
 
     def _arc(self, t: float, member: _Member) -> Arc:
         """The path of a step in which the velocity changes evenly, moved by position correction."""
-        h, body = self._h, member.body
+        h, unit, body = self._h, self._unit, member.body
         x, y, ux, uy, spun, *angle = member.start
-        (px, py), (vx, vy), spin = body.position, body.velocity, body.angular_velocity
+        (px, py), (vx, vy), spin = body.position, body.velocity / unit, body.angular_velocity / unit
         dx, dy = px - x - 0.5 * h * ux, py - y - 0.5 * h * uy
         turn = body.angle
         turned = tuple((at, 0.5 * (at + turn) + 0.25 * h * spun, turn + 0.5 * h * spin) for at in angle)
@@ -315,7 +331,7 @@ class Heap:
         i = self._of_disc[first]
         here, there = self._members[i], self._members.get(self._of_disc.get(second, -1))
         other = self._tracks[i].obstacles[self._real.surface_of[second]] if there is None else self._of_disc[second]
-        approach, along, slip = _speeds(arbiter, here, there)
+        approach, along, slip = (speed / self._unit for speed in _speeds(arbiter, here, there))
         arbiter.process_collision = other in here.before or approach <= self._fastest  # it is remembered
         if not arbiter.process_collision:
             return
@@ -336,7 +352,7 @@ class Heap:
         first, second = arbiter.shapes
         i = self._of_disc[first]
         here = self._members[i]
-        push = abs(arbiter.total_impulse.dot(arbiter.normal))
+        push = abs(arbiter.total_impulse.dot(arbiter.normal)) / self._unit
         on_surface = second in self._real.surface_of
         if on_surface and rolls(here.ball, arbiter):
             height = here.ball.radius
@@ -348,7 +364,7 @@ class Heap:
 
 
 def _thickness(body: Ball) -> float:
-    """Of a body across its long side, in m."""
+    """Of a ball or body across its long side, in m."""
     return outline_of(body).mass_properties().area / (2.0 * body.radius)
 
 

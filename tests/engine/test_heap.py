@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from itertools import combinations, pairwise
 from math import cos, hypot, pi, sin, sqrt
 from random import Random
@@ -13,7 +14,8 @@ from sandbox.engine import simulate
 from sandbox.engine.accuracy import resolve
 from sandbox.engine.clusters import Body
 from sandbox.engine.ledger import ledger
-from sandbox.engine.setup import Always, Ball, Bounce, ContactModel, Segment, Setup, Surface
+from sandbox.engine.setup import Always, Ball, Body, Bounce, ContactModel, Segment, Setup, Surface
+from sandbox.engine.shapes import Ellipse, box
 from sandbox.engine.touch import Outline
 from sandbox.engine.track import Heaped, Pressing
 from sandbox.physics.forces import Gravity
@@ -117,6 +119,40 @@ def test_a_heap_comes_to_rest_without_overlap_and_its_energy_is_accounted_for(he
     for arc in heaped(run):  # what position correction moves is no speed, wherever a step is cut
         start, middle, end = (np.array(arc.state(t)[2:4]) for t in (arc.t0, 0.5 * (arc.t0 + arc.t1), arc.t1))
         assert middle == pytest.approx(0.5 * (start + end), abs=1e-9)
+
+
+def scaled(scale, bodies, proportional=True):
+    """Three that fall into a box, with all lengths and accelerations scaled in proportion, and times by the root."""
+    root, outlines = sqrt(scale), [box(0.05 * scale, 0.03 * scale), Ellipse(0.03 * scale, 0.02 * scale), None]
+    balls = []
+    for place, outline in enumerate(outlines):
+        common = {"position": (0.01 * place * scale, (0.04 + 0.07 * place) * scale), "velocity": (0.3 * root, 0.0)}
+        mass = M * scale**3
+        common |= {"mass": mass, "forces": [Gravity(mass, G)]}
+        disc = Ball(str(place), radius=0.03 * scale, **common)
+        balls.append(Body(str(place), shape=outline, angle=0.3, **common) if bodies and outline else disc)
+    walls = [(-9.0, 0.0, 9.0, 0.0), (-0.06, 0.0, -0.06, 9.0), (0.06, 0.0, 0.06, 9.0)]
+    walls = [[scale * length for length in wall] for wall in walls]
+    surfaces = [surface(f"wall {place}", wall[:2], wall[2:]) for place, wall in enumerate(walls)]
+    laws = {"between_balls": Always(Bounce(0.4, 0.4)), "contact": ContactModel("rigid")}
+    accuracy = resolve("balanced")
+    if proportional:
+        lengths = {"settle": scale * accuracy.settle, "skin": scale * accuracy.skin}
+        accuracy = replace(accuracy, step=root * accuracy.step, **lengths)
+    return simulate(Setup(balls, surfaces, 30.0 * root, **laws), accuracy)
+
+
+@pytest.mark.parametrize("bodies", [False, True])
+def test_heaps_of_any_size_come_to_rest_alike(bodies):
+    """From 1/100 to 100 times as large: exactly so at an accuracy in proportion, and at rest at the usual one."""
+    whole = scaled(1.0, bodies)
+    assert whole.ended == scaled(0.01, bodies, proportional=False).ended == "rest"
+    for scale in (0.01, 100.0):
+        run = scaled(scale, bodies)
+        assert run.duration == pytest.approx(sqrt(scale) * whole.duration, rel=0.05)  # when is noticed after a step
+        for each in run.setup.balls:
+            place = np.array(run.state(each.name, run.duration)[:2]) / scale
+            assert place == pytest.approx(whole.state(each.name, whole.duration)[:2], abs=1e-4 * R)
 
 
 @pytest.mark.parametrize("restitution", [0.0, 0.95, 1.0])
