@@ -218,7 +218,8 @@ class Heap:
         self._real.step(h / unit)
         self._numerics.pymunk_steps += 1
         arcs = {index: self._arc(t, self._members[index]) for index in sorted(states)}
-        overlapped = [i for i, arc in arcs.items() if hypot(*arc.contact) * self._span > _APART * self.margin]
+        moved = {i: hypot(*arc.contact) for i, arc in arcs.items() if isinstance(arc.contact, Heaped)}
+        overlapped = [index for index, speed in moved.items() if speed * self._span > _APART * self.margin]
         self._pressed |= {frozenset((index,)): t for index in overlapped}
         held = self._held()
         self._take(held)

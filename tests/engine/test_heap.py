@@ -14,7 +14,8 @@ from sandbox.engine import simulate
 from sandbox.engine.accuracy import resolve
 from sandbox.engine.clusters import Body
 from sandbox.engine.ledger import ledger
-from sandbox.engine.setup import Always, Ball, Body, Bounce, ContactModel, Segment, Setup, Surface
+from sandbox.engine.setup import Always, Ball, Bounce, ContactModel, Segment, Setup, Surface
+from sandbox.engine.setup import Body as Outlined
 from sandbox.engine.shapes import Ellipse, box
 from sandbox.engine.touch import Outline
 from sandbox.engine.track import Heaped, Pressing
@@ -130,7 +131,7 @@ def scaled(scale, bodies, proportional=True):
         mass = M * scale**3
         common |= {"mass": mass, "forces": [Gravity(mass, G)]}
         disc = Ball(str(place), radius=0.03 * scale, **common)
-        balls.append(Body(str(place), shape=outline, angle=0.3, **common) if bodies and outline else disc)
+        balls.append(Outlined(str(place), shape=outline, angle=0.3, **common) if bodies and outline else disc)
     walls = [(-9.0, 0.0, 9.0, 0.0), (-0.06, 0.0, -0.06, 9.0), (0.06, 0.0, 0.06, 9.0)]
     walls = [[scale * length for length in wall] for wall in walls]
     surfaces = [surface(f"wall {place}", wall[:2], wall[2:]) for place, wall in enumerate(walls)]
