@@ -15,10 +15,9 @@ import numpy as np
 import pygame
 
 from sandbox.picture.camera import Box, Camera
-from sandbox.picture.figures import draw_from_above
 from sandbox.picture.painter import Painter, Point, blank, from_coverage
 from sandbox.picture.palette import Colour
-from sandbox.picture.places.things import unit_of
+from sandbox.picture.places.things import SHADOW, unit_of
 
 #: What would be smaller is drawn so large, px on 720 rows: width of a line, a stripe, a person.
 LEAST_LINE, LEAST_STRIPE, LEAST_PERSON = 1.3, 10.0, 9.0
@@ -164,7 +163,8 @@ class Kit(NamedTuple):
 
 @dataclass(frozen=True)
 class Person:
-    """Someone who stands ``behind`` m behind a point and looks past it, in the direction ``facing`` (deg)."""
+    """Someone who stands ``behind`` m behind a point and looks past it, in the direction ``facing`` (deg,
+    counter-clockwise from the right), the hands before the body or held out."""
 
     at: Point
     facing: float
@@ -174,10 +174,26 @@ class Person:
     arms: float = 0.0  # how far each hand is held out, in m
 
     def draw(self, painter: Painter, camera: Camera) -> None:
-        larger, turn = enlarged(camera, unit_of(painter)), radians(self.facing)
-        at, breadth = self.place(camera, unit_of(painter)), self.breadth * larger * camera.scale
-        arms = max(self.arms * camera.scale, 0.75 * breadth) if self.arms else 0.0
-        draw_from_above(painter, at, breadth, turn, self.kit._asdict(), arms)
+        (x, y), turn, kit = self.place(camera, unit_of(painter)), radians(self.facing), self.kit
+        wide = self.breadth * enlarged(camera, unit_of(painter)) * camera.scale
+        reach = max(self.arms * camera.scale / wide, 0.75) if self.arms else 0.0
+
+        def at(ahead: float, aside: float) -> Point:
+            """In px, from so many breadths of the shoulders."""
+            return (
+                x + wide * (ahead * cos(turn) - aside * sin(turn)), y - wide * (ahead * sin(turn) + aside * cos(turn))
+            )  # fmt: skip
+
+        painter.shadow((x + 0.16 * wide, y + 0.2 * wide), 0.5 * wide, 0.34 * wide, SHADOW, 0.5)
+        elbow, wrist = ((0.14, 0.6 * reach), (0.10, reach - 0.09)) if reach else ((0.22, 0.38), (0.36, 0.08))
+        for side in (-1, 1):
+            arm = [at(ahead, side * aside) for ahead, aside in ((0.0, 0.36), elbow, wrist)]
+            painter.line(arm, 0.15 * wide, kit.body)
+            if reach:
+                painter.disc(arm[-1], 0.13 * wide, kit.gloves)
+        painter.line([at(0.0, -0.34), at(0.0, 0.34)], 0.32 * wide, kit.shirt)
+        painter.disc(at(0.03, 0.0), 0.19 * wide, kit.far)
+        painter.disc(at(-0.01, 0.0), 0.18 * wide, kit.hair)
 
     def place(self, camera: Camera, unit: float) -> Point:
         """Where the person stands, in px."""

@@ -11,7 +11,6 @@ from typing import Any, ClassVar, Protocol
 import numpy as np
 
 from sandbox.picture.depth import Eye as SideEye
-from sandbox.picture.figures import draw_figure
 from sandbox.picture.figures import pose as pose_of
 from sandbox.picture.painter import Painter, Point
 from sandbox.picture.palette import Colour, palette
@@ -134,7 +133,10 @@ class Person:
     def draw(self, painter: Painter, eye: SideEye) -> None:
         tall, ground = self.tall * eye.camera.scale * eye.share(self.z), eye.camera.at[1]
         painter.shadow(eye.point(self.x, ground, self.z), 0.24 * tall, 0.05 * tall, SHADOW, 0.42)
-        draw_figure(painter, eye.point(self.x, ground + self.up, self.z), tall, self.pose, self.colours, self.facing)
+        x, foot = eye.point(self.x, ground + self.up, self.z)
+        for part, width, points in pose_of(self.pose).strokes:
+            drawn = [(x + self.facing * ahead * tall, foot - up * tall) for ahead, up in points]
+            painter.line(drawn, width * tall, self.colours[part])
 
 
 @dataclass(frozen=True)
