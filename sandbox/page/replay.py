@@ -26,7 +26,7 @@ from sandbox.picture.path import instants
 from sandbox.picture.plain import view_of
 from sandbox.picture.sheet import CARD, DENSITY
 from sandbox.picture.side import SideView
-from sandbox.picture.vectors import FORCE_LENGTH, SHORTEST, VELOCITY_LENGTH, Vectors, colour_of
+from sandbox.picture.vectors import FORCE_LENGTH, SHORTEST, VELOCITY_LENGTH, colour_of
 from sandbox.picture.view import OTHERS, UNSAID, View
 from sandbox.scene import Scene, load
 from sandbox.sport.amounts import LADDERS, ladder
@@ -203,7 +203,8 @@ def _static(view: View[Any], run: Run) -> dict[str, Any]:
         "string": css(view.STRING),
         "ground": _ground(view),
         "forces": _forces(view, run),
-        "arrows": _arrows(view.vectors),
+        "arrows": dict(zip(("fastest", "strongest"), view.vectors.longest, strict=True))
+        | {"velocity": VELOCITY_LENGTH, "force": FORCE_LENGTH, "shortest": SHORTEST, "colour": css(CARD["text"])},
         "shadows": isinstance(view, AboveView),
         "spins": view.SPINS,
         "ladders": {unit: _ladder(unit) for unit in UNITS},
@@ -296,18 +297,6 @@ def _forces(view: View[Any], run: Run) -> dict[str, Any]:
         "causes": [
             {"name": name, "colour": css(colour_of(name)), "x": along(name, 0), "y": along(name, 1)} for name in names
         ],
-    }
-
-
-def _arrows(vectors: Vectors) -> dict[str, Any]:
-    fastest, strongest = vectors.longest
-    return {
-        "fastest": fastest,
-        "strongest": strongest,
-        "velocity": VELOCITY_LENGTH,
-        "force": FORCE_LENGTH,
-        "shortest": SHORTEST,
-        "colour": css(CARD["text"]),
     }
 
 

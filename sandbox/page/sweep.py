@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import shlex
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from itertools import accumulate
 from pathlib import Path
 from typing import Any
@@ -19,7 +19,7 @@ from sandbox.lab.maps import Found, coded, has_numbers, own_place, read
 from sandbox.lab.plan import Plan
 from sandbox.lab.row_file import cell
 from sandbox.lab.runs import runs
-from sandbox.page.parts import filled, fonts, html, packed
+from sandbox.page.parts import css, filled, fonts, html, packed
 from sandbox.picture.lines import points, simplify
 from sandbox.picture.palette import palette
 from sandbox.sport.amounts import amount, significant
@@ -48,6 +48,8 @@ def page_of(plan: Plan, file: Path, of: str | None = None) -> str:
     is_curve = found.numbers is not None and len(plan.axes) == 1
     upright = found.numbers if is_curve else found.axes[1] if len(plan.axes) == 2 else np.zeros(plan.size)
     assert upright is not None
+    order = np.argsort(found.axes[0])
+    order = order[np.isfinite(upright[order])]  # the points that have a number, along the axis
     axes = [_axis(plan, 0), _axis(plan, 1) if len(plan.axes) == 2 else _range(found.label if is_curve else "", upright)]
     data = {
         "kind": "curves" if is_curve else "dots" if plan.samples else "cells",
@@ -55,7 +57,7 @@ def page_of(plan: Plan, file: Path, of: str | None = None) -> str:
         "places": [np.nan_to_num(found.axes[0]), np.nan_to_num(upright)],
         "colours": codes,
         "palette": palette_,
-        "curves": [{"colour": palette("trace")["colours"][0], "points": _in_order(found)}] if is_curve else [],
+        "curves": [{"colour": palette("trace")["colours"][0], "points": order.tolist()}] if is_curve else [],
         "own": _own(plan, found),
         "said": _said(plan, done, swept),
         **_paths(done),
@@ -107,7 +109,9 @@ def _values(axis: Any) -> str:
 def _coloured(found: Found) -> tuple[list[str], list[int], str]:
     """The colours, the number of each point's, and a legend."""
     if found.words:
-        chosen, codes = coded(found, _hexadecimal(palette("sweep")))
+        colours = {key: list(map(css, value)) if isinstance(value[0], tuple) else css(value)
+                   for key, value in palette("sweep").items()}  # fmt: skip
+        chosen, codes = coded(found, {"sweep": colours})
         counts = Counter(codes.tolist())
         entries = (
             f'<li><i style="background: {colour}"></i>{html(word)} {100 * counts[i] / len(codes):.1f} %</li>'
@@ -127,14 +131,6 @@ def _coloured(found: Found) -> tuple[list[str], list[int], str]:
     return [*shades, "#888888"], codes.tolist(), f'<ul class="legend">{ends}</ul>'
 
 
-def _hexadecimal(colours: Mapping[str, Any]) -> dict[str, Any]:
-    """A section of the palette as browsers write it, under the name that charts expect."""
-    from sandbox.page.parts import css
-
-    return {"sweep": {key: [css(c) for c in value] if key in ("good", "other") else css(value)
-                      for key, value in colours.items()}}  # fmt: skip
-
-
 def _own(plan: Plan, found: Found) -> int | None:
     """The point nearest to the scene file's own values, if these lie on the axes."""
     own = own_place(plan)
@@ -142,13 +138,6 @@ def _own(plan: Plan, found: Found) -> int | None:
         return None
     away = sum(((axis - value) / (np.ptp(axis) or 1.0)) ** 2 for axis, value in zip(found.axes, own, strict=True))
     return int(np.argmin(away))
-
-
-def _in_order(found: Found) -> list[int]:
-    """The points that have a number, along the axis."""
-    assert found.numbers is not None
-    order = np.argsort(found.axes[0])
-    return [int(i) for i in order if np.isfinite(found.numbers[i])]
 
 
 def _said(plan: Plan, done: Sequence[Run | Exception], swept: Sequence[Sequence[Any]]) -> list[dict[str, Any]]:

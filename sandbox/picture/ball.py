@@ -14,7 +14,6 @@ from typing import NamedTuple
 import numpy as np
 import pygame
 
-from sandbox.picture.camera import Camera
 from sandbox.picture.painter import Painter, Point, blank
 from sandbox.picture.palette import Colour, palette
 
@@ -42,11 +41,6 @@ STEP = 1 / 60
 def least_radius(rows: int) -> float:
     """Least radius of a ball in px on a picture of so many rows."""
     return SMALLEST / 2 * max(1.0, rows / 360)
-
-
-def enlarged(radius: float, camera: Camera, rows: int) -> float:
-    """How many times its size a ball of ``radius`` (m) is drawn on a picture of so many rows."""
-    return max(1.0, least_radius(rows) / (radius * camera.scale))
 
 
 def mark_radius(rows: int) -> float:

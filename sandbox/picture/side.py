@@ -11,7 +11,7 @@ from typing import ClassVar, NamedTuple
 import numpy as np
 import pygame
 
-from sandbox.picture.ball import enlarged, mark_radius
+from sandbox.picture.ball import mark_radius
 from sandbox.picture.camera import Area, Box, Camera
 from sandbox.picture.chase import Chase
 from sandbox.picture.depth import Eye
@@ -158,7 +158,7 @@ class SideView(View[P]):
         camera = Camera.fit(self.subject, area)
         rise, room = (self.subject.top - self.subject.bottom) * camera.scale, area.bottom - area.top
         low = LEAST_RISE * self.unit < rise < LOW_FLIGHT * room
-        stretch = self.STRETCHES if low and enlarged(self.radius, camera, self.rows) > LARGE_BALL else 1.0
+        stretch = self.STRETCHES if low and self.least > LARGE_BALL * self.radius * camera.scale else 1.0
         if isinf(self.STRETCHES):  # in steps of half a power of ten
             most = max(1.0, room / rise)
             step = 0.5 * 10.0 ** floor(log10(most))
