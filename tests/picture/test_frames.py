@@ -143,12 +143,6 @@ class TestFrames:
             with Image.open(file) as image:
                 assert ball_at(image) == pytest.approx(10 + 70 * t / 1.03, abs=0.2)
 
-    def test_all_or_none(self, tmp_path):
-        run = Run(1.0)
-        with pytest.raises(ZeroDivisionError):
-            save_frames(Picture(run, fails_at=0.7), run, tmp_path / "film", 20)
-        assert list((tmp_path / "film").iterdir()) == []
-
     def test_a_longer_film_before_leaves_nothing_behind(self, tmp_path):
         (tmp_path / "notes.txt").write_text("mine")
         for duration in (2.0, 1.0):
@@ -176,82 +170,66 @@ def test_times_of_frames(duration, fps, times):
     assert frame_times(duration, fps) == pytest.approx(times)
 
 
+SAVERS = {"": save_frames, ".gif": save_gif, ".webp": save_webp}
+
+
+@pytest.mark.parametrize("suffix", SAVERS)
+def test_all_or_nothing(tmp_path, suffix):
+    run = Run(1.0)
+    (tmp_path / "film").mkdir()
+    with pytest.raises(ZeroDivisionError):
+        SAVERS[suffix](Picture(run, fails_at=0.7), run, tmp_path / "film" / (suffix and f"run{suffix}"), 20)
+    assert list((tmp_path / "film").iterdir()) == []
+
+
+def read(path: Path) -> tuple[list[Image.Image], list[int]]:
+    """The frames of an animation, and how long each stays in ms."""
+    with Image.open(path) as image:
+        frames, stays = [], []
+        for i in range(image.n_frames):
+            image.seek(i)
+            frames.append(image.convert("RGB"))
+            stays.append(image.info["duration"])
+        assert image.info["loop"] == 0
+    return frames, stays
+
+
+@pytest.mark.parametrize(("suffix", "fps"), [(".gif", 10), (".gif", 24), (".gif", 30), (".webp", 10), (".webp", 60)])
+def test_frames_and_how_long_they_stay(tmp_path, suffix, fps):
+    run = Run(2.0)
+    count = SAVERS[suffix](Picture(run), run, tmp_path / f"run{suffix}", fps)
+    frames, stays = read(tmp_path / f"run{suffix}")
+    assert len(frames) == count == 2 * fps + 1
+    assert sum(stays[:-1]) == 2000  # ms, though 1/24 s and 1/30 s are no multiples of a GIF's 10 ms
+    assert stays[-1] == 1000 * PAUSE
+    for i in (0, fps, 2 * fps):
+        assert ball_at(frames[i]) == pytest.approx(10 + 35 * i / fps, abs=0.6)
+
+
 class TestGif:
-    def read(self, path) -> tuple[list[Image.Image], list[int]]:
-        with Image.open(path) as image:
-            frames, durations = [], []
-            for i in range(image.n_frames):
-                image.seek(i)
-                frames.append(image.convert("RGB"))
-                durations.append(image.info["duration"])
-            assert image.info["loop"] == 0
-        return frames, durations
-
-    @pytest.mark.parametrize("fps", [10, 24, 30])
-    def test_frames_and_how_long_they_stay(self, tmp_path, fps):
-        run = Run(2.0)
-        count = save_gif(Picture(run), run, tmp_path / "run.gif", fps)
-        frames, durations = self.read(tmp_path / "run.gif")
-        assert len(frames) == count == 2 * fps + 1
-        assert sum(durations[:-1]) == 2000  # ms, though 1/24 s and 1/30 s are no multiples of 10 ms
-        assert durations[-1] == 1000 * PAUSE
-        for i in (0, fps, 2 * fps):
-            assert ball_at(frames[i]) == pytest.approx(10 + 35 * i / fps, abs=0.4)
-
     def test_small_things_keep_their_colour(self, tmp_path):
         run = Run(1.0)
         save_gif(Picture(run), run, tmp_path / "run.gif", 10)
-        frames, _ = self.read(tmp_path / "run.gif")
+        frames, _ = read(tmp_path / "run.gif")
         assert frames[5].getpixel((45, 27)) == pytest.approx(ORANGE, abs=4)
 
     def test_no_faster_than_viewers_show(self, tmp_path):
         run = Run(0.5)
         assert save_gif(Picture(run), run, tmp_path / "run.gif", 120) == FASTEST_GIF * 0.5 + 1
 
-    def test_all_or_nothing(self, tmp_path):
-        run = Run(1.0)
-        with pytest.raises(ZeroDivisionError):
-            save_gif(Picture(run, fails_at=0.5), run, tmp_path / "run.gif", 10)
-        assert list(tmp_path.iterdir()) == []
 
+def test_frames_that_are_alike(tmp_path):
+    """Are one that stays as long."""
+    run = Run(1.0)
 
-class TestWebp:
-    @pytest.mark.parametrize("fps", [10, 60])
-    def test_frames_and_how_long_they_stay(self, tmp_path, fps):
-        run = Run(1.0)
-        count = save_webp(Picture(run), run, tmp_path / "run.webp", fps)
-        with Image.open(tmp_path / "run.webp") as image:
-            assert (image.format, image.n_frames, image.size, image.info["loop"]) == ("WEBP", count, (96, 54), 0)
-            stays = []
-            for i in range(count):
-                image.seek(i)
-                image.load()
-                stays.append(image.info["duration"])
-                assert ball_at(image.convert("RGB")) == pytest.approx(10 + 70 * i / fps, abs=0.6)
-        assert count == fps + 1
-        assert (sum(stays[:-1]), stays[-1]) == (1000, 1000 * PAUSE)
+    class Still(Picture):
+        def frame(self, t):
+            return super().frame(0.0 if t < 0.5 else 1.0)
 
-    def test_frames_that_are_alike(self, tmp_path):
-        """Are one that stays as long."""
-        run = Run(1.0)
-
-        class Still(Picture):
-            def frame(self, t):
-                return super().frame(0.0 if t < 0.5 else 1.0)
-
-        assert save_webp(Still(run), run, tmp_path / "run.webp", 10) == 11
-        with Image.open(tmp_path / "run.webp") as image:
-            assert image.n_frames == 2
-            image.seek(1)
-            image.load()
-            assert image.info["duration"] == 500 + 1000 * PAUSE
-            assert ball_at(image.convert("RGB")) == pytest.approx(80, abs=0.6)
-
-    def test_all_or_nothing(self, tmp_path):
-        run = Run(1.0)
-        with pytest.raises(ZeroDivisionError):
-            save_webp(Picture(run, fails_at=0.5), run, tmp_path / "run.webp", 10)
-        assert list(tmp_path.iterdir()) == []
+    assert save_webp(Still(run), run, tmp_path / "run.webp", 10) == 11
+    (_, last), stays = read(tmp_path / "run.webp")
+    assert stays[1] == 500 + 1000 * PAUSE
+    assert ball_at(last) == pytest.approx(80, abs=0.6)
 
 
 class TestMemory:
