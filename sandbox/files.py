@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import os
+import shutil
+import tempfile
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
 from importlib.util import find_spec
@@ -107,6 +109,20 @@ def written_whole(path: Path) -> Iterator[TextIO]:
         part.replace(target)
     finally:
         part.unlink(missing_ok=True)
+
+
+@contextmanager
+def folder_of_parts(folder: Path, name: str) -> Iterator[Path]:
+    """A folder in this one for what is not finished; in the end it is removed, even if that is interrupted."""
+    part = Path(tempfile.mkdtemp(prefix=f".{name}-", dir=folder))
+    try:
+        yield part
+    finally:
+        try:
+            shutil.rmtree(part, ignore_errors=True)
+        except KeyboardInterrupt:
+            shutil.rmtree(part, ignore_errors=True)
+            raise
 
 
 @contextmanager

@@ -7,12 +7,11 @@ import json
 import os
 import re
 import shutil
-import tempfile
 from pathlib import Path
 
 from sandbox import resources
 from sandbox.errors import RequestError, RunError
-from sandbox.files import reason
+from sandbox.files import folder_of_parts, reason
 from sandbox.scene import listings, parameters_of
 from sandbox.schema import json_schema
 
@@ -30,8 +29,8 @@ def new_scene(folder: Path, template: str = FROM_SIDE) -> list[Path]:
     name = folder.name
     _check(folder, name)
     try:
-        with tempfile.TemporaryDirectory(prefix=f".{name}-", dir=folder.parent) as part:
-            scene = Path(part) / name
+        with folder_of_parts(folder.parent, name) as part:
+            scene = part / name
             shutil.copytree(resources.folder(template), scene, ignore=_WRITTEN_BY_TOOLS)
             for file in sorted(scene.rglob("*")):
                 if file.is_file():

@@ -15,6 +15,7 @@ import time
 import weakref
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import pymunk
 import pytest
@@ -24,6 +25,7 @@ import sandbox
 from sandbox.cli import arguments, main
 from sandbox.cli.interrupts import Interrupts
 from sandbox.engine import accuracy
+from sandbox.files import folder_of_parts
 from tests.own_scene import BUILD, COMMAND, DROP, Outcome, assert_refused, change
 
 
@@ -625,7 +627,14 @@ def test_other_signals_stop_as_ctrl_c_does_and_leave_no_frames(drop: Path, tmp_p
 
 
 @pytest.mark.parametrize(("by", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
-@pytest.mark.parametrize("source", ["{}", "import contextlib; exec({!r})"])
+@pytest.mark.parametrize(
+    "source",
+    [
+        "{}",
+        "import contextlib; exec({!r})",
+        "class Named:\n    def __set_name__(self, *_):\n        {}\nclass Owner:\n    name = Named()",  # 3.11 wraps it
+    ],
+)
 def test_an_interrupt_during_the_first_import_is_a_line(tmp_path: Path, source: str, by: int, code: int):
     """Before any code of ours Python itself says what it likes; from the first line of ours on, so do we."""
     (tmp_path / "click.py").write_text(source.format(f"import signal; signal.raise_signal({by:d})"))
@@ -671,6 +680,17 @@ def test_ctrl_c_is_not_lost_where_python_drops_exceptions(monkeypatch, dropped: 
         signal.signal(signal.SIGINT, before)
         signal.signal(signal.SIGTERM, signal.SIG_DFL)
     assert interrupts.code == 130
+
+
+def test_a_folder_of_parts_goes_though_its_removal_is_interrupted(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    def interrupted(folder: Path, **_: Any) -> None:
+        monkeypatch.undo()
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(shutil, "rmtree", interrupted)
+    with pytest.raises(KeyboardInterrupt), folder_of_parts(tmp_path, "frames") as part:
+        (part / "one").touch()
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_frames_that_were_not_finished_leave_no_folder(call, drop: Path, tmp_path: Path):

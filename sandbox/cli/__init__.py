@@ -6,7 +6,7 @@ import gc
 import os
 import sys
 
-from sandbox.cli.interrupts import Interrupts
+from sandbox.cli.interrupts import Interrupts, is_interrupt
 
 #: Exit code after Ctrl-C; after SIGTERM it is 143, and 129 if the terminal was closed.
 STOPPED = 130
@@ -26,7 +26,9 @@ def main(args: list[str] | None = None) -> int:
         from sandbox.cli.program import call
 
         code = call(args)
-    except KeyboardInterrupt:
+    except BaseException as error:
+        if not is_interrupt(error):
+            raise
         from contextlib import suppress  # only here, so that signals are handled early
 
         if sys.stderr is not None:

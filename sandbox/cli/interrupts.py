@@ -25,6 +25,11 @@ if hasattr(signal, "SIGHUP"):
     _HANDLED[signal.SIGHUP] = signal.SIG_DFL
 
 
+def is_interrupt(error: BaseException) -> bool:
+    """Whether an error is an interrupt; Python 3.11 makes a RuntimeError of what ``__set_name__`` raises."""
+    return isinstance(error, KeyboardInterrupt) or isinstance(error.__cause__, KeyboardInterrupt)
+
+
 class Interrupts:
     """The handler of the signals; between ``begin`` and ``end`` in the program's main thread."""
 

@@ -11,6 +11,7 @@ import click
 
 import sandbox
 from sandbox.cli import lab, run, scenes
+from sandbox.cli.interrupts import is_interrupt
 from sandbox.errors import SandboxError, Stopped
 from sandbox.text import printable
 
@@ -57,12 +58,10 @@ def call(args: Sequence[str] | None) -> int:
         return error.exit_code
     except SandboxError as error:
         return _fail(str(error), error.exit_code)
-    except KeyboardInterrupt:
-        raise
     except BaseException as error:  # a scene's own picture may raise a SystemExit
         from sandbox.tracebacks import of_user_code
 
-        text = of_user_code(error)
+        text = None if is_interrupt(error) else of_user_code(error)
         if text is None:
             raise
         return _fail(text, 1)

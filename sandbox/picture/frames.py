@@ -6,7 +6,6 @@ import io
 import os
 import struct
 import sys
-import tempfile
 import zlib
 from collections import deque
 from collections.abc import Callable, Iterator
@@ -21,7 +20,7 @@ from PIL import GifImagePlugin, Image, ImageChops
 
 from sandbox.engine.run import Run
 from sandbox.errors import RequestError, RunError
-from sandbox.files import written_whole
+from sandbox.files import folder_of_parts, written_whole
 
 #: zlib's level for frames, which are many and passing. Measured by ``python benchmarks/frames.py --levels``, mean over
 #: all scenes at 1280x720, ms on one core and kB: Pillow 24 and 171 at its quickest (level 1, RLE), 24 and 195 at
@@ -131,18 +130,18 @@ def save_frames(picture: Picture, run: Run, folder: Path | str, fps: float, prog
     check_frames_folder("--frames", folder)
     folder.mkdir(parents=True, exist_ok=True)
     times = frame_times(run.duration, fps)
-    with tempfile.TemporaryDirectory(prefix=".frames-", dir=folder) as part:
+    with folder_of_parts(folder, "frames") as part:
 
         def keep(item: tuple[int, Image.Image]) -> str:
             number, image = item
             name = f"frame_{number:05d}.png"
-            (Path(part) / name).write_bytes(quick_png(image))
+            (part / name).write_bytes(quick_png(image))
             return name
 
         drawn = ((i, to_image(frame_of(picture, t))) for i, t in enumerate(times))
         names = list(in_threads(keep, drawn, len(times), progress))
         for name in names:
-            (Path(part) / name).replace(folder / name)
+            (part / name).replace(folder / name)
     for old in folder.glob(FRAMES):
         if old.name > names[-1]:
             old.unlink()
@@ -244,8 +243,8 @@ def save_video(picture: Picture, run: Run, path: Path | str, fps: float, progres
     times = frame_times(run.duration, fps)
     times += [times[-1]] * round(PAUSE * fps)
     path = Path(os.path.realpath(path))
-    with tempfile.TemporaryDirectory(prefix=".video-", dir=path.parent) as folder:
-        part = Path(folder, "run.mp4")
+    with folder_of_parts(path.parent, "video") as folder:
+        part = folder / "run.mp4"
         images = (to_image(frame_of(picture, t)) for t in times)
         first = next(images)
         film = imageio_ffmpeg.write_frames(
