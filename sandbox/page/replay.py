@@ -59,7 +59,7 @@ def page_of(run: Run, ghosts: Mapping[str, Run] | None = None) -> str:
     view, heading = views[0][0], views[0][0].heading
     events = run.events[:MOST_EVENTS]
     others = {ghost.label: css(ghost.light) for ghost in view.ghosts}
-    labelled = [dict(scene.rows(run)), *(dict(ghost.view.run.scene.rows(ghost.path.run)) for ghost in view.ghosts)]
+    labelled = [dict(scene.rows(run)), *(dict(ghost.run.scene.rows(ghost.run)) for ghost in view.ghosts)]
     card = [(label, *(texts.get(label, "–") for texts in labelled)) for label in labelled[0]]
     several = len(run.setup.balls) > 1
     listed = (
@@ -70,7 +70,7 @@ def page_of(run: Run, ghosts: Mapping[str, Run] | None = None) -> str:
         **_static(view, run),
         "views": [layout for _, layout in views],
         "events": [event.t for event in events],
-        "duration": max([run.duration, *(ghost.view.run.duration for ghost in view.ghosts)]),
+        "duration": max([run.duration, *(ghost.run.duration for ghost in view.ghosts)]),
         "told": view.told,
         "fonts": fonts(),
     }
@@ -195,7 +195,7 @@ def _static(view: View[Any], run: Run) -> dict[str, Any]:
                 "colour": css(ghost.colour if not view.on_dark else ghost.light),
                 "light": css(ghost.light),
                 "shift": ghost.shift,
-                "path": _path(ghost.view.run.arcs[ghost.path.name]),
+                "path": _path(ghost.run.arcs[ghost.path.name]),
             }
             for ghost in view.ghosts
         ],

@@ -10,10 +10,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from sandbox.engine.run import Run
 from sandbox.picture.lettering import around
 from sandbox.picture.palette import Colour, mix, palette
 from sandbox.picture.path import FINEST, Path, apart
-from sandbox.picture.sheet import CARD, Entry, Sheet
+from sandbox.picture.sheet import CARD, Sheet
 
 if TYPE_CHECKING:
     from sandbox.picture.view import View
@@ -34,6 +35,10 @@ class Ghost:
     shift: tuple[float, float]
 
     @property
+    def run(self) -> Run:
+        return self.view.run
+
+    @property
     def path(self) -> Path:
         """Of its ball, where it was played."""
         return self.view.path
@@ -45,17 +50,7 @@ class Ghost:
 
     def at(self, t: float) -> np.ndarray:
         """Its ball where it is drawn at time t in s, in m, shape (1, 2)."""
-        run = self.view.run
-        return np.array([run.state(self.path.name, min(t, run.duration))[:2]]) + self.shift
-
-    @property
-    def row(self) -> tuple[Colour, list[Entry]]:
-        """Its numbers for the card, in its colour."""
-        return self.light, self.view.numbers()
-
-    def live(self, t: float) -> tuple[Colour, list[Entry]]:
-        """The same for a frame at time t in s."""
-        return self.light, self.view.live(min(t, self.view.run.duration))
+        return np.array([self.run.state(self.path.name, min(t, self.run.duration))[:2]]) + self.shift
 
     @property
     def light(self) -> Colour:
@@ -68,7 +63,7 @@ class Ghost:
 
     @property
     def note(self) -> str:
-        verdict = self.view.verdict()
+        verdict = self.run.scene.verdict(self.run)
         return f"{self.label}: {verdict[0].lower()}{verdict[1:]}"
 
     def draw_in_frame(self, sheet: Sheet, points: np.ndarray, at: Sequence[float]) -> None:

@@ -332,7 +332,8 @@ class View(Generic[P]):
             pass
         sheet, (text, notes, room) = self.sheet, self.heading
         sheet.headline(text, notes, room)
-        sheet.columns(self.card_row, self.numbers(), [ghost.row for ghost in self.ghosts])
+        rows = [(ghost.light, ghost.run.scene.rows(ghost.run)) for ghost in self.ghosts]
+        sheet.columns(self.card_row, self.run.scene.rows(self.run), rows)
         for ghost in self.ghosts:
             ghost.name(sheet, self.traced(self.camera, ghost.points), self.trace)
         return sheet.surface
@@ -365,7 +366,7 @@ class View(Generic[P]):
         mark_impacts(sheet, camera, self.impacts(camera), last=self._placed(camera, self.told, 1.0).get(self.ball))
         room = self._room(sheet, camera, None)
         notes = [*(ghost.note for ghost in self.ghosts), *self.aligned, *every[:1], *self.notes(camera), *every[1:]]
-        self.heading = Heading(self.verdict(), notes, room)
+        self.heading = Heading(self.run.scene.verdict(self.run), notes, room)
         yield sheet.surface
 
     def frame(self, t: float) -> pygame.Surface:
@@ -392,7 +393,7 @@ class View(Generic[P]):
         self.scale(sheet, camera)
         room = self._room(sheet, camera, t)
         over = t >= self.told
-        headline, *notes = (self.verdict(),) if over else self.progress(t)
+        headline, *notes = (self.run.scene.verdict(self.run),) if over else self.progress(t)
         notes += [*(f"compared with {ghost.label}" for ghost in self.ghosts), *self.aligned, *self._stretched(camera)]
         notes += [self.CAVEAT]
         if any(radius > UNSAID * self.radii[name] * camera.scale for name, (_, radius) in placed.items()):
@@ -401,7 +402,8 @@ class View(Generic[P]):
                 f"{self.thing} drawn larger than it is" if one else f"{self.THING}s drawn larger than they are"
             )
         sheet.headline(headline, [note for note in notes if note], room)
-        sheet.columns(self.card_row, self.live(t), [ghost.live(t) for ghost in self.ghosts])
+        others = [(ghost.light, ghost.view.live(min(t, ghost.run.duration))) for ghost in self.ghosts]
+        sheet.columns(self.card_row, self.live(t), others)
         return sheet.surface
 
     # Parts of the two
@@ -414,14 +416,6 @@ class View(Generic[P]):
     def _stretched(self, camera: Camera) -> list[str]:
         """To note how much larger heights are drawn than lengths."""
         return [f"{self.STRETCHED} drawn {camera.stretch:g} times as large as lengths"] if camera.stretch != 1 else []
-
-    def verdict(self) -> str:
-        """What happened, in a sentence."""
-        return self.run.scene.verdict(self.run)
-
-    def numbers(self) -> list[Entry]:
-        """The run's facts, the most important first."""
-        return self.run.scene.rows(self.run)
 
     def look_of(self, name: str) -> Look:
         """How a ball looks."""

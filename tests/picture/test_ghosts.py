@@ -40,7 +40,7 @@ def test_both_are_told_and_nothing_overlaps(pair, size):
     assert picture.poster().get_size() == size
     written = [text for text, _ in picture.sheet.written]
     assert any(text.startswith("the other") for text in written)
-    (_, entries), own = picture.ghosts[0].row, picture.run.scene.rows(picture.run)
+    entries, own = (run.scene.rows(run) for run in (picture.ghosts[0].run, picture.run))
     for label, value, *_ in own[:3]:
         assert label in written
         assert value in written
