@@ -255,7 +255,7 @@ class PlainSimulation:
             for tracked, state in zip(met, after_one(balls, states, contact), strict=True):
                 tracked.take(state)
             away = first.body.velocity.dot(normal)
-            if 0.0 < away <= lowest:
+            if surface is not None and away <= lowest:
                 first.body.velocity += away * arbiter.normal
             return
         absorbed = lasts or bounce.restitution * contact.speed <= lowest

@@ -226,9 +226,9 @@ class Track:
             return
         x, y, vx, vy, spin = self.state
         applied = self.applied(t, self.state)
-        pressed = [press(self.state, applied, touch.nx, touch.ny, touch.curvature) for _, touch in near]
         kept, hardest = list[Near](), 0.0
-        for (obstacle, touch), by in zip(near, pressed, strict=True):
+        for obstacle, touch in near:
+            by = press(self.state, applied, touch.nx, touch.ny, touch.curvature)
             if vx * touch.nx + vy * touch.ny <= leaves_at(by, max(height, obstacle.surface.lowest_bounce)):
                 kept.append((obstacle, touch))
                 hardest = max(hardest, by)

@@ -60,7 +60,7 @@ def test_it_converges_to_exact_on_cloth(english: float, follow: float):
             for ball in ("cue", "1")
         )
 
-    coarse, fine = (off(simulate(setup, resolve(**by_steps_of(step)))) for step in (1e-2, 3e-4))
+    coarse, fine = (off(simulate(setup, resolve(**by_steps_of(step)))) for step in (1e-2, 6e-4))
     assert fine < 0.02
     assert fine < 0.5 * coarse
 
