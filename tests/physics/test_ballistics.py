@@ -18,6 +18,8 @@ def test_the_curve_stays_between_the_points_of_its_table(shape: str):
         low, high = sorted(points[k : k + 2])
         assert between.min() >= low - 1e-12
         assert between.max() <= high + 1e-12
+    many = np.linspace(0.0, 6.0, 301)
+    assert drag_by_mach(shape, many) == pytest.approx([drag_by_mach(shape, float(mach)) for mach in many], rel=1e-12)
 
 
 @pytest.mark.parametrize("shape", ["G1", "G7", "GS"])
