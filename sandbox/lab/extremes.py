@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from itertools import pairwise
 from math import nan, pi
 from typing import Any, NamedTuple
 
 from sandbox import parameters as declared
 from sandbox.engine.accuracy import Accuracy
-from sandbox.engine.setup import Ball, Bounce, Circle, Force, Segment, Setup, Surface
+from sandbox.engine.setup import Always, Ball, Bounce, Circle, Force, Segment, Setup, Surface, Vector
 from sandbox.errors import RequestError
 from sandbox.physics.coefficients import Constant
 from sandbox.physics.forces import Drag, Gravity, Magnus
@@ -87,49 +88,65 @@ def _ended(setup: Setup, time: float) -> Setup:
 
 # ------------------------------------------------------------------------------------------------------- bare setups
 
-_BOX = ((-5.0, 0.0), (5.0, 0.0), (5.0, 10.0), (-5.0, 10.0), (-5.0, 0.0))
+_FLOOR = Segment((-50.0, 0.0), (50.0, 0.0))
+_BOX = [(-5.0, 0.0), (5.0, 0.0), (5.0, 10.0), (-5.0, 10.0), (-5.0, 0.0)]
 
 
 def bare() -> Iterator[Extreme]:
     """Extremes that no scene's parameters can express."""
-    yield Extreme("wall of 0.1 mm at 340 m/s", lambda: _against_wall(0.00005, 0.02, 340.0))
-    yield Extreme("wall of no thickness, ball of 1 mm", lambda: _against_wall(0.0, 0.001, 340.0))
-    yield Extreme("into a corner of 90 deg", lambda: _into_corner(10.0, 1.0))
-    yield Extreme("into a corner of 10 deg", lambda: _into_corner(10.0, 0.1763))
+    yield Extreme("wall of 0.1 mm at 340 m/s", lambda: _against_walls(0.00005, 0.02))
+    yield Extreme("wall of no thickness, ball of 1 mm", lambda: _against_walls(0.0, 0.001))
+    yield Extreme("into a corner of 90 deg", lambda: _into_corner(1.0))
+    yield Extreme("into a corner of 10 deg", lambda: _into_corner(0.1763))
     for ratio in (100.0, 1e4, 1e6):
         yield Extreme(f"mass ratio {ratio:g}", lambda ratio=ratio: _galperin(ratio))  # type: ignore[misc]
     yield Extreme("rack of 15 that touch", lambda: _rack(0.0))
     yield Extreme("rack of 15, gaps of 0.1 um", lambda: _rack(1e-7))
-    yield Extreme("start half inside a wall", lambda: _overlapping(0.5))
-    yield Extreme("start 1 % inside a wall", lambda: _overlapping(0.99))
-    yield Extreme("two balls in one place", _coinciding)
-    yield Extreme("an hour in a box, no loss", lambda: replace(_boxed(1.0), duration=HOUR), controls_error)
-    yield Extreme("20,000 rpm, friction 10", lambda: _spinning(20_000.0, 10.0))
+    on_floor = partial(_lone, {"floor": _FLOOR}, (0.8, 0.5), 1.0, 0.1)
+    yield Extreme("start half inside a wall", lambda: on_floor((0.0, 0.05)))
+    yield Extreme("start 1 % inside a wall", lambda: on_floor((0.0, 0.099)))
+    yield Extreme("two balls in one place", lambda: Setup([Ball(name, 1.0, 0.1, (0.0, 0.0)) for name in ("a", "b")]))
+    sides = {f"side {k}": Segment(*ends) for k, ends in enumerate(pairwise(_BOX))}
+    boxed = partial(_lone, sides, (1.0, 0.0), 0.4, 0.11, (0.0, 5.0), (4.0, 3.0), duration=HOUR)
+    yield Extreme("an hour in a box, no loss", boxed, controls_error)
+    post: dict[str, Segment | Circle] = {"floor": _FLOOR, "post": Circle((1.0, 0.5), 0.01)}
+    spinning = partial(_lone, post, (0.9, 10.0), 0.05, 0.02, (0.0, 1.0), (2.0, 0.0), 20_000.0 * pi / 30.0)
+    yield Extreme("20,000 rpm, friction 10", spinning)
     yield Extreme("a bullet in water", _bullet)
-    yield Extreme("a force that is not a number", lambda: _forced(lambda t, position, velocity, spin: (nan, 0.0)))
-    yield Extreme(
-        "a force with a pole", lambda: _forced(lambda t, position, velocity, spin: (0.0, -1.0 / position[1] ** 3))
-    )
-    yield Extreme("drag that reverses the motion", lambda: _forced(_wrong_drag))
+    forced = partial(_lone, {"floor": _FLOOR}, (0.8, 0.5), 1.0, 0.1, (0.0, 2.0), (1.0, 0.0), 0.0)
+    yield Extreme("a force that is not a number", lambda: forced([lambda t, position, velocity, spin: (nan, 0.0)]))
+    yield Extreme("a force with a pole", lambda: forced([_with_a_pole]))
+    yield Extreme("drag that reverses the motion", lambda: forced([_wrong_drag]))
     yield Extreme("1,000 balls in a pile", _heap, lambda how: how.method == "plain")
 
 
-def _lone(ball: Ball, surfaces: list[Surface], duration: float = 2.0) -> Setup:
-    return Setup([ball], surfaces, duration=duration)
+def _lone(
+    met: Mapping[str, Segment | Circle],
+    bounce: tuple[float, float],
+    mass: float,
+    radius: float,
+    position: Vector,
+    velocity: Vector = (0.0, 0.0),
+    spin: float = 0.0,
+    forces: Sequence[Force] | None = None,
+    duration: float = 2.0,
+) -> Setup:
+    """A ball, with its weight unless ``forces`` are given, and what it meets, of that restitution and friction."""
+    own = [Gravity(mass, 9.81)] if forces is None else forces
+    surfaces = [Surface(name, shape, *bounce) for name, shape in met.items()]
+    return Setup([Ball("ball", mass, radius, position, velocity, spin, forces=own)], surfaces, duration=duration)
 
 
-def _against_wall(half: float, radius: float, speed: float) -> Setup:
+def _against_walls(half: float, radius: float) -> Setup:
     walls = [Surface("wall", Segment((x, -1.0), (x, 1.0), half), 1.0, 0.5) for x in (-1.0, 1.0)]
-    return _lone(Ball("ball", 0.05, radius, (0.0, 0.0), (speed, 0.0)), walls, 1.0)
+    return Setup([Ball("ball", 0.05, radius, (0.0, 0.0), (340.0, 0.0))], walls, duration=1.0)
 
 
-def _into_corner(speed: float, slope: float) -> Setup:
-    """Straight into the corner of the floor and a wall that rises by ``slope``, from the right."""
-    sides = [Segment((0.0, 0.0), (10.0, 0.0)), Segment((0.0, 0.0), (10.0, 10.0 * slope))]
-    surfaces = [Surface(f"side {k}", side, 0.9, 0.3) for k, side in enumerate(sides)]
+def _into_corner(slope: float) -> Setup:
+    """At 10 m/s straight into the corner of the floor and a wall that rises by ``slope``, from the right."""
+    sides = {"floor": Segment((0.0, 0.0), (10.0, 0.0)), "wall": Segment((0.0, 0.0), (10.0, 10.0 * slope))}
     rise = ((1.0 + slope * slope) ** 0.5 - 1.0) / slope  # of the bisector of the corner
-    ball = Ball("ball", 0.1, 0.05, (9.0, 9.0 * rise), (-speed, -speed * rise), forces=[Gravity(0.1, 9.81)])
-    return _lone(ball, surfaces)
+    return _lone(sides, (0.9, 0.3), 0.1, 0.05, (9.0, 9.0 * rise), (-10.0, -10.0 * rise))
 
 
 def _galperin(ratio: float) -> Setup:
@@ -141,36 +158,10 @@ def _galperin(ratio: float) -> Setup:
 def _rack(gap: float) -> Setup:
     radius = 0.0286
     pitch = 2.0 * radius + gap
+    spots = [(0.5 * 3**0.5 * pitch * row, pitch * (k - 0.5 * row)) for row in range(5) for k in range(row + 1)]
     balls = [Ball("cue", 0.17, radius, (-1.0, 0.0), (8.0, 0.1))]
-    for row in range(5):
-        for place in range(row + 1):
-            at = (0.5 * 3**0.5 * pitch * row, pitch * (place - 0.5 * row))
-            balls.append(Ball(f"{row}-{place}", 0.17, radius, at))
-    return Setup(balls, duration=1.0, between_balls=lambda normal, slip: Bounce(0.95, 0.05))
-
-
-def _overlapping(height: float) -> Setup:
-    """A ball whose centre is ``height`` radii above the floor."""
-    floor = Surface("floor", Segment((-5.0, 0.0), (5.0, 0.0)), 0.8, 0.5)
-    return _lone(Ball("ball", 1.0, 0.1, (0.0, 0.1 * height), forces=[Gravity(1.0, 9.81)]), [floor])
-
-
-def _coinciding() -> Setup:
-    return Setup([Ball("one", 1.0, 0.1, (0.0, 0.0)), Ball("other", 1.0, 0.1, (0.0, 0.0))], duration=1.0)
-
-
-def _boxed(restitution: float) -> Setup:
-    sides = [Segment(a, b) for a, b in pairwise(_BOX)]
-    walls = [Surface(f"side {k}", side, restitution, 0.0) for k, side in enumerate(sides)]
-    ball = Ball("ball", 0.4, 0.11, (0.0, 5.0), (4.0, 3.0), forces=[Gravity(0.4, 9.81)])
-    return _lone(ball, walls)
-
-
-def _spinning(rpm: float, friction: float) -> Setup:
-    floor = Surface("floor", Segment((-50.0, 0.0), (50.0, 0.0)), 0.9, friction)
-    post = Surface("post", Circle((1.0, 0.5), 0.01), 0.9, friction)
-    ball = Ball("ball", 0.05, 0.02, (0.0, 1.0), (2.0, 0.0), rpm * pi / 30.0, forces=[Gravity(0.05, 9.81)])
-    return _lone(ball, [floor, post])
+    balls += [Ball(f"{k}", 0.17, radius, spot) for k, spot in enumerate(spots, 1)]
+    return Setup(balls, duration=1.0, between_balls=Always(Bounce(0.95, 0.05)))
 
 
 def _bullet() -> Setup:
@@ -178,12 +169,12 @@ def _bullet() -> Setup:
     radius, density = 0.0045, 1000.0
     drag, lift = Drag(radius, density, Constant(0.5)), Magnus(radius, density, Constant(0.1))
     forces: list[Force] = [Gravity(0.008, 9.81), drag, lift]
-    return _lone(Ball("ball", 0.008, radius, (0.0, 1.0), (340.0, 0.0), 100.0, forces=forces), [], 5.0)
+    return _lone({}, (0.0, 0.0), 0.008, radius, (0.0, 1.0), (340.0, 0.0), 100.0, forces, duration=5.0)
 
 
-def _forced(force: Callable[..., tuple[Any, Any]]) -> Setup:
-    floor = Surface("floor", Segment((-5.0, -1.0), (5.0, -1.0)), 0.8, 0.5)
-    return _lone(Ball("ball", 1.0, 0.1, (0.0, 1.0), (1.0, 0.0), forces=[force]), [floor])
+def _with_a_pole(t: float, position: Any, velocity: Any, spin: Any) -> tuple[Any, Any]:
+    """Endless at a height of 1 m."""
+    return 0.0, -1.0 / (position[1] - 1.0) ** 3
 
 
 def _wrong_drag(t: float, position: Any, velocity: Any, spin: Any) -> tuple[Any, Any]:
@@ -195,15 +186,7 @@ def _heap() -> Setup:
     """Balls of 2 cm that fall into a box."""
     walls = [((-0.7, 0.0), (0.7, 0.0)), ((-0.7, 0.0), (-0.7, 3.0)), ((0.7, 0.0), (0.7, 3.0))]
     surfaces = [Surface(f"side {k}", Segment(a, b, 0.02), 0.5, 0.4) for k, (a, b) in enumerate(walls)]
-    gravity = Gravity(0.005, 9.81)
-    balls = [
-        Ball(
-            f"{k}",
-            0.005,
-            0.01,
-            (-0.65 + 0.026 * (k % 50) + 0.001 * (k // 50 % 2), 0.05 + 0.03 * (k // 50)),
-            forces=[gravity],
-        )
-        for k in range(1000)
-    ]
-    return Setup(balls, surfaces, duration=0.5, between_balls=lambda normal, slip: Bounce(0.5, 0.3))
+    weight = [Gravity(0.005, 9.81)]
+    spots = [(-0.65 + 0.026 * (k % 50) + 0.001 * (k // 50 % 2), 0.05 + 0.03 * (k // 50)) for k in range(1000)]
+    balls = [Ball(f"{k}", 0.005, 0.01, spot, forces=weight) for k, spot in enumerate(spots)]
+    return Setup(balls, surfaces, duration=0.5, between_balls=Always(Bounce(0.5, 0.3)))
