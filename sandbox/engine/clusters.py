@@ -35,8 +35,15 @@ _STAGES = [np.array(stage.weights) for stage in INTEGRATORS["rk4"].stages]
 _LARGEST_ERROR = 1e-3
 _ERROR = np.array([0.0, 0.0, 0.0, 1.0, -1.0]) / 6.0
 
-#: Share of the usual step for a lone pair, which has to have its restitution to 1e-6.
-_OF_A_PAIR = 0.125
+#: A lone pair, which has to have its restitution to 1e-6, takes half the usual steps, and shorter ones near the kinks
+#: of its force: half the time since its closing or to its opening, down to a share.
+_OF_A_PAIR, _FINEST = 0.5, 1 / 64
+
+#: Most steps through a contact. Those of a break are about 50; 10,000 are a second of computing.
+_MOST_STEPS = 10_000
+
+#: Depth in radii of the smaller ball from which balls would pass through each other.
+_TOO_DEEP = 1.0
 
 #: Longest contact times, for each body and in addition, after which bodies that press on one another will not separate
 #: by themselves; a chain of n equal balls takes 1 + (n - 1) / 2.
@@ -49,8 +56,8 @@ _TOUCH = 1e-12
 _PLACE, _VELOCITY, _ROLL, _OUT = range(4)
 
 
-class StaysPressed(RunError):
-    """Bodies that do not separate: something presses them together."""
+class Unresolved(RunError):
+    """A contact without an end: something presses the bodies together, or through each other."""
 
 
 class Body(NamedTuple):
@@ -117,23 +124,21 @@ class Cluster:
         self._pushed[every, first], self._pushed[every, second] = inverse_mass[first], -inverse_mass[second]
         self._rubbing = Rubbing(first, second, radius, inverse_mass, inverse_inertia, [link.friction for link in links])
         self._reach = radius[first] + radius[second]
+        self._deepest = _TOO_DEEP * np.where(second < count, np.minimum(radius[first], radius[second]), radius[first])
         self._walls = [(place, link.wall, link.first) for place, link in enumerate(links) if link.wall is not None]
 
     def pass_through(self, share: float, faint: float = 0.0) -> ClusterOutcome:
         """Simulate the contact until nothing touches, in steps of this fraction of the shortest possible contact, or
         until what is left is slower than ``faint`` (m/s).
 
-        Raises StaysPressed if it does not end.
+        Raises Unresolved if it does not end, or after too many steps.
         """
-        share *= _OF_A_PAIR if len(self._links) == 1 else 1.0
-        while True:
-            passage, error = self._stepped_through(share, faint)
-            if error <= _LARGEST_ERROR:
-                return passage
+        while (passage := self._stepped_through(share, faint)) is None:
             share *= 0.5
+        return passage
 
-    def _stepped_through(self, share: float, faint: float) -> tuple[ClusterOutcome, float]:
-        """The same with steps that are not repeated, and their largest error relative to the fastest speed."""
+    def _stepped_through(self, share: float, faint: float) -> ClusterOutcome | None:
+        """The same with steps that are not repeated; None if one has too large an error."""
         count, links = len(self._bodies), len(self._links)
         state = np.zeros((4, count + 1), complex)
         for i, body in enumerate(self._bodies):
@@ -148,7 +153,7 @@ class Cluster:
         times = [contact_time(m, k, fastest) for m, k in zip(self._mass, self._stiffness, strict=True)]
         shortest, longest = min(times), max(times)
         scale = np.repeat([fastest * shortest, fastest], count + 1)
-        h, t, worst = share * shortest, 0.0, 0.0
+        whole, h, t = share * shortest, 0.0, 0.0
         rates, elastic = np.empty((5, 2, count + 1), complex), np.empty((5, links))
         flat = rates.reshape(5, -1)
         # Links that are closed at the start store no energy: their distance then is where their force begins.
@@ -162,15 +167,21 @@ class Cluster:
         moments, states, ends = [0.0], list[np.ndarray](), False
         while True:
             # Friction of the previous and next half step: second order, and mu times the impulse in total.
-            back, ahead = (0.5 * h if t > 0.0 else 0.0), (0.0 if ends else 0.5 * h)
+            back, h = 0.5 * h, whole
+            if links == 1:
+                kink = abs(float(self._gap[0])) / max(abs(float(closing[0])), CLOSING)  # s, from here
+                h *= _OF_A_PAIR * min(1.0, max(_FINEST, kink / h))
+            ahead = 0.0 if ends else 0.5 * h
             reached = np.maximum(pushed + self._held + ahead * force, rubbed)
             gain = (force * self._normal) @ self._pushed + self._push  # m/s^2
             state[1:] = self._rubbing.after(state[1:], self._normal, reached - rubbed, gain, back, ahead, quickest)
             states.append(state)
             if ends:
                 break
-            if t > (_PATIENCE[0] * count + _PATIENCE[1]) * longest:
-                raise StaysPressed(f"bodies do not separate within {t:.3g} s")
+            if t > (_PATIENCE[0] * count + _PATIENCE[1]) * longest or len(moments) > _MOST_STEPS:
+                raise Unresolved(f"bodies do not separate within {t:.3g} s")
+            if (self._depth > self._deepest).any():
+                raise Unresolved(f"bodies pass through each other after {t:.3g} s")
             rubbed, before, gap = reached, closing, self._gap
             start = state[:2].copy()
             start[1] -= (self._held * self._normal) @ self._pushed
@@ -178,7 +189,8 @@ class Cluster:
             for stage, weights in enumerate(_STAGES, 1):
                 moved = start + (h * weights @ flat[:stage]).reshape(2, -1)
                 elastic[stage] = self._rates(moved, rates[stage])
-            worst = max(worst, float(np.abs(_ERROR @ flat / scale).max()) * h)
+            if np.abs(_ERROR @ flat / scale).max() * h > _LARGEST_ERROR:
+                return None
             state = state.copy()
             state[:2] = moved[0], rates[4, 0]
             pushed, closing = pushed + h * (_STAGES[-1] @ elastic[:4]), self._closing
@@ -207,7 +219,7 @@ class Cluster:
         motion[:, _PLACE] += self._origin
         place, velocity, roll, out = motion.swapaxes(0, 1)
         parts = place.real, place.imag, velocity.real, velocity.imag, out.imag, roll.real, roll.imag
-        return ClusterOutcome(np.array(moments), np.stack(parts, axis=-1), impulse, approach, closed), worst
+        return ClusterOutcome(np.array(moments), np.stack(parts, axis=-1), impulse, approach, closed)
 
     def _rates(self, moving: np.ndarray, rates: np.ndarray) -> np.ndarray:
         """Find the ``rates`` of places and of velocities without what damping has taken; returns the elastic forces in

@@ -11,21 +11,18 @@ from typing import Any
 import numpy as np
 
 from sandbox.engine.arc import Arc
-from sandbox.engine.clusters import Body, Cluster, Link, StaysPressed
+from sandbox.engine.clusters import Body, Cluster, Link, Unresolved
 from sandbox.engine.impacts import Hit, Outcome
 from sandbox.engine.setup import Bounce, Setup
 from sandbox.engine.surfaces import bounce_of_balls, bounce_off
 from sandbox.engine.touch import TOUCHING_GAP, Obstacle, touched
 from sandbox.engine.track import Pressing, Track
-from sandbox.physics.hertz import contact_time, deepest
+from sandbox.physics.hertz import contact_time
 from sandbox.physics.integrators import State
 
 #: Depth in radii up to which a ball may enter a wall that pushes back only after the balls have separated; in a deeper
 #: one the wall is rigid: against it a ball is 2 sqrt(2) times as stiff as against one of its kind.
 _DEEP, _RIGID = 0.25, 8.0**0.5
-
-#: Depth in radii of the smaller ball from which balls would pass through each other.
-_TOO_DEEP = 1.0
 
 #: Share of the slowest blow on a heap that a contact among its balls leaves to lasting contact; and share of a blow
 #: that other forces may change while balls are pressed on a wall.
@@ -71,8 +68,6 @@ class Pressed:
         lasts = contact_time(mass, stiffness, speed)
         if self._pushed_together(t, i, touching[i], j, touching[j]) * lasts > speed:
             return None
-        if deepest(mass, stiffness, speed) > _TOO_DEEP * min(first.radius, second.radius):
-            return None
         moving = max(track.arc.fastest() for track in self._tracks if not track.caught)
         fastest = 2.0 * max(speed, moving) * max(first.mass, second.mass) / (first.mass + second.mass)
         members = dict(touching)
@@ -94,7 +89,7 @@ class Pressed:
             ]
             try:
                 parted = self._passed(t, members, walls, pairs, speed, hard, _LEFT * slow)
-            except StaysPressed:
+            except Unresolved:
                 return None
             late = self._met_late(t, parted) - {frozenset(pair) for pair in pairs}
             if late:

@@ -54,9 +54,4 @@ def contact_time(mass: float, stiffness: float, speed: float) -> float:
     return _SHAPE * (mass**2 / (stiffness**2 * speed)) ** 0.2
 
 
-def deepest(mass: float, stiffness: float, speed: float) -> float:
-    """The largest overlap in m of the two, ``(5/4 m v^2 / k)^(2/5)``."""
-    return float((1.25 * mass * speed**2 / stiffness) ** 0.4)
-
-
 _SHAPE = 1.25**0.4 * 2.0 * sqrt(pi) * gamma(0.4) / (2.5 * gamma(0.9))

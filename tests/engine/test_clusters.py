@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import sandbox
-from sandbox.engine.clusters import Body, Cluster, Link, StaysPressed
+from sandbox.engine.clusters import Body, Cluster, Link, Unresolved
 from sandbox.engine.ledger import ledger
 from sandbox.physics.hertz import contact_time
 from sandbox.physics.throw import friction_by_speed
@@ -207,7 +207,7 @@ def test_a_ball_on_a_ball_on_the_floor():
 def test_what_stays_pressed_is_an_error():
     pressed = [body._replace(push=(0.0, -9.81)) for body in (ball(0.0, RADIUS, 0.0, -1e-3),)]
     floor = Link(0, None, STIFFNESS, 0.1, lambda slip: 0.0, wall=lambda x, y: (y - RADIUS, 0.0, 1.0, 0.0))
-    with pytest.raises(StaysPressed, match="do not separate"):
+    with pytest.raises(Unresolved, match="do not separate"):
         Cluster(pressed, [floor]).pass_through(0.5)
 
 
@@ -245,7 +245,7 @@ def test_a_frozen_row_struck_across_parts_at_once(monkeypatch, speed, angle, eng
         return through(self, share, faint)
 
     monkeypatch.setattr(Cluster, "pass_through", counted)
-    monkeypatch.setattr(StaysPressed, "__init__", lambda self, text: pytest.fail(text))
+    monkeypatch.setattr(Unresolved, "__init__", lambda self, text: pytest.fail(text))
     apart, way = 2 * 0.028575, radians(angle)
     row = [{"name": f"{i}", "x": apart * i * cos(way), "y": apart * i * sin(way)} for i in range(5)]
     changed = {
@@ -261,7 +261,7 @@ def test_a_frozen_row_struck_across_parts_at_once(monkeypatch, speed, angle, eng
 
 def test_balls_that_the_cloth_presses_together_get_impulses(monkeypatch):
     """Two that creep on each other off a dead cushion: no contact is gone through that has no end."""
-    monkeypatch.setattr(StaysPressed, "__init__", lambda self, text: pytest.fail(text))
+    monkeypatch.setattr(Unresolved, "__init__", lambda self, text: pytest.fail(text))
     changed = {"contact": {"model": "hertz", "stiffness": 1e8}, "cushion": {"model": "vertical", "restitution": 0.0}}
     scene = sandbox.load("billiards", {**changed, "cue": {"speed": 1.0, "follow": 0.045857955150968355}})
     assert ledger(sandbox.simulate(scene)).end < 1e-12

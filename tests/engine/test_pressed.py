@@ -127,6 +127,19 @@ def test_a_wall_as_hard_as_balls_is_met_at_the_speeds_at_which_it_is_met():
     assert {round(along, 6) for _, along in met} <= {1.0, 0.0}
 
 
+def test_soft_balls_do_not_pass_through_a_light_one_between_them():
+    """Between 100 and 1.42 kg at 50 m/s one of 24 g would be pressed in by its radius, however fast it is struck."""
+    sizes, masses, places = (0.9161, 0.3847, 0.0692), (100.0, 0.024, 1.42), (0.0, 1.8008, 2.2553)
+    rows = zip("abc", masses, sizes, places, strict=True)
+    balls = [Ball(name, mass, size, (x, 0.0), (50.0 * (name == "a"), 0.0)) for name, mass, size, x in rows]
+    setup = Setup(balls, duration=0.5, between_balls=Always(Bounce(0.9, 1.0)), contact=ContactModel("hertz", 1.08e4))
+    run = simulate(setup, resolve())
+    times = np.linspace(0.0, 0.5, 500)
+    gaps = np.diff([run.states(times, name)[:, 0] for name in "abc"], axis=0)
+    assert (gaps > [[sizes[0]], [sizes[1]]]).all()
+    assert ledger(run).end < ledger(run).start
+
+
 @pytest.mark.parametrize("gap", [0.0, 1e-10])
 def test_a_ball_frozen_on_a_rail_bounces_off_it(gap):
     """Cut at 45 deg into a rail with e = 0.85: it leaves at atan(0.85) = 40.4 deg, as the rail waits for the balls."""
