@@ -69,13 +69,15 @@ def rounding(body: Ball, state: State) -> float:
 def meeting(one: Ball, state: State, other: Ball, other_state: State, within: float = 0.0) -> Meeting:
     """How two balls or bodies meet: at points where they are no farther apart than ``within`` (m), or else where they
     are nearest."""
-    if not discs(one, other):
-        return _meeting((one, other), (outline_of(one), outline_of(other)), (state, other_state), within)
+    balls, states = (one, other), (state, other_state)
+    if not discs(*balls):
+        (first, second), (here, there) = map(outline_of, balls), map(pose_of, states)
+        return meeting_at(balls, states, *_touching(first, here, second, there, within))
     dx, dy = state[0] - other_state[0], state[1] - other_state[1]
     distance = (dx**2 + dy**2) ** 0.5
     nx, ny = (dx / distance, dy / distance) if distance else (0.0, 0.0)  # centres may coincide at the start
     point = state[0] - one.radius * nx, state[1] - one.radius * ny
-    return meeting_at((one, other), (state, other_state), distance - one.radius - other.radius, (nx, ny), [point])
+    return meeting_at(balls, states, distance - one.radius - other.radius, (nx, ny), [point])
 
 
 def surface_met(ball: Ball, state: State, near: Near, within: float = 0.0) -> Meeting:
@@ -83,7 +85,8 @@ def surface_met(ball: Ball, state: State, near: Near, within: float = 0.0) -> Me
     obstacle, (gap, nx, ny, *_) = near
     if not discs(ball):
         shape = standing(obstacle.surface.shape).shape
-        return _meeting((ball,), (outline_of(ball), shape), (state,), within, atan2(ny, nx))
+        found = _touching(outline_of(ball), pose_of(state), shape, _IN_PLACE, within, atan2(ny, nx))
+        return meeting_at((ball,), (state,), *found)
     return meeting_at((ball,), (state,), gap, (nx, ny), [(state[0] - ball.radius * nx, state[1] - ball.radius * ny)])
 
 
@@ -205,20 +208,9 @@ def meeting_at(
     return Meeting(gap, normal, points, [speeds_at(states, point, normal) for point in points])
 
 
-def _meeting(
-    balls: Sequence[Ball],
-    shapes: tuple[Shape, Shape],
-    states: Sequence[State],
-    within: float,
-    direction: float | None = None,
-) -> Meeting:
-    (one, other), (here, there) = shapes, [*map(pose_of, states), _IN_PLACE][:2]
-    return meeting_at(balls, states, *_touching(one, here, other, there, within, direction))
-
-
 @lru_cache(maxsize=64)
 def _touching(
-    one: Shape, here: Pose, other: Shape, there: Pose, within: float, direction: float | None
+    one: Shape, here: Pose, other: Shape, there: Pose, within: float, direction: float | None = None
 ) -> tuple[float, Vector, list[Vector]]:
     """Gap, normal and points; asked for before and after each impact."""
     found = nearest(one, here, other, there, direction)
