@@ -1,9 +1,12 @@
-"""Makes text from files and other people's code safe to print."""
+"""Makes text from files and other people's code safe to print, and command lines to copy."""
 
 from __future__ import annotations
 
 import re
+import shlex
+from collections.abc import Mapping
 from functools import lru_cache
+from typing import Any
 
 #: Characters that a terminal interprets instead of showing: control characters (C0 except tab and newline, DEL, C1),
 #: and those that change the writing direction or break lines.
@@ -11,6 +14,9 @@ _CONTROL = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u2028-\u202e\u2066-\u2069\uf
 
 #: What ends a line, or is not one space wide.
 _BREAK = re.compile("[\n\r\t\v\f\x85]")
+
+#: Text that TOML reads as no value of another kind, so that it needs no quotes.
+_WORD = re.compile("(?!(true|false|inf|nan)$)[a-zA-Z][a-zA-Z-]*")
 
 #: How a formula begins in a spreadsheet.
 _FORMULA = ("=", "+", "-", "@")
@@ -36,3 +42,25 @@ def csv_text(text: str) -> str:
     """The text as a cell of a CSV file: one line, with a quote before what a spreadsheet would take for a formula."""
     line = one_line(text)
     return f"'{line}" if line.startswith(_FORMULA) else line
+
+
+def command_line(source: str, changes: Mapping[str, Any]) -> str:
+    """The command that runs a scene with values at keys."""
+    settings = []
+    for key, value in changes.items():
+        bare = isinstance(value, str) and _WORD.fullmatch(value)
+        settings += ["--set", f"{key}={value if bare else _toml(value)}"]
+    return shlex.join(["sandbox", "run", source, *settings])
+
+
+def _toml(value: Any) -> str:
+    """A value as TOML on one line, a group of parameters as a table."""
+    import tomlkit
+
+    if hasattr(value, "model_dump"):
+        value = value.model_dump(mode="json", exclude_none=True)
+    if isinstance(value, Mapping):
+        return "{" + ", ".join(f"{key} = {_toml(item)}" for key, item in value.items()) + "}"
+    if isinstance(value, list | tuple):
+        return "[" + ", ".join(map(_toml, value)) + "]"
+    return str(tomlkit.item(value).as_string())

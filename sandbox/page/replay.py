@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import shlex
 from collections.abc import Iterator, Mapping
 from math import atan2, isinf
 from typing import Any
@@ -31,6 +30,7 @@ from sandbox.picture.view import OTHERS, UNSAID, View
 from sandbox.scene import Scene, load
 from sandbox.sport.amounts import LADDERS, ladder
 from sandbox.sport.readings import words_of
+from sandbox.text import command_line
 from sandbox.units import convert
 
 #: The picture on a wide screen and on a phone: size in px, and how many times as large letters are drawn on it.
@@ -98,20 +98,10 @@ def command(scene: Scene) -> str:
     try:
         usual = {parameter.key: parameter.value for parameter in walk(load(scene.title).parameters)}
     except RequestError:  # a scene of the user's own, somewhere else
-        return shlex.join(["sandbox", "run", f"./{scene.folder.name}"])
-    changed = (
-        f"{parameter.key}={json.dumps(parameter.value)}"
-        for parameter in walk(scene.parameters)
-        if usual.get(parameter.key) != parameter.value and _is_plain(parameter.value)
-    )
-    return shlex.join(["sandbox", "run", scene.title, *(part for text in changed for part in ("--set", text))])
-
-
-def _is_plain(value: Any) -> bool:
-    """Whether TOML writes a value as JSON does."""
-    if isinstance(value, list | tuple):
-        return all(map(_is_plain, value))
-    return isinstance(value, bool | int | float | str)
+        return command_line(f"./{scene.folder.name}", {})
+    values = {parameter.key: parameter.value for parameter in walk(scene.parameters)}
+    changed = {key: value for key, value in values.items() if value is not None and usual.get(key) != value}
+    return command_line(scene.title, changed)
 
 
 def _shown(value: Any, unit: str | None) -> str:

@@ -10,6 +10,7 @@ from sandbox import parameters as declared
 from sandbox.scene import Scene, load
 from sandbox.scene.modules import read_again
 from sandbox.sport.controls import Controls
+from sandbox.text import command_line
 from sandbox.window.background import Once
 from sandbox.window.history import Changes
 from sandbox.window.shots import Shot, place_of, value_at
@@ -147,25 +148,9 @@ class Session:
 
     def command(self) -> str:
         """The command line that runs this."""
-        import shlex
-
-        settings = []
-        for key, value in self.changes.values.items():
-            settings += ["--set", f"{key}={value if isinstance(value, str) else _toml(value)}"]
-        return shlex.join(["sandbox", "run", self.source, *settings])
+        return command_line(self.source, self.changes.values)
 
 
 def without(values: Mapping[str, Any], keys: Collection[str]) -> dict[str, Any]:
     """The values at other keys."""
     return {key: value for key, value in values.items() if key not in keys}
-
-
-def _toml(value: Any) -> str:
-    """A value as TOML on one line."""
-    import tomlkit
-
-    if isinstance(value, Mapping):
-        return "{" + ", ".join(f"{key} = {_toml(item)}" for key, item in value.items()) + "}"
-    if isinstance(value, list | tuple):
-        return "[" + ", ".join(map(_toml, value)) + "]"
-    return str(tomlkit.item(value).as_string())
