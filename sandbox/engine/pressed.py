@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
-from functools import partial
 from itertools import combinations, pairwise
 from math import hypot
-from typing import Any
 
 import numpy as np
 
 from sandbox.engine.arc import Arc
 from sandbox.engine.clusters import Body, Cluster, Link, Unresolved
 from sandbox.engine.impacts import Hit, Outcome
-from sandbox.engine.setup import Bounce, Setup
+from sandbox.engine.setup import Setup
 from sandbox.engine.surfaces import bounce_of_balls, bounce_off
 from sandbox.engine.touch import TOUCHING_GAP, Obstacle, touched
 from sandbox.engine.track import Pressing, Track
@@ -66,7 +64,8 @@ class Pressed:
         mass = first.mass * second.mass / (first.mass + second.mass)
         stiffness = model.between(first.radius, second.radius)
         lasts = contact_time(mass, stiffness, speed)
-        if self._pushed_together(t, i, touching[i], j, touching[j]) * lasts > speed:
+        pushed = [(*touching[index][:2], *self._tracks[index].arc.acceleration(t)) for index in (i, j)]
+        if self._approach(*pushed) * lasts > speed:  # in place of velocities
             return None
         moving = max(track.arc.fastest() for track in self._tracks if not track.caught)
         fastest = 2.0 * max(speed, moving) * max(first.mass, second.mass) / (first.mass + second.mass)
@@ -97,7 +96,7 @@ class Pressed:
                 for index in frozenset().union(*late) - members.keys():
                     members[index] = self._tracks[index].arc.state(t)
             elif not hard and self._entered(members, parted):
-                if max(hypot(*self._body(t, *member).push) for member in members.items()) * lasts > _PUSHED * speed:
+                if max(hypot(*self._tracks[index].arc.acceleration(t)) for index in members) * lasts > _PUSHED * speed:
                     return None
                 hard = _RIGID * stiffness
             else:
@@ -113,12 +112,6 @@ class Pressed:
     def _approach(a: State, b: State) -> float:
         dx, dy = a[0] - b[0], a[1] - b[1]
         return -((a[2] - b[2]) * dx + (a[3] - b[3]) * dy) / hypot(dx, dy)
-
-    def _pushed_together(self, t: float, i: int, a: State, j: int, b: State) -> float:
-        """The acceleration in m/s^2 by which all else brings two balls together; negative: apart."""
-        (ax, ay), (bx, by) = self._body(t, i, a).push, self._body(t, j, b).push
-        dx, dy = a[0] - b[0], a[1] - b[1]
-        return -((ax - bx) * dx + (ay - by) * dy) / hypot(dx, dy)
 
     def _add_reached(
         self, t: float, members: dict[int, State], fastest: float, lasts: float, fresh: Collection[int]
@@ -190,23 +183,22 @@ class Pressed:
         hard: float,
         faint: float,
     ) -> Outcome:
-        order = list(members)
-        place = {index: number for number, index in enumerate(order)}
+        place = {index: number for number, index in enumerate(members)}
         bodies = [self._body(t, index, state) for index, state in members.items()]
-        links = [self._link(place, members, i, j, speed) for i, j in pairs]
-        links += [self._wall_link(place[index], members[index], obstacle, hard) for index, obstacle in walls]
-        linked: list[tuple[int, ...]] = [*pairs, *((index,) for index, _ in walls)]  # the balls of each link
-        names = [self._tracks[j].ball.name for _, j in pairs] + [obstacle.surface.name for _, obstacle in walls]
-        outcome = Cluster(bodies, links).pass_through(self._step, faint)
-        touched = np.flatnonzero(outcome.approach > 0.0).tolist()
-        hits = [
-            Hit(t + float(outcome.closed[link]), linked[link][0], names[link], float(outcome.approach[link]))
-            for link in touched
+        contacts: list[tuple[tuple[int, ...], str, Link]] = [
+            ((i, j), self._tracks[j].ball.name, self._link(place, members, i, j, speed)) for i, j in pairs
         ]
+        for index, obstacle in walls:
+            link = self._wall_link(place[index], members[index], obstacle, hard)
+            contacts.append(((index,), obstacle.surface.name, link))
+        outcome = Cluster(bodies, [link for *_, link in contacts]).pass_through(self._step, faint)
+        touched = np.flatnonzero(outcome.impulse > 0.0).tolist()
+        closed, approach = (t + outcome.closed).tolist(), outcome.approach.tolist()
+        hits = [Hit(closed[link], contacts[link][0][0], contacts[link][1], approach[link]) for link in touched]
         times = t + outcome.times
         arcs = {
             index: _arcs(times, outcome.motion[:, place[index], : len(members[index])])
-            for index in {ball for link in touched for ball in linked[link]}
+            for index in {ball for link in touched for ball in contacts[link][0]}
         }
         until = float(times[-1])
         return Outcome(until, {index: each[-1].state(until) for index, each in arcs.items()}, sorted(hits), arcs)
@@ -221,9 +213,9 @@ class Pressed:
         first, second = self._tracks[i].ball, self._tracks[j].ball
         approach = max(speed, self._approach(members[i], members[j]))
         bounce = bounce_of_balls(self._setup, approach, 0.0, first.name, second.name)
-        rubs = partial(_friction, self._setup.between(first.name, second.name), approach)
+        law = self._setup.between(first.name, second.name)
         stiffness = self._setup.contact.between(first.radius, second.radius)
-        return Link(place[i], place[j], stiffness, bounce.restitution, rubs)
+        return Link(place[i], place[j], stiffness, bounce.restitution, lambda slip: law(approach, slip).friction)
 
     def _wall_link(self, place: int, state: State, obstacle: Obstacle, stiffness: float) -> Link:
         touching = obstacle.near(state[0], state[1])
@@ -253,11 +245,6 @@ def _arcs(times: np.ndarray, motion: np.ndarray) -> list[Arc]:
             pairwise(moments), pairwise(states), curves, strict=True
         )
     ]
-
-
-def _friction(between_balls: Any, approach: float, slip: float) -> float:
-    bounce: Bounce = between_balls(approach, slip)
-    return bounce.friction
 
 
 def _nearest(x: float, y: float, dx: float, dy: float) -> float:
