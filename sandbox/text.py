@@ -44,13 +44,13 @@ def csv_text(text: str) -> str:
     return f"'{line}" if line.startswith(_FORMULA) else line
 
 
-def command_line(source: str, changes: Mapping[str, Any]) -> str:
-    """The command that runs a scene with values at keys."""
+def command_line(source: str, changes: Mapping[str, Any], does: str = "run", *options: str) -> str:
+    """The command that runs a scene with values at keys, or ``does`` something else with it."""
     settings = []
     for key, value in changes.items():
         bare = isinstance(value, str) and _WORD.fullmatch(value)
         settings += ["--set", f"{key}={value if bare else _toml(value)}"]
-    return shlex.join(["sandbox", "run", source, *settings])
+    return shlex.join(["sandbox", does, source, *settings, *options])
 
 
 def _toml(value: Any) -> str:

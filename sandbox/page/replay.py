@@ -93,15 +93,15 @@ def page_of(run: Run, ghosts: Mapping[str, Run] | None = None) -> str:
     )
 
 
-def command(scene: Scene) -> str:
-    """The command line that runs a scene with these parameters."""
+def command(scene: Scene, does: str = "run", *options: str) -> str:
+    """The command line that runs a scene with these parameters, or ``does`` something else with it."""
     try:
         usual = {parameter.key: parameter.value for parameter in walk(load(scene.title).parameters)}
     except RequestError:  # a scene of the user's own, somewhere else
-        return command_line(f"./{scene.folder.name}", {})
+        return command_line(f"./{scene.folder.name}", {}, does, *options)
     values = {parameter.key: parameter.value for parameter in walk(scene.parameters)}
     changed = {key: value for key, value in values.items() if value is not None and usual.get(key) != value}
-    return command_line(scene.title, changed)
+    return command_line(scene.title, changed, does, *options)
 
 
 def _shown(value: Any, unit: str | None) -> str:

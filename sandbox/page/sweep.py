@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import shlex
 from collections import Counter
 from collections.abc import Sequence
 from itertools import accumulate
@@ -20,6 +19,7 @@ from sandbox.lab.plan import Plan
 from sandbox.lab.row_file import cell
 from sandbox.lab.runs import runs
 from sandbox.page.parts import css, filled, fonts, html, packed
+from sandbox.page.replay import command
 from sandbox.picture.lines import points, simplify
 from sandbox.picture.palette import palette
 from sandbox.sport.amounts import amount, significant
@@ -65,14 +65,14 @@ def page_of(plan: Plan, file: Path, of: str | None = None) -> str:
         "radius": next((run.setup.balls[0].radius for run in done if isinstance(run, Run)), 0.0),
         "fonts": fonts(),
     }
-    over = (f"{axis.key}={_values(axis)}" for axis in plan.axes)
-    command = ["sandbox", "sweep", scene.title, *(word for text in over for word in ("--over", text))]
+    options = [word for axis in plan.axes for word in ("--over", f"{axis.key}={_values(axis)}")]
+    options += ["--samples", str(plan.samples)] if plan.samples else []
     return filled(
         "sweep.html",
         title=html(title),
         about=html(f"{plan.size:,} shots; all other parameters as in the scene file"),
         legend=legend,
-        command=html(shlex.join([*command, *(["--samples", str(plan.samples)] if plan.samples else [])])),
+        command=html(command(scene, "sweep", *options)),
         data=packed(data),
     )
 
