@@ -192,7 +192,7 @@ class Pressed:
             link = self._wall_link(place[index], members[index], obstacle, hard)
             contacts.append(((index,), obstacle.surface.name, link))
         outcome = Cluster(bodies, [link for *_, link in contacts]).pass_through(self._step, faint)
-        touched = np.flatnonzero(outcome.impulse > 0.0).tolist()
+        touched = np.flatnonzero(outcome.approach > 0.0).tolist()
         closed, approach = (t + outcome.closed).tolist(), outcome.approach.tolist()
         hits = [Hit(closed[link], contacts[link][0][0], contacts[link][1], approach[link]) for link in touched]
         times = t + outcome.times
