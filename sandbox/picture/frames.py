@@ -249,7 +249,7 @@ def save_video(picture: Picture, run: Run, path: Path | str, fps: float, progres
         first = next(images)
         film = imageio_ffmpeg.write_frames(
             str(part), first.size, fps=fps, macro_block_size=1, codec="libx264", quality=None,
-            output_params=VIDEO, ffmpeg_log_level="error",
+            output_params=VIDEO, ffmpeg_log_level="quiet",
         )  # fmt: skip
         try:
             film.send(None)
@@ -257,6 +257,8 @@ def save_video(picture: Picture, run: Run, path: Path | str, fps: float, progres
                 film.send(image.tobytes())
                 if progress:
                     progress(done, len(times))
+        except OSError:
+            raise OSError("ffmpeg stopped; is the disk full?") from None  # in place of its whole command
         finally:
             film.close()
         part.replace(path)
