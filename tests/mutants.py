@@ -68,7 +68,9 @@ TESTS: dict[str, dict[str, str]] = {
         "": "bodies heap cloth scenes/football",
     },
     "sandbox/physics": {
+        "checks": "engine/guards engine/ice",
         "elementwise": "coefficients forces air engine/batch",
+        "cushion": "cushion",
         "hertz": "hertz engine/clusters",
         "ice": "engine/ice",
         "plane": "engine/ice cloth",
