@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from functools import cached_property
 from typing import ClassVar
@@ -100,12 +101,15 @@ class AboveView(View[P]):
 
     def dimensions(self, sheet: Sheet, camera: Camera) -> None:
         """None; but no label goes to the headline or on the card, nor on a ball or a person."""
-        sheet.labels.take(pygame.Rect(0, 0, self.size[0], sheet.top_row))
-        sheet.labels.take(pygame.Rect(0, round(self.card_row), *self.size))
-        balls = self._placed(camera, self.told, 1.0).values()
         people = [part for part in self.plan if isinstance(part, Person)]
         reach = 0.8 * BREADTH * enlarged(camera, self.unit) * camera.scale
-        for (x, y), half in [*balls, *((person.place(camera, self.unit), reach) for person in people)]:
+        self.keep_off(sheet, camera, sheet.top_row, [(person.place(camera, self.unit), reach) for person in people])
+
+    def keep_off(self, sheet: Sheet, camera: Camera, top: int, spots: Sequence[tuple[Point, float]] = ()) -> None:
+        """No label goes over the row ``top`` or on the card, nor on a ball or within so many px of these spots."""
+        sheet.labels.take(pygame.Rect(0, 0, self.size[0], top))
+        sheet.labels.take(pygame.Rect(0, round(self.card_row), *self.size))
+        for (x, y), half in [*self._placed(camera, self.told, 1.0).values(), *spots]:
             sheet.labels.take(pygame.Rect(round(x - half), round(y - half), round(2 * half), round(2 * half)))
 
     def scale(self, sheet: Sheet, camera: Camera) -> None:

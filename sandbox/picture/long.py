@@ -142,10 +142,7 @@ class LongView(AboveView[P]):
 
     def dimensions(self, sheet: Sheet, camera: Camera) -> None:
         """None; but no label goes on the strip or on a ball in the near part."""
-        sheet.labels.take(pygame.Rect(0, 0, self.size[0], self._row.top))
-        sheet.labels.take(pygame.Rect(0, round(self.card_row), *self.size))
-        for (x, y), half in self._placed(self.near_camera, self.told, 1.0).values():
-            sheet.labels.take(pygame.Rect(round(x - half), round(y - half), round(2 * half), round(2 * half)))
+        self.keep_off(sheet, self.near_camera, self._row.top)
 
     def progress(self, t: float) -> tuple[str, str]:
         (x, y), what = self.datum

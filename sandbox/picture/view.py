@@ -301,9 +301,7 @@ class View(Generic[P]):
 
     def stage(self) -> pygame.Surface:
         """The place alone, as the poster's camera sees it."""
-        sheet = Sheet(self.size, self.on_dark)
-        self.backdrop(sheet.painter, self.camera)
-        return sheet.surface
+        return self._still(self.camera).copy()
 
     def draw_balls(self, painter: Painter, camera: Camera, t: float, ahead: float = 0.0) -> None:
         """All that moves, at time t in s, on the stage that the camera sees; paths in a lens until ``ahead`` in s."""
