@@ -21,7 +21,7 @@ from sandbox.engine.arc_rows import COLUMNS, CURVES, END, START, T0, T1, Paths, 
 from sandbox.engine.bernstein import elevate
 from sandbox.engine.bernstein_many import first_downward_crossing
 from sandbox.engine.event import Event
-from sandbox.engine.impulses import MANY
+from sandbox.engine.impulses import FEW, MANY
 from sandbox.engine.impulses import lanes as impact_lanes
 from sandbox.engine.lasting import BECOMES, FLYING, RESTING, ROLLING, SLIDING, LastingContact, motion_on
 from sandbox.engine.outlines import Outlines
@@ -125,7 +125,6 @@ class Batch:
         self._select = selector(whole)
         self._until = selector(whole.until)
         self._outlines = Outlines(setups, accuracy.skin)
-        self._lanes = impact_lanes(MANY)
         self._events: list[list[Event]] = [[] for _ in setups]
         self._left: dict[int, Left] = {}
         self._contacts: list[Any] = []
@@ -185,13 +184,13 @@ class Batch:
         for array in (t := t.view(), *state):
             array.flags.writeable = False  # ``vx -= wind`` in a force leaves a float as it was, but not an array
         try:
-            ax, ay, alpha = acceleration(ball, t, state)
-            every = np.broadcast_to(ax, t.shape), np.broadcast_to(ay, t.shape), np.broadcast_to(alpha, t.shape)
-            if any(map(np.iscomplexobj, every)):
+            found = acceleration(ball, t, state)
+            if any(map(np.iscomplexobj, found)):
                 raise TypeError("complex numbers")
+            ax, ay, alpha = (part if np.shape(part) == t.shape else np.broadcast_to(part, t.shape) for part in found)
         except FAILURES as error:  # such as arrays of the wrong shape
             raise _OnlyFloats from error
-        return every
+        return ax, ay, alpha
 
     def _check_forces(self, lanes: np.ndarray, together: np.ndarray) -> None:
         """Raise _OnlyFloats if the accelerations of these lanes, computed with arrays, differ from those computed with
@@ -224,7 +223,8 @@ class Batch:
         known = known[:, self._drop()]
         if not len(self._shot):
             return
-        self._held = [self._placed(self._mode == mode, mode) for mode in (SLIDING, ROLLING) if mode in self._mode]
+        kinds = set(self._mode[self._surface >= 0].tolist())
+        self._held = [self._placed(self._mode == mode, mode) for mode in sorted(kinds)]
         if self._held:
             known = np.array(self._law(self._t, tuple(self._state)))
         before = tuple(self._state)
@@ -297,11 +297,11 @@ class Batch:
         at = np.flatnonzero(hit | self._ends)
         if not len(at):
             return
-        hit, held, shots = hit[at], self._mode[at] != FLYING, self._shot[at]
+        hit, held, shots = hit[at], self._surface[at] >= 0, self._shot[at]
         on = np.where(held, self._surface[at], self._met[at])
         (x, y, vx, vy, spin), applied = self._state[:, at], tuple(acceleration[:, at])
         obstacles = self._outlines.of(on, shots)
-        touching, along = obstacles.near(x, y), obstacles.outline.along(x, y)
+        touching = obstacles.near(x, y)
         nx, ny = touching.nx, touching.ny
         pressed = press((x, y, vx, vy, spin), applied, nx, ny, touching.curvature)
         away = vx * nx + vy * ny
@@ -311,35 +311,27 @@ class Batch:
             known |= self._leaves(at, abs(applied[0]) + abs(applied[1]) + obstacles.surface.friction * pressed)
         flies = hit & ~stays & known
         self._met[at], self._ends[at], self._surface[at] = -1, False, np.where(flies, -1, on)
-        self._how[at[~flies]] = np.where(hit, "after", "ended")[~flies]
         self._mode[at[flies]] = FLYING
         holds = rests = np.zeros(len(at), dtype=bool)
         mode = direction = np.zeros(0)
-        if stays.any():
+        if not flies.all():
+            self._how[at[~flies]] = np.where(hit, "after", "ended")[~flies]
             state = np.array((x, y, vx - away * nx, vy - away * ny, spin))
             ball = self._select(shots).balls[0]
             mode, direction = motion_on(ball, tuple(state), obstacles.surface, touching, applied)
+            along = obstacles.outline.along(x, y)
             inside = known & stays & (along > SEAM) & (along < obstacles.outline.length - SEAM)
             holds, rests = inside & ((mode == SLIDING) | (mode == ROLLING)), inside & ~hit & (mode == RESTING)
             here = at[holds]
-            self._state[:, here], self._mode[here], self._direction[here] = (
-                state[:, holds],
-                mode[holds],
-                direction[holds],
-            )
+            self._state[:, here], self._mode[here] = state[:, holds], mode[holds]
+            self._direction[here] = direction[holds]
         for i in np.flatnonzero(flies | holds | rests).tolist():
             lane, shot = int(at[i]), int(shots[i])
             setup, events = self.setups[shot], self._events[shot]
             noted = len(events)
-            what = (
-                "rest"
-                if rests[i]
-                else "leave"
-                if flies[i] and held[i]
-                else "contact"
-                if holds[i] and not held[i]
-                else ""
-            )
+            what = "rest" if rests[i] else "" if held[i] else "contact"
+            if flies[i]:
+                what = "leave" if held[i] else ""
             try:
                 over = bool(hit[i] and events and setup.ends_with(events))
                 if what:
@@ -357,7 +349,8 @@ class Batch:
                 side = obstacle.on_feature(SIDE, float(x[i]), float(y[i]))
                 self._contacts.append(LastingContact(str(mode[i]), obstacle, side, float(direction[i])))
         ended = at[rests | (self._how[at] == "until")]  # the last state is included, though no arc follows
-        self._paths.append((self._shot[ended], still_rows(self._t[ended], self._state[:, ended])))
+        if len(ended):
+            self._paths.append((self._shot[ended], still_rows(self._t[ended], self._state[:, ended])))
 
     def _leaves(self, at: np.ndarray, most: np.ndarray) -> np.ndarray:
         """Whether these shots leave what they have met, on which no more than this presses them, in m/s^2."""
@@ -386,10 +379,11 @@ class Batch:
             changes[hits] = np.inf
         self._paths.append((shots, rows))
         self._t[lanes], self._state[:, lanes] = rows[T1], rows[END]
-        self._ends[lanes] = changes < np.inf
-        for mode, becomes in BECOMES.items():
-            if (ended := self._ends & (self._mode == mode)).any():
-                self._placed(ended, becomes)
+        if self._held:
+            self._ends[lanes] = changes < np.inf
+            for held in self._held:
+                if (ended := self._ends & (self._mode == held.contact.mode)).any():
+                    self._placed(ended, BECOMES[held.contact.mode])
         how = np.where(rows[T1] >= np.broadcast_to(self._now.duration, self._t.shape)[lanes], "duration", "")
         if isinstance(self._now.until, Until):
             passed = self._until(shots).passed(tuple(rows[START]), tuple(rows[END]))
@@ -440,7 +434,7 @@ class Batch:
         motion, ball = tuple(self._state[2:, lanes]), self._now.balls[0]
         r, factor = (np.broadcast_to(part, self._t.shape)[lanes] for part in (ball.radius, ball.inertia_factor))
         approach, slip, _ = surface_speeds(motion, nx, ny, r)
-        push, rub = self._lanes.exchange_all(
+        push, rub = impact_lanes(FEW if len(lanes) <= FEW else MANY).exchange_all(
             approach, (1.0 + bounces[:, 3]) * slip, np.column_stack((bounces[:, :2], factor))
         )
         return after_impulse(motion, nx, ny, r, factor, (push, rub, 0.0))

@@ -84,6 +84,8 @@ def downward_crossings(b: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarra
     pieces after ``_HALVINGS`` bisections. ``b`` has shape (degree + 1, paths).
     """
     path, start, width = np.arange(b.shape[1]), np.zeros(b.shape[1]), 1.0  # of the pieces
+    if not len(path):
+        return path, start, path, start
     falling = []
     for halving in range(_HALVINGS + 1):
         positive = b > 0.0

@@ -37,8 +37,9 @@ _ITERATIONS, _ITERATIONS_TURNING = 200, 2_000
 #: Distance between lanes, how many lie side by side, and the height of a disc that is not in use.
 _SPACING, _SIDE, _PARKED = 4.0, 8, 1.5
 
-#: Lanes for many contacts: a step costs about 0.4 us for each, used or not. More contacts are done in several steps.
-MANY = 64
+#: Lanes for a few and for many contacts: a step costs about 0.4 us for each, used or not. More contacts are done in
+#: several steps.
+FEW, MANY = 8, 64
 
 _MOTION = batch.BodyFields.VELOCITY | batch.BodyFields.ANGULAR_VELOCITY
 _ALL = batch.BodyFields.POSITION | _MOTION
