@@ -234,19 +234,26 @@ class Batch:
         fits, following, after, last = self._control.attempt(
             self._law, self._t, before, tuple(known), h, self._wanted, self._now.balls[0].radius
         )
-        arc = through(self._t, h, before, tuple(known), after, last)
-        rows = np.vstack((self._t, self._t + h, *before, *map(np.array, arc.curves), *after, self._contact))
-        changes, lasts = self._changes(rows)
-        lasts |= ~fits
         self._again = ~fits
-        self._counts[STEPS, self._shot] += lasts
+        self._counts[STEPS, self._shot] += 1
         self._counts[REFINED, self._shot] += ~fits
-        accepted = fits & lasts & self._now.bounds.hold(after)
+        accepted = fits & self._now.bounds.hold(after)
         stuck = ~accepted & (fits | (following < np.maximum(1e-15, 1e-15 * self._t)))
-        self._how[stuck] = "flight"  # which raises the error, or finds what follows the contact
-        self._wanted = np.where(lasts, np.where(stuck, h, following), self._wanted)
-        if accepted.any():
-            self._travel(np.flatnonzero(accepted), rows[:, accepted], changes[accepted])
+        self._how[stuck] = "flight"  # which raises the error
+        wanted, self._wanted = self._wanted, np.where(stuck, h, following)
+        lanes = np.flatnonzero(accepted)
+        ends = (part[:, lanes] for part in (self._state, known, np.array(after), np.array(last)))
+        arc = through(self._t[lanes], h[lanes], *map(tuple, ends))
+        curves = np.vstack([np.array(curve) for curve in arc.curves])
+        rows = np.vstack((arc.t0, arc.t1, *arc.start, curves, *(arc.end or ()), self._contact[lanes]))
+        changes, lasts = self._changes(rows, accepted)
+        if not lasts.all():
+            unclear = lanes[~lasts]  # what follows the contact: this step is made again, alone
+            self._how[unclear], self._wanted[unclear] = "flight", wanted[unclear]
+            self._counts[STEPS, self._shot[unclear]] -= 1
+            lanes, rows, changes = lanes[lasts], rows[:, lasts], changes[lasts]
+        if len(lanes):
+            self._travel(lanes, rows, changes)
         self._drop()
 
     # ------------------------------------------------------------------ lasting contact
@@ -271,12 +278,16 @@ class Batch:
             found[:, at] = contact.forces(ball, tuple(found[:, at]), tuple(part[at] for part in state))[0]
         return tuple(found)
 
-    def _changes(self, rows: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Where on these arcs slip or speed ends, as u, inf where it does not; and a mask of the shots that stay on the
-        surface until then, as far as can be told here."""
-        changes, lasts = np.full(len(self._shot), np.inf), np.ones(len(self._shot), dtype=bool)
-        for at, ball, contact in self._held:
-            here = rows[:, at]
+    def _changes(self, rows: np.ndarray, accepted: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Where on these arcs, of shots whose step is ``accepted``, slip or speed ends, as u, inf where it does not;
+        and a mask of those that stay on their surface until then, as far as can be told here."""
+        changes, lasts, place = (
+            np.full(rows.shape[1], np.inf),
+            np.ones(rows.shape[1], dtype=bool),
+            accepted.cumsum() - 1,
+        )
+        for lanes, ball, contact in self._held if accepted.any() else ():
+            here = rows[:, place[lanes]]
             x, y, vx, vy, spin = (here[part] for part in CURVES)
             end = tuple(here[END])
             applied = self._acceleration(ball, here[T1], end)
@@ -284,11 +295,13 @@ class Batch:
             progress = contact.progress(ball, (x, y, vx, vy, np.array(elevate(list(spin), len(vx) - 1))))
             u, unclear = first_downward_crossing(progress)
             ends = progress[-1] < 0.0
-            changes[at] = np.where(ends, u, np.inf)
             side = contact.obstacle.outline
             along = side.along(x, y)
             inside = (along.min(axis=0) > 0.0) & (along.max(axis=0) < side.length)
-            lasts[at] = inside & (normal >= 0.0) & (spare >= 0.0) & ~(ends & (unclear | ~np.isfinite(u)))
+            stays = inside & (normal >= 0.0) & (spare >= 0.0) & ~(ends & (unclear | ~np.isfinite(u)))
+            some = accepted[lanes]
+            changes[place[lanes[some]]] = np.where(ends, u, np.inf)[some]
+            lasts[place[lanes[some]]] = stays[some]
         return changes, lasts
 
     def _settle(self, acceleration: np.ndarray) -> None:
