@@ -17,7 +17,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
+from math import hypot
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -80,8 +81,8 @@ class Link(NamedTuple):
     stiffness: float  # N/m^1.5
     restitution: float
     friction: Callable[[float], float]  # of the slip in m/s
-    #: Gap (m), normal, and curvature (1/m) of the path along the wall, of a body at (x, y).
-    wall: Callable[[float, float], tuple[float, float, float, float]] | None = None
+    #: Gap (m), normal, and curvature (1/m) of the path along the wall, and what else, of a body at (x, y).
+    wall: Callable[[float, float], Sequence[Any]] | None = None
 
 
 @dataclass(frozen=True)
@@ -113,18 +114,19 @@ class Cluster:
         self._bodies, self._links = bodies, links
         first = self._first = np.array([link.first for link in links])
         second = self._second = np.array([count if link.second is None else link.second for link in links])
-        radius = np.array([*(body.radius for body in bodies), 0.0])
-        inverse_mass = np.array([*(1.0 / body.mass for body in bodies), 0.0])  # the last is what walls belong to
-        inverse_inertia = np.array([*(1.0 / body.inertia for body in bodies), 0.0])
+        self._weights = np.array([(body.mass, body.inertia) for body in bodies]).T
+        light, easy = np.column_stack((1.0 / self._weights, (0.0, 0.0)))  # the last body is what walls belong to
+        radius = np.array([*(body.radius for body in bodies), np.inf])
         self._push = np.array([*(complex(*body.push) for body in bodies), 0.0])
-        self._mass = 1.0 / (inverse_mass[first] + inverse_mass[second])  # kg, reduced
+        self._mass = 1.0 / (light[first] + light[second])  # kg, reduced
         self._stiffness = np.array([link.stiffness for link in links])
         self._damping = np.array([damping(link.restitution) for link in links]) * np.sqrt(self._mass * self._stiffness)
         self._pushed = np.zeros((len(links), count + 1), complex)  # 1/kg: by an impulse at each link
-        self._pushed[every, first], self._pushed[every, second] = inverse_mass[first], -inverse_mass[second]
-        self._rubbing = Rubbing(first, second, radius, inverse_mass, inverse_inertia, [link.friction for link in links])
+        self._pushed[every, first], self._pushed[every, second] = light[first], -light[second]
+        self._deepest = _TOO_DEEP * np.minimum(radius[first], radius[second])
+        radius[count] = 0.0
         self._reach = radius[first] + radius[second]
-        self._deepest = _TOO_DEEP * np.where(second < count, np.minimum(radius[first], radius[second]), radius[first])
+        self._rubbing = Rubbing(first, second, radius, light, easy, [link.friction for link in links])
         self._walls = [(place, link.wall, link.first) for place, link in enumerate(links) if link.wall is not None]
 
     def pass_through(self, share: float, faint: float = 0.0) -> ClusterOutcome:
@@ -140,16 +142,16 @@ class Cluster:
     def _stepped_through(self, share: float, faint: float) -> ClusterOutcome | None:
         """The same with steps that are not repeated; None if one has too large an error."""
         count, links = len(self._bodies), len(self._links)
-        state = np.zeros((4, count + 1), complex)
-        for i, body in enumerate(self._bodies):
-            wx, wy, wz = body.spin
-            state[:, i] = complex(*body.position), complex(*body.velocity), complex(wx, wy), 1j * wz
+        rows = [
+            (complex(*body.position), complex(*body.velocity), complex(*body.spin[:2]), 1j * body.spin[2])
+            for body in self._bodies
+        ]
+        state = np.array([*rows, (0.0, 0.0, 0.0, 0.0)]).T
         self._origin = state[_PLACE, 0]
         state[_PLACE] -= self._origin
         state[_PLACE, count] = 1e3  # m: a placeholder for walls, never read
-        surface = np.abs(state[_ROLL:, :count]).max(axis=0) * [body.radius for body in self._bodies]
         fastest = max(2.0 * float(np.abs(state[_VELOCITY]).max()), CLOSING)
-        quickest = max(fastest, float(surface.max()))
+        quickest = max(fastest, *(hypot(*body.spin) * body.radius for body in self._bodies))
         times = [contact_time(m, k, fastest) for m, k in zip(self._mass, self._stiffness, strict=True)]
         shortest, longest = min(times), max(times)
         scale = np.repeat([fastest * shortest, fastest], count + 1)
@@ -234,7 +236,7 @@ class Cluster:
         normal, curvature, gap = apart / distance, 1.0 / distance, distance - self._reach
         for link, wall, body in self._walls:
             there = place[body] + self._origin
-            gap[link], nx, ny, curvature[link] = wall(there.real, there.imag)
+            gap[link], nx, ny, curvature[link], *_ = wall(there.real, there.imag)
             normal[link] = complex(nx, ny)
         gap -= self._overlap
         depth = np.maximum(-gap, 0.0)
@@ -250,20 +252,18 @@ class Cluster:
     def _remove_excess_energy(self, start: np.ndarray, end: np.ndarray, impulse: np.ndarray, way: float) -> None:
         """Slow the bodies that were touched towards their common motion if numerical errors have raised their energy;
         other causes may have added what they do along the ``way`` in m."""
-        touched = np.flatnonzero(self._pushed[impulse > 0.0, :-1].any(axis=0)).tolist()
-        bodies = [self._bodies[index] for index in touched]
-        mass, inertia = (np.array([getattr(body, name) for body in bodies]) for name in ("mass", "inertia"))
+        touched = np.flatnonzero(self._pushed[impulse > 0.0, :-1].any(axis=0))
+        mass, inertia = self._weights[:, touched]
 
         def energy(motion: np.ndarray) -> float:
             _, velocity, roll, out = motion
             moving, turning = np.abs(velocity) ** 2 + out.real**2, np.abs(roll) ** 2 + out.imag**2
             return 0.5 * float(mass @ moving + inertia @ turning)
 
-        before, common = start[:, touched], np.zeros((4, 1), complex)
-        if bodies and not self._walls:
+        common = np.zeros((4, touched.size), complex)
+        if touched.size and not self._walls:
             common[_VELOCITY] = mass @ end[_VELOCITY, touched] / mass.sum()
-        after = end[:, touched] - common
-        kept = 0.5 * float(mass.sum() * np.abs(common[_VELOCITY, 0]) ** 2)
-        most = energy(before) + float(np.abs(self._push[touched]) @ mass) * way - kept
-        if energy(after) > most:
-            end[1:, touched] = (common + np.sqrt(max(0.0, most / energy(after))) * after)[1:]
+        apart, worked = end[:, touched] - common, float(np.abs(self._push[touched]) @ mass) * way
+        most, has = energy(start[:, touched]) + worked - energy(common), energy(apart)
+        if has > most:
+            end[1:, touched] = (common + np.sqrt(max(0.0, most / has)) * apart)[1:]

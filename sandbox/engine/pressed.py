@@ -76,7 +76,12 @@ class Pressed:
             self._add_reached(t, members, fastest, lasts, fresh)
             if not members.keys().isdisjoint(fresh):
                 return None
-            near = self._walls(members, fastest * lasts)
+            near = [
+                (index, obstacle)
+                for index, (x, y, *_) in members.items()
+                for obstacle in self._tracks[index].obstacles
+                if obstacle.near(x, y).gap <= fastest * lasts
+            ]
             if model.name == "auto" and len(members) == 2 and not near:
                 return None
             walls = near if hard else []
@@ -134,15 +139,6 @@ class Pressed:
                 if self._gap(index, state, other, there) <= (fastest + towards) * lasts:
                     members[other] = there
                     waiting.append(other)
-
-    def _walls(self, members: dict[int, State], reach: float) -> list[tuple[int, Obstacle]]:
-        """The walls that members can reach."""
-        return [
-            (index, obstacle)
-            for index, state in members.items()
-            for obstacle in self._tracks[index].obstacles
-            if obstacle.near(state[0], state[1]).gap <= reach
-        ]
 
     def _entered(self, members: dict[int, State], parted: Outcome) -> bool:
         """Whether a ball may have been pressed deep into a wall that does not push back meanwhile."""
@@ -221,12 +217,7 @@ class Pressed:
         touching = obstacle.near(state[0], state[1])
         approach = max(0.0, -(state[2] * touching.nx + state[3] * touching.ny))
         bounce = bounce_off(obstacle.surface, approach, state[2] * touching.ny - state[3] * touching.nx)
-
-        def wall(x: float, y: float) -> tuple[float, float, float, float]:
-            gap, nx, ny, curvature, *_ = obstacle.near(x, y)
-            return gap, nx, ny, curvature
-
-        return Link(place, None, stiffness, bounce.restitution, lambda slip: bounce.friction, wall)
+        return Link(place, None, stiffness, bounce.restitution, lambda slip: bounce.friction, obstacle.near)
 
 
 def _arcs(times: np.ndarray, motion: np.ndarray) -> list[Arc]:
