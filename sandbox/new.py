@@ -60,6 +60,10 @@ def next_steps(folder: Path) -> list[str]:
 def _check(folder: Path, name: str) -> None:
     if not re.fullmatch(r"[A-Za-z][A-Za-z0-9_-]{0,63}", name):
         raise RequestError(f'new {folder}: a scene\'s name has letters, digits, "-" and "_", and begins with a letter')
+    if name == "sandbox":
+        raise RequestError(
+            f"new {folder}: Python would import that folder in place of the sandbox; choose another name"
+        )
     if name in {listing.name for listing in listings()}:
         raise RequestError(f"new {folder}: a scene named {name} already exists; choose another name")
     if os.path.lexists(folder):

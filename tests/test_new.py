@@ -80,6 +80,7 @@ def test_names(call, name: str):
     ("name", "expected"),
     [
         ("golf", "a scene named golf already exists"),
+        ("sandbox", "would import that folder in place of the sandbox"),
         ("there", "already exists"),
         ("file", "already exists"),
         ("link", "already exists"),

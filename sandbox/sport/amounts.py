@@ -57,7 +57,9 @@ def system_of(text: str) -> Mapping[str, Ladder]:
     names = [units.suggestion(name.strip()) for name in text.split(",")]
     for name, given in zip(names, text.split(","), strict=True):
         if name not in units.KIND_OF or not name:
-            raise RequestError(f"--units {given.strip()}: is neither us nor si nor a known unit, as in --units ft,mph")
+            raise RequestError(
+                f'--units {text}: must be us, si or a list of units such as ft,mph, not "{given.strip()}"'
+            )
     return {units.KIND_OF[name]: LADDERS.get(name, (Step(0, name, 2),)) for name in names}
 
 

@@ -83,8 +83,8 @@ def test_chosen_units():
         assert [amount(252.3, "m"), amount(10.0, "m/s"), amount(1.0, "N")] == ["828 ft", "36 km/h", "1.00 N"]
     assert amount(8.3, "m") == "8.30 m"
     with (
-        pytest.raises(RequestError, match="--units furlong: is neither us nor si"),
-        shown_in("furlong"),
+        pytest.raises(RequestError, match='--units us,ft: must be us, si or a list of units such as ft,mph, not "us"'),
+        shown_in("us,ft"),
     ):
         pass
 
