@@ -40,20 +40,8 @@ from sandbox.physics.integrators import Acceleration, State
 FLIGHT = ("balls", "surfaces", "patches", "bounds", "duration", "breaks")
 
 #: What is known of each shot in flight: attributes of Batch, arrays with shots along the last axis.
-_OF_EACH = (
-    "_shot",
-    "_t",
-    "_state",
-    "_wanted",
-    "_again",
-    "_how",
-    "_surface",
-    "_met",
-    "_ends",
-    "_mode",
-    "_direction",
-    "_contact",
-)
+_OF_EACH = ["_shot", "_t", "_state", "_wanted", "_again", "_how"]
+_OF_EACH += ["_met", "_ends", "_surface", "_mode", "_direction", "_contact"]  # after touches and in contact
 
 #: Rows of the counters.
 STEPS, REFINED, IMPACTS, QUERIES = range(4)
@@ -362,6 +350,9 @@ class Batch:
                 side = obstacle.on_feature(SIDE, float(x[i]), float(y[i]))
                 self._contacts.append(LastingContact(str(mode[i]), obstacle, side, float(direction[i])))
         ended = at[rests | (self._how[at] == "until")]  # the last state is included, though no arc follows
+        if rests.any():
+            near = self._outlines.in_reach(shots[rests], x[None, rests], y[None, rests], on[rests])
+            self._counts[QUERIES, shots[rests]] += near.sum(axis=0)
         if len(ended):
             self._paths.append((self._shot[ended], still_rows(self._t[ended], self._state[:, ended])))
 

@@ -93,10 +93,7 @@ class Outlines:
         ``x`` and ``y`` are coefficients in m, shape (6, paths), and ``arc(i)`` is the i-th of these paths.
         """
         touch = np.full(len(shots), np.inf)
-        left, bottom, right, top = self._boxes[:, :, shots]
-        level = (x.min(axis=0) <= right) & (x.max(axis=0) >= left)
-        reached = level & (y.min(axis=0) <= top) & (y.max(axis=0) >= bottom)
-        what, path = np.nonzero(reached & (np.arange(len(left))[:, None] != held))
+        what, path = np.nonzero(self.in_reach(shots, x, y, held))
         if len(path):
             xs, ys = x[:, path], y[:, path]
             outlines = self._table[:, what, shots[path]]
@@ -118,6 +115,14 @@ class Outlines:
                 u[pair] = np.inf if found is None else found
             np.minimum.at(touch, path, u)
         return touch, np.bincount(path, minlength=len(shots))
+
+    def in_reach(self, shots: np.ndarray, x: np.ndarray, y: np.ndarray, held: np.ndarray | int = -1) -> np.ndarray:
+        """Which surfaces are near these paths, but those by which they are held, shape (surfaces, paths)."""
+        left, bottom, right, top = self._boxes[:, :, shots]
+        level = (x.min(axis=0) <= right) & (x.max(axis=0) >= left)
+        reached = level & (y.min(axis=0) <= top) & (y.max(axis=0) >= bottom)
+        found: np.ndarray = reached & (np.arange(len(left))[:, None] != held)
+        return found
 
     def obstacle(self, surface: int, shot: int) -> Obstacle:
         """One surface, for the ball of one shot."""
