@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from math import atan2, cos, degrees, radians, sin
+from math import atan2, cos, degrees, radians, sin, sqrt
 
 import numpy as np
 import pytest
@@ -140,16 +140,22 @@ def test_soft_balls_do_not_pass_through_a_light_one_between_them():
     assert ledger(run).end < ledger(run).start
 
 
-@pytest.mark.parametrize("gap", [0.0, 1e-10])
-def test_a_ball_frozen_on_a_rail_bounces_off_it(gap):
-    """Cut at 45 deg into a rail with e = 0.85: it leaves at atan(0.85) = 40.4 deg, as the rail waits for the balls."""
-    rail = Surface("rail", Segment((-5.0, R + gap), (5.0, R + gap)), 0.85, 0.0)
+@pytest.mark.parametrize(("gap", "friction"), [(0.0, 0.0), (1e-10, 0.0), (0.0, 0.1), (0.0, 0.3)])
+def test_a_ball_frozen_on_a_rail_bounces_off_it(gap, friction):
+    """Cut at 45 deg into a rail with e = 0.85: it leaves at atan(0.85) = 40.4 deg, as the rail waits for the balls.
+
+    With friction it has 1 - mu (1 + e) of its speed along the rail, or 5/7 where it grips: it comes back on the other.
+    """
+    rail = Surface("rail", Segment((-5.0, R + gap), (5.0, R + gap)), 0.85, friction)
     turn = radians(45.0)
     cue = ball("cue", -0.3 * cos(turn), -0.3 * sin(turn), 2 * cos(turn), 2 * sin(turn))
     run = struck([cue, ball("1", 0.0)], [rail], duration=0.4)
     vx, vy = run.state("1", 0.4)[2:4]
-    assert degrees(atan2(vy, vx)) == pytest.approx(-40.4, abs=0.1)
-    assert [event.partner for event in run.events if event.ball == "1"] == ["cue", "rail"]
+    along = max(1.0 - 1.85 * friction, 5 / 7)
+    met = [("cue", 2.0), ("rail", sqrt(2.0)), *([("cue", 0.85 - along)] if friction else [])]
+    assert [event.partner for event in run.events] == [name for name, _ in met]
+    assert [event.speed for event in run.events] == pytest.approx([speed for _, speed in met], rel=1e-6)
+    assert degrees(atan2(vy, vx)) == pytest.approx(-45.0 if friction else -40.4, abs=0.1)
 
 
 def test_three_on_a_rail_wait_for_the_balls_to_part():
