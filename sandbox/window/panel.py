@@ -9,7 +9,7 @@ from typing import Any
 
 import pygame
 
-from sandbox.parameters import Parameter, walk
+from sandbox.parameters import Parameter
 from sandbox.picture.palette import mix, palette
 from sandbox.window.background import Once
 from sandbox.window.canvas import Canvas
@@ -121,7 +121,7 @@ class Panel(Scrolled):
 
     def _groups(self) -> dict[str, list[Parameter]]:
         session = self.game.session
-        by_key = {p.key: p for p in walk(session.scene.parameters, entries=True) if _can_be_shown(p)}
+        by_key = {key: p for key, p in session.parameters.items() if _can_be_shown(p)}
         sliders = session.controls.sliders
         groups = {FAVOURITES: [p for slider in sliders for key, p in by_key.items() if slider in (key, key[:-3])]}
         for key, parameter in by_key.items():

@@ -73,9 +73,17 @@ class Session:
         """The value of a parameter in the scene file."""
         return value_at(self.base.parameters, key)
 
+    @property
+    def parameters(self) -> dict[str, declared.Parameter]:
+        """All parameters by key with their current values, those of lists one by one."""
+        found: dict[str, declared.Parameter] = self._once(
+            "parameters", (self.scene,), lambda: {p.key: p for p in declared.walk(self.scene.parameters, entries=True)}
+        )
+        return found
+
     def parameter(self, key: str) -> declared.Parameter | None:
         """A parameter with its current value."""
-        return next((p for p in declared.walk(self.scene.parameters, entries="[" in key) if p.key == key), None)
+        return self.parameters.get(key)
 
     @property
     def place(self) -> tuple[Any, ...]:
