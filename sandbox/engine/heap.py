@@ -1,10 +1,10 @@
 """Balls that press on one another: a heap, stepped by pymunk until its balls part or rest.
 
 Impacts between balls that lie on one another never end: each is weaker than the one before. So a bounce that lasts less
-than two steps of ``accuracy.step`` is lasting contact, and the balls are stepped together in a Space of real shapes.
-In the middle of each step Chipmunk finds the impulses that keep apart what overlaps, starting from those of the step
-before; the paths are parabolas between. Second order in the forces, first order in the curvature of what they roll on.
-Faster impacts are exact events, as ever.
+than two steps (of ``accuracy.step``, or shorter for small balls) is lasting contact, and the balls are stepped together
+in a Space of real shapes. In the middle of each step Chipmunk finds the impulses that keep apart what overlaps,
+starting from those of the step before; the paths are parabolas between. Second order in the forces, first order in the
+curvature of what they roll on. Faster impacts are exact events, as ever.
 
 Rolling resistance is a torque on the ball up to ``c N R (1 + k)``, with k the inertia over m R^2: then a ball that
 rolls freely is slowed by c N / m. Left out: the exact time and the event of an impact inside the heap that is slower
@@ -16,7 +16,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, KeysView, Mapping, Sequence
 from functools import cached_property
-from math import hypot, inf, prod
+from math import hypot, inf
 
 import pymunk
 
@@ -26,7 +26,7 @@ from sandbox.engine.meeting import Meeting, discs, kept, meeting, returns, round
 from sandbox.engine.one_point import one_point
 from sandbox.engine.real_space import RealSpace, rolls, speeds_at
 from sandbox.engine.run import Numerics
-from sandbox.engine.setup import Ball, Segment, Setup, Surface, Vector, outline_of
+from sandbox.engine.setup import Ball, Setup, Surface, outline_of
 from sandbox.engine.surfaces import STILL, bounce_of_balls, bounce_off, press
 from sandbox.engine.touch import TOUCHING_GAP, Obstacle
 from sandbox.engine.track import Heaped, Track
@@ -238,14 +238,13 @@ class Heap:
 
     def _refuse_leap(self, index: int, arc: Arc) -> None:
         """Raise RunError if a body's centre passed through a surface: it was too thin for the step."""
-        ball, ends = self._tracks[index].ball, (arc.position(arc.t0), arc.position(arc.t1))
-        for surface in self._setup.surfaces if ball.turns else ():
-            shape = surface.shape
-            if isinstance(shape, Segment) and _apart(shape.a, shape.b, *ends) and _apart(*ends, shape.a, shape.b):
-                raise RunError(
-                    f"t = {arc.t1:.6g} s, ball {ball.name!r}: it is so thin that others pressed it through "
-                    f"{surface.name!r}; lower accuracy.step"
-                )
+        ball = self._tracks[index].ball
+        passed = self._real.passed(arc.position(arc.t0), arc.position(arc.t1)) if ball.turns else None
+        if passed is not None:
+            raise RunError(
+                f"t = {arc.t1:.6g} s, ball {ball.name!r}: it is so thin that others pressed it through "
+                f"{self._setup.surfaces[passed].name!r}; lower accuracy.step"
+            )
 
     def _lasting(self, share: float, forced: float) -> float:
         """A share of the time in s in which this acceleration (m/s^2) moves something by its own thickness."""
@@ -369,12 +368,6 @@ class Heap:
 def _thickness(body: Ball) -> float:
     """Of a ball or body across its long side, in m."""
     return outline_of(body).mass_properties().area / (2.0 * body.radius)
-
-
-def _apart(a: Vector, b: Vector, one: Vector, other: Vector) -> bool:
-    """Whether two points are on different sides of the line through a and b."""
-    sides = ((b[0] - a[0]) * (y - a[1]) - (b[1] - a[1]) * (x - a[0]) for x, y in (one, other))
-    return prod(sides) < 0.0
 
 
 def _speeds(arbiter: pymunk.Arbiter, here: _Member, there: _Member | None) -> tuple[float, float, float]:

@@ -24,7 +24,7 @@ from sandbox.engine.event import Event
 from sandbox.engine.impacts import after_one, of_two, with_surface
 from sandbox.engine.meeting import meeting_at
 from sandbox.engine.path import Path
-from sandbox.engine.real_space import ONLY_SURFACES, RealSpace, rolls, speeds_at
+from sandbox.engine.real_space import RealSpace, rolls, speeds_at
 from sandbox.engine.run import Numerics, Run
 from sandbox.engine.setup import Ball, Body, Setup, Surface
 from sandbox.engine.shapes import Ellipse
@@ -298,10 +298,9 @@ class PlainSimulation:
         """Raise RunError if the ball's centre passed through a surface in the last step."""
         if dist(start, end) <= _LEAP * tracked.ball.radius:
             return
-        met = self._real.space.segment_query_first(start, end, 0.0, ONLY_SURFACES)
-        if met is not None:
-            surface = self._setup.surfaces[self._real.surface_of[met.shape]]
+        passed = self._real.passed(start, end)
+        if passed is not None:
             raise RunError(
-                f"t = {self._t:.6g} s, ball {tracked.ball.name!r}: went through {surface.name!r} "
+                f"t = {self._t:.6g} s, ball {tracked.ball.name!r}: went through {self._setup.surfaces[passed].name!r} "
                 f"within a step of {self._accuracy.step:.3g} s; {_REMEDY}"
             )

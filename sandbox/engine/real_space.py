@@ -8,7 +8,7 @@ from typing import Any, cast
 import pymunk
 
 from sandbox.engine.meeting import standing
-from sandbox.engine.setup import Ball, Surface, outline_of
+from sandbox.engine.setup import Ball, Surface, Vector, outline_of
 from sandbox.engine.shapes import Ellipse, Polygon
 
 _BALL, _SURFACE = 1, 2
@@ -17,7 +17,7 @@ _BALL, _SURFACE = 1, 2
 _ROUNDED = 1e-2
 
 #: Finds surfaces only.
-ONLY_SURFACES = pymunk.ShapeFilter(mask=_SURFACE)
+_ONLY_SURFACES = pymunk.ShapeFilter(mask=_SURFACE)
 
 
 class RealSpace:
@@ -74,6 +74,11 @@ class RealSpace:
                     self._raised = error
 
         return call
+
+    def passed(self, start: Vector, end: Vector) -> int | None:
+        """Which surface a point goes through on its straight way, by index, or None."""
+        met = self.space.segment_query_first(start, end, 0.0, _ONLY_SURFACES)
+        return None if met is None else self.surface_of[met.shape]
 
     def step(self, h: float) -> None:
         """Step by h s. Raises what a callback has raised."""
