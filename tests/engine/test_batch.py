@@ -157,50 +157,61 @@ def test_a_passage_just_where_an_arc_ends_is_found_once():
         assert len(passed[0]) == 1
 
 
-def rolled(i: int, rise: float, torque: float = 0.0, **others: Any) -> Setup:
-    """On a slope, with another spin and speed each."""
-    slope = {"friction": 0.05 + 0.02 * i, "rolling_resistance": 0.03, **others}
-    ball = Ball(
-        "ball",
-        0.4,
-        0.1,
-        (-2.0, 0.12 - 0.04 * rise),
-        (0.15 * i, 0.0),
-        20.0 - i,
-        forces=[Gravity(0.4, 9.81), Drag(0.1, 1.2, Constant(0.5))],
-        torques=[Torque(torque)] if torque else [],
-    )
-    wall = Surface("wall", Segment((3.0, -2.0), (3.0, 2.0)), 0.5, 0.2)
-    return Setup([ball], [Surface("slope", Segment((-5.0, -0.1 * rise), (5.0, 0.1 * rise)), 0.3, **slope), wall], 6.0)
-
-
 @dataclass(frozen=True)
-class Torque:
-    size: float
+class Growing:
+    """A force and a torque that grow with time."""
 
-    def __call__(self, t: Any, position: Any, velocity: Any, spin: Any) -> Any:
-        return self.size
+    x: float = 0.0  # N/s
+    y: float = 0.0
+    torque: float = 0.0  # N m/s
+
+    def __call__(self, t: Any, position: Any, velocity: Any, spin: Any) -> tuple[Any, Any]:
+        return self.x * t, self.y * t
+
+    def turning(self, t: Any, position: Any, velocity: Any, spin: Any) -> Any:
+        return self.torque * t
+
+
+def rolled(i: int, rise: float, slope: dict[str, float], wall: dict[str, float], growing: Growing) -> Setup:
+    """On a slope, to a wall, with another spin and speed each."""
+    forces = [Gravity(0.4, 9.81), Drag(0.1, 1.2, Constant(0.5)), growing]
+    start, velocity = (-2.0, 0.12 - 0.04 * rise), (0.15 * i, 0.0)
+    ball = Ball("ball", 0.4, 0.1, start, velocity, 20.0 - 2.0 * i, forces=forces, torques=[growing.turning])
+    line = Segment((-5.0, -0.1 * rise), (5.0, 0.1 * rise))
+    on = {"friction": 0.05 + 0.02 * i, "rolling_resistance": 0.03, **slope}
+    ends = Segment((3.0, -2.0), (3.0, 2.0))
+    against = {"restitution": 0.5, "friction": 0.2, **wall}
+    return Setup([ball], [Surface("slope", line, 0.3, **on), Surface("wall", ends, **against)], 6.0)
 
 
 @pytest.mark.parametrize(
-    ("rise", "torque", "others"),
+    ("rise", "slope", "wall", "growing", "hows"),
     [
-        (0.0, 0.0, {}),
-        (1.0, 0.0, {}),  # back down again
-        (-1.0, 0.0, {"rolling_resistance": 0.0}),
-        (0.3, 0.0, {"friction": 0.01}),  # down without grip
-        (0.0, 0.05, {}),  # driven
-        (0.0, 0.0, {"lowest_bounce": 0.05}),
+        (0.0, {}, {}, Growing(), set()),
+        (1.0, {}, {}, Growing(), set()),  # back down again
+        (1.0, {"friction": 0.015}, {}, Growing(), {"flight"}),  # with little grip, off the slope
+        (-1.0, {"rolling_resistance": 0.0}, {}, Growing(), set()),
+        (0.0, {"lowest_bounce": 0.05}, {}, Growing(), set()),
+        (0.0, {}, {"restitution": 0.0}, Growing(), {"after"}),  # stays at the wall
+        (-1.0, {"friction": 0.0}, {"friction": 0.5}, Growing(), {"before"}),  # with backspin, pressed down by the wall
+        (0.0, {}, {}, Growing(torque=0.05), {"flight"}),  # loses its grip
+        (0.0, {}, {}, Growing(y=2.0), {"flight"}),  # is lifted off
     ],
 )
 def test_sliding_and_rolling_agree_with_the_engine_one_by_one(
-    monkeypatch: pytest.MonkeyPatch, left: list[str], rise: float, torque: float, others: dict[str, float]
+    monkeypatch: pytest.MonkeyPatch,
+    left: list[str],
+    rise: float,
+    slope: dict[str, float],
+    wall: dict[str, float],
+    growing: Growing,
+    hows: set[str],
 ):
     monkeypatch.setattr(batch, "FEWEST", 1)
-    setups = [rolled(i, rise, torque, **others) for i in range(30)]
+    setups = [rolled(i, rise, slope, wall, growing) for i in range(30)]
     for setup, together in zip(setups, simulate_many(setups, resolve()), strict=True):
         assert_same(together, simulate(setup, resolve()))
-    assert not left or torque
+    assert set(left) == hows
 
 
 def test_a_patch_is_stepped_through_as_alone():
