@@ -126,23 +126,19 @@ class Heap:
     def presses(self, t: float, states: Mapping[int, State], pairs: Sequence[tuple[int, int]]) -> bool:
         """Whether balls that touch at t, in ``pairs``, belong in the heap: some are in it, or two part too slowly to
         stay apart for two steps."""
-        found = not self._members.keys().isdisjoint(states)
-        for i, state in states.items():
-            if self._lies(i, t, state):
-                found = True
-                self._pressed[frozenset((i,))] = t
+        members, pressing = self._members.keys(), {frozenset((i,)) for i, a in states.items() if self._lies(i, t, a)}
         forced = {index: self._forced_in_a_step(index, t, state) for index, state in states.items()}
         for i, j in pairs:
             a, b, balls = states[i], states[j], (self._tracks[i].ball, self._tracks[j].ball)
             met = meeting(balls[0], a, balls[1], b, self.margin)
             if (
                 -met.closing < max(forced[i], forced[j])
-                or (met.closing <= 0.0 and not self._members.keys().isdisjoint((i, j)))
+                or (met.closing <= 0.0 and not members.isdisjoint((i, j)))
                 or (not discs(*balls) and self._come_back(t, (i, j), (a, b), met))
             ):
-                found = True
-                self._pressed[frozenset((i, j))] = t
-        return found
+                pressing.add(frozenset((i, j)))
+        self._pressed |= dict.fromkeys(pressing, t)
+        return bool(pressing) or not members.isdisjoint(states)
 
     def _come_back(self, t: float, indices: Sequence[int], states: Sequence[State], met: Meeting) -> bool:
         """Whether bodies that touch and part touch again at once, as they turn."""
