@@ -74,7 +74,6 @@ class Simulation:
         slowest = 0.0 if setup.plane is None else slowest_hop(setup, accuracy.hop)
         self._impacts = Impacts(setup, self._tracks, self._numerics, slowest)
         self._all_round = discs(*setup.balls)
-        self._heaps_up = (setup.plane is None and len(setup.balls) > 1) or not self._all_round
 
     @cached_property
     def _pressed(self) -> Pressed:
@@ -84,7 +83,10 @@ class Simulation:
         return Pressed(self._setup, self._tracks, self._accuracy.contact_step)
 
     @cached_property
-    def _heap(self) -> Heap:
+    def _heap(self) -> Heap | None:
+        """Where balls or bodies can lie on one another, or a body on an edge."""
+        if self._all_round and (self._setup.plane is not None or len(self._setup.balls) == 1):
+            return None
         # here, not above: no run of one ball needs it
         from sandbox.engine.heap import Heap
 
@@ -175,8 +177,8 @@ class Simulation:
                 self._catch(t, i)
             elif kind in ("", "heap", "part") and track.arc.t1 >= duration:
                 return duration, "duration"
-            elif kind == "heap":
-                self._press_on(t, ())
+            elif kind == "heap" and self._heap:
+                self._press_on(self._heap, t, ())
             else:
                 self._end_arc(t, i, kind)
         return t, "until" if self._over else "rest"
@@ -205,7 +207,7 @@ class Simulation:
         touching = self._impacts.touching(t, seeds)
         outcome = self._through(t, touching)
         if outcome is None:
-            if self._heap.members & set(seeds):
+            if self._heap and self._heap.members & set(seeds):
                 self._impacts.gap = self._heap.margin
                 touching = self._impacts.touching(t, seeds)
             outcome = self._impacts.exchange(t, touching, self._through)
@@ -220,25 +222,25 @@ class Simulation:
         for index, state in outcome.states.items():
             self._tracks[index].arrive(t, state)
         held: Collection[int] = ()
-        if self._heaps_up and self._heap.presses(t, outcome.states, self._impacts.pairs):
-            held = self._press_on(t, outcome.states.keys())
+        if self._heap and self._heap.presses(t, outcome.states, self._impacts.pairs):
+            held = self._press_on(self._heap, t, outcome.states.keys())
         for index in outcome.states:
             if index not in held:
                 self._resume(index, t)
 
-    def _press_on(self, t: float, joining: Collection[int]) -> Collection[int]:
+    def _press_on(self, heap: Heap, t: float, joining: Collection[int]) -> Collection[int]:
         """Step the heap from t, with these balls if they press on others. Returns the balls in it."""
-        members = set(self._heap.members)
+        members = set(heap.members)
         for index in members - set(joining):
             self._tracks[index].arrive(t, self._tracks[index].arc.state(t))
         states = {index: self._tracks[index].state for index in sorted(members.union(joining))}
-        stepped = self._heap.step(t, self._setup.duration, states)
+        stepped = heap.step(t, self._setup.duration, states)
         for index, arc in stepped.items():
             self._tracks[index].version += 1
             self._tracks[index].arc = arc
         for index, others in self._neighbours(stepped, t).items():
             self._note_rest(self._tracks[index], t)
-            self._predict(index, t, "heap", partial(self._heap.keeps_apart, index), others)
+            self._predict(index, t, "heap", partial(heap.keeps_apart, index), others)
         for index in members - set(joining) - stepped.keys():
             self._resume(index, t)
         return stepped.keys()
@@ -247,21 +249,24 @@ class Simulation:
         """The outcome of balls that touch, by contact mechanics; None if impulses are right."""
         if not self._all_round or len(touching) < 2:
             return None
-        slow = self._heap.slow(t, touching) if self._heaps_up else 0.0
-        return self._pressed.through(t, touching, slow, self._heap.fresh(t))
+        heap = self._heap
+        slow, fresh = (heap.slow(t, touching), heap.fresh(t)) if heap else (0.0, set[int]())
+        return self._pressed.through(t, touching, slow, fresh)
 
     def _go_through(self, t: float, touching: dict[int, State], parted: Outcome) -> None:
         """Apply the outcome of a contact that lasts from t until the balls separate: then they go on."""
         self._numerics.clusters += 1
-        self._heap.release(parted.states.keys())
+        heap = self._heap
+        if heap:
+            heap.release(parted.states.keys())
         for index, arcs in parted.arcs.items():
             self._tracks[index].meet(t, arcs)
             self._push(parted.t, "part", index)
-        for index in touching.keys() - parted.states.keys() - self._heap.members:
+        for index in touching.keys() - parted.states.keys() - (heap.members if heap else set()):
             self._tracks[index].arrive(t, touching[index])
             self._resume(index, t)
-        if self._heap.members:
-            self._press_on(t, ())
+        if heap and heap.members:
+            self._press_on(heap, t, ())
 
     def _catch(self, t: float, index: int) -> None:
         """Remove a ball that is caught."""
