@@ -327,26 +327,14 @@ class Batch:
             self._state[:, here], self._mode[here] = state[:, holds], mode[holds]
             self._direction[here] = direction[holds]
         for i in np.flatnonzero(flies | holds | rests).tolist():
-            lane, shot = int(at[i]), int(shots[i])
-            setup, events = self.setups[shot], self._events[shot]
-            noted = len(events)
-            what = "rest" if rests[i] else "" if held[i] else "contact"
-            if flies[i]:
-                what = "leave" if held[i] else ""
-            try:
-                over = bool(hit[i] and events and setup.ends_with(events))
-                if what:
-                    names = setup.balls[0].name, setup.surfaces[on[i]].name
-                    events.append(Event(float(self._t[lane]), what, *names, 0.0, float(x[i]), float(y[i])))
-                    over = setup.ends_with(events) or over
-            except FAILURES:
-                del events[noted:]  # run alone, the shot raises the error
-                self._how[lane] = "after" if hit[i] else "ended"
-                continue
-            self._how[lane] = "until" if over else "rest" if rests[i] else ""
+            lane, shot, surface = int(at[i]), int(shots[i]), int(on[i])
+            what = "rest" if rests[i] else "" if flies[i] != held[i] else "leave" if flies[i] else "contact"
+            how = self._how[lane] = self._noted(lane, what, surface, bool(hit[i]))
+            if how in ("after", "ended"):
+                continue  # run alone, the shot raises the error
             self._contact[lane] = -1 if flies[i] else len(self._contacts)
             if not flies[i]:
-                obstacle = self._outlines.obstacle(int(on[i]), shot)
+                obstacle = self._outlines.obstacle(surface, shot)
                 side = obstacle.on_feature(SIDE, float(x[i]), float(y[i]))
                 self._contacts.append(LastingContact(str(mode[i]), obstacle, side, float(direction[i])))
         ended = at[rests | (self._how[at] == "until")]  # the last state is included, though no arc follows
@@ -355,6 +343,22 @@ class Batch:
             self._counts[QUERIES, shots[rests]] += near.sum(axis=0)
         if len(ended):
             self._paths.append((self._shot[ended], still_rows(self._t[ended], self._state[:, ended])))
+
+    def _noted(self, lane: int, what: str, surface: int, hit: bool) -> str:
+        """Note what becomes of a shot on a surface, if that is an event, after an impact there if it ``hit`` it.
+        Returns why it leaves now, as in Left; "" if it stays."""
+        setup, events = self.setups[self._shot[lane]], self._events[self._shot[lane]]
+        noted = len(events)
+        try:
+            over = hit and bool(events) and setup.ends_with(events)
+            if what:
+                names, (x, y) = (setup.balls[0].name, setup.surfaces[surface].name), self._state[:2, lane].tolist()
+                events.append(Event(float(self._t[lane]), what, *names, 0.0, x, y))
+                over = setup.ends_with(events) or over
+        except FAILURES:
+            del events[noted:]
+            return "after" if hit else "ended"
+        return "until" if over else "rest" if what == "rest" else ""
 
     def _leaves(self, at: np.ndarray, most: np.ndarray) -> np.ndarray:
         """Whether these shots leave what they have met, on which no more than this presses them, in m/s^2."""
