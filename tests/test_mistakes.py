@@ -133,6 +133,20 @@ DEFINED = [
     (PICTURE, PLACE, f"    def __init__(self, run): ...\n{PLACE}", "called as Picture(run, parameters, size)"),
     (PICTURE, PLACE, f"    def frame(self, x, t): ...\n{PLACE}", "called as Picture.frame(self, t)"),
     (PICTURE, PLACE, f"    def poster(self): ...\n{PLACE}", "must return a pygame.Surface, and returned None"),
+    (PICTURE, PLACE, f"    def frame(self, t): ...\n\n    def poster(self): return 3\n\n{PLACE}", "and returned 3"),
+    (PICTURE, "return Place(", "Place(", "picture.py, line 16: Picture.place must return a Place, and returned None"),
+    (
+        PICTURE,
+        PLACE,
+        f"    @property\n    def moment(self): ...\n\n{PLACE}",
+        "Picture.moment must return a float, and r",
+    ),
+    (
+        PICTURE,
+        PLACE,
+        f"    def notes(self, camera): ...\n\n{PLACE}",
+        "Picture.notes must return a list[str], and returned None",
+    ),
     *((file, "import", "import\0", f"{file}: not a text file, it holds NUL bytes") for file in (OF_NEW, PICTURE)),
 ]
 

@@ -7,17 +7,17 @@ section "What a scene may say"; everything else is the same for all.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from functools import cached_property
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from functools import cached_property, wraps
 from math import atan2, degrees, dist, hypot, inf, pi
-from typing import ClassVar, Generic, NamedTuple, TypeVar
+from typing import Any, ClassVar, Generic, NamedTuple, TypeVar
 
 import numpy as np
 import pygame
 
 from sandbox.engine.run import Run
 from sandbox.engine.setup import Body, Segment
-from sandbox.errors import RequestError
+from sandbox.errors import RequestError, RunError
 from sandbox.parameters import Group
 from sandbox.picture.ball import SMALLEST, Flat, Look, Silhouette, Turning, least_radius, mark_radius, turned
 from sandbox.picture.camera import Camera
@@ -28,6 +28,7 @@ from sandbox.picture.path import FINEST, Mark, Path, apart, draw_trace, mark_imp
 from sandbox.picture.sheet import Entry, Sheet
 from sandbox.picture.vectors import Vectors
 from sandbox.sport.amounts import amount, metres, signed, times
+from sandbox.tracebacks import is_ours
 
 CARD = palette("card")
 TRACES, RIM = palette("trace")["colours"], palette("trace")["rim"]
@@ -59,6 +60,25 @@ class Heading(NamedTuple):
     text: str
     notes: list[str]
     room: float
+
+
+def _function(member: Any) -> Any:
+    """Of a method, property or cached property."""
+    return getattr(member, "fget", None) or getattr(member, "func", member)
+
+
+def _returning(needed: str, how: Callable[..., Any]) -> Callable[..., Any]:
+    """The function, which raises RunError where it returns None."""
+
+    @wraps(how)
+    def checked(*arguments: Any, **named: Any) -> Any:
+        value = how(*arguments, **named)
+        if value is None:
+            file = f"{how.__code__.co_filename}, line {how.__code__.co_firstlineno}"
+            raise RunError(f"{file}: {how.__qualname__} must return a {needed}, and returned None")
+        return value
+
+    return checked
 
 
 class View(Generic[P]):
@@ -232,6 +252,19 @@ class View(Generic[P]):
         """The lengths that the run came to, on its poster."""
 
     # The same for all
+
+    def __init_subclass__(cls) -> None:
+        """Where a user's own picture overrides what has a value, a forgotten ``return`` is told."""
+        super().__init_subclass__()
+        for name, member in list(vars(cls).items()):
+            how, inherited = _function(member), _function(getattr(super(cls, cls), name, None))
+            needed = str(getattr(inherited, "__annotations__", {}).get("return"))
+            if hasattr(how, "__code__") and not is_ours(how.__code__.co_filename) and "None" not in needed:
+                returning: Any = _returning(needed, how)
+                if how is not member:  # a property
+                    returning = type(member)(returning)
+                    getattr(returning, "__set_name__", lambda *_: None)(cls, name)
+                setattr(cls, name, returning)
 
     def __init__(
         self, run: Run, parameters: P, size: tuple[int, int] = (1280, 720), ghosts: Mapping[str, Run] | None = None
