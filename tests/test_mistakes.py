@@ -59,6 +59,7 @@ def scene(written: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Pat
         (OF_NEW, "def build(", "\udcff\ndef build(", "SyntaxError: "),
         (OF_NEW, 'at(landing, "x")', 'at(landing, "ex")', 'ValueError: at(..., "ex"): a Moment has t'),
         (OF_NEW, 'until=Touches("floor", 4)', "until=lambda event: event.foo", "AttributeError: 'Event'"),
+        (OF_NEW, 'Touches("floor"', 'Touches("flor"', "until = Touches(what='flor', times=4): there are ball, floor"),
         (OF_NEW, "duration=20.0", "duration=-20.0", "duration = -20.0 s must be positive"),
         (PICTURE, "Place(Hall", "Place(Hole", "NameError: name 'Hole' is not defined"),
         (PICTURE, "launch.height)", "launch.hight)", "AttributeError: 'Toss' object has no"),

@@ -384,6 +384,14 @@ class Setup:
             raise ValueError(f"ball {losing!r} loses mass, so it must be the only ball")
         if not 0.0 < self.duration < inf:
             raise ValueError(f"duration = {self.duration} s must be positive and finite")
+        if isinstance(self.until, Touches) and self.until.what not in self.names:
+            raise ValueError(f"until = {self.until}: there are {', '.join(self.names)}")
+
+    @property
+    def names(self) -> list[str]:
+        """Of all that can be touched."""
+        touched: list[Ball | Surface | Catch] = [*self.balls, *self.surfaces, *self.catches]
+        return list(dict.fromkeys(each.name for each in touched))
 
     @property
     def is_flight(self) -> bool:

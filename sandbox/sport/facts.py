@@ -54,6 +54,7 @@ class Fact:
     sides: tuple[str, str] | None = None  # words for below and above zero, in place of a sign
     where: Callable[[Run, Any], bool] | None = None  # on cards only where this holds
     in_order: bool = True  # whether the order of a list matters where many runs are compared
+    names: bool = False  # whether its words are names of balls, surfaces and catches
 
     def text(self, value: Any, error: float | None = None, also: bool = False) -> str:
         """The value as text; "" for what did not happen.

@@ -358,8 +358,8 @@ def tip(run: Run, parameters: Parameters) -> str:
 
 
 FACTS = (
-    Fact("pockets", "potted", "", lambda run, parameters: taken(run)),
-    Fact("first_contact", "first contact", "", at(first_contact, lambda meeting, it: meeting[0])),
+    Fact("pockets", "potted", "", lambda run, parameters: taken(run), names=True),
+    Fact("first_contact", "first contact", "", at(first_contact, lambda meeting, it: meeting[0]), names=True),
     Fact("stroke", "stroke", "m/s", lambda run, parameters: parameters.cue.speed, "start"),
     Fact("tip", "tip", "", tip, "start"),
     Fact("cushions", "cushions", "", lambda run, it: sum(name.endswith(" cushion") for name in touches(run, it))),
@@ -367,7 +367,7 @@ FACTS = (
     Fact("path", "path", "m", lambda run, parameters: travelled(run, parameters.cue.ball)),
     REST_TIME,
     Fact("rails", "cushions, all balls", "", lambda run, _: sum(e.partner.endswith(" cushion") for e in meetings(run))),
-    Fact("potted", "", "", lambda run, parameters: list(taken(run)), in_order=False),
+    Fact("potted", "", "", lambda run, parameters: list(taken(run)), in_order=False, names=True),
     Fact("scratch", "", "", lambda run, parameters: parameters.cue.ball in taken(run)),
     Fact("point", "", "", point),
     Fact("scored", "", "", scored),
@@ -376,7 +376,7 @@ FACTS = (
     Fact("leaving_direction", "", "deg", of_leaving(0, direction)),
     Fact("rolling_speed", "", "m/s", of_leaving(1, hypot)),
     Fact("rolling_direction", "", "deg", of_leaving(1, direction)),
-    Fact("touches", "", "", touches),
+    Fact("touches", "", "", touches, names=True),
     ENDED,
 )
 

@@ -132,13 +132,13 @@ def _entry(run: Run, parameters: Parameters) -> Moment | None:
 
 FACTS = (
     Fact("pins", "pins", "", lambda run, it: len(run.setup.balls) - 1 - len(_leaves(run, it))),
-    Fact("leaves", "leaves", "", _leaves),
+    Fact("leaves", "leaves", "", _leaves, names=True),
     Fact("entry_angle", "entry", "deg", at(_entry, "direction"), sides=ASIDE),
     Fact("offset", "off the centre", "m", at(_entry, "y"), sides=ASIDE),
     Fact("entry_speed", "at the pins", "m/s", at(_entry, "speed"), also="mph"),
     Fact("time", "to the pins", "s", at(_entry, "t")),
     Fact("release", "release", "m/s", lambda run, it: it.launch.speed, "start", also="mph"),
-    Fact("met", "", "", lambda run, it: list(_met(run, it))),
+    Fact("met", "", "", lambda run, it: list(_met(run, it)), names=True),
     Fact("strike", "", "", lambda run, it: len(run.setup.balls) > 10 and not _leaves(run, it)),
     ENDED,
 )

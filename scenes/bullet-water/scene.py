@@ -22,9 +22,9 @@ from sandbox.sport.amounts import metres
 from sandbox.sport.controls import Controls, Handle, Spread
 from sandbox.sport.facts import ENDED, Fact, once
 from sandbox.sport.flight import Directed
-from sandbox.sport.readings import BALL_SPEED, LAUNCH_ANGLE, Moment, at
+from sandbox.sport.readings import LAUNCH_ANGLE, Moment, at
 
-from ..bullet.scene import Bullet
+from ..bullet.scene import MUZZLE_SPEED, Bullet
 
 FINEST = 2**40  # moments in which a speed is looked for
 
@@ -118,7 +118,7 @@ FACTS = (
     Fact("halving", "speed halves every", "m", lambda run, parameters: halving(parameters), settled="start"),
     Fact("entry_speed", "into the water at", "m/s", at(entry, "speed")),
     Fact("flight_time", "", "s", at(harmless, "t")),
-    BALL_SPEED,
+    MUZZLE_SPEED,
     LAUNCH_ANGLE,
     ENDED,
 )

@@ -27,6 +27,7 @@ from sandbox.sport.flight import DEGREE, Directed
 from sandbox.sport.readings import BALL_SPEED, LAUNCH_ANGLE, Moment, apex, at, passing
 from sandbox.sport.zero import Sight, Zero, zeroed
 
+MUZZLE_SPEED = replace(BALL_SPEED, label="muzzle speed")
 HUNDRED_YARDS = 91.44  # m
 MOA = 60.0 * degrees(1.0)  # minutes of arc in 1 rad
 SIDES, HOLDS = ("low", "high"), ("under", "over")
@@ -131,7 +132,7 @@ FACTS = (
     Fact("speed", "speed there", "m/s", at(at_target, "speed"), settled="target", also="ft/s"),
     Fact("flight_time", "flight time", "s", at(at_target, "t"), settled="target"),
     Fact("apex", "most over sight line", "m", apex, settled="target"),
-    BALL_SPEED,
+    MUZZLE_SPEED,
     replace(LAUNCH_ANGLE, label=""),
     Fact("elevation", "barrel up", "moa", lambda run, parameters: 60.0 * LAUNCH_ANGLE.how(run, parameters), "start"),
     Fact("table", "", "", table),

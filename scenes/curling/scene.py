@@ -113,6 +113,12 @@ def _score(run: Run, parameters: Parameters) -> tuple[str, int]:
     return (house[0] if house else ""), others
 
 
+def removed(run: Run, parameters: Parameters) -> list[str]:
+    """The stones that are no longer in play."""
+    lie = _lie(run, parameters)
+    return [stone.name for stone in run.setup.balls if stone.name not in lie]
+
+
 FACTS = (
     Fact("scores", "scores", "", lambda run, it: _score(run, it)[0]),
     Fact("points", "points", "", lambda run, it: _score(run, it)[1]),
@@ -121,7 +127,7 @@ FACTS = (
     Fact("distance", "way up the sheet", "m", lambda run, it: end_of(run, DELIVERED)[0] - RELEASE),
     Fact("hog_to_hog", "hog to hog", "s", at(lambda run, it: passing(run, HOG, DELIVERED), "t")),
     REST_TIME,
-    Fact("removed", "taken off", "", lambda run, it: [b.name for b in run.setup.balls if b.name not in _lie(run, it)]),
+    Fact("removed", "taken off", "", removed, names=True),
     Fact("friction", "", "%", lambda run, it: 100.0 * _ice(it).deceleration(it.launch.speed) / it.gravity, "start"),
     Fact("good", "", "", lambda run, it: _score(run, it)[0] == it.team),
     Fact("positions", "", "m", lambda run, it: {name: [*place] for name, place in _lie(run, it).items()}),

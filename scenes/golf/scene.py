@@ -106,7 +106,8 @@ def build(parameters: Parameters) -> Setup:
     ball = parameters.launched((0.0, height_on(course, parameters.ball.radius, above=highest)))
     if parameters.start == "club":
         ball = struck(parameters.club, ball)
-    return Setup([ball], course, LONGEST, Touches("water"), bounds=Bounds(-FAR, -FAR, FAR, FAR))
+    until = Touches("water") if any(surface.name == "water" for surface in course) else None
+    return Setup([ball], course, LONGEST, until, bounds=Bounds(-FAR, -FAR, FAR, FAR))
 
 
 def struck(club: Club, ball: Ball) -> Ball:

@@ -196,11 +196,12 @@ def test_targets_have_units():
         ({"launch.height": (1, 2)}, {"bounced": True, "bounces": 2.0}, "1 parameter and 2 targets: give one of each"),
         ({"launch.height": (1, 2)}, {"final_height": float("nan")}, "cannot be aimed at"),
         ({"launch.height": (1, 2)}, {}, "give one of each, two of each"),
+        ({"cue.angle": (0, 1)}, {"potted": "x"}, "target potted = x: there is no such name; there are 1, 2, 3, "),
     ],
 )
 def test_requests_that_make_no_sense_are_told(vary, target, told):
     with pytest.raises(RequestError) as refused:
-        aim(DROP, vary, target)
+        aim("billiards" if "potted" in target else DROP, vary, target)
     assert told in str(refused.value)
 
 

@@ -60,3 +60,8 @@ def test_the_poster_draws_heights_as_large_as_there_is_room(distance: float):
     assert np.ptp([*rows, picture.camera.pixel(0.0, 0.0)[1]]) > 0.3 * (picture.area.bottom - picture.area.top)
     assert f"heights drawn {picture.camera.stretch:g} times" in picture.notes(picture.camera)[0]
     assert "sight line" in [text for text, _ in picture.sheet.written]
+
+
+@pytest.mark.parametrize("name", ["bullet", "bullet-water"])
+def test_no_card_says_that_a_ball_is_fired(name: str):
+    assert "ball" not in " ".join(fact.label for fact in sandbox.load(name).facts.values())

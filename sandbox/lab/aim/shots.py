@@ -49,6 +49,9 @@ class Shots:
             if target.name not in scene.facts:
                 why = declared.no_such_result(target.name, tuple(scene.facts))
                 raise RequestError(f"{_option(target)} {target.name}: {why}")
+            names = scene.build().names if scene.facts[target.name].names else [target.value]
+            if isinstance(target.value, str) and target.value not in names:
+                raise RequestError(f"--target {target}: there is no such name; there are {', '.join(names)}")
         self._progress = progress
         self._first_error: Exception | None = None
         self._known: dict[tuple[float, ...], dict[str, Any] | None] = {}
