@@ -318,18 +318,22 @@ class View(Generic[P]):
 
     @cached_property
     def surroundings(self) -> np.ndarray:
-        """Lower left and upper right corner in m of all that must be seen and of the surfaces around it that do not
-        reach far beyond; shape (2, 2)."""
+        """Lower left and upper right corner in m of all that must be seen and of the surfaces around it: all of those
+        that do not reach far beyond, of others the place next to its middle; shape (2, 2)."""
         radius = max(self.radii.values())
         low, high = self.points.min(axis=0) - radius, self.points.max(axis=0) + radius
-        reach = max(NEAR * radius, *(high - low))
+        reach, middle = max(NEAR * radius, *(high - low)), (low + high) / 2
         for shape in (surface.shape for surface in self.run.setup.surfaces):
             if isinstance(shape, Segment):
                 corners = np.array([shape.a, shape.b])
+                along = corners[1] - corners[0]
+                next_to = corners[0] + np.clip((middle - corners[0]) @ along / max(along @ along, 1e-99), 0.0, 1.0) * along
             else:
                 corners = np.array(shape.center) + np.array([[-shape.radius], [shape.radius]])
-            if np.all(corners > low - reach) and np.all(corners < high + reach):
-                low, high = np.minimum(low, corners.min(axis=0)), np.maximum(high, corners.max(axis=0))
+                next_to = np.array(shape.center)
+            for seen in (corners, next_to[None]):
+                if np.all(seen > low - reach) and np.all(seen < high + reach):
+                    low, high = np.minimum(low, seen.min(axis=0)), np.maximum(high, seen.max(axis=0))
         return np.array([low, high])
 
     def stage(self) -> pygame.Surface:

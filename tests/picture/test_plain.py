@@ -11,6 +11,7 @@ import pytest
 
 import sandbox
 from sandbox.picture import plain
+from tests.own_scene import DROP, copy_of
 
 SCENES = Path(__file__).resolve().parents[2] / "scenes"
 SIZE = (640, 360)
@@ -61,6 +62,15 @@ def test_another_run_is_drawn_beside_this_one(bare, name: str):
         assert (pygame.surfarray.array3d(alone.frame(t)) != pygame.surfarray.array3d(beside.frame(t))).any()
     at = beside.camera.pixel(*other.state(other.setup.balls[0].name, 0.4)[:2])
     assert colour(beside.frame(0.4), at) != colour(alone.frame(0.4), at)
+
+
+@pytest.mark.parametrize("duration", [0.5, 0.55, 0.6])
+def test_a_floor_that_is_not_reached_is_not_behind_the_card(tmp_path: Path, duration: float):
+    folder = copy_of(DROP, tmp_path / "drop")
+    (folder / "picture.py").unlink()
+    scene = sandbox.load(folder, {"duration": duration})
+    picture = scene.picture(sandbox.simulate(scene), SIZE)
+    assert picture.camera.pixel(0.0, 0.0)[1] < picture.card_row
 
 
 def test_surfaces_are_where_they_are(bare):
