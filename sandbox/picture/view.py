@@ -327,7 +327,9 @@ class View(Generic[P]):
             if isinstance(shape, Segment):
                 corners = np.array([shape.a, shape.b])
                 along = corners[1] - corners[0]
-                next_to = corners[0] + np.clip((middle - corners[0]) @ along / max(along @ along, 1e-99), 0.0, 1.0) * along
+                next_to = (
+                    corners[0] + np.clip((middle - corners[0]) @ along / max(along @ along, 1e-99), 0.0, 1.0) * along
+                )
             else:
                 corners = np.array(shape.center) + np.array([[-shape.radius], [shape.radius]])
                 next_to = np.array(shape.center)
