@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 from dataclasses import replace
 from math import asin, atan, degrees, hypot, radians, sin, sqrt
-from pathlib import Path
 
 import pytest
 from PIL import Image
@@ -13,12 +12,12 @@ from PIL import Image
 from sandbox.cli import main
 from sandbox.errors import RequestError, RunError
 from sandbox.lab.aim import Target, aim, as_target, parse_target, search
+from sandbox.lab.aim.report import as_text
 from sandbox.lab.axes import parse_span
 from sandbox.lab.runs import runs
 from sandbox.parameters import walk
 from sandbox.scene import load
-
-DROP = Path(__file__).parents[1] / "scenes" / "drop"
+from tests.own_scene import DROP, change, copy_of
 
 #: Golf without air: range v^2 sin(2 a) / g and apex v^2 sin^2(a) / 2 g, back at launch height.
 SPEED, GRAVITY = 40.0, 9.81
@@ -72,6 +71,9 @@ def test_a_result_that_jumps_over_the_target_is_no_solution():
     for one, other in found.jumps:
         assert {one.found[0], other.found[0]} == {2, 3}
         assert 0 < other.values[0] - one.values[0] < 1e-10
+    told = " ".join(" ".join(as_text(found)).split())
+    assert "no solution in this range" in told
+    assert "bounces jumps from 3 to 2, over the target" in told
 
 
 def test_a_smooth_result_needs_no_more_than_its_scan(vacuum):
@@ -129,6 +131,19 @@ def test_what_holds_or_not_has_intervals():
     assert abs(interval.high - (0.05 + 0.5 * 9.81)) < interval.high_error < 1e-5
     assert solution.values["launch.height"] == pytest.approx(0.5 * (0.1 + interval.high))
     assert solution.result["bounced"] is True
+
+
+def test_an_interval_ends_next_to_where_the_target_is_met(tmp_path):
+    """Not at a narrow band that the scan does not see, and that is found while an end is looked for."""
+    drop, fine = copy_of(DROP, tmp_path / "drop"), 0.01 / 64
+    low, high = 0.5 + 10.75 * fine, 0.7 + 10.25 * fine
+    bands = [(low, high), *((at + 10.45 * fine, at + 10.55 * fine) for at in (0.5, 0.7)), (0.903, 0.953)]
+    held = f"any(a < it.launch.height < b for a, b in {bands})"
+    change(drop / "scene.py", "FACTS = (", f'FACTS = (Fact("held", "", "", lambda run, it: {held}),')
+    wide, narrow = aim(drop, {"launch.height": (0.1, 1.38)}, {"held": True}).solutions
+    assert (wide.interval.low, wide.interval.high) == pytest.approx((low, high), abs=1e-6)
+    assert wide.values["launch.height"] == pytest.approx(0.5 * (low + high), abs=1e-6)
+    assert narrow.values["launch.height"] == pytest.approx(0.928, abs=1e-6)
 
 
 def test_what_holds_by_two_parameters_has_regions():

@@ -6,6 +6,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from matplotlib.axes import Axes
+from matplotlib.collections import QuadMesh
 from matplotlib.figure import Figure
 from PIL import Image
 
@@ -47,8 +49,8 @@ def test_a_picture_of_one_word_keeps_clear_of_the_edges(tmp_path: Path):
     assert min(across[0], down[0], inked.shape[1] - across[-1], inked.shape[0] - down[-1]) > least
 
 
-def drawn(tmp_path: Path, of: str, *over: str) -> tuple[list[str], list[str]]:
-    """The kinds of what a chart shows, and the words of its legend."""
+def axes_of(tmp_path: Path, of: str, *over: str) -> Axes:
+    """The axes of the chart of a sweep."""
     plan, rows, shown = plan_of(str(DROP), *over), tmp_path / "x.csv", []
     with workers(1) as pool:
         sweep_to_file(plan, rows, pool)
@@ -56,9 +58,26 @@ def drawn(tmp_path: Path, of: str, *over: str) -> tuple[list[str], list[str]]:
         patched.setattr(Figure, "savefig", lambda figure, *args, **kwargs: shown.append(figure.axes[0]))
         maps.draw_sweep(plan, rows, tmp_path / "x.png", of)
     (axes,) = shown
+    return axes
+
+
+def drawn(tmp_path: Path, of: str, *over: str) -> tuple[list[str], list[str]]:
+    """The kinds of what a chart shows, and the words of its legend."""
+    axes = axes_of(tmp_path, of, *over)
     legend = axes.get_legend()
     kinds = [type(part).__name__ for part in (*axes.collections, *axes.lines)]
     return kinds, [] if legend is None else [text.get_text() for text in legend.get_texts()]
+
+
+def test_words_over_one_number_are_a_strip_that_fills_the_chart(tmp_path: Path):
+    axes = axes_of(tmp_path, "bounced", "launch.height=0.1:10:4")
+    (strip,) = (part for part in axes.collections if isinstance(part, QuadMesh))
+    rows = strip.get_coordinates()[:, 0, 1]
+    assert axes.get_ylim() == (rows[0], rows[-1])
+    assert rows[0] < rows[-1]
+    assert (np.asarray(strip.get_array()) == strip.get_array()[0]).all()
+    assert len(set(strip.get_array()[0])) == 2
+    assert not axes.get_yticks().size
 
 
 def test_a_number_over_numbers_and_words_is_a_curve_for_each_word(tmp_path):
