@@ -139,7 +139,7 @@ def _apart_for(
     front = max(ahead)[0]
 
     own, others = bounds
-    size = max(shape.reach, shape.straightest)
+    size = max(shape.reach - shape.radius, shape.straightest)  # of the core: a disc's spin moves no point of it
     apart = hypot(x - u, y - v) + until * (own.speed + others.speed)
     hurry = size * (own.spin**2 + own.turning)
     if others.spin == 0.0:  # the normal does not turn

@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 import numpy as np
 import pytest
 
-from sandbox.engine import simulate
+from sandbox.engine import simulate, turning_touch
 from sandbox.engine.accuracy import LEVELS
 from sandbox.engine.arc import Arc, through
 from sandbox.engine.lasting import SLIDING
@@ -214,6 +214,17 @@ def test_no_touch_of_spinning_outlines_is_missed():
             hits += 1
             assert gaps[-1] == pytest.approx(-2e-11, abs=1e-12)
     assert hits > 15
+
+
+def test_the_spin_of_a_disc_costs_nothing_where_it_moves_in_touch_with_a_body(monkeypatch):
+    """It turns no point of its outline's core."""
+    asked = []
+    monkeypatch.setattr(turning_touch, "nearest", lambda *where: asked.append(where) or nearest(*where))
+    start = [(-0.2, 0.1, 1.5, 0.0, 0.0, 0.0), (-1e-7, 0.1, 1.5, 0.0, -20.0)]
+    ends = [(state[0] + 1.5 * 0.1, *state[1:]) for state in start]
+    arcs = [through(0.0, 0.1, *pair, (0.0,) * 3) for pair in zip(start, [(0.0,) * 3] * 2, ends, strict=True)]
+    assert first_touch(Mover(box(0.2, 0.2), arcs[0]), Mover(disc(0.1), arcs[1]), 0.0, 0.1) is None
+    assert len(asked) < 10
 
 
 # ------------------------------------------------------------------------------------------------ impacts
