@@ -10,7 +10,8 @@ taken in all. So the velocities without that part are integrated: their forces h
 accurate though contacts close and open within them.
 
 All contacts are treated at once, as entries of arrays, so that the outcome does not depend on the order of the bodies.
-Vectors in the plane are complex numbers, x + iy.
+Vectors in the plane are complex numbers, x + iy. Products with matrices are by ``vecdot``: with ``@`` large ones are
+shared by threads, a hundred times as slow where other programs keep the processors busy.
 """
 
 from __future__ import annotations
@@ -121,8 +122,8 @@ class Cluster:
         self._mass = 1.0 / (light[first] + light[second])  # kg, reduced
         self._stiffness = np.array([link.stiffness for link in links])
         self._damping = np.array([damping(link.restitution) for link in links]) * np.sqrt(self._mass * self._stiffness)
-        self._pushed = np.zeros((len(links), count + 1), complex)  # 1/kg: by an impulse at each link
-        self._pushed[every, first], self._pushed[every, second] = light[first], -light[second]
+        self._pushed = np.zeros((count + 1, len(links)), complex)  # 1/kg: by an impulse at each link
+        self._pushed[first, every], self._pushed[second, every] = light[first], -light[second]
         self._deepest = _TOO_DEEP * np.minimum(radius[first], radius[second])
         radius[count] = 0.0
         self._reach = radius[first] + radius[second]
@@ -175,7 +176,7 @@ class Cluster:
                 h *= _OF_A_PAIR * min(1.0, max(_FINEST, kink / h))
             ahead = 0.0 if ends else 0.5 * h
             reached = np.maximum(pushed + self._held + ahead * force, rubbed)
-            gain = (force * self._normal) @ self._pushed + self._push  # m/s^2
+            gain = np.vecdot(self._pushed, force * self._normal) + self._push  # m/s^2
             state[1:] = self._rubbing.after(state[1:], self._normal, reached - rubbed, gain, back, ahead, quickest)
             states.append(state)
             if ends:
@@ -186,7 +187,7 @@ class Cluster:
                 raise Unresolved(f"bodies pass through each other after {t:.3g} s")
             rubbed, before, gap = reached, closing, self._gap
             start = state[:2].copy()
-            start[1] -= (self._held * self._normal) @ self._pushed
+            start[1] -= np.vecdot(self._pushed, self._held * self._normal)
             elastic[0] = self._rates(start, rates[0])
             for stage, weights in enumerate(_STAGES, 1):
                 moved = start + (h * weights @ flat[:stage]).reshape(2, -1)
@@ -242,17 +243,17 @@ class Cluster:
         depth = np.maximum(-gap, 0.0)
         root = np.sqrt(depth)
         held, elastic = 0.8 * self._damping * depth * np.sqrt(root), self._stiffness * depth * root
-        velocity = velocity + (held * normal) @ self._pushed
+        velocity = velocity + np.vecdot(self._pushed, held * normal)
         along = (velocity.take(self._first) - velocity.take(self._second)) * normal.conj()
         turned = (elastic - 1j * (held * curvature * along.imag)) * normal  # damping's impulse turns with the normal
-        rates[0], rates[1] = velocity, turned @ self._pushed + self._push
+        rates[0], rates[1] = velocity, np.vecdot(self._pushed, turned) + self._push
         self._gap, self._depth, self._normal, self._closing, self._held = gap, depth, normal, -along.real, held
         return elastic
 
     def _remove_excess_energy(self, start: np.ndarray, end: np.ndarray, impulse: np.ndarray, way: float) -> None:
         """Slow the bodies that were touched towards their common motion if numerical errors have raised their energy;
         other causes may have added what they do along the ``way`` in m."""
-        touched = np.flatnonzero(self._pushed[impulse > 0.0, :-1].any(axis=0))
+        touched = np.flatnonzero(self._pushed[:-1, impulse > 0.0].any(axis=1))
         mass, inertia = self._weights[:, touched]
 
         def energy(motion: np.ndarray) -> float:

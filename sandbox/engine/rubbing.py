@@ -48,7 +48,7 @@ class Rubbing:
         signs, arms = np.zeros((2, len(laws), len(radius)))
         signs[every, first], signs[every, second] = 1.0, -1.0
         arms[every, first], arms[every, second] = self._arms
-        self._pull, self._turn = (signs * light).astype(complex), (arms * easy).astype(complex)
+        self._pull, self._turn = (signs * light).T.astype(complex), (arms * easy).T.astype(complex)
         self._shifts, self._twists = signs * light @ signs.T, arms * easy @ arms.T  # 1/kg: links that share a body
         self._used = np.zeros(len(laws), complex)  # of the normal impulses, in the last interval: a first guess
 
@@ -100,9 +100,13 @@ class Rubbing:
                 middle = 0.5 * (begun + ended)
                 waiting += [(middle, ended, halvings - 1), (begun, middle, halvings - 1)]
         self._used[acting] = used
-        pull, turn = self._pull.take(acting, 0), self._turn.take(acting, 0)
+        pull, turn = self._pull.take(acting, 1), self._turn.take(acting, 1)
         along, upward = total.real, total.imag
-        change = (-1j * along * normal) @ pull, (1j * upward * normal) @ turn, upward @ pull + 1j * (along @ turn)
+        change = (
+            np.vecdot(pull, -1j * along * normal),
+            np.vecdot(turn, 1j * upward * normal),
+            np.vecdot(pull, upward) + 1j * np.vecdot(turn, along),
+        )
         return np.add(motion, change)
 
 
@@ -150,5 +154,5 @@ def _slid(
 
 def _times(mobility: np.ndarray, impulse: np.ndarray) -> np.ndarray:
     """The slips (m/s) that impulses (N s) change."""
-    slips: np.ndarray = (mobility @ impulse.view(float)).view(complex)
+    slips: np.ndarray = np.vecdot(mobility, impulse.view(float)).view(complex)
     return slips
