@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import shlex
 import tomllib
-from functools import cache
 from math import hypot
 from pathlib import Path
 
@@ -19,14 +18,10 @@ from sandbox.page.parts import save
 from sandbox.page.replay import LAYOUTS, command, page_of
 from sandbox.picture.plain import view_of
 from sandbox.sport.amounts import amount, shown_in
+from tests.scenes.play import run_of
 
 #: A flight with rolling, balls that turn about all axes, a heap, a body that turns.
 RUNS = ("golf", "billiards", "collisions/bowl", "collisions/tumbling-box")
-
-
-@cache
-def run_of(name: str) -> sandbox.engine.run.Run:
-    return sandbox.simulate(name)
 
 
 @pytest.fixture(scope="module")

@@ -1,7 +1,5 @@
 """Where the energy goes: nothing is lost on the way, and the chart can be drawn for any run."""
 
-from functools import cache
-
 import numpy as np
 import pytest
 
@@ -11,6 +9,7 @@ from sandbox.picture import energy_chart as chart
 from sandbox.picture.energy import course
 from sandbox.picture.energy_chart import bands_of, energy_chart, joules
 from tests.picture.legible import assert_legible
+from tests.scenes.play import run_of
 
 RUNS = ["golf", "golf/putt", "basketball", "billiards/bank", "billiards/nine-ball-break", "soccer"]
 WINDY = "soccer/goal-kick-in-a-gale"
@@ -28,11 +27,6 @@ def sheets(monkeypatch):
 
     monkeypatch.setattr(chart, "Sheet", Kept)
     return drawn
-
-
-@cache
-def run_of(name: str):
-    return sandbox.simulate(sandbox.load(name))
 
 
 @pytest.mark.parametrize("name", RUNS)

@@ -1,20 +1,13 @@
 """Graphs over time: their values, and that they can be drawn anywhere."""
 
-from functools import cache
-
 import numpy as np
 import pygame
 import pytest
 
-import sandbox
 from sandbox.picture.graph import Panel, draw_panel, graph, panels_of
 from sandbox.picture.sheet import Sheet
 from sandbox.sport.amounts import shown_in
-
-
-@cache
-def run_of(name: str):
-    return sandbox.simulate(name)
+from tests.scenes.play import run_of
 
 
 def panels(*names: str) -> dict[str, Panel]:

@@ -2,24 +2,17 @@
 
 from __future__ import annotations
 
-from functools import cache
-
 import numpy as np
 import pytest
 
-import sandbox
 from sandbox.picture.sheet import Sheet, rows_of
 from sandbox.scene import listings
 from tests.picture.legible import assert_legible
+from tests.scenes.play import run_of
 
 SIZES = [(320, 180), (600, 1200)]
 SCENES = [listing.name for listing in listings() if "/" not in listing.name]
 NAMES = [*SCENES, "golf/pond", "billiards/bank", "soccer/goal-kick-in-a-gale", "bullet/cannon-ball", "tennis/lob"]
-
-
-@cache
-def run_of(name: str):
-    return sandbox.simulate(sandbox.load(name))
 
 
 def poster_of(name: str, size):

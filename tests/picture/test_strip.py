@@ -1,17 +1,11 @@
 """Film strips."""
 
-from functools import cache
-
 import numpy as np
 import pytest
 
 import sandbox
 from sandbox.picture.strip import FRAMES, film_strip, strip_times
-
-
-@cache
-def run_of(name: str):
-    return sandbox.simulate(sandbox.load(name))
+from tests.scenes.play import run_of
 
 
 def test_between_two_frames_the_ball_goes_equally_far():

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from functools import cache
 from math import dist, hypot
 from types import SimpleNamespace
 
@@ -15,13 +14,9 @@ from sandbox.picture.ball import Look
 from sandbox.picture.painter import Painter
 from sandbox.picture.places import Landscape, Stands, Stripes
 from sandbox.picture.view import View
+from tests.scenes.play import run_of
 
 SIDE = ["golf", "golf/golf-game", "golf/putt", "soccer", "soccer/goal-kick-in-a-gale", "basketball/rattle"]
-
-
-@cache
-def run_of(name: str):
-    return sandbox.simulate(sandbox.load(name))
 
 
 def picture_of(name: str, size=(1280, 720), **others: str) -> View:

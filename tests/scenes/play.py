@@ -3,10 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from functools import cache
 from typing import Any
 
 import sandbox
 from sandbox.engine.run import Run
+
+
+@cache
+def run_of(source: str) -> Run:
+    """The run of a scene or preset as it is: computed once in a process, for all tests that only look at it."""
+    return sandbox.simulate(source)
 
 
 def dotted(changes: Mapping[str, Any]) -> dict[str, Any]:
