@@ -21,6 +21,14 @@ def reason(error: OSError) -> str:
     return (error.strerror or str(error)).lower()
 
 
+def from_here(path: Path) -> str:
+    """A path, relative to the current folder if it is in there."""
+    try:
+        return str(path.resolve().relative_to(Path.cwd()))
+    except (ValueError, OSError):
+        return str(path)
+
+
 def check_file(option: str, path: Path, suffix: str) -> None:
     """Raise RequestError if the file for ``option`` could not be written, before any work is done for it."""
     if path == Path():

@@ -16,15 +16,11 @@ Values are floats in the declared unit; a string may carry a unit of its own (``
 
 from __future__ import annotations
 
-import difflib
-import json
 import math
 import re
-import tomllib
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence, Sized
 from dataclasses import dataclass
 from numbers import Real
-from pathlib import Path
 from types import EllipsisType
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeVar, get_args, get_origin
 
@@ -33,9 +29,9 @@ from pydantic.fields import FieldInfo
 
 from sandbox import units
 from sandbox.errors import RequestError
-from sandbox.files import reason
 from sandbox.physics.integrators import INTEGRATORS
-from sandbox.text import shortened
+from sandbox.text import nearest
+from sandbox.toml import shown, toml_value
 
 # ---------------------------------------------------------------------------------------------------------------------
 # Declaring
@@ -188,7 +184,9 @@ def either(default: Group | EllipsisType, meaning: str, by: str = "model") -> An
 class Group(BaseModel):
     """Base of all groups of parameters: frozen, unknown keys refused, defaults checked like any other value."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True, validate_default=True, protected_namespaces=())
+    model_config = ConfigDict(
+        extra="forbid", frozen=True, validate_default=True, protected_namespaces=(), defer_build=True
+    )
 
 
 def _completed(table: Any, default: Group | EllipsisType, tag: str | None) -> Any:
@@ -329,37 +327,6 @@ def every_key(schema: type[Group], prefix: str = "") -> Iterator[str]:
 # ---------------------------------------------------------------------------------------------------------------------
 
 
-def read_toml(path: Path) -> dict[str, Any]:
-    """The nested tables of a TOML file; RequestError says in one line why it cannot be read."""
-    try:
-        text = path.read_bytes().decode("utf-8-sig")
-    except UnicodeDecodeError as error:
-        raise RequestError(f"{path}: not a text file in UTF-8 (byte {error.start})") from None
-    except OSError as error:
-        raise RequestError(f"{path}: cannot be read: {reason(error)}") from None
-    try:
-        return tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
-        raise RequestError(f"{path}: broken TOML: {error}{_toml_hint(text, str(error))}") from None
-    except (ValueError, RecursionError) as error:
-        raise RequestError(f"{path}: cannot be read as TOML: {error}") from None
-
-
-def _toml_hint(text: str, error: str) -> str:
-    """What is probably wrong in the line that a TOML error names: missing quotes, as the end of a sentence; "" if it is
-    something else."""
-    number = re.search(r"at line (\d+)", error)
-    lines = text.splitlines()
-    if number is None or not 1 <= int(number[1]) <= len(lines):
-        return ""
-    line = lines[int(number[1]) - 1]
-    bare = re.search(rf"({units.NUMBER})\s*([A-Za-z°%][\w/^²%.]*)\s*(?=[,\]#]|$)", line)
-    if bare is not None and units.suggestion(bare[2]):
-        return f'; a value with a unit goes in quotes: "{bare[1]} {units.suggestion(bare[2])}"'
-    word = re.fullmatch(r"\s*[\w.-]+\s*=\s*([A-Za-z][\w/-]*)\s*(#.*)?", line)
-    return f'; a word goes in quotes: "{word[1]}"' if word is not None else ""
-
-
 def parse_assignment(text: str) -> tuple[str, Any]:
     """``key.path=value`` as a dotted key and a value, read as TOML, or as a string if it is not valid TOML."""
     key, equals, value = text.partition("=")
@@ -367,15 +334,6 @@ def parse_assignment(text: str) -> tuple[str, Any]:
     if not equals or not all(part.strip() for part in key.split(".")):
         raise RequestError(f'--set {text}: write it as key.path=value, for example --set launch.speed="171 mph"')
     return key, toml_value(value)
-
-
-def toml_value(text: str) -> Any:
-    """A TOML value, or else the text as a string."""
-    try:
-        parsed = tomllib.loads(f"value = {text}")
-    except (ValueError, RecursionError):
-        return text
-    return parsed["value"] if len(parsed) == 1 else text
 
 
 def nested(dotted: Mapping[str, Any]) -> dict[str, Any]:
@@ -512,23 +470,6 @@ def _without_leftovers(schema: type[Group], tables: dict[str, Any], changes: Map
 # ---------------------------------------------------------------------------------------------------------------------
 
 
-def nearest(word: str, known: Sequence[str]) -> str | None:
-    """The known dotted key most similar to ``word``: in the same group, or by its last part anywhere; or None."""
-    inside, _, last = word.rpartition(".")
-    anywhere = {key.rpartition(".")[2]: key for key in reversed(known)}
-    siblings = {key.rpartition(".")[2]: key for key in known if key.rpartition(".")[0] == inside}
-    for among, cutoff in ((siblings, 0.6), (anywhere, 0.75)):
-        for found in difflib.get_close_matches(last, among, n=1, cutoff=cutoff):
-            return among[found]
-    return None
-
-
-def no_such_result(name: str, known: Sequence[str]) -> str:
-    """The end of a message about an entry that a result does not have."""
-    near = nearest(name, known)
-    return "no such result; " + (f"did you mean {near}?" if near else f"the results are {', '.join(known)}")
-
-
 def _explained(
     schema: type[Group],
     error: Any,
@@ -599,7 +540,7 @@ def _words_for(key: str, schema: type[Group]) -> Iterator[str]:
         tag = field.discriminator
         for g in groups_of(field.annotation):
             if isinstance(tag, str) and last in g.model_fields:
-                yield f"{tag} = {json.dumps(get_args(g.model_fields[tag].annotation)[0])}"
+                yield f"{tag} = {shown(get_args(g.model_fields[tag].annotation)[0])}"
 
 
 def _problem(error: Any) -> str:
@@ -621,13 +562,3 @@ def _problem(error: Any) -> str:
             return "must be a group of keys, not a single value"
         case _:
             return error["msg"][:1].lower() + error["msg"][1:]
-
-
-def shown(value: Any) -> str:
-    """A value as a TOML file would write it, shortened."""
-    try:
-        text = json.dumps(value, ensure_ascii=False, default=str)
-    except (ValueError, RecursionError):
-        text = str(type(value).__name__)
-    text = {"NaN": "nan", "Infinity": "inf", "-Infinity": "-inf"}.get(text, text)
-    return shortened(text, 60)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import shlex
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import lru_cache
 from typing import Any
 
@@ -35,6 +35,25 @@ def one_line(text: str) -> str:
 def shortened(text: str, most: int = 80) -> str:
     """The text cut to at most ``most`` characters, for a message."""
     return text if len(text) <= most else text[: most - 3] + "..."
+
+
+def nearest(word: str, known: Sequence[str]) -> str | None:
+    """The known dotted key most similar to ``word``: in the same group, or by its last part anywhere; or None."""
+    import difflib
+
+    inside, _, last = word.rpartition(".")
+    anywhere = {key.rpartition(".")[2]: key for key in reversed(known)}
+    siblings = {key.rpartition(".")[2]: key for key in known if key.rpartition(".")[0] == inside}
+    for among, cutoff in ((siblings, 0.6), (anywhere, 0.75)):
+        for found in difflib.get_close_matches(last, among, n=1, cutoff=cutoff):
+            return among[found]
+    return None
+
+
+def no_such_result(name: str, known: Sequence[str]) -> str:
+    """The end of a message about an entry that a result does not have."""
+    near = nearest(name, known)
+    return "no such result; " + (f"did you mean {near}?" if near else f"the results are {', '.join(known)}")
 
 
 @lru_cache(maxsize=1024)  # a sweep has the same words in all rows

@@ -24,6 +24,7 @@ FLOORS = {
     "resources": 3,
     "parameters": 3,
     "schema": 3,
+    "toml": 3,
     "sport": 3,
     "scene": 3,
     "picture": 4,

@@ -28,7 +28,6 @@ from sandbox.parameters import (
     nested,
     parse_assignment,
     quantity,
-    read_toml,
     switch,
     validate,
     vector,
@@ -36,6 +35,7 @@ from sandbox.parameters import (
     walk,
 )
 from sandbox.schema import json_schema
+from sandbox.toml import read_toml
 
 
 class Launch(Group):

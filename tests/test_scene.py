@@ -16,9 +16,10 @@ import pytest
 import sandbox
 from sandbox import resources
 from sandbox.errors import RequestError
-from sandbox.parameters import Group, read_toml, walk
+from sandbox.parameters import Group, walk
 from sandbox.scene import listings, reference
 from sandbox.scene.finding import folder_of, is_installed
+from sandbox.toml import read_toml
 from tests.own_scene import DROP, change
 
 SCENES = resources.folder("scenes")

@@ -20,6 +20,7 @@ def main(args: list[str] | None = None) -> int:
     interrupts = Interrupts()
     gc.set_threshold(100_000)  # to look for cycles after each 700 new objects would take a tenth of a start or a sweep
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # numpy's threads take longer to start than they could save
+    os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")  # to look for them reads every installed package
     try:
         if args is None:
             interrupts.begin()

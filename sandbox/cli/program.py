@@ -4,19 +4,38 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Sequence
+from importlib import import_module
 from io import TextIOWrapper
 from itertools import pairwise
 
 import click
 
 import sandbox
-from sandbox.cli import lab, run, scenes
 from sandbox.cli.interrupts import is_interrupt
 from sandbox.errors import SandboxError, Stopped
 from sandbox.text import printable
 
+#: The commands of each module, which is imported when one of them is needed.
+COMMANDS = {
+    "scenes": ("list", "schema", "new", "play"),
+    "run": ("run",),
+    "lab": ("aim", "sweep", "trade", "stress", "validate"),
+}
 
-@click.group(context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110})
+
+class Commands(click.Group):
+    """The commands of those modules."""
+
+    def list_commands(self, context: click.Context) -> list[str]:
+        return sorted(name for names in COMMANDS.values() for name in names)
+
+    def get_command(self, context: click.Context, name: str) -> click.Command | None:
+        modules = [import_module(f"sandbox.cli.{module}") for module, names in COMMANDS.items() if name in names]
+        every = [each for module in modules for each in vars(module).values() if isinstance(each, click.Command)]
+        return next((command for command in every if command.name == name), None)
+
+
+@click.group(cls=Commands, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110})
 @click.version_option(sandbox.__version__, message="sandbox %(version)s")
 def app() -> None:
     """A 2D sports sandbox: pick a sport, let go, and see real physics.
@@ -27,13 +46,6 @@ def app() -> None:
       sandbox run golf                              # one shot, and its numbers
       sandbox run golf --set launch.speed="150 mph" --poster golf.png
     """
-
-
-for command in (
-    *(scenes.list_scenes, scenes.schema, scenes.new, scenes.play),
-    *(run.run, lab.aim, lab.sweep, lab.trade, lab.stress, lab.validate),
-):
-    app.add_command(command)
 
 
 def call(args: Sequence[str] | None) -> int:

@@ -10,8 +10,9 @@ import numpy as np
 
 from sandbox import parameters as declared
 from sandbox.errors import RequestError
-from sandbox.parameters import Group, Quantity, SceneParameters, path_of, toml_value
+from sandbox.parameters import Group, Quantity, SceneParameters, path_of
 from sandbox.scene import Scene
+from sandbox.toml import toml_value
 
 #: Most values along one axis, and most points of a sweep: more is taken as a mistake in the request.
 MOST_VALUES, MOST_POINTS = 1_000_000, 100_000_000

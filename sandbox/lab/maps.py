@@ -11,7 +11,6 @@ from typing import Any
 
 import numpy as np
 
-from sandbox import parameters as declared
 from sandbox.errors import RequestError
 from sandbox.lab.axes import Axis, Values, at, label, result_label
 from sandbox.lab.chart import PLATE, chart, check_chart, legend
@@ -19,6 +18,7 @@ from sandbox.lab.plan import Plan
 from sandbox.lab.row_file import cell, rows
 from sandbox.parameters import path_of
 from sandbox.sport.amounts import significant
+from sandbox.text import no_such_result
 
 #: Most words in a legend; rarer ones are grouped.
 _MOST_WORDS, _OTHERS = 8, "others"
@@ -69,7 +69,7 @@ def check_plot(plan: Plan, path: Path, of: str | None) -> None:
     if any(len(axis.values) < 2 for axis in plan.axes if isinstance(axis, Values)):
         raise RequestError("--plot needs two values or more along each parameter")
     if of is not None and of not in plan.columns:
-        raise RequestError(f"--of {of}: {declared.no_such_result(of, plan.columns[:-1])}")
+        raise RequestError(f"--of {of}: {no_such_result(of, plan.columns[:-1])}")
 
 
 def draw_sweep(plan: Plan, file: Path, path: Path, of: str | None = None) -> None:

@@ -1,33 +1,29 @@
 """Scenes: what they are, how they are found and run, and how accurate their results are."""
 
-from sandbox.scene.checking import Check, check, compare
-from sandbox.scene.finding import (
-    Listing,
-    as_scene,
-    listings,
-    listings_in,
-    listings_of,
-    load,
-    parameters_of,
-    reference,
-    scene_files_in,
-)
-from sandbox.scene.running import simulate
-from sandbox.scene.scene import Scene
+from __future__ import annotations
 
-__all__ = [
-    "Check",
-    "Listing",
-    "Scene",
-    "as_scene",
-    "check",
-    "compare",
-    "listings",
-    "listings_in",
-    "listings_of",
-    "load",
-    "parameters_of",
-    "reference",
-    "scene_files_in",
-    "simulate",
-]
+from importlib import import_module
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from typing import Any
+
+    from sandbox.scene.checking import Check, check, compare
+    from sandbox.scene.finding import Listing, listings, listings_in, listings_of, reference, scene_files_in
+    from sandbox.scene.running import simulate
+    from sandbox.scene.scene import Scene, as_scene, load, parameters_of
+
+#: The names of each module, which is imported on first use: to list scenes takes none of what it takes to run one.
+_MODULES = {
+    "checking": ("Check", "check", "compare"),
+    "finding": ("Listing", "listings", "listings_in", "listings_of", "reference", "scene_files_in"),
+    "running": ("simulate",),
+    "scene": ("Scene", "as_scene", "load", "parameters_of"),
+}
+
+
+def __getattr__(name: str) -> Any:
+    for module, names in _MODULES.items():
+        if name in names:
+            return getattr(import_module(f"sandbox.scene.{module}"), name)
+    raise AttributeError(f"module 'sandbox.scene' has no attribute {name!r}")

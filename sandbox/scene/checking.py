@@ -9,9 +9,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from sandbox.errors import RunError
-from sandbox.scene.finding import as_scene
 from sandbox.scene.running import Progress, simulate, simulate_at
-from sandbox.scene.scene import Scene
+from sandbox.scene.scene import Scene, as_scene
 
 if TYPE_CHECKING:
     from sandbox.engine.run import Run

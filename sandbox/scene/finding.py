@@ -8,19 +8,21 @@ one; on the command line, or as ``scene = "./volleyball"`` in a scene file, rela
 
 from __future__ import annotations
 
+import ast
 import importlib.util
 import os
-from collections.abc import Iterator, Mapping, Sequence
+import tokenize
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from itertools import takewhile
 from pathlib import Path
 from typing import Any
 
-from sandbox import parameters as declared
 from sandbox import resources
 from sandbox.errors import RequestError
-from sandbox.files import reason
-from sandbox.scene.scene import Scene, docstring, first_comment, parameters_class, shown
-from sandbox.text import shortened
+from sandbox.files import from_here, reason
+from sandbox.text import nearest, shortened
+from sandbox.toml import read_toml, shown
 
 ENTRY_POINTS = "sandbox.scenes"
 
@@ -38,63 +40,10 @@ class Found:
     preset: str | None = None  # which preset the last file is
 
 
-def load(source: str | Path, overrides: Mapping[str, Any] | None = None, *, overrides_from: str = "override") -> Scene:
-    """The scene named by ``source``, with ``overrides`` of its scene file, by keys such as ``"air.wind"``, or
-    ``"air.wind[0]"`` for one entry of a list.
-
-    ``source`` is a scene (``"golf"``), a preset (``"golf/driver"``), or a path to a scene file or a scene's folder.
-    Raises RequestError if it is not found, not readable or invalid; ``overrides_from`` names the overrides in messages.
-    """
-    if not isinstance(overrides, Mapping | None):
-        raise RequestError(
-            f'overrides = {shortened(repr(overrides))}: must be a dictionary such as {{"air.wind": [5, 0]}}'
-        )
-    found = _find(source)
-    parameters = _parameters(found, overrides, overrides_from)
-    file = found.files[-1][0] if found.files else found.folder
-    note = "" if file.resolve().is_relative_to(found.folder) else first_comment(file)
-    return Scene(found.name, found.preset, parameters, found.folder, note)
-
-
-def as_scene(scene: Scene | str | Path) -> Scene:
-    """The scene itself, or the one that is named."""
-    return scene if isinstance(scene, Scene) else load(scene)
-
-
-def _parameters(
-    found: Found, overrides: Mapping[str, Any] | None = None, overrides_from: str = ""
-) -> declared.SceneParameters:
-    """The parameters in the scene's own file and in the files that were found, each over the ones before. Raises
-    RequestError, which names the first file that is invalid."""
-    schema, own, files = parameters_class(found.folder), _default_file(found.folder), list(found.files)
-    if own is not None and own not in (file.resolve() for file, _ in files):
-        files.insert(0, (own, declared.read_toml(own)))
-
-    def first(count: int) -> dict[str, Any]:
-        values: dict[str, Any] = {}
-        for _, layer in files[:count]:
-            values = declared.over(schema, values, {key: value for key, value in layer.items() if key != "scene"})
-        return values
-
-    where = shown(files[-1][0] if files else found.folder)
-    try:
-        return declared.validate(schema, first(len(files)), where, overrides, overrides_from)
-    except RequestError:
-        for count, (file, _) in enumerate(files[:-1], 1):
-            declared.validate(schema, first(count), shown(file))
-        raise
-
-
-def parameters_of(source: str | Path) -> tuple[str, declared.SceneParameters]:
-    """Name and default parameters of the scene that ``source`` names; only the key ``scene`` of a file matters."""
-    found = _find(source)
-    return found.name, _parameters(Found(found.name, found.folder))
-
-
 def folder_of(source: str | Path) -> Path | None:
     """The folder of the scene that ``source`` names, without importing anything from it; None if there is none."""
     try:
-        return _find(source).folder
+        return find(source).folder
     except RequestError:
         return None
 
@@ -146,7 +95,7 @@ def scene_files_in(place: Path) -> Iterator[Listing]:
     """The scene files in ``place``: TOML files that name their scene."""
     for file in sorted(place.glob("*.toml")):
         try:
-            if file.is_file() and file.stat().st_size <= LARGEST_FILE and "scene" in declared.read_toml(file):
+            if file.is_file() and file.stat().st_size <= LARGEST_FILE and "scene" in read_toml(file):
                 yield Listing(file.name, first_comment(file))
         except (OSError, RequestError):
             continue  # it could not be run
@@ -154,7 +103,7 @@ def scene_files_in(place: Path) -> Iterator[Listing]:
 
 def listings_of(source: str) -> list[Listing]:
     """The scene that ``source`` names, followed by its presets."""
-    found = _find(source)
+    found = find(source)
     is_known = installed_folder(found.name) == found.folder
     return list(_listed(found.name if is_known else _as_path(found.folder), found.folder))
 
@@ -165,7 +114,7 @@ def _listed(name: str, folder: Path) -> Iterator[Listing]:
         yield Listing(f"{name}/{preset.stem}", first_comment(preset))
 
 
-def _find(source: str | Path) -> Found:
+def find(source: str | Path) -> Found:
     """The scene that is meant, and the scene file to read."""
     if not isinstance(source, str | Path):
         raise RequestError(f"{shortened(repr(source))} is not a scene: give its name as text, or the path of its file")
@@ -213,7 +162,7 @@ def _at(path: Path) -> Found:
 
 def _in_folder(name: str, path: Path, preset: str = "") -> Found:
     """The scene of that name in a folder, or a preset of it."""
-    folder, file = path.resolve(), _preset(name, path, preset) if preset else _default_file(path)
+    folder, file = path.resolve(), _preset(name, path, preset) if preset else default_file(path)
     return Found(name, folder, [] if file is None else _files(file, name, folder), preset or None)
 
 
@@ -222,7 +171,7 @@ def _is_word(name: str) -> bool:
 
 
 def _unknown(name: str) -> str:
-    near = declared.nearest(name, [listing.name for listing in listings()])
+    near = nearest(name, [listing.name for listing in listings()])
     return f"unknown scene {shortened(name)}; " + (f"did you mean {near}?" if near else "sandbox list shows them all")
 
 
@@ -249,7 +198,7 @@ def _named_folders() -> dict[str, Path]:
     return _offered() | {path.parent.name: path.parent for path in resources.folder("scenes").glob("*/scene.py")}
 
 
-def _default_file(folder: Path) -> Path | None:
+def default_file(folder: Path) -> Path | None:
     file = folder / f"{folder.resolve().name}.toml"
     return file if file.is_file() else None
 
@@ -263,7 +212,7 @@ def _preset(name: str, folder: Path, preset: str, where: str = "") -> Path:
     if file.is_file():
         return file
     known = [path.stem for path in _presets(folder)]
-    near = declared.nearest(preset, known)
+    near = nearest(preset, known)
     presets = f"it has {', '.join(known) or 'none'}" if len(known) <= 6 else f"sandbox list shows its {len(known)}"
     hint = f"did you mean {name}/{near}?" if near else presets
     raise RequestError(f"{where}{name} has no preset {preset}; {hint}")
@@ -271,7 +220,7 @@ def _preset(name: str, folder: Path, preset: str, where: str = "") -> Path:
 
 def _of_file(path: Path) -> Found:
     """The scene that a scene file is for."""
-    values = declared.read_toml(path)
+    values = read_toml(path)
     if "scene" not in values:
         raise RequestError(f'{path}: needs a line that names its scene, such as scene = "golf"{_own_folder(path)}')
     name, folder, _ = _meant(path, values["scene"])
@@ -281,16 +230,16 @@ def _of_file(path: Path) -> Found:
 
 def _files(file: Path, name: str, folder: Path, after: Sequence[Path] = ()) -> list[tuple[Path, dict[str, Any]]]:
     """A file for the scene in a folder, with what is written in it, after those of the preset that it begins from."""
-    values = declared.read_toml(file)
+    values = read_toml(file)
     written = values.get("scene", name)
     _, meant, preset = _meant(file, written, (name, folder))
     if meant != folder:
-        raise RequestError(f"{shown(file)}: scene = {declared.shown(written)}, but a file in this folder is for {name}")
+        raise RequestError(f"{from_here(file)}: scene = {shown(written)}, but a file in this folder is for {name}")
     if not preset:
         return [(file, values)]
     base = _preset(name, folder, preset, f"{file}: ")
     if base in (*after, file.resolve()):
-        raise RequestError(f"{shown(file)}: scene = {declared.shown(written)}: begins from itself")
+        raise RequestError(f"{from_here(file)}: scene = {shown(written)}: begins from itself")
     return [*_files(base, name, folder, (*after, file.resolve())), (file, values)]
 
 
@@ -301,12 +250,12 @@ def _meant(file: Path, written: Any, own: tuple[str, Path] = ("", Path())) -> tu
         place = file.parent / written
         folder, preset = (place, "") if (place / "scene.py").is_file() else (place.parent, place.name)
         if not (folder / "scene.py").is_file():
-            raise RequestError(f"{file}: scene = {declared.shown(written)}: there is no scene.py in that folder")
+            raise RequestError(f"{file}: scene = {shown(written)}: there is no scene.py in that folder")
         return folder.resolve().name, folder.resolve(), preset
     name, slash, preset = written.partition("/") if isinstance(written, str) else ("", "", "")
     if not _is_word(name) or (slash and not _is_word(preset)):
         raise RequestError(
-            f'{file}: scene = {declared.shown(written)}: must be the name of a scene or preset, such as "golf" or '
+            f'{file}: scene = {shown(written)}: must be the name of a scene or preset, such as "golf" or '
             '"golf/moon", or the path of a scene of your own, such as "./volleyball"'
         )
     if name == own[0]:
@@ -323,7 +272,7 @@ def _meant(file: Path, written: Any, own: tuple[str, Path] = ("", Path())) -> tu
 
 def _as_path(folder: Path) -> str:
     """How a user may write the path of a folder, so that it is not taken for a name."""
-    path = shown(folder)
+    path = from_here(folder)
     return path if Path(path).is_absolute() or path == "." else f"./{path}"
 
 
@@ -335,3 +284,27 @@ def _own_folder(path: Path) -> str:
         return ""
     name = f"{_as_path(folder)}/{path.stem}" if parent.name == "presets" else _as_path(folder)
     return f"; a file alone does not run the scene.py of its folder: ask for {name}"
+
+
+def docstring(file: Path) -> str:
+    """The first line of a module's docstring. The module is neither imported nor parsed, since it may be untrusted."""
+    passed = (tokenize.ENCODING, tokenize.COMMENT, tokenize.NL)
+    try:
+        if not file.is_file():  # reading a pipe would wait for ever
+            return ""
+        with file.open("rb") as source:
+            first = next((token for token in tokenize.tokenize(source.readline) if token.type not in passed), None)
+        text = ast.literal_eval(first.string) if first is not None and first.type == tokenize.STRING else ""
+    except (SyntaxError, ValueError, OSError, RecursionError, tokenize.TokenError):
+        return ""
+    return text.strip().partition("\n")[0] if isinstance(text, str) else ""
+
+
+def first_comment(file: Path) -> str:
+    """The first comment for people in a scene file, before all keys."""
+    try:
+        lines = file.read_text(encoding="utf-8").splitlines() if file.is_file() else []
+    except (UnicodeDecodeError, OSError):
+        return ""
+    head = takewhile(lambda line: not line.strip() or line.startswith("#"), lines)
+    return next((line.lstrip("# ").rstrip() for line in head if line.startswith("# ")), "")

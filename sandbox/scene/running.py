@@ -6,8 +6,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from sandbox.scene.finding import as_scene
-from sandbox.scene.scene import Scene
+from sandbox.scene.scene import Scene, as_scene
 
 if TYPE_CHECKING:
     from sandbox.engine.accuracy import Accuracy

@@ -6,14 +6,11 @@ and ``CONTROLS``; a scene file ``<name>.toml``; presets in ``presets/*.toml``; a
 
 from __future__ import annotations
 
-import ast
 import importlib
 import inspect
 import os
-import tokenize
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from itertools import takewhile
 from math import isfinite
 from pathlib import Path
 from types import ModuleType
@@ -21,10 +18,13 @@ from typing import TYPE_CHECKING, Any
 
 from sandbox import parameters as declared
 from sandbox.errors import RequestError, RunError, no_exit
+from sandbox.files import from_here
+from sandbox.scene.finding import Found, default_file, docstring, find, first_comment
 from sandbox.scene.modules import module_in
 from sandbox.sport.controls import Controls
 from sandbox.sport.facts import ENDED, FALLBACK_FACTS, Fact, Settled, fallback_verdict, mistake_in
 from sandbox.text import shortened
+from sandbox.toml import read_toml
 
 if TYPE_CHECKING:
     from sandbox.engine.run import Run
@@ -183,7 +183,7 @@ class Scene:
 
     def _wrong(self, function: str, expected: str, value: Any) -> RunError:
         """A scene's function returned something else, often because of a missing return."""
-        file = shown(self.folder / "scene.py")
+        file = from_here(self.folder / "scene.py")
         return RunError(f"{file}: {function} must return {expected}, but returned {shortened(repr(value))}")
 
     def _repr_html_(self) -> str:
@@ -238,6 +238,59 @@ def parameters_class(folder: Path) -> type[declared.SceneParameters]:
     raise RequestError(f"{file}: {wrong}")
 
 
+def load(source: str | Path, overrides: Mapping[str, Any] | None = None, *, overrides_from: str = "override") -> Scene:
+    """The scene named by ``source``, with ``overrides`` of its scene file, by keys such as ``"air.wind"``, or
+    ``"air.wind[0]"`` for one entry of a list.
+
+    ``source`` is a scene (``"golf"``), a preset (``"golf/driver"``), or a path to a scene file or a scene's folder.
+    Raises RequestError if it is not found, not readable or invalid; ``overrides_from`` names the overrides in messages.
+    """
+    if not isinstance(overrides, Mapping | None):
+        raise RequestError(
+            f'overrides = {shortened(repr(overrides))}: must be a dictionary such as {{"air.wind": [5, 0]}}'
+        )
+    found = find(source)
+    parameters = _parameters(found, overrides, overrides_from)
+    file = found.files[-1][0] if found.files else found.folder
+    note = "" if file.resolve().is_relative_to(found.folder) else first_comment(file)
+    return Scene(found.name, found.preset, parameters, found.folder, note)
+
+
+def as_scene(scene: Scene | str | Path) -> Scene:
+    """The scene itself, or the one that is named."""
+    return scene if isinstance(scene, Scene) else load(scene)
+
+
+def _parameters(
+    found: Found, overrides: Mapping[str, Any] | None = None, overrides_from: str = ""
+) -> declared.SceneParameters:
+    """The parameters in the scene's own file and in the files that were found, each over the ones before. Raises
+    RequestError, which names the first file that is invalid."""
+    schema, own, files = parameters_class(found.folder), default_file(found.folder), list(found.files)
+    if own is not None and own not in (file.resolve() for file, _ in files):
+        files.insert(0, (own, read_toml(own)))
+
+    def first(count: int) -> dict[str, Any]:
+        values: dict[str, Any] = {}
+        for _, layer in files[:count]:
+            values = declared.over(schema, values, {key: value for key, value in layer.items() if key != "scene"})
+        return values
+
+    where = from_here(files[-1][0] if files else found.folder)
+    try:
+        return declared.validate(schema, first(len(files)), where, overrides, overrides_from)
+    except RequestError:
+        for count, (file, _) in enumerate(files[:-1], 1):
+            declared.validate(schema, first(count), from_here(file))
+        raise
+
+
+def parameters_of(source: str | Path) -> tuple[str, declared.SceneParameters]:
+    """Name and default parameters of the scene that ``source`` names; only the key ``scene`` of a file matters."""
+    found = find(source)
+    return found.name, _parameters(Found(found.name, found.folder))
+
+
 def _check_calls(file: Path, name: str, function: Any) -> None:
     """Raise RequestError unless the function can be called the way the sandbox calls it."""
     for arguments in CALLS[name]:
@@ -248,35 +301,3 @@ def _check_calls(file: Path, name: str, function: Any) -> None:
             inspect.signature(function).bind(*arguments)
         except TypeError as error:
             raise RequestError(f"{file}: {name} is called as {call}: {error}") from None
-
-
-def docstring(file: Path) -> str:
-    """The first line of a module's docstring. The module is neither imported nor parsed, since it may be untrusted."""
-    passed = (tokenize.ENCODING, tokenize.COMMENT, tokenize.NL)
-    try:
-        if not file.is_file():  # reading a pipe would wait for ever
-            return ""
-        with file.open("rb") as source:
-            first = next((token for token in tokenize.tokenize(source.readline) if token.type not in passed), None)
-        text = ast.literal_eval(first.string) if first is not None and first.type == tokenize.STRING else ""
-    except (SyntaxError, ValueError, OSError, RecursionError, tokenize.TokenError):
-        return ""
-    return inspect.cleandoc(text).partition("\n")[0] if isinstance(text, str) else ""
-
-
-def first_comment(file: Path) -> str:
-    """The first comment for people in a scene file, before all keys."""
-    try:
-        lines = file.read_text(encoding="utf-8").splitlines() if file.is_file() else []
-    except (UnicodeDecodeError, OSError):
-        return ""
-    head = takewhile(lambda line: not line.strip() or line.startswith("#"), lines)
-    return next((line.lstrip("# ").rstrip() for line in head if line.startswith("# ")), "")
-
-
-def shown(path: Path) -> str:
-    """A path, relative to the current folder if it is in there."""
-    try:
-        return str(path.resolve().relative_to(Path.cwd()))
-    except (ValueError, OSError):
-        return str(path)

@@ -73,7 +73,6 @@ class Model(Group):
         if cls.LAWS:
             words: Any = Literal[tuple(cls.LAWS)]
             cls.model_fields["model"].annotation = words
-            cls.model_rebuild(force=True)
 
     def coefficient_in(self, air: Air, radius: float) -> Coefficient | None:
         """The coefficient by Reynolds number and spin ratio, of a ball of that radius (m); None for no force."""

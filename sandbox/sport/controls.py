@@ -11,7 +11,8 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from sandbox.parameters import Group, every_key, nearest, no_such_result
+from sandbox.parameters import Group, every_key
+from sandbox.text import nearest, no_such_result
 
 
 @dataclass(frozen=True)

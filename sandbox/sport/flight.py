@@ -77,7 +77,6 @@ class Sphere(Group):
                 own = laws if isinstance(laws, type) else model_of(cls.__name__ + name.capitalize(), laws, base)
                 kinds: Any = own | cls.model_fields[name].annotation
                 cls.model_fields[name].annotation = kinds
-                cls.model_rebuild(force=True)
 
     @property
     def inertia_factor(self) -> float:

@@ -26,7 +26,8 @@ from pydantic import create_model
 
 from sandbox.engine.setup import Catch, Segment, Surface
 from sandbox.errors import RequestError
-from sandbox.parameters import Group, choice, quantity, read_toml, switch
+from sandbox.parameters import Group, choice, quantity, switch
+from sandbox.toml import read_toml
 
 
 class Table(Group):

@@ -9,13 +9,13 @@ from typing import Any
 
 import numpy as np
 
-from sandbox import parameters as declared
 from sandbox.engine.run import Run
 from sandbox.errors import RequestError, RunError
 from sandbox.lab.aim.question import GREATEST, Target, Try
 from sandbox.lab.axes import Span
 from sandbox.lab.runs import runs
 from sandbox.scene import Scene, compare
+from sandbox.text import no_such_result
 from sandbox.tracebacks import one_line_error
 
 #: Points of the scan of one parameter.
@@ -47,7 +47,7 @@ class Shots:
         self._names = [target.name for target in targets]
         for target in targets:
             if target.name not in scene.facts:
-                why = declared.no_such_result(target.name, tuple(scene.facts))
+                why = no_such_result(target.name, tuple(scene.facts))
                 raise RequestError(f"{_option(target)} {target.name}: {why}")
             names = scene.build().names if scene.facts[target.name].names else [target.value]
             if isinstance(target.value, str) and target.value not in names:

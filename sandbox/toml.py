@@ -1,0 +1,64 @@
+"""TOML: files that are read, and single values as a file would write them."""
+
+from __future__ import annotations
+
+import json
+import re
+import tomllib
+from pathlib import Path
+from typing import Any
+
+from sandbox import units
+from sandbox.errors import RequestError
+from sandbox.files import reason
+from sandbox.text import shortened
+
+
+def read_toml(path: Path) -> dict[str, Any]:
+    """The nested tables of a TOML file; RequestError says in one line why it cannot be read."""
+    try:
+        text = path.read_bytes().decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise RequestError(f"{path}: not a text file in UTF-8 (byte {error.start})") from None
+    except OSError as error:
+        raise RequestError(f"{path}: cannot be read: {reason(error)}") from None
+    try:
+        return tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        raise RequestError(f"{path}: broken TOML: {error}{_toml_hint(text, str(error))}") from None
+    except (ValueError, RecursionError) as error:
+        raise RequestError(f"{path}: cannot be read as TOML: {error}") from None
+
+
+def _toml_hint(text: str, error: str) -> str:
+    """What is probably wrong in the line that a TOML error names: missing quotes, as the end of a sentence; "" if it is
+    something else."""
+    number = re.search(r"at line (\d+)", error)
+    lines = text.splitlines()
+    if number is None or not 1 <= int(number[1]) <= len(lines):
+        return ""
+    line = lines[int(number[1]) - 1]
+    bare = re.search(rf"({units.NUMBER})\s*([A-Za-z°%][\w/^²%.]*)\s*(?=[,\]#]|$)", line)
+    if bare is not None and units.suggestion(bare[2]):
+        return f'; a value with a unit goes in quotes: "{bare[1]} {units.suggestion(bare[2])}"'
+    word = re.fullmatch(r"\s*[\w.-]+\s*=\s*([A-Za-z][\w/-]*)\s*(#.*)?", line)
+    return f'; a word goes in quotes: "{word[1]}"' if word is not None else ""
+
+
+def toml_value(text: str) -> Any:
+    """A TOML value, or else the text as a string."""
+    try:
+        parsed = tomllib.loads(f"value = {text}")
+    except (ValueError, RecursionError):
+        return text
+    return parsed["value"] if len(parsed) == 1 else text
+
+
+def shown(value: Any) -> str:
+    """A value as a TOML file would write it, shortened."""
+    try:
+        text = json.dumps(value, ensure_ascii=False, default=str)
+    except (ValueError, RecursionError):
+        text = str(type(value).__name__)
+    text = {"NaN": "nan", "Infinity": "inf", "-Infinity": "-inf"}.get(text, text)
+    return shortened(text, 60)
