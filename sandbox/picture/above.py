@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 from functools import cached_property
+from math import inf
 from typing import ClassVar
 
 import numpy as np
@@ -12,7 +12,7 @@ import pygame
 
 from sandbox.picture.ball import Flat
 from sandbox.picture.camera import Area, Camera
-from sandbox.picture.chase import Follow, sampled
+from sandbox.picture.chase import Chase
 from sandbox.picture.painter import Painter, Point
 from sandbox.picture.palette import Colour, palette
 from sandbox.picture.places.plan import BREADTH, Person, Plan, draw_moving, drawn, dusk, enlarged
@@ -64,25 +64,16 @@ class AboveView(View[P]):
         return Camera((float(x), float(y)), area.middle, float(scale))
 
     @cached_property
-    def follow(self) -> Follow | None:
-        """The camera of frames that goes with the ball, near enough to see it; None where it stands still."""
+    def chase(self) -> Chase:
+        """Goes with the ball, near enough to see it."""
         home, width, area = self.camera, self.size[0], self.area
-        if self.NEAREST is None:
-            return None
-        scale = max(home.scale, width / self.NEAREST)
-        moments, states, settle = sampled(self.run, self.ball, width / scale)
-        reach = MIDDLE / 2 * np.array([width, area.bottom - area.top]) / scale
-        at = np.clip(home.at, states[:, :2] - reach, states[:, :2] + reach)
-        anchor = float(round(area.middle[0])), float(round(area.middle[1]))
-        return Follow(moments, at, np.full(len(moments), scale), anchor, settle)
+        x, y = (float(round(middle)) for middle in area.middle)
+        aside, up = MIDDLE / 2 * width, MIDDLE / 2 * (area.bottom - area.top)
+        near = Camera(home.at, (x, y), max(home.scale, width / (self.NEAREST or inf)))
+        return Chase(self.run, self.ball, near, Area(x - aside, y - up, x + aside, y + up))
 
     def view(self, t: float) -> Camera:
-        """The camera of ``frame(t)``, on whole px."""
-        if self.follow is None:
-            return self.camera
-        camera = self.follow.camera(t)
-        x, y = (round(place * camera.scale) / camera.scale for place in camera.at)
-        return replace(camera, at=(x, y))
+        return self.camera if self.NEAREST is None else self.chase.camera(t)
 
     def backdrop(self, painter: Painter, camera: Camera) -> None:
         """The place, darker to the edges."""

@@ -8,15 +8,15 @@ import struct
 import sys
 import zlib
 from collections import deque
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from itertools import chain, pairwise
 from pathlib import Path
-from typing import Protocol, TypeVar
+from typing import Protocol
 
 import numpy as np
 import pygame
-from PIL import GifImagePlugin, Image, ImageChops
+from PIL import GifImagePlugin, Image
 
 from sandbox.engine.run import Run
 from sandbox.errors import RequestError, RunError
@@ -52,11 +52,6 @@ OURS = b"Software\0sports sandbox, one of the frames of a run"
 FRAMES = "frame_[0-9][0-9][0-9][0-9][0-9].png"
 
 Progress = Callable[[int, int], object]
-T = TypeVar("T")
-R = TypeVar("R")
-
-#: What a picture is drawn on.
-Drawing = pygame.Surface
 
 
 class Picture(Protocol):
@@ -85,14 +80,18 @@ def _surface(call: str, drawn: object) -> pygame.Surface:
 
 def to_image(surface: pygame.Surface) -> Image.Image:
     """The surface as a Pillow image, RGB."""
-    if (
-        surface.get_bytesize() == 4
-        and surface.get_masks()[:3] == (0xFF0000, 0xFF00, 0xFF)
-        and sys.byteorder == "little"
-    ):
+    if (sys.byteorder, surface.get_bitsize(), surface.get_masks()[:3]) == ("little", 32, (0xFF0000, 0xFF00, 0xFF)):
         # The common layout, four times as fast.
         return Image.frombuffer("RGB", surface.get_size(), surface.get_view("0"), "raw", "BGRX", surface.get_pitch(), 1)
     return Image.frombytes("RGB", surface.get_size(), pygame.image.tobytes(surface, "RGB"))
+
+
+def film(picture: Picture, times: Sequence[float], progress: Progress | None) -> Iterator[Image.Image]:
+    """The frames at these times in s, each drawn when it is asked for."""
+    for done, t in enumerate(times, 1):
+        yield to_image(frame_of(picture, t))
+        if progress:
+            progress(done, len(times))
 
 
 def save_png(surface: pygame.Surface, path: Path | str) -> None:
@@ -130,22 +129,22 @@ def save_frames(picture: Picture, run: Run, folder: Path | str, fps: float, prog
     check_frames_folder("--frames", folder)
     folder.mkdir(parents=True, exist_ok=True)
     times = frame_times(run.duration, fps)
-    with folder_of_parts(folder, "frames") as part:
-
-        def keep(item: tuple[int, Image.Image]) -> str:
-            number, image = item
-            name = f"frame_{number:05d}.png"
-            (part / name).write_bytes(quick_png(image))
-            return name
-
-        drawn = ((i, to_image(frame_of(picture, t))) for i, t in enumerate(times))
-        names = list(in_threads(keep, drawn, len(times), progress))
+    names = [f"frame_{number:05d}.png" for number in range(len(times))]
+    with folder_of_parts(folder, "frames") as part, ThreadPoolExecutor() as pool:
+        written: deque[Future[int]] = deque()
+        for name, image in zip(names, film(picture, times, progress), strict=True):
+            # Pillow and zlib do not hold Python up; no more pictures wait than keep all cores at work, fewer if large
+            written.append(pool.submit(lambda file, image: file.write_bytes(quick_png(image)), part / name, image))
+            while len(written) > min(2 * (os.cpu_count() or 1), MOST_PIXELS // (image.width * image.height)):
+                written.popleft().result()
+        for waiting in written:
+            waiting.result()
         for name in names:
             (part / name).replace(folder / name)
     for old in folder.glob(FRAMES):
         if old.name > names[-1]:
             old.unlink()
-    return len(names)
+    return len(times)
 
 
 def check_frames_folder(option: str, folder: Path) -> None:
@@ -174,31 +173,18 @@ def save_gif(picture: Picture, run: Run, path: Path | str, fps: float, progress:
     frame only what differs from the frame before is kept; Pillow alone would hold all frames in memory.
     Raises OSError where it cannot be written.
     """
-    times = frame_times(run.duration, min(fps, FASTEST_GIF))
+    times, before = frame_times(run.duration, min(fps, FASTEST_GIF)), None
     colours = shared_palette(picture, times)
-
-    def encoded(images: tuple[Image.Image | None, ...]) -> tuple[tuple[int, int], bytes]:
-        before, image = images
-        assert image is not None
-        box = (0, 0, *image.size) if before is None else ImageChops.difference(before, image).getbbox() or (0, 0, 1, 1)
-        part = image.crop(box).quantize(palette=colours, dither=Image.Dither.NONE)
-        if before is not None:  # long runs of one colour take no room
-            there = before.crop(box).quantize(palette=colours, dither=Image.Dither.NONE)
-            colour, old = np.asarray(part), np.asarray(there)
-            kept = np.where(colour == old, SEE_THROUGH, colour).astype(np.uint8)
-            part = Image.frombytes("P", part.size, kept.tobytes())
-        return image.size, b"".join(GifImagePlugin.getdata(part, box[:2]))
-
-    images = (to_image(frame_of(picture, t)) for t in times)
-    parts = list(in_threads(encoded, pairwise(chain([None], images)), len(times), progress))
     palette = bytes(colours.getpalette("RGB") or []).ljust(3 * 256, b"\0")
-    head = b"GIF89a" + struct.pack("<HHBBB", *parts[0][0], 0b11110111, 0, 0) + palette  # 256 colours for all frames
+    parts = []
+    for image, stay in zip(film(picture, times, progress), _durations(times, 10), strict=True):
+        shown = np.asarray(image.quantize(palette=colours, dither=Image.Dither.NONE))
+        changed = shown if before is None else np.where(shown == before, SEE_THROUGH, shown).astype(np.uint8)
+        part, before = Image.frombytes("P", image.size, changed.tobytes()), shown
+        parts += GifImagePlugin.getdata(part, duration=stay, transparency=SEE_THROUGH, disposal=1)
+    head = b"GIF89a" + struct.pack("<HHBBB", *image.size, 0b11110111, 0, 0) + palette  # 256 colours for all frames
     repeat = b"!\xff\x0bNETSCAPE2.0\x03\x01" + struct.pack("<H", 0) + b"\0"
-    frames = (  # each stays so long, and what it drew stays where the next one draws nothing
-        b"!\xf9\x04" + struct.pack("<BHBB", 0b101, stay // 10, SEE_THROUGH, 0) + data
-        for (_, data), stay in zip(parts, _durations(times, 10), strict=True)
-    )
-    _write(Path(path), head + repeat + b"".join(frames) + b";")
+    _write(Path(path), head + repeat + b"".join(parts) + b";")
     return len(times)
 
 
@@ -245,22 +231,20 @@ def save_video(picture: Picture, run: Run, path: Path | str, fps: float, progres
     path = Path(os.path.realpath(path))
     with folder_of_parts(path.parent, "video") as folder:
         part = folder / "run.mp4"
-        images = (to_image(frame_of(picture, t)) for t in times)
+        images = film(picture, times, progress)
         first = next(images)
-        film = imageio_ffmpeg.write_frames(
+        encoder = imageio_ffmpeg.write_frames(
             str(part), first.size, fps=fps, macro_block_size=1, codec="libx264", quality=None,
             output_params=VIDEO, ffmpeg_log_level="quiet",
         )  # fmt: skip
         try:
-            film.send(None)
-            for done, image in enumerate(chain([first], images), 1):
-                film.send(image.tobytes())
-                if progress:
-                    progress(done, len(times))
+            encoder.send(None)
+            for image in chain([first], images):
+                encoder.send(image.tobytes())
         except OSError:
             raise OSError("ffmpeg stopped; is the disk full?") from None  # in place of its whole command
         finally:
-            film.close()
+            encoder.close()
         part.replace(path)
     return len(times)
 
@@ -295,35 +279,6 @@ def shared_palette(picture: Picture, times: list[float]) -> Image.Image:
     return Image.fromarray(row[None]).quantize(
         SEE_THROUGH, method=Image.Quantize.MEDIANCUT, kmeans=2, dither=Image.Dither.NONE
     )
-
-
-def in_threads(work: Callable[[T], R], items: Iterator[T], total: int, progress: Progress | None) -> Iterator[R]:
-    """``work`` on each item, on all cores, results in order; Pillow packs and reduces without holding Python up."""
-    workers = os.cpu_count() or 1
-    waiting: deque[Future[R]] = deque()
-    done = 0
-    with ThreadPoolExecutor(workers) as pool:
-        try:
-            for item in chain(items, (None,)):
-                room = 0  # at the end
-                if item is not None:
-                    waiting.append(pool.submit(work, item))
-                    # no more pictures in memory than keep all cores at work, and of large ones fewer
-                    room = min(2 * workers, MOST_PIXELS // _pixels(item))
-                while len(waiting) > room:
-                    yield waiting.popleft().result()
-                    done += 1
-                    if progress:
-                        progress(done, total)
-        finally:
-            for future in waiting:
-                future.cancel()
-
-
-def _pixels(item: object) -> int:
-    """Of the image in an item of work."""
-    parts = item if isinstance(item, tuple) else (item,)
-    return max(1, sum(part.width * part.height for part in parts if isinstance(part, Image.Image)))
 
 
 def _write(path: Path, data: bytes) -> None:

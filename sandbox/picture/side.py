@@ -243,7 +243,9 @@ class SideView(View[P]):
 
     @cached_property
     def chase(self) -> Chase:
-        return Chase(self.run, self.ball, self.home, self.columns, self.rows_at.top, self.ground)
+        low, high = self.columns
+        room = Area(low, self.rows_at.top, high, self.home.anchor[1])
+        return Chase(self.run, self.ball, self.home, room, self.ground)
 
     def view(self, t: float) -> Camera:
         return self.camera if isinf(self.STRETCHES) else self.chase.camera(t)
