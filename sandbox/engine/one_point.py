@@ -142,7 +142,8 @@ class OnePoint(LastingContact):
         return 1.0 if outline.tx * self.touching.ny - outline.ty * self.touching.nx > 0.0 else -1.0
 
     def placed(self, ball: Ball, state: State) -> State:
-        """The state exactly on the side, without speed away from it; without slip if it rolls."""
+        """The state exactly on the side, after the impulse at the point that ends speed away from it, and the slip if
+        it rolls: it leaves the angular momentum about the point, and takes energy, as any impulse that ends motion."""
         x, y, vx, vy, spin, angle = state
         nx, ny = self.touching.nx, self.touching.ny
         along, height, _ = self.arm(ball, state)
@@ -151,9 +152,11 @@ class OnePoint(LastingContact):
         x, y = x - gap * nx, y - gap * ny
         if self.mode == RESTING:
             return x, y, 0.0, 0.0, 0.0, angle
-        leaving = vx * nx + vy * ny + spin * along
-        slip = vx * ny - vy * nx + spin * height if self.mode == ROLLING else 0.0
-        return x, y, vx - leaving * nx - slip * ny, vy - leaving * ny + slip * nx, spin, angle
+        inertia, vn, vt = ball.inertia / ball.mass, vx * nx + vy * ny, vx * ny - vy * nx
+        level = height if self.mode == ROLLING else 0.0
+        spin = (inertia * spin - along * vn - level * vt) / (inertia + along * along + level * level)
+        vn, vt = -along * spin, -height * spin if self.mode == ROLLING else vt
+        return x, y, vn * nx + vt * ny, vn * ny - vt * nx, spin, angle
 
 
 def one_point(
