@@ -321,11 +321,11 @@ class Simulation:
 
         Found by sweeping along x.
         """
-        ranges = []
+        ranges, longest = [], max((arc.t1 - t for arc in stepped.values()), default=0.0)  # at rest, to the run's end
         for index, track in enumerate(self._tracks):
             if not track.caught:
                 arc, radius = track.arc, track.ball.radius
-                left, bottom, right, top = arc.box() if index in stepped else arc.box_within(t, self._accuracy.step)
+                left, bottom, right, top = arc.box() if index in stepped else arc.box_within(t, longest)
                 ranges.append((left - radius, right + radius, bottom - radius, top + radius, index))
         found: dict[int, list[int]] = {index: [] for index in stepped}
         passing: list[tuple[float, float, float, float, int]] = []

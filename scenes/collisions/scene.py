@@ -117,6 +117,8 @@ def build(it: Parameters) -> Setup:
     names = [*(ball.name for ball in it.balls), *(box.name for box in it.boxes)]
     if len({*names}) < len(names) or not names:
         raise RequestError("balls and boxes: needs one at least, and for each a name of its own")
+    if it.boxes and it.contact.model == "hertz":
+        raise RequestError('contact.model = "hertz": is for balls alone; with boxes it must be "auto" or "rigid"')
     for body, hung in zip(it.balls, hangs(it) if it.balls else (), strict=True):
         weight, forces = body.mass * it.gravity, list[Force]()
         if weight:

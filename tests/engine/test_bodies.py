@@ -366,6 +366,16 @@ def test_an_ellipse_rocks_to_rest_where_rolling_is_resisted():
     assert lever <= 0.05 * (h + 0.25 * (0.09 + 0.04) / h)
 
 
+@pytest.mark.parametrize("spin", [-25.6, 43.3, 52.8])
+def test_the_last_hop_of_an_ellipse_gives_it_no_energy(spin: float):
+    """The impulse that ends it acts at the point of contact, which is not below the centre."""
+    body = thrown(Ellipse(0.143, 0.0865), position=(0.0, 0.3), velocity=(1.5, -1.0), spin=spin, angle=0.5)
+    run = run_of([body], 2.0, floor(0.6, 0.5))
+    assert any(event.kind == "contact" for event in run.events)
+    for before, after in itertools.pairwise(run.arcs["body"]):
+        assert kinetic(body, after.start) <= kinetic(body, before.state(before.t1)) + 1e-9
+
+
 @pytest.mark.parametrize("spin", [-10.0, 2.0, 12.0])
 def test_friction_passes_on_no_more_of_the_resistance_than_its_own(spin: float):
     """Where it would slip by resistance alone it rolls on, resisted less."""

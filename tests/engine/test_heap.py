@@ -213,6 +213,13 @@ def test_a_ball_that_pushes_another_rolls_as_its_force_says():
     assert run.state("front", 2.0)[4] == pytest.approx(-contact / R, rel=1e-3)
 
 
+def test_what_flies_while_a_heap_comes_to_rest_meets_it():
+    """At 0.28 s, on an arc that began before the heap was at rest, at 0.24 s."""
+    run = run_of([*pyramid(2), ball("late", 0.0, 0.53)], FLOOR, friction=1.0, duration=0.4)
+    first = next(event for event in run.events if event.kind == "impact")
+    assert first.t == pytest.approx(sqrt(2.0 * (0.53 - 3.0 * R - sqrt(3) * R) / G), rel=1e-3)
+
+
 def test_a_heap_at_rest_that_is_struck_moves_and_rests_again():
     struck = [*pyramid(2), ball("late", -3.0, R, vx=2.5)]
     run = run_of(struck, FLOOR, friction=1.0)
