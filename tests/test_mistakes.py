@@ -117,6 +117,7 @@ DEFINED = [
     (OF_NEW, 'return "Never', '"Never', "verdict must return text, but returned None"),
     (OF_NEW, "FACTS = (", "FACTS = (3,", "FACTS must be a tuple of facts, but 3 is not one"),
     (OF_NEW, '"apex", "m"', '"apex", "metres"', 'FACTS: apex has the unit "metres", which is not known'),
+    (OF_NEW, 'settled="floor"', 'settled="flor"', 'is settled by "flor", but there are start, end, ball, floor'),
     (OF_NEW, '"apex", "apex"', '"distance", "apex"', "FACTS: two are called distance"),
     (OF_NEW, "def build(parameters: Parameters)", "def build()", "build is called as build(parameters)"),
     (OF_NEW, "def verdict(run: Run, ", "def verdict(", "verdict is called as verdict(run, parameters)"),

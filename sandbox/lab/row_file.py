@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import filecmp
+import hashlib
 import io
 import json
 import os
@@ -35,7 +36,8 @@ class RowFile:
     dropped, and rows from the first damaged one (``damaged``, its number) are computed again.
 
     The old content of a finished or damaged file is kept under its name with ``~`` added (``before``) until the same
-    rows are in the new file. Devices such as /dev/stdout are simply written to.
+    rows are in the new file. A finished file of the same sweep is complete: a small hidden file next to it has a digest
+    of both. Devices such as /dev/stdout are simply written to.
     """
 
     def __init__(self, path: Path, plan: Plan) -> None:
@@ -47,6 +49,7 @@ class RowFile:
         self._is_device = path.exists() and not path.is_file()
         self._file_path = path if self._is_device else path.resolve()  # the target of a link, not the link
         self._mark_path = self._file_path.with_name(f"{self._file_path.name}.resume")
+        self._seal_path = self._file_path.with_name(f".{self._file_path.name}.complete")
         self.before = self._file_path.with_name(f"{self._file_path.name}~")
         self._open = ExitStack()
 
@@ -66,6 +69,9 @@ class RowFile:
     def finish(self) -> None:
         """Mark the file as complete."""
         if not self._is_device:
+            self._file.flush()
+            with suppress(OSError):  # a full disk: the same sweep would be computed again
+                self._seal_path.write_text(self._seal(), encoding="utf-8")
             self._mark_path.unlink(missing_ok=True)
             if self.before.is_file() and filecmp.cmp(self._file_path, self.before, shallow=False):
                 self.before.unlink()
@@ -113,7 +119,9 @@ class RowFile:
                 )
             self._keep_rows()
             return
-        if there:
+        if there and self._is_complete():
+            self.done = self._plan.size
+        elif there:
             try:
                 self._check_before()
             except RequestError:
@@ -123,6 +131,18 @@ class RowFile:
         mark.truncate(0)
         mark.write(self._plan.fingerprint + "\n")
         mark.flush()
+
+    def _seal(self) -> str:
+        """A digest of the sweep and of the file's content."""
+        with self._file_path.open("rb") as file:
+            return f"{self._plan.fingerprint} {hashlib.file_digest(file, 'sha256').hexdigest()}\n"
+
+    def _is_complete(self) -> bool:
+        """Whether the file is just as this sweep left it when it was finished."""
+        try:
+            return self._seal_path.read_text("utf-8") == self._seal()
+        except (OSError, UnicodeDecodeError):
+            return False
 
     def _keep_rows(self) -> None:
         """Count the intact rows and cut off the rest; without any, the first line too."""

@@ -155,6 +155,8 @@ class Written:
         new = self.points - self.resumed
         before = f", {self.resumed:,} of them from before" if self.resumed else ""
         points = "1 point" if self.points == 1 else f"{self.points:,} points"
+        if not new:
+            return f"{points}, all of them from before: the sweep is complete"
         lines = [f"{points}{before}; {new:,} in {self.seconds:.1f} s, {new / self.seconds:,.0f}/s"]
         if self.failures:
             lines.append(f"{self.failures:,} failed, first with: {self.first_error}")

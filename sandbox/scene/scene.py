@@ -107,6 +107,12 @@ class Scene:
             setup = self.module.build(self.parameters)
         if not isinstance(setup, Setup):
             raise self._wrong("build", "a Setup", setup)
+        for fact in self.facts.values():
+            if isinstance(fact.settled, str) and fact.settled not in ("start", "end", *setup.names):
+                file, there = from_here(self.folder / "scene.py"), ", ".join(setup.names)
+                raise RequestError(
+                    f'{file}: {fact.key} is settled by "{fact.settled}", but there are start, end, {there}'
+                )
         return setup
 
     @property

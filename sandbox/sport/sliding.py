@@ -111,9 +111,9 @@ def check_inside(balls: Sequence[Ball], length: float, width: float, corner: flo
     """Raise RequestError for a body that starts outside a rectangle with rounded corners about the origin, in m."""
     for ball in balls:
         (x, y), r = ball.position, min(corner, 0.5 * length, 0.5 * width)
-        beyond_x, beyond_y = (abs(at) - 0.5 * size + r for at, size in ((x, length), (y, width)))
-        out = hypot(max(beyond_x, 0.0), max(beyond_y, 0.0)) if r else max(beyond_x, beyond_y)
-        if out + ball.radius > r + 1e-9:
+        over_x, over_y = (abs(at) - 0.5 * size + r for at, size in ((x, length), (y, width)))
+        out = hypot(max(over_x, 0.0), max(over_y, 0.0)) + min(max(over_x, over_y), 0.0) - r
+        if out + ball.radius > 1e-9:
             raise RequestError(
                 f"{ball.name} at ({x:g}, {y:g}) m is outside the boards: it has a radius of {ball.radius:g} m"
             )

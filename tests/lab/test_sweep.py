@@ -310,7 +310,7 @@ def test_one_sweep_at_a_time_writes_a_file(drop, tmp_path, capsys):
             told = f"error: --out {name}: another sweep is writing to this file; choose another name\n"
             assert capsys.readouterr().err == told
     assert main([*command, str(link)]) == 0
-    assert {file.name for file in tmp_path.iterdir()} == {"rows.csv", "link.csv"}
+    assert {file.name for file in tmp_path.iterdir()} == {"rows.csv", "link.csv", ".rows.csv.complete"}
 
 
 def test_files_of_the_users_are_kept(drop, tmp_path):
@@ -350,8 +350,14 @@ def test_what_another_sweep_found_is_kept_and_the_same_rows_are_not(drop, tmp_pa
     path, before = tmp_path / "rows.csv", tmp_path / "rows.csv~"
     first, other = grid(drop, "launch.height=0.5:2:3"), grid(drop, "launch.height=0.5:2:4")
     found = whole(first, path)
-    assert whole(first, path) == found
-    assert not before.exists()
+    with workers(1) as pool:
+        again = sweep_to_file(first, path, pool)
+    assert (again.resumed, again.as_text()) == (3, "3 points, all of them from before: the sweep is complete")
+    path.write_bytes(found.replace(b"1.25", b"1.35"))  # no longer what the sweep wrote
+    with workers(1) as pool:
+        assert sweep_to_file(first, path, pool).resumed == 0
+    assert (path.read_bytes(), before.exists()) == (found, True)
+    before.unlink()
     with workers(1) as pool:
         done = sweep_to_file(other, path, pool)
     assert (before.read_bytes(), done.before) == (found, before)

@@ -24,6 +24,11 @@ def test_a_goal_is_a_puck_wholly_over_the_line_between_the_posts():
     assert abs(y) < 0.9144
 
 
+def test_corners_may_be_sharper_than_the_puck_is_round():
+    """0.01 m is less than the radius of the puck, 0.0381 m."""
+    assert shoot(rink__corner=0.01).result["goal"]
+
+
 def test_a_goal_from_behind_the_net_does_not_count():
     run = shoot(**ALONE, launch__x=29.5, launch__aside=0.2, launch__angle=180, launch__speed=10)
     assert run.result["touches"][0] == "net"
