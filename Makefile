@@ -2,7 +2,9 @@
 PYTHON ?= python3
 
 BIN := .venv/bin
-PIP := $(BIN)/python -m pip --disable-pip-version-check install --quiet --constraint constraints.txt
+# Compiled when it is first imported, and kept: most of what is installed never is, and tests start Python many times.
+PIP := $(BIN)/python -m pip --disable-pip-version-check install --quiet --no-compile --constraint constraints.txt
+unexport PYTHONDONTWRITEBYTECODE
 
 SCENES := $(patsubst scenes/%/scene.py,%,$(wildcard scenes/*/scene.py))
 
@@ -16,7 +18,7 @@ play: .venv/ready
 	$(BIN)/sandbox play golf
 
 test: .venv/ready-dev
-	$(BIN)/python -m pytest --numprocesses=auto $(PYTEST_OPTIONS)
+	$(BIN)/python -m pytest --numprocesses=auto --dist=worksteal $(PYTEST_OPTIONS)
 
 lint: .venv/ready-dev
 	$(BIN)/ruff check .
@@ -51,15 +53,13 @@ clean:
 	rm -rf .venv out build dist .pytest_cache .mypy_cache .ruff_cache .hypothesis
 
 # Stamps: packages are installed again only when the dependencies change.
-.venv/ready: pyproject.toml constraints.txt
+.venv/ready: EXTRAS := lab,test
+.venv/ready-dev: EXTRAS := dev
+.venv/ready .venv/ready-dev: pyproject.toml constraints.txt
 	@$(PYTHON) -c 'import sys; sys.exit("Python >= 3.11 is needed, this is %d.%d: make PYTHON=python3.12 ..." % sys.version_info[:2] if sys.version_info < (3, 11) else 0)'
 	$(PYTHON) -m venv .venv
-	$(PIP) --editable '.[lab,test]'
-	@touch $@
-
-.venv/ready-dev: .venv/ready
-	$(PIP) --editable '.[dev]'
-	@touch $@
+	$(PIP) --editable '.[$(EXTRAS)]'
+	@touch .venv/ready $@
 
 # pooltool's pinned versions conflict with ours: it gets its own environment, without its pins.
 .venv/pooltool/ready: | .venv/ready-dev
