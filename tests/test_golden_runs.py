@@ -7,6 +7,7 @@ import pytest
 import sandbox
 from sandbox.record import first_change, record
 from sandbox.scene import listings
+from tests.scenes.play import run_of
 
 #: Scenes and presets, and until when (s) rounding has no say in them; None where it never has.
 RUNS = {
@@ -55,7 +56,7 @@ RUNS = {
 
 @pytest.mark.parametrize("name", RUNS)
 def test_run(golden, name: str):
-    golden.check(name.replace("/", "-"), sandbox.simulate(sandbox.load(name)), until=RUNS[name])
+    golden.check(name.replace("/", "-"), run_of(name), until=RUNS[name])
 
 
 #: A kick that clips the keeper: in no preset does the ball meet him.

@@ -11,6 +11,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 import sandbox
@@ -21,6 +22,7 @@ from sandbox.scene import listings, reference
 from sandbox.scene.finding import folder_of, is_installed
 from sandbox.toml import read_toml
 from tests.own_scene import DROP, change
+from tests.scenes.play import run_of
 
 SCENES = resources.folder("scenes")
 NAMES = [listing.name for listing in listings()]
@@ -70,31 +72,20 @@ def test_what_python_asks_wrongly_is_said_in_a_line(ask: Any, expected: str):
 # The scenes that come with it ---------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("name", NAMES)
-def test_every_scene_and_preset_runs_to_its_end_and_stays_finite(name: str):
-    scene = sandbox.load(name)
-    assert (scene.name, scene.preset) == (name.partition("/")[0], name.partition("/")[2] or None)
-    run = sandbox.simulate(scene)
+@pytest.mark.parametrize("listing", list(listings()), ids=lambda listing: listing.name)
+def test_every_scene_and_preset_says_what_it_is_runs_to_its_end_and_stays_finite(listing: Any):
+    run = run_of(listing.name)
+    scene = run.scene
+    assert (scene.name, scene.preset) == (listing.name.partition("/")[0], listing.name.partition("/")[2] or None)
+    assert 10 <= len(listing.about) <= 110
     assert run.ended in ("rest", "until") or hasattr(scene.parameters, "duration")  # as long as its file says
     for ball in run.setup.balls:
-        assert all(math.isfinite(number) for row in run.trajectory(ball.name).tolist() for number in row)
-    numbers = [value for value in run.result.values() if isinstance(value, float)]
-    assert all(math.isfinite(number) for number in numbers)
+        assert np.isfinite(run.trajectory(ball.name)).all()
+    numbers = {key: value for key, value in run.result.items() if isinstance(value, float)}
+    assert all(math.isfinite(number) for number in numbers.values())
+    assert {key for key in numbers if not scene.units[key]} <= {"smash_factor", "speed_kept"}  # ratios
     assert scene.rows(run)
     assert scene.verdict(run)
-
-
-@pytest.mark.parametrize("name", [name for name in NAMES if "/" not in name])
-def test_every_number_of_a_result_has_its_unit(name: str):
-    presets = [listing for listing in NAMES if listing.partition("/")[0] == name]
-    runs = [sandbox.simulate(sandbox.load(preset)) for preset in presets]
-    numbers = {key for run in runs for key, value in run.result.items() if isinstance(value, float)}
-    assert {key for key in numbers if not sandbox.load(name).units[key]} <= {"smash_factor", "speed_kept"}  # ratios
-
-
-@pytest.mark.parametrize("listing", list(listings()), ids=lambda listing: listing.name)
-def test_every_scene_and_preset_says_what_it_is(listing: Any):
-    assert 10 <= len(listing.about) <= 110
 
 
 def keys_in(table: dict[str, Any], prefix: str = "") -> Iterator[str]:

@@ -68,7 +68,7 @@ def ran(scene: str, changes: Overrides) -> bool:
     return True
 
 
-def share_that_ran(scene: str, space: st.SearchStrategy[Overrides], examples: int = 15) -> float:
+def share_that_ran(scene: str, space: st.SearchStrategy[Overrides], examples: int = 8) -> float:
     ends = []
 
     @settings(quickly, max_examples=examples)
@@ -82,7 +82,7 @@ def share_that_ran(scene: str, space: st.SearchStrategy[Overrides], examples: in
 
 @pytest.mark.parametrize("scene", SCENES)
 def test_a_few_changes(scene: str):
-    assert share_that_ran(scene, overrides(type(parameters_of(scene)[1]))) > 0.5
+    assert share_that_ran(scene, overrides(type(parameters_of(scene)[1]))) > 0.3
 
 
 @pytest.mark.parametrize("scene", SCENES)
@@ -94,7 +94,7 @@ def test_every_number_somewhat_changed(scene: str):
 @pytest.mark.parametrize("scene", SCENES)
 def test_everything_changed(scene: str):
     """Most of such scenes are refused, as what is in them overlaps; the others are odd, and may take seconds."""
-    share_that_ran(scene, everything(type(parameters_of(scene)[1])), examples=8)
+    share_that_ran(scene, everything(type(parameters_of(scene)[1])), examples=5)
 
 
 @pytest.mark.parametrize("scene", SCENES)
@@ -103,7 +103,7 @@ def test_the_plain_method(scene: str):
     space = overrides(type(parameters_of(scene)[1]), most=3)
     plain = st.fixed_dictionaries({"accuracy.method": st.just("plain"), "accuracy.step": st.floats(1e-2, 0.1)})
 
-    @settings(quickly, max_examples=5)
+    @settings(quickly, max_examples=3)
     @given(changes=space, method=plain)
     def runs(changes: Overrides, method: Overrides) -> None:
         ran(scene, changes | method)

@@ -130,14 +130,12 @@ def test_a_step_of_half_a_second_is_called_unstable_in_the_plain_method(basketba
     assert coarse.problem
 
 
-def test_on_cloth_no_integrator_takes_part():
-    methods = {method for method, _, _ in lab.settings(converge(load("billiards")))}
-    assert methods == {"plain", "closed form", "level"}
-
-
-def test_on_ice_integrators_take_part():
-    methods = {method for method, _, _ in lab.settings(converge(load("curling")))}
-    assert {"plain", "rk4", "dormand-prince"} <= methods
+def test_on_ice_integrators_take_part_and_on_cloth_none():
+    ice = converge(load("curling", {"stones": []}))
+    cloth = converge(load("billiards", {"rack": "none", "balls": [{"name": "cue"}], "cue.speed": 0.5}))
+    on_ice, on_cloth = ({method for method, _, _ in lab.settings(reference)} for reference in (ice, cloth))
+    assert {"plain", "rk4", "dormand-prince"} <= on_ice
+    assert on_cloth == {"plain", "closed form", "level"}
 
 
 @pytest.mark.parametrize("scene", ["golf", "soccer", "soccer-curl", "basketball"])
@@ -286,7 +284,7 @@ def test_a_result_in_words(scene: str, result: dict[str, object], said: str):
 
 def test_the_command_prints_json_and_draws(capsys: pytest.CaptureFixture[str], tmp_path: Path):
     chart = tmp_path / "trade.png"
-    assert main(["trade", "soccer-curl", "--json", "--plot", str(chart)]) == 0
+    assert main(["trade", str(DROP), "--set", "launch.speed=3", "--json", "--plot", str(chart)]) == 0
     found = json.loads(capsys.readouterr().out)
     assert {"points", "levels", "ablation", "verdicts", "best", "reference"} <= set(found)
     assert set(found["levels"]) == {"fast", "balanced", "precise"}
@@ -296,8 +294,11 @@ def test_the_command_prints_json_and_draws(capsys: pytest.CaptureFixture[str], t
         assert min(picture.size) > 600
 
 
-def test_the_command_prints_tables(capsys: pytest.CaptureFixture[str]):
-    assert main(["trade", str(DROP), "--set", "launch.speed=3"]) == 0
+def test_the_command_prints_tables(
+    basketball: lab.Trade, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+):
+    monkeypatch.setattr(lab, "trade", lambda scene, progress: basketball)
+    assert main(["trade", "basketball"]) == 0
     out = capsys.readouterr().out
     for heading in ("levels", "cheapest choice", "effect of each part of the model", "dormand-prince"):
         assert heading in out
