@@ -39,21 +39,22 @@ class Choice(Board):
         foot: pygame.Rect,
         marks: Callable[[], Sequence[Mark]],
     ) -> None:
-        super().__init__("", [[Row("", title), *rows]], choose, foot, chosen=rows[0].action)
+        super().__init__(rows, choose, foot, title, now=rows[0].action)
         self.marks, self.near = marks, NEAR
 
-    def at(self, position: tuple[int, int]) -> str | None:
-        found: str | None = super().at(position)
-        marks = [] if found else [(away_from(mark.line, position)[0], mark.action) for mark in self.marks()]
-        least, action = min(marks, default=(np.inf, found))
-        return action if least <= self.near else found
+    def at(self, position: tuple[int, int]) -> Row | None:
+        found: Row | None = super().at(position)
+        marks = {} if found else {mark.action: away_from(mark.line, position)[0] for mark in self.marks()}
+        nearest = min(marks, key=lambda action: marks[action], default="")
+        near = [row for row in self.rows if row.action == nearest and marks[nearest] <= self.near]
+        return near[0] if near else found
 
     def compose(self) -> None:
         sheet, unit, painter = self.sheet, self.sheet.unit, self.sheet.painter
         self.near = NEAR * unit
         hovered = self.at(self.mouse) or self.chosen
-        for mark in sorted(self.marks(), key=lambda mark: mark.action == hovered):
-            here, middle = mark.action == hovered, tuple(mark.line[len(mark.line) // 2])
+        for mark in sorted(self.marks(), key=lambda mark: mark.action == hovered.action):
+            here, middle = mark.action == hovered.action, tuple(mark.line[len(mark.line) // 2])
             colour = mark.colour if here else mix(mark.colour, CARD["background"], 0.25)
             if len(mark.line) > 1:
                 width = (4.0 if here else 2.5) * unit

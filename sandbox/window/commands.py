@@ -126,18 +126,19 @@ def _open(view: View, name: str, make: Callable[[], Overlay]) -> None:
         view.over.name = name
 
 
-def _rows(view: View, groups: tuple[str, ...], headings: bool) -> list[list[Row]]:
-    """The commands of groups, each with its key."""
+def _rows(view: View, group: str) -> list[Row]:
+    """The commands of a group, each with its key."""
     meanings = {"accuracy": f"accuracy: {view.game.session.value('accuracy.level')}, and the next",
                 "predict": f"path while aiming: {view.ahead}, and the next"}  # fmt: skip
-    rows = [(it.group, Row(it.name, meanings.get(it.name, it.meaning), it.shown)) for it in TABLE if it.meaning]
-    return [[Row("", name)] * headings + [row for group, row in rows if group == name] for name in groups]
+    return [
+        Row(it.name, meanings.get(it.name, it.meaning), it.shown) for it in TABLE if it.meaning and it.group == group
+    ]
 
 
 def _list(view: View, name: str) -> None:
     """The commands of a group, above its button; several can be switched in turn."""
-    rows, button = _rows(view, (name.capitalize(),), headings=False), view.bar.places[name]
-    _open(view, name, lambda: Board("", rows, partial(do, view), button, stays=name == "see"))
+    rows, button = _rows(view, name.capitalize()), view.bar.places[name]
+    _open(view, name, lambda: Board(rows, partial(do, view), button, stays=name == "see"))
 
 
 def _shots(view: View, by: float) -> None:
@@ -237,7 +238,7 @@ def _menu(view: View, by: float) -> None:
             view.thumbnails[source] = game.helper.submit(thumbnail if shown else bytes, *([source] if shown else []))
         return view.thumbnails[source]
 
-    _open(view, "menu", lambda: Menu(groups, game.open, picture_of, game.session.source))
+    _open(view, "menu", lambda: Menu("What shall we play?", groups, game.open, game.session.source, picture_of))
 
 
 def _chart(view: View, name: str, draw: Callable[[Shot, tuple[int, int]], pygame.Surface]) -> None:
@@ -448,11 +449,12 @@ TABLE: tuple[Command, ...] = (
     Command("cost", ("f3",), "what a frame and a run cost", "More"),
     Command("fullscreen", ("f11",), "full screen", "More", lambda view, by: view.toggle_full_screen()),
     Command("help", ("h",), "all keys", "More",
-            lambda view, by: _open(view, "help", lambda: Board("Keys", _rows(view, GROUPS, True), partial(do, view)))),
+            lambda view, by: _open(view, "help", lambda: Menu("Keys", {group: _rows(view, group) for group in GROUPS},
+                                                              partial(do, view)))),
     Command("back", ("escape",), "close what is open, stop a run; aim again", "More", _back),
     Command("quit", ("ctrl q",), "exit", "More", lambda view, by: setattr(view.game, "running", False)),
     Command("row", ("ctrl down", "ctrl up"), "another row of the panel", "Panel",
-            lambda view, by: view.panel.choose(int(by)), repeats=True),
+            lambda view, by: view.panel.step(int(by)), repeats=True),
     Command("value", ("ctrl right", "ctrl left"), "more, less of it (Shift: finely)", "Panel",
             lambda view, by: view.panel.nudge(by), repeats=True, fine=True),
     Command("group", ("ctrl page down", "ctrl page up"), "another group", "Panel",

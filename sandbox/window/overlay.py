@@ -1,4 +1,4 @@
-"""What lies over the picture for a while, one at a time."""
+"""What lies over the picture for a while, one at a time: rows that are chosen by mouse or by key, and scrolled."""
 
 from __future__ import annotations
 
@@ -8,15 +8,27 @@ from typing import Any, NamedTuple
 
 import pygame
 
-from sandbox.picture.palette import palette
+from sandbox.picture.palette import mix, palette
 from sandbox.window.canvas import Canvas
 
 CARD = palette("card")
 
 #: Opacity of the pale panel under what is chosen, or under the mouse.
 HOVERED = 0.27
-#: The step of each in columns and rows.
-ARROWS = {pygame.K_LEFT: (-1, 0), pygame.K_RIGHT: (1, 0), pygame.K_UP: (0, -1), pygame.K_DOWN: (0, 1)}
+#: What keys do, in columns and rows.
+STEPS = {
+    pygame.K_LEFT: (-1, 0), pygame.K_RIGHT: (1, 0), pygame.K_UP: (0, -1), pygame.K_DOWN: (0, 1),
+    pygame.K_PAGEUP: (0, -10), pygame.K_PAGEDOWN: (0, 10),
+}  # fmt: skip
+
+
+class Row(NamedTuple):
+    """A row of a list or a menu: what it does, its words, the key at its right end, and what the menu says of it."""
+
+    action: str
+    text: str
+    key: str = ""
+    about: str = ""
 
 
 class Overlay:
@@ -26,9 +38,66 @@ class Overlay:
     waiting = False  # whether something of it is still being made
     progress: object = 0  # changes when it must be drawn again
 
-    def __init__(self) -> None:
+    def __init__(self, chosen: Any = None) -> None:
+        """``chosen`` is the row that is chosen by key."""
         self.places: list[tuple[pygame.Rect, Any]] = []  # of what can be chosen
-        self.chosen: Any = None  # by key
+        self.chosen = chosen
+        self.first, self.seen = 0, 1  # of the rows that are seen, and how many
+
+    @property
+    def rows(self) -> Sequence[Any]:
+        """All rows, in order."""
+        return ()
+
+    # What is done
+
+    def at(self, position: tuple[int, int]) -> Any:
+        """What can be chosen at a place."""
+        return next((what for rect, what in self.places if rect.collidepoint(position)), None)
+
+    def pressed(self, at: tuple[int, int]) -> bool:
+        """Do what a click does; returns whether the overlay stays."""
+        what = self.at(at)
+        return what is not None and self.do(what)
+
+    def key(self, key: int) -> bool | None:
+        """Do what a key does; returns whether the overlay stays, or None if the key does nothing here."""
+        if not self.rows or (key not in STEPS and key != pygame.K_RETURN):
+            return None
+        if key == pygame.K_RETURN:
+            return self.chosen is None or self.do(self.chosen)
+        across, down = STEPS[key]
+        if across:
+            self.turn(across)
+        else:
+            self.step(down)
+        return True
+
+    def do(self, what: Any) -> bool:
+        """Do what was chosen; returns whether the overlay stays."""
+        raise NotImplementedError
+
+    def turn(self, by: int) -> None:
+        """Show other rows, or the same in another order."""
+
+    def step(self, by: int) -> None:
+        """Choose the row ``by`` rows on, and show it; after the last comes the first."""
+        rows = self.rows
+        if rows:
+            place = by + (rows.index(self.chosen) if self.chosen in rows else -1 if by > 0 else len(rows))
+            self.chosen = rows[place % len(rows) if abs(by) == 1 else min(max(place, 0), len(rows) - 1)]
+            self.show(self.chosen)
+
+    def show(self, row: Any) -> None:
+        """Make a row one that is seen."""
+        place = self.rows.index(row)
+        self.first = min(max(self.first, place - self.seen + 1), place)
+
+    def scroll(self, by: int) -> None:
+        """Show the rows that come ``by`` rows later, as far as there are more."""
+        self.first = min(max(self.first + by, 0), max(0, len(self.rows) - self.seen))
+
+    # Drawing
 
     def draw(self, sheet: Canvas, mouse: tuple[int, int], on: Collection[str] = ()) -> None:
         """Draw it; ``on`` are the actions that are switched on."""
@@ -48,33 +117,35 @@ class Overlay:
         colour = "text" if here and colour == "quiet" else colour
         self.sheet.item(place, text, CARD[colour], max(how.pop("lit", 0.0), HOVERED * here), **how)
 
-    def at(self, position: tuple[int, int]) -> Any:
-        """What can be chosen at a place."""
-        return next((what for rect, what in self.places if rect.collidepoint(position)), None)
+    def listed(self, room: pygame.Rect, tall: int) -> list[tuple[Any, pygame.Rect]]:
+        """The rows for which a room has space, each with its place, ``tall`` px high; a bar at the right shows which
+        of all they are."""
+        rows, width, gap = self.rows, room.width, self.sheet.gap
+        self.seen = max(1, room.height // tall)
+        self.scroll(0)
+        if len(rows) > self.seen:
+            width -= gap
+            bar = pygame.Rect(room.right - gap // 2, room.top, max(2, gap // 2), self.seen * tall)
+            self.sheet.surface.fill(mix(CARD["background"], CARD["quiet"], 0.2), bar)
+            bar.top, bar.height = bar.top + bar.height * self.first // len(rows), bar.height * self.seen // len(rows)
+            self.sheet.surface.fill(CARD["quiet"], bar)
+        shown = rows[self.first : self.first + self.seen]
+        return [(row, pygame.Rect(room.left, room.top + i * tall, width, tall)) for i, row in enumerate(shown)]
 
-    def pressed(self, at: tuple[int, int]) -> bool:
-        """Do what a click does; returns whether the overlay stays."""
-        what = self.at(at)
-        return what is not None and self.do(what)
+    def width_of_words(self) -> int:
+        """What the longest of the rows takes as a line."""
+        letters, gap = self.sheet.lettering, self.sheet.gap
+        keys = [letters.width(row.key, "small", bold=True) + 2 * gap if row.key else 0 for row in self.rows]
+        return max(letters.width(row.text, "small") + key for row, key in zip(self.rows, keys, strict=True)) + 4 * gap
 
-    def key(self, key: int) -> bool | None:
-        """Do what a key does; returns whether the overlay stays, or None if the key does nothing here."""
-        if not self.places or (key not in ARROWS and key != pygame.K_RETURN):
-            return None
-        if key in ARROWS:
-            self.move(*ARROWS[key])
-            return True
-        return self.chosen is None or self.do(self.chosen)
-
-    def do(self, what: Any) -> bool:
-        """Do what was chosen; returns whether the overlay stays."""
-        raise NotImplementedError
-
-    def move(self, across: int, down: int) -> None:
-        """Choose by key: so many columns and rows on."""
-
-    def scroll(self, by: int) -> None:
-        """Show other rows, if there are more."""
+    def words(self, row: Row, place: pygame.Rect) -> None:
+        """One line: the text of a row, with a dot if it is switched on, and its key at the right end."""
+        sheet, gap, on, right = self.sheet, self.sheet.gap, row.action in self.on, place.right - 2 * self.sheet.gap
+        end = right - sheet.lettering.width(row.key, "small", bold=True) - 2 * gap if row.key else right
+        self.part(place, row, row.text, "accent" if on else "quiet", left=place.left + 2 * gap, right=end)
+        sheet.write(row.key, "small", (right, place.centery), CARD["text"], "midright", bold=True)
+        if on:
+            sheet.painter.disc((place.left + gap, place.centery), 3.5 * sheet.unit, CARD["accent"])
 
 
 class Chart(Overlay):
@@ -98,149 +169,46 @@ class Chart(Overlay):
             onto.blit(surface, surface.get_rect(center=onto.get_rect().center))
 
 
-class Scrolled(Overlay):
-    """Rows of which some are seen."""
-
-    def __init__(self) -> None:
-        super().__init__()
-        self.first, self.seen = 0, 1  # of the rows that are seen, and how many
-
-    @property
-    def rows(self) -> Sequence[Any]:
-        """All rows, in order."""
-        raise NotImplementedError
-
-    @property
-    def shown(self) -> Sequence[Any]:
-        """Those that are seen."""
-        self.scroll(0)
-        return self.rows[self.first : self.first + self.seen]
-
-    def scroll(self, by: int) -> None:
-        self.first = min(max(self.first + by, 0), max(0, len(self.rows) - self.seen))
-
-    def show(self, place: int) -> None:
-        """Make a row one that is seen."""
-        self.first = min(max(self.first, place - self.seen + 1), place)
-
-
-class Row(NamedTuple):
-    """A row of a board or a menu: what it does, its words, the key at its right end, and what the menu says of it."""
-
-    action: str  # "" for a heading, or a gap
-    text: str
-    key: str = ""
-    about: str = ""
-
-
 class Board(Overlay):
-    """Groups of rows in as many columns as they need, to be chosen by mouse, or by arrows and Enter."""
+    """A list of rows next to the button that opened it."""
 
     def __init__(
         self,
-        title: str,
-        groups: Sequence[Sequence[Row]],
+        rows: Sequence[Row],
         choose: Callable[[str], object],
-        foot: pygame.Rect | None = None,
+        foot: pygame.Rect,
+        title: str = "",
         stays: bool = False,
-        chosen: str | None = None,
+        now: str = "",
     ) -> None:
-        """With ``foot``, the button that opened it, it is a list beside it; ``stays`` keeps it open after a choice."""
-        super().__init__()
-        self.title, self.groups, self.choose, self.foot, self.stays = title, groups, choose, foot, stays
-        self.chosen = chosen
+        """``foot`` is the button; ``stays`` keeps it open after a choice; ``now`` is the action that is chosen."""
+        super().__init__(next((row for row in rows if row.action == now), None))
+        self._rows, self.choose, self.foot, self.title, self.stays = rows, choose, foot, title, stays
 
-    def do(self, what: str) -> bool:
-        self.choose(what)
+    @property
+    def rows(self) -> Sequence[Row]:
+        return self._rows
+
+    def do(self, what: Row) -> bool:
+        self.choose(what.action)
         return self.stays
 
-    def scroll(self, by: int) -> None:
-        self.move(0, by)
-
-    def move(self, across: int, down: int) -> None:
-        rects = {action: rect for rect, action in self.places}
-        if self.chosen not in rects:
-            self.chosen = next(iter(rects), None)
-        elif down:
-            names = list(rects)
-            self.chosen = names[(names.index(self.chosen) + down) % len(names)]
-        else:
-            here = rects[self.chosen]
-            columns = sorted({rect.left for rect in rects.values()})
-            left = columns[(columns.index(here.left) + across) % len(columns)]
-            there = [name for name, rect in rects.items() if rect.left == left]
-            self.chosen = min(there, key=lambda name: abs(rects[name].top - here.top))
-
-    # Drawing
-
     def compose(self) -> None:
-        sheet, gap = self.sheet, self.sheet.gap
-        head, row, columns, widths = self._fitted(sheet)
-        rect = pygame.Rect(0, 0, sum(widths) + 2 * gap, head + row * max(map(len, columns)) + 2 * gap)
-        if self.foot is None:
-            sheet.veil(110)
-            rect.center = sheet.surface.get_rect().center
-        else:
-            rect.topleft = self.foot.left, self.foot.bottom + gap // 2
-            if self.foot.top > sheet.size[1] // 2:
-                rect.bottom = min(self.foot.top, sheet.size[1]) - gap
-        rect.clamp_ip(sheet.surface.get_rect())
+        sheet, gap, letters, room = self.sheet, self.sheet.gap, self.sheet.lettering, self.sheet.surface.get_rect()
+        tall = round(letters.height("small") + 1.3 * gap)
+        title = letters.width(self.title, "small", bold=True) + 4 * gap if self.title else 0
+        wide = max(self.width_of_words(), title, self.foot.width - 2 * gap) + 3 * gap
+        head = tall * bool(self.title)
+        high = min(len(self.rows), (room.height - head - 4 * gap) // tall) * tall
+        rect = pygame.Rect(self.foot.left, self.foot.bottom + gap // 2, min(wide, room.width), head + high + 2 * gap)
+        if self.foot.top > room.height // 2:
+            rect.bottom = min(self.foot.top, room.height) - gap
+        rect.clamp_ip(room)
         sheet.board(rect)
-        if head:
-            sheet.write(self.title, "medium", (rect.left + 3 * gap, rect.top + gap), CARD["text"], bold=True)
-        left = rect.left + gap
-        for column, width in zip(columns, widths, strict=True):
-            for number, each in enumerate(column):
-                self._row(each, pygame.Rect(left, rect.top + gap + head + number * row, width, row))
-            left += width
-
-    def _fitted(self, sheet: Canvas) -> tuple[int, int, list[list[Row]], list[int]]:
-        """Heights of the title and of a row, the columns and their widths: the first that fit; in a small window the
-        rows are lower, and the title makes room."""
-        letters, gap = sheet.lettering, sheet.gap
-        small, title = letters.height("small"), letters.height("medium") + 2 * gap if self.title else 0
-        room, tall = (length - 4 * gap for length in sheet.size)
-        rows = [(title, round(small + 1.3 * gap)), (title, round(small + 0.7 * gap)), (title, small), (0, small)]
-        for head, row in rows:
-            columns = self._columns((tall - head) // row)
-            widths = [max(self._width(sheet, each) for each in column) for column in columns]
-            if self.foot is not None and len(columns) == 1:  # as wide as the field that it is the list of
-                widths = [max(widths[0], self.foot.width - 2 * gap)]
-            if sum(widths) <= room:
-                return head, row, columns, widths
-        return head, row, columns, [room // len(columns)] * len(columns)
-
-    def _row(self, row: Row, place: pygame.Rect) -> None:
-        sheet, gap, right = self.sheet, self.sheet.gap, place.right - 2 * self.sheet.gap
-        if not row.action:
-            sheet.item(place, row.text, CARD["accent"], bold=True, left=place.left + 2 * gap)
-            return
-        on, key = row.action in self.on, sheet.lettering.width(row.key, "small", bold=True) + 2 * gap if row.key else 0
-        self.part(
-            place, row.action, row.text, "accent" if on else "quiet", left=place.left + 2 * gap, right=right - key
-        )
-        if on:
-            sheet.painter.disc((place.left + gap, place.centery), 3.5 * sheet.unit, CARD["accent"])
-        if row.key:
-            sheet.write(row.key, "small", (right, place.centery), CARD["text"], "midright", bold=True)
-
-    @staticmethod
-    def _width(sheet: Canvas, row: Row) -> int:
-        letters, gap = sheet.lettering, sheet.gap
-        key = letters.width(row.key, "small", bold=True) + 4 * gap if row.key else 0
-        return letters.width(row.text, "small", bold=not row.action) + key + 4 * gap
-
-    def _columns(self, most: int) -> list[list[Row]]:
-        """The rows in columns of at most so many; a group is split only if it is longer than a column."""
-        columns: list[list[Row]] = [[]]
-        for group in self.groups:
-            gap = [Row("", "")] if columns[-1] else []
-            if len(columns[-1]) + len(gap) + len(group) > most and columns[-1]:
-                columns.append([])
-                gap = []
-            columns[-1] += gap
-            for row in group:
-                if len(columns[-1]) >= max(most, 1):
-                    columns.append([])
-                columns[-1].append(row)
-        return columns
+        if self.title:
+            place = pygame.Rect(rect.left + gap, rect.top + gap, rect.width - 2 * gap, tall)
+            sheet.item(place, self.title, CARD["accent"], bold=True, left=place.left + 2 * gap)
+        for row, place in self.listed(
+            pygame.Rect(rect.left + gap, rect.top + gap + head, rect.width - 2 * gap, high), tall
+        ):
+            self.words(row, place)

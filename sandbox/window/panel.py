@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import pygame
@@ -14,7 +14,7 @@ from sandbox.picture.palette import mix, palette
 from sandbox.window.background import Once
 from sandbox.window.canvas import Canvas
 from sandbox.window.game import Game
-from sandbox.window.overlay import Board, Row, Scrolled
+from sandbox.window.overlay import Board, Overlay, Row
 
 CARD = palette("card")
 
@@ -32,14 +32,11 @@ FIELD_OF, SLIDER_OF, RESET_OF = "field", "slider", "reset"
 
 @dataclass(frozen=True)
 class Setting:
-    """One number, word or switch."""
+    """One number, word or switch; the same one when its value has changed."""
 
-    parameter: Parameter
-    base: Any  # its value in the scene file
-
-    @property
-    def key(self) -> str:
-        return self.parameter.key
+    key: str
+    parameter: Parameter = field(compare=False)
+    base: Any = field(default=None, compare=False)  # its value in the scene file
 
     @property
     def value(self) -> Any:
@@ -99,7 +96,7 @@ def _can_be_shown(parameter: Parameter) -> bool:
     return bool(parameter.choices) or isinstance(parameter.value, bool) or number
 
 
-class Panel(Scrolled):
+class Panel(Overlay):
     """The rows of one group of parameters, in ``rect`` of the window; ``open_list`` shows a list over it."""
 
     def __init__(self, game: Game, open_list: Callable[[Board], object]) -> None:
@@ -107,7 +104,7 @@ class Panel(Scrolled):
         self.game, self.open_list = game, open_list
         self.rect = pygame.Rect(0, 0, 0, 0)
         self.wanted = FAVOURITES
-        self.typing: str | None = None  # the row that keys go into
+        self.typing: Setting | None = None  # the row that keys go into
         self.before, self.after = "", ""  # the text of its field, before and after the caret
         self.whole = True  # whether all of it is selected
         self._once = Once()
@@ -138,7 +135,7 @@ class Panel(Scrolled):
 
     @property
     def rows(self) -> list[Setting]:
-        return [Setting(p, self.game.session.base_value(p.key)) for p in self.groups[self.group]]
+        return [Setting(p.key, p, self.game.session.base_value(p.key)) for p in self.groups[self.group]]
 
     # What is done
 
@@ -149,6 +146,19 @@ class Panel(Scrolled):
     def turn_to(self, group: str) -> None:
         """Show another group."""
         self.wanted, self.first, self.chosen, self.typing = group, 0, None, None
+
+    def turn(self, by: int) -> None:
+        groups = list(self.groups)
+        self.turn_to(groups[(groups.index(self.group) + by) % len(groups)])
+
+    def press(self, at: tuple[int, int]) -> Callable[[tuple[int, int]], object] | None:
+        """Do what a click on a part does; returns what dragging a slider from there does."""
+        rect, what = next(((rect, what) for rect, what in self.places if rect.collidepoint(at)), (self.rect, None))
+        if isinstance(what, tuple) and what[1] == SLIDER_OF:
+            return lambda to: self.slide(what[0], rect, to)
+        if what is not None:
+            self.do(what)
+        return None
 
     def do(self, what: Any) -> bool:
         """Do what a click on a part of it does."""
@@ -165,113 +175,90 @@ class Panel(Scrolled):
             elif isinstance(row.value, bool):
                 self.set(row, not row.value)
             else:
-                words = [(Setting(row.parameter._replace(value=word), None).written, word) for word in row.words]
+                words = [(Setting(row.key, row.parameter._replace(value=word)).written, word) for word in row.words]
                 self._offer(what, words, row.written, lambda word: self.set(row, word))
         return True
 
     def _offer(self, what: Any, words: list[tuple[str, Any]], now: str, choose: Callable[[Any], object]) -> None:
         """A list of words to choose from, next to the field of ``what``."""
-        values = {f"={text}": value for text, value in words}
-        lines = [Row(action, action[1:]) for action in values]
-        foot = next(rect for rect, other in self.places if other == what)
-        self.open_list(Board("", [lines], lambda action: choose(values[action]), foot, chosen=f"={now}"))
+        values, foot = dict(words), next(rect for rect, other in self.places if other == what)
+        rows = [Row(text, text) for text in values]
+        self.open_list(Board(rows, lambda text: choose(values[text]), foot, now=now))
 
-    def slider_at(self, at: tuple[int, int]) -> Setting | None:
-        """The row of the slider at a place in px."""
-        what = self.at(at)
-        return what[0] if isinstance(what, tuple) and what[1] == SLIDER_OF else None
-
-    def slide(self, row: Setting, at: tuple[int, int]) -> None:
+    def slide(self, row: Setting, slider: pygame.Rect, at: tuple[int, int]) -> None:
         """Drag the knob of a row's slider to a place in px."""
-        sliders = {what[0].key: rect for rect, what in self.places if isinstance(what, tuple) and what[1] == SLIDER_OF}
-        if row.span is not None and row.key in sliders:
-            (low, high), rect = row.span, sliders[row.key]
-            share = min(max((at[0] - rect.left - self.knob) / max(1, rect.width - 2 * self.knob), 0.0), 1.0)
+        if row.span is not None:
+            low, high = row.span
+            share = min(max((at[0] - slider.left - self.knob) / max(1, slider.width - 2 * self.knob), 0.0), 1.0)
             self.set(row, float(f"{low + share * (high - low):.4g}"))
 
     def begin_typing(self, row: Setting) -> None:
         """Keys go into the field of a row from now on; all of its text is selected."""
-        self.typing, self.before, self.after, self.whole = row.key, row.written, "", True
+        self.typing, self.before, self.after, self.whole = row, row.written, "", True
+        self.show(row)
 
     def type(self, event: pygame.event.Event) -> None:
         """A key that goes into a field: a letter, one that moves the caret or deletes, Ctrl A, Ctrl V; Enter takes the
         text, Tab goes on to the next field too, Escape leaves the text."""
-        before, after = self.before, self.after
-        deletes, ctrl = ("", "") if self.whole else None, event.mod & pygame.KMOD_CTRL
-        match event.key:
-            case pygame.K_RETURN | pygame.K_KP_ENTER:
-                self.enter()
-            case pygame.K_TAB:
-                self.enter(-1 if event.mod & pygame.KMOD_SHIFT else 1)
-            case pygame.K_ESCAPE:
-                self.typing = None
-            case pygame.K_a if ctrl:
-                self.whole = True
-            case pygame.K_BACKSPACE:
-                self._put(*deletes or (before[:-1], after))
-            case pygame.K_DELETE:
-                self._put(*deletes or (before, after[1:]))
-            case pygame.K_LEFT if before and not self.whole:
-                self._put(before[:-1], before[-1] + after)
-            case pygame.K_RIGHT if after and not self.whole:
-                self._put(before + after[0], after[1:])
-            case pygame.K_LEFT | pygame.K_HOME:
-                self._put("", before + after)
-            case pygame.K_RIGHT | pygame.K_END:
-                self._put(before + after, "")
-            case _:
-                text = event.unicode
-                if event.key == pygame.K_v and ctrl:
-                    with suppress(pygame.error):  # there is no clipboard
-                        text = pygame.scrap.get_text().strip()
-                if text.isprintable() and text:
-                    self._put(text if self.whole else before + text, "" if self.whole else after)
+        before, after, ctrl = self.before, self.after, event.mod & pygame.KMOD_CTRL
+        edits = {
+            pygame.K_LEFT: (before[:-1], before[-1:] + after),
+            pygame.K_RIGHT: (before + after[:1], after[1:]),
+            pygame.K_HOME: ("", before + after),
+            pygame.K_END: (before + after, ""),
+            pygame.K_BACKSPACE: (before[:-1], after),
+            pygame.K_DELETE: (before, after[1:]),
+        }
+        if self.whole:  # the caret is at its end
+            edits |= {pygame.K_LEFT: ("", before), pygame.K_BACKSPACE: ("", ""), pygame.K_DELETE: ("", "")}
+        if event.key in (pygame.K_RETURN, pygame.K_KP_ENTER):
+            self.enter()
+        elif event.key == pygame.K_TAB:
+            self.enter(-1 if event.mod & pygame.KMOD_SHIFT else 1)
+        elif event.key == pygame.K_ESCAPE:
+            self.typing = None
+        elif event.key in edits:
+            self._put(*edits[event.key])
+        elif ctrl and event.key == pygame.K_a:
+            self.before, self.after, self.whole = before + after, "", True
+        else:
+            text = event.unicode
+            if ctrl and event.key == pygame.K_v:
+                with suppress(pygame.error):  # there is no clipboard
+                    text = pygame.scrap.get_text().strip()
+            if text.isprintable() and text:
+                self._put("" if self.whole else before, "" if self.whole else after, text)
 
-    def _put(self, before: str, after: str) -> None:
+    def _put(self, before: str, after: str, text: str = "") -> None:
         """Give the field a text with the caret in it."""
-        self.before, self.after, self.whole = before, after, False
+        self.before, self.after, self.whole = before + text, after, False
 
     def enter(self, then: int = 0) -> None:
         """Take what was typed, if something was; ``then`` type into the number so many rows on."""
         rows = [row for row in self.rows if row.is_number]
-        now = next((place for place, row in enumerate(rows) if row.key == self.typing), None)
-        text, self.typing = (self.before + self.after).strip(), None
-        if now is None:
+        text, typing, self.typing = (self.before + self.after).strip(), self.typing, None
+        if typing not in rows:
             return
+        now = rows.index(typing)
         if text != rows[now].written:
-            self.set(rows[now], rows[now].typed(text))
+            self.set(typing, typing.typed(text))
         if then:
             self.begin_typing(rows[(now + then) % len(rows)])
-            self.show(self.rows.index(rows[(now + then) % len(rows)]))
 
     # By key
-
-    def choose(self, by: int) -> None:
-        """Go to another row, ``by`` rows on."""
-        names = [row.key for row in self.rows]
-        if names:
-            now = names.index(self.chosen) if self.chosen in names else -1 if by > 0 else 0
-            place = (now + by) % len(names)
-            self.chosen = names[place]
-            self.show(place)
 
     def nudge(self, by: float) -> None:
         """More or less of the chosen row: a hundredth of its slider, the next word, on or off."""
         if self.chosen is None:
-            self.choose(1)
+            self.step(1)
         for row in self.rows:
-            if row.key == self.chosen:
+            if row == self.chosen:
                 self.set(row, row.nudged(by))
-
-    def turn(self, by: int) -> None:
-        """Go to another group, ``by`` groups on."""
-        groups = list(self.groups)
-        self.turn_to(groups[(groups.index(self.group) + by) % len(groups)])
 
     def reset_row(self) -> None:
         """The chosen row as in the file."""
         if self.chosen is not None:
-            self.game.reset(self.chosen)
+            self.game.reset(self.chosen.key)
 
     # Drawing
 
@@ -289,21 +276,13 @@ class Panel(Scrolled):
         self.part(pygame.Rect(inner.topleft, (half, line)), FAVOURITES, self.group, lit=FIELD_LIT, mark=1)
         place = pygame.Rect(inner.left + half + gap, inner.top, inner.width - half - gap, line)
         self.part(place, RESET_ALL, RESET_ALL, lit=FIELD_LIT)
-        top, tall = inner.top + line + 2 * gap, 2 * line + gap // 2
-        self.seen = max(1, (inner.bottom - top) // tall)
-        rows = self.rows
-        hovered = None
-        for number, row in enumerate(self.shown):
-            place = pygame.Rect(inner.left, top + number * tall, inner.width - gap, tall)
+        top = inner.top + line + 2 * gap
+        listed = self.listed(pygame.Rect(inner.left, top, inner.width, inner.bottom - top), 2 * line + gap // 2)
+        for row, place in listed:
             self._row(row, place, line)
-            hovered = row if place.collidepoint(self.mouse) else hovered
-        if len(rows) > self.seen:
-            bar = pygame.Rect(inner.right - gap // 2, top, max(2, gap // 2), self.seen * tall)
-            sheet.surface.fill(mix(CARD["background"], CARD["quiet"], 0.2), bar)
-            bar.top, bar.height = bar.top + bar.height * self.first // len(rows), bar.height * self.seen // len(rows)
-            sheet.surface.fill(CARD["quiet"], bar)
-        if hovered is not None:
-            self._tip(hovered.parameter, self.mouse[1])
+        for row, place in listed:
+            if place.collidepoint(self.mouse):
+                self._tip(row.parameter, self.mouse[1])
 
     def _row(self, row: Setting, place: pygame.Rect, line: int) -> None:
         sheet, gap, words = self.sheet, self.sheet.gap, bool(row.parameter.choices)
@@ -312,11 +291,11 @@ class Panel(Scrolled):
         reset = pygame.Rect(top.right - line, top.top, line, line)
         field = pygame.Rect(reset.left - gap // 2 - FIELD * line // 24, top.top, FIELD * line // 24, line)
         right = (reset.left if words else field.left) - gap
-        colour = CARD["accent" if row.key == self.chosen else "text"]
+        colour = CARD["accent" if row == self.chosen else "text"]
         sheet.item(top, self._name(row, right - top.left), colour, left=top.left, right=right)
         if row.value != row.base:
             self.part(reset, (row, RESET_OF), "×", lit=FIELD_LIT)
-        typed = row.key == self.typing
+        typed = row == self.typing
         text = self._typed(field.width - 2 * gap) if typed else row.written
         self.part(below if words else field, (row, FIELD_OF), text, lit=FIELD_LIT, mark=words)
         if typed:

@@ -100,10 +100,8 @@ class Pointer:
             game.playback.playing = False
             return self._begun(self._scrub, at)
         elif view.on_panel(at):
-            slider = view.panel.slider_at(at)
-            if slider is not None:
-                return self._begun(lambda to: view.panel.slide(slider, to), at)
-            view.panel.pressed(at)
+            drag = view.panel.press(at)
+            return self._begun(drag, at) if drag is not None else None
         elif view.area.collidepoint(at):
             return self._on_picture(at)
         return None

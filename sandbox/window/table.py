@@ -9,7 +9,7 @@ import pygame
 
 from sandbox.picture.palette import Colour, palette
 from sandbox.sport.amounts import amount
-from sandbox.window.overlay import HOVERED, Scrolled
+from sandbox.window.overlay import HOVERED, Overlay
 from sandbox.window.shots import Played, share_of, values_of
 
 CARD = palette("card")
@@ -21,14 +21,12 @@ ACTIONS = {
     "delete": (pygame.K_DELETE, "Del  delete"),
     "csv": (pygame.K_c, "C  CSV file"),
 }
-STEPS = {pygame.K_UP: -1, pygame.K_DOWN: 1, pygame.K_PAGEUP: -10, pygame.K_PAGEDOWN: 10}
-SIDES = {pygame.K_LEFT: -1, pygame.K_RIGHT: 1}
 #: Share of the picture that it takes at most; width of a column, and height of the histogram, in px on 720 rows.
 SHARE, COLUMN, TALL = (0.92, 0.86), 104, 74
 BINS = 24
 
 
-class Table(Scrolled):
+class Table(Overlay):
     """The shots of the current scene; ``act`` carries out an action with a shot."""
 
     def __init__(
@@ -57,20 +55,13 @@ class Table(Scrolled):
     # Choosing
 
     def key(self, key: int) -> bool | None:
-        rows, columns = self.rows, self.columns
         action = next((action for action, (named, _) in ACTIONS.items() if named == key), None)
-        if action is not None:
-            return self.do(action)
-        if key in SIDES:
-            self.by = columns[(columns.index(self.by) + SIDES[key]) % len(columns)]
-        elif key in STEPS and rows:
-            now = rows.index(self.chosen) if self.chosen in rows else -1
-            now = min(max(now + STEPS[key], 0), len(rows) - 1)
-            self.chosen = rows[now]
-            self.show(now)
-        else:
-            return None
-        return True
+        return self.do(action) if action is not None else super().key(key)
+
+    def turn(self, by: int) -> None:
+        """Sort by another number."""
+        columns = self.columns
+        self.by = columns[(columns.index(self.by) + by) % len(columns)]
 
     def sort(self, key: str) -> None:
         """Sort by another number, or the other way round."""
@@ -123,9 +114,8 @@ class Table(Scrolled):
             self.part(pygame.Rect(left, top, wide, row), f"={key}", label, colour, bold=True, mark=mark)
             left += wide
         foot = inner.bottom - round(TALL * unit) - 2 * gap
-        self.seen = max(1, (foot - top - row) // row)
-        for number, played in enumerate(self.shown, 1):
-            self._row(played, pygame.Rect(inner.left, top + row * number, inner.width, row), columns)
+        for played, place in self.listed(pygame.Rect(inner.left, top + row, inner.width, foot - top - row), row):
+            self._row(played, place, columns)
         self.places.append((rect, ""))  # a click beside them does nothing
         self._statistics(rows, pygame.Rect(inner.left, foot + gap, inner.width, inner.bottom - foot - gap))
 

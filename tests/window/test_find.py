@@ -84,9 +84,9 @@ class TestInBilliards:
 
     def test_by_key_alone_or_not_at_all(self, asking):
         over = asking.view.over
-        assert over.chosen == "ball 1"
+        assert over.chosen.action == "ball 1"
         asking.key(pygame.K_DOWN)
-        assert over.chosen == "left head corner pocket"
+        assert over.chosen.action == "left head corner pocket"
         asking.key(pygame.K_UP)
         asking.game.helper = Slow()
         asking.key(pygame.K_RETURN)

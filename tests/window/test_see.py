@@ -445,7 +445,7 @@ class TestTheLists:
         player = player(PUTT)
         assert player.view.switched == {"ghosts", PUTT}
         player.button("see")
-        place = next(rect for rect, row in player.view.over.places if row == "charts")
+        place = next(rect for rect, row in player.view.over.places if row.action == "charts")
         player.click(place.center)
         assert "charts" in player.view.on
         player.click((300, 100))

@@ -132,7 +132,7 @@ class TestThePanel:
         player.key(pygame.K_TAB, pygame.KMOD_SHIFT)
         values = player.game.session.value("launch.speed"), player.game.session.value("launch.angle")
         assert values == (60.0, 30.0)
-        assert player.view.panel.typing == "launch.speed"
+        assert player.view.panel.typing.key == "launch.speed"
         letters(player, "1 very long text 9")
         assert any(text.endswith("text 9|") for text, _ in written)
 
@@ -175,7 +175,7 @@ class TestThePanel:
     def test_a_group_is_chosen_from_a_list(self, player):
         player.click(next(rect.center for rect, what in player.view.panel.places if what == FAVOURITES))
         player.frames(1)
-        player.click(next(rect.center for rect, what in player.view.over.places if what == "=launch"))
+        player.click(next(rect.center for rect, row in player.view.over.places if row.action == "launch"))
         assert player.view.panel.group == "launch"
         assert player.view.over is None
 
@@ -209,14 +209,14 @@ class TestThePanelByKey:
         player.key(pygame.K_TAB)
         for _ in range(2):
             player.key(pygame.K_DOWN, pygame.KMOD_CTRL)
-        assert player.view.panel.chosen == "launch.angle"
+        assert player.view.panel.chosen.key == "launch.angle"
         low, high = row(player, "launch.angle").span
         player.key(pygame.K_RIGHT, pygame.KMOD_CTRL)
         player.key(pygame.K_LEFT, pygame.KMOD_CTRL | pygame.KMOD_SHIFT)
         assert player.game.session.value("launch.angle") == pytest.approx(10.4 + 0.009 * (high - low), rel=1e-3)
         player.key(pygame.K_BACKSPACE, pygame.KMOD_CTRL)
         assert player.game.session.changes.values == {}
-        assert player.view.panel.chosen == "launch.angle"
+        assert player.view.panel.chosen.key == "launch.angle"
 
     def test_switches_and_words_too(self, player):
         player = player("soccer")
@@ -224,11 +224,10 @@ class TestThePanelByKey:
         panel = player.view.panel
         for group, kind in ((panel.group, bool), ("ball.drag", str)):
             turn_to(player, group)
-            panel.chosen = next(row.key for row in panel.rows if isinstance(row.value, kind))
-            before = player.game.session.value(panel.chosen)
+            panel.chosen = before = next(row for row in panel.rows if isinstance(row.value, kind))
             player.key(pygame.K_RIGHT, pygame.KMOD_CTRL)
-            assert player.game.session.value(panel.chosen) != before
-        assert row(player, panel.chosen).value in row(player, panel.chosen).parameter.choices
+            assert player.game.session.value(before.key) != before.value
+        assert row(player, panel.chosen.key).value in panel.chosen.parameter.choices
 
     def test_a_row_out_of_sight_is_scrolled_to(self, player, monkeypatch):
         monkeypatch.setattr(Lettering, "larger", 1.5)
@@ -237,9 +236,9 @@ class TestThePanelByKey:
         turn_to(player, "club")
         panel = player.view.panel
         player.key(pygame.K_UP, pygame.KMOD_CTRL)
-        assert panel.chosen == panel.rows[-1].key
+        assert panel.chosen == panel.rows[-1]
         assert panel.seen < len(panel.rows)
-        shown = {what[0].key: rect for rect, what in panel.places if isinstance(what, tuple)}
+        shown = {what[0]: rect for rect, what in panel.places if isinstance(what, tuple)}
         assert shown[panel.chosen].bottom <= panel.rect.bottom
         player.move(shown[panel.chosen].center)
         player.send(pygame.MOUSEWHEEL, x=0, y=1, flipped=False)
