@@ -499,7 +499,7 @@ class Kills:
             raise Wrong(wrong.args[0], f"{story}: {wrong.args[1]}") from None
         if out.read_bytes() != self._expected[points]:
             raise Wrong("finished, other bytes", repr(story))
-        left = {path.name for path in here.iterdir()} - {"rows.csv", "rows.csv~"}
+        left = {path.name for path in here.iterdir()} - {"rows.csv", "rows.csv~", ".rows.csv.complete"}
         if any(not name.endswith(".part") for name in left):  # from a rewrite that was killed
             raise Wrong("files were left", repr(sorted(left)))
         shutil.rmtree(here)

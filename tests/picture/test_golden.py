@@ -4,6 +4,7 @@ import copy
 import json
 import re
 import shutil
+import textwrap
 from pathlib import Path
 
 import numpy as np
@@ -159,6 +160,42 @@ def again(project, *options: str):
     return project.runpytest_inprocess("-p", "no:cacheprovider", *options)
 
 
+def kept(spoil):
+    """What becomes of the file of a record when its contents are spoilt."""
+
+    def spoilt(whole: bytes) -> bytes:
+        record = json.loads(whole)
+        spoil(record)
+        return json.dumps(record).encode()
+
+    return spoilt
+
+
+#: Golden files, what happens to them, and what is said of it; None where it is a change as any other.
+SPOILT = [
+    ("json", lambda whole: b"<<<<<<< HEAD\n", "is damaged: not JSON: Expecting value: line 1 column 1*"),
+    ("json", lambda whole: b"[]", "is damaged: not a record of a run*"),
+    ("png", lambda whole: b"", "is damaged: not a picture, or an incomplete one"),
+    ("png", lambda whole: whole[:60], "is damaged: not a picture, or an incomplete one"),
+    *(
+        ("json", kept(spoil), f"is damaged: {said}")
+        for spoil, said in (
+            (lambda kept: kept["states"]["ball"].clear(), "ball has 0 states, of 24 that were recorded"),
+            (lambda kept: kept["states"]["ball"].pop(), "ball has 23 states, of 24 that were recorded"),
+            (lambda kept: kept["states"]["ball"].pop(5), "ball has 23 states, of 24 that were recorded"),
+            (lambda kept: kept["states"]["ball"][3].pop(), "state 3 of ball is not a row of t, x, y, vx, vy, spin *"),
+            (lambda kept: kept["states"]["ball"][3].__setitem__(1, None), "state 3 of ball is not a row of t, x, *"),
+            (lambda kept: kept["states"]["ball"][3].__setitem__(0, 0.0), "state 3 of ball is not a row *"),
+            (lambda kept: kept["states"].clear(), "it has no states, or *"),
+            (lambda kept: kept["events"][0].pop(), "it has no states, or an event is not a row of *"),
+            (lambda kept: kept.pop("result"), "not a record of a run, or not a whole one"),
+        )
+    ),
+    ("json", kept(lambda kept: kept["events"].clear()), None),
+    ("json", kept(lambda kept: kept["result"].clear()), None),
+]
+
+
 class TestRuns:
     def changed(self, project, monkeypatch, changes: str = "{}"):
         again(project, "--golden-update").assert_outcomes(passed=1)
@@ -183,61 +220,24 @@ class TestRuns:
         (scene_project.path / "golden" / "it.json").unlink()
         again(scene_project).stdout.fnmatch_lines(["*it has no golden run*it.json*pytest --golden-update*"])
 
-    @pytest.mark.parametrize(
-        ("name", "content", "told"),
-        [
-            ("it.json", "<<<<<<< HEAD\n", "not JSON: Expecting value: line 1 column 1*"),
-            ("it.json", "[]", "not a record of a run*"),
-            ("it.png", "", "not a picture, or an incomplete one"),
-            ("it.png", None, "not a picture, or an incomplete one"),
-        ],
-    )
-    def test_a_damaged_file_is_named_and_made_anew(self, scene_project, name: str, content: str | None, told: str):
+    def test_damaged_files_are_named_and_made_anew_and_what_was_emptied_is_a_change(self, scene_project):
+        test = scene_project.path / "test_it.py"
+        each = test.read_text().replace(
+            "def test_it(golden):", f"@pytest.mark.parametrize('n', range({len(SPOILT)}))\ndef test_it(golden, n):"
+        )
+        test.write_text("import pytest\n" + textwrap.dedent(each).replace('"it"', "f'it{n}'"))
         again(scene_project, "--golden-update")
-        file = scene_project.path / "golden" / name
-        whole = file.read_bytes()
-        file.write_bytes(whole[:60] if content is None else content.encode())
+        whole = {}
+        for number, (kind, spoil, _) in enumerate(SPOILT):
+            file = scene_project.path / "golden" / f"it{number}.{kind}"
+            whole[file] = file.read_bytes()
+            file.write_bytes(spoil(whole[file]))
         result = again(scene_project)
-        result.stdout.fnmatch_lines([f"it: *{name} is damaged: {told}", "*make it again: pytest --golden-update"])
-        again(scene_project, "--golden-update").stdout.fnmatch_lines([f"*{name}: new"])
-        assert file.read_bytes() == whole
-
-    @pytest.mark.parametrize(
-        ("spoil", "told"),
-        [
-            (lambda kept: kept["states"]["ball"].clear(), "ball has 0 states, of 24 that were recorded"),
-            (lambda kept: kept["states"]["ball"].pop(), "ball has 23 states, of 24 that were recorded"),
-            (lambda kept: kept["states"]["ball"].pop(5), "ball has 23 states, of 24 that were recorded"),
-            (
-                lambda kept: kept["states"]["ball"][3].pop(),
-                "state 3 of ball is not a row of t, x, y, vx, vy, spin *",
-            ),
-            (lambda kept: kept["states"]["ball"][3].__setitem__(1, None), "state 3 of ball is not a row of t, x, *"),
-            (lambda kept: kept["states"]["ball"][3].__setitem__(0, 0.0), "state 3 of ball is not a row *"),
-            (lambda kept: kept["states"].clear(), "it has no states, or *"),
-            (lambda kept: kept["events"][0].pop(), "it has no states, or an event is not a row of *"),
-            (lambda kept: kept.pop("result"), "not a record of a run, or not a whole one"),
-        ],
-    )
-    def test_rows_that_are_gone_are_named(self, scene_project, spoil, told: str):
-        again(scene_project, "--golden-update")
-        file = scene_project.path / "golden" / "it.json"
-        whole = file.read_bytes()
-        kept = json.loads(whole)
-        spoil(kept)
-        file.write_text(json.dumps(kept))
-        again(scene_project).stdout.fnmatch_lines([f"it: *it.json is damaged: {told}"])
-        again(scene_project, "--golden-update").assert_outcomes(passed=1)
-        assert file.read_bytes() == whole
-
-    @pytest.mark.parametrize("key", ["events", "result"])
-    def test_what_was_emptied_is_a_change(self, scene_project, key: str):
-        again(scene_project, "--golden-update")
-        file = scene_project.path / "golden" / "it.json"
-        kept = json.loads(file.read_bytes())
-        kept[key].clear()
-        file.write_text(json.dumps(kept))
-        again(scene_project).assert_outcomes(failed=1)
+        result.assert_outcomes(failed=len(SPOILT))
+        told = [f"it{n}: *it{n}.{kind} {said}" for n, (kind, _, said) in enumerate(SPOILT) if said]
+        result.stdout.fnmatch_lines_random([*told, "*make it again: pytest --golden-update"])
+        again(scene_project, "--golden-update").assert_outcomes(passed=len(SPOILT))
+        assert {file: file.read_bytes() for file in whole} == whole
 
     def test_a_difference_below_the_tolerance_that_shows_is_called_so(self, scene_project, monkeypatch):
         """A picture that shows the eighth digit of gravity."""
@@ -316,7 +316,7 @@ def test_a_chaotic_run_is_kept_until_it_diverges(pytester, monkeypatch):
 
         def test_it(golden):
             until = float(os.environ["UNTIL"]) if "UNTIL" in os.environ else None
-            golden.check("it", sandbox.simulate(sandbox.load("billiards/eight-ball-break")), until)  # a rack
+            golden.check("it", sandbox.simulate(sandbox.load("billiards/nine-ball-break")), until)  # a rack
         """
     )
     result = again(pytester, "--golden-update")
@@ -326,11 +326,11 @@ def test_a_chaotic_run_is_kept_until_it_diverges(pytester, monkeypatch):
     )
     assert told is not None
     assert float(told[2]) == pytest.approx(0.8 * float(told[1]), rel=0.1)
-    monkeypatch.setenv("UNTIL", "0.12")
+    monkeypatch.setenv("UNTIL", "0.16")
     again(pytester, "--golden-update").assert_outcomes(passed=1)
     again(pytester).assert_outcomes(passed=1)
-    monkeypatch.setenv("UNTIL", "0.13")
-    again(pytester).stdout.fnmatch_lines(["*recorded until 0.12 and checked until 0.13*"])
+    monkeypatch.setenv("UNTIL", "0.17")
+    again(pytester).stdout.fnmatch_lines(["*recorded until 0.16 and checked until 0.17*"])
 
 
 class TestRecords:
@@ -402,16 +402,21 @@ class TestRecords:
 
 class TestThePlugin:
     @pytest.mark.parametrize(("processes", "options"), [("0", []), ("2", ["--golden-update"])])
-    def test_two_tests_of_one_name_are_refused(self, project, processes: str, options: list[str]):
-        second = (project.path / "test_it.py").read_text().replace('"white"', '"black"')
-        (project.path / "test_other.py").write_text(second.replace("test_it", "test_more"))
+    def test_two_tests_of_one_name_are_refused_and_what_other_processes_wrote_is_listed(
+        self, project, processes: str, options: list[str]
+    ):
+        first = (project.path / "test_it.py").read_text()
+        (project.path / "test_other.py").write_text(first.replace('"white"', '"black"').replace("test_it", "test_more"))
+        (project.path / "test_own.py").write_text(first.replace('"it"', '"own"'))
         result = run(project, f"--numprocesses={processes}", *options)
         assert result.ret == pytest.ExitCode.TESTS_FAILED
         both = (
             r"it is the golden name of test_it.py::test_it and test_other.py::test_more: each test needs its own name"
         )
         result.stdout.re_match_lines([both])
-        assert len(list((project.path / "golden").glob("*"))) == (1 if options else 0)
+        assert len(list((project.path / "golden").glob("*"))) == (2 if options else 0)
+        if options:
+            result.stdout.fnmatch_lines(["*own.png: new"])
 
     def test_a_second_check_in_one_test_is_compared_with_the_first(self, project):
         text = (project.path / "test_it.py").read_text()
@@ -419,13 +424,15 @@ class TestThePlugin:
         (project.path / "test_it.py").write_text(twice)
         run(project, "--golden-update").assert_outcomes(failed=1)
 
-    @pytest.mark.parametrize("until", ["-1", "0.0", "float('nan')", "float('inf')"])
-    def test_a_time_that_is_none_is_refused(self, project, until: str):
+    def test_a_time_that_is_none_is_refused(self, project):
         test = project.path / "test_it.py"
-        test.write_text(test.read_text().replace('"white")))', f'"white")), until={until})'))
+        times = "@__import__('pytest').mark.parametrize('until', [-1, 0.0, float('nan'), float('inf')])\n"
+        checked = test.read_text().replace('"white")))', '"white")), until)')
+        test.write_text(checked.replace("def test_it(golden)", f"{times}def test_it(golden, until)"))
         result = run(project, "--golden-update")
-        result.assert_outcomes(failed=1)
-        result.stdout.fnmatch_lines(["*it: until = *: must be a time greater than 0 s"])
+        result.assert_outcomes(failed=4)
+        said = [f"*it: until = {until}: must be a time greater than 0 s" for until in (-1, 0.0, "nan", "inf")]
+        result.stdout.fnmatch_lines(said)
 
     def test_a_missing_picture_fails_and_says_how_to_make_it(self, project):
         result = run(project)
@@ -455,10 +462,6 @@ class TestThePlugin:
         result = run(project, "--golden-update")
         result.stdout.no_fnmatch_line("*golden files written*")
         assert (project.path / "golden" / "it.png").stat().st_mtime_ns == before
-
-    def test_update_lists_what_other_processes_wrote(self, project):
-        result = run(project, "--golden-update", "--numprocesses=1")
-        result.stdout.fnmatch_lines(["*it.png: new"])
 
     def test_nothing_is_written_on_ci(self, project, monkeypatch):
         monkeypatch.setenv("CI", "true")
