@@ -324,14 +324,7 @@ def not_at_the_start(t: Any, position: Any, velocity: Any, spin: Any) -> tuple[A
     return 0.1 / t, 0.0
 
 
-FORCES = [
-    of_floats_only,
-    mixes_shots_up,
-    changes_what_it_is_given,
-    has_another_shape,
-    of_arrays_only,
-    not_at_the_start,
-]
+FORCES = [of_floats_only, mixes_shots_up, changes_what_it_is_given, has_another_shape, of_arrays_only, not_at_the_start]
 
 
 @pytest.mark.parametrize("force", FORCES)

@@ -207,16 +207,8 @@ def test_balls_that_hardly_bounce_go_through_their_contact(restitution):
 @pytest.mark.parametrize(
     ("speed", "angle", "english"),
     [
-        (
-            3.0,
-            -92.25006174645455,
-            -0.21837248667408093,
-        ),  # rounding leaves two of the row 1e-17 m too close, at rest
-        (
-            12.0,
-            -123.89969905899652,
-            -0.3213740023291254,
-        ),  # the cue ball comes to one it could not reach
+        (3.0, -92.25006174645455, -0.21837248667408093),  # rounding leaves two of the row 1e-17 m too close, at rest
+        (12.0, -123.89969905899652, -0.3213740023291254),  # the cue ball comes to one it could not reach
     ],
 )
 def test_a_frozen_row_struck_across_parts_at_once(monkeypatch, speed, angle, english):

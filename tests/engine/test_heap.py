@@ -48,11 +48,7 @@ FLOOR = [surface("floor", (-5.0, 0.0), (5.0, 0.0))]
 TURNS = [pi + pi * part / 24 for part in range(25)]
 RIM = [(0.5 * cos(turn), 0.5 + 0.5 * sin(turn)) for turn in TURNS]
 BOWL = [surface(f"bowl {place}", *ends) for place, ends in enumerate(pairwise(RIM))]
-BOX = [
-    *FLOOR,
-    surface("left", (-0.25, 0.0), (-0.25, 9.0)),
-    surface("right", (0.25, 0.0), (0.25, 9.0)),
-]
+BOX = [*FLOOR, surface("left", (-0.25, 0.0), (-0.25, 9.0)), surface("right", (0.25, 0.0), (0.25, 9.0))]
 SLOPE = [surface("slope", (-4.0, 1.46), (0.0, 0.0)), surface("wall", (0.0, -0.5), (0.0, 3.0))]
 
 

@@ -23,11 +23,7 @@ LONGEST = 15.0
 
 #: A failing example is shown as it is: shrinking it would run many more of its kind.
 quickly = settings(
-    deadline=None,
-    database=None,
-    derandomize=True,
-    phases=[Phase.generate],
-    suppress_health_check=list(HealthCheck),
+    deadline=None, database=None, derandomize=True, phases=[Phase.generate], suppress_health_check=list(HealthCheck)
 )
 
 

@@ -122,10 +122,7 @@ def test_floats_and_arrays_agree(shots, wx: float):
     assume(all(spin == 0.0 or abs(spin) > 1e-250 for _, _, spin, _ in shots))
     wind = LogWind((wx, 0.0), 10.0, 0.03)
     vx, vy, spin, y = (np.array(column) for column in zip(*shots, strict=True))
-    for force in (
-        Drag(RADIUS, DENSITY, tour_fit_drag, wind),
-        Magnus(RADIUS, DENSITY, tour_fit_lift, wind),
-    ):
+    for force in (Drag(RADIUS, DENSITY, tour_fit_drag, wind), Magnus(RADIUS, DENSITY, tour_fit_lift, wind)):
         together = np.array(force(0.0, (np.zeros_like(y), y), (vx, vy), spin)).T
         one_by_one = [force(0.0, (0.0, sy), (sx, sv), sw) for sx, sv, sw, sy in shots]
         assert together == pytest.approx(np.array(one_by_one), rel=1e-13, abs=1e-13)

@@ -22,12 +22,7 @@ def bench(*balls: dict[str, Any], **changes: Any) -> Run:
     return run_of(balls=list(balls), **changes)
 
 
-@given(
-    st.floats(0.0, 1.0),
-    st.floats(0.0, 1.0),
-    st.floats(0.05, 5.0),
-    st.floats(-0.05, 0.05),
-)
+@given(st.floats(0.0, 1.0), st.floats(0.0, 1.0), st.floats(0.05, 5.0), st.floats(-0.05, 0.05))
 def test_momentum_stays_and_they_part_as_restitution_says(
     restitution: float, friction: float, mass: float, aside: float
 ):

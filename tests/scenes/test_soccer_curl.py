@@ -101,13 +101,7 @@ def test_a_ball_blown_back_from_the_line_is_no_goal():
     """A gale against the kick turns the ball on the line: over its middle, but not all of it over all of it."""
     outcomes: dict[bool, set[bool]] = {True: set(), False: set()}
     for hundredths in range(2840, 2940, 4):
-        run = kick(
-            launch__speed=hundredths / 100,
-            launch__angle=0,
-            launch__spin=0,
-            air__wind=[-30, 0],
-            **ALONE,
-        )
+        run = kick(launch__speed=hundredths / 100, launch__angle=0, launch__spin=0, air__wind=[-30, 0], **ALONE)
         furthest = run.trajectory("ball")[:, 1].max()
         if 22.0 < furthest < 24.0 - 0.12:
             outcomes[bool(furthest > 22.17)].add(run.result["goal"])
