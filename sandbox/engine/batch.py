@@ -175,7 +175,7 @@ class Batch:
             found = acceleration(ball, t, state)
             if any(map(np.iscomplexobj, found)):
                 raise TypeError("complex numbers")
-            ax, ay, alpha = (part if np.shape(part) == t.shape else np.broadcast_to(part, t.shape) for part in found)
+            ax, ay, alpha = (part if np.shape(part) == t.shape else np.full(t.shape, part) for part in found)
         except FAILURES as error:  # such as arrays of the wrong shape
             raise _OnlyFloats from error
         return ax, ay, alpha

@@ -10,7 +10,7 @@ from math import comb
 
 import numpy as np
 
-from sandbox.engine.bernstein import CONVERGED, binomials
+from sandbox.engine.bernstein import CONVERGED, binomials, elevate
 
 #: Bisections of a polynomial of which its signs do not tell how many roots it has.
 _HALVINGS = 4
@@ -64,6 +64,23 @@ def _product_weights(n: int) -> np.ndarray:
         for j in range(n + 1):
             weights[i + j, i, j] = c[i] * c[j] / d[i + j]
     return weights.reshape(2 * n + 1, -1)
+
+
+def elevated(b: np.ndarray, degree: int) -> np.ndarray:
+    """The same polynomials at a higher degree."""
+    found: np.ndarray = _elevation(len(b) - 1, degree) @ b
+    return found
+
+
+@lru_cache
+def _elevation(n: int, degree: int) -> np.ndarray:
+    return np.array([elevate(one, degree) for one in np.eye(n + 1).tolist()]).T
+
+
+def without_root_at_start(b: np.ndarray) -> np.ndarray:
+    """Coefficients of f(u) / u, where f(0) is taken as exactly zero, at the degree of f."""
+    k = np.arange(1, len(b))[:, None]
+    return np.concatenate((b[:-1] + (len(b) / k - 1.0) * b[1:], b[-1:]))
 
 
 def first_downward_crossing(b: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -13,14 +13,15 @@ import numpy as np
 
 from sandbox.engine.accuracy import SKIN
 from sandbox.engine.arc import Arc
-from sandbox.engine.bernstein import without_root_at_start
-from sandbox.engine.bernstein_many import evaluate, first_downward_crossing, squared_length
+from sandbox.engine.bernstein_many import (
+    elevated,
+    evaluate,
+    first_downward_crossing,
+    squared_length,
+    without_root_at_start,
+)
 from sandbox.engine.stacking import Stack
 from sandbox.engine.touch import NOISE, TOUCHING_GAP, Obstacle, Outline, Touching, flush
-
-#: First crossing of each path, and a mask of the unclear ones; both of shape (paths,).
-Crossings = tuple[np.ndarray, np.ndarray]
-
 
 class Grip(NamedTuple):
     """What lasting contact asks of many surfaces."""
@@ -95,21 +96,7 @@ class Outlines:
         touch = np.full(len(shots), np.inf)
         what, path = np.nonzero(self.in_reach(shots, x, y, held))
         if len(path):
-            xs, ys = x[:, path], y[:, path]
-            outlines = self._table[:, what, shots[path]]
-            outline = Outline(*outlines)
-            straight = np.flatnonzero(outline.length > 0.0)
-            u, unclear = _first_within(
-                np.concatenate((xs - outline.ax, xs[:, straight] - outline.bx[straight]), axis=1),
-                np.concatenate((ys - outline.ay, ys[:, straight] - outline.by[straight]), axis=1),
-                np.concatenate((outline.reach, outline.reach[straight])) - self._skin,
-            )
-            (u, u_b), (unclear, unclear_b) = np.split(u, [len(path)]), np.split(unclear, [len(path)])
-            if len(straight):
-                sides = Outline(*outlines[:, straight])
-                u_side, unclear_side = _side(sides, xs[:, straight], ys[:, straight], self._skin)
-                u[straight] = np.minimum(np.minimum(u[straight], u_b), u_side)
-                unclear[straight] |= unclear_b | unclear_side
+            u, unclear = _first_touch(Outline(*self._table[:, what, shots[path]]), x[:, path], y[:, path], self._skin)
             for pair in np.flatnonzero(unclear).tolist():
                 found = self.obstacle(int(what[pair]), int(shots[path[pair]])).first_touch(arc(int(path[pair])))
                 u[pair] = np.inf if found is None else found
@@ -133,24 +120,22 @@ class Outlines:
         return self._obstacles[key]
 
 
-def _side(outline: Outline, x: np.ndarray, y: np.ndarray, skin: float) -> Crossings:
-    """Where paths come to touch a side, from either side of its line."""
-    across, along = outline.across(x, y), outline.along(x, y)
-    count = len(outline.reach)
-    first, unclear = np.full(count, np.inf), np.zeros(count, dtype=bool)
-    reached = (across.min(axis=0) <= outline.reach) & (across.max(axis=0) >= -outline.reach)
-    gap = np.concatenate((across, -across), axis=1)
-    beside = gap[0] > 0.0
-    gap = gap - (np.tile(outline.reach, 2) - skin)
-    some = np.flatnonzero(np.tile(reached, 2) & (beside | (gap.max(axis=0) > -NOISE)))
-    if not len(some):
+def _first_touch(outline: Outline, x: np.ndarray, y: np.ndarray, skin: float) -> tuple[np.ndarray, np.ndarray]:
+    """Where each path first touches its shape, as u, inf where it does not, and a mask of the unclear ones; both of
+    shape (paths,)."""
+    first, unclear = np.full(len(outline.reach), np.inf), np.zeros(len(outline.reach), dtype=bool)
+    straight = np.flatnonzero(outline.length > 0.0)
+    along, (corners, to_corner) = outline.along(x, y), _to_corners(outline, straight, x, y, skin)
+    sides, to_side, starts = _to_sides(outline, straight, along[0], outline.across(x, y), skin)
+    path = np.concatenate((corners, sides))
+    if not len(path):
         return first, unclear
-    gap, path = gap[:, some], some % count
-    along, length = along[:, path], outline.length[path]
-    within = (along[0] >= -TOUCHING_GAP) & (along[0] <= length + TOUCHING_GAP)
-    u, doubtful = _closing(gap, within & beside[some])
-    there = evaluate(along, np.where(np.isfinite(u), u, 0.0))
-    missed = np.isfinite(u) & ((there < 0.0) | (there > length))
+    gap = np.concatenate((to_corner, to_side), axis=1)
+    u, doubtful = _closing(gap, np.concatenate((corners >= 0, starts)))
+    found = np.isfinite(u)
+    there = evaluate(along[:, path], np.where(found, u, 0.0))
+    missed = found & ((there < 0.0) | (there > outline.length[path]))
+    missed[: len(corners)] = False
     if missed.any():  # it may touch later, after passing beyond the side's end
         u[missed] = np.inf
         positive = gap > 0.0
@@ -161,9 +146,14 @@ def _side(outline: Outline, x: np.ndarray, y: np.ndarray, skin: float) -> Crossi
     return first, unclear
 
 
-def _first_within(dx: np.ndarray, dy: np.ndarray, radius: np.ndarray) -> Crossings:
-    """Where paths, given from the middle of a round feature, come within ``radius`` of it."""
-    first, unclear = np.full(len(radius), np.inf), np.zeros(len(radius), dtype=bool)
+def _to_corners(
+    outline: Outline, straight: np.ndarray, x: np.ndarray, y: np.ndarray, skin: float
+) -> tuple[np.ndarray, np.ndarray]:
+    """The paths that may come to touch a corner, and their gaps to it: of order 2 in the distance, in m there."""
+    path = np.concatenate((np.arange(len(outline.reach)), straight))
+    dx = x[:, path] - np.concatenate((outline.ax, outline.bx[straight]))
+    dy = y[:, path] - np.concatenate((outline.ay, outline.by[straight]))
+    radius = outline.reach[path] - skin
     apart = (dx.min(axis=0) > radius) | (dx.max(axis=0) < -radius)
     apart |= (dy.min(axis=0) > radius) | (dy.max(axis=0) < -radius)
     # all control points are beyond a tangent of the circle: no touch
@@ -171,19 +161,33 @@ def _first_within(dx: np.ndarray, dy: np.ndarray, radius: np.ndarray) -> Crossin
     length = np.hypot(mx, my)
     apart |= (length > radius) & ((dx * mx + dy * my).min(axis=0) > radius * length)
     some = np.flatnonzero(~apart)
-    if len(some):
-        radius = radius[some]
-        gap = (squared_length(dx[:, some], dy[:, some]) - radius * radius) / (2.0 * radius)
-        first[some], unclear[some] = _closing(gap, np.ones(len(some), dtype=bool))
-    return first, unclear
+    radius = radius[some]
+    return path[some], (squared_length(dx[:, some], dy[:, some]) - radius * radius) / (2.0 * radius)
 
 
-def _closing(gap: np.ndarray, starts_touching: np.ndarray) -> Crossings:
-    """When gaps close. One that is closed at the start, within rounding, counts only if it closes further."""
-    starts_closed = starts_touching & (gap[0] <= NOISE)
-    u, unclear = first_downward_crossing(gap)
-    if starts_closed.any():
-        opening = np.array(without_root_at_start(gap[:, starts_closed] - gap[0, starts_closed]))
-        u[starts_closed], doubtful = first_downward_crossing(opening + NOISE)
-        unclear[starts_closed] = doubtful | (opening[0] < -NOISE)
+def _to_sides(
+    outline: Outline, straight: np.ndarray, along: np.ndarray, across: np.ndarray, skin: float
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """The paths that may come to touch a side, from either side of its line; their gaps to it, of the same degree as
+    those to corners; and whether they may start in touch. ``along`` is where they start."""
+    path = np.tile(straight, 2)
+    across = np.concatenate((across[:, straight], -across[:, straight]), axis=1)
+    reach, beside = outline.reach[path], across[0] > 0.0
+    gap = across - (reach - skin)
+    reached = (across.min(axis=0) <= reach) & (across.max(axis=0) >= -reach)
+    some = np.flatnonzero(reached & (beside | (gap.max(axis=0) > -NOISE)))
+    path = path[some]
+    within = (along[path] >= -TOUCHING_GAP) & (along[path] <= outline.length[path] + TOUCHING_GAP)
+    return path, elevated(gap[:, some], 2 * (len(gap) - 1)), within & beside[some]
+
+
+def _closing(gap: np.ndarray, starts_touching: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """When gaps first close, as u, and a mask of the unclear ones. One that is closed at the start, within rounding,
+    counts only if it closes further."""
+    closed = np.flatnonzero(starts_touching & (gap[0] <= NOISE))
+    opening = without_root_at_start(gap[:, closed] - gap[0, closed])
+    ahead = gap.copy()
+    ahead[:, closed] = opening + NOISE
+    u, unclear = first_downward_crossing(ahead)
+    unclear[closed] |= opening[0] < -NOISE
     return u, unclear
