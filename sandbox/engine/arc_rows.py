@@ -107,6 +107,10 @@ class ArcRows(Path):
         times: list[float] = self._rows[:, T1].tolist()
         return times
 
+    def pieces(self) -> Iterator[tuple[float, float, list[float], list[float]]]:
+        """As in Path, without the arcs."""
+        return zip(self.starts, self.stops, *(self._rows[:, part].tolist() for part in (X, Y)), strict=True)
+
     def ends(self) -> list[Passage]:
         """Time and state at the end of each arc."""
         return list(zip(self.stops, map(tuple, self._rows[:, END].tolist()), strict=True))

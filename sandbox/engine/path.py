@@ -78,6 +78,10 @@ class Path:
         index = bisect_left(self.stops, t)
         return self[index] if index < len(self) and self.stops[index] == t else self.at(t)
 
+    def pieces(self) -> Iterable[tuple[float, float, Sequence[float], Sequence[float]]]:
+        """Of each arc: when it begins and ends, in s, and the curves of x and y."""
+        return ((arc.t0, arc.t1, arc.x, arc.y) for arc in self)
+
     def ends(self) -> Iterable[Passage]:
         """Time and state at the end of each arc."""
         return ((arc.t1, arc.state(arc.t1)[:5]) for arc in self)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import chain
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -20,17 +21,19 @@ CLOSEST, LONGEST, BEND = 3.0, 60.0, 0.12
 
 def points(paths: Sequence[tuple[Run, str]]) -> list[np.ndarray]:
     """Points along the paths of balls of runs, each of shape (n, 3): t in s, x and y in m, in order of time."""
-    arcs = [arc for run, ball in paths for arc in run.arcs[ball]]
-    out = np.empty((len(arcs), POINTS, 3))
-    spans = np.array([(arc.t0, min(arc.t1, run.duration)) for run, ball in paths for arc in run.arcs[ball]])
+    pieces = [[*run.arcs[ball].pieces()] for run, ball in paths]
+    starts, stops, *both = (list(part) for part in zip(*chain(*pieces), strict=True))
+    counts = [len(each) for each in pieces]
+    out = np.empty((len(starts), POINTS, 3))
     u = np.linspace(0.0, 1.0, POINTS)
-    out[:, :, 0] = spans[:, :1] + (spans[:, 1:] - spans[:, :1]) * u
-    for column, curves in ((1, [arc.x for arc in arcs]), (2, [arc.y for arc in arcs])):
+    first, last = np.array(starts), np.minimum(stops, np.repeat([run.duration for run, _ in paths], counts))
+    out[:, :, 0] = first[:, None] + (last - first)[:, None] * u
+    for column, curves in enumerate(both, 1):
         lengths = np.array([len(curve) for curve in curves])
         for terms in set(lengths.tolist()):
             rows = np.flatnonzero(lengths == terms)
             out[rows, :, column] = evaluate(np.array([curves[row] for row in rows]).T[:, :, None], u)
-    return np.split(out.reshape(-1, 3), POINTS * np.cumsum([len(run.arcs[ball]) for run, ball in paths])[:-1])
+    return np.split(out.reshape(-1, 3), POINTS * np.cumsum(counts)[:-1])
 
 
 def moves(run: Run, ball: str) -> bool:

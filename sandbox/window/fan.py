@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from math import sqrt
+from math import log1p, sqrt
 from time import process_time
 from typing import Any, NamedTuple
 
@@ -155,16 +155,17 @@ def density(lines: Sequence[np.ndarray], size: tuple[int, int]) -> np.ndarray:
     """How many lines (px, shape (n, 2)) go through each pixel of a picture, shape (height, width): smooth lines, since
     each of their points, 1 px apart, is shared out among the four nearest pixels."""
     width, height = size
-    places = []
-    for line in lines:
-        along = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(line, axis=0).T))])
-        every = np.arange(0.0, along[-1], 1.0)
-        places.append(np.column_stack([np.interp(every, along, line[:, axis]) for axis in (0, 1)]))
-        square = np.arange(END) - END // 2
-        places.append(line[-1] + np.stack(np.meshgrid(square, square), axis=-1).reshape(-1, 2))
-    if not places:
+    if not lines:
         return np.zeros((height, width))
-    x, y = np.concatenate(places).T - 0.5
+    joined, last = np.concatenate(lines), np.cumsum([len(line) for line in lines]) - 1
+    lengths = np.hypot(*np.diff(joined, axis=0).T)
+    lengths[last[:-1]] = 0.0  # from the end of one line to the next
+    along = np.concatenate([[0.0], np.cumsum(lengths)])
+    every = np.arange(0.0, along[-1], 1.0)
+    square = np.mgrid[:END, :END].reshape(2, 1, -1) - END // 2  # around each end
+    places = [np.interp(every, along, joined[:, axis]) for axis in (0, 1)]
+    ends = (joined[last].T[:, :, None] + square).reshape(2, -1)
+    x, y = np.concatenate([places, ends], axis=1) - 0.5
     inside = (x >= 0) & (x < width - 1) & (y >= 0) & (y < height - 1)
     x, y = x[inside], y[inside]
     column, row = x.astype(int), y.astype(int)
@@ -189,5 +190,5 @@ def _drawn(
     share = (good[on] / total[on])[:, None]
     pixels = np.zeros((*total.shape, 4), np.uint8)
     pixels[on, :3] = np.round(share * colours[0] + (1 - share) * colours[1])
-    pixels[on, 3] = np.round(255 * (1 - (1 - FAINT) ** total[on]))
+    pixels[on, 3] = np.round(-255 * np.expm1(log1p(-FAINT) * total[on]))
     return (int(columns[0]), int(rows[0])), (total.shape[1], total.shape[0]), pixels.tobytes()
