@@ -23,6 +23,7 @@ from sandbox.engine.bernstein_many import (
 from sandbox.engine.stacking import Stack
 from sandbox.engine.touch import NOISE, TOUCHING_GAP, Obstacle, Outline, Touching, flush
 
+
 class Grip(NamedTuple):
     """What lasting contact asks of many surfaces."""
 
