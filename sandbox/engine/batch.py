@@ -18,8 +18,7 @@ from sandbox.engine.accuracy import Accuracy
 from sandbox.engine.acting import acceleration, by_cause
 from sandbox.engine.arc import Arc, through
 from sandbox.engine.arc_rows import COLUMNS, CURVES, END, START, T0, T1, Paths, X, Y, arc_of, cut, row_of, still_rows
-from sandbox.engine.bernstein import elevate
-from sandbox.engine.bernstein_many import first_downward_crossing
+from sandbox.engine.bernstein_many import elevated, first_downward_crossing
 from sandbox.engine.event import Event
 from sandbox.engine.impulses import FEW, MANY
 from sandbox.engine.impulses import lanes as impact_lanes
@@ -280,7 +279,7 @@ class Batch:
             end = tuple(here[END])
             applied = self._acceleration(ball, here[T1], end)
             _, normal, spare = contact.forces(ball, applied, end)
-            progress = contact.progress(ball, (x, y, vx, vy, np.array(elevate(list(spin), len(vx) - 1))))
+            progress = contact.progress(ball, (x, y, vx, vy, elevated(spin, len(vx) - 1)))
             u, unclear = first_downward_crossing(progress)
             ends = progress[-1] < 0.0
             side = contact.obstacle.outline
