@@ -43,7 +43,7 @@ FLOORS = {
 SHARED_FLOORS = (3, 6)  # single modules, which may import each other
 
 #: Libraries that only some rooms may import; scenes/*/picture.py counts as picture.
-OWNERS = {"pymunk": {"engine"}, "pygame": {"picture", "window"}, "PIL": {"picture", "page", "golden"}}
+OWNERS = {"pymunk": {"engine"}, "pygame": {"picture", "window", "golden"}, "PIL": {"picture", "page", "golden"}}
 
 SCENES = sorted(path.parent.name for path in (ROOT / "scenes").glob("*/scene.py"))
 
