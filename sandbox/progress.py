@@ -2,19 +2,18 @@
 
 from __future__ import annotations
 
+import shutil
 import sys
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any
-
-if TYPE_CHECKING:
-    from rich.progress import Progress
 
 #: Work that takes less than this shows no bar, in s.
 PATIENCE = 2.0
 #: Seconds between two refreshes of the bar.
 INTERVAL = 0.1
+#: Length of the bar, in characters.
+LENGTH = 30
 
 
 @contextmanager
@@ -27,39 +26,31 @@ def bar(what: str) -> Iterator[Callable[[float, float], None]]:
     begun = time.monotonic()
     refreshed = latest = 0.0
     first: tuple[float, float] | None = None
-    progress: Progress | None = None
-    task: Any = None
 
     def show(done: float, total: float) -> None:
-        nonlocal refreshed, first, latest, progress, task
+        nonlocal refreshed, first, latest
         now = time.monotonic()
         first = first if first is not None and done >= latest else (now, done)
         latest = done
         if now - begun < PATIENCE or now - refreshed < INTERVAL:
             return
         refreshed = now
-        if progress is None:
-            progress = _bar()
-            progress.start()
-            task = progress.add_task(what, total=total, pace="")
-        progress.update(task, completed=done, total=total, pace=_pace(done - first[1], now - first[0], total - done))
-        progress.refresh()
+        full = round(LENGTH * min(1.0, done / total)) if total else LENGTH
+        pace = _pace(done - first[1], now - first[0], total - done)
+        _write(f"{what} {'━' * full}{'─' * (LENGTH - full)} {int(done)}/{int(total)} {pace}")
 
     try:
         yield show if sys.stderr is not None and sys.stderr.isatty() else lambda done, total: None
     finally:
-        if progress is not None:
-            progress.stop()  # which clears the line
+        if refreshed:
+            _write("")
 
 
-def _bar() -> Progress:
-    """The bar, drawn only when it is refreshed, without a thread of its own."""
-    from rich.console import Console
-    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn
-
-    columns = TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TextColumn("{task.fields[pace]}")
-    console = Console(file=sys.stderr, force_terminal=True)
-    return Progress(*columns, console=console, transient=True, auto_refresh=False)
+def _write(line: str) -> None:
+    """Over the line before, within the terminal's width; an empty one leaves the line empty."""
+    width = shutil.get_terminal_size((80, 24)).columns - 1
+    sys.stderr.write(f"\r{line[:width]:{width}}" + "\r" * (not line))
+    sys.stderr.flush()
 
 
 def _pace(done: float, seconds: float, left: float) -> str:

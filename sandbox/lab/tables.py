@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import io
 import shutil
 import textwrap
 from collections.abc import Iterable, Sequence
-from itertools import compress
-from typing import Literal
+from itertools import zip_longest
+from unicodedata import east_asian_width
 
 from sandbox.sport.amounts import significant
 from sandbox.text import one_line
@@ -35,31 +34,40 @@ def table(headings: Sequence[str], rows: Iterable[Sequence[str]], align: str, in
     Headings and left-aligned cells are wrapped between words so that lines fit ``width``; right-aligned numbers never,
     even if lines are longer then. Empty headings give no heading line; a column without any text is left out.
     """
-    from rich.console import Console
-    from rich.padding import Padding
-    from rich.table import Table
-    from rich.text import Text
-
     cells = [[one_line(cell) for cell in row] for row in rows]
-    drawn = Table(box=None, padding=(0, 2, 0, 0), pad_edge=False, show_header=any(headings), header_style="")
-    used = [any(column) for column in zip(headings, *cells, strict=True)]
-    columns = list(compress(zip(headings, align, *cells, strict=True), used))
-    widest = [max(map(len, (heading, *column))) for heading, _, *column in columns]
-    is_wide = len(indent) + sum(widest) + 2 * len(columns) - 2 > width()
-    least = len(indent)
-    for heading, side, *column in columns:
-        justify: Literal["left", "right"] = "left" if side == "l" else "right"
-        if side == "r":
-            whole = max(map(len, (*column, *heading.split())), default=0)
-            heading = "\n".join(textwrap.wrap(heading, whole)) if is_wide and heading else heading
-            least += 2 + whole
-        drawn.add_column(Text(heading), justify=justify, no_wrap=side == "r", overflow="fold")
-    for row in cells:
-        drawn.add_row(*map(Text, compress(row, used)))
-    console = Console(file=io.StringIO(), width=max(width(), least), color_system=None, legacy_windows=False)
-    with console.capture() as captured:
-        console.print(Padding(drawn, (0, 0, 0, len(indent)), expand=False))
-    return [line.rstrip() for line in captured.get().splitlines()]
+    every = [headings, *cells] if any(headings) else cells
+    used = [place for place in range(len(headings)) if any(row[place] for row in every)]
+    widths = {place: max(_room(row[place]) for row in every) for place in used}
+    too_wide = len(indent) + sum(widths.values()) + 2 * (len(used) - 1) - width()
+    for place in used if too_wide > 0 else ():
+        if align[place] == "r":
+            least = max(map(_room, (*headings[place].split(), *(row[place] for row in cells))), default=0)
+            too_wide, widths[place] = too_wide - widths[place] + least, least
+    texts = [place for place in used if align[place] == "l" and widths[place] > 1]
+    for _ in range(too_wide if texts else 0):
+        widest = max(texts, key=lambda place: widths[place])
+        widths[widest] = max(1, widths[widest] - 1)
+    lines = []
+    for row in every:
+        wrapped = [_wrapped(row[place], widths[place]) for place in used]
+        for parts in zip_longest(*wrapped, fillvalue=""):
+            padded = [_padded(part, widths[place], align[place]) for part, place in zip(parts, used, strict=True)]
+            lines.append((indent + "  ".join(padded)).rstrip())
+    return lines
+
+
+def _wrapped(text: str, room: int) -> list[str]:
+    return textwrap.wrap(text, room, break_on_hyphens=False) if _room(text) > room else [text]
+
+
+def _padded(text: str, room: int, side: str) -> str:
+    spaces = " " * (room - _room(text))
+    return spaces + text if side == "r" else text + spaces
+
+
+def _room(text: str) -> int:
+    """How many columns of a terminal a text takes."""
+    return len(text) + sum(east_asian_width(letter) in "WF" for letter in text)
 
 
 def paragraph(text: str, indent: str = "  ") -> list[str]:
