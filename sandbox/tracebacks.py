@@ -35,14 +35,14 @@ def one_line_error(error: BaseException) -> str:
 
 def is_ours(filename: str) -> bool:
     """Whether a file came with the sandbox, Python or an installed package, in this environment or another."""
-    installed = not {"site-packages", "dist-packages"}.isdisjoint(Path(filename).parts)
-    libraries = {sysconfig.get_path(name) for name in ("stdlib", "purelib", "platlib")}
-    return (
-        filename.startswith("<")
-        or installed
-        or _is_sandbox(filename)
-        or any(_inside(filename, library) for library in libraries)
-    )
+    return filename.startswith("<") or _is_sandbox(filename) or is_of_library(filename)
+
+
+def is_of_library(filename: str | Path) -> bool:
+    """Whether a file came with Python or an installed package, in this environment or another."""
+    if not {"site-packages", "dist-packages"}.isdisjoint(Path(filename).parts):
+        return True
+    return any(_inside(filename, sysconfig.get_path(name)) for name in ("stdlib", "purelib", "platlib"))
 
 
 def _is_hidden(filename: str) -> bool:
@@ -56,5 +56,5 @@ def _is_sandbox(filename: str) -> bool:
     return _inside(filename, resources.PACKAGE) or _inside(filename, resources.folder("scenes"))
 
 
-def _inside(filename: str, folder: str | Path) -> bool:
+def _inside(filename: str | Path, folder: str | Path) -> bool:
     return Path(filename).resolve().is_relative_to(Path(folder).resolve())

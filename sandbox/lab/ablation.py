@@ -13,7 +13,7 @@ from sandbox.engine.acting import cause
 from sandbox.engine.run import Run
 from sandbox.engine.setup import Always, Ball, Bounce, Force, Setup, Surface
 from sandbox.errors import SandboxError
-from sandbox.lab.reference import Reference, apart, looked_at, places, until
+from sandbox.lab.reference import Reference, apart, places, until
 from sandbox.lab.tables import length_above, table
 from sandbox.lab.timing import Timed, repeat
 from sandbox.lab.verdicts import verdict
@@ -60,7 +60,7 @@ class Ablated:
     part: str
     change: str
     verdict: tuple[str, str]  # with the part, and without
-    shift_m: float | None = None  # by the scene's measure
+    shift_m: float | None = None  # when positions are compared
     flight_m: float | None = None  # at the first contact of the ball, with the part or without
     results: dict[str, tuple[float, float]] | None = None  # numbers of the result, with the part and without
     saves: float | None = None  # fraction of the scene's time at the level "balanced"
@@ -126,7 +126,6 @@ def ablation(reference: Reference) -> list[Ablated]:
     """Change every part of the scene's model in turn."""
     scene, precise, balanced = reference.scene, LEVELS["precise"], LEVELS["balanced"]
     whole = simulate_at(scene, precise)
-    names = list(whole.arcs)
     before = verdict(scene, whole.result)
     resolution = max(reference.error, reference.error_of(whole))
     changes = list(variants(scene.build()))
@@ -153,8 +152,8 @@ def ablation(reference: Reference) -> list[Ablated]:
         row = replace(
             row,
             verdict=(before, verdict(scene, run.result)),
-            shift_m=apart(*(looked_at(scene, one, reference.time) for one in (whole, run))),
-            flight_m=apart(*(places(one, names, touch) for one in (whole, run))),
+            shift_m=apart(*(places(one, reference.time) for one in (whole, run))),
+            flight_m=apart(*(places(one, touch) for one in (whole, run))),
             results=_differences(whole, run),
         )
         rows.append(row)
@@ -178,53 +177,37 @@ def variants(setup: Setup) -> Iterator[Variant]:
     """Each part of the model left out, simplified, or added if the scene lacks it."""
     balls = [replace(ball, forces=[*ball.forces], torques=[*ball.torques]) for ball in setup.balls]
     setup = replace(setup, balls=balls, surfaces=[*setup.surfaces])  # lists throughout, to be compared
-    for part, change, other, touching in (
-        *((name, "left out", _without(setup, name), False) for name in _terms(setup)),
-        *((*in_air, False) for in_air in _in_air(setup)),
-        *((*at_contacts, True) for at_contacts in _at_contacts(setup)),
-        *((*on_plane, False) for on_plane in _on_plane(setup)),
-    ):
-        if other != setup:
-            yield Variant(part, change, other, touching)
+    changes = (*_of_balls(setup), *_of_contacts(setup), *_of_planes(setup))
+    yield from (variant for variant in changes if variant.setup != setup)
 
 
-def _terms(setup: Setup) -> list[str]:
-    """Names of all forces and torques, each once."""
-    return list(dict.fromkeys(cause(term) for ball in setup.balls for term in (*ball.forces, *ball.torques)))
+def _of_balls(setup: Setup) -> Iterator[Variant]:
+    """Forces and torques; loss of mass; coefficients as at the start; wind, lift and spin decay."""
+    first, terms = setup.balls[0], [term for ball in setup.balls for term in (*ball.forces, *ball.torques)]
 
+    def variant(part: str, change: str, changed: Callable[[Ball], Ball]) -> Variant:
+        return Variant(part, change, replace(setup, balls=[changed(ball) for ball in setup.balls]), touching=False)
 
-def _on_balls(setup: Setup, change: Callable[[Ball], Ball]) -> Setup:
-    return replace(setup, balls=[change(ball) for ball in setup.balls])
-
-
-def _without(setup: Setup, name: str) -> Setup:
-    def change(ball: Ball) -> Ball:
-        forces, torques = ([term for term in terms if cause(term) != name] for terms in (ball.forces, ball.torques))
-        return replace(ball, forces=forces, torques=torques)
-
-    return _on_balls(setup, change)
-
-
-def _in_air(setup: Setup) -> Iterator[tuple[str, str, Setup]]:
-    """Coefficients as at the start; wind, lift and spin decay."""
-    balls = setup.balls
-    if any(ball.loss is not None for ball in balls):
-        yield "loss of mass", "left out", _on_balls(setup, lambda ball: replace(ball, loss=None))
+    for name in dict.fromkeys(map(cause, terms)):
+        yield variant(name, "left out", partial(_without, name=name))
+    yield variant("loss of mass", "left out", lambda ball: replace(ball, loss=None))
     for kind, part in ((Drag, "drag coefficient"), (Magnus, "lift coefficient")):
-        for ball in balls[:1]:
-            start = [_at_start(ball, force) for force in ball.forces if isinstance(force, kind) and _varies(force)]
-            if any(start):
-                yield part, f"{start[0]:.3f} as at the start", _on_balls(setup, partial(_steady, kind=kind))
-    forces = [force for ball in balls for force in ball.forces if hasattr(force, "wind")]
-    if any(force.wind is not None for force in forces):
-        yield "wind", "left out", _on_balls(setup, partial(_in_wind, wind=None))
-    elif forces:
-        yield "wind", "added, 1 m/s headwind", _on_balls(setup, partial(_in_wind, wind=UniformWind(-1.0, 0.0)))
-    lifted = [ball for ball in balls if any(isinstance(force, Magnus) for force in ball.forces)]
+        start = [_at_start(first, force) for force in first.forces if isinstance(force, kind) and _varies(force)]
+        if any(start):
+            yield variant(part, f"{start[0]:.3f} as at the start", partial(_steady, kind=kind))
+    yield variant("wind", "left out", partial(_in_wind, wind=None))
+    if all(getattr(term, "wind", None) is None for term in terms):
+        yield variant("wind", "added, 1 m/s headwind", partial(_in_wind, wind=UniformWind(-1.0, 0.0)))
+    lifted = [ball for ball in setup.balls if any(isinstance(force, Magnus) for force in ball.forces)]
     if not lifted:
-        yield "lift", "added, equal to the spin ratio", _on_balls(setup, _with_lift)
-    if any(ball.spin for ball in lifted) and not any(ball.torques for ball in balls):
-        yield "spin decay", "added, as of a golf ball", _on_balls(setup, _with_decay)
+        yield variant("lift", "added, equal to the spin ratio", _with_lift)
+    if any(ball.spin for ball in lifted) and not any(ball.torques for ball in setup.balls):
+        yield variant("spin decay", "added, as of a golf ball", _with_decay)
+
+
+def _without(ball: Ball, name: str) -> Ball:
+    forces, torques = ([term for term in terms if cause(term) != name] for terms in (ball.forces, ball.torques))
+    return replace(ball, forces=forces, torques=torques)
 
 
 def _varies(force: Drag | Magnus) -> bool:
@@ -270,19 +253,17 @@ def _with_decay(ball: Ball) -> Ball:
     return replace(ball, torques=[SpinDecay(ball.inertia, ball.radius, _DECAY)])
 
 
-def _at_contacts(setup: Setup) -> Iterator[tuple[str, str, Setup]]:
+def _of_contacts(setup: Setup) -> Iterator[Variant]:
+    """What surfaces do, and how balls meet."""
     for (part, change), changed in _OF_SURFACES.items():
-        yield part, change, replace(setup, surfaces=[changed(surface) for surface in setup.surfaces])
+        yield Variant(part, change, replace(setup, surfaces=[changed(surface) for surface in setup.surfaces]), True)
     if len(setup.balls) > 1:
-        law, throw = setup.between_balls, "friction of balls (throw)"
-        yield (
-            "contact mechanics",
-            "one impact after another",
-            replace(setup, contact=replace(setup.contact, name="rigid")),
-        )
-        yield throw, "left out", replace(setup, between_balls=_law_without(law, "friction"))
+        law, throw, one_by_one = setup.between_balls, "friction of balls (throw)", replace(setup.contact, name="rigid")
+        yield Variant("contact mechanics", "one impact after another", replace(setup, contact=one_by_one), True)
+        yield Variant(throw, "left out", replace(setup, between_balls=_law_without(law, "friction")), True)
         if law(*_FAST) != law(*_SLOW):
-            yield throw, "at any speed as at 1 m/s", replace(setup, between_balls=Always(law(*_SLOW)))
+            slow = replace(setup, between_balls=Always(law(*_SLOW)))
+            yield Variant(throw, "at any speed as at 1 m/s", slow, True)
 
 
 @dataclass(frozen=True)
@@ -318,10 +299,11 @@ _OF_SURFACES: dict[tuple[str, str], Callable[[Surface], Surface]] = {
 }
 
 
-def _on_plane(setup: Setup) -> Iterator[tuple[str, str, Setup]]:
+def _of_planes(setup: Setup) -> Iterator[Variant]:
+    """What balls slide and roll on."""
     every = [] if setup.plane is None else [setup.plane, *(plane for _, plane in setup.planes)]
     parts = {(term, plane.name): called for plane in every for term, called in plane.TERMS.items()}
     for (term, name), called in parts.items():
         own, *others = [without(plane, term) if plane.name == name else plane for plane in every]
         planes = [(ball, plane) for (ball, _), plane in zip(setup.planes, others, strict=True)]
-        yield f"{called} of the {name}", "left out", replace(setup, plane=own, planes=planes)
+        yield Variant(f"{called} of the {name}", "left out", replace(setup, plane=own, planes=planes), False)

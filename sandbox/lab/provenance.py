@@ -11,7 +11,6 @@ import hashlib
 import os
 import platform
 import sys
-import sysconfig
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from functools import cache
@@ -22,6 +21,7 @@ from pathlib import Path
 from sandbox import resources
 from sandbox.lab.row_file import is_of_a_sweep
 from sandbox.scene import Scene
+from sandbox.tracebacks import is_of_library
 
 #: Files that the program writes; one of these kinds that a scene reads is not noticed.
 _OUTPUTS = (".png", ".gif", ".webp", ".replay.json", ".resume", ".part", "~")
@@ -147,14 +147,4 @@ def _source(place: Path, name: str) -> Path | None:
 
 def _is_users(file: Path) -> bool:
     """Whether a module belongs neither to the sandbox nor to Python or an installed package."""
-    return (
-        file.suffix == ".py"
-        and {"site-packages", "dist-packages"}.isdisjoint(file.parts)
-        and not any(file.is_relative_to(place) for place in (resources.PACKAGE, *libraries()))
-    )
-
-
-@cache
-def libraries() -> frozenset[Path]:
-    """The folders of Python and of installed packages."""
-    return frozenset(Path(sysconfig.get_path(name)) for name in ("stdlib", "purelib", "platlib"))
+    return file.suffix == ".py" and not file.is_relative_to(resources.PACKAGE) and not is_of_library(file)

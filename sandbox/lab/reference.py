@@ -1,8 +1,5 @@
-"""The measure of a run, and the converged reference it is compared with.
-
-The measure is the position of every ball at one time: the end of the run or, if the scene is chaotic, the last moment
-before that shows. A scene may define its own, ``measure(run, parameters) -> (x, y)`` in m, or a list of such points.
-"""
+"""The converged reference that runs are compared with: by the position of every ball at one time, the end of the run
+or, if the scene is chaotic, the last moment before that shows."""
 
 from __future__ import annotations
 
@@ -45,7 +42,7 @@ class Reference:
     """The converged result of a scene."""
 
     scene: Scene
-    time: float  # s, time of the measure
+    time: float  # s, when positions are compared
     points: list[Point]  # m
     error: float  # m, estimated
     first_touch: float  # s, the first contact of a ball; ``time`` if there is none
@@ -60,7 +57,7 @@ class Reference:
 
     def error_of(self, run: Run) -> float:
         """Largest position error of a ball of a run, in m."""
-        return apart(self.points, looked_at(self.scene, run, self.time))
+        return apart(self.points, places(run, self.time))
 
 
 def converge(scene: Scene) -> Reference:
@@ -77,21 +74,20 @@ def converge(scene: Scene) -> Reference:
     other = simulate(until(nudged(scene.build(), NUDGE, 1), whole), REFERENCE)
     check = simulate(until(scene.build(), whole), _check(whole))
     time, diverges_at = whole, None
-    names = [ball.name for ball in setup.balls]
     for t in _looks(first, whole):
-        here = places(first, names, t)
-        if max(apart(here, places(run, names, t)) for run in (other, check)) > DIVERGED:
+        here = places(first, t)
+        if max(apart(here, places(run, t)) for run in (other, check)) > DIVERGED:
             diverges_at = t
             break
         time = t
-    growth = apart(places(first, names, time), places(other, names, time)) / NUDGE
-    points = looked_at(scene, first, time)
+    growth = apart(places(first, time), places(other, time)) / NUDGE
+    points = places(first, time)
     return Reference(
         scene,
         time,
         points,
         # contacts are found to within SKIN, and that error grows like a nudge
-        max(apart(points, looked_at(scene, check, time)), SKIN * max(growth, 1.0)),
+        max(apart(points, places(check, time)), SKIN * max(growth, 1.0)),
         min([time, *(event.t for event in first.events)]),
         _size(first, time),
         growth,
@@ -100,23 +96,14 @@ def converge(scene: Scene) -> Reference:
     )
 
 
-def looked_at(scene: Scene, run: Run, time: float) -> list[Point]:
-    """The scene's measure of a run: points in m."""
-    own = scene.measure
-    if own is None:
-        return places(run, [ball.name for ball in run.setup.balls], time)
-    found = own(run, scene.parameters)
-    return [found] if isinstance(found[0], int | float) else list(found)
-
-
 def apart(a: Sequence[Point], b: Sequence[Point]) -> float:
     """The largest distance between corresponding points of both lists, in m."""
     return max((hypot(p[0] - q[0], p[1] - q[1]) for p, q in zip(a, b, strict=True)), default=0.0)
 
 
-def places(run: Run, names: Sequence[str], t: float) -> list[Point]:
+def places(run: Run, t: float) -> list[Point]:
     """Positions of the balls at time t, in m."""
-    return [(state[0], state[1]) for state in (run.state(name, t) for name in names)]
+    return [(state[0], state[1]) for state in (run.state(ball.name, t) for ball in run.setup.balls)]
 
 
 def _looks(run: Run, whole: float) -> Iterator[float]:

@@ -228,14 +228,13 @@ def _about(reference: Reference) -> list[str]:
     scene, chaotic = reference.scene, reference.diverges_at
     closed = reference.closed_form
     many = "every ball" if len(reference.points) > 1 else "the ball"
-    measure = "the scene's own" if scene.measure is not None else f"position of {many} after {reference.time:.4g} s"
     how = "contacts are computed, the rest is in closed form" if closed else "checked with another integrator"
     growth = f"a nudge at the start grows {significant(reference.growth)} times until then"
     if chaotic is not None:
         growth = f"chaotic: a nudge of 1e-9 m has grown to 1 mm after {chaotic:.4g} s"
     return [
         scene.title,
-        f"  measure    {measure}",
+        f"  measure    position of {many} after {reference.time:.4g} s",
         f"  reference  error {length(reference.error)}, {how}",
         f"  growth     {growth}",
     ]

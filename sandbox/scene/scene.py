@@ -151,12 +151,6 @@ class Scene:
 
         return read
 
-    @property
-    def measure(self) -> Callable[[Run, Any], Any] | None:
-        """What ``sandbox trade`` compares runs by, if the scene has its own ``measure(run, parameters)``."""
-        own: Callable[[Run, Any], Any] | None = getattr(self.module, "measure", None)
-        return own
-
     def settles(self, asked: Collection[str]) -> frozenset[Settled] | None:
         """What must have happened for all these facts to be final; None if one is not until the end."""
         settled = frozenset(self.facts[key].settled for key in asked if key in self.facts) - {"start"}

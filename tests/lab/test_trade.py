@@ -24,7 +24,7 @@ from sandbox.new import new_scene
 from sandbox.physics.coefficients import Constant
 from sandbox.physics.forces import Drag
 from sandbox.scene import load
-from tests.own_scene import DROP, change
+from tests.own_scene import DROP
 
 #: A free throw that rattles in the ring: every impact on the round tube multiplies errors.
 RATTLE = "basketball/rattle"
@@ -90,13 +90,6 @@ def test_a_break_is_looked_at_before_it_diverges():
     assert reference.diverges_at is not None
     assert 0.0 < reference.time < reference.diverges_at
     assert reference.error < DIVERGED
-
-
-def test_a_scene_may_have_a_measure_of_its_own(drop: Path):
-    own = "def measure(run, parameters):\n    return 0.0, run.events[0].t  # when it lands\n\n\n"
-    change(drop / "scene.py", "def verdict", own + "def verdict")
-    (point,) = converge(load(drop)).points
-    assert point[1] == pytest.approx((2.0 * 1.95 / 9.81) ** 0.5)
 
 
 # The table -----------------------------------------------------------------------------------------------------------
