@@ -28,7 +28,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from math import isfinite
 from pathlib import Path
-from typing import TYPE_CHECKING, NoReturn
+from typing import TYPE_CHECKING, NoReturn, TypeVar
 
 import pytest
 
@@ -64,6 +64,8 @@ STRAY_SHARE = 0.0005
 SIZE = (480, 270)
 #: Most changes of a run that a message lists.
 MOST_CHANGES = 5
+
+Known = TypeVar("Known")
 
 NEW = "new"
 #: Kinds of notes in the report of a test.
@@ -181,11 +183,10 @@ class Golden:
         run = subject if isinstance(subject, Run) else None
         image = _as_image(subject, until)
         png, text = self.folder / f"{name}.png", self.folder / f"{name}.json"
-        self._check_damage(name, {png: _damaged_picture(png), text: None if run is None else _damaged_run(text)})
-        expected = _read(png)
+        expected = self._known(name, png, _read)
         drawing = _changed_drawing(expected, image)
-        known = json.loads(text.read_text("utf-8")) if run is not None and text.exists() else None
-        actual = {} if run is None else record.record(run, until, known and record.times_of(known))
+        known = None if run is None else self._known(name, text, record.read)
+        actual = {} if run is None else record.record(run, until, (known or {}).get("duration"))
         physics = None if run is None else _changed_physics(known, actual)
         if drawing is None and physics is None:
             return
@@ -207,13 +208,14 @@ class Golden:
                 self.note(FAILED, json.dumps(failure(name, said, changes, images)))
             _fail(*said, *self._shown(name, expected, image, drawing), HOW_TO_ACCEPT)
 
-    def _check_damage(self, name: str, damage: dict[Path, str | None]) -> None:
-        """Remove damaged files on an update, to make them again; otherwise fail and say what is wrong."""
-        for path, what in damage.items():
-            if what is not None and self.update:
-                path.unlink()
-            elif what is not None:
-                _fail(f"{name}: {path} is damaged: {what}", "fetch it again, or make it again: pytest --golden-update")
+    def _known(self, name: str, path: Path, read: Callable[[Path], Known]) -> Known | None:
+        """What a golden file holds; None if there is none, or a damaged one that is to be made again."""
+        try:
+            return read(path) if path.exists() else None
+        except (OSError, SyntaxError, ValueError) as error:
+            if not self.update:
+                _fail(f"{name}: {path} is damaged: {error}", "fetch it again, or make it again: pytest --golden-update")
+            return None
 
     def _write_run(self, name: str, path: Path, run: Run, until: float | None, change: str) -> None:
         chaos = record.diverges(run, until)
@@ -296,26 +298,6 @@ def _all_changes(known: Record, actual: Record, tolerance: float = record.TOLERA
     return [*moved, *record.changed_results(known, actual, tolerance)]
 
 
-def _damaged_picture(path: Path) -> str | None:
-    """What is wrong with a golden picture; None if it is complete or missing."""
-    try:
-        _read(path)
-    except (OSError, SyntaxError, ValueError):  # Pillow's messages are no clearer
-        return "not a picture, or an incomplete one"
-    return None
-
-
-def _damaged_run(path: Path) -> str | None:
-    """What is wrong with the record of a golden run; None if it is complete or missing."""
-    if not path.exists():
-        return None
-    try:
-        found = json.loads(path.read_text("utf-8"))
-    except ValueError as error:
-        return f"not JSON: {error}"
-    return record.damage(found)
-
-
 def _as_image(subject: Subject, until: float | None) -> Image.Image:
     from PIL import Image
 
@@ -335,11 +317,9 @@ def _as_image(subject: Subject, until: float | None) -> Image.Image:
         _fail(str(error))
 
 
-def _read(path: Path) -> Image.Image | None:
+def _read(path: Path) -> Image.Image:
     from PIL import Image
 
-    if not path.exists():
-        return None
     with Image.open(path) as file:
         return file.convert("RGB")
 

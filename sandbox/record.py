@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from sandbox.files import json_ready
@@ -34,15 +35,15 @@ UNITS = {"t": "s", "x": "m", "y": "m", "vx": "m/s", "vy": "m/s", "spin": "rad/s"
 Record = dict[str, Any]
 
 
-def record(run: Run, until: float | None = None, times: Sequence[float] | None = None) -> Record:
+def record(run: Run, until: float | None = None, duration: float | None = None) -> Record:
     """What happened, in JSON's types: up to ``until`` s, or to the end and with the results.
 
-    ``times`` are those of the states, in s; without them they are spread evenly.
+    States are spread evenly over the run, or over ``duration`` s, that of a record to compare with.
     """
     end = run.duration if until is None else min(until, run.duration)
-    if times is None:
-        count = _samples(len(run.setup.balls))
-        times = _rounded([end * i / (count - 1) for i in range(count)])  # as the file will have them
+    balls = run.setup.balls
+    last = max(6, min(SAMPLES, MOST_STATES // len(balls))) - 1
+    times = _rounded([(duration or end) * i / last for i in range(last + 1)])  # as the file will have them
     recorded: Record = {} if until is None else {"until": until}
     if until is None:
         recorded |= {"ended": run.ended, "duration": run.duration, "result": json_ready(run.result)}
@@ -53,38 +54,21 @@ def record(run: Run, until: float | None = None, times: Sequence[float] | None =
     when = [run.duration if abs(t - run.duration) <= TOLERANCE else t for t in times]
     recorded["states"] = {
         ball.name: [[t, *map(float, run.state(ball.name, at))] for t, at in zip(times, when, strict=True)]
-        for ball in run.setup.balls
+        for ball in balls
     }
     return _rounded(recorded)
 
 
-def _samples(balls: int) -> int:
-    """How many states are recorded of each ball, if there are ``balls`` of them."""
-    return max(6, min(SAMPLES, MOST_STATES // max(1, balls)))
-
-
-def damage(recorded: Any) -> str | None:
-    """What is missing from a record that was read from a file, in words; None if it is complete."""
+def read(path: Path) -> Record:
+    """The record in a file. Raises ValueError if it is not one, or not a whole one."""
+    recorded: Record = json.loads(path.read_text("utf-8"))
     try:
-        states, count = recorded["states"], _samples(len(recorded["states"]))
-        end = [] if "until" in recorded else [recorded[name] for name in ("duration", "ended", "result")]
-        if not states or any(len(row) != len(EVENT) for row in recorded["events"]):
-            return f"it has no states, or an event is not a row of {', '.join(EVENT)}"
-        for ball, rows in states.items():
-            if len(rows) != count:
-                return f"{ball} has {len(rows)} states, of {count} that were recorded"
-            for i, row in enumerate(rows):
-                evenly = (end[0] if end else rows[-1][0]) * i / (count - 1)
-                if len(row) != len(COLUMNS) or not all(map(_is_number, row)) or not _same(row[0], evenly):
-                    return f"state {i} of {ball} is not a row of {', '.join(COLUMNS)} at {evenly:.3g} s"
-    except (KeyError, TypeError, AttributeError):
-        return "not a record of a run, or not a whole one"
-    return None
-
-
-def times_of(recorded: Record) -> list[float]:
-    """The times of a record's states, in s."""
-    return [row[0] for row in next(iter(recorded["states"].values()), [])]
+        first_change(recorded, recorded)
+        if not all(_is_number(value) for rows in recorded["states"].values() for row in rows for value in row):
+            raise ValueError
+    except (KeyError, TypeError, AttributeError, IndexError, ValueError):
+        raise ValueError("not a record of a run, or not a whole one") from None
+    return recorded
 
 
 def as_text(recorded: Record) -> str:
@@ -142,7 +126,7 @@ def diverges(run: Run, until: float | None = None) -> float | None:
         for i, ball in enumerate(run.setup.balls)
     ]
     recorded = record(run, until)
-    other = record(simulate(replace(run.setup, balls=balls), run.accuracy), until, times_of(recorded))
+    other = record(simulate(replace(run.setup, balls=balls), run.accuracy), until, recorded.get("duration"))
     change = first_change(recorded, other)
     return None if change is None else change[0]
 
@@ -151,17 +135,15 @@ def _changed_states(expected: Record, actual: Record, tolerance: float) -> Itera
     """For each ball the first number that differs."""
     for ball, rows in expected["states"].items():
         others = actual["states"].get(ball)
-        if others is None:
-            yield 0.0, f"t = 0 s, {ball} is gone"
+        if others is None or len(others) != len(rows):
+            yield 0.0, f"t = 0 s, {ball} is gone" if others is None else f"{ball} has {len(rows)} of its states"
             continue
         for row, other in zip(rows, others, strict=True):
-            column = next((i for i in range(1, len(row)) if not _same(row[i], other[i], tolerance)), None)
-            if column is not None:
-                name = COLUMNS[column]
-                yield (
-                    row[0],
-                    f"t = {row[0]:.3g} s, {ball}, {name} is {_amounts(other[column], row[column], UNITS[name])}",
-                )
+            columns = zip(COLUMNS, row, other, strict=True)
+            found = next(((name, a, b) for name, a, b in columns if not _same(a, b, tolerance)), None)
+            if found is not None:
+                name, then, now = found
+                yield row[0], f"t = {row[0]:.3g} s, {ball}, {name} is {_amounts(now, then, UNITS[name])}"
                 break
     yield from ((0.0, f"t = 0 s, {ball} is new") for ball in actual["states"] if ball not in expected["states"])
 
