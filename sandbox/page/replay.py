@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator, Mapping
-from math import atan2, isinf
+from math import atan2, isinf, isnan
 from typing import Any
 
 import numpy as np
@@ -276,18 +276,12 @@ def _forces(view: View[Any], run: Run) -> dict[str, Any]:
     """The components of each force in N at some times in s, None where it does not act."""
     until = min(run.duration, run.caught_at(view.ball) or run.duration)
     times = [float(t) for t in instants(run, SAMPLES, [view.ball]) if t <= until]
-    found = [view.vectors.forces(t) for t in times]
-    names = dict.fromkeys(name for forces in found for name in forces)
-
-    def along(name: str, axis: int) -> list[float | None]:
-        return [float(f"{forces[name][axis]:.6g}") if name in forces else None for forces in found]
-
-    return {
-        "times": times,
-        "causes": [
-            {"name": name, "colour": css(colour_of(name)), "x": along(name, 0), "y": along(name, 1)} for name in names
-        ],
-    }
+    causes = [
+        {"name": name, "colour": css(colour_of(name))}
+        | {axis: [None if isnan(part) else float(f"{part:.6g}") for part in force[:, i]] for i, axis in enumerate("xy")}
+        for name, force in view.vectors.over(times).items()
+    ]
+    return {"times": times, "causes": causes}
 
 
 def _ladder(unit: str) -> list[list[Any]]:

@@ -20,8 +20,8 @@ from sandbox.lab.row_file import cell
 from sandbox.lab.runs import runs
 from sandbox.page.parts import css, filled, fonts, html, packed
 from sandbox.page.replay import command
-from sandbox.picture.lines import points, simplify
 from sandbox.picture.palette import palette
+from sandbox.picture.path import points, simplify
 from sandbox.sport.amounts import amount, significant
 
 #: A page holds so many paths at most, drawn for a picture of so many px.

@@ -89,13 +89,10 @@ def _panels(run: Run, curve: Curve) -> Iterator[Panel]:
     for name, (unit, values) in moves.items():
         yield Panel(name, unit, [curve._replace(times=times, values=values)])
     yield Panel("acceleration", "m/s^2", [curve._replace(times=times, values=_accelerations(run, view.ball, times))])
-    pulls = [view.vectors.forces(float(t)) for t in times]
-    forces = []
-    for name in dict.fromkeys(name for acting in pulls for name in acting):
-        sizes = np.array([hypot(*acting[name]) if name in acting else np.nan for acting in pulls])
-        forces.append(Curve(name, times, sizes, colour_of(name), curve.opacity))
+    forces = view.vectors.over(times).items()
     if forces:
-        yield Panel("forces", "N", forces, named=True)
+        sizes = (Curve(name, times, np.hypot(*force.T), colour_of(name), curve.opacity) for name, force in forces)
+        yield Panel("forces", "N", list(sizes), named=True)
     energy, whose = course(run), "energy" if len(run.setup.balls) == 1 else "energy of all balls"
     yield Panel(whose, "J", [curve._replace(times=energy.times, values=np.sum(list(energy.has.values()), axis=0))])
 

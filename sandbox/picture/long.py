@@ -166,5 +166,4 @@ class LongView(AboveView[P]):
     def notes(self, camera: Camera) -> list[str]:
         """Of the near part; in the strip balls are only marks."""
         factor = self.near_camera.scale / camera.scale
-        notes = [*self._stretched(camera), *self.remarks(camera), f"below, {times(factor)} as large"]
-        return [*notes, *filter(None, [self.CAVEAT])]
+        return [*self._stretched(camera), *self.remarks(camera), f"below, {times(factor)} as large", *self._caveat]

@@ -10,7 +10,7 @@ import threading
 from collections.abc import Callable, Sequence
 from functools import lru_cache
 from itertools import accumulate, pairwise
-from math import ceil, floor, hypot
+from math import ceil, dist, floor, hypot
 
 import numpy as np
 import pygame
@@ -201,26 +201,17 @@ class Painter:
         rim: tuple[Colour, float] | None = None,
     ) -> None:
         """From a to b, with a head 3.5 line widths long; ``rim`` is the colour and width of a thin edge."""
-        if rim is not None:
-            self._arrow(a, b, width, rim[1], rim[0], 0.6 * opacity)
-        self._arrow(a, b, width, 0.0, colour, opacity)
-
-    def _arrow(self, a: Point, b: Point, width: float, wider: float, colour: Colour, opacity: float) -> None:
-        """An arrow that is ``wider`` px larger all around."""
-        length = hypot(b[0] - a[0], b[1] - a[1])
+        length = dist(a, b)
         if length == 0:
             return
-        along = (b[0] - a[0]) / length, (b[1] - a[1]) / length
+        along, down = (b[0] - a[0]) / length, (b[1] - a[1]) / length
         head = min(3.5 * width, length)
-        beyond = wider * hypot(1, ARROW) / ARROW  # by which the tip of a head whose sides move out moves on
-        tip = b[0] + along[0] * beyond, b[1] + along[1] * beyond
-        neck = b[0] - along[0] * (head + wider), b[1] - along[1] * (head + wider)
-        half = ARROW * (head + wider + beyond)
-
-        across = -along[1] * half, along[0] * half
-        sides = [(neck[0] + across[0], neck[1] + across[1]), tip, (neck[0] - across[0], neck[1] - across[1])]
-        thick = width + 2 * wider
-        self._shape([a, neck, *sides], thick, colour, opacity, _arrow, thick * OVERSAMPLING / 2)
+        neck, shaft, wide = (b[0] - head * along, b[1] - head * down), width / 2, ARROW * head
+        sides = (a, shaft), (neck, shaft), (neck, wide), (b, 0.0), (neck, -wide), (neck, -shaft), (a, -shaft)
+        outline = [(x - aside * down, y + aside * along) for (x, y), aside in sides]
+        if rim is not None:
+            self.line([*outline, outline[0]], 2 * rim[1], rim[0], 0.6 * opacity)
+        self.polygon(outline, colour, opacity)
 
     def panel(self, rect: pygame.Rect, colour: Colour, opacity: float, corner: float) -> None:
         """A rectangle with round corners."""
@@ -277,13 +268,6 @@ def _fading(mask: pygame.Surface, colour: Colour, points: list[Point], opacities
     one, other = points[: len(points) // 2], points[len(points) // 2 :]
     for i, opacity in enumerate(opacities):
         pygame.draw.polygon(mask, (*colour, opacity), [one[i], one[i + 1], other[i + 1], other[i]])
-
-
-def _arrow(mask: pygame.Surface, colour: Colour, points: list[Point], radius: float) -> None:
-    tail, neck, *head = points
-    pygame.draw.polygon(mask, colour, _quad(tail, neck, radius))
-    pygame.draw.circle(mask, colour, tail, radius)
-    pygame.draw.polygon(mask, colour, head)
 
 
 def _quad(a: Point, b: Point, radius: float) -> list[Point]:

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from itertools import chain
 from math import atan2, ceil, dist, floor, hypot, inf, pi
 
 import numpy as np
 
+from sandbox.engine.bernstein_many import evaluate
 from sandbox.engine.event import Event
 from sandbox.engine.meeting import standing
 from sandbox.engine.nearest import Pose, meeting_points, nearest
@@ -29,10 +31,13 @@ FINEST = 1.5
 #: At most so many balls are drawn along a path, or along that part of it that matters.
 BALLS = 14
 
-
 #: A label this far from its mark, in px on 720 rows, has a line that leads to it.
 FARTHER = (25, 36, 50)
 
+#: Points on each arc of a path. The arcs of a drive are seconds long, and its line must still look smooth.
+POINTS = 9
+#: A drawn line has no points nearer to each other than this, none farther, in px, and bends by no more at one, in rad.
+CLOSEST, LONGEST, BEND = 3.0, 60.0, 0.12
 
 #: What jumps at an impact is taken so many s before it; at most at so many impacts.
 BEFORE, JUMPS = 1e-9, 200
@@ -116,15 +121,50 @@ class Path:
         return outline_of(ball), Pose(*self.run.state(name, t)[:2], angle)
 
 
-def apart(points: np.ndarray, least: float) -> list[int]:
-    """Indices of the points that are ``least`` px from each other, and of the last."""
-    places = points.tolist()  # numbers of Python's own are ten times as quick one by one
-    kept, (last_x, last_y) = [0], places[0]
-    for i, (x, y) in enumerate(places[1:-1], 1):
-        if hypot(x - last_x, y - last_y) >= least:
-            kept.append(i)
-            last_x, last_y = x, y
-    return [*kept, len(points) - 1]
+def apart(points: np.ndarray, least: float) -> np.ndarray:
+    """Indices of points (px, shape (n, 2)) that are ``least`` px from each other along a line, and of the last."""
+    return _firsts(np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(points, axis=0).T))]) / least)
+
+
+def simplify(pixels: np.ndarray) -> np.ndarray:
+    """As few of the points (px, shape (n, 2)) as give the same visible line: more where it bends, and each corner.
+
+    Joints would show between short pieces of a smooth line.
+    """
+    pixels = pixels[apart(pixels, CLOSEST)]
+    steps = np.diff(pixels, axis=0)
+    heading = np.arctan2(steps[:, 1], steps[:, 0])
+    turn = np.abs((np.diff(heading) + np.pi) % (2 * np.pi) - np.pi)
+    along = np.hypot(*steps.T) / LONGEST
+    along[1:] += turn / BEND
+    return pixels[_firsts(np.concatenate([[0.0], np.cumsum(along)]))]
+
+
+def _firsts(growing: np.ndarray) -> np.ndarray:
+    """Indices of the first value, of those that pass a whole number, and of the last."""
+    return np.unique(np.concatenate([[0], np.flatnonzero(np.diff(np.floor(growing))) + 1, [len(growing) - 1]]))
+
+
+def points(paths: Sequence[tuple[Run, str]]) -> list[np.ndarray]:
+    """Points along the paths of balls of runs, each of shape (n, 3): t in s, x and y in m, in order of time."""
+    pieces = [[*run.arcs[ball].pieces()] for run, ball in paths]
+    starts, stops, *both = (list(part) for part in zip(*chain(*pieces), strict=True))
+    counts = [len(each) for each in pieces]
+    out = np.empty((len(starts), POINTS, 3))
+    u = np.linspace(0.0, 1.0, POINTS)
+    first, last = np.array(starts), np.minimum(stops, np.repeat([run.duration for run, _ in paths], counts))
+    out[:, :, 0] = first[:, None] + (last - first)[:, None] * u
+    for column, curves in enumerate(both, 1):
+        lengths = np.array([len(curve) for curve in curves])
+        for terms in set(lengths.tolist()):
+            rows = np.flatnonzero(lengths == terms)
+            out[rows, :, column] = evaluate(np.array([curves[row] for row in rows]).T[:, :, None], u)
+    return np.split(out.reshape(-1, 3), POINTS * np.cumsum(counts)[:-1])
+
+
+def moves(run: Run, ball: str) -> bool:
+    """Whether a ball moves at all."""
+    return any(len(arc.x) > 1 or len(arc.y) > 1 for arc in run.arcs[ball])
 
 
 def draw_trace(sheet: Sheet, points: np.ndarray, colour: Colour, share: float = 1.0) -> None:

@@ -227,7 +227,7 @@ class SideView(View[P]):
         return rect
 
     @cached_property
-    def _map(self) -> tuple[pygame.Rect, Camera, list[int], np.ndarray]:
+    def _map(self) -> tuple[pygame.Rect, Camera, np.ndarray, np.ndarray]:
         """Where it is in px, its camera, the points of the path that can be told apart on it, and the ground in px."""
         gap, (goal, _), rect = self.sheet.gap, self.datum[0], pygame.Rect(self.sheet.frame)
         rect.size = round(MAP[0] * self.size[0]), round(MAP[1] * self.rows)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import cached_property
 from math import hypot
 
@@ -57,15 +58,19 @@ class Vectors:
             found[surface] = mass * ax - others[0], mass * ay - others[1]
         return found
 
+    def over(self, times: Sequence[float] | np.ndarray) -> dict[str, np.ndarray]:
+        """The components of each force in N at times in s, shape (n, 2); NaN where it does not act."""
+        found = [self.forces(float(t)) for t in times]
+        names = dict.fromkeys(name for forces in found for name in forces)
+        return {name: np.array([forces.get(name, (np.nan, np.nan)) for forces in found]) for name in names}
+
     @cached_property
     def longest(self) -> tuple[float, float]:
         """The largest speed in m/s and the largest force in N of the run; those of surfaces set no scale."""
-        speed = force = 0.0
-        for t in np.linspace(0.0, self.run.duration, SAMPLES):
-            speed = max(speed, hypot(*self.run.state(self.name, t)[2:4]))
-            acting = (size for name, size in self.forces(t).items() if name != "contact")
-            force = max([force, *(hypot(*size) for size in acting)])
-        return speed, force
+        times = np.linspace(0.0, self.run.duration, SAMPLES)
+        forces = [np.zeros((1, 2)), *(force for name, force in self.over(times).items() if name != "contact")]
+        speeds = self.run.states(times.tolist(), self.name)[:, 2:4]
+        return float(np.hypot(*speeds.T).max()), float(np.nanmax([np.nanmax(np.hypot(*force.T)) for force in forces]))
 
     def draw(self, sheet: Sheet, at: tuple[float, float], radius: float, t: float) -> None:
         """The arrows at time t, from the edge of a ball of ``radius`` px; what is too short to see is left out."""

@@ -324,16 +324,9 @@ class View(Generic[P]):
         low, high = self.points.min(axis=0) - radius, self.points.max(axis=0) + radius
         reach, middle = max(NEAR * radius, *(high - low)), (low + high) / 2
         for shape in (surface.shape for surface in self.run.setup.surfaces):
-            if isinstance(shape, Segment):
-                corners = np.array([shape.a, shape.b])
-                along = corners[1] - corners[0]
-                next_to = (
-                    corners[0] + np.clip((middle - corners[0]) @ along / max(along @ along, 1e-99), 0.0, 1.0) * along
-                )
-            else:
-                corners = np.array(shape.center) + np.array([[-shape.radius], [shape.radius]])
-                next_to = np.array(shape.center)
-            for seen in (corners, next_to[None]):
+            a, b = map(np.array, (shape.a, shape.b) if isinstance(shape, Segment) else (shape.center, shape.center))
+            next_to = a + np.clip((middle - a) @ (b - a) / max((b - a) @ (b - a), 1e-99), 0.0, 1.0) * (b - a)
+            for seen in (np.array([np.minimum(a, b) - shape.radius, np.maximum(a, b) + shape.radius]), next_to[None]):
                 if np.all(seen > low - reach) and np.all(seen < high + reach):
                     low, high = np.minimum(low, seen.min(axis=0)), np.maximum(high, seen.max(axis=0))
         return np.array([low, high])
@@ -357,11 +350,8 @@ class View(Generic[P]):
 
     def notes(self, camera: Camera) -> list[str]:
         """What is not drawn as it is."""
-        notes = [*self._stretched(camera), *self.remarks(camera)]
-        if (factor := self.least / (self.radius * camera.scale)) > UNSAID:
-            who, whose = (self.thing, "its") if len(self.balls) == 1 else (f"{self.THING}s", "their")
-            notes.append(f"{who} drawn {times(factor)} {whose} size")
-        return [*notes, *filter(None, [self.CAVEAT])]
+        factor = self.least / (self.radius * camera.scale)
+        return [*self._stretched(camera), *self.remarks(camera), *self._larger(factor, times(factor)), *self._caveat]
 
     def poster(self) -> pygame.Surface:
         """The whole run in one picture."""
@@ -414,30 +404,22 @@ class View(Generic[P]):
         sheet.surface.blit(self._still(camera), (0, 0))
         self.behind(painter, camera, t)
         self._strings(painter, camera, t)
-        placed = self._placed(camera, t, LARGER if len(self.balls) == 1 else 1.0)
-        for name, (at, radius) in placed.items():
-            self.shadow(painter, camera, name, t, at, radius)
         sheet.surface.set_clip((0, sheet.top_row, *self.size))
         for ghost in self.ghosts:
             ghost.draw_in_frame(sheet, self.traced(camera, ghost.points), self.spots(camera, ghost.at(t), 0.0)[0])
         self.trails(painter, camera, t)
         sheet.surface.set_clip(None)
+        larger = LARGER if len(self.balls) == 1 else 1.0
+        placed = self.place_balls(painter, camera, t, larger)
         if self.ball in placed:
             self.vectors.draw(sheet, *placed[self.ball], t)
-        for name, (at, radius) in placed.items():
-            self.draw_ball(painter, camera, name, t, at, radius)
         self.before(painter, camera, t)
         self.scale(sheet, camera)
         room = self._room(sheet, camera, t)
         over = t >= self.told
         headline, *notes = (self.run.scene.verdict(self.run),) if over else self.progress(t)
         notes += [*(f"compared with {ghost.label}" for ghost in self.ghosts), *self.aligned, *self._stretched(camera)]
-        notes += [self.CAVEAT]
-        if any(radius > UNSAID * self.radii[name] * camera.scale for name, (_, radius) in placed.items()):
-            one = len(self.balls) == 1
-            notes.append(
-                f"{self.thing} drawn larger than it is" if one else f"{self.THING}s drawn larger than they are"
-            )
+        notes += [*self._caveat, *self._larger(larger * self.least / (self.radius * camera.scale))]
         sheet.headline(headline, [note for note in notes if note], room)
         others = [(ghost.light, ghost.view.live(min(t, ghost.run.duration))) for ghost in self.ghosts]
         sheet.columns(self.card_row, self.live(t), others)
@@ -450,9 +432,22 @@ class View(Generic[P]):
         """To note where the other runs were moved to lie over this one."""
         return [f"aligned at {self.datum[1]}"] if any(any(ghost.shift) for ghost in self.ghosts) else []
 
+    @property
+    def _caveat(self) -> list[str]:
+        return [self.CAVEAT] if self.CAVEAT else []
+
     def _stretched(self, camera: Camera) -> list[str]:
         """To note how much larger heights are drawn than lengths."""
         return [f"{self.STRETCHED} drawn {camera.stretch:g} times as large as lengths"] if camera.stretch != 1 else []
+
+    def _larger(self, factor: float, so_much: str = "larger than") -> list[str]:
+        """To note how many times their size balls are drawn; in frames, where the camera may move, that they are."""
+        who, whose, are = (
+            (self.thing, "its", "it is") if len(self.balls) == 1 else (f"{self.THING}s", "their", "they are")
+        )
+        return (
+            [f"{who} drawn {so_much} {are if so_much == 'larger than' else f'{whose} size'}"] if factor > UNSAID else []
+        )
 
     def look_of(self, name: str) -> Look:
         """How a ball looks."""
@@ -540,13 +535,15 @@ class View(Generic[P]):
         things = "bodies" if self.thing == "body" else f"{self.thing}s"
         return [f"a {self.thing} every {every:g} s", *([f"a bead where {things} would overlap"] if crowded else [])]
 
-    def place_balls(self, painter: Painter, camera: Camera, t: float) -> None:
-        """All that are there at time t in s, over their shadows."""
-        placed = self._placed(camera, t, 1.0)
-        for name, (at, radius) in placed.items():
-            self.shadow(painter, camera, name, t, at, radius)
-        for name, (at, radius) in placed.items():
-            self.draw_ball(painter, camera, name, t, at, radius)
+    def place_balls(
+        self, painter: Painter, camera: Camera, t: float, larger: float = 1.0
+    ) -> dict[str, tuple[Point, float]]:
+        """All that are there at time t in s, over their shadows; where and with what radius, in px."""
+        placed = self._placed(camera, t, larger)
+        for draw in (self.shadow, self.draw_ball):
+            for name, (at, radius) in placed.items():
+                draw(painter, camera, name, t, at, radius)
+        return placed
 
     def _strings(self, painter: Painter, camera: Camera, t: float) -> None:
         """Of the balls that hang."""

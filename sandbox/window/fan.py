@@ -12,8 +12,8 @@ import numpy as np
 from sandbox import parameters as declared
 from sandbox.lab.runs import fly_together, runs
 from sandbox.picture.camera import Camera
-from sandbox.picture.lines import points
 from sandbox.picture.palette import Colour
+from sandbox.picture.path import points
 from sandbox.scene import Scene
 from sandbox.sport.controls import Spread
 from sandbox.window.shots import Shot

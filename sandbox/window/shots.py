@@ -14,7 +14,7 @@ import numpy as np
 
 from sandbox.files import written_whole
 from sandbox.physics.forces import Gravity
-from sandbox.picture.lines import moves, points
+from sandbox.picture.path import moves, points
 from sandbox.scene import Scene
 from sandbox.sport.amounts import amount
 from sandbox.window.history import Changes

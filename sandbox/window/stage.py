@@ -10,9 +10,9 @@ import numpy as np
 import pygame
 
 from sandbox.picture.camera import Camera
-from sandbox.picture.lines import simplify
 from sandbox.picture.painter import blank
 from sandbox.picture.palette import Colour, mix, palette
+from sandbox.picture.path import simplify
 from sandbox.picture.plain import view_of
 from sandbox.picture.sheet import Sheet
 from sandbox.window.background import Once

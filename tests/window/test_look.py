@@ -6,7 +6,7 @@ import numpy as np
 import pygame
 import pytest
 
-from sandbox.picture.lines import simplify
+from sandbox.picture.path import simplify
 from sandbox.window.stage import draw_line
 
 SIZE = (640, 400)
