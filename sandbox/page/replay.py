@@ -26,7 +26,7 @@ from sandbox.picture.plain import view_of
 from sandbox.picture.sheet import CARD, DENSITY
 from sandbox.picture.side import SideView
 from sandbox.picture.vectors import FORCE_LENGTH, SHORTEST, VELOCITY_LENGTH, colour_of
-from sandbox.picture.view import OTHERS, UNSAID, View
+from sandbox.picture.view import UNSAID, View
 from sandbox.scene import Scene, load
 from sandbox.sport.amounts import LADDERS, ladder
 from sandbox.sport.readings import words_of
@@ -199,7 +199,7 @@ def _static(view: View[Any], run: Run) -> dict[str, Any]:
         "spins": view.SPINS,
         "ladders": {unit: _ladder(unit) for unit in UNITS},
         "heaped": HEAPED,
-        "others": OTHERS,
+        "others": view.OTHERS,
         "unsaid": UNSAID,
         "earlier": palette("trace")["earlier"],
         "rim": css(palette("trace")["rim"]),

@@ -42,6 +42,7 @@ class LongView(AboveView[P]):
     #: Widths are drawn so many times as large as lengths in the strip.
     WIDER: ClassVar[float] = 1.0
     STRETCHED = "widths"
+    OTHERS = 0.25
 
     @property
     def whole(self) -> Box:

@@ -20,7 +20,7 @@ from sandbox.picture.camera import Camera
 from sandbox.picture.lettering import around
 from sandbox.picture.palette import Colour, palette
 from sandbox.picture.sheet import Sheet, nice
-from sandbox.sport.amounts import listed
+from sandbox.sport.amounts import amount
 
 CARD, TRACE = palette("card"), palette("trace")
 
@@ -185,25 +185,17 @@ def draw_mark(sheet: Sheet, at: tuple[float, float]) -> None:
 def mark_impacts(
     sheet: Sheet, camera: Camera, marks: Iterable[Mark], last: tuple[tuple[float, float], float] | None = None
 ) -> None:
-    """Impacts as marks with the speed at which the ball came; those at one place share a label, the first first.
+    """Impacts as marks with the speed at which the ball came.
 
     The ball in its ``last`` place, of a radius, lies over them; in px.
     """
-    places: list[tuple[tuple[float, float], list[Mark]]] = []
-    for mark in marks:
-        at = camera.pixel(*mark.at)
+    places = [(camera.pixel(*mark.at), mark) for mark in marks]
+    for at, _ in places:
         if last is None or dist(at, last[0]) > last[1]:
             draw_mark(sheet, at)
-        near = (found for place, found in places if hypot(place[0] - at[0], place[1] - at[1]) < 9 * sheet.unit)
-        same = next(near, None)
-        if same is None:
-            places.append((at, [mark]))
-        else:
-            same.append(mark)
-    for at, _ in places:
         sheet.labels.take_path([at], 4 * sheet.unit)
-    for at, found in places:
-        label_mark(sheet, at, found[0].towards, listed([mark.speed for mark in found], "m/s", 1))
+    for at, mark in places:
+        label_mark(sheet, at, mark.towards, amount(mark.speed, "m/s", 1))
 
 
 def label_mark(sheet: Sheet, at: tuple[float, float], towards: tuple[float, float], text: str) -> None:

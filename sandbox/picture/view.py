@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cached_property, wraps
-from math import atan2, degrees, dist, hypot, inf, pi
+from math import atan2, degrees, dist, hypot, pi
 from typing import Any, ClassVar, Generic, NamedTuple, TypeVar
 
 import numpy as np
@@ -43,13 +43,13 @@ LEAST_SPAN = 0.25
 INSTANT = 0.1
 #: A ball that is larger by less than this factor is not said to be.
 UNSAID = 1.05
+#: Of impacts that are nearer to each other than this, in px on 720 rows, the hardest is marked.
+APART = 20
 #: Radius of a bead on the path: at most so much of that of the balls there, and so many px on 720 rows.
 BEAD, LARGEST_BEAD = 0.5, 3.0
 
 #: Width of a string, px on 720 rows.
 STRING = 1.5
-#: The path of a ball besides the one that is played is so much as thick.
-OTHERS = 0.6
 
 P = TypeVar("P", bound=Group)
 
@@ -104,9 +104,9 @@ class View(Generic[P]):
     TRAIL: ClassVar[float] = 0.5
     #: Impacts are marked that are at least so hard, in m/s, and as a share of the hardest.
     LEAST_IMPACT: ClassVar[float] = 0.3
-    SOFT: ClassVar[float] = 0.0
-    #: Of impacts that are nearer to each other than this, in px on 720 rows, the first alone is marked.
-    APART: ClassVar[float] = 0.0
+    SOFT: ClassVar[float] = 0.03
+    #: The paths of balls besides the one that is played are so much as thick.
+    OTHERS: ClassVar[float] = 0.6
 
     #: What is stretched where a camera stretches one.
     STRETCHED: ClassVar[str] = "heights"
@@ -379,7 +379,7 @@ class View(Generic[P]):
         for ghost in self.ghosts:
             ghost.draw(sheet, self.traced(camera, ghost.points))
         for name, points in traces.items():
-            draw_trace(sheet, points, self.colour_of(name), OTHERS)
+            draw_trace(sheet, points, self.colour_of(name), self.OTHERS)
         draw_trace(sheet, self.trace, self.colour_of(self.ball))
         yield sheet.surface
         every = self.strobe(sheet, camera)
@@ -505,13 +505,12 @@ class View(Generic[P]):
 
     def impacts(self, camera: Camera) -> list[Mark]:
         """The impacts that are marked."""
-        marks, marked = list(self.path.marks()), list[Mark]()
-        least = max([self.LEAST_IMPACT, *(self.SOFT * mark.hardness for mark in marks)])
-        for mark in (mark for mark in marks if mark.hardness >= least):
-            far = dist(mark.at, marked[-1].at) * camera.scale if marked else inf
-            if far >= self.APART * self.unit:
+        marked: list[Mark] = []
+        for mark in sorted(self.path.marks(), key=lambda mark: -mark.hardness):
+            near = (dist(mark.at, other.at) * camera.scale < APART * self.unit for other in marked)
+            if mark.hardness >= max(self.LEAST_IMPACT, self.SOFT * [*marked, mark][0].hardness) and not any(near):
                 marked.append(mark)
-        return marked
+        return sorted(marked, key=lambda mark: mark.t)
 
     def strobe(self, sheet: Sheet, camera: Camera) -> list[str]:
         """A lone ball at even times, a bead in its place where balls would overlap; what to note of that."""

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from functools import cached_property
-from math import dist, floor, hypot
+from math import floor, hypot
 
 import numpy as np
 import pygame
 
 from sandbox.picture.palette import Colour, mix, palette, scene_colours
-from sandbox.picture.path import Mark
 from sandbox.picture.places.plan import Plan
 from sandbox.picture.views import AboveView, Area, Camera, Entry, Look, Painter, Sheet, nice
 from sandbox.sport.sliding import met
@@ -91,14 +90,6 @@ class Picture(AboveView[Parameters]):
         """The balls that went anywhere."""
         ways = {name: np.hypot(*np.ptp(path.points, axis=0)) for name, path in self.paths.items()}
         return [name for name, way in ways.items() if way > LEAST_WAY * self.radius]
-
-    def impacts(self, camera: Camera) -> list[Mark]:
-        """Of several at one place the hardest."""
-        kept: list[Mark] = []
-        for mark in sorted(super().impacts(camera), key=lambda mark: -mark.hardness):
-            if all(dist(mark.at, other.at) > 2 * self.radius for other in kept):
-                kept.append(mark)
-        return kept
 
     def notes(self, camera: Camera) -> list[str]:
         return [*super().notes(camera), *(["each path in its ball's colour"] if len(self._movers) > 1 else [])]

@@ -32,7 +32,7 @@ class Picture(SideView[Parameters]):
     HEADROOM = 40
     STRETCHES = 2.0
     LEAST_PATH = 0.2
-    LEAST_IMPACT, SOFT, APART = 1.0, 0.25, 30
+    LEAST_IMPACT, SOFT = 1.0, 0.25
     TRAIL = 1.4
     LEVEL, ASIDE = 58, 0.5
 
