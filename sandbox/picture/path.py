@@ -137,7 +137,7 @@ def simplify(pixels: np.ndarray) -> np.ndarray:
     turn = np.abs((np.diff(heading) + np.pi) % (2 * np.pi) - np.pi)
     along = np.hypot(*steps.T) / LONGEST
     along[1:] += turn / BEND
-    return pixels[_firsts(np.concatenate([[0.0], np.cumsum(along)]))]
+    return pixels[_firsts(np.cumsum(np.append(along, 0.0)))]
 
 
 def _firsts(growing: np.ndarray) -> np.ndarray:
