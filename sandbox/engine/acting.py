@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import is_dataclass
 from math import isfinite
 from typing import Any
 
@@ -35,7 +36,8 @@ def law_of(ball: Ball) -> Law:
 
     It raises RunError if one of them returns anything but real numbers, or arrays for many shots.
     """
-    forces, torques, mass, inertia, loss = ball.forces, ball.torques, ball.mass, ball.inertia, ball.loss
+    forces, torques = (list(map(_quick, terms)) for terms in (ball.forces, ball.torques))
+    mass, inertia, loss = ball.mass, ball.inertia, ball.loss
 
     def law(t: Any, state: State) -> Acceleration:
         position: tuple[Any, ...]
@@ -66,6 +68,11 @@ def law_of(ball: Ball) -> Law:
         return fx / (mass * left), fy / (mass * left), torque / (inertia * left)
 
     return law
+
+
+def _quick(term: Any) -> Any:
+    """A force or torque as what Python calls with the least effort: its ``__call__``, bound, if it is data."""
+    return term.__call__ if is_dataclass(type(term)) else term
 
 
 def acceleration(ball: Ball, t: Any, state: State) -> Acceleration:
@@ -102,7 +109,9 @@ def _is_finite(part: Any) -> bool:
     return isinstance(part, int | float) and isfinite(part)
 
 
-def _name(term: object) -> str:
+def _name(term: Any) -> str:
+    if getattr(term, "__name__", "") == "__call__":
+        term = term.__self__
     return str(getattr(term, "__name__", type(term).__name__))
 
 

@@ -11,9 +11,11 @@ Source: Farin, Curves and Surfaces for CAGD, 5th ed., chapters 4 to 6.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from functools import lru_cache
+from functools import cache
 from math import comb
 from typing import Any
+
+from sandbox.physics.straight import straight
 
 #: After a Newton step shorter than this, the error is its square times a moderate factor, which is rounding.
 CONVERGED = 1e-12
@@ -22,54 +24,51 @@ CONVERGED = 1e-12
 _DEEPEST = 40
 
 
-@lru_cache
-def binomials(n: int) -> list[int]:
-    """C(n, 0) to C(n, n)."""
-    return [comb(n, k) for k in range(n + 1)]
-
-
 def evaluate(b: Sequence[float], u: float) -> float:
-    """f(u), by Horner's rule in u / (1 - u) or its inverse, whichever is at most 1.
-
-    Written out for the degrees of positions and velocities, which a run needs most: three times as fast as a loop.
-    """
-    n = len(b) - 1
-    w = 1.0 - u
-    if u > w:
-        b, u, w = b[::-1], w, u
-    r = u / w
-    if n == 5:
-        b0, b1, b2, b3, b4, b5 = b
-        return (((((b5 * r + 5 * b4) * r + 10 * b3) * r + 10 * b2) * r + 5 * b1) * r + b0) * w**5
-    if n == 4:
-        b0, b1, b2, b3, b4 = b
-        return ((((b4 * r + 4 * b3) * r + 6 * b2) * r + 4 * b1) * r + b0) * w**4
-    return _horner([m * c for m, c in zip(binomials(n), b, strict=True)][::-1], r) * w**n
-
-
-def _horner(scaled: Sequence[float], r: float) -> float:
-    value = 0.0
-    for c in scaled:
-        value = value * r + c
+    """f(u), by Horner's rule in u / (1 - u) or its inverse, whichever is at most 1."""
+    value: float = _written_out("evaluate", len(b))(b, u)
     return value
 
 
 def until(b: Sequence[Any], u: Any) -> list[Any]:
     """Coefficients on [0, u], by de Casteljau; of one polynomial, or of many with arrays as coefficients."""
-    w, left = 1.0 - u, list(b)
-    for level in range(1, len(left)):
-        for k in range(len(left) - 1, level - 1, -1):
-            left[k] = w * left[k - 1] + u * left[k]
+    left: list[Any] = _written_out("until", len(b))(b, u)
     return left
 
 
 def after(b: Sequence[float], u: float) -> list[float]:
     """Coefficients on [u, 1]."""
-    w, right = 1.0 - u, list(b)
-    for level in range(len(right) - 1, 0, -1):
-        for k in range(level):
-            right[k] = w * right[k] + u * right[k + 1]
+    right: list[float] = _written_out("after", len(b))(b, u)
     return right
+
+
+@cache
+def _written_out(what: str, count: int) -> Any:
+    """A function of a polynomial with so many coefficients, and of u, as straight Python."""
+    n = count - 1
+    names = _names("b", count)
+    swap = ["if u > w:", "  b, d, u, w = b[::-1], d[::-1], w, u", "r = u / w", f"{names} = b"]
+    part = [f"b{k} = w * b{k - 1} + u * b{k}" for level in range(1, count) for k in range(n, level - 1, -1)]
+    rest = [f"b{k} = w * b{k} + u * b{k + 1}" for level in range(n, 0, -1) for k in range(level)]
+    lines = {
+        "evaluate": [*swap, f"return ({_horner('b', n)}) * w**{n}"],
+        "value_and_slope": [*swap, f"{_names('d', n)} = d", f"return ({_horner('b', n)}) * w, {_horner('d', n - 1)}"],
+        "until": [f"{names} = b", *part, f"return [{names}]"],
+        "after": [f"{names} = b", *rest, f"return [{names}]"],
+    }
+    return straight(f"{what}(b, u, d=())", ["w = 1.0 - u", *lines[what]], __file__)
+
+
+def _names(of: str, count: int) -> str:
+    return ", ".join(f"{of}{k}" for k in range(count)) + ","
+
+
+def _horner(of: str, n: int) -> str:
+    """f over (1 - u)^n, with r = u / (1 - u)."""
+    written = f"{of}{n}"
+    for k in reversed(range(n)):
+        written = f"({written}) * r + {comb(n, k)} * {of}{k}"
+    return written
 
 
 def piece(b: Sequence[float], u0: float, u1: float) -> Sequence[float]:
@@ -96,21 +95,24 @@ def elevate(b: Sequence[Any], degree: int) -> Sequence[Any]:
     return b
 
 
-@lru_cache
-def _square_weights(n: int) -> list[list[tuple[int, int, float]]]:
-    """For each coefficient k of the square of a polynomial: which b[i] b[j] contribute, and with what weight."""
-    rows: list[list[tuple[int, int, float]]] = [[] for _ in range(2 * n + 1)]
-    for i in range(n + 1):
-        for j in range(i, n + 1):
-            both = 1 if i == j else 2  # b[i] b[j] and b[j] b[i]
-            rows[i + j].append((i, j, both * comb(n, i) * comb(n, j) / comb(2 * n, i + j)))
-    return rows
-
-
 def squared_length(x: Sequence[float], y: Sequence[float]) -> list[float]:
     """Coefficients of x^2 + y^2."""
-    rows = _square_weights(len(x) - 1)
-    return [sum([weight * (x[i] * x[j] + y[i] * y[j]) for i, j, weight in row]) for row in rows]
+    squares: list[float] = _squares(len(x))(x, y)
+    return squares
+
+
+@cache
+def _squares(count: int) -> Any:
+    """The sum of the squares of two polynomials with so many coefficients, as straight Python."""
+    n = count - 1
+    rows: list[str] = [""] * (2 * n + 1)
+    for i in range(count):
+        for j in range(i, count):
+            both = 1 if i == j else 2  # b[i] b[j] and b[j] b[i]
+            weight = both * comb(n, i) * comb(n, j) / comb(2 * n, i + j)
+            rows[i + j] += f" + {weight!r} * (x{i} * x{j} + y{i} * y{j})"
+    lines = [f"{_names(name, count)} = {name}" for name in "xy"]
+    return straight("squares(x, y)", [*lines, f"return [{', '.join(row[3:] for row in rows)}]"], __file__)
 
 
 def without_root_at_start(b: Sequence[Any]) -> list[Any]:
@@ -158,18 +160,11 @@ def _crossings(b: list[float], u0: float, u1: float, depth: int) -> Iterator[flo
 
 def _single_root(b: list[float]) -> float:
     """The root of a polynomial with exactly one root in [0, 1], falling through it: Newton, kept inside a bracket."""
-    n = len(b) - 1
-    scaled = [m * c for m, c in zip(binomials(n), b, strict=True)]
-    slopes = [m * c for m, c in zip(binomials(n - 1), derivative(b), strict=True)]
-    backwards = scaled[::-1], slopes[::-1]
+    slopes, value_and_slope = derivative(b), _written_out("value_and_slope", len(b))
     low, high = 0.0, 1.0
     u = b[0] / (b[0] - b[-1]) if b[0] > 0.0 > b[-1] else 0.5
     for _ in range(100):
-        w = 1.0 - u
-        if u <= w:
-            value, fall = _horner(backwards[0], u / w) * w, _horner(backwards[1], u / w)  # both over w^(n - 1)
-        else:
-            value, fall = _horner(scaled, w / u) * u, _horner(slopes, w / u)
+        value, fall = value_and_slope(b, u, slopes)  # both over (1 - u)^(n - 1), or u^(n - 1)
         if value == 0.0 and fall < 0.0:
             return u
         if value < 0.0:

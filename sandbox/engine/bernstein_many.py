@@ -10,7 +10,7 @@ from math import comb
 
 import numpy as np
 
-from sandbox.engine.bernstein import CONVERGED, binomials, elevate
+from sandbox.engine.bernstein import CONVERGED, elevate
 
 #: Bisections of a polynomial of which its signs do not tell how many roots it has.
 _HALVINGS = 4
@@ -46,7 +46,7 @@ def _powers(u: np.ndarray, n: int) -> np.ndarray:
 
 @lru_cache
 def _binomials(n: int) -> np.ndarray:
-    return np.array(binomials(n), float)[:, None]
+    return np.array([comb(n, k) for k in range(n + 1)], float)[:, None]
 
 
 def squared_length(x: np.ndarray, y: np.ndarray) -> np.ndarray:
@@ -58,7 +58,7 @@ def squared_length(x: np.ndarray, y: np.ndarray) -> np.ndarray:
 
 @lru_cache
 def _product_weights(n: int) -> np.ndarray:
-    c, d = binomials(n), binomials(2 * n)
+    c, d = _binomials(n)[:, 0], _binomials(2 * n)[:, 0]
     weights = np.zeros((2 * n + 1, n + 1, n + 1))
     for i in range(n + 1):
         for j in range(n + 1):

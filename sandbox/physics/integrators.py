@@ -12,6 +12,8 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import cache
 from typing import Any, NamedTuple
 
+from sandbox.physics.straight import straight
+
 State = tuple[Any, ...]
 Acceleration = tuple[Any, Any, Any]
 Law = Callable[[Any, State], Acceleration]
@@ -92,10 +94,7 @@ def _written_out(stages: Sequence[Stage], error: Sequence[float], names: Sequenc
     lines.append(f"last = {_at(number, rates)} = law(t + dt, end)" if len(error) > len(stages) else "last = None")
     errors = f"({', '.join(_sum(h, error, name) for name in names)})" if error else "None"
     lines.append(f"return end, last, {errors}")
-    scope: dict[str, Any] = {}
-    source = "\n ".join(["def step(law, t, state, acceleration, dt):", *lines])
-    exec(compile(source, f"{__file__}:step", "exec"), scope)
-    method: Method = scope["step"]
+    method: Method = straight("step(law, t, state, acceleration, dt)", lines, __file__)
     return method
 
 
