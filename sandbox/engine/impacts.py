@@ -290,7 +290,7 @@ def with_surface(index: int, ball: Ball, state: State, surface: Surface, found: 
     if bounce.tilt != 0.0:
         nx, ny = tilted(nx, ny, bounce.tilt, along)
         point = farthest(ball, state, (nx, ny)) if len(found.points) == 1 else point
-    if discs(ball):
+    if not ball.turns:
         sine = 0.0 if surface.nose_height is None else raised(ball.radius, surface.nose_height)
         speeds = speeds_where_touching([ball], [state], nx, ny, sine)
     else:

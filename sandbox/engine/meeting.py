@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from functools import lru_cache, partial
 from math import atan2, cos, hypot, sin
-from operator import attrgetter
 from typing import NamedTuple
 
 from sandbox.engine.accuracy import SKIN
@@ -34,8 +33,6 @@ _TURN = 0.1
 
 _IN_PLACE = Pose(0.0, 0.0, 0.0)
 
-_turns = attrgetter("turns")
-
 
 class Meeting(NamedTuple):
     """What is between two balls or bodies, or one and a surface, that touch or nearly do."""
@@ -58,7 +55,10 @@ class Meeting(NamedTuple):
 
 def discs(*balls: Ball) -> bool:
     """Whether these are all balls, whose distance is that of their centres."""
-    return not any(map(_turns, balls))
+    for ball in balls:  # noqa: SIM110  (twice as quick as any())
+        if ball.turns:
+            return False
+    return True
 
 
 def rounding(body: Ball, state: State) -> float:
@@ -83,7 +83,7 @@ def meeting(one: Ball, state: State, other: Ball, other_state: State, within: fl
 def surface_met(ball: Ball, state: State, near: Near, within: float = 0.0) -> Meeting:
     """How a ball or body meets a surface that is prepared for its radius, and ``near`` its centre."""
     obstacle, (gap, nx, ny, *_) = near
-    if not discs(ball):
+    if ball.turns:
         shape = standing(obstacle.surface.shape).shape
         found = _touching(outline_of(ball), pose_of(state), shape, _IN_PLACE, within, atan2(ny, nx))
         return meeting_at((ball,), (state,), *found)

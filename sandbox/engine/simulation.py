@@ -71,6 +71,7 @@ class Simulation:
         self._order = count()
         self._over = False
         self._tracks = self._make_tracks()
+        self._moving = {*range(len(self._tracks))}  # the balls that neither rest nor are caught
         slowest = 0.0 if setup.plane is None else slowest_hop(setup, accuracy.hop)
         self._impacts = Impacts(setup, self._tracks, self._numerics, slowest)
         self._all_round = discs(*setup.balls)
@@ -152,9 +153,7 @@ class Simulation:
     def _loop(self, t: float) -> tuple[float, str]:
         duration = self._setup.duration
         moment, at_once = t, 0
-        while self._queue:
-            if self._over or self._all_rest():
-                break
+        while self._queue and self._moving and not self._over:
             t, _, kind, i, version, j, other_version = heapq.heappop(self._queue)
             track = self._tracks[i]
             if track.version != version or (j >= 0 and self._tracks[j].version != other_version):
@@ -182,12 +181,6 @@ class Simulation:
             else:
                 self._end_arc(t, i, kind)
         return t, "until" if self._over else "rest"
-
-    def _all_rest(self) -> bool:
-        for track in self._tracks:  # noqa: SIM110  (twice as quick as all())
-            if not (track.at_rest or track.caught):
-                return False
-        return True
 
     def _end_arc(self, t: float, index: int, reason: str) -> None:
         """Handle the end of an arc."""
@@ -239,7 +232,7 @@ class Simulation:
             self._tracks[index].version += 1
             self._tracks[index].arc = arc
         for index, others in self._neighbours(stepped, t).items():
-            self._note_rest(self._tracks[index], t)
+            self._note_rest(index, t)
             self._predict(index, t, "heap", partial(heap.keeps_apart, index), others)
         for index in members - set(joining) - stepped.keys():
             self._resume(index, t)
@@ -275,6 +268,7 @@ class Simulation:
         track.arrive(t, track.arc.state(t))
         track.version += 1
         track.caught = True
+        self._moving.discard(index)
         nearest = min(track.catches, key=lambda catch: catch.near(x, y).gap)
         self._note(t, "caught", track, nearest.surface.name, (x, y), (vx * vx + vy * vy) ** 0.5)
 
@@ -297,10 +291,14 @@ class Simulation:
             self._note(t, "contact", track, track.on, track.state)
         self._plan(index, t)
 
-    def _note_rest(self, track: Track, t: float) -> None:
-        rested, track.at_rest = track.at_rest, track.arc.rests
-        if track.at_rest and not rested and (t > 0.0 or track.on):
-            self._note(t, "rest", track, track.on, track.state)
+    def _note_rest(self, index: int, t: float) -> None:
+        track = self._tracks[index]
+        if not track.arc.rests:
+            self._moving.add(index)
+        elif index in self._moving:
+            self._moving.discard(index)
+            if t > 0.0 or track.on:
+                self._note(t, "rest", track, track.on, track.state)
 
     def _plan(self, index: int, t: float) -> None:
         """Create a new arc from the ball's state at t, and predict the first event on it."""
@@ -312,7 +310,7 @@ class Simulation:
             track.arc = still(t, t, track.state, track.contact)
         if self._over:
             return  # nothing left to plan
-        self._note_rest(track, t)
+        self._note_rest(index, t)
         own = None if track.contact is None else track.contact.obstacle
         self._predict(index, t, kind, lambda other: other is own, range(len(self._tracks)))
 

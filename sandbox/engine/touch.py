@@ -149,11 +149,6 @@ class Obstacle:
         self._skin = skin
         self.outline, self.box = _prepared(surface.shape, radius)
 
-    def may_meet(self, path: tuple[float, float, float, float]) -> bool:
-        """Whether a path inside this box (left, bottom, right, top) could touch."""
-        left, bottom, right, top = self.box
-        return path[0] <= right and path[2] >= left and path[1] <= top and path[3] >= bottom
-
     def near(self, x: float, y: float) -> Touching:
         """The nearest feature to a ball centred at (x, y), with gap and normal."""
         return self.outline.near(x, y)
@@ -229,9 +224,14 @@ Near = tuple[Obstacle, Touching]
 
 def touched(obstacles: Sequence[Obstacle], x: float, y: float, gap: float = TOUCHING_GAP) -> list[Near]:
     """Those that a ball centred at (x, y) touches, up to a ``gap`` in m, each at its nearest feature."""
-    here = (x - gap, y - gap, x + gap, y + gap)
-    found = [(obstacle, obstacle.near(x, y)) for obstacle in obstacles if obstacle.may_meet(here)]
-    return [(obstacle, touching) for obstacle, touching in found if touching.gap <= gap]
+    found = []
+    for obstacle in obstacles:
+        left, bottom, right, top = obstacle.box
+        if left - gap <= x <= right + gap and bottom - gap <= y <= top + gap:
+            touching = obstacle.near(x, y)
+            if touching.gap <= gap:
+                found.append((obstacle, touching))
+    return found
 
 
 def _corner(arc: Arc, x: float, y: float, radius: float) -> float | None:

@@ -62,7 +62,6 @@ class Track:
         self.arc = still(0.0, 0.0, state)  # the current arc
         self.path: list[Arc] = []
         self.version = 0  # of the arc: predictions for an earlier one are invalid
-        self.at_rest = False  # as noted in the events
         self.caught = False
         self._setup = setup
         self._accuracy = accuracy
