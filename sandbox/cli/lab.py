@@ -100,12 +100,7 @@ def aim(
     "--html", metavar="F.html", type=Path, help="A page with the map, and the path of the point under the cursor."
 )
 @click.option("--of", metavar="NAME", help="The result that --plot and --html show.")
-@click.option(
-    "--jobs",
-    metavar="N",
-    type=click.IntRange(1),
-    help="Number of processes.  [default: as many as save time]",
-)
+@click.option("--jobs", metavar="N", type=int, help="Number of processes.  [default: as many as save time]")
 @click.option("--scheduler", metavar="ADDRESS", help="Run on the workers of a Dask scheduler.")
 def sweep(
     scene: str,
@@ -156,7 +151,7 @@ def sweep(
         check_file("--html", html, ".html")
         check_installed("--html", "matplotlib")
         page.check_page(plan)
-    with workers(jobs or jobs_that_pay(plan), scheduler) as pool, bar("sweep") as progress:
+    with workers(jobs_that_pay(plan) if jobs is None else jobs, scheduler) as pool, bar("sweep") as progress:
         done = sweep_to_file(plan, out, pool, progress)
     if plot is not None:
         from sandbox.lab.maps import draw_sweep

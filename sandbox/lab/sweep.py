@@ -39,6 +39,9 @@ _TRIES = 3
 #: Up to this many shots, or a single block of shots, finish about when another process would have started.
 _ONE_PROCESS = 200
 
+#: Most processes.
+_MOST_JOBS = 1000
+
 #: Identifies this process.
 _HERE = uuid4().hex
 
@@ -205,8 +208,8 @@ def jobs_that_pay(plan: Plan) -> int:
 @contextmanager
 def workers(jobs: int, scheduler: str | None = None) -> Iterator[Workers]:
     """The requested workers; closed at the end, even in the middle of a call."""
-    if jobs < 1:
-        raise RequestError(f"--jobs {jobs}: at least one is needed")
+    if not 1 <= jobs <= _MOST_JOBS:
+        raise RequestError(f"--jobs {jobs}: must be from 1 to {_MOST_JOBS}")
     pool: Workers = Cluster(scheduler) if scheduler is not None else InTurn() if jobs == 1 else Processes(jobs)
     try:
         yield pool
