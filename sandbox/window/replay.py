@@ -133,11 +133,16 @@ def run_of(scene: Scene, record: dict[str, Any]) -> Run:
     if record["arcs"].keys() != balls.keys() or not all(record["arcs"].values()) or not _is_time(record["duration"]):
         raise ValueError("not all balls have a path")
     arcs = {name: Arcs([_arc(item, setup, balls[name]) for item in items]) for name, items in record["arcs"].items()}
+    events = [Event(*item) for item in record["events"]]
+    if record["duration"] > max(path[-1].t1 for path in arcs.values()):
+        raise ValueError("no path lasts as long as the run")
+    if not all(_is_number(number) for event in events for number in (event.t, event.speed, event.x, event.y)):
+        raise ValueError("an event contains something that is not a number")
     return Run(
         setup,
         Accuracy(**record["accuracy"]),
         arcs,
-        [Event(*item) for item in record["events"]],
+        events,
         Numerics(**record["numerics"]),
         record["duration"],
         record["ended"],

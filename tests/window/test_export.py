@@ -90,6 +90,8 @@ class TestReplays:
             lambda body: body["run"].update(arcs={"ball": []}),
             lambda body: body["run"]["arcs"]["ball"][0].__setitem__(2, [None] * 5),
             lambda body: body["run"].update(duration=1e999),
+            lambda body: body["run"].update(duration=1e30),
+            lambda body: body["run"]["events"][0].__setitem__(0, "later"),
         ],
     )
     def test_one_that_was_written_with_other_contents_says_so(self, recorded, forge):
