@@ -18,8 +18,6 @@ from sandbox.schema import json_schema
 #: The folder of each template, which is also the name of its scene, in file names and in the files.
 FROM_SIDE, FROM_ABOVE = "template", "template_above"
 
-_WRITTEN_BY_TOOLS = shutil.ignore_patterns("__pycache__", "golden", "out", ".*", "*.schema.json")
-
 
 def new_scene(folder: Path, template: str = FROM_SIDE) -> list[Path]:
     """Write a working scene into ``folder``, which must not exist yet; returns its files.
@@ -30,11 +28,9 @@ def new_scene(folder: Path, template: str = FROM_SIDE) -> list[Path]:
     _check(folder, name)
     try:
         with folder_of_parts(folder.parent, name) as part:
-            scene = part / name
-            shutil.copytree(resources.folder(template), scene, ignore=_WRITTEN_BY_TOOLS)
-            for file in sorted(scene.rglob("*")):
-                if file.is_file():
-                    _rename(file, template, name)
+            scene, source = part / name, resources.folder(template)
+            for file in (*source.glob("*.py"), *source.rglob("*.toml")):
+                _copy(file, scene / file.relative_to(source).parent, template, name)
             schema = json_schema(parameters_of(scene)[1], name)
             (scene / f"{name}.schema.json").write_text(json.dumps(schema, indent=2) + "\n", encoding="utf-8")
             shutil.rmtree(scene / "__pycache__", ignore_errors=True)
@@ -72,10 +68,9 @@ def _check(folder: Path, name: str) -> None:
         raise RequestError(f"new {folder}: there is no folder {folder.parent}; make it first")
 
 
-def _rename(file: Path, template: str, name: str) -> None:
-    """``template.toml`` to ``<name>.toml``, and the name in the file; the name of a test must be importable."""
-    text = file.read_text(encoding="utf-8")
-    if file.suffix in (".toml", ".py"):
-        file.write_text(re.sub(rf"\b{template}\b", name, text), encoding="utf-8")
+def _copy(file: Path, folder: Path, template: str, name: str) -> None:
+    """As ``<name>.toml`` for ``template.toml``, with the name in it, too; the name of a test must be importable."""
     own = name.replace("-", "_") if file.suffix == ".py" else name
-    file.rename(file.with_name(file.name.replace(template, own)))
+    folder.mkdir(parents=True, exist_ok=True)
+    text = re.sub(rf"\b{template}\b", name, file.read_text(encoding="utf-8"))
+    (folder / file.name.replace(template, own)).write_text(text, encoding="utf-8")

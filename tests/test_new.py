@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import re
+import resource
 import subprocess
 import sys
 from pathlib import Path
@@ -105,13 +106,14 @@ def test_what_cannot_be_made_is_refused(call, name: str, expected: str):
     assert sorted(Path().iterdir()) == before
 
 
-def test_a_full_or_closed_folder_is_told_and_nothing_stays_behind(call, monkeypatch):
-    def full(*args: object, **kwargs: object) -> None:
-        raise OSError(28, "No space left on device")
-
-    monkeypatch.setattr("shutil.copytree", full)
-    code, _, err = call("new", NAME)
-    assert (code, err) == (1, f"error: {NAME}: cannot be written: no space left on device\n")
+def test_a_full_disk_is_told_and_nothing_stays_behind(call):
+    limits = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (100, limits[1]))  # no file may be longer
+    try:
+        code, _, err = call("new", NAME)
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, limits)
+    assert (code, err) == (1, f"error: {NAME}: cannot be written: file too large\n")
     assert list(Path().iterdir()) == []
 
 
