@@ -149,6 +149,7 @@ def _is_path(text: str) -> bool:
 
 
 def _at(path: Path) -> Found:
+    path = path.parent if path.name == "scene.py" else path
     if (path / "scene.py").is_file():
         return _in_folder(path.resolve().name, path)
     if path.is_file() or (path.suffix == ".toml" and not path.is_dir()):
