@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping, Sequence
 from itertools import product
 from math import inf
+from typing import Any
 
 import numpy as np
 
@@ -16,28 +18,38 @@ _SCAN, _CLOSER = {1: 129, 2: 41}, {1: 25, 2: 9}
 #: The place is found to this fraction of the range: near its greatest value a result hardly changes.
 _FINE = 1e-7
 
+#: Of a run's targeted results, None if it failed; None or NaN if it is unknown.
+Height = Callable[[Mapping[str, Any] | None], float | None]
+
 
 def greatest(shots: Shots) -> list[Solution]:
     """The place at which the number is greatest; none if no run has it."""
     shots.planned = _SCAN[len(shots.spans)] ** len(shots.spans)
-    low, high = (np.array([getattr(span, end) for span in shots.spans]) for end in ("low", "high"))
-    whole, parts, best = high - low, _SCAN[len(shots.spans)], low
-    left, right = low, high
-    while (right - left > _FINE * whole).any():
-        axes = [np.linspace(a, b, parts).tolist() for a, b in zip(left, right, strict=True)]
-        points = list(product(*axes))
-        heights = [_height(shots, result) for result in shots.results(points, "scan" if best is low else "solve")]
-        if max(heights) == -inf:
-            return []
-        best = np.array(points[int(np.argmax(heights))])
-        step, parts = (right - left) / (parts - 1), _CLOSER[len(shots.spans)]
-        left, right = np.maximum(best - step, low), np.minimum(best + step, high)
-    point = tuple(best.tolist())
+    low, high = ([getattr(span, end) for span in shots.spans] for end in ("low", "high"))
+    name = shots.targets[0].name
+    point, height = peak(shots, low, high, lambda result: (result or {}).get(name), scanned=True)
+    if height == -inf:
+        return []
     result, errors, _ = shots.checked([point])[0]
     values = {span.key: value for span, value in zip(shots.spans, point, strict=True)}
-    return [Solution(values, dict(zip(values, (_FINE * whole).tolist(), strict=True)), result, errors)]
+    fine: dict[str, float | None] = {span.key: _FINE * (span.high - span.low) for span in shots.spans}
+    return [Solution(values, fine, result, errors)]
 
 
-def _height(shots: Shots, result: dict[str, object] | None) -> float:
-    value = None if result is None else result.get(shots.targets[0].name)
-    return value if isinstance(value, int | float) else -inf
+def peak(
+    shots: Shots, low: Sequence[float], high: Sequence[float], height: Height, scanned: bool = False
+) -> tuple[tuple[float, ...], float]:
+    """The point between two corners at which the ``height`` of the result is greatest, and that height, -inf if it is
+    nowhere known: looked for on grids, each around the best point of the one before, the first of them a scan."""
+    left, right, best, most = np.array(low), np.array(high), tuple(low), -inf
+    whole, parts = [span.high - span.low for span in shots.spans], (_SCAN if scanned else _CLOSER)[len(low)]
+    while (right - left > np.multiply(_FINE, whole)).any():
+        points = list(product(*np.linspace(left, right, parts).T.tolist()))
+        results = shots.results(points, "scan" if scanned else "solve")
+        heights = np.nan_to_num(np.array([height(result) for result in results], float), nan=-inf)
+        best, most = points[int(heights.argmax())], float(heights.max())
+        if most == -inf:
+            break
+        step, parts, scanned = (right - left) / (parts - 1), _CLOSER[len(low)], False
+        left, right = np.maximum(best - step, low), np.minimum(best + step, high)
+    return best, most

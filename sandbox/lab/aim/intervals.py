@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from itertools import pairwise
 from math import inf
 
@@ -12,7 +12,7 @@ from sandbox.lab.aim.question import Interval, Solution
 from sandbox.lab.aim.shots import Shots, scan
 
 #: Runs between the known points in the first refinement of an end, where there may be several, and in later ones.
-_FIRST, _LATER = 5, 3
+FIRST, _LATER = 5, 3
 
 #: The accuracy of ends, and the distance within which finer runs look for an end that they do not see within this
 #: accuracy, both as fractions of the range.
@@ -72,19 +72,30 @@ def _errors(
 
 def _refined(shots: Shots, changes: Sequence[_Change], finer: bool) -> list[float]:
     """The position at which the target starts or stops being met, for each change."""
-    brackets = list(changes)
-    widest = 2.1 * _END * (shots.spans[0].high - shots.spans[0].low)
-    between = _FIRST
-    while wide := [number for number, (low, high, _) in enumerate(brackets) if high - low > widest]:
-        inner = [np.linspace(*brackets[number][:2], between + 2).tolist()[1:-1] for number in wide]
-        found = iter(shots.meets([(place,) for places in inner for place in places], "solve", finer))
-        for number, places in zip(wide, inner, strict=True):
-            low, high, before = brackets[number]
-            known = [low, *places, high]
-            met = [before, *(next(found) for _ in places), not before]
-            ends_here = [index for index in range(len(places) + 1) if met[index] != met[index + 1]]
-            # of several ends, the one next to the interval in which the target is met
-            change = ends_here[0] if before else ends_here[-1]
-            brackets[number] = (known[change], known[change + 1], before)
+    accuracy = 2.1 * _END * (shots.spans[0].high - shots.spans[0].low)
+    found = narrowed(shots, changes, lambda number, place: (place,), accuracy, finer)
+    return [0.5 * (low + high) for low, high, _ in found]
+
+
+def narrowed(
+    shots: Shots,
+    changes: Sequence[_Change],
+    point: Callable[[int, float], tuple[float, ...]],
+    widest: float,
+    finer: bool = False,
+) -> list[_Change]:
+    """The same changes between nearer values, no more than ``widest`` apart; a number of a change and a value make a
+    ``point``. Of several changes in between it is the one next to where the target is met."""
+    found, between = list(changes), FIRST
+    while wide := [number for number, (low, high, _) in enumerate(found) if high - low > widest]:
+        places = [np.linspace(*found[number][:2], between + 2).tolist() for number in wide]
+        points = [point(number, place) for number, each in zip(wide, places, strict=True) for place in each[1:-1]]
+        met = np.array(shots.meets(points, "solve", finer)).reshape(-1, between)
+        for number, each, inner in zip(wide, places, met.tolist(), strict=True):
+            before = found[number][2]
+            known = [before, *inner, not before]
+            ends = [index for index in range(between + 1) if known[index] != known[index + 1]]
+            end = ends[0] if before else ends[-1]
+            found[number] = (each[end], each[end + 1], before)
         between = _LATER
-    return [0.5 * (low + high) for low, high, _ in brackets]
+    return found

@@ -8,6 +8,7 @@ from math import hypot, inf
 
 import numpy as np
 
+from sandbox.lab.aim.greatest import peak
 from sandbox.lab.aim.question import Solution
 from sandbox.lab.aim.root import SAME, STEP, is_met, solution
 from sandbox.lab.aim.shots import Shots
@@ -22,7 +23,7 @@ _STARTS, _ITERATIONS = 12, 60
 
 def pairs(shots: Shots) -> list[Solution]:
     """The pairs of values, found from several starts, at which two numbers meet their targets."""
-    from scipy.optimize import minimize, root
+    from scipy.optimize import root
 
     first, second = shots.spans
     shots.planned = _SCAN_EACH**2
@@ -51,9 +52,8 @@ def pairs(shots: Shots) -> list[Solution]:
         if not known and np.isfinite(shots.numbers(point, "solve")).all() and is_met(shots, point):
             solutions.append(solution(shots, point))
     if not solutions and starts:
-        limits = [(0.0, 1.0)] * 2
-        options = {"maxfev": 4 * _ITERATIONS, "xatol": SAME, "fatol": SAME}
-        minimize(lambda u: hypot(*missed(u, "solve")), starts[0], method="Nelder-Mead", bounds=limits, options=options)
+        low, high = (placed(starts[0] + sign / _SCAN_EACH) for sign in (-1.0, 1.0))
+        peak(shots, low, high, lambda result: -hypot(*shots.missed(result) / scales))
     return sorted(solutions, key=lambda found: tuple(found.values.values()))
 
 

@@ -6,15 +6,16 @@ from itertools import product
 
 import numpy as np
 
+from sandbox.lab.aim.intervals import FIRST, narrowed
 from sandbox.lab.aim.question import Region, Solution
 from sandbox.lab.aim.shots import Shots
 
 #: Points of the scan along each parameter: regions narrower than this fraction of the range may be missed.
 SCAN_EACH = 61
 
-#: Directions in which the border is searched for around the most forgiving point, and the steps of that search, each
-#: of which makes it four times as accurate.
-_DIRECTIONS, _STEPS = 48, 5
+#: Directions in which the border is searched for around the most forgiving point, and how accurately, as a fraction of
+#: the range.
+_DIRECTIONS, _FINE = 48, 1e-3
 
 
 def regions(shots: Shots) -> list[Solution]:
@@ -48,17 +49,14 @@ def _solution(shots: Shots, point: tuple[float, ...], share: float) -> Solution:
     ends = np.array([(span.low, span.high) for span in spans])
     angles = (np.arange(_DIRECTIONS) + 0.5) * (2.0 * np.pi / _DIRECTIONS)  # none along an axis
     ways = np.array([np.cos(angles), np.sin(angles)]).T * whole
-    limits = np.maximum((ends[:, 0] - point) / ways, (ends[:, 1] - point) / ways)
-    low, high = np.zeros(_DIRECTIONS), limits.min(axis=1)
-    shares = np.linspace(0.0, 1.0, 5)[1:]
-    for _ in range(_STEPS):
-        far = low[:, None] + (high - low)[:, None] * shares
-        tries = np.clip(point + far[..., None] * ways[:, None, :], ends[:, 0], ends[:, 1])
-        met = np.array(shots.meets([tuple(each) for each in tries.reshape(-1, 2).tolist()], "solve")).reshape(far.shape)
-        inside = np.cumprod(met, axis=1).sum(axis=1)  # of the four, as far as the target is met without a gap
-        step = 0.25 * (high - low)
-        low, high = low + inside * step, np.minimum(low + (inside + 1) * step, high)
+    limits = np.maximum((ends[:, 0] - point) / ways, (ends[:, 1] - point) / ways).min(axis=1)
+
+    def along(number: int, way: float) -> tuple[float, ...]:
+        return tuple(np.clip(point + way * ways[number], *ends.T).tolist())
+
+    beyond = [(0.0, (1.0 + 1.0 / FIRST) * limit, True) for limit in limits.tolist()]  # the limit itself is tried, too
+    border = np.minimum([low for low, _, _ in narrowed(shots, beyond, along, _FINE)], limits)
     values = dict(zip([span.key for span in spans], point, strict=True))
-    room = dict(zip(values, (float(low.min()) * whole).tolist(), strict=True))
+    room = dict(zip(values, (float(border.min()) * whole).tolist(), strict=True))
     spacing = dict(zip(values, (0.5 * whole / (SCAN_EACH - 1)).tolist(), strict=True))
     return Solution(values, spacing, result, errors, region=Region(share, room))

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import pairwise
-from math import inf, isfinite
+from math import copysign, inf, isfinite
 
 import numpy as np
 
+from sandbox.lab.aim.greatest import peak
 from sandbox.lab.aim.question import Solution, Try
 from sandbox.lab.aim.root import SAME, bracketed, is_met, solution
 from sandbox.lab.aim.shots import Shots, scan
@@ -34,7 +35,9 @@ def roots_of(shots: Shots) -> tuple[list[Solution], list[tuple[Try, Try]]]:
         for root in _roots(shots, low, high, f"solve {number + 1}", depth=0):
             (found if is_met(shots, (root,)) else jumps).append(root)
     if not found:
-        _come_nearer(shots, seen)
+        best = min(range(len(seen)), key=lambda index: abs(seen[index][1]) if isfinite(seen[index][1]) else inf)
+        around = ([seen[max(best - 1, 0)][0]], [seen[min(best + 1, len(seen) - 1)][0]])
+        peak(shots, *around, lambda result: -abs(float(shots.missed(result)[0])))
     solutions: list[Solution] = []
     for root in sorted(found):
         if not solutions or root - solutions[-1].values[span.key] > SAME * (span.high - span.low):
@@ -54,7 +57,7 @@ def _hidden(shots: Shots, seen: Sequence[tuple[float, float]]) -> Iterator[tuple
         misses = left[1], here[1], right[1]
         if not all(map(isfinite, misses)) or min(misses) <= 0.0 <= max(misses) or not _is_lowest(*misses):
             continue
-        turn = _turning_point(shots, left[0], right[0], here[1])
+        turn = _turning_point(shots, left[0], right[0], copysign(1.0, here[1]))
         if turn[1] * here[1] <= 0.0:
             yield left[0], turn[0]
             yield turn[0], right[0]
@@ -71,23 +74,8 @@ def _is_lowest(left: float, here: float, right: float) -> bool:
 
 def _turning_point(shots: Shots, low: float, high: float, sign: float) -> tuple[float, float]:
     """Where the result comes closest to the target, or exceeds it most, and its miss there."""
-    from scipy.optimize import minimize_scalar
-
-    def height(place: float) -> float:
-        miss = float(shots.numbers((float(place),), "solve")[0])
-        return miss if sign > 0.0 else -miss if isfinite(miss) else inf
-
-    found = minimize_scalar(height, bounds=(low, high), method="bounded", options={"xatol": SAME * (high - low)})
-    return float(found.x), float(found.fun) if sign > 0.0 else -float(found.fun)
-
-
-def _come_nearer(shots: Shots, seen: Sequence[tuple[float, float]]) -> None:
-    """Try values around the best of the scan."""
-    finite = [index for index, (_, miss) in enumerate(seen) if isfinite(miss)]
-    if finite:
-        best = min(finite, key=lambda index: abs(seen[index][1]))
-        low, high = seen[max(best - 1, 0)][0], seen[min(best + 1, len(seen) - 1)][0]
-        _turning_point(shots, low, high, seen[best][1])
+    (place,), height = peak(shots, [low], [high], lambda result: -sign * float(shots.missed(result)[0]))
+    return place, -sign * height
 
 
 def _roots(shots: Shots, low: float, high: float, phase: str, depth: int) -> Iterator[float]:
