@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from sandbox.files import json_ready
-from sandbox.lab.aim.question import GREATEST, Aim, Interval, Solution, Target
+from sandbox.lab.aim.question import GREATEST, Aim, Interval, Solution, Target, Try
 from sandbox.lab.axes import label, result_label, unit_of
 from sandbox.lab.chart import chart, legend, mark
 from sandbox.lab.tables import paragraph, table
@@ -28,7 +28,6 @@ _SHOWN = 12
 
 def as_json(aim: Aim) -> str:
     """One JSON object; an unknown numerical error is null."""
-    nearest = aim.nearest
     told: dict[str, Any] = {
         "scene": aim.scene.name,
         "preset": aim.scene.preset,
@@ -36,13 +35,8 @@ def as_json(aim: Aim) -> str:
         "target": {target.name: target.value for target in aim.targets if target.value is not GREATEST},
         "maximize": next((target.name for target in aim.targets if target.value is GREATEST), None),
         "solutions": [_solution(solution) for solution in aim.solutions],
-        "nearest": None
-        if nearest is None
-        else {"parameters": _named(aim, nearest.values), "result": _found(aim, nearest.found), "misses": aim.misses},
-        "jumps": [
-            [{"parameters": _named(aim, side.values), "result": _found(aim, side.found)} for side in jump]
-            for jump in aim.jumps
-        ],
+        "nearest": None if aim.nearest is None else _try(aim, aim.nearest) | {"misses": aim.misses},
+        "jumps": [[_try(aim, side) for side in jump] for jump in aim.jumps],
         "tries": len(aim.tries),
         "failures": aim.failures,
     }
@@ -50,25 +44,19 @@ def as_json(aim: Aim) -> str:
 
 
 def _solution(solution: Solution) -> dict[str, Any]:
-    told: dict[str, Any] = {
-        "parameters": solution.values,
-        "errors": solution.errors,
-        "result": solution.result,
-        "result_errors": solution.result_errors,
-    }
+    told = {key: value for key, value in asdict(solution).items() if value is not None}
     if solution.interval is not None:
-        told["interval"] = asdict(solution.interval) | {"width": solution.interval.width}
-    if solution.region is not None:
-        told["region"] = asdict(solution.region)
-    return told
+        told["interval"]["width"] = solution.interval.width
+    return {"parameters": told.pop("values"), **told}
+
+
+def _try(aim: Aim, one: Try) -> dict[str, Any]:
+    result = {target.name: value for target, value in zip(aim.targets, one.found, strict=True)}
+    return {"parameters": _named(aim, one.values), "result": result}
 
 
 def _named(aim: Aim, values: tuple[float, ...]) -> dict[str, float]:
     return {span.key: value for span, value in zip(aim.spans, values, strict=True)}
-
-
-def _found(aim: Aim, found: tuple[Any, ...]) -> dict[str, Any]:
-    return {target.name: value for target, value in zip(aim.targets, found, strict=True)}
 
 
 # ---------------------------------------------------------------------------------------------------------------------
@@ -99,16 +87,12 @@ def as_text(aim: Aim) -> list[str]:
 
 def _question(aim: Aim) -> str:
     wanted = " and ".join(_wanted(target, aim) for target in aim.targets)
-    ranges = " and ".join(_range(aim, span.key, span.low, span.high) for span in aim.spans)
-    return f"{aim.scene.title}: {wanted} by {ranges}"
+    ranges = [f"{span.key} from {span.low:g} to {span.high:g} {unit_of(aim.scene, span.key)}" for span in aim.spans]
+    return f"{aim.scene.title}: {wanted} by {' and '.join(map(str.rstrip, ranges))}"
 
 
 def _wanted(target: Target, aim: Aim) -> str:
     return str(target) if target.value is GREATEST else f"{target.name} = {_value(target, aim)}"
-
-
-def _range(aim: Aim, key: str, low: float, high: float) -> str:
-    return f"{key} from {low:g} to {high:g} {unit_of(aim.scene, key)}".rstrip()
 
 
 def _value(target: Target, aim: Aim) -> str:
@@ -282,9 +266,8 @@ def _draw_plane(axes: Any, aim: Aim, colours: Mapping[str, Any]) -> None:
         places, heights = list(zip(*(each.values for each in tries), strict=True)), [each.found[0] for each in tries]
         axes.figure.colorbar(axes.scatter(*places, c=heights, s=9), label=result_label(aim.scene, target.name))
     else:
-        for met, colour, name in ((False, card["quiet"], "not met"), (True, card["good"], "met")):
-            some = [each.values for each in aim.tries if target.met(each.found[0]) == met]
-            axes.scatter(*(zip(*some, strict=True) if some else ([], [])), s=9, color=colour, label=name)
+        for _, colour, name, some in _met(aim, card):
+            axes.scatter(some[:, 0], some[:, 1], s=9, color=colour, label=name)
         legend(axes)
     for solution in aim.solutions[:1]:
         place = tuple(solution.values.values())
@@ -298,10 +281,16 @@ def _draw_intervals(axes: Any, aim: Aim, colours: Mapping[str, Any]) -> None:
     for solution in aim.solutions:
         assert solution.interval is not None  # the target has intervals
         axes.axvspan(solution.interval.low, solution.interval.high, color=card["good"], alpha=0.35, linewidth=0)
-    for met, colour, name in ((False, card["quiet"], "not met"), (True, card["good"], "met")):
-        places = [each.values[0] for each in aim.tries if aim.targets[0].met(each.found[0]) == met]
-        axes.scatter(places, [float(met)] * len(places), s=14, color=colour, label=name, zorder=3)
+    for met, colour, name, some in _met(aim, card):
+        axes.scatter(some[:, 0], np.full(len(some), float(met)), s=14, color=colour, label=name, zorder=3)
     for solution in aim.solutions[:1]:
         mark(axes, (solution.values[key], 0.5), _forgiving(aim), card)
     axes.set_yticks([0.0, 1.0], ["not met", "met"])
     axes.set_ylim(-0.3, 1.3)
+
+
+def _met(aim: Aim, card: Mapping[str, Any]) -> Iterator[tuple[bool, Any, str, np.ndarray]]:
+    """The tries that do not meet the target, and those that do: colour, name, and values of shape (tries, axes)."""
+    for met, colour, name in ((False, card["quiet"], "not met"), (True, card["good"], "met")):
+        some = [each.values for each in aim.tries if aim.targets[0].met(each.found[0]) == met]
+        yield met, colour, name, np.reshape(some, (-1, len(aim.spans)))
