@@ -158,6 +158,11 @@ def choice(default: str | EllipsisType | None, meaning: str) -> Any:
     return Field(default, description=meaning)
 
 
+def word(meaning: str, may_be_empty: bool = False) -> Any:
+    """A text of 40 characters at most, such as a name; declare it as ``str``."""
+    return Field(description=meaning, min_length=0 if may_be_empty else 1, max_length=40)
+
+
 def switch(default: bool | EllipsisType, meaning: str) -> Any:
     """True or false; declare it as ``bool``."""
     return Field(default, description=meaning, strict=True)

@@ -19,14 +19,12 @@ from itertools import combinations
 from math import asin, atan2, cos, degrees, dist, hypot, pi, radians, sin, sqrt
 from typing import Any, Literal
 
-from pydantic import Field
-
 from sandbox.engine.run import Run
 from sandbox.engine.setup import Always, Ball, Bounce, ContactModel, Setup, Vector
 from sandbox.engine.touch import Obstacle
 from sandbox.engine.track import Pressing
 from sandbox.errors import RequestError
-from sandbox.parameters import Group, SceneParameters, choice, either, group, groups, quantity
+from sandbox.parameters import Group, SceneParameters, choice, either, group, groups, quantity, word
 from sandbox.physics.cloth import Cloth
 from sandbox.physics.throw import friction_by_speed
 from sandbox.sport.amounts import roughly
@@ -43,7 +41,7 @@ from .table import AnyTable, catches, check, cushions, on_bed
 class Spot(Group):
     """A ball and its position; the table's centre is the origin, x runs along its length."""
 
-    name: str = Field(description="name of the ball", min_length=1, max_length=40)
+    name: str = word("name of the ball")
     x: float = quantity(0.0, "m", -10, 10, "along the table")
     y: float = quantity(0.0, "m", -10, 10, "across the table")
 
@@ -51,7 +49,7 @@ class Spot(Group):
 class Cue(Directed):
     """The stroke, with a level cue."""
 
-    ball: str = Field(description="name of the ball that is struck", min_length=1, max_length=40)
+    ball: str = word("name of the ball that is struck")
     speed: float = quantity(..., "m/s", 0, 30, "speed of the ball after the stroke")
     angle: float = quantity(..., "deg", -360, 360, "direction, from +x counter-clockwise")
     follow: float = quantity(..., "", -0.5, 0.5, "tip above the ball's centre in radii; 0.4 rolls at once")

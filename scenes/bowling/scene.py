@@ -9,12 +9,10 @@ from __future__ import annotations
 
 from math import cos, dist, sin
 
-from pydantic import Field
-
 from sandbox.engine.run import Run
 from sandbox.engine.setup import Ball, Segment, Setup, Surface
 from sandbox.errors import RequestError
-from sandbox.parameters import Group, group, groups, quantity
+from sandbox.parameters import Group, group, groups, quantity, word
 from sandbox.physics.cloth import Cloth
 from sandbox.physics.ice import Glide
 from sandbox.physics.plane import Strips
@@ -59,7 +57,7 @@ class BowlingBall(Group):
 class Pins(Body):
     """The pins, all alike."""
 
-    standing: str = Field(description="the numbers of those that stand")
+    standing: str = word("the numbers of those that stand", may_be_empty=True)
     sliding: float = quantity(..., "", 0, 2, "friction of pin and deck")
     tips: float = quantity(..., "m", 0, 0.1, "a pin that is pushed further than this falls")
 

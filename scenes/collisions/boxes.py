@@ -7,14 +7,12 @@ from itertools import combinations
 from math import radians
 from typing import Literal, NamedTuple
 
-from pydantic import Field
-
 from sandbox.engine.meeting import standing
 from sandbox.engine.nearest import Nearest, Pose, meeting_points, nearest
 from sandbox.engine.run import Run
 from sandbox.engine.setup import Body, Force, Segment, Vector, outline_of
 from sandbox.engine.shapes import Ellipse, Polygon, Shape, box, capsule
-from sandbox.parameters import Group, choice, quantity
+from sandbox.parameters import Group, choice, quantity, word
 
 #: Heights above the lane and diameters of a bowling pin, as shares of its height of 15 in (USBC); the neck is filled.
 PIN = ((0.0, 0.150), (0.05, 0.1885), (0.15, 0.2604), (0.225, 0.3007), (0.3, 0.3177), (0.9, 0.1698), (0.98, 0.093))
@@ -28,7 +26,7 @@ TOUCH = 1e-5
 class Moving(Group):
     """What the bench has in common."""
 
-    name: str = Field(description="its name", min_length=1, max_length=40)
+    name: str = word("its name")
     x: float = quantity(0.0, "m", -50, 50, "of its centre of mass, to the right")
     y: float = quantity(0.0, "m", -50, 50, "of its centre of mass, upward, or across a level bench")
     vx: float | None = quantity(None, "m/s", -50, 50, "along x; if vx and vy are left out, 0 or that of the launch")

@@ -14,14 +14,12 @@ from itertools import accumulate, pairwise
 from math import cos, hypot, pi, sin
 from typing import Any, Literal, NamedTuple
 
-from pydantic import Field
-
 from sandbox.engine.meeting import Meeting, meeting
 from sandbox.engine.run import Run
 from sandbox.engine.setup import Ball, ContactModel, Force, Setup, Vector, kinetic
 from sandbox.engine.track import Pressing
 from sandbox.errors import RequestError
-from sandbox.parameters import SceneParameters, choice, group, groups, quantity
+from sandbox.parameters import SceneParameters, choice, group, groups, quantity, word
 from sandbox.physics.coefficients import Constant
 from sandbox.physics.forces import Drag, Gravity
 from sandbox.physics.integrators import State
@@ -47,7 +45,7 @@ class Body(Moving):
 class Launch(Directed):
     """The ball that is played."""
 
-    ball: str = Field(description="its name; without a ball of that name none is launched", max_length=40)
+    ball: str = word("its name; without a ball of that name none is launched", may_be_empty=True)
     speed: float = quantity(..., "m/s", 0, 50, "speed")
     angle: float = quantity(..., "deg", -180, 180, "direction, from +x counter-clockwise")
 

@@ -8,24 +8,24 @@ deform; how it rolls once it has stopped bouncing, where the run ends. Not valid
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from math import cos, pi, radians, sin
+from dataclasses import replace
+from math import cos, degrees, hypot, pi, radians, sin
 from statistics import NormalDist, pstdev
 from typing import Any, Literal
 
 from sandbox.engine import simulate
 from sandbox.engine.accuracy import LEVELS
 from sandbox.engine.run import Event, Run
-from sandbox.engine.setup import Body, Circle, Setup, Surface, Torque
+from sandbox.engine.setup import Body, Circle, Setup, Surface
 from sandbox.engine.shapes import Ellipse
 from sandbox.parameters import Group, SceneParameters, choice, group, quantity, switch
-from sandbox.physics.elementwise import hypot
 from sandbox.physics.forces import Gravity
+from sandbox.physics.spheroid import DragByAngle, Follows
 from sandbox.sport.air import Air, wind_in
 from sandbox.sport.controls import Controls, Handle, Spin, Spread
-from sandbox.sport.facts import ENDED, Fact, once
+from sandbox.sport.facts import ENDED, Fact
 from sandbox.sport.flight import DEGREE, RPM, Directed
-from sandbox.sport.readings import LAUNCH, Moment, apex, at, before, passing
+from sandbox.sport.readings import LAUNCH, apex, at, landing, passing
 from sandbox.sport.solids import Solid, level
 
 LONGEST, YARD = 15.0, 0.9144  # s, after which a run is ended; m
@@ -96,55 +96,15 @@ BAR = 0.08  # m, half the bar's thickness; assumed
 LANDINGS, ROUGH = 12, replace(LEVELS["fast"], tolerance=1.0)
 
 
-@dataclass(frozen=True)
-class DragByAngle:
-    """Quadratic drag that depends on the angle a between the long axis and the wind:
-    ``F = -1/2 rho A (Cn cos^2 a + Cs sin^2 a) |u| u``, with A the round cross-section. The form is assumed."""
-
-    density: float  # kg/m^3
-    area: float  # m^2
-    nose: float  # Cn
-    side: float  # Cs
-    wind: Any
-    spiral: bool
-
-    def __call__(self, t: Any, position: Any, velocity: Any, spin: Any) -> tuple[Any, Any]:
-        wx, wy = (0.0, 0.0) if self.wind is None else self.wind(t, position)
-        ux, uy = velocity[0] - wx, velocity[1] - wy
-        speed = hypot(ux, uy)
-        along = speed if self.spiral else ux * cos(position.angle) + uy * sin(position.angle)
-        nose = (along / (speed + 1e-30)) ** 2
-        k = -0.5 * self.density * self.area * (self.nose * nose + self.side * (1.0 - nose)) * speed
-        return k * ux, k * uy
-
-
-@dataclass(frozen=True)
-class Follows:
-    """What turns a spiral's nose with its path until it touches something: a stiff, damped torque towards it."""
-
-    inertia: float  # kg m^2
-    rate: float = 12.0  # rad/s, of the turning towards the path; assumed
-    lowest: float = 0.4  # m, below which it acts no more
-
-    def __call__(self, t: Any, position: Any, velocity: Any, spin: Any) -> Any:
-        speed = hypot(*velocity) + 1e-30
-        off = (velocity[1] * cos(position.angle) - velocity[0] * sin(position.angle)) / speed
-        high = min(max((position[1] - self.lowest) / 0.2, 0.0), 1.0)
-        return high * self.inertia * (self.rate**2 * off - 2.0 * self.rate * spin)
-
-
 def build(it: Parameters) -> Setup:
     """The ball as an ellipse, the grass and, if there is a goal, its bar."""
     ball, launch, angle = it.ball, it.launch, it.launch.angle * DEGREE
     half, round_half, spiral = ball.length / 2, ball.width / 2, it.launch.turns == "spiral"
     inertia = ball.mass * (half**2 + round_half**2) / 3.0  # about, of a thin shell: 5/3 of the solid's; assumed
     forces: list[Any] = [Gravity(ball.mass, it.gravity)] if it.gravity else []
-    torques: list[Torque] = []
     if it.air.density:
         area = pi * round_half**2
         forces.append(DragByAngle(it.air.density, area, ball.nose_drag, ball.side_drag, wind_in(it.air), spiral))
-    if spiral:
-        torques.append(Follows(inertia))
     kicked = Body(
         "ball",
         position=(0.0, launch.height),
@@ -155,7 +115,7 @@ def build(it: Parameters) -> Setup:
         mass=ball.mass,
         moment=inertia,
         forces=forces,
-        torques=torques,
+        torques=[Follows(inertia)] if spiral else [],
     )
     surfaces = [it.ground.surface("ground", level(reach=1e3), lowest_bounce=LOWEST_BOUNCE)]
     if it.goal.present:
@@ -167,12 +127,6 @@ def build(it: Parameters) -> Setup:
 def bounces_no_more(event: Event) -> bool:
     """Whether the ball lies: from here on it would rock and roll."""
     return event.kind == "contact" and event.partner == "ground"
-
-
-@once
-def landing(run: Run, parameters: Parameters) -> Moment | None:
-    """The ball as it comes to the grass."""
-    return next((before(run, e.t) for e in run.events if e.partner == "ground" and e.kind == "impact"), None)
 
 
 def over(run: Run, parameters: Parameters) -> float | None:
@@ -187,16 +141,13 @@ def over(run: Run, parameters: Parameters) -> float | None:
 
 def good(run: Run, parameters: Parameters) -> bool | None:
     """Whether the kick is good: over the bar before it comes down, as seen from the side."""
-    if not parameters.goal.present:
-        return None
-    gap = over(run, parameters)
-    return gap is not None and gap > 0.0
+    return (over(run, parameters) or -1.0) > 0.0 if parameters.goal.present else None
 
 
 def _nose(run: Run, parameters: Parameters) -> float | None:
     """Angle in deg of the long axis above the horizontal as the ball lands, from -90 to 90."""
     down = landing(run, parameters)
-    return None if down is None else (run.angle("ball", down.t) * 180.0 / pi + 90.0) % 180.0 - 90.0
+    return None if down is None else (degrees(run.angle("ball", down.t)) + 90.0) % 180.0 - 90.0
 
 
 def _bounced(run: Run, parameters: Parameters) -> float | None:

@@ -9,7 +9,7 @@ import pytest
 
 import sandbox
 from sandbox.engine.acting import Turned
-from scenes.football.scene import DragByAngle
+from sandbox.physics.spheroid import DragByAngle
 from tests.scenes.play import playing
 
 run_of = playing("football")
