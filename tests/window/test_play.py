@@ -33,6 +33,16 @@ class Slow:
             shown.set_result(call.result())
 
 
+class Unanswered:
+    """Workers that are asked in vain."""
+
+    def submit(self, work, *args):
+        return Future()
+
+    def abandon(self, call):
+        pass
+
+
 def picture(player) -> np.ndarray:
     return pygame.surfarray.array3d(player.screen)
 
@@ -212,6 +222,7 @@ def test_any_size_is_drawn(player, size):
 def test_every_key_does_something_harmless_in_every_state(player, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)  # some of them write files
     player = player("golf/putt", (640, 400))
+    player.game.helper = Unanswered()  # fans, maps and what is found have tests of their own, and take seconds
     for state in ("aiming", "playing", "over"):
         for command, key in [(each, key) for each in TABLE for key in each.keys]:
             if command.name in ("quit", "next_preset", "fullscreen", "animation"):

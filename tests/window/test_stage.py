@@ -116,7 +116,7 @@ def settled(app: App) -> None:
     raise AssertionError("never at rest")
 
 
-@settings(max_examples=15, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(max_examples=10, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(
     source=st.sampled_from(["golf/pond", "billiards"]), actions=st.lists(st.sampled_from(sorted(ACTIONS)), max_size=9)
 )
