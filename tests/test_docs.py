@@ -33,7 +33,7 @@ ROOT = Path(__file__).resolve().parent.parent
 PHYSICS = (ROOT / "docs" / "physics.md").read_text("utf-8")
 
 #: Arithmetic for floats and arrays alike: nothing physical.
-NOT_MODELS = {"elementwise", "checks"}
+NOT_MODELS = {"elementwise", "checks", "straight"}
 
 
 # Physics ------------------------------------------------------------------------------------------------------------
