@@ -62,6 +62,10 @@ class Unresolved(RunError):
     """A contact without an end: something presses the bodies together, or through each other."""
 
 
+class Entered(Unresolved):
+    """A body has moved farther than it may."""
+
+
 class Body(NamedTuple):
     """A ball at the start of the contact, in m, kg, s, rad; ``push`` is its acceleration from other causes."""
 
@@ -72,6 +76,7 @@ class Body(NamedTuple):
     velocity: tuple[float, float]
     spin: tuple[float, float, float]  # rad/s, about x, y and the axis out of the picture
     push: tuple[float, float] = (0.0, 0.0)  # m/s^2
+    room: float = np.inf  # m, by which it may move
 
 
 class Link(NamedTuple):
@@ -118,6 +123,7 @@ class Cluster:
         self._weights = np.array([(body.mass, body.inertia) for body in bodies]).T
         light, easy = np.column_stack((1.0 / self._weights, (0.0, 0.0)))  # the last body is what walls belong to
         radius = np.array([*(body.radius for body in bodies), np.inf])
+        self._room = np.array([*(body.room for body in bodies), np.inf])
         self._push = np.array([*(complex(*body.push) for body in bodies), 0.0])
         self._mass = 1.0 / (light[first] + light[second])  # kg, reduced
         self._stiffness = np.array([link.stiffness for link in links])
@@ -134,7 +140,7 @@ class Cluster:
         """Simulate the contact until nothing touches, in steps of this fraction of the shortest possible contact, or
         until what is left is slower than ``faint`` (m/s).
 
-        Raises Unresolved if it does not end, or after too many steps.
+        Raises Unresolved if it does not end, or after too many steps; Entered if a body moves farther than it may.
         """
         while (passage := self._stepped_through(share, faint)) is None:
             share *= 0.5
@@ -155,6 +161,7 @@ class Cluster:
         quickest = max(fastest, *(hypot(*body.spin) * body.radius for body in self._bodies))
         times = [contact_time(m, k, fastest) for m, k in zip(self._mass, self._stiffness, strict=True)]
         shortest, longest = min(times), max(times)
+        started = state[_PLACE].copy()
         scale = np.repeat([fastest * shortest, fastest], count + 1)
         whole, h, t = share * shortest, 0.0, 0.0
         rates, elastic = np.empty((5, 2, count + 1), complex), np.empty((5, links))
@@ -185,6 +192,8 @@ class Cluster:
                 raise Unresolved(f"bodies do not separate within {t:.3g} s")
             if (self._depth > self._deepest).any():
                 raise Unresolved(f"bodies pass through each other after {t:.3g} s")
+            if (np.abs(state[_PLACE] - started) > self._room).any():
+                raise Entered(f"a body has left its place after {t:.3g} s")
             rubbed, before, gap = reached, closing, self._gap
             start = state[:2].copy()
             start[1] -= np.vecdot(self._pushed, self._held * self._normal)

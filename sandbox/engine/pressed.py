@@ -4,27 +4,27 @@ from __future__ import annotations
 
 from collections.abc import Collection, Sequence
 from itertools import combinations, pairwise
-from math import hypot
+from math import hypot, inf
 
 import numpy as np
 
 from sandbox.engine.arc import Arc
-from sandbox.engine.clusters import Body, Cluster, Link, Unresolved
+from sandbox.engine.clusters import Body, Cluster, Entered, Link, Unresolved
 from sandbox.engine.impacts import Hit, Outcome
 from sandbox.engine.setup import Setup
 from sandbox.engine.surfaces import bounce_of_balls, bounce_off
-from sandbox.engine.touch import TOUCHING_GAP, Obstacle, touched
+from sandbox.engine.touch import TOUCHING_GAP, Obstacle
 from sandbox.engine.track import Pressing, Track
 from sandbox.physics.hertz import contact_time
 from sandbox.physics.integrators import State
 
 #: Depth in radii up to which a ball may enter a wall that pushes back only after the balls have separated; in a deeper
-#: one the wall is rigid: against it a ball is 2 sqrt(2) times as stiff as against one of its kind.
-_DEEP, _RIGID = 0.25, 8.0**0.5
+#: one the wall is rigid: against it a ball is 2 sqrt(2) times as stiff as against one of its kind. Where forces press
+#: balls on one another they may stay for long, one on the other: there they get impulses.
+_DEEP, _RIGID, _DEEP_IN_A_HEAP = 0.25, 8.0**0.5, 0.05
 
-#: Share of the slowest blow on a heap that a contact among its balls leaves to lasting contact; and share of a blow
-#: that other forces may change while balls are pressed on a wall.
-_LEFT, _PUSHED = 0.0125, 0.1
+#: Share of the slowest blow on a heap that a contact among its balls leaves to lasting contact.
+_LEFT = 0.0125
 
 #: Steps through a contact in one arc of the path: the cubic that joins them is as accurate.
 _STEPS = 2
@@ -71,20 +71,21 @@ class Pressed:
         fastest = 2.0 * max(speed, moving) * max(first.mass, second.mass) / (first.mass + second.mass)
         members = dict(touching)
         met: set[frozenset[int]] = set()  # pairs that are within reach only as the others leave them
-        hard = model.wall_stiffness
+        hard, deep = model.wall_stiffness, _DEEP_IN_A_HEAP if slow > 0.0 else _DEEP
         while True:
             self._add_reached(t, members, fastest, lasts, fresh)
             if not members.keys().isdisjoint(fresh):
                 return None
-            near = [
-                (index, obstacle)
-                for index, (x, y, *_) in members.items()
-                for obstacle in self._tracks[index].obstacles
-                if obstacle.near(x, y).gap <= fastest * lasts
-            ]
+            room, near = dict.fromkeys(members, inf), list[tuple[int, Obstacle]]()
+            for index, (x, y, *_) in members.items():
+                for obstacle in self._tracks[index].obstacles:
+                    gap = obstacle.near(x, y).gap
+                    room[index] = min(room[index], gap + deep * self._tracks[index].ball.radius)
+                    if gap <= fastest * lasts:
+                        near.append((index, obstacle))
             if model.name == "auto" and len(members) == 2 and not near:
                 return None
-            walls = near if hard else []
+            walls, room = (near, {}) if hard else ([], room)
             pairs = [
                 (i, j)
                 for i, j in combinations(members, 2)
@@ -92,7 +93,12 @@ class Pressed:
                 or self._gap(i, members[i], j, members[j]) <= 2.0 * fastest * lasts + TOUCHING_GAP
             ]
             try:
-                parted = self._passed(t, members, walls, pairs, speed, hard, _LEFT * slow)
+                parted = self._passed(t, members, room, walls, pairs, speed, hard, _LEFT * slow)
+            except Entered:
+                if slow > 0.0:
+                    return None
+                hard = _RIGID * stiffness
+                continue
             except Unresolved:
                 return None
             late = self._met_late(t, parted) - {frozenset(pair) for pair in pairs}
@@ -100,10 +106,6 @@ class Pressed:
                 met |= late
                 for index in frozenset().union(*late) - members.keys():
                     members[index] = self._tracks[index].arc.state(t)
-            elif not hard and self._entered(members, parted):
-                if max(hypot(*self._tracks[index].arc.acceleration(t)) for index in members) * lasts > _PUSHED * speed:
-                    return None
-                hard = _RIGID * stiffness
             else:
                 alone = model.name == "auto" and len(parted.states) == 2 and len(parted.hits) == 1
                 return None if alone else parted
@@ -140,15 +142,6 @@ class Pressed:
                     members[other] = there
                     waiting.append(other)
 
-    def _entered(self, members: dict[int, State], parted: Outcome) -> bool:
-        """Whether a ball may have been pressed deep into a wall that does not push back meanwhile."""
-        for index, (u, v, *_) in parted.states.items():
-            track, (x, y, *_) = self._tracks[index], members[index]
-            within = hypot(u - x, v - y) - _DEEP * track.ball.radius
-            if any(near.gap <= within for _, near in touched(track.obstacles, x, y, max(within, 0.0))):
-                return True
-        return False
-
     def _met_late(self, t: float, parted: Outcome) -> set[frozenset[int]]:
         """The pairs, of a ball that was touched and any other, that come to overlap on straight ways from t until the
         balls have separated."""
@@ -173,6 +166,7 @@ class Pressed:
         self,
         t: float,
         members: dict[int, State],
+        room: dict[int, float],
         walls: Sequence[tuple[int, Obstacle]],
         pairs: Sequence[tuple[int, int]],
         speed: float,
@@ -180,7 +174,7 @@ class Pressed:
         faint: float,
     ) -> Outcome:
         place = {index: number for number, index in enumerate(members)}
-        bodies = [self._body(t, index, state) for index, state in members.items()]
+        bodies = [self._body(t, index, state, room.get(index, inf)) for index, state in members.items()]
         contacts: list[tuple[tuple[int, ...], str, Link]] = [
             ((i, j), self._tracks[j].ball.name, self._link(place, members, i, j, speed)) for i, j in pairs
         ]
@@ -199,11 +193,11 @@ class Pressed:
         until = float(times[-1])
         return Outcome(until, {index: each[-1].state(until) for index, each in arcs.items()}, sorted(hits), arcs)
 
-    def _body(self, t: float, index: int, state: State) -> Body:
+    def _body(self, t: float, index: int, state: State, room: float) -> Body:
         track = self._tracks[index]
         ball, push = track.ball, track.arc.acceleration(t)
         turning = (*state[5:7], state[4]) if len(state) > 5 else (0.0, 0.0, state[4])
-        return Body(ball.mass, ball.radius, ball.inertia, state[:2], state[2:4], turning, push)
+        return Body(ball.mass, ball.radius, ball.inertia, state[:2], state[2:4], turning, push, room)
 
     def _link(self, place: dict[int, int], members: dict[int, State], i: int, j: int, speed: float) -> Link:
         first, second = self._tracks[i].ball, self._tracks[j].ball

@@ -139,6 +139,12 @@ def scaled(scale, bodies, proportional=True):
     return simulate(Setup(balls, surfaces, 30.0 * root, **laws), accuracy)
 
 
+def test_balls_that_are_poured_into_a_bowl_do_not_sink_into_it():
+    """While those above press on them, those below are struck against it again and again."""
+    run = run_of(poured(24, 0.5), BOWL, duration=0.4)
+    assert max(overlap(run, t) for t in np.linspace(0.34, 0.4, 16)) < 0.05
+
+
 @pytest.mark.parametrize("bodies", [False, True])
 def test_heaps_of_any_size_come_to_rest_alike(bodies):
     """From 1/100 to 100 times as large: exactly so at an accuracy in proportion, and at rest at the usual one."""
