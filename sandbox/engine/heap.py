@@ -74,8 +74,10 @@ class _Member:
         self.since = since  # s, when it came to press on others; from the start, forever
         self.body, self.disc = real.add(ball)
         self.brake = pymunk.SimpleMotor(self.body, real.space.static_body, 0.0)  # rolling resistance
+        self.slow_for = 0.0  # s
         self.resistance = 0.0  # N m, of this step's pressure: for the next
         self.start: State = ()
+        self.fastest = 0.0  # m/s, that no point of a body, or of a ball its centre, exceeds at the start
         self.touching: set[Obstacle | int] = set()  # obstacles, and balls by index, in this step
         self.before: set[Obstacle | int] = set()  # the same in the step before
         real.space.add(self.brake)
@@ -98,7 +100,7 @@ class Heap:
         self._members: dict[int, _Member] = {}
         self._of_disc: dict[pymunk.Shape, int] = {}
         self._pressed: dict[frozenset[int], float] = {}  # s, when two balls pressed on each other last
-        self._slow_for = 0.0  # s
+        self._resting: dict[int, set[int]] = {}  # balls at rest, each with its heap
         self._forced = 0.0  # m/s^2, the largest acceleration by forces in this step
         self._fastest = 0.0  # m/s, approach in the heap that is no impact of its own
         self._thin = min(map(_thickness, setup.balls))  # m
@@ -120,8 +122,20 @@ class Heap:
 
     @property
     def members(self) -> KeysView[int]:
-        """The balls in the heap."""
+        """The balls that are stepped."""
         return self._members.keys()
+
+    def has(self, indices: Collection[int]) -> bool:
+        """Whether some of these balls lie in the heap, at rest or not."""
+        return not (self._members.keys() | self._resting.keys()).isdisjoint(indices)
+
+    def wake(self, indices: Collection[int]) -> None:
+        """Step on those that lie with these at rest."""
+        woken = set[int]().union(*(self._resting.get(index, ()) for index in indices))
+        self._take(self._members.keys() | woken)
+        for index in woken:
+            del self._resting[index]
+            self._members[index].since = -inf
 
     def presses(self, t: float, states: Mapping[int, State], pairs: Sequence[tuple[int, int]]) -> bool:
         """Whether balls that touch at t, in ``pairs``, belong in the heap: some are in it, or two part too slowly to
@@ -138,7 +152,7 @@ class Heap:
             ):
                 pressing.add(frozenset((i, j)))
         self._pressed |= dict.fromkeys(pressing, t)
-        return bool(pressing) or not members.isdisjoint(states)
+        return bool(pressing) or self.has(states)
 
     def _come_back(self, t: float, indices: Sequence[int], states: Sequence[State], met: Meeting) -> bool:
         """Whether bodies that touch and part touch again at once, as they turn."""
@@ -150,7 +164,7 @@ class Heap:
         """The speed in m/s below which a blow among these balls is lasting contact, or one that a heap takes in its
         steps."""
         forced = max(self._forced_in_a_step(index, t, state) for index, state in states.items())
-        return _SLOW * forced if self._members else forced
+        return _SLOW * forced if self.has(states) else forced
 
     def fresh(self, t: float) -> set[int]:
         """The balls that have come to press on others of late: a heap that is still forming."""
@@ -211,6 +225,7 @@ class Heap:
             mass, inertia = unit * unit * ball.mass, unit * unit * ball.inertia
             body.force, body.torque = (mass * ax, mass * ay), inertia * turning
             member.start = states[index]
+            member.fastest = hypot(vx, vy) + (ball.radius * abs(spin) if angle else 0.0)
             member.before, member.touching = member.touching, set()
             member.brake.max_force, member.resistance = unit * unit * member.resistance, 0.0
         self._real.space.collision_bias = max(_LEFT ** (unit / self._span), _LEAST_LEFT)
@@ -220,17 +235,28 @@ class Heap:
         moved = {i: hypot(*arc.contact) for i, arc in arcs.items() if isinstance(arc.contact, Heaped)}
         overlapped = {index for index, speed in moved.items() if speed * self._span > _APART * self.margin}
         held = self._held() | overlapped
-        self._take(held)
         arcs = {index: arc for index, arc in arcs.items() if index in held}
-        fastest = max((self._speed(index, states[index]) for index in held), default=inf)
-        slow = fastest * fastest <= 2.0 * self._forced * self._settle and not overlapped
-        self._slow_for = self._slow_for + h if slow else 0.0
-        if self._slow_for >= self._lasting(_REST, self._forced):
-            at_rest = {index: (*states[index][:2], 0.0, 0.0, 0.0, *states[index][5:]) for index in arcs}
-            return {index: still(t, until, state, Heaped()) for index, state in at_rest.items()}
         for index, arc in arcs.items():
             self._refuse_leap(index, arc)
+            member = self._members[index]
+            slow = member.fastest**2 <= 2.0 * self._forced * self._settle and index not in overlapped
+            member.slow_for = member.slow_for + h if slow else 0.0
+        for heap in self._apart(held):
+            if all(self._members[index].slow_for >= self._lasting(_REST, self._forced) for index in heap):
+                self._resting |= dict.fromkeys(heap, heap)
+                for index in heap:
+                    at_rest = (*states[index][:2], 0.0, 0.0, 0.0, *states[index][5:])
+                    arcs[index] = still(t, until, at_rest, Heaped())
+        self._take(held - self._resting.keys())
         return arcs
+
+    def _apart(self, held: set[int]) -> list[set[int]]:
+        """These balls as heaps that do not press on each other."""
+        heaps = [{index} for index in held]
+        for pair in self._pressed:
+            joined = [heap for heap in heaps if not heap.isdisjoint(pair)]
+            heaps = [heap for heap in heaps if heap.isdisjoint(pair)] + [set().union(*joined)]
+        return heaps
 
     def _refuse_leap(self, index: int, arc: Arc) -> None:
         """Raise RunError if a body's centre passed through a surface: it was too thin for the step."""
@@ -250,11 +276,6 @@ class Heap:
         """The acceleration in m/s^2 of a turning body's farthest point: it presses on others without a force, too."""
         return 0.0 if len(state) == 5 else float(state[4] ** 2) * self._tracks[index].ball.radius
 
-    def _speed(self, index: int, state: State) -> float:
-        """The speed in m/s of a ball's centre, or of a body's fastest point."""
-        turning = 0.0 if len(state) == 5 else self._tracks[index].ball.radius * state[4]
-        return hypot(*state[2:4], turning)
-
     def _applied(self, index: int, t: float, state: State) -> Acceleration:
         return self._tracks[index].applied(t, state)
 
@@ -270,6 +291,7 @@ class Heap:
 
     def release(self, indices: Collection[int]) -> None:
         """Let go of balls that are struck."""
+        self.wake(indices)
         self._take(self._members.keys() - indices)
         for member in self._members.values():
             member.touching -= {*indices}
@@ -306,20 +328,20 @@ class Heap:
     def keeps_apart(self, index: int, other: Obstacle | int) -> bool:
         """Whether the heap keeps a ball from this obstacle or ball, so that they have no impact of their own: they
         touch, or would meet slowly."""
-        member = self._members[index]
-        if other in member.touching:
+        if index in self._resting:
+            return isinstance(other, Obstacle) or other in self._resting[index]
+        here, there = self._members[index], self._members.get(other) if isinstance(other, int) else None
+        if other in here.touching:
             return True
-        if not isinstance(other, Obstacle) and other not in self._members:
-            return False
-        return self._approach(index, other) <= self._fastest
-
-    def _approach(self, index: int, other: Obstacle | int) -> float:
-        """The speed in m/s at which a member comes nearer to an obstacle or another member."""
-        ball, state = self._members[index].ball, self._members[index].start
         if isinstance(other, Obstacle):
-            return surface_met(ball, state, (other, other.near(*state[:2]))).closing
-        neighbour = self._members[other]
-        return meeting(ball, state, neighbour.ball, neighbour.start).closing
+            if here.fastest <= self._fastest:
+                return True
+            met = surface_met(here.ball, here.start, (other, other.near(*here.start[:2])))
+        elif there is None or here.fastest + there.fastest <= self._fastest:
+            return there is not None
+        else:
+            met = meeting(here.ball, here.start, there.ball, there.start)
+        return met.closing <= self._fastest
 
     # ------------------------------------------------------------------ callbacks
 

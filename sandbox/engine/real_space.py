@@ -100,5 +100,7 @@ def speeds_at(arbiter: pymunk.Arbiter) -> tuple[float, float]:
 
 def rolls(ball: Ball, arbiter: pymunk.Arbiter) -> bool:
     """Whether it touches with a curved side."""
+    if not ball.turns:
+        return True
     outline = outline_of(ball)
     return isinstance(outline, Ellipse) or (outline.radius > 0.0 and len(arbiter.contact_point_set.points) == 1)

@@ -200,7 +200,7 @@ class Simulation:
         touching = self._impacts.touching(t, seeds)
         outcome = self._through(t, touching)
         if outcome is None:
-            if self._heap and self._heap.members & set(seeds):
+            if self._heap and self._heap.has(seeds):
                 self._impacts.gap = self._heap.margin
                 touching = self._impacts.touching(t, seeds)
             outcome = self._impacts.exchange(t, touching, self._through)
@@ -223,6 +223,7 @@ class Simulation:
 
     def _press_on(self, heap: Heap, t: float, joining: Collection[int]) -> Collection[int]:
         """Step the heap from t, with these balls if they press on others. Returns the balls in it."""
+        heap.wake(joining)
         members = set(heap.members)
         for index in members - set(joining):
             self._tracks[index].arrive(t, self._tracks[index].arc.state(t))

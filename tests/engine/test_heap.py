@@ -263,6 +263,14 @@ def test_a_pair_far_from_a_heap_meets_as_if_there_were_none():
     assert alone.numerics.clusters == beside.numerics.clusters == 1
 
 
+def test_what_rests_far_from_a_heap_that_settles_rests_once():
+    far = Outlined("far", shape=box(0.1, 0.05), mass=M, position=(2.0, 0.03), forces=[Gravity(M, G)])
+    run = run_of([far, *poured(8, 0.4)], BOX)
+    rests = [event.t for event in run.events if event.kind == "rest" and event.ball == "far"]
+    assert len(rests) == 1
+    assert rests[0] < 0.5 < run.duration
+
+
 def test_balls_that_part_fly_on_exactly():
     """Thrown up together in touch, they press on nothing: two parabolas, and soon no heap."""
     run = run_of([ball("a", 0.0, 1.0, vy=2.0), ball("b", 2 * R, 1.0, vy=2.0)], FLOOR, duration=0.3)
