@@ -51,7 +51,7 @@ class Scene:
 
     name: str
     preset: str | None
-    parameters: Any  # the scene's own Parameters
+    parameters: declared.SceneParameters  # of the scene's own class
     folder: Path
     note: str = field(default="", compare=False)  # the first comment of a scene file outside the scene's folder
 
