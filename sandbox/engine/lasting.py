@@ -101,19 +101,11 @@ class LastingContact(NamedTuple):
         return x, y, vx, vy, spin
 
 
-def contact_on(
-    ball: Ball, state: State, obstacle: Obstacle, touching: Touching, applied: Acceleration, slips: bool = False
-) -> LastingContact | None:
-    """Sliding, rolling or resting on one surface; None if nothing presses the ball on. A ball that ``slips`` has just
-    lost its grip, whatever rounding says."""
-    mode, direction = motion_on(ball, state, obstacle.surface, touching, applied, slips)
-    return None if mode == FLYING else LastingContact(mode, obstacle, touching, direction)
-
-
 def motion_on(
     ball: Ball, state: State, surface: Surface, touching: Touching, applied: Acceleration, slips: bool = False
 ) -> tuple[Any, Any]:
-    """How a ball moves on one surface, FLYING if nothing presses it on, and in which direction."""
+    """How a ball moves on one surface, FLYING if nothing presses it on, and in which direction. A ball that ``slips``
+    has just lost its grip, whatever rounding says."""
     _, _, vx, vy, spin = state
     ax, ay, turning = applied
     nx, ny = touching.nx, touching.ny

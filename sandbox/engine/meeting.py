@@ -90,12 +90,6 @@ def surface_met(ball: Ball, state: State, near: Near, within: float = 0.0) -> Me
     return meeting_at((ball,), (state,), gap, (nx, ny), [(state[0] - ball.radius * nx, state[1] - ball.radius * ny)])
 
 
-def direction_to(obstacle: Obstacle, state: State) -> float:
-    """The direction of the normal in rad from a surface to the centre of a body: a guess of that to its outline."""
-    touching = obstacle.near(state[0], state[1])
-    return atan2(touching.ny, touching.nx)
-
-
 def surfaces_met(
     ball: Ball, obstacles: Sequence[Obstacle], state: State, within: float
 ) -> Iterator[tuple[Obstacle, Meeting]]:

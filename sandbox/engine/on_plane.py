@@ -3,7 +3,7 @@ under error control."""
 
 from __future__ import annotations
 
-from math import hypot, isfinite
+from math import hypot, inf, isfinite
 
 from sandbox.engine.arc import Arc, still
 from sandbox.engine.bernstein import downward_crossings
@@ -50,11 +50,10 @@ class OnPlane(Track):
             return arc if out is None else self._in_closed_form(law, phase, t, out * h), ""
         stops_in = hypot(*state[2:4]) / (hypot(phase.ax, phase.ay) or 1.0)
         arc = self._integrate(t, min(until, t + _LONGEST * stops_in), phase.law)
-        if (out := _leaves(arc, low, high)) is not None:
-            arc = arc.until(arc.t0 + out * (arc.t1 - arc.t0))
-        spun = next(downward_crossings([state[4] * spin for spin in arc.spin]), None)
-        self._ends_spin = spun is not None
-        return arc if spun is None else arc.until(arc.t0 + spun * (arc.t1 - arc.t0)), ""
+        out, spun = _leaves(arc, low, high), next(downward_crossings([state[4] * spin for spin in arc.spin]), None)
+        u = min((u for u in (out, spun) if u is not None), default=inf)
+        self._ends_spin = spun == u
+        return arc if u == inf else arc.until(arc.t0 + u * (arc.t1 - arc.t0)), ""
 
     def _in_closed_form(self, law: Plane, phase: Phase, t: float, h: float) -> Arc:
         """The first h s of a phase with constant accelerations."""

@@ -13,7 +13,7 @@ from typing import NamedTuple
 from sandbox.engine.accuracy import Accuracy
 from sandbox.engine.acting import law_of, wrong_term
 from sandbox.engine.arc import Arc, crossing, still, through
-from sandbox.engine.lasting import BECOMES, RESTING, LastingContact, contact_on, wedged
+from sandbox.engine.lasting import BECOMES, FLYING, RESTING, LastingContact, motion_on, wedged
 from sandbox.engine.run import Numerics
 from sandbox.engine.setup import Ball, Setup
 from sandbox.engine.step_control import LONGEST, StepControl, before_break, within
@@ -24,6 +24,11 @@ from sandbox.physics.integrators import Acceleration, Law, State
 
 #: Difference in m/s and rad/s below which it is rounding.
 _SAME = 1e-9
+
+_TOO_FAST = (
+    "the velocity changes too fast for any step (down to {:.1e} s); look for a force that is not smooth, or raise "
+    "accuracy.tolerance"
+)
 
 
 class Pressing(NamedTuple):
@@ -156,7 +161,7 @@ class Track:
             if fits:
                 break
             if following < shortest:
-                raise self._too_short(t, h, end)
+                self._check(t + h, end, _TOO_FAST.format(h))
             self._numerics.refined_steps += 1
             h = wanted = following
         self.next_step = following
@@ -164,19 +169,13 @@ class Track:
         self._known = (end, last)
         return through(t, h, state, acceleration, end, last, contact)
 
-    def _too_short(self, t: float, h: float, after: State) -> RunError:
-        self._check(t + h, after)
-        cause = wrong_term(self.ball, t + h, after) or (
-            f"the velocity changes too fast for any step (down to {h:.1e} s); look for a force that is not smooth, or "
-            "raise accuracy.tolerance"
-        )
-        return RunError(f"t = {t + h:.6g} s, ball {self.ball.name!r}: {cause}")
-
-    def _check(self, t: float, after: State) -> None:
-        """Raise RunError, which names a force that is not finite, if a state is outside the world or not finite."""
-        if self._setup.bounds.hold(after):
+    def _check(self, t: float, after: State, wrong: str | None = None) -> None:
+        """Raise RunError, which names a force that is not finite, if a state is outside the world or not finite, or if
+        something else is ``wrong``."""
+        inside = self._setup.bounds.hold(after)
+        if inside and wrong is None:
             return
-        if wrong := wrong_term(self.ball, t, self.state):
+        if wrong := wrong_term(self.ball, t, after if inside else self.state) or (wrong if inside else None):
             raise RunError(f"t = {t:.6g} s, ball {self.ball.name!r}: {wrong}")
         self._setup.bounds.check(t, self.ball.name, after)
 
@@ -258,9 +257,12 @@ class Track:
         ball, state = self.ball, self.state
         x, y, vx, vy, spin = state
         mx, my = (vx, vy) if vx or vy else applied[:2]  # direction in which it will move
-        places = [(obstacle, obstacle.next_feature(touching, x, y, mx, my)) for obstacle, touching in kept]
-        found = [contact_on(ball, state, obstacle, touching, applied, slips) for obstacle, touching in places]
-        held = [contact for contact in found if contact is not None]
+        held = list[LastingContact]()
+        for obstacle, touching in kept:
+            ahead = obstacle.next_feature(touching, x, y, mx, my)
+            mode, direction = motion_on(ball, state, obstacle.surface, ahead, applied, slips)
+            if mode != FLYING:
+                held.append(LastingContact(mode, obstacle, ahead, direction))
         held.sort(key=lambda contact: contact.touching.curvature)  # the next piece's side before this one's corner
         two = None
         for contact in held:

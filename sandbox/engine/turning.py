@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from sandbox.engine.meeting import direction_to, kept, standing
+from math import atan2
+
+from sandbox.engine.meeting import kept, standing
 from sandbox.engine.one_point import one_point
 from sandbox.engine.setup import outline_of
 from sandbox.engine.touch import TOUCHING_GAP, Obstacle
@@ -39,5 +41,6 @@ class Turning(Track):
             if u is None:
                 return None
             start += u * (arc.t1 - arc.t0)
+        near = obstacle.near(*arc.position(start))
         one, other = Mover(outline_of(self.ball), arc), standing(obstacle.surface.shape)
-        return first_touch(one, other, start, arc.t1, self._accuracy.skin, direction_to(obstacle, arc.state(start)))
+        return first_touch(one, other, start, arc.t1, self._accuracy.skin, atan2(near.ny, near.nx))
