@@ -302,7 +302,7 @@ def _as_image(subject: Subject, until: float | None) -> Image.Image:
     from PIL import Image
 
     from sandbox.engine.run import Run
-    from sandbox.picture.frames import frame_of, poster_of, to_image
+    from sandbox.picture.frames import to_image
 
     if isinstance(subject, Image.Image):
         return subject.convert("RGB")
@@ -312,7 +312,7 @@ def _as_image(subject: Subject, until: float | None) -> Image.Image:
         raise TypeError("only a run of a scene has a picture: check what sandbox.simulate(scene) returns")
     picture = subject.scene.picture(subject, SIZE)
     try:
-        return to_image(poster_of(picture) if until is None else frame_of(picture, until))
+        return to_image(picture.poster() if until is None else picture.frame(until))
     except RunError as error:
         _fail(str(error))
 

@@ -59,9 +59,9 @@ def _trajectory(drawn: Drawn, path: Path) -> None:
 
 
 def _poster(drawn: Drawn, path: Path) -> None:
-    from sandbox.picture.frames import poster_of, save_png
+    from sandbox.picture.frames import save_png
 
-    save_png(poster_of(drawn.picture), path)
+    save_png(drawn.picture.poster(), path)
 
 
 def _html(drawn: Drawn, path: Path) -> None:

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from sandbox.page.parts import filled, html, save
 from sandbox.page.replay import page_of
-from sandbox.picture.frames import poster_of, save_png
+from sandbox.picture.frames import save_png
 from sandbox.scene import listings, load, simulate
 
 #: Of the posters, in px.
@@ -24,7 +24,7 @@ def build(folder: Path, names: Iterable[str] | None = None, tell: Callable[[str]
         tell(name)
         run = simulate(load(name))
         file = name.replace("/", "-")
-        save_png(poster_of(run.scene.picture(run, SIZE)), folder / f"{file}.png")
+        save_png(run.scene.picture(run, SIZE).poster(), folder / f"{file}.png")
         save(page_of(run), folder / f"{file}.html")
         entries.append((name, file, run.scene.verdict(run), run.scene.about))
     sections = (

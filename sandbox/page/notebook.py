@@ -48,7 +48,7 @@ class Animation:
 
 def poster(run: Run, path: Path | str | None, size: Size | None) -> Image.Image | None:
     """The whole run as one picture: written to ``path``, or handed back."""
-    drawn = frames.poster_of(_picture(run, size or POSTER))
+    drawn = _picture(run, size or POSTER).poster()
     if path is None:
         return frames.to_image(drawn)
     _check(path, ".png")
@@ -58,7 +58,7 @@ def poster(run: Run, path: Path | str | None, size: Size | None) -> Image.Image 
 
 def frame(run: Run, t: float, size: Size | None) -> Image.Image:
     """The run at time t in s."""
-    return frames.to_image(frames.frame_of(_picture(run, size or POSTER), t))
+    return frames.to_image(_picture(run, size or POSTER).frame(t))
 
 
 def animate(run: Run, path: Path | str | None, size: Size | None, fps: float) -> Animation | None:
@@ -93,7 +93,7 @@ def run_html(run: Run) -> str | None:
     if run.scene is None:
         return None
     page = escape(page_of(run))
-    shown = picture(frames.to_image(frames.poster_of(_picture(run, POSTER))))
+    shown = picture(frames.to_image(_picture(run, POSTER).poster()))
     return (
         f'<h3>{html(run.scene.verdict(run))}</h3><img alt="poster" width="{POSTER[0]}" src="{shown}">'
         f"{table(run.scene.rows(run), run.scene.title, 'card')}"

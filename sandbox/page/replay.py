@@ -22,7 +22,6 @@ from sandbox.picture.above import AboveView
 from sandbox.picture.frames import to_image
 from sandbox.picture.palette import palette
 from sandbox.picture.path import instants
-from sandbox.picture.plain import view_of
 from sandbox.picture.sheet import CARD, DENSITY
 from sandbox.picture.side import SideView
 from sandbox.picture.vectors import FORCE_LENGTH, SHORTEST, VELOCITY_LENGTH, colour_of
@@ -117,7 +116,7 @@ def _views(run: Run, ghosts: Mapping[str, Run] | None) -> Iterator[tuple[View[An
     for size, density in LAYOUTS:
         token = DENSITY.set(density)
         try:
-            view = view_of(run, size, ghosts)
+            view = run.scene.picture(run, size, ghosts)
             yield view, _layout(view)
         finally:
             DENSITY.reset(token)

@@ -12,15 +12,18 @@ from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from itertools import chain, pairwise
 from pathlib import Path
-from typing import Protocol
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pygame
 from PIL import GifImagePlugin, Image
 
 from sandbox.engine.run import Run
-from sandbox.errors import RequestError, RunError
+from sandbox.errors import RequestError
 from sandbox.files import folder_of_parts, written_whole
+
+if TYPE_CHECKING:
+    from sandbox.picture.view import View
 
 #: zlib's level for frames, which are many and passing. Measured by ``python benchmarks/frames.py --levels``, mean over
 #: all scenes at 1280x720, ms on one core and kB: Pillow 24 and 171 at its quickest (level 1, RLE), 24 and 195 at
@@ -42,8 +45,6 @@ SEE_THROUGH = 255
 MOST_PIXELS = 100_000_000
 #: Viewers slow a GIF down that shows more frames per second than this.
 FASTEST_GIF = 50
-#: Longest text of what a picture returned in place of a surface, in characters.
-LONGEST_SHOWN = 60
 #: The last picture of an animation stays for so long, in s, before it begins again.
 PAUSE = 2.0
 
@@ -55,30 +56,6 @@ Progress = Callable[[int, int], object]
 Drawing = pygame.Surface
 
 
-class Picture(Protocol):
-    """What a scene's picture.py offers."""
-
-    def poster(self) -> pygame.Surface: ...
-
-    def frame(self, t: float) -> pygame.Surface: ...
-
-
-def poster_of(picture: Picture) -> pygame.Surface:
-    """The picture's poster. Raises RunError where a scene's own hands back something else."""
-    return _surface("poster()", picture.poster())
-
-
-def frame_of(picture: Picture, t: float) -> pygame.Surface:
-    """The picture's frame at time t in s. Raises RunError where a scene's own hands back something else."""
-    return _surface(f"frame({t:g})", picture.frame(t))
-
-
-def _surface(call: str, drawn: object) -> pygame.Surface:
-    if not isinstance(drawn, pygame.Surface):
-        raise RunError(f"picture.py: {call} must return a pygame.Surface, and returned {drawn!r:.{LONGEST_SHOWN}}")
-    return drawn
-
-
 def to_image(surface: pygame.Surface) -> Image.Image:
     """The surface as a Pillow image, RGB."""
     if (sys.byteorder, surface.get_bitsize(), surface.get_masks()[:3]) == ("little", 32, (0xFF0000, 0xFF00, 0xFF)):
@@ -87,10 +64,10 @@ def to_image(surface: pygame.Surface) -> Image.Image:
     return Image.frombytes("RGB", surface.get_size(), pygame.image.tobytes(surface, "RGB"))
 
 
-def film(picture: Picture, times: Sequence[float], progress: Progress | None) -> Iterator[Image.Image]:
+def film(picture: View[Any], times: Sequence[float], progress: Progress | None) -> Iterator[Image.Image]:
     """The frames at these times in s, each drawn when it is asked for."""
     for done, t in enumerate(times, 1):
-        yield to_image(frame_of(picture, t))
+        yield to_image(picture.frame(t))
         if progress:
             progress(done, len(times))
 
@@ -120,7 +97,7 @@ def quick_png(image: Image.Image) -> bytes:
     return b"\x89PNG\r\n\x1a\n" + b"".join(chunks)
 
 
-def save_frames(picture: Picture, run: Run, folder: Path | str, fps: float, progress: Progress | None = None) -> int:
+def save_frames(picture: View[Any], run: Run, folder: Path | str, fps: float, progress: Progress | None = None) -> int:
     """Write frame_00000.png, frame_00001.png, ... into a folder, all or none; returns how many.
 
     Frames of an earlier run with higher numbers are removed, or a film made of the folder would end in two runs.
@@ -167,7 +144,7 @@ def _is_ours(file: Path) -> bool:
         return False
 
 
-def save_gif(picture: Picture, run: Run, path: Path | str, fps: float, progress: Progress | None = None) -> int:
+def save_gif(picture: View[Any], run: Run, path: Path | str, fps: float, progress: Progress | None = None) -> int:
     """Write the run as an animated GIF that repeats; returns the number of frames.
 
     All frames share one palette, and times are rounded to the 10 ms that the format knows so that none is lost. Of each
@@ -192,7 +169,7 @@ def save_gif(picture: Picture, run: Run, path: Path | str, fps: float, progress:
 class _Film(Image.Image):
     """All frames as one image of Pillow's, each drawn when it is asked for."""
 
-    def __init__(self, picture: Picture, times: list[float], progress: Progress | None):
+    def __init__(self, picture: View[Any], times: list[float], progress: Progress | None):
         super().__init__()
         self.picture, self.times, self.progress = picture, times, progress
         self.n_frames, self.shown = len(times), -1
@@ -201,7 +178,7 @@ class _Film(Image.Image):
 
     def seek(self, frame: int) -> None:
         if frame != self.shown:
-            self.im, self.shown = to_image(frame_of(self.picture, self.times[frame])).im, frame
+            self.im, self.shown = to_image(self.picture.frame(self.times[frame])).im, frame
             if self.progress:
                 self.progress(frame + 1, self.n_frames)
 
@@ -209,7 +186,7 @@ class _Film(Image.Image):
         return self.shown
 
 
-def save_webp(picture: Picture, run: Run, path: Path | str, fps: float, progress: Progress | None = None) -> int:
+def save_webp(picture: View[Any], run: Run, path: Path | str, fps: float, progress: Progress | None = None) -> int:
     """Write the run as an animated WebP that repeats, in all colours; returns the number of frames, of which equal ones
     are written as one. Raises OSError where it cannot be written.
     """
@@ -220,7 +197,7 @@ def save_webp(picture: Picture, run: Run, path: Path | str, fps: float, progress
     return len(times)
 
 
-def save_video(picture: Picture, run: Run, path: Path | str, fps: float, progress: Progress | None = None) -> int:
+def save_video(picture: View[Any], run: Run, path: Path | str, fps: float, progress: Progress | None = None) -> int:
     """Write the run as a video (H.264 in MP4, which every player knows); returns the number of frames.
 
     A side with an odd number of px gets one more. Raises OSError where it cannot be written.
@@ -263,7 +240,7 @@ def frame_times(duration: float, fps: float) -> list[float]:
     return [t for t in times if t < duration - 0.1 / fps] + [duration] if duration > 0 else [0.0]
 
 
-def shared_palette(picture: Picture, times: list[float]) -> Image.Image:
+def shared_palette(picture: View[Any], times: list[float]) -> Image.Image:
     """255 colours for all frames, chosen from some of them.
 
     A colour counts by the square root of its area: small things such as ball and trace matter more than their size.
@@ -271,7 +248,7 @@ def shared_palette(picture: Picture, times: list[float]) -> Image.Image:
     chosen = {times[round(i * (len(times) - 1) / (PALETTE_FRAMES - 1))] for i in range(PALETTE_FRAMES)}
     counts = np.zeros(1 << 18, np.int64)
     for t in sorted(chosen):
-        for lines in np.array_split(np.asarray(to_image(frame_of(picture, t))), 16):  # some MB at a time
+        for lines in np.array_split(np.asarray(to_image(picture.frame(t))), 16):  # some MB at a time
             packed = (lines >> 2).astype(np.uint32) @ np.array([1 << 12, 1 << 6, 1], np.uint32)
             counts += np.bincount(packed.ravel(), minlength=1 << 18)
     present = np.flatnonzero(counts)

@@ -17,7 +17,6 @@ from sandbox.engine.track import Pressing
 from sandbox.picture.energy import course
 from sandbox.picture.palette import Colour, mix, palette
 from sandbox.picture.path import hardest, instants
-from sandbox.picture.plain import view_of
 from sandbox.picture.plot import CHART, Curve, plotted
 from sandbox.picture.sheet import CARD, Sheet
 from sandbox.picture.side import SideView
@@ -84,7 +83,7 @@ def motion(run: Run, view: View[Any]) -> tuple[np.ndarray, dict[str, tuple[str, 
 
 def _panels(run: Run, curve: Curve) -> Iterator[Panel]:
     """Of one run, each of its curves as that one is: those of forces have their own names and colours."""
-    view = view_of(run, (1280, 720))
+    view = run.scene.picture(run, (1280, 720))
     times, moves = motion(run, view)
     for name, (unit, values) in moves.items():
         yield Panel(name, unit, [curve._replace(times=times, values=values)])
@@ -159,7 +158,7 @@ def graph(run: Run, size: tuple[int, int] = (1280, 720), others: Mapping[str, Ru
     rows = ceil(len(panels) / columns)
     top = row + letters.height("small") + 3 * gap
     wide, tall = (sheet.frame.width + 3 * gap) / columns, (sheet.frame.bottom - top + 2 * gap) / rows
-    hits = [event.t for event in hardest(run, [view_of(run, size).ball])]
+    hits = [event.t for event in hardest(run, [run.scene.picture(run, size).ball])]
     for i, panel in enumerate(panels):
         rect = pygame.Rect(
             round(sheet.frame.left + i % columns * wide), round(top + i // columns * tall),

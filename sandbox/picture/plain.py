@@ -2,13 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any
-
 import numpy as np
 import pygame
 
-from sandbox.engine.run import Run
 from sandbox.engine.setup import Circle
 from sandbox.parameters import Group
 from sandbox.picture.above import AboveView
@@ -43,9 +39,3 @@ class Picture(AboveView[Group]):
                 painter.disc(camera.pixel(*shape.center), thick, COLOURS["surface"])
             elif seen := near.clipline(camera.pixel(*shape.a), camera.pixel(*shape.b)):
                 painter.line(seen, 2 * thick, COLOURS["surface"])
-
-
-def view_of(run: Run, size: tuple[int, int], ghosts: Mapping[str, Run] | None = None) -> View[Any]:
-    """The scene's picture of a run; a plain one where its own draws posters and frames only."""
-    picture = run.scene.picture(run, size, ghosts)
-    return picture if isinstance(picture, View) else Picture(run, run.scene.parameters, size, ghosts)

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pygame
 
 from sandbox.engine.run import Run
-from sandbox.picture.frames import Picture, frame_of
 from sandbox.picture.painter import Painter, blank
 from sandbox.picture.palette import palette
 from sandbox.picture.path import hardest
+from sandbox.picture.view import View
 
 FILM = palette("film")
 
@@ -43,10 +45,9 @@ def strip_times(run: Run, until: float) -> list[float]:
     return sorted([0.0, *between, *shown, until])
 
 
-def film_strip(picture: Picture, run: Run) -> pygame.Surface:
+def film_strip(picture: View[Any], run: Run) -> pygame.Surface:
     """The strip; each of its frames is as large as the picture's."""
-    until = getattr(picture, "told", run.duration)  # a scene's own picture may say no more than how to draw a frame
-    frames = [frame_of(picture, t) for t in strip_times(run, until)]
+    frames = [picture.frame(t) for t in strip_times(run, picture.told)]
     width, height = frames[0].get_size()
     margin, gap = round(MARGIN * height), round(GAP * height)
     strip = blank((len(frames) * (width + gap) + gap, height + 2 * margin))

@@ -28,6 +28,7 @@ from sandbox.picture.path import FINEST, Mark, Path, apart, draw_trace, mark_imp
 from sandbox.picture.sheet import Entry, Sheet
 from sandbox.picture.vectors import Vectors
 from sandbox.sport.amounts import amount, metres, signed, times
+from sandbox.text import shortened
 from sandbox.tracebacks import is_ours
 
 CARD = palette("card")
@@ -68,14 +69,14 @@ def _function(member: Any) -> Any:
 
 
 def _returning(needed: str, how: Callable[..., Any]) -> Callable[..., Any]:
-    """The function, which raises RunError where it returns None."""
+    """The function, which raises RunError where it returns None, or no surface where one is needed."""
 
     @wraps(how)
     def checked(*arguments: Any, **named: Any) -> Any:
         value = how(*arguments, **named)
-        if value is None:
+        if value is None or (needed == "pygame.Surface" and not isinstance(value, pygame.Surface)):
             file = f"{how.__code__.co_filename}, line {how.__code__.co_firstlineno}"
-            raise RunError(f"{file}: {how.__qualname__} must return a {needed}, and returned None")
+            raise RunError(f"{file}: {how.__qualname__} must return a {needed}, and returned {shortened(repr(value))}")
         return value
 
     return checked

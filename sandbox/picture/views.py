@@ -9,9 +9,10 @@ from sandbox.picture.long import LongView
 from sandbox.picture.painter import Painter
 from sandbox.picture.sheet import Entry, Sheet, SideRows, nice
 from sandbox.picture.side import Length, NetView, Place, SideView
+from sandbox.picture.view import View
 
 __all__ = [
     "AboveView", "Area", "Box", "Camera", "Entry", "Eye", "Length", "LensView", "LongView", "Look", "Mark",
-    "NetView", "Painter", "Place", "Sheet", "SideRows", "SideView", "Silhouette", "dimples", "near", "nice",
+    "NetView", "Painter", "Place", "Sheet", "SideRows", "SideView", "Silhouette", "View", "dimples", "near", "nice",
     "patches", "seams", "turned"
 ]  # fmt: skip

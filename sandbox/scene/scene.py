@@ -30,8 +30,8 @@ if TYPE_CHECKING:
     from sandbox.engine.run import Run
     from sandbox.engine.setup import Setup
 
-#: Draws any scene that has no picture.py.
-FALLBACK_PICTURE = "sandbox.picture.plain"
+#: Draws any scene that has no picture.py; and what others are made of.
+FALLBACK_PICTURE, VIEWS = "sandbox.picture.plain", "sandbox.picture.views"
 OFFERS = ("Parameters", "build")
 #: Types of facts that cards, JSON and tables can always show.
 _PLAIN = {bool, float, str, type(None)}
@@ -39,7 +39,7 @@ _PLAIN = {bool, float, str, type(None)}
 CALLS = {
     "build": (("parameters",),),
     "verdict": (("run", "parameters"),),
-    "Picture": (("run", "parameters", "size"), ("run", "parameters")),
+    "Picture": (("run", "parameters", "size", "ghosts"), ("run", "parameters")),
     "Picture.poster": (("self",),),
     "Picture.frame": (("self", "t"),),
 }
@@ -79,25 +79,21 @@ class Scene:
         if not (self.folder / "picture.py").is_file():
             return importlib.import_module(FALLBACK_PICTURE)
         module = module_in(self.folder, "picture")
-        picture = getattr(module, "Picture", None)
-        _check_calls(self.folder / "picture.py", "Picture", picture)
-        for name in ("poster", "frame") if isinstance(picture, type) else ():
-            _check_calls(self.folder / "picture.py", f"Picture.{name}", getattr(picture, name, None))
+        file, picture = self.folder / "picture.py", getattr(module, "Picture", None)
+        if isinstance(picture, type) and not issubclass(picture, importlib.import_module(VIEWS).View):
+            raise RequestError(f"{file}: Picture must be a SideView or an AboveView of {VIEWS}")
+        _check_calls(file, "Picture", picture)
+        for name in ("poster", "frame"):
+            _check_calls(file, f"Picture.{name}", getattr(picture, name, None))
         return module
 
     def picture(self, run: Run, size: tuple[int, int] | None = None, ghosts: Mapping[str, Run] | None = None) -> Any:
-        """The scene's picture of a run, with ``poster()`` and ``frame(t)``; ``size`` in px, or the scene's own choice.
+        """The scene's picture of a run, a View; ``size`` in px, or the scene's own choice.
 
-        ``ghosts`` are other runs of the scene by name, drawn pale behind this one. Raises RequestError if the scene's
-        picture cannot show them.
+        ``ghosts`` are other runs of the scene by name, drawn pale behind this one.
         """
-        picture = self.picture_module().Picture
         chosen: dict[str, Any] = {} if size is None else {"size": size}
-        if ghosts:
-            if "ghosts" not in inspect.signature(picture).parameters:
-                raise RequestError(f"{self.name} shows one run alone: its Picture has no parameter named ghosts")
-            chosen["ghosts"] = ghosts
-        return picture(run, self.parameters, **chosen)
+        return self.picture_module().Picture(run, self.parameters, **chosen, ghosts=ghosts)
 
     def build(self) -> Setup:
         """The setup that the engine simulates."""

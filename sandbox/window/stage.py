@@ -13,7 +13,6 @@ from sandbox.picture.camera import Camera
 from sandbox.picture.painter import blank
 from sandbox.picture.palette import Colour, mix, palette
 from sandbox.picture.path import simplify
-from sandbox.picture.plain import view_of
 from sandbox.picture.sheet import Sheet
 from sandbox.window.background import Once
 from sandbox.window.canvas import Canvas
@@ -52,7 +51,7 @@ class Stage:
         so far, is kept if it does so too, or each small change of the aim would shift the picture.
         """
         self.shot, self.size, self.chosen = shot, size, chosen
-        self.picture = view_of(shot.run, size)
+        self.picture = shot.run.scene.picture(shot.run, size)
         self.whole = self.picture.camera
         vars(self.picture)["camera"] = chosen or self._camera_of(before) or self.whole
         self.camera = self.picture.camera

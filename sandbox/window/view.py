@@ -17,7 +17,6 @@ import pygame
 from sandbox.picture.camera import Camera
 from sandbox.picture.lettering import Lettering
 from sandbox.picture.palette import palette, set_contrast
-from sandbox.picture.plain import view_of
 from sandbox.picture.sheet import Entry, rows_of
 from sandbox.picture.vectors import Vectors
 from sandbox.picture.view import View as Picture
@@ -183,7 +182,9 @@ class View:
 
     def near(self, shot: Shot) -> Picture[Any]:
         """The picture of a shot that follows its ball, as near as the player has zoomed."""
-        found: Picture[Any] = self._once("near", (shot, self.area.size), lambda: view_of(shot.run, self.area.size))
+        found: Picture[Any] = self._once(
+            "near", (shot, self.area.size), lambda: shot.run.scene.picture(shot.run, self.area.size)
+        )
 
         def view(t: float) -> Camera:
             """The picture's own, nearer, with the ball in the same place; on whole px."""

@@ -16,7 +16,6 @@ from selenium.webdriver.support.wait import WebDriverWait
 import sandbox
 from sandbox.page.parts import save
 from sandbox.page.replay import LAYOUTS, command, page_of
-from sandbox.picture.plain import view_of
 from sandbox.sport.amounts import amount, shown_in
 from tests.scenes.play import run_of
 
@@ -46,7 +45,7 @@ def test_every_instant_is_that_of_python(browser, pages, name: str):
     browser.open(page)
     assert browser.run("document.getElementById('poster')") is None  # the canvas took its place
     times = [*np.linspace(0.0, run.duration, 33), *(event.t for event in run.events[:3])]
-    view = view_of(run, LAYOUTS[0][0])
+    view = run.scene.picture(run, LAYOUTS[0][0])
     states = browser.run(
         "arguments[0].map((t) => player.data.balls.slice(0, 4).map((ball) => ball.path.state(t)))", times
     )

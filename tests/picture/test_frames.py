@@ -17,7 +17,6 @@ from sandbox.picture.frames import (
     FASTEST_GIF,
     PAUSE,
     frame_times,
-    poster_of,
     quick_png,
     save_frames,
     save_gif,
@@ -89,7 +88,7 @@ def test_quick_packing_loses_nothing(size):
 
 class TestPosters:
     def test_is_a_png(self, tmp_path):
-        save_png(poster_of(Picture(Run(1.0))), tmp_path / "poster.png")
+        save_png(Picture(Run(1.0)).poster(), tmp_path / "poster.png")
         with Image.open(tmp_path / "poster.png") as image:
             assert (image.format, image.size) == ("PNG", (96, 54))
         assert [path.name for path in tmp_path.iterdir()] == ["poster.png"]

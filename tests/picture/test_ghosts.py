@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 from PIL import ImageChops
 
-import sandbox
 from sandbox.picture.frames import to_image
 from sandbox.picture.palette import scene_colours
 from tests.picture.legible import assert_legible
@@ -99,15 +98,6 @@ def test_without_ghosts_the_poster_is_as_ever():
     run = run_of("golf")
     alone = run.scene.picture(run, (640, 360)).poster().get_buffer().raw
     assert run.scene.picture(run, (640, 360), {}).poster().get_buffer().raw == alone
-
-
-def test_a_picture_that_shows_one_run_alone_says_so():
-    from pathlib import Path
-
-    scene = sandbox.load(Path(__file__).parents[1] / "scenes" / "drop")
-    run = sandbox.simulate(scene)
-    with pytest.raises(sandbox.RequestError, match="drop shows one run alone"):
-        scene.picture(run, None, {"other": run})
 
 
 def test_other_runs_are_unlike_the_run_and_the_hall():

@@ -289,7 +289,7 @@ class TestRuns:
         picture = scene_project.path / "drop" / "picture.py"
         picture.write_text(picture.read_text().replace("return self.frame(self.run.duration)", "self.frame(0.0)"))
         result = again(scene_project)
-        result.stdout.fnmatch_lines(["picture.py: poster() must return a pygame.Surface, and returned None"])
+        result.stdout.fnmatch_lines(["*picture.py, line *: Picture.poster must return a pygame.Surface*"])
         result.stdout.no_fnmatch_line("*frames.py*")
 
     def test_a_run_of_no_scene_is_refused(self, pytester):

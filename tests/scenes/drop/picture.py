@@ -6,10 +6,12 @@ from typing import Any
 
 import pygame
 
+from sandbox.picture.views import AboveView
 
-class Picture:
-    def __init__(self, run: Any, parameters: Any, size: tuple[int, int] = (32, 18)):
-        self.run, self.size = run, size
+
+class Picture(AboveView[Any]):
+    def __init__(self, run: Any, parameters: Any, size: tuple[int, int] = (32, 18), ghosts: Any = None):
+        super().__init__(run, parameters, size, ghosts)
 
     def poster(self) -> pygame.Surface:
         return self.frame(self.run.duration)
