@@ -4,7 +4,6 @@ from sandbox.picture.above import AboveView
 from sandbox.picture.ball import Look, Mark, Silhouette, dimples, near, patches, seams, turned
 from sandbox.picture.camera import Area, Box, Camera
 from sandbox.picture.depth import Eye
-from sandbox.picture.lens import LensView
 from sandbox.picture.long import LongView
 from sandbox.picture.painter import Painter
 from sandbox.picture.sheet import Entry, Sheet, SideRows, nice
@@ -12,7 +11,7 @@ from sandbox.picture.side import Length, NetView, Place, SideView
 from sandbox.picture.view import View
 
 __all__ = [
-    "AboveView", "Area", "Box", "Camera", "Entry", "Eye", "Length", "LensView", "LongView", "Look", "Mark",
+    "AboveView", "Area", "Box", "Camera", "Entry", "Eye", "Length", "LongView", "Look", "Mark",
     "NetView", "Painter", "Place", "Sheet", "SideRows", "SideView", "Silhouette", "View", "dimples", "near", "nice",
     "patches", "seams", "turned"
 ]  # fmt: skip

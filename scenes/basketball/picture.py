@@ -3,19 +3,17 @@
 from __future__ import annotations
 
 from functools import cached_property
-from math import atan2, cos, sin
 
 import numpy as np
 
 from sandbox.picture.palette import mix, palette, scene_colours
 from sandbox.picture.places import Hall, Person, Size, boards
 from sandbox.picture.places.courts import basketball_key, basketball_lines
-from sandbox.picture.places.hanging import HangingNet
-from sandbox.picture.views import Box, Camera, Entry, Length, LensView, Look, Painter, Place, Sheet, seams
+from sandbox.picture.views import Box, Camera, Entry, Length, Look, Painter, Place, Sheet, seams
 from sandbox.sport.amounts import metres, roughly, times
 
-from .hoop import hoop, stand
-from .scene import Parameters
+from .hoop import HangingNet, hoop, stand
+from .lens import LensView
 
 CARD, COLOURS = palette("card"), scene_colours(__file__)
 BALL, FLOOR = COLOURS["ball"], COLOURS["floor"]
@@ -26,7 +24,7 @@ STAND, THROWER = 2.5, 0.7
 LEAST_HEIGHT = 80
 
 
-class Picture(LensView[Parameters]):
+class Picture(LensView):
     """One shot."""
 
     LOOK = Look(BALL["colour"], seams(BALL["seam"]))
@@ -35,7 +33,6 @@ class Picture(LensView[Parameters]):
     LENGTHS = 1
     SECOND_UNIT = "ft"
     LEVEL, ASIDE = 128, 0.25
-    LENS_VIEW, LENS_GROUND, OFF_MIDDLE = 1.22, COLOURS["lens"], (-0.02, 0.08)
 
     @cached_property
     def told(self) -> float:
@@ -50,10 +47,6 @@ class Picture(LensView[Parameters]):
     @property
     def moment(self) -> float:
         return self.net.fullest
-
-    @property
-    def datum(self) -> tuple[tuple[float, float], str]:
-        return self.ring, "the ring"
 
     def progress(self, t: float) -> tuple[str, str]:
         return metres(self.run.state(self.ball, t)[1]), "above the floor"
@@ -70,9 +63,7 @@ class Picture(LensView[Parameters]):
 
     @cached_property
     def net(self) -> HangingNet:
-        hoop, made = self.parameters.hoop, self.run.result["made"]
-        wide = hoop.inner_diameter / 2 + hoop.tube_radius
-        return HangingNet(self.run, self.ring, wide, self.parameters.net.length, COLOURS["hoop"]["net"], made)
+        return HangingNet(self.run, self.parameters)
 
     @property
     def hoop_size(self) -> Size:
@@ -129,33 +120,5 @@ class Picture(LensView[Parameters]):
         points = camera.pixels(np.array([self.run.state(self.ball, t)[:2] for t in moments]))
         if np.ptp(points, axis=0).max() > 2:
             sheet.painter.fading(points[::-1], 4 * self.unit, self.TRACE, 0.6)
-        super().annotate(sheet, camera)
-
-    # The lens: the ring from near by
-
-    @property
-    def uncovered(self) -> Box:
-        _, bottom, back, top = self.parameters.board
-        return Box(self.ring[0] - 0.6, bottom, back + 1.0, top)
-
-    def in_lens(self, sheet: Sheet) -> None:
-        """The ball as it comes to the ring, and the angle at which it does."""
-        t, angle = self.run.result["flight_time"], self.run.result["entry_angle"]
-        if t is None:
-            return
-        x, y, vx, vy, _ = self.run.before("ball", t)
-        (px, py), unit, accent, side = self.near.pixel(x, y), self.unit, CARD["accent"], -1 if vx > 0 else 1
-        radius = self.radius * self.near.scale
-        far, turn = radius + 26 * unit, np.linspace(0, atan2(-vy, abs(vx)), 25)
-        across, down = side * cos(turn[-1] / 2), -sin(turn[-1] / 2)
-        anchor = "midright" if side < 0 else "midleft"
-        spots = [(px + across * (far + out * unit), py + down * (far + out * unit), anchor) for out in (6, 12, 20, 30)]
-        shown = self.lens.collidepoint(px + side * far, py) and angle > 5
-        if shown and sheet.label(f"{angle:.1f}°", "small", spots, accent, bold=True):
-            level = [(px, py), (px + side * (far + 8 * unit), py)]
-            sheet.painter.dashes(level, 1.3 * unit, accent, 4 * unit, 4 * unit)
-            arc = np.column_stack([px + side * far * np.cos(turn), py - far * np.sin(turn)])
-            sheet.painter.line(arc, 1.8 * unit, accent)
-            sheet.labels.take_path(arc, 2 * unit)
-        self.LOOK.draw(sheet.painter, (px, py), radius, self.turn("ball", t), unit)
-        sheet.labels.take_path([(px, py)], radius)
+        if self.has_lens:
+            sheet.labels.take(self.lens)

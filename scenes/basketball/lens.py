@@ -1,68 +1,58 @@
-"""A side view with a lens in its upper right corner: what happens at one place, from near by."""
+"""The lens in the upper right corner: what happens at the ring, from near by."""
 
 from __future__ import annotations
 
 from dataclasses import replace
 from functools import cached_property
-from typing import ClassVar
+from math import atan2, cos, sin
 
 import numpy as np
 import pygame
 
-from sandbox.picture.camera import Box, Camera
-from sandbox.picture.depth import Eye
 from sandbox.picture.lettering import Labels
 from sandbox.picture.painter import around_corners
-from sandbox.picture.palette import Colour, palette
+from sandbox.picture.palette import palette, scene_colours
 from sandbox.picture.path import Mark, draw_trace, mark_impacts
-from sandbox.picture.sheet import Sheet
-from sandbox.picture.side import SideView
-from sandbox.picture.view import P
+from sandbox.picture.views import Camera, Eye, Sheet, SideView
 
-CARD = palette("card")
+from .scene import Parameters
+
+CARD, GROUND = palette("card"), scene_colours(__file__)["lens"]
+
+#: It shows so much of the world, in m, on so many px (of 720 rows); its middle lies so far from the ring's, in m.
+SHOWN, SIDE, OFF_MIDDLE = 1.22, 286, (-0.02, 0.08)
 #: There is no lens if the whole would have to be drawn smaller than this for it, or if it were no larger than this.
 LEAST_SHRINK, LEAST_LENS = 0.85, 1.5
 
 
-class LensView(SideView[P]):
-    """The lens shows what is around ``datum``, if the ball comes there."""
-
-    # What a scene may say
-
-    #: It shows so much of the world, in m, on so many px (of 720 rows), on this ground.
-    LENS_VIEW: ClassVar[float] = 1.2
-    LENS: ClassVar[float] = 286
-    LENS_GROUND: ClassVar[Colour] = CARD["background"]
-    #: Its middle lies so far from ``datum``, in m.
-    OFF_MIDDLE: ClassVar[tuple[float, float]] = (0.0, 0.0)
+class LensView(SideView[Parameters]):
+    """Has a lens if the ball comes to the ring."""
 
     @property
-    def uncovered(self) -> Box:
-        """What the lens must not hide, in m: frames in which it would have none."""
-        raise NotImplementedError
-
-    def in_lens(self, sheet: Sheet) -> None:
-        """Draw what only this sport draws in the lens of its poster."""
-
-    # The same for all
+    def datum(self) -> tuple[tuple[float, float], str]:
+        return self.parameters.hoop.middle, "the ring"
 
     @cached_property
     def lens(self) -> pygame.Rect:
         """Where it is, in px."""
-        side, frame = round(self.LENS * self.unit), self.sheet.frame
+        side, frame = round(SIDE * self.unit), self.sheet.frame
         return pygame.Rect(frame.right - side, frame.top, side, side)
 
     @cached_property
     def near(self) -> Camera:
         """Its camera."""
-        (x, y), (right, up) = self.datum[0], self.OFF_MIDDLE
-        return Camera((x + right, y + up), self.lens.center, self.lens.width / self.LENS_VIEW)
+        at = np.add(self.datum[0], OFF_MIDDLE).tolist()
+        return Camera((at[0], at[1]), self.lens.center, self.lens.width / SHOWN)
+
+    def _away(self, points: np.ndarray) -> np.ndarray:
+        """How far points are from the ring, as shares of half of what the lens shows."""
+        return np.abs(points - self.datum[0]).max(axis=1) / (SHOWN / 2)
 
     @cached_property
     def has_lens(self) -> bool:
         """Whether the ball comes there, and the picture shows that from near by."""
         alone, beside = self.fitted(self.area).scale, self._beside_lens.scale
-        comes = np.abs(self.path.points - self.datum[0]).max(axis=1).min() < 0.45 * self.LENS_VIEW
+        comes = self._away(self.path.points).min() < 0.9
         return bool(comes and beside >= LEAST_SHRINK * alone and self.near.scale > LEAST_LENS * beside)
 
     @cached_property
@@ -89,25 +79,19 @@ class LensView(SideView[P]):
 
     def impacts(self, camera: Camera) -> list[Mark]:
         """Those that this camera shows; the rest are in the lens."""
-        marks, half = super().impacts(camera), self.LENS_VIEW / 2
-        inside = [bool(np.abs(np.subtract(mark.at, self.datum[0])).max() < half) for mark in marks]
-        here = camera == self.near
-        return [mark for mark, near in zip(marks, inside, strict=True) if near == here or not self.has_lens]
-
-    def annotate(self, sheet: Sheet, camera: Camera) -> None:
-        if self.has_lens:
-            sheet.labels.take(self.lens)
+        marks, here = super().impacts(camera), camera == self.near
+        return [mark for mark in marks if not self.has_lens or here == (self._away(np.array([mark.at]))[0] < 1.0)]
 
     def inset(self, sheet: Sheet, camera: Camera, t: float | None) -> pygame.Rect | None:
         """The lens, unless it would hide what it shows: how the ball comes, and on the poster what it touches."""
-        box = self.uncovered
-        (left, high), (right, low) = camera.pixel(box.left, box.top), camera.pixel(box.right, box.bottom)
+        _, bottom, back, top = self.parameters.board
+        (left, high), (right, low) = camera.pixel(self.datum[0][0] - 0.6, top), camera.pixel(back + 1.0, bottom)
         hidden = self.lens.colliderect((round(left), round(high), round(right - left), round(low - high)))
         if not self.has_lens or (t is not None and hidden):
             return None
         near, painter, moment = self.near, sheet.painter, self.moment if t is None else t
         corners = around_corners(sheet.surface, self.lens, 10 * self.unit)
-        sheet.surface.fill(self.LENS_GROUND, self.lens)
+        sheet.surface.fill(GROUND, self.lens)
         sheet.surface.set_clip(self.lens)
         self.draw_things(painter, self.eye(near), near=False)
         self.behind(painter, near, moment)
@@ -116,7 +100,7 @@ class LensView(SideView[P]):
             points = near.pixels(self.path.points)
             seen = np.flatnonzero(np.abs(points - self.lens.center).max(axis=1) < self.lens.width)
             draw_trace(sheet, points[seen[0] : seen[-1] + 1], self.TRACE)
-            self.in_lens(sheet)
+            self._entry(sheet)
         else:
             self.trail(painter, near, self.ball, t)
             self.draw_ball(painter, near, self.ball, t, *self._placed(near, t, 1.0)[self.ball])
@@ -130,3 +114,25 @@ class LensView(SideView[P]):
         sheet.surface.set_clip(None)
         sheet.surface.blit(corners, self.lens)
         return self.lens
+
+    def _entry(self, sheet: Sheet) -> None:
+        """The ball as it comes to the ring, and the angle at which it does."""
+        t, angle = self.run.result["flight_time"], self.run.result["entry_angle"]
+        if t is None:
+            return
+        x, y, vx, vy, _ = self.run.before("ball", t)
+        (px, py), unit, accent, side = self.near.pixel(x, y), self.unit, CARD["accent"], -1 if vx > 0 else 1
+        radius = self.radius * self.near.scale
+        far, turn = radius + 26 * unit, np.linspace(0, atan2(-vy, abs(vx)), 25)
+        across, down = side * cos(turn[-1] / 2), -sin(turn[-1] / 2)
+        anchor = "midright" if side < 0 else "midleft"
+        spots = [(px + across * (far + out * unit), py + down * (far + out * unit), anchor) for out in (6, 12, 20, 30)]
+        shown = self.lens.collidepoint(px + side * far, py) and angle > 5
+        if shown and sheet.label(f"{angle:.1f}°", "small", spots, accent, bold=True):
+            level = [(px, py), (px + side * (far + 8 * unit), py)]
+            sheet.painter.dashes(level, 1.3 * unit, accent, 4 * unit, 4 * unit)
+            arc = np.column_stack([px + side * far * np.cos(turn), py - far * np.sin(turn)])
+            sheet.painter.line(arc, 1.8 * unit, accent)
+            sheet.labels.take_path(arc, 2 * unit)
+        self.LOOK.draw(sheet.painter, (px, py), radius, self.turn("ball", t), unit)
+        sheet.labels.take_path([(px, py)], radius)
