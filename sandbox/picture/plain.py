@@ -15,8 +15,8 @@ from sandbox.picture.palette import palette
 from sandbox.picture.view import View
 
 COLOURS, TRACES = palette("plain"), palette("trace")["colours"]
-#: Of a ball alone, and of several, each in the colour of its path.
-ALONE, *SEVERAL = (Look(colour, seams(COLOURS["marks"])) for colour in (COLOURS["ball"], *TRACES))
+#: Of several balls, each in the colour of its path.
+SEVERAL = [Look(colour, seams(COLOURS["marks"])) for colour in TRACES]
 
 
 class Picture(AboveView[Group]):
@@ -27,7 +27,7 @@ class Picture(AboveView[Group]):
     ON_DARK = False
 
     def look_of(self, name: str) -> Look:
-        return ALONE if len(self.balls) == 1 else SEVERAL[self.balls.index(name) % len(SEVERAL)]
+        return self.LOOK if len(self.balls) == 1 else SEVERAL[self.balls.index(name) % len(SEVERAL)]
 
     def backdrop(self, painter: Painter, camera: Camera) -> None:
         """A light ground, and every surface as a line or a disc."""

@@ -19,7 +19,7 @@ from sandbox.engine.run import Run
 from sandbox.engine.setup import Body, Segment
 from sandbox.errors import RequestError, RunError
 from sandbox.parameters import Group
-from sandbox.picture.ball import SMALLEST, Flat, Look, Silhouette, Turning, least_radius, mark_radius, turned
+from sandbox.picture.ball import SMALLEST, Flat, Look, Silhouette, Turning, least_radius, mark_radius, seams, turned
 from sandbox.picture.camera import Camera
 from sandbox.picture.ghosts import Ghost
 from sandbox.picture.painter import Painter, Point, blank
@@ -31,7 +31,7 @@ from sandbox.sport.amounts import amount, metres, signed, times
 from sandbox.text import shortened
 from sandbox.tracebacks import is_ours
 
-CARD = palette("card")
+CARD, PLAIN = palette("card"), palette("plain")
 TRACES, RIM = palette("trace")["colours"], palette("trace")["rim"]
 
 #: Surfaces are around a path that reach no farther beyond it than it is long, or than so many radii of the ball.
@@ -91,7 +91,7 @@ class View(Generic[P]):
     # What a scene may say
 
     #: How the ball looks, and what it is called.
-    LOOK: ClassVar[Look]
+    LOOK: ClassVar[Look] = Look(PLAIN["ball"], seams(PLAIN["marks"]))
     THING: ClassVar[str] = "ball"
     #: What must be said of the result wherever it is shown, such as that nothing measured stands behind it.
     CAVEAT: ClassVar[str] = ""
