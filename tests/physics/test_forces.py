@@ -57,15 +57,12 @@ def test_viscosity_and_spin_reach_the_coefficient():
 
 
 @given(vx=SPEEDS, vy=SPEEDS, spin=SPINS)
-def test_drag_never_adds_energy_in_still_air(vx: float, vy: float, spin: float):
+def test_in_still_air_drag_never_adds_energy_lift_does_no_work_and_spin_only_slows(vx: float, vy: float, spin: float):
     fx, fy = DRAG(0.0, HERE, (vx, vy), spin)
     assert fx * vx + fy * vy <= 0.0
-
-
-@given(vx=SPEEDS, vy=SPEEDS, spin=SPINS)
-def test_lift_does_no_work_in_still_air(vx: float, vy: float, spin: float):
     fx, fy = LIFT(0.0, HERE, (vx, vy), spin)
     assert abs(fx * vx + fy * vy) <= 1e-15 * (1.0 + hypot(fx, fy) * hypot(vx, vy))
+    assert SpinDecay(8e-6, RADIUS, 2e-5)(0.0, HERE, (vx, vy), spin) * spin <= 0.0
 
 
 @pytest.mark.parametrize("force", [DRAG, LIFT], ids=["drag", "lift"])
@@ -91,20 +88,11 @@ def test_lift_along_the_ground_does_not_know_the_wind():
     assert windy(0.0, HERE, (50.0, 9.0), 300.0) == LIFT(0.0, HERE, (50.0, 9.0), 300.0)
 
 
-@pytest.mark.parametrize("force", [DRAG, LIFT], ids=["drag", "lift"])
 @pytest.mark.parametrize("spin", [0.0, 400.0])
-def test_no_force_on_a_ball_at_rest_in_still_air(force, spin: float):
-    assert force(0.0, HERE, (0.0, 0.0), spin) == pytest.approx((0.0, 0.0), abs=0.0)
-
-
-def test_no_lift_without_spin():
-    assert LIFT(0.0, HERE, (50.0, 9.0), 0.0) == (0.0, 0.0)
-
-
-@given(vx=SPEEDS, vy=SPEEDS, spin=SPINS)
-def test_air_only_slows_the_spin(vx: float, vy: float, spin: float):
-    torque = SpinDecay(8e-6, RADIUS, 2e-5)(0.0, HERE, (vx, vy), spin)
-    assert torque * spin <= 0.0
+def test_no_force_on_a_ball_at_rest_in_still_air_and_no_lift_without_spin(spin: float):
+    for force in (DRAG, LIFT):
+        assert force(0.0, HERE, (0.0, 0.0), spin) == pytest.approx((0.0, 0.0), abs=0.0)
+    assert (LIFT(0.0, HERE, (50.0, 9.0), spin) == (0.0, 0.0)) == (spin == 0.0)
 
 
 def test_spin_decay_by_its_formula():
