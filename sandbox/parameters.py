@@ -18,7 +18,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence, Sized
+from collections.abc import Iterable, Iterator, Mapping, Sequence, Sized
 from dataclasses import dataclass
 from numbers import Real
 from types import EllipsisType
@@ -142,14 +142,8 @@ def _declared(default: Any, meaning: str, kind: Quantity) -> Any:
         raise ValueError(f'"{kind.unit}" is not a known unit; {known}; or "" for a number without one')
     if kind.low > kind.high:
         raise ValueError(f"the lowest value, {kind.low:g}, is above the highest, {kind.high:g}")
-    return _field(default, meaning, kind.read, json_schema_extra=kind)
-
-
-def _field(default: Any, meaning: str, reader: Callable[[Any], Any], **more: Any) -> FieldInfo:
-    """A field whose ``reader`` converts the value in the file before pydantic validates it."""
-    field = Field(default, description=meaning, **more)
-    assert isinstance(field, FieldInfo)  # Field is declared to return the type of its default
-    field.metadata.append(BeforeValidator(reader))
+    field = Field(default, description=meaning, json_schema_extra=kind)
+    field.metadata.append(BeforeValidator(kind.read))
     return field
 
 
@@ -170,7 +164,7 @@ def switch(default: bool | EllipsisType, meaning: str) -> Any:
 
 def group(default: Group | EllipsisType, meaning: str) -> Any:
     """A group of parameters with its own heading; keys that a file leaves out are those of ``default``."""
-    return _field(default, meaning, lambda value: _completed(value, default, None))
+    return Field(default, description=meaning)
 
 
 def groups(default: list[Any] | EllipsisType, meaning: str) -> Any:
@@ -183,7 +177,7 @@ def either(default: Group | EllipsisType, meaning: str, by: str = "model") -> An
 
     Each group declares its word as ``model: Literal["constant"] = choice("constant", "...")``.
     """
-    return _field(default, meaning, lambda value: _completed(value, default, by), discriminator=by)
+    return Field(default, description=meaning, discriminator=by)
 
 
 class Group(BaseModel):
@@ -192,21 +186,6 @@ class Group(BaseModel):
     model_config = ConfigDict(
         extra="forbid", frozen=True, validate_default=True, protected_namespaces=(), defer_build=True
     )
-
-
-def _completed(table: Any, default: Group | EllipsisType, tag: str | None) -> Any:
-    """``table`` with missing keys taken from ``default``, unless its ``tag`` chooses another kind of group."""
-    if not isinstance(table, Mapping) or isinstance(default, EllipsisType):
-        return table
-    if tag is not None and tag in table and table[tag] not in get_args(type(default).model_fields[tag].annotation):
-        return dict(table)
-    completed = {name: getattr(default, name) for name in type(default).model_fields} | dict(table)
-    for name, value in table.items():
-        inner = getattr(default, name, None)
-        if isinstance(inner, Group):
-            inner_tag = type(default).model_fields[name].discriminator
-            completed[name] = _completed(value, inner, inner_tag if isinstance(inner_tag, str) else None)
-    return completed
 
 
 if TYPE_CHECKING:
@@ -381,7 +360,7 @@ def validate(
     Raises RequestError with a line that names file (or ``changed_by``), key, value, bound and unit.
     """
     changes = nested(without_indices(schema, values, source, changes or {}, changed_by))
-    combined = over(schema, values, changes)
+    combined = over(schema, over(schema, _defaults(schema), values), changes)
     try:
         return schema.model_validate(combined)
     except ValidationError as failure:
@@ -390,6 +369,17 @@ def validate(
     first, *others = lines
     more = f"\n({len(others)} more like this: {others[0]}{', ...' if len(others) > 1 else ''})" if others else ""
     raise RequestError(first + more)
+
+
+def _defaults(schema: type[Group]) -> dict[str, Any]:
+    """The keys of the groups that have a default: a file may leave some of them out."""
+    tables = {}
+    for name, field in schema.model_fields.items():
+        if isinstance(field.default, Group):
+            tables[name] = field.default.model_dump()
+        elif field.is_required() and isinstance(field.annotation, type) and issubclass(field.annotation, Group):
+            tables[name] = _defaults(field.annotation)
+    return {name: table for name, table in tables.items() if table}
 
 
 def without_indices(
