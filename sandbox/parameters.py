@@ -25,6 +25,7 @@ from types import EllipsisType
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeVar, get_args, get_origin
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError
+from pydantic.errors import PydanticUndefinedAnnotation, PydanticUserError
 from pydantic.fields import FieldInfo
 
 from sandbox import units
@@ -210,6 +211,15 @@ class SceneParameters(Group):
     """Base of the Parameters of a scene: what all scenes have."""
 
     accuracy: Accuracy = group(Accuracy(), "speed against accuracy")
+
+
+def mistake_in(schema: type[Group]) -> str | None:
+    """What is wrong with the types that a group declares, in a line; None if nothing."""
+    try:
+        schema.model_rebuild()
+    except (PydanticUserError, PydanticUndefinedAnnotation) as error:
+        return str(error).partition("\n")[0]
+    return None
 
 
 # ---------------------------------------------------------------------------------------------------------------------

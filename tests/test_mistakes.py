@@ -113,6 +113,7 @@ DEFINED = [
     (OF_DROP, "class Parameters(SceneParameters)", "class Numbers(SceneParameters)", "Parameters is missing"),
     (OF_DROP, "class Parameters(SceneParameters)", "class Parameters(dict)", "must be a sandbox.parameters.SceneParam"),
     (OF_DROP, "class Parameters(SceneParameters)", "class Parameters(Group)", "must be a sandbox.parameters.ScenePar"),
+    (OF_NEW, "width: float =", "width: Nowhere =", "scene.py: Parameters: name 'Nowhere' is not defined"),
     (OF_NEW, "return Setup([", "Setup([", "scene.py: build must return a Setup, but returned None"),
     (OF_NEW, 'return "Never', '"Never', "verdict must return text, but returned None"),
     (OF_NEW, "FACTS = (", "FACTS = (3,", "FACTS must be a tuple of facts, but 3 is not one"),

@@ -223,6 +223,8 @@ def parameters_class(folder: Path) -> type[declared.SceneParameters]:
     facts, controls = getattr(module, "FACTS", FALLBACK_FACTS), getattr(module, "CONTROLS", Controls())
     if not (isinstance(parameters, type) and issubclass(parameters, declared.SceneParameters)):
         wrong = "Parameters must be a sandbox.parameters.SceneParameters"
+    elif mistake := declared.mistake_in(parameters):
+        wrong = f"Parameters: {mistake}"
     elif mistake := mistake_in(facts):
         wrong = f"FACTS{mistake}"
     elif not isinstance(controls, Controls):
