@@ -7,11 +7,11 @@ from itertools import combinations
 from math import radians
 from typing import Literal, NamedTuple
 
-from sandbox.engine.meeting import standing
-from sandbox.engine.nearest import Nearest, Pose, meeting_points, nearest
+from sandbox.engine.meeting import Meeting, meeting, surface_met
 from sandbox.engine.run import Run
-from sandbox.engine.setup import Body, Force, Segment, Vector, outline_of
+from sandbox.engine.setup import Body, Force, Vector
 from sandbox.engine.shapes import Ellipse, Polygon, Shape, box, capsule
+from sandbox.engine.touch import Obstacle
 from sandbox.parameters import Group, choice, quantity, word
 
 #: Heights above the lane and diameters of a bowling pin, as shares of its height of 15 in (USBC); the neck is filled.
@@ -77,42 +77,31 @@ def body_of(it: Box, velocity: Vector, forces: Sequence[Force]) -> Body:
 class Strip(NamedTuple):
     """What lies between two outlines."""
 
-    names: tuple[str, str]
-    found: Nearest
-    points: list[tuple[Vector, Vector]]  # m, nearest to each other: on the one and on the other
+    met: Meeting
     why: str
 
 
 def strip(run: Run, t: float) -> Strip | None:
-    """Between the two that are nearest to each other at t: a body and another or, if none is near, a surface."""
-    there = []
-    for ball in run.setup.balls:
-        x, y, *_ = run.state(ball.name, t)
-        angle = run.angle(ball.name, t) if ball.turns else 0.0
-        there.append((ball.name, outline_of(ball), Pose(x, y, angle), ball.turns))
-    fixed = [
-        (s.name, standing(s.shape).shape, Pose(0.0, 0.0, 0.0), True)
-        for s in run.setup.surfaces
-        if isinstance(s.shape, Segment)
+    """Between the two that are nearest to each other at t: a body and another or, if it is alone, a surface."""
+    there = [(ball, run.arcs[ball.name].at(t).state(t)) for ball in run.setup.balls]
+    found = [
+        (meeting(a, here, b, at, TOUCH), a.name, b.name)
+        for (a, here), (b, at) in combinations(there, 2)
+        if a.turns or b.turns
+    ] or [
+        (surface_met(body, state, (obstacle, obstacle.near(*state[:2])), TOUCH), body.name, obstacle.surface.name)
+        for body, state in there
+        for obstacle in (Obstacle(surface, body.radius) for surface in run.setup.surfaces)
+        if body.turns
     ]
-    bodies = [one for one in there if one[3]]
-    pairs = [(a, b) for a, b in combinations(there, 2) if a[3] or b[3]] or [(a, b) for a in bodies for b in fixed]
-    if not pairs:
+    if not found:
         return None
-    measured = [(nearest(a[1], a[2], b[1], b[2]), a, b) for a, b in pairs]
-    found, one, other = min(measured, key=lambda pair: pair[0].gap)
-    middle = meeting_points(one[1], one[2], other[1], other[2], (found.nx, found.ny), TOUCH)
-    half = 0.5 * found.gap
-    points = [
-        ((x + half * found.nx, y + half * found.ny), (x - half * found.nx, y - half * found.ny)) for x, y in middle
-    ]
-    if found.gap > TOUCH:
-        why = f"apart: a strip {_length(found.gap)} wide lies between them"
-    elif len(points) == 2:
-        why = "in touch along a side: no strip lies between them"
+    met, one, other = min(found, key=lambda pair: pair[0].gap)
+    if met.gap > TOUCH:
+        why = f"apart: a strip {_length(met.gap)} wide lies between them"
     else:
-        why = "in touch at a point: no strip lies between them"
-    return Strip((one[0], other[0]), found, points, f"{one[0]} and {other[0]} are {why}")
+        why = f"in touch {'along a side' if len(met.points) == 2 else 'at a point'}: no strip lies between them"
+    return Strip(met, f"{one} and {other} are {why}")
 
 
 def _length(gap: float) -> str:

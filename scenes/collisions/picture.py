@@ -126,11 +126,11 @@ class Picture(AboveView[Parameters]):
 
     def _outlined(self, painter: Painter, camera: Camera, name: str, met: Blow) -> None:
         """Where a ball or body was at the blow."""
-        (x, y, *_), body = met.before[name], next(ball for ball in self.run.setup.balls if ball.name == name)
+        (x, y, *_, angle), body = met.before[name], next(ball for ball in self.run.setup.balls if ball.name == name)
         if not isinstance(body, Body):
             painter.ring(camera.pixel(x, y), body.radius * camera.scale, 1.5 * self.unit, self.colour_of(name))
             return
-        c, s = cos(self.run.angle(name, met.t)), sin(self.run.angle(name, met.t))
+        c, s = cos(angle), sin(angle)
         rim = body.outline.rim(1e-3 * body.radius)
         corners = [camera.pixel(x + c * u - s * v, y + s * u + c * v) for u, v in [*rim, rim[0]]]
         painter.line(corners, 1.5 * self.unit, self.colour_of(name))
@@ -140,11 +140,12 @@ class Picture(AboveView[Parameters]):
         why."""
         if (between := strip(self.run, t)) is None:
             return
-        found, unit, far = between.found, self.unit, 0.35 * self.size[1] / camera.scale
-        for pair in between.points:
-            if found.gap > TOUCH:
-                for x, y in pair:
-                    line = [camera.pixel(x - way * far * found.ny, y + way * far * found.nx) for way in (-1.0, 1.0)]
+        (gap, (nx, ny), points, _), unit, far = between.met, self.unit, 0.35 * self.size[1] / camera.scale
+        for x, y in points:
+            pair = [(x + half * nx, y + half * ny) for half in (0.5 * gap, -0.5 * gap)]
+            if gap > TOUCH:
+                for u, v in pair:
+                    line = [camera.pixel(u - way * far * ny, v + way * far * nx) for way in (-1.0, 1.0)]
                     painter.dashes(line, 1.2 * unit, CARD["quiet"], 6 * unit, 6 * unit)
                 painter.line([camera.pixel(*place) for place in pair], 2 * unit, CARD["accent"])
             for place in pair:

@@ -162,15 +162,13 @@ class Blow(NamedTuple):
 
     def touching(self, states: States) -> Meeting:
         """How the two touch, with the speeds that they have in these states."""
-        one, other = (next(ball for ball in self.run.setup.balls if ball.name == name) for name in self.pair)
-        here, there = (
-            (*self.before[ball.name][:2], *states[ball.name][2:], *self._angle(ball)) for ball in (one, other)
+        (one, here), (other, there) = (
+            (ball, (*self.before[ball.name][:2], *states[ball.name][2:]))
+            for name in self.pair
+            for ball in self.run.setup.balls
+            if ball.name == name
         )
         return meeting(one, here, other, there, TOUCH)
-
-    def _angle(self, ball: Ball) -> tuple[float, ...]:
-        """Of a body, in rad."""
-        return (self.run.angle(ball.name, self.t),) if ball.turns else ()
 
 
 @once
@@ -181,9 +179,9 @@ def blow(run: Run, parameters: Parameters) -> Blow | None:
         return None
     pressed = {arc.contact for arcs in run.arcs.values() for arc in arcs if isinstance(arc.contact, Pressing)}
     end = max((contact.end for contact in pressed if contact.start <= event.t <= contact.end), default=event.t)
-    before = {name: run.before(name, event.t) for name in run.arcs}
+    before = {name: path.before(event.t).state(event.t) for name, path in run.arcs.items()}
     pair = sorted((event.ball, event.partner), key=lambda name: before[name][0])
-    return Blow(pair, before, {name: run.state(name, end) for name in run.arcs}, event.t, run)
+    return Blow(pair, before, {name: path.at(end).state(end) for name, path in run.arcs.items()}, event.t, run)
 
 
 #: What stays, if nothing from outside acts and nothing is lost: its unit, and how much of it a ball has.

@@ -141,4 +141,4 @@ def test_the_strip_between_boxes_says_why_they_touch_or_not():
     t = run.events[0].t
     assert "apart: a strip 40.0 cm wide" in strip(run, 0.0).why
     assert "in touch along a side" in strip(run, t).why
-    assert len(strip(run, t).points) == 2
+    assert len(strip(run, t).met.points) == 2
