@@ -28,6 +28,8 @@ MODIFIED = pygame.KMOD_CTRL | pygame.KMOD_ALT
 FRAMES = 60  # per second
 #: How often files are checked while nothing happens, in s; an event ends the wait.
 IDLE = 0.25
+#: How often events are looked for then, in s.
+LOOKS = 1 / 30
 #: The window is shown with its first shot, but after this time, in s, in any case.
 FIRST = 1.5
 #: What SDL falls back to if there is no display.
@@ -68,7 +70,7 @@ class App:
         thousand times a second."""
         end = perf_counter() + IDLE
         while perf_counter() < end and not pygame.event.peek():
-            sleep(1 / FRAMES)
+            sleep(LOOKS)
 
     def close(self) -> None:
         """End the background threads."""

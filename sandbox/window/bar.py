@@ -16,6 +16,7 @@ from sandbox.window.shots import Shot
 
 CARD, TRACE = palette("card"), palette("trace")
 HEIGHT = 48  # px on 720 rows
+PLAYER = "-next_shot", "restart", "-step", "go", "step", "next_shot"  # commands that are icons, on the left
 WORDS = "see", "keep", "more", "panel", "help"  # commands that are words, on the right
 MOST_TICKS = 200  # on the time line
 APART = 8  # px, at least, between two marks on the time line
@@ -77,7 +78,6 @@ class Bar:
         self.lettering = Lettering(rows)
         self.places: dict[str, pygame.Rect] = {}  # of everything by name: commands, "rate", "line" and "time"
         self.title = ""  # cut to fit
-        self._laid_out: tuple[str, str] | None = None
 
     @property
     def line(self) -> pygame.Rect:
@@ -88,27 +88,20 @@ class Bar:
         """Places by command."""
         return {name: rect for name, rect in self.places.items() if name not in ("rate", "line", "time")}
 
-    def command_at(self, position: tuple[int, int]) -> str | None:
+    def command_at(self, position: Place) -> str | None:
         return next((name for name, rect in self.buttons.items() if rect.collidepoint(position)), None)
 
-    def share_at(self, position: tuple[int, int]) -> float | None:
-        """The position of a point on the time line, 0 to 1; None if it is not on it."""
-        if not self.line.inflate(16, self.rect.height - 12).collidepoint(position):
-            return None
-        return self.share(position)
+    def on_line(self, position: Place) -> bool:
+        """Whether a place is on the time line, or near it."""
+        return self.line.inflate(16, self.rect.height - 12).collidepoint(position)
 
-    def share(self, position: tuple[int, int]) -> float:
+    def share(self, position: Place) -> float:
+        """The position of a place along the time line, 0 to 1."""
         return min(1.0, max(0.0, (position[0] - self.line.left) / max(1, self.line.width)))
-
-    # Places
 
     def _lay_out(self, title: str, duration: float) -> None:
         """Place everything that fits."""
-        letters, least = self.lettering, round(LEAST * self.unit)
-        time = "0" * max(2, len(f"{duration:.0f}")) + ".00 s"
-        if self._laid_out == (title, time):
-            return
-        self._laid_out = title, time
+        time, least = "0" * max(2, len(f"{duration:.0f}")) + ".00 s", round(LEAST * self.unit)
         without: frozenset[str] = frozenset()
         for spared in (frozenset(), *SPARED):
             without |= spared
@@ -116,39 +109,34 @@ class Bar:
             self._place(time if "duration" in without else f"{time[:-2]} / {time}", without)
             if self.line.width >= least:
                 return
-        room = letters.width(self.title, "small", bold=True) - (least - self.line.width)
-        self.title = letters.cut(self.title, "small", room, bold=True)
+        room = self.lettering.width(self.title, "small", bold=True) - (least - self.line.width)
+        self.title = self.lettering.cut(self.title, "small", room, bold=True)
         self._place(time, without)
 
     def _place(self, time: str, without: frozenset[str]) -> None:
-        """Place everything except ``without``; the time line takes the rest."""
+        """Place everything except ``without``, from left to right; the time line takes what is left over."""
         gap, side, thick = round(8 * self.unit), round(30 * self.unit), max(3, round(4 * self.unit))
-        places = self.places = {}
 
-        def put(name: str, left: int, width: int, height: int = side) -> pygame.Rect:
-            places[name] = pygame.Rect(left, self.rect.centery - height // 2, width, height)
-            return places[name]
+        def width(text: str, bold: bool = False) -> int:
+            return self.lettering.width(text, "small", bold)
 
-        left = put("menu", self.rect.left + 2 * gap, self._word_width(self.title, bold=True)).right + gap
-        for name in ("-next_shot", "restart", "-step", "go", "step", "next_shot"):
-            if name not in without:
-                left = put(name, left, side).right + gap // 4
-        right = self.rect.right - 2 * gap
-        for name in reversed(WORDS):
-            if name not in without:
-                width = self._word_width(name)
-                right = put(name, right - width, width).left - gap // 2
-        right -= gap
-        rate = max(round(44 * self.unit), self.lettering.width(WIDEST_RATE, "small"))
-        for name, width in (("faster", side), ("rate", rate), ("-faster", side)):
-            if name not in without:
-                right = put(name, right - width, width).left
-        width = self.lettering.width(time, "small")
-        right = put("time", right - 2 * gap - width, width).left
-        put("line", left + gap, max(0, right - 12 - left - gap), thick)
-
-    def _word_width(self, text: str, bold: bool = False) -> int:
-        return self.lettering.width(text, "small", bold) + 2 * round(8 * self.unit)
+        parts = [
+            ("menu", width(self.title, bold=True) + 2 * gap, gap),
+            *((name, side, gap // 4) for name in PLAYER),
+            ("line", 0, gap + 12),
+            ("time", width(time), 2 * gap),
+            ("-faster", side, 0),
+            ("rate", max(round(44 * self.unit), width(WIDEST_RATE)), 0),
+            ("faster", side, gap),
+            *((name, width(name) + 2 * gap, gap // 2) for name in WORDS),
+        ]  # each with its width, and what is free after it
+        parts = [part for part in parts if part[0] not in without]
+        left, over = self.rect.left + 2 * gap, self.rect.width - 4 * gap - sum(part[1] + part[2] for part in parts)
+        self.places = {}
+        for name, wide, after in parts:
+            size = (max(0, over), thick) if name == "line" else (wide, side)
+            self.places[name] = pygame.Rect((left, self.rect.centery - size[1] // 2), size)
+            left += size[0] + after
 
     # Drawing
 

@@ -18,7 +18,8 @@ class Canvas(Sheet):
 
     def __init__(self, surface: pygame.Surface) -> None:
         super().__init__(surface.get_size(), surface=surface)
-        self.top, self.avoid = float(self.frame.top), pygame.Rect(0, 0, 0, 0)  # of the cards down the right side
+        self.avoid = pygame.Rect(0, 0, 0, 0)  # where no card is stacked
+        self.start_cards(self.frame.top)
 
     def ended(self, text: str, size: str, room: float, bold: bool = False) -> str:
         """The text cut to ``room`` px, at a comma if there is one."""
@@ -97,13 +98,23 @@ class Canvas(Sheet):
                 letters.write(self.surface, value, "small", (right, top), CARD["text"], "topright", bold=True)
         return rect
 
+    def start_cards(self, top: float) -> None:
+        """Stack the next cards down the right side from here on, in px."""
+        self.column = pygame.Rect(self.frame.right, round(top) - self.gap, 0, 0)
+
     def stacked(self, size: tuple[int, int]) -> pygame.Rect:
-        """The place of the next card down the right side, below ``avoid`` if they overlap."""
+        """The place of the next card down the right side, below ``avoid`` if they overlap; where it would reach the
+        numbers along the bottom, in another column to the left."""
+        top, foot, column = self.column.top, self.card_row() - self.gap, self.column
         rect = pygame.Rect((0, 0), size)
-        rect.topright = self.frame.right, round(self.top)
+        rect.topright = column.right, column.bottom + self.gap
+        if rect.bottom > foot and column.height:
+            rect.topright = column.left - self.gap, top + self.gap
+            self.column = column = pygame.Rect(rect.right, top, 0, 0)
         if rect.colliderect(self.avoid):
             rect.top = self.avoid.bottom + self.gap
-        self.top = rect.bottom + self.gap
+        left = min(rect.left, column.left)
+        self.column = pygame.Rect(left, top, column.right - left, rect.bottom - top)
         return rect
 
     def note(self, *lines: tuple[str, Colour]) -> None:

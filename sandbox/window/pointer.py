@@ -96,7 +96,7 @@ class Pointer:
             over, view.over = view.over, None
             if over.pressed(at):
                 view.over = over
-        elif view.bar.share_at(at) is not None and game.playback is not None:
+        elif view.bar.on_line(at) and game.playback is not None:
             game.playback.playing = False
             return self._begun(self._scrub, at)
         elif view.on_panel(at):

@@ -560,7 +560,7 @@ class View:
         self.cards.clear()
         if not self.follows:
             handle = any(spot.grip.is_wind for spot in self.spots)
-            sheet.top = max(float(stage.foot_of_wind), sheet.top + 2 * hand.FOOT[1] * sheet.unit * handle)
+            sheet.start_cards(max(stage.foot_of_wind, sheet.frame.top + 2 * hand.FOOT[1] * sheet.unit * handle))
         if "cost" in self.on:
             level = game.session.value("accuracy.level")
             text = f"frame {1e3 * self.frame_cost:.1f} ms; run {1e3 * game.cost:.1f} ms, {level}"

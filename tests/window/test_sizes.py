@@ -133,3 +133,16 @@ def test_nothing_of_the_panel_overlaps_and_what_is_written_has_room(player, size
         for rects in (places, [rect for _, rect in written]):
             assert not any(a.colliderect(b) for a, b in combinations(rects, 2))
         assert all(panel.rect.contains(rect) for _, rect in written)
+
+
+@pytest.mark.parametrize("size", [(640, 400), (1280, 720)])
+def test_cards_of_the_picture_leave_room_for_each_other_and_for_the_numbers(player, size):
+    player = player("basketball", size)
+    for key in (pygame.K_f, pygame.K_m, pygame.K_w):
+        player.key(key)
+    player.frames(2, dt=0.2)
+    player.settle()
+    cards, sheet = player.view.cards, player.sheet
+    assert set(cards) == {"map", "charts"}
+    assert not cards["map"].colliderect(cards["charts"])
+    assert all(card.bottom < sheet.card_row() and not card.colliderect(player.view.head) for card in cards.values())
