@@ -242,8 +242,8 @@ def _menu(view: View, by: float) -> None:
 
 
 def _chart(view: View, name: str, draw: Callable[[Shot, tuple[int, int]], pygame.Surface]) -> None:
-    """A chart of the current shot, drawn in the background."""
-    shot, size = view.game.shot, view.area.size
+    """A chart of the current shot over picture and panel, drawn in the background."""
+    shot, size = view.game.shot, (view.canvas.get_width(), view.area.height)
     if shot is not None:
         _open(view, name, lambda: Chart(view.background.submit(draw, shot, size)))
 

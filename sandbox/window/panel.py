@@ -182,8 +182,8 @@ class Panel(Overlay):
     def _offer(self, what: Any, words: list[tuple[str, Any]], now: str, choose: Callable[[Any], object]) -> None:
         """A list of words to choose from, next to the field of ``what``."""
         values, foot = dict(words), next(rect for rect, other in self.places if other == what)
-        rows = [Row(text, text) for text in values]
-        self.open_list(Board(rows, lambda text: choose(values[text]), foot, now=now))
+        rows = [Row(f"={text}", text) for text in values]  # which is no command
+        self.open_list(Board(rows, lambda action: choose(values[action[1:]]), foot, now=f"={now}"))
 
     def slide(self, row: Setting, slider: pygame.Rect, at: tuple[int, int]) -> None:
         """Drag the knob of a row's slider to a place in px."""

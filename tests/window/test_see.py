@@ -395,10 +395,12 @@ def test_graphs_lie_over_the_picture_with_earlier_shots(player, written):
 
 def test_where_the_energy_goes_lies_over_the_picture_until_a_click(player):
     player = player(PUTT)
+    player.key(pygame.K_TAB)
     plain = picture(player)
     player.key(pygame.K_j)
     player.settle()
     assert differ(picture(player), plain) > 0.5
+    assert player.view.over.work.result().get_size() == (1280, player.view.area.height)  # over the panel too
     player.click((600, 300))
     assert differ(picture(player), plain) < 0.2
     assert not player.game.shots

@@ -175,7 +175,9 @@ class TestThePanel:
     def test_a_group_is_chosen_from_a_list(self, player):
         player.click(next(rect.center for rect, what in player.view.panel.places if what == FAVOURITES))
         player.frames(1)
-        player.click(next(rect.center for rect, row in player.view.over.places if row.action == "launch"))
+        assert "golf" in (actions := {row.text: row.action for row in player.view.over.rows})
+        assert not player.view.switched & set(actions.values()), "the scene is on, its group is not"
+        player.click(next(rect.center for rect, row in player.view.over.places if row.text == "launch"))
         assert player.view.panel.group == "launch"
         assert player.view.over is None
 
