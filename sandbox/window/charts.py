@@ -19,10 +19,9 @@ CARD = palette("card")
 
 #: What is shown of what there is.
 SHOWN = ("speed", "height", "way", "spin")
-#: Width of the card, usually and next to a table, and height of a curve, px on 720 rows.
-WIDTH, NARROW, CURVE = 300, 190, 46
-#: The card is at most this share of the picture's width, unless its text is wider.
-SHARE = 0.24
+#: The card's share of the picture's width from the side and from above, unless its text is wider; height of a curve, px
+#: on 720 rows.
+SHARE, CURVE = (0.24, 0.15), 46
 #: Before the largest value of all, of either sign.
 PEAK = "peak "
 
@@ -45,15 +44,9 @@ class Charts:
         row = letters.height("small")
         tall = round(max(CURVE * unit, 2.2 * row)) + 2 * row + 4 * gap
         said = [_said(strip, t) for strip in self.strips]
-        written = max(
-            letters.width(f"{strip.title} ({strip.shown.unit})  ", "small", bold=True)
-            + max(letters.width(amount(float(v), strip.unit), "small", bold=True) for v in _ends(strip))
-            for strip in self.strips
-        )
-        wide = min((WIDTH if self.shot.upright else NARROW) * unit, SHARE * sheet.size[0])
-        wide = max(round(wide), written + 4 * gap)
-        if t is None and wide >= written + letters.width(PEAK, "small", bold=True) + 4 * gap:
-            said = [PEAK + text for text in said]
+        longest = [f"{strip.title} ({strip.shown.unit})  {_said(strip, None)}" for strip in self.strips]
+        written = max(letters.width(text, "small", bold=True) for text in longest) + 4 * gap
+        wide = max(round(SHARE[not self.shot.upright] * sheet.size[0]), written)
         size = wide, len(self.strips) * tall + 2 * gap
         rect = sheet.stacked(size) if self.shot.upright else pygame.Rect((0, 0), size)
         if not self.shot.upright:
@@ -66,13 +59,9 @@ class Charts:
         return rect
 
 
-def _ends(strip: Panel) -> tuple[float, float]:
-    values = strip.curves[0].values
-    return float(values.min()), float(values.max())
-
-
 def _said(strip: Panel, t: float | None) -> str:
     """The value at time t in s, or the largest of all, of either sign."""
     curve = strip.curves[0]
-    value = max(_ends(strip), key=abs) if t is None else np.interp(t, curve.times, curve.values)
-    return amount(float(value), strip.unit)
+    if t is not None:
+        return amount(float(np.interp(t, curve.times, curve.values)), strip.unit)
+    return PEAK + amount(float(curve.values[np.abs(curve.values).argmax()]), strip.unit)

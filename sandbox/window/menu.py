@@ -43,7 +43,6 @@ class Menu(Overlay):
         """``now`` is the action that is chosen."""
         super().__init__()
         self.title, self.groups, self.choose, self.picture_of = title, dict(groups), choose, picture_of
-        self.pictures: dict[str, Future[bytes]] = {}
         self.turn_to(next(iter(self.groups)))
         for group, row in ((group, row) for group, rows in self.groups.items() for row in rows if row.action == now):
             self.group, self.chosen = group, row
@@ -51,15 +50,6 @@ class Menu(Overlay):
     @property
     def rows(self) -> Sequence[Row]:
         return self.groups[self.group]
-
-    @property
-    def progress(self) -> int:  # type: ignore[override]
-        """How many thumbnails there are."""
-        return sum(picture.done() for picture in self.pictures.values())
-
-    @property
-    def waiting(self) -> bool:  # type: ignore[override]
-        return self.progress < len(self.pictures)
 
     def turn_to(self, group: str) -> None:
         """Show another group."""

@@ -35,14 +35,18 @@ class Overlay:
     """What lies over the picture: by default nothing in it can be chosen, and a click closes it."""
 
     name = ""  # of the command that opens and closes it
-    waiting = False  # whether something of it is still being made
-    progress: object = 0  # changes when it must be drawn again
 
     def __init__(self, chosen: Any = None) -> None:
         """``chosen`` is the row that is chosen by key."""
         self.places: list[tuple[pygame.Rect, Any]] = []  # of what can be chosen
         self.chosen = chosen
         self.first, self.seen = 0, 1  # of the rows that are seen, and how many
+        self.pictures: dict[str, Future[Any]] = {}  # that are made in the background
+
+    @property
+    def made(self) -> int:
+        """How many of its pictures are there."""
+        return sum(picture.done() for picture in self.pictures.values())
 
     @property
     def rows(self) -> Sequence[Any]:
@@ -153,19 +157,11 @@ class Chart(Overlay):
 
     def __init__(self, work: Future[pygame.Surface]) -> None:
         super().__init__()
-        self.work = work
-
-    @property
-    def waiting(self) -> bool:  # type: ignore[override]
-        return not self.work.done()
-
-    @property
-    def progress(self) -> bool:  # type: ignore[override]
-        return self.work.done()
+        self.pictures["chart"] = work
 
     def compose(self) -> None:
-        if self.work.done():
-            surface, onto = self.work.result(), self.sheet.surface
+        if self.made:
+            surface, onto = self.pictures["chart"].result(), self.sheet.surface
             onto.blit(surface, surface.get_rect(center=onto.get_rect().center))
 
 

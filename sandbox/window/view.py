@@ -288,7 +288,7 @@ class View:
     @property
     def busy(self) -> bool:
         """Whether something is being prepared that will have to be drawn."""
-        over = self.over is not None and self.over.waiting
+        over = self.over is not None and self.over.made < len(self.over.pictures)
         coming = any(latest.work is not None for latest in (self.stages, self.clouds, self.maps))
         return bool(over or coming or self._stage_wanted() or self._cloud_wanted() or self._map_wanted())
 
@@ -386,7 +386,7 @@ class View:
     def needs_drawing(self, happened: bool) -> bool:
         """Whether what would be drawn differs from what was drawn last."""
         over = self.over
-        seen = self.game.seen, over, over and over.progress, self.tape, frozenset(self.on)
+        seen = self.game.seen, over, over and over.made, self.tape, frozenset(self.on)
         needed = happened or self.changed or seen != self._seen
         self._seen, self.changed = seen, False
         return needed
