@@ -400,7 +400,8 @@ def test_where_the_energy_goes_lies_over_the_picture_until_a_click(player):
     player.key(pygame.K_j)
     player.settle()
     assert differ(picture(player), plain) > 0.5
-    assert player.view.over.pictures["chart"].result().get_size() == (1280, player.view.area.height)  # over the panel too
+    whole = 1280, player.view.area.height  # over the panel too
+    assert player.view.over.pictures["chart"].result().get_size() == whole
     player.click((600, 300))
     assert differ(picture(player), plain) < 0.2
     assert not player.game.shots
