@@ -120,23 +120,24 @@ class Bar:
         def width(text: str, bold: bool = False) -> int:
             return self.lettering.width(text, "small", bold)
 
+        # Each with what is free before it, its width, and what is free after it.
         parts = [
-            ("menu", width(self.title, bold=True) + 2 * gap, gap),
-            *((name, side, gap // 4) for name in PLAYER),
-            ("line", 0, gap + 12),
-            ("time", width(time), 2 * gap),
-            ("-faster", side, 0),
-            ("rate", max(round(44 * self.unit), width(WIDEST_RATE)), 0),
-            ("faster", side, gap),
-            *((name, width(name) + 2 * gap, gap // 2) for name in WORDS),
-        ]  # each with its width, and what is free after it
+            ("menu", 0, width(self.title, bold=True) + 2 * gap, gap),
+            *((name, 0, side, gap // 4) for name in PLAYER),
+            ("line", gap, 0, 12),
+            ("time", 0, width(time), 2 * gap),
+            ("-faster", 0, side, 0),
+            ("rate", 0, max(round(44 * self.unit), width(WIDEST_RATE)), 0),
+            ("faster", 0, side, 0),
+            *((name, gap // 2 + gap * (name == WORDS[0]), width(name) + 2 * gap, 0) for name in WORDS),
+        ]
         parts = [part for part in parts if part[0] not in without]
-        left, over = self.rect.left + 2 * gap, self.rect.width - 4 * gap - sum(part[1] + part[2] for part in parts)
+        left, over = self.rect.left + 2 * gap, self.rect.width - 4 * gap - sum(sum(part[1:]) for part in parts)
         self.places = {}
-        for name, wide, after in parts:
+        for name, before, wide, after in parts:
             size = (max(0, over), thick) if name == "line" else (wide, side)
-            self.places[name] = pygame.Rect((left, self.rect.centery - size[1] // 2), size)
-            left += size[0] + after
+            self.places[name] = pygame.Rect((left + before, self.rect.centery - size[1] // 2), size)
+            left += before + size[0] + after
 
     # Drawing
 
