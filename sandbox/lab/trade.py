@@ -28,7 +28,7 @@ TOLERANCES = (1.0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7)
 TARGETS = (0.1, 0.01, 0.001, 0.0001)
 
 #: A finer setting is left out if it would take longer than this, in s.
-_LONGEST = 1.0
+LONGEST = 1.0
 
 #: Growth of a nudge until the measure, above which a large error does not imply an unstable method.
 _CHAOTIC = 1e3
@@ -128,7 +128,7 @@ def _measured(reference: Reference, progress: Progress) -> Iterator[Point]:
     for done, (method, setting, accuracy) in enumerate(wanted):
         progress(done, 2 * len(wanted))
         coarser = last.get(method)
-        if coarser is not None and coarser.walls[0] * coarser.accuracy.step / accuracy.step > _LONGEST:
+        if coarser is not None and coarser.walls[0] * coarser.accuracy.step / accuracy.step > LONGEST:
             continue
         trial = Timed(
             reference.setup(), accuracy, lambda run: (reference.error_of(run), run.numerics.force_evaluations)
