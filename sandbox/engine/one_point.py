@@ -106,7 +106,7 @@ class OnePoint(LastingContact):
         else:
             normal, rub, moment = rolling(along)
             spare = friction * normal * WITHIN_ROUNDING - abs(rub)
-            if bend > 0.0 and surface.rolling_resistance > 0.0:
+            if spare >= 0.0 and bend > 0.0 and surface.rolling_resistance > 0.0:
                 ahead = self.direction * surface.rolling_resistance * (height + inertia / height)
                 normal, rub, moment = rolling(along - ahead)
                 if abs(rub) > friction * normal:  # which passes on no more of the resistance than its own

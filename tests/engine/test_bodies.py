@@ -386,6 +386,16 @@ def test_friction_passes_on_no_more_of_the_resistance_than_its_own(spin: float):
     assert abs(book.residue) < 1e-4 * book.start
 
 
+def test_a_capsule_that_turns_about_its_end_faster_than_it_grips_slips():
+    """Its end, at l = -0.1 m, is drawn towards the centre by w^2 l: more than the friction of its weight."""
+    way, radius, spin = 0.1, 0.2, 20.0
+    start = {"position": (0.0, radius), "velocity": (-spin * radius, spin * way), "spin": spin}
+    surface = Surface("floor", LEVEL, 0.0, 0.6, rolling_resistance=0.02)
+    run = run_of([thrown(Polygon([(-way, 0.0), (way, 0.0)], radius), **start)], 0.005, [surface])
+    x, _, vx, _, spin, angle = run.arcs["body"][-1].end
+    assert vx + spin * (radius + way * math.sin(angle)) > 0.1  # m/s
+
+
 @pytest.mark.parametrize(
     ("more", "said"),
     [
