@@ -177,8 +177,8 @@ def test_commands_of_the_readme_can_be_given(command: str):
 
 def test_code_of_the_readme_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     monkeypatch.chdir(tmp_path)
-    (shot,) = re.findall(r"^    # my-shot.toml\n((?:    .*\n|\n)+?)\n    sandbox run", README, re.MULTILINE)
-    Path("my-shot.toml").write_text(textwrap.dedent("    # my-shot.toml\n" + shot))
+    (shot,) = re.findall(r"^    # A softer drive.\n((?:    .*\n|\n)+?)\n    sandbox run", README, re.MULTILINE)
+    Path("my-shot.toml").write_text(textwrap.dedent("    # A softer drive.\n" + shot))
     assert sandbox.simulate(sandbox.load("my-shot.toml")).result["carry"] > 100
     names: dict[str, Any] = {}
     for language, text in blocks(README):

@@ -200,15 +200,14 @@ class Impacts:
     # ------------------------------------------------------------------ impulses
 
     def _exchange_alone(self, states: dict[int, State], contact: Contact) -> None:
-        """A single contact of balls. Below a nose only a part of the push is along the plane: it takes more restitution
-        to separate no slower than the slowest hop there, too."""
+        """A single contact of balls. Below a nose a ball that spins may be drawn on, or leave more slowly than the slowest
+        hop: it is given that."""
         balls, before = self._balls(contact), [states[index] for index in contact.balls]
         after = after_one(balls, before, contact)
-        apart = after[0][2] * contact.nx + after[0][3] * contact.ny
-        if contact.sine != 0.0 and apart < self._slowest_hop:
-            more = (contact.speed + self._slowest_hop) / (contact.speed + apart)
-            bounce = contact.bounce._replace(restitution=(1.0 + contact.bounce.restitution) * more - 1.0)
-            after = after_one(balls, before, contact._replace(bounce=bounce))
+        x, y, vx, vy, *spins = after[0]
+        short = self._slowest_hop - vx * contact.nx - vy * contact.ny
+        if contact.sine != 0.0 and short > 0.0:
+            after[0] = (x, y, vx + short * contact.nx, vy + short * contact.ny, *spins)
         self._numerics.pymunk_steps += 1
         states.update(zip(contact.balls, after, strict=True))
 

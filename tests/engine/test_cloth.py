@@ -1,5 +1,6 @@
 """Balls on cloth in the engine: impacts in three dimensions of spin, pockets, pushes, and both methods."""
 
+from dataclasses import replace
 from itertools import pairwise, permutations
 from math import exp, pi
 
@@ -223,6 +224,17 @@ def test_a_ball_that_creeps_to_a_cushion_gains_no_energy(speed: float, level: st
 
 
 NOSED = Surface("cushion", Segment((1.0, -2.0), (1.0, 2.0)), 0.88, 0.265, nose_height=1.2 * R)
+
+
+def test_a_ball_that_a_high_nose_draws_on_parts_from_it():
+    """Its spin rubs it upward on the nose, 77 deg above its centre, and so inward: more than restitution takes back."""
+    high = replace(NOSED, friction=0.25, nose_height=1.9773 * R)
+    start = ball("cue", (1.0 - 1.001 * R, 0.0), (1.48, -3.04), 44.07, (-99.5, -167.0))
+    setup = Setup([start], [high], plane=CLOTH, duration=0.2)
+    run = simulate(setup, resolve())
+    assert run.state("cue", 1e-3).vx < 0.0
+    energies = [kinetic(start, (*run.state("cue", t), *run.rolling_spin("cue", t))) for t in (0.0, 1e-3, 0.2)]
+    assert energies == sorted(energies, reverse=True)
 
 
 def test_a_ball_frozen_on_a_nose_and_cut_goes_off_as_one_with_a_gap():
