@@ -200,8 +200,8 @@ class Impacts:
     # ------------------------------------------------------------------ impulses
 
     def _exchange_alone(self, states: dict[int, State], contact: Contact) -> None:
-        """A single contact of balls. Below a nose a ball that spins may be drawn on, or leave more slowly than the slowest
-        hop: it is given that."""
+        """A single contact of balls. Below a nose a ball that spins may be drawn on, or leave more slowly than the
+        slowest hop: it is given that."""
         balls, before = self._balls(contact), [states[index] for index in contact.balls]
         after = after_one(balls, before, contact)
         x, y, vx, vy, *spins = after[0]
