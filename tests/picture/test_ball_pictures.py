@@ -1,16 +1,14 @@
 """Pictures of kicks and throws of every kind: composed, legible, the ball always in sight and never too small."""
 
-from functools import cache
-
 import numpy as np
 import pygame
 import pytest
 
-import sandbox
 from sandbox.picture.ball import SMALLEST, Look, Mark, near, turned
 from sandbox.picture.painter import Painter, blank
 from sandbox.picture.palette import scene_colours
 from tests.picture.legible import assert_legible
+from tests.scenes.play import run_of
 
 SIZES = [(640, 360), (1280, 720)]
 GOLF = {
@@ -68,15 +66,9 @@ SHOTS = {
 }
 
 
-@cache
-def run_of(name: str):
-    scene = sandbox.load(*SHOTS[name])
-    return scene, sandbox.simulate(scene)
-
-
 def picture_of(name: str, size=(640, 360)):
-    scene, run = run_of(name)
-    return scene.picture(run, size)
+    run = run_of(*SHOTS[name])
+    return run.scene.picture(run, size)
 
 
 def texts(picture) -> str:

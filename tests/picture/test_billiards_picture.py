@@ -1,16 +1,15 @@
 """Billiards pictures of very different shots: composed, legible, the balls in sight and turning as they roll."""
 
-from functools import cache
 from math import dist, hypot, pi
 
 import numpy as np
 import pytest
 
-import sandbox
 from sandbox.picture.painter import Painter
 from sandbox.picture.sheet import Sheet
 from scenes.billiards import balls
 from tests.picture.legible import assert_legible
+from tests.scenes.play import run_of
 
 SIZES = [(640, 360), (1280, 720), (960, 672)]
 ONE_BALL = {"rack": "none", "balls": [{"name": "cue", "x": -0.5, "y": 0.0}]}
@@ -37,15 +36,9 @@ SHOTS = {
 }
 
 
-@cache
-def run_of(name: str):
-    scene = sandbox.load(*SHOTS[name])
-    return scene, sandbox.simulate(scene)
-
-
 def picture_of(name: str, size=(640, 360)):
-    scene, run = run_of(name)
-    return scene.picture(run, size)
+    run = run_of(*SHOTS[name])
+    return run.scene.picture(run, size)
 
 
 @pytest.mark.parametrize("size", SIZES, ids=str)

@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 
-import sandbox
 from sandbox.engine.ledger import ledger
 from sandbox.picture import energy_chart as chart
 from sandbox.picture.energy import course
@@ -106,8 +105,7 @@ def test_a_caught_ball_takes_its_energy_into_the_pocket():
     ids=str,
 )
 def test_the_chart_is_legible(name, overrides, size, sheets):
-    run = run_of(name) if not overrides else sandbox.simulate(sandbox.load(name, overrides))
-    assert energy_chart(run, size).get_size() == size
+    assert energy_chart(run_of(name, overrides), size).get_size() == size
     (sheet,) = sheets
     assert_legible(sheet)
 

@@ -6,17 +6,17 @@ import sys
 import numpy as np
 import pytest
 
-import sandbox
 from tests.picture.test_ball_pictures import GOLF
+from tests.scenes.play import run_of
 
 
 def notes(picture) -> str:
     return " ".join(text for text, _ in picture.sheet.written)
 
 
-def drawn(overrides, size=(640, 360)):
-    scene = sandbox.load("golf", overrides)
-    return scene.picture_module().Picture(sandbox.simulate(scene), scene.parameters, size)
+def drawn(overrides, size=(640, 360), name="golf"):
+    run = run_of(name, overrides)
+    return run.scene.picture(run, size)
 
 
 def test_a_poster_says_what_it_does_not_show_as_it_is():
@@ -60,8 +60,7 @@ def test_a_far_pin_does_not_make_the_path_too_small_to_see():
 
 @pytest.mark.parametrize(("name", "said"), [("golf/pond", True), ("golf", False), ("golf/moon", False)])
 def test_where_carry_ends_above_the_ground_a_poster_says_why(name, said):
-    scene = sandbox.load(name)
-    picture = scene.picture(sandbox.simulate(scene), (640, 360))
+    picture = drawn({}, name=name)
     picture.poster()
     assert ("at launch height" in notes(picture)) == said
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable, Mapping
 from functools import cache
 from typing import Any
@@ -10,10 +11,14 @@ import sandbox
 from sandbox.engine.run import Run
 
 
+def run_of(source: str, changes: Mapping[str, Any] | None = None) -> Run:
+    """The run of a scene or preset: computed once in a process, for all tests that only look at it."""
+    return _computed(source, json.dumps(changes))
+
+
 @cache
-def run_of(source: str) -> Run:
-    """The run of a scene or preset as it is: computed once in a process, for all tests that only look at it."""
-    return sandbox.simulate(source)
+def _computed(source: str, changes: str) -> Run:
+    return sandbox.simulate(sandbox.load(source, json.loads(changes)))
 
 
 def dotted(changes: Mapping[str, Any]) -> dict[str, Any]:
