@@ -13,6 +13,7 @@ import pygame
 import pytest
 
 from sandbox.picture.lettering import Lettering
+from sandbox.picture.palette import set_contrast
 from sandbox.scene import simulate
 from sandbox.window.app import App
 from sandbox.window.canvas import Canvas
@@ -123,6 +124,14 @@ def written(monkeypatch: pytest.MonkeyPatch) -> list[tuple[str, pygame.Rect]]:
 
     monkeypatch.setattr(Lettering, "write", noted)
     return texts
+
+
+@pytest.fixture(autouse=True)
+def usual_look():
+    """Colours and size of letters are those of all pictures in a process: what a test sets is put back."""
+    yield
+    set_contrast(False)
+    Lettering.larger = 1.0
 
 
 @pytest.fixture

@@ -8,7 +8,6 @@ import numpy as np
 import pygame
 import pytest
 
-from sandbox.picture.lettering import Lettering
 from sandbox.picture.palette import mix, palette, set_contrast
 from sandbox.window.commands import TABLE
 from sandbox.window.memory import Memory
@@ -41,13 +40,6 @@ def contrast(a, b) -> float:
     """Of WCAG 2."""
     low, high = sorted(float(XYZ[1] @ linear(colour)) for colour in (a, b))
     return (high + 0.05) / (low + 0.05)
-
-
-@pytest.fixture(autouse=True)
-def as_before():
-    yield
-    set_contrast(False)
-    Lettering.larger = 1.0
 
 
 @pytest.mark.parametrize("high", [False, True])
