@@ -11,9 +11,9 @@ from typing import Any
 import numpy as np
 
 from sandbox.engine.arc import Arc
-from sandbox.engine.bernstein import downward_crossings, elevate
+from sandbox.engine.bernstein import downward_crossings, elevate, until
 from sandbox.engine.bernstein_many import downward_crossings as crossings_of_many
-from sandbox.engine.bernstein_many import evaluate, until
+from sandbox.engine.bernstein_many import evaluate
 from sandbox.engine.path import Curve, Passage, Path, climb, height
 
 #: Positions of an arc's parts in its row: times, state at the start, curves, state at the end, number of the contact.
@@ -133,7 +133,7 @@ def cut(rows: np.ndarray, t: np.ndarray, u: np.ndarray) -> np.ndarray:
     rows[T1] = t
     for first, last in ((X, Y), (VX, VY), (SPIN, SPIN)):  # of the same degree
         curves = rows[first.start : last.stop].reshape(-1, first.stop - first.start, len(u)).swapaxes(0, 1)
-        curves[...] = until(curves, u)
+        curves[...] = until(list(curves), u)
     rows[END] = rows[[curve.stop - 1 for curve in CURVES]]
     return rows
 

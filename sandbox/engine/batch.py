@@ -268,11 +268,8 @@ class Batch:
     def _changes(self, rows: np.ndarray, accepted: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Where on these arcs, of shots whose step is ``accepted``, slip or speed ends, as u, inf where it does not;
         and a mask of those that stay on their surface until then, as far as can be told here."""
-        changes, lasts, place = (
-            np.full(rows.shape[1], np.inf),
-            np.ones(rows.shape[1], dtype=bool),
-            accepted.cumsum() - 1,
-        )
+        changes, lasts = np.full(rows.shape[1], np.inf), np.ones(rows.shape[1], dtype=bool)
+        place = accepted.cumsum() - 1
         for lanes, ball, contact in self._held if accepted.any() else ():
             here = rows[:, place[lanes]]
             x, y, vx, vy, spin = (here[part] for part in CURVES)

@@ -96,7 +96,7 @@ def elevate(b: Sequence[Any], degree: int) -> Sequence[Any]:
 
 
 def squared_length(x: Sequence[float], y: Sequence[float]) -> list[float]:
-    """Coefficients of x^2 + y^2."""
+    """Coefficients of x^2 + y^2; of one polynomial each, or of many with arrays as coefficients."""
     squares: list[float] = _squares(len(x))(x, y)
     return squares
 

@@ -27,14 +27,6 @@ def evaluate(b: np.ndarray, u: np.ndarray) -> np.ndarray:
     return found
 
 
-def until(b: np.ndarray, u: np.ndarray) -> np.ndarray:
-    """Coefficients on [0, u], by de Casteljau."""
-    w, left = 1.0 - u, b.copy()
-    for level in range(1, len(b)):
-        left[level:] = w * left[level - 1 : -1] + u * left[level:]
-    return left
-
-
 def _powers(u: np.ndarray, n: int) -> np.ndarray:
     """u^k (1 - u)^(n - k) for k from 0 to n, shape (n + 1, paths)."""
     powers = np.ones((2, n + 1, len(u)))
@@ -49,23 +41,6 @@ def _binomials(n: int) -> np.ndarray:
     return np.array([comb(n, k) for k in range(n + 1)], float)[:, None]
 
 
-def squared_length(x: np.ndarray, y: np.ndarray) -> np.ndarray:
-    """Coefficients of x^2 + y^2, shape (2 degree + 1, paths)."""
-    m = len(x)
-    products = x[:, None] * x[None, :] + y[:, None] * y[None, :]
-    return _product_weights(m - 1) @ products.reshape(m * m, -1)
-
-
-@lru_cache
-def _product_weights(n: int) -> np.ndarray:
-    c, d = _binomials(n)[:, 0], _binomials(2 * n)[:, 0]
-    weights = np.zeros((2 * n + 1, n + 1, n + 1))
-    for i in range(n + 1):
-        for j in range(n + 1):
-            weights[i + j, i, j] = c[i] * c[j] / d[i + j]
-    return weights.reshape(2 * n + 1, -1)
-
-
 def elevated(b: np.ndarray, degree: int) -> np.ndarray:
     """The same polynomials at a higher degree."""
     found: np.ndarray = _elevation(len(b) - 1, degree) @ b
@@ -75,12 +50,6 @@ def elevated(b: np.ndarray, degree: int) -> np.ndarray:
 @lru_cache
 def _elevation(n: int, degree: int) -> np.ndarray:
     return np.array([elevate(one, degree) for one in np.eye(n + 1).tolist()]).T
-
-
-def without_root_at_start(b: np.ndarray) -> np.ndarray:
-    """Coefficients of f(u) / u, where f(0) is taken as exactly zero, at the degree of f."""
-    k = np.arange(1, len(b))[:, None]
-    return np.concatenate((b[:-1] + (len(b) / k - 1.0) * b[1:], b[-1:]))
 
 
 def first_downward_crossing(b: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -13,13 +13,8 @@ import numpy as np
 
 from sandbox.engine.accuracy import SKIN
 from sandbox.engine.arc import Arc
-from sandbox.engine.bernstein_many import (
-    elevated,
-    evaluate,
-    first_downward_crossing,
-    squared_length,
-    without_root_at_start,
-)
+from sandbox.engine.bernstein import elevate, squared_length, without_root_at_start
+from sandbox.engine.bernstein_many import elevated, evaluate, first_downward_crossing
 from sandbox.engine.stacking import Stack
 from sandbox.engine.touch import NOISE, TOUCHING_GAP, Obstacle, Outline, Touching, flush
 
@@ -163,7 +158,8 @@ def _to_corners(
     apart |= (length > radius) & ((dx * mx + dy * my).min(axis=0) > radius * length)
     some = np.flatnonzero(~apart)
     radius = radius[some]
-    return path[some], (squared_length(dx[:, some], dy[:, some]) - radius * radius) / (2.0 * radius)
+    squares = np.array(squared_length(dx[:, some], dy[:, some]))
+    return path[some], (squares - radius * radius) / (2.0 * radius)
 
 
 def _to_sides(
@@ -186,7 +182,7 @@ def _closing(gap: np.ndarray, starts_touching: np.ndarray) -> tuple[np.ndarray, 
     """When gaps first close, as u, and a mask of the unclear ones. One that is closed at the start, within rounding,
     counts only if it closes further."""
     closed = np.flatnonzero(starts_touching & (gap[0] <= NOISE))
-    opening = without_root_at_start(gap[:, closed] - gap[0, closed])
+    opening = np.array(elevate(without_root_at_start(gap[:, closed] - gap[0, closed]), len(gap) - 1))
     ahead = gap.copy()
     ahead[:, closed] = opening + NOISE
     u, unclear = first_downward_crossing(ahead)

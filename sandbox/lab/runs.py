@@ -26,6 +26,13 @@ if TYPE_CHECKING:
 
     Build = Callable[[SceneParameters], Setup]
 
+#: Runs that are done, and all of them.
+Progress = Callable[[int, int], None]
+
+
+def silent(done: int, total: int) -> None:
+    """No progress is shown."""
+
 
 def runs(
     scene: Scene, keys: Sequence[str], points: Sequence[Sequence[Any]], finer: bool = False, asked: Sequence[str] = ()

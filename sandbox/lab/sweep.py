@@ -5,7 +5,7 @@ from __future__ import annotations
 import pickle
 import platform
 from collections import deque
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import lru_cache
@@ -21,6 +21,7 @@ from sandbox.errors import RequestError, RunError, Stopped
 from sandbox.lab.axes import Values, as_axis
 from sandbox.lab.plan import Plan, Record, failed, records
 from sandbox.lab.row_file import RowFile
+from sandbox.lab.runs import Progress, silent
 from sandbox.scene import Scene, as_scene
 from sandbox.workers import Call, Cluster, InTurn, Processes, WorkerLost, Workers, cores
 
@@ -44,13 +45,6 @@ _MOST_JOBS = 1000
 
 #: Identifies this process.
 _HERE = uuid4().hex
-
-Progress = Callable[[int, int], None]
-
-
-def _silent(done: int, total: int) -> None:
-    pass
-
 
 # ---------------------------------------------------------------------------------------------------------------------
 # From Python
@@ -117,7 +111,7 @@ def sweep(
     check: bool = False,
     jobs: int = 1,
     scheduler: str | None = None,
-    progress: Progress = _silent,
+    progress: Progress = silent,
 ) -> Sweep:
     """One run for each point: ``sweep("golf", {"launch.angle": np.linspace(5, 60, 56), "launch.spin": [0, 3000]})``.
 
@@ -170,7 +164,7 @@ class Written:
         return "\n".join(lines)
 
 
-def sweep_to_file(plan: Plan, path: Path, pool: Workers, progress: Progress = _silent) -> Written:
+def sweep_to_file(plan: Plan, path: Path, pool: Workers, progress: Progress = silent) -> Written:
     """Write all rows of the plan as CSV, resuming an interrupted sweep in the same file.
 
     Raises Stopped on Ctrl-C, and RunError if the file cannot be written completely; both keep the rows done so far.
@@ -225,7 +219,7 @@ class RowsInOrder:
     A call returns the points it computed in a short time; the rest is queued again.
     """
 
-    def __init__(self, plan: Plan, pool: Workers, first: int = 0, progress: Progress = _silent) -> None:
+    def __init__(self, plan: Plan, pool: Workers, first: int = 0, progress: Progress = silent) -> None:
         self._plan = plan
         self._pool = pool
         self._progress = progress

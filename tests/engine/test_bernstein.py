@@ -16,9 +16,8 @@ from sandbox.engine.bernstein import (
     until,
     without_root_at_start,
 )
+from sandbox.engine.bernstein_many import elevated, first_downward_crossing
 from sandbox.engine.bernstein_many import evaluate as evaluate_many
-from sandbox.engine.bernstein_many import first_downward_crossing
-from sandbox.engine.bernstein_many import squared_length as squared_lengths
 
 coefficients = st.lists(st.floats(-10, 10, allow_subnormal=False), min_size=2, max_size=8)
 inside = st.floats(0.0, 1.0)
@@ -56,9 +55,9 @@ def test_split_piece_and_elevation_keep_the_polynomial(b, u, v):
 @given(coefficients, inside)
 def test_squared_length_and_derivative(b, u):
     c = b[::-1]
-    both = pytest.approx(evaluate(b, u) ** 2 + evaluate(c, u) ** 2, abs=1e-9)
-    assert evaluate(squared_length(b, c), u) == both
-    assert evaluate_many(squared_lengths(np.array(b)[:, None], np.array(c)[:, None]), np.array([u]))[0] == both
+    both, square = pytest.approx(evaluate(b, u) ** 2 + evaluate(c, u) ** 2, abs=1e-9), squared_length(b, c)
+    assert evaluate(square, u) == both
+    assert evaluate_many(elevated(np.array(square)[:, None], len(square) + 3), np.array([u]))[0] == both
     slope = (evaluate(b, 0.5 + 1e-6) - evaluate(b, 0.5 - 1e-6)) / 2e-6
     assert evaluate(derivative(b), 0.5) == pytest.approx(slope, abs=1e-3)
 

@@ -130,6 +130,7 @@ class TestTheFan:
     def test_lines_are_where_they_are_and_smooth(self):
         line = np.array([[10.0, 10.0], [90.0, 40.0]])
         drawn = density([line], (100, 50))
+        assert (density([line[:1] - 5.0, line[1:]], (100, 50)) > 0.0).sum() <= 32  # two ends, and nothing between
         assert drawn[:, 20:80].sum(axis=0) == pytest.approx(np.hypot(80, 30) / 80, rel=0.15)  # of 1 px
         rows = (drawn[:, 20:80] * np.arange(50)[:, None]).sum(axis=0) / drawn[:, 20:80].sum(axis=0)
         assert rows + 0.5 == pytest.approx(10 + (np.arange(20, 80) + 0.5 - 10) * 3 / 8, abs=0.4)

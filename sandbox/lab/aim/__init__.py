@@ -19,8 +19,9 @@ from sandbox.lab.aim.pair import pairs
 from sandbox.lab.aim.question import GREATEST, Aim, Target, Try, as_target, parse_target
 from sandbox.lab.aim.regions import regions
 from sandbox.lab.aim.scalar import roots_of
-from sandbox.lab.aim.shots import Progress, Shots, silent
+from sandbox.lab.aim.shots import Shots
 from sandbox.lab.axes import Span, as_axis
+from sandbox.lab.runs import Progress, silent
 from sandbox.scene import Scene, as_scene
 
 __all__ = ["Aim", "Target", "aim", "as_target", "parse_target", "search"]

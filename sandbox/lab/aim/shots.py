@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from itertools import pairwise
 from math import hypot
 from typing import Any
@@ -13,7 +13,7 @@ from sandbox.engine.run import Run
 from sandbox.errors import RequestError, RunError
 from sandbox.lab.aim.question import GREATEST, Target, Try
 from sandbox.lab.axes import Span
-from sandbox.lab.runs import runs
+from sandbox.lab.runs import Progress, runs
 from sandbox.scene import Scene, compare
 from sandbox.text import no_such_result
 from sandbox.tracebacks import one_line_error
@@ -27,12 +27,6 @@ _REFINEMENTS, _PARTS, _MOST_RUNS = 3, 4, 2000
 #: A result is not smooth if it differs from the cubic through its four neighbours by more than this fraction of their
 #: spread.
 _BEND = 0.2
-
-Progress = Callable[[int, int], None]
-
-
-def silent(done: int, total: int) -> None:
-    pass
 
 
 class Shots:
