@@ -25,9 +25,8 @@ from typing import Any
 
 from measured import command_line, keep, show
 
-HELP = "from sandbox.cli import main; main(['--help'])"
-LIST = "from sandbox.cli import main; main(['list'])"
-RUN = "from sandbox.cli import main; main(['run', 'golf', '--json'])"
+PROGRAM = "import sys; sys.argv[1:] = {}; from sandbox.cli import main; sys.exit(main())"
+HELP, LIST, RUN = map(PROGRAM.format, (["--help"], ["list"], ["run", "golf", "--json"]))
 WINDOW = """
 import os, pygame
 flip = pygame.display.flip

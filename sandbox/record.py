@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -120,13 +119,10 @@ def changed_results(expected: Record, actual: Record, tolerance: float = TOLERAN
 def diverges(run: Run, until: float | None = None) -> float | None:
     """The time in s at which a run and one that begins ``NUDGE`` away differ; None if they never do."""
     from sandbox.engine import simulate
+    from sandbox.scene.checking import nudged
 
-    balls = [
-        replace(ball, position=(ball.position[0] + (-1) ** i * NUDGE, ball.position[1] + NUDGE))
-        for i, ball in enumerate(run.setup.balls)
-    ]
     recorded = record(run, until)
-    other = record(simulate(replace(run.setup, balls=balls), run.accuracy), until, recorded.get("duration"))
+    other = record(simulate(nudged(run.setup, NUDGE, 0), run.accuracy), until, recorded.get("duration"))
     change = first_change(recorded, other)
     return None if change is None else change[0]
 

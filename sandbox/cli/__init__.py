@@ -37,6 +37,8 @@ def main(args: list[str] | None = None) -> int:
                 sys.stderr.write("stopped\n")
         code = STOPPED
     interrupts.end()
+    if args is None:
+        gc.freeze()  # the process ends here: to look for cycles once more would take a fifth of a run
     if code != STOPPED:
         return code
     eval("0")  # or Python would end with SIGINT and not with this code, if it was in an exec when it was interrupted

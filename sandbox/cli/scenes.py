@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from itertools import zip_longest
 from pathlib import Path
 from typing import Any
 
@@ -10,28 +9,18 @@ import click
 
 from sandbox.cli.arguments import changes_options, load, scene_argument
 from sandbox.cli.say import say
-from sandbox.text import one_line
 
 
 @click.command("list")
 @click.argument("scene", metavar="[SCENE]", required=False, help="Only this scene and its presets.")
 def list_scenes(scene: str | None) -> None:
     """List all scenes and presets, and the scenes and scene files in this folder."""
-    import textwrap
-
-    from sandbox.lab.tables import width
+    from sandbox.lab.tables import table
     from sandbox.scene import listings, listings_in, listings_of, scene_files_in
 
     here = Path()
     found = [*listings(), *listings_in(here), *scene_files_in(here)] if scene is None else listings_of(scene)
-    left = max((len(listing.name) for listing in found), default=0) + 2
-    for listing in found:  # not by tables.table, whose library takes a third of the command's time
-        about = textwrap.wrap(one_line(listing.about), max(20, width() - left)) or [""]
-        say(
-            "\n".join(
-                f"{name:<{left}}{line}".rstrip() for name, line in zip_longest([listing.name], about, fillvalue="")
-            )
-        )
+    say("\n".join(table(("", ""), [(listing.name, listing.about) for listing in found], "ll", indent="")))
 
 
 @click.command()
