@@ -72,7 +72,7 @@ def law_of(ball: Ball) -> Law:
 
 def _quick(term: Any) -> Any:
     """A force or torque as what Python calls with the least effort: its ``__call__``, bound, if it is data."""
-    return term.__call__ if is_dataclass(type(term)) else term
+    return term.__call__ if is_dataclass(type(term)) and callable(term) else term
 
 
 def acceleration(ball: Ball, t: Any, state: State) -> Acceleration:

@@ -225,10 +225,13 @@ def test_a_setup_or_surface_that_cannot_be_is_refused_in_plain_words():
 
 @pytest.mark.parametrize("accuracy", [resolve(), PLAIN], ids=["exact", "plain"])
 @pytest.mark.parametrize(
-    "force", [lambda t, p, v, s: None, lambda t, p, v, s: 1.0, lambda t, p: (0.0, 0.0), Gravity, 3]
+    "force",
+    [lambda t, p, v, s: None, lambda t, p, v, s: 1.0, lambda t, p: (0.0, 0.0), Gravity, Circle((0.0, 0.0), 1.0), 3],
 )
 def test_a_force_of_the_wrong_form_is_said_in_plain_words(accuracy, force):
-    with pytest.raises(RunError, match=r"(<lambda>|Gravity|int) is called with .* and must return \(fx, fy\) in N"):
+    with pytest.raises(
+        RunError, match=r"(<lambda>|Gravity|Circle|int) is called with .* and must return \(fx, fy\) in N"
+    ):
         simulate(Setup([shot(force)], duration=1.0), accuracy)
 
 
