@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import is_dataclass
+from functools import cache
 from math import isfinite
 from typing import Any
 
@@ -11,6 +12,7 @@ from sandbox.engine.setup import Ball
 from sandbox.engine.setup_errors import is_from_inside
 from sandbox.errors import RunError
 from sandbox.physics.integrators import Acceleration, Law, State
+from sandbox.physics.straight import straight
 
 #: Everyday names of causes.
 CALLED = {"magnus": "lift", "bullet drag": "drag"}
@@ -31,48 +33,61 @@ def _place(state: State) -> tuple[Any, ...]:
     return position
 
 
+#: A law as straight Python.
+_LAW = """
+  mass, inertia = ball.mass, ball.inertia
+  def law(t, state):
+    {place}
+    try:
+      {terms}
+      fx, fy, turning = {sums}
+    except (TypeError, ValueError, OverflowError) as error:
+      if is_from_inside(error):
+        raise
+      raise refused(ball, t, state) from None
+    if not isinstance(fx + fy + turning, float) and isinstance(spin, float):
+      raise refused(ball, t, state)
+    return fx / (mass{left}), fy / (mass{left}), turning / (inertia{left})
+  return law
+"""
+
+
 def law_of(ball: Ball) -> Law:
     """The acceleration of a ball in flight from its forces and torques, in m/s^2 and rad/s^2, by time and state.
 
     It raises RunError if one of them returns anything but real numbers, or arrays for many shots.
     """
-    forces, torques = (list(map(_quick, terms)) for terms in (ball.forces, ball.torques))
-    mass, inertia, loss = ball.mass, ball.inertia, ball.loss
-
-    def law(t: Any, state: State) -> Acceleration:
-        position: tuple[Any, ...]
-        if len(state) == 5:  # as _place does, where it must be fast
-            x, y, vx, vy, spin = state
-            position, velocity = (x, y), (vx, vy)
-        else:
-            position, velocity, spin = _place(state), state[2:4], state[4]
-        fx = fy = torque = 0.0
-        term: Any = None
-        try:
-            for term in forces:
-                px, py = term(t, position, velocity, spin)
-                fx = fx + px
-                fy = fy + py
-            for term in torques:
-                torque = torque + term(t, position, velocity, spin)
-        except (TypeError, ValueError, OverflowError) as error:
-            if is_from_inside(error):
-                raise
-            raise RunError(f"{_rule(term)}: {error}") from None
-        if not isinstance(fx + fy + torque, float) and isinstance(spin, float):
-            wrong = wrong_term(ball, t, state) or "the sum of its forces and torques is not a real number"
-            raise RunError(f"t = {t:.6g} s, ball {ball.name!r}: {wrong}")
-        if loss is None:
-            return fx / mass, fy / mass, torque / inertia
-        left = ball.left(t)
-        return fx / (mass * left), fy / (mass * left), torque / (inertia * left)
-
+    written = _written_out(len(ball.forces), len(ball.torques), ball.turns, ball.loss is not None)
+    law: Law = written(ball, *map(_quick, (*ball.forces, *ball.torques)))
     return law
+
+
+@cache
+def _written_out(forces: int, torques: int, turns: bool, loses: bool) -> Any:
+    """What makes the law of a ball with so many forces and torques, which ``turns`` or ``loses`` mass."""
+    on_the_way = "x, y, vx, vy, spin = state; position, velocity = (x, y), (vx, vy)"
+    parts = {"fx": forces, "fy": forces, "turning": torques}
+    terms = [f"fx{n}, fy{n} = force{n}(t, position, velocity, spin)" for n in range(forces)]
+    terms += [f"turning{n} = torque{n}(t, position, velocity, spin)" for n in range(torques)]
+    law = _LAW.format(
+        place="position, velocity, spin = place(state), state[2:4], state[4]" if turns else on_the_way,
+        terms="; ".join(terms) or "pass",
+        sums=", ".join(" + ".join(["0.0", *(f"{part}{n}" for n in range(count))]) for part, count in parts.items()),
+        left=" * ball.left(t)" if loses else "",
+    )
+    names = [*(f"force{n}" for n in range(forces)), *(f"torque{n}" for n in range(torques))]
+    used = {"is_from_inside": is_from_inside, "place": _place, "refused": _refused}
+    return straight(f"law_of(ball, {', '.join(names)})", law.splitlines(), __file__, used)
 
 
 def _quick(term: Any) -> Any:
     """A force or torque as what Python calls with the least effort: its ``__call__``, bound, if it is data."""
     return term.__call__ if is_dataclass(type(term)) and callable(term) else term
+
+
+def _refused(ball: Ball, t: float, state: State) -> RunError:
+    wrong = wrong_term(ball, t, state) or "the sum of its forces and torques is not a real number"
+    return RunError(f"t = {t:.6g} s, ball {ball.name!r}: {wrong}")
 
 
 def acceleration(ball: Ball, t: Any, state: State) -> Acceleration:
@@ -96,10 +111,14 @@ def cause(term: object) -> str:
 def wrong_term(ball: Ball, t: float, state: State) -> str | None:
     """What a force or torque on a ball returns in place of finite numbers; None if all return those."""
     arguments = _place(state), state[2:4], state[4]
-    for term in (*ball.forces, *ball.torques):
-        found = term(t, *arguments)
-        several = isinstance(found, tuple | list) or getattr(found, "shape", ()) != ()
-        if not all(map(_is_finite, found if several else (found,))):
+    for term, parts in (*((force, 2) for force in ball.forces), *((torque, 0) for torque in ball.torques)):
+        try:
+            found: Any = term(t, *arguments)
+            several = isinstance(found, tuple | list) or getattr(found, "shape", ()) != ()
+            right = all(map(_is_finite, found if several else (found,))) and parts == (several and len(found))
+        except (TypeError, ValueError, OverflowError) as error:
+            return f"{_rule(term)}: {error}"
+        if not right:
             return f"{_rule(term)}, and returned {' '.join(repr(found).split()):.60}"
     return None
 
@@ -109,9 +128,7 @@ def _is_finite(part: Any) -> bool:
     return isinstance(part, int | float) and isfinite(part)
 
 
-def _name(term: Any) -> str:
-    if getattr(term, "__name__", "") == "__call__":
-        term = term.__self__
+def _name(term: object) -> str:
     return str(getattr(term, "__name__", type(term).__name__))
 
 

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 
-def straight(head: str, lines: Iterable[str], file: str) -> Any:
-    """The function ``def head:`` with these lines; ``file`` is where it was written out."""
-    scope: dict[str, Any] = {}
+def straight(head: str, lines: Iterable[str], file: str, names: Mapping[str, Any] = {}) -> Any:
+    """The function ``def head:`` with these lines, in which ``names`` are known; ``file`` is where it was written
+    out."""
+    scope = dict(names)
     exec(compile("\n ".join([f"def {head}:", *lines]), f"{file}:{head}", "exec"), scope)
     return scope[head.partition("(")[0]]
