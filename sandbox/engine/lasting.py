@@ -77,7 +77,7 @@ class LastingContact(NamedTuple):
             alpha = applied[2] + friction / (ball.inertia_factor * ball.radius)
             spare = 0.0
         else:
-            a, spare = _rolling(ball, surface, along, applied[2], pressed, self.direction)
+            a, spare, _ = _rolling(ball, surface, along, applied[2], pressed, self.direction)
             alpha = -a / ball.radius
         speed = state[2] * tx + state[3] * ty
         centripetal = curvature * speed * speed
@@ -116,8 +116,7 @@ def motion_on(
     stands = abs(speed) <= STILL
     drive = choose(stands, along - ball.inertia_factor * ball.radius * turning, speed)
     direction = choose(drive > 0.0, 1.0, -1.0)
-    a, spare = _rolling(ball, surface, along, turning, pressed, direction)
-    needed = _friction_of_rolling(ball, along, turning)
+    a, spare, needed = _rolling(ball, surface, along, turning, pressed, direction)
     slides = abs(slip) > STILL * (1.0 + abs(speed))
     lost = (spare < 0.0) | ((spare == 0.0) & (needed != 0.0)) | slips
     rests = stands & (direction * a <= STILL)
@@ -142,21 +141,18 @@ def wedged(
     return LastingContact(PINNED, obstacle, a, 1.0 if spin > 0.0 else -1.0, rate)
 
 
-def _rolling(ball: Ball, surface: Surface, along: Any, turning: Any, pressed: Any, direction: Any) -> tuple[Any, Any]:
-    """Acceleration in m/s^2 along the surface of a ball that rolls in ``direction``, and the remaining grip.
+def _rolling(
+    ball: Ball, surface: Surface, along: Any, turning: Any, pressed: Any, direction: Any
+) -> tuple[Any, Any, Any]:
+    """Of a ball that rolls in ``direction``, in m/s^2: the acceleration along the surface, the remaining grip, and what
+    friction must add to keep it rolling without resistance.
 
     ``along`` and ``pressed`` (m/s^2) are the accelerations from the applied force along the surface and onto it,
     ``turning`` (rad/s^2) that from the torque. Friction, up to ``mu N``, keeps the ball rolling and transmits the
     rolling resistance. If the remaining grip is negative, friction cannot keep the ball rolling, and it slides.
     """
-    grip = surface.friction * pressed
-    needed = _friction_of_rolling(ball, along, turning)
+    grip, factor = surface.friction * pressed, ball.inertia_factor
+    needed = -(factor * along + factor * ball.radius * turning) / (1.0 + factor)
     friction = needed - direction * surface.rolling_resistance * pressed
     friction = clip(friction, -grip, grip)
-    return along + friction, grip * WITHIN_ROUNDING - abs(needed)
-
-
-def _friction_of_rolling(ball: Ball, along: Any, turning: Any) -> Any:
-    """Acceleration in m/s^2 that friction must add to keep a ball rolling."""
-    factor = ball.inertia_factor
-    return -(factor * along + factor * ball.radius * turning) / (1.0 + factor)
+    return along + friction, grip * WITHIN_ROUNDING - abs(needed), needed

@@ -46,10 +46,8 @@ def setup_errors_named() -> Iterator[None]:
 
 def _is_ours(error: BaseException) -> bool:
     """Whether it was raised by the engine, sandbox.physics or pymunk, and not by a scene's own code."""
-    trace = error.__traceback__
-    while trace is not None and trace.tb_next is not None:
-        trace = trace.tb_next
-    file = Path(trace.tb_frame.f_code.co_filename) if trace is not None else Path()
-    return (
-        file.is_relative_to(_PACKAGE / "engine") or file.is_relative_to(_PACKAGE / "physics") or "pymunk" in file.parts
-    )
+    from traceback import walk_tb  # here, not above: no run without an error needs it
+
+    *_, (frame, _) = walk_tb(error.__traceback__)
+    file = Path(frame.f_code.co_filename)
+    return any(file.is_relative_to(_PACKAGE / room) for room in ("engine", "physics")) or "pymunk" in file.parts
