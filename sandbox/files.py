@@ -15,6 +15,9 @@ from typing import Any, TextIO
 from sandbox.errors import RequestError, RunError
 from sandbox.text import shortened
 
+#: Smallest and largest pictures, in px.
+SMALLEST, LARGEST = (320, 180), (7680, 4320)
+
 
 def reason(error: OSError) -> str:
     """The system's message: ``"permission denied"``."""
@@ -51,6 +54,13 @@ def check_folder(option: str, path: Path) -> None:
     if path.exists() and not path.is_dir():
         raise RequestError(f"{option} {path}: is a file; a folder is needed")
     _check_folder(option, next(folder for folder in (path, *path.absolute().parents) if folder.exists()))
+
+
+def check_size(named: str, size: tuple[int, int]) -> None:
+    """Raise RequestError if a picture of this size in px, ``named`` like that, would be too small or too large."""
+    if not all(least <= side <= most for least, side, most in zip(SMALLEST, size, LARGEST, strict=True)):
+        bounds = " and ".join(f"{across}x{up}" for across, up in (SMALLEST, LARGEST))
+        raise RequestError(f"{named}: must be between {bounds} px")
 
 
 def check_installed(option: str, package: str) -> None:

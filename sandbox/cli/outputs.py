@@ -11,13 +11,13 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from sandbox.errors import RequestError
-from sandbox.files import writing
+from sandbox.files import LARGEST, SMALLEST, check_size, writing
 
 if TYPE_CHECKING:
     from sandbox.engine.run import Run
 
-#: Smallest and largest pictures, in px, and the default.
-SMALLEST, LARGEST, USUAL = (320, 180), (7680, 4320), (1280, 720)
+#: The size of pictures in px, unless another is asked for.
+USUAL = (1280, 720)
 #: GIFs are made of so many px and frames, unless others are asked for: the largest, of a long flight, has 5 MB then.
 SMALL, MOST_FRAMES = (800, 450), 450
 
@@ -183,7 +183,5 @@ def read_size(text: str) -> Size:
     if len(sides) != 2 or not all(side.isdecimal() for side in sides):
         raise RequestError(f"--size {shortened(text)}: must be width and height in px, such as 1280x720")
     width, height = (int(side) if len(side) < 9 else LARGEST[0] + 1 for side in sides)
-    if not (SMALLEST[0] <= width <= LARGEST[0] and SMALLEST[1] <= height <= LARGEST[1]):
-        bounds = " and ".join(f"{across}x{up}" for across, up in (SMALLEST, LARGEST))
-        raise RequestError(f"--size {shortened(text)}: must be between {bounds} px")
+    check_size(f"--size {shortened(text)}", (width, height))
     return width, height

@@ -55,6 +55,8 @@ class Plan:
     def __post_init__(self) -> None:
         if not self.axes:
             raise RequestError("nothing to sweep over: name at least one parameter")
+        if self.samples < 0 or self.seed < 0:
+            raise RequestError(f"samples = {self.samples}, seed = {self.seed}: must not be less than 0")
         keys = [axis.key for axis in self.axes]
         for key in keys:
             if keys.count(key) > 1:

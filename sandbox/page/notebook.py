@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 from PIL import Image
 
 from sandbox.errors import RequestError
+from sandbox.files import check_size
 from sandbox.page.parts import html, picture, table
 from sandbox.page.replay import page_of
 from sandbox.parameters import walk
@@ -63,6 +64,8 @@ def frame(run: Run, t: float, size: Size | None) -> Image.Image:
 
 def animate(run: Run, path: Path | str | None, size: Size | None, fps: float) -> Animation | None:
     """The run in motion: written to ``path``, or handed back."""
+    if not 1 <= fps <= 240:
+        raise RequestError(f"fps = {fps:g}: must be from 1 to 240")
     drawn = _picture(run, size or MOVING)
     if path is not None:
         _check(path, *WRITERS)
@@ -77,6 +80,7 @@ def animate(run: Run, path: Path | str | None, size: Size | None, fps: float) ->
 def _picture(run: Run, size: Size) -> Any:
     if run.scene is None:
         raise RequestError("only a run of a scene has a picture: give what sandbox.simulate(scene) returns")
+    check_size(f"size = {size}", size)
     return run.scene.picture(run, size)
 
 

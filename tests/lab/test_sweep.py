@@ -135,6 +135,7 @@ def test_random_points_are_the_same_however_they_are_taken(drop):
         ((), {}, "nothing to sweep over"),
         (("launch.height=1:2",), {}, "--over launch.height=1:2: a grid needs the number of points, 1:2:N"),
         (("launch.height=1:2:2", "launch.height=3,4"), {}, "swept over twice"),
+        (("launch.height=1:2",), {"samples": -1}, "samples = -1, seed = 0: must not be less than 0"),
         (("launch.height=1:2:1000000", "launch.speed=1:2:1000000"), {}, "too many"),
     ],
 )

@@ -54,6 +54,10 @@ def test_pictures_of_a_run(tmp_path: Path):
     assert (tmp_path / "a.gif").read_bytes()[:3] == b"GIF"
     with pytest.raises(RequestError, match=r"must end in \.gif or \.webp"):
         run.animate(tmp_path / "a.mov")
+    with pytest.raises(RequestError, match="fps = 0: must be from 1 to 240"):
+        run.animate(fps=0)
+    with pytest.raises(RequestError, match=r"size = \(0, 0\): must be between 320x180"):
+        run.poster(size=(0, 0))
     times = [0.0, 0.5, 1.0]
     assert np.array_equal(run.states(times, "shot" if "shot" in run.arcs else "ball")[1], run.state("ball", 0.5))
     state = run.state("ball", 0.5)
