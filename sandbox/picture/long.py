@@ -15,9 +15,10 @@ import pygame
 
 from sandbox.picture.above import AboveView
 from sandbox.picture.camera import Box, Camera
+from sandbox.picture.marks import mark_impacts
 from sandbox.picture.painter import Painter
 from sandbox.picture.palette import Colour, palette
-from sandbox.picture.path import Mark, mark_impacts
+from sandbox.picture.path import Mark
 from sandbox.picture.places.plan import Ground, drawn
 from sandbox.picture.sheet import Sheet
 from sandbox.picture.view import P

@@ -1,11 +1,11 @@
-"""The path of a ball as pictures show it: its trace, the ball at even times, where it struck something."""
+"""The path of a ball as pictures show it, as numbers: its points, the ball at even times, where it struck something."""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import chain
-from math import atan2, ceil, dist, floor, hypot, inf, pi
+from math import ceil, floor, inf
 
 import numpy as np
 
@@ -16,13 +16,7 @@ from sandbox.engine.nearest import Pose, meeting_points, nearest
 from sandbox.engine.run import Run
 from sandbox.engine.setup import outline_of
 from sandbox.engine.shapes import Shape
-from sandbox.picture.camera import Camera
-from sandbox.picture.lettering import around
-from sandbox.picture.palette import Colour, palette
-from sandbox.picture.sheet import Sheet, nice
-from sandbox.sport.amounts import amount
-
-CARD, TRACE = palette("card"), palette("trace")
+from sandbox.sport.amounts import nice
 
 #: The path is sampled this often in s; of a long run, in so many pieces.
 SAMPLING, MOST_SAMPLES = 1 / 120, 5000
@@ -30,9 +24,6 @@ SAMPLING, MOST_SAMPLES = 1 / 120, 5000
 FINEST = 1.5
 #: At most so many balls are drawn along a path, or along that part of it that matters.
 BALLS = 14
-
-#: A label this far from its mark, in px on 720 rows, has a line that leads to it.
-FARTHER = (25, 36, 50)
 
 #: Points on each arc of a path. The arcs of a drive are seconds long, and its line must still look smooth.
 POINTS = 9
@@ -165,51 +156,3 @@ def points(paths: Sequence[tuple[Run, str]]) -> list[np.ndarray]:
 def moves(run: Run, ball: str) -> bool:
     """Whether a ball moves at all."""
     return any(len(arc.x) > 1 or len(arc.y) > 1 for arc in run.arcs[ball])
-
-
-def draw_trace(sheet: Sheet, points: np.ndarray, colour: Colour, share: float = 1.0) -> None:
-    """The path as a thick line with a thin dark rim, or a ``share`` as thick; no label will be placed on it."""
-    sheet.labels.take_path(points, 4 * sheet.unit)
-    width = share * max(2.5, 4.5 * sheet.unit)
-    sheet.painter.trace(points, width, colour, TRACE["rim"], max(0.75, sheet.unit))
-
-
-def draw_mark(sheet: Sheet, at: tuple[float, float]) -> None:
-    """Where a ball struck something."""
-    radius = max(2.5, 4.2 * sheet.unit)
-    sheet.painter.disc(at, radius + max(0.8, 1.2 * sheet.unit), TRACE["rim"], 0.8)
-    sheet.painter.disc(at, radius, CARD["accent"])
-    sheet.painter.disc(at, 0.4 * radius, CARD["background"])
-
-
-def mark_impacts(
-    sheet: Sheet, camera: Camera, marks: Iterable[Mark], last: tuple[tuple[float, float], float] | None = None
-) -> None:
-    """Impacts as marks with the speed at which the ball came.
-
-    The ball in its ``last`` place, of a radius, lies over them; in px.
-    """
-    places = [(camera.pixel(*mark.at), mark) for mark in marks]
-    for at, _ in places:
-        if last is None or dist(at, last[0]) > last[1]:
-            draw_mark(sheet, at)
-        sheet.labels.take_path([at], 4 * sheet.unit)
-    for at, mark in places:
-        label_mark(sheet, at, mark.towards, amount(mark.speed, "m/s", 1))
-
-
-def label_mark(sheet: Sheet, at: tuple[float, float], towards: tuple[float, float], text: str) -> None:
-    """A text on a dark chip beside a mark, rather on the side of what was struck (``towards``), if there is room.
-
-    Where the chip is far from the mark, a thin line leads to it.
-    """
-    unit, first = sheet.unit, atan2(towards[1], towards[0])
-    turns = [first + turn for turn in (0.0, 0.6, -0.6, 1.2, -1.2, 1.9, -1.9, pi)]
-    placed = sheet.chip(text, around(at, [far * unit for far in (9, 16, *FARTHER)], turns))
-    if placed is None:
-        return
-    near = min(max(at[0], placed.left), placed.right), min(max(at[1], placed.top), placed.bottom)
-    length = hypot(near[0] - at[0], near[1] - at[1])
-    if length > FARTHER[0] * unit * 0.9:
-        start = at[0] + (near[0] - at[0]) * 4.2 * unit / length, at[1] + (near[1] - at[1]) * 4.2 * unit / length
-        sheet.painter.line([start, near], max(1.0, 1.3 * unit), CARD["text"], 0.8)

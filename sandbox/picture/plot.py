@@ -11,8 +11,8 @@ import numpy as np
 import pygame
 
 from sandbox.picture.palette import Colour, palette
-from sandbox.picture.sheet import CARD, Sheet, nice
-from sandbox.sport.amounts import signed
+from sandbox.picture.sheet import CARD, Sheet
+from sandbox.sport.amounts import nice, signed
 
 CHART = palette("energy")
 

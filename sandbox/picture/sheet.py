@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from contextvars import ContextVar
-from math import ceil, floor, hypot, log10
+from math import ceil, floor, hypot
 from typing import NamedTuple
 
 import numpy as np
@@ -14,7 +14,7 @@ from sandbox.picture.camera import Camera
 from sandbox.picture.lettering import Labels, Lettering, Spot
 from sandbox.picture.painter import Painter, blank
 from sandbox.picture.palette import Colour, palette
-from sandbox.sport.amounts import amount, scale_unit, signed
+from sandbox.sport.amounts import amount, nice, scale_unit, signed
 from sandbox.units import convert
 
 CARD = palette("card")
@@ -283,9 +283,3 @@ class Sheet:
         text = f"{number:g} {unit}"
         middle = start + max(wide, self.lettering.width(text, "small")) / 2
         self.write(text, "small", (middle, row - tall / 2), self.quiet_ink, "midbottom")
-
-
-def nice(least: float) -> float:
-    """The smallest of 1, 2, 5, 10, 20, ... times a power of ten that is at least this."""
-    power = 10.0 ** floor(log10(least))
-    return next(factor * power for factor in (1, 2, 5, 10) if factor * power >= least * 0.999)

@@ -15,9 +15,10 @@ from sandbox.picture.ball import mark_radius
 from sandbox.picture.camera import Area, Box, Camera
 from sandbox.picture.chase import Chase
 from sandbox.picture.depth import Eye
+from sandbox.picture.marks import draw_mark, label_mark
 from sandbox.picture.painter import Painter, Point
 from sandbox.picture.palette import Colour
-from sandbox.picture.path import FINEST, apart, draw_mark, label_mark
+from sandbox.picture.path import FINEST, apart
 from sandbox.picture.places import Ground, Scenery, Thing
 from sandbox.picture.sheet import CARD, Entry, Sheet, SideRows
 from sandbox.picture.view import P, View

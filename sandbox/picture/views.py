@@ -6,9 +6,10 @@ from sandbox.picture.camera import Area, Box, Camera
 from sandbox.picture.depth import Eye
 from sandbox.picture.long import LongView
 from sandbox.picture.painter import Painter
-from sandbox.picture.sheet import Entry, Sheet, SideRows, nice
+from sandbox.picture.sheet import Entry, Sheet, SideRows
 from sandbox.picture.side import Length, NetView, Place, SideView
 from sandbox.picture.view import View
+from sandbox.sport.amounts import nice
 
 __all__ = [
     "AboveView", "Area", "Box", "Camera", "Entry", "Eye", "Length", "LongView", "Look", "Mark",

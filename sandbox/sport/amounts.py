@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
+from math import floor, log10
 from typing import NamedTuple
 
 from sandbox import units
@@ -182,3 +183,9 @@ def roughly(value: float) -> str:
 def times(factor: float) -> str:
     """How many times as large: 1.4 times, 86 times."""
     return f"{factor:.{0 if factor >= 9.95 else 1}f} times"
+
+
+def nice(least: float) -> float:
+    """The smallest of 1, 2, 5, 10, 20, ... times a power of ten that is at least this."""
+    power = 10.0 ** floor(log10(least))
+    return next(factor * power for factor in (1, 2, 5, 10) if factor * power >= least * 0.999)

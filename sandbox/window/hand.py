@@ -10,7 +10,7 @@ import pygame
 
 from sandbox.picture.camera import Camera
 from sandbox.picture.palette import palette
-from sandbox.picture.sheet import nice
+from sandbox.sport.amounts import nice
 from sandbox.window.canvas import Canvas
 from sandbox.window.handles import Grip
 from sandbox.window.stage import Stage

@@ -10,9 +10,10 @@ import numpy as np
 import pygame
 
 from sandbox.picture.lettering import Labels
+from sandbox.picture.marks import draw_trace, mark_impacts
 from sandbox.picture.painter import around_corners
 from sandbox.picture.palette import palette, scene_colours
-from sandbox.picture.path import Mark, draw_trace, mark_impacts
+from sandbox.picture.path import Mark
 from sandbox.picture.views import Camera, Eye, Sheet, SideView
 
 from .scene import Parameters
