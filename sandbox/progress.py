@@ -49,7 +49,7 @@ def bar(what: str) -> Iterator[Callable[[float, float], None]]:
 def _write(line: str) -> None:
     """Over the line before, within the terminal's width; an empty one leaves the line empty."""
     width = shutil.get_terminal_size((80, 24)).columns - 1
-    sys.stderr.write(f"\r{line[:width]:{width}}" + "\r" * (not line))
+    sys.stderr.write("\r" + line[:width].ljust(width) + "\r" * (not line))
     sys.stderr.flush()
 
 

@@ -164,7 +164,8 @@ def sweep(
         with writing("--html", html):
             save(page.page_of(plan, out, of), html)
     if str(out) != "/dev/stdout":
-        written = [f"wrote {path}" for path in (out, plot, html) if path is not None]
+        new = out if done.points > done.resumed else None
+        written = [f"wrote {path}" for path in (new, plot, html) if path is not None]
         say("\n".join([done.as_text(), *written]))
     if done.failures == done.points - done.resumed > 0:
         raise RunError(f"every point failed, the first with: {done.first_error}")

@@ -189,8 +189,8 @@ def _offered(name: str = "") -> dict[str, Path]:
     """The folders of all scenes that other installed packages offer, or of one, by their names."""
     from importlib.metadata import entry_points
 
-    points = entry_points(group=ENTRY_POINTS, name=name) if name else entry_points(group=ENTRY_POINTS)
-    folders = {point.name: _folder_of(point.value) for point in points}
+    points = entry_points(group=ENTRY_POINTS)
+    folders = {point.name: _folder_of(point.value) for point in points if name in ("", point.name)}
     return {found: folder for found, folder in folders.items() if folder is not None}
 
 
