@@ -35,19 +35,21 @@ class Pointer:
             return
         if len(self.fingers) > 1 and getattr(event, "touch", False):
             return
+        x, y = getattr(event, "pos", (0, 0))
+        at = round(view.shrunk * x), round(view.shrunk * y)
         match event.type:
             case pygame.MOUSEMOTION:
                 if self.drag is not None:
-                    self.drag(event.pos)
-                view.at = event.pos
+                    self.drag(at)
+                view.at = at
             case pygame.MOUSEBUTTONDOWN if event.button == pygame.BUTTON_LEFT:
-                view.at = event.pos
-                self.drag = self._pressed(event.pos)
+                view.at = at
+                self.drag = self._pressed(at)
             case pygame.MOUSEBUTTONDOWN if event.button == pygame.BUTTON_RIGHT:
-                self.drag = self._lay(event.pos)
+                self.drag = self._lay(at)
             case pygame.MOUSEBUTTONDOWN if event.button == pygame.BUTTON_MIDDLE:
-                view.at = event.pos
-                self.drag = self._pan if view.area.collidepoint(event.pos) else None
+                view.at = at
+                self.drag = self._pan if view.area.collidepoint(at) else None
             case pygame.MOUSEBUTTONUP if event.button == pygame.BUTTON_LEFT:
                 self._released()
             case pygame.MOUSEBUTTONUP if event.button in (pygame.BUTTON_RIGHT, pygame.BUTTON_MIDDLE):

@@ -42,7 +42,7 @@ if TYPE_CHECKING:
 CARD = palette("card")
 
 SIZE = (1280, 720)
-#: Everything is drawn at least this large; a smaller window shows a part of it.
+#: Everything is drawn at least this large, and shrunk for a smaller window.
 SMALLEST = (480, 400)
 #: While an aim changes, the stage is composed anew at most this often, in s: the place must not jitter.
 STEADY = 0.3
@@ -109,9 +109,9 @@ class View:
     def lay_out(self) -> None:
         """Places for everything, for the window's size and what is switched on."""
         self.laid_out, self.changed = self.screen.get_size(), True
-        width, height = (max(a, b) for a, b in zip(self.laid_out, SMALLEST, strict=True))
-        fits = (width, height) == self.laid_out
-        self.canvas: pygame.Surface = self.screen if fits else pygame.Surface((width, height))
+        self.shrunk = max(1.0, *(least / px for least, px in zip(SMALLEST, self.laid_out, strict=True)))
+        width, height = (round(self.shrunk * px) for px in self.laid_out)
+        self.canvas: pygame.Surface = self.screen if self.shrunk == 1.0 else pygame.Surface((width, height))
         rows = rows_of((width, height))
         tall = round(HEIGHT * rows / 720)
         self.bar = Bar(pygame.Rect(0, height - tall, width, tall), rows)
@@ -408,7 +408,7 @@ class View:
             sheet = Canvas(self.canvas.subsurface((0, 0), (self.canvas.get_width(), self.area.height)))
             self.over.draw(sheet, self.at, self.switched)
         if self.canvas is not self.screen:
-            self.screen.blit(self.canvas, (0, 0))
+            self.screen.blit(pygame.transform.smoothscale(self.canvas, self.laid_out), (0, 0))
         if self.caption != self.game.session.title:
             self.caption = self.game.session.title
             pygame.display.set_caption(f"{self.caption} – Sports sandbox")

@@ -210,9 +210,15 @@ def test_any_size_is_drawn(player, size):
     player = player("golf")
     player.screen = pygame.display.set_mode(size, pygame.RESIZABLE)
     player.send(pygame.VIDEORESIZE, size=size, w=size[0], h=size[1])
-    assert picture(player).std() > 10
-    assert player.view.bar.rect.bottom == max(size[1], SMALLEST[1])
-    assert player.view.stage.size[0] == max(size[0], SMALLEST[0])
+    bar = player.view.bar
+    scale = min(1.0, *(px / least for px, least in zip(size, SMALLEST, strict=True)))  # all of it is seen
+    assert bar.rect.bottom * scale == pytest.approx(size[1], abs=1)
+    assert player.view.stage.size[0] * scale == pytest.approx(size[0], abs=1)
+    assert picture(player)[:, : round(scale * bar.rect.top)].std() > 10
+    assert picture(player)[:, round(scale * bar.rect.top) + 1 :].std() > 10
+    player.click(tuple(round(scale * px) for px in bar.buttons["see"].center))
+    assert player.view.over.name == "see"
+    player.key(pygame.K_ESCAPE)
     player.pull((-60, 20))
     player.frames(3)
     player.key(pygame.K_h)
