@@ -226,9 +226,13 @@ def test_cells():
 # The file ------------------------------------------------------------------------------------------------------------
 
 
-def whole(plan: Plan, path: Path) -> bytes:
+def swept(plan: Plan, path: Path) -> Written:
     with workers(1) as pool:
-        sweep_to_file(plan, path, pool)
+        return sweep_to_file(plan, path, pool)
+
+
+def whole(plan: Plan, path: Path) -> bytes:
+    swept(plan, path)
     assert not path.with_name(path.name + ".resume").exists()
     return path.read_bytes()
 
@@ -246,8 +250,7 @@ def resumed(plan: Plan, path: Path, left: bytes) -> Written:
     """A sweep into a file in which an interrupted one left this."""
     path.write_bytes(left)
     path.with_name(f"{path.name}.resume").write_text(plan.fingerprint + "\n")
-    with workers(1) as pool:
-        return sweep_to_file(plan, path, pool)
+    return swept(plan, path)
 
 
 @pytest.mark.parametrize("kept", [0.05, 0.3, 0.61, 0.98])
@@ -335,11 +338,8 @@ def test_another_sweep_begins_anew_but_never_over_one_that_was_interrupted(drop,
         file.append([{"launch.height": 9.0, "error": ""}])
     kept = path.read_bytes()
     other = grid(drop, "launch.height=0.5:2:3")
-    with (
-        workers(1) as pool,
-        pytest.raises(RequestError, match=r"rows\.csv: contains rows of another interrupted sweep"),
-    ):
-        sweep_to_file(other, path, pool)
+    with pytest.raises(RequestError, match=r"rows\.csv: contains rows of another interrupted sweep"):
+        swept(other, path)
     assert path.read_bytes() == kept
     path.with_name("rows.csv.resume").unlink()
     assert whole(other, path) == whole(other, tmp_path / "fresh.csv")
@@ -359,8 +359,7 @@ def test_what_another_sweep_found_is_kept_and_the_same_rows_are_not(drop, tmp_pa
         assert sweep_to_file(first, path, pool).resumed == 0
     assert (path.read_bytes(), before.exists()) == (found, True)
     before.unlink()
-    with workers(1) as pool:
-        done = sweep_to_file(other, path, pool)
+    done = swept(other, path)
     assert (before.read_bytes(), done.before) == (found, before)
     assert f"the previous rows are in {before}" in done.as_text()
     assert path.read_bytes() == whole(other, tmp_path / "fresh.csv") != found
@@ -449,8 +448,8 @@ def test_the_columns_are_those_of_the_plan_whatever_fails_first(drop, tmp_path):
 def test_a_full_disk_is_told(drop):
     if not Path("/dev/full").is_char_device():
         pytest.skip("needs /dev/full")
-    with workers(1) as pool, pytest.raises(RunError, match="--out /dev/full: cannot be written: no space left"):
-        sweep_to_file(grid(drop, "launch.height=0.5:2:3"), Path("/dev/full"), pool)
+    with pytest.raises(RunError, match="--out /dev/full: cannot be written: no space left"):
+        swept(grid(drop, "launch.height=0.5:2:3"), Path("/dev/full"))
 
 
 def started(*args: object) -> subprocess.Popen[str]:
@@ -577,16 +576,23 @@ def test_a_point_that_kills_its_process_is_a_row(tmp_path):
     assert all("final_height" in row for row in rows if not row["error"])
 
 
-def test_a_cluster_that_loses_a_worker_loses_nothing():
+def local_cluster(workers: int, **how: Any) -> Any:
+    """On loopback: nothing here may be reached from outside."""
     distributed = pytest.importorskip("distributed")
+    quiet = {"host": "127.0.0.1", "dashboard_address": None, "silence_logs": 50}
+    return distributed.LocalCluster(n_workers=workers, **quiet, **how)
+
+
+#: Its workers are threads of this process.
+THREADS = {"processes": False, "protocol": "tcp://"}
+
+
+def test_a_cluster_that_loses_a_worker_loses_nothing():
     plan = grid(load("basketball"), "launch.speed=6:9:13", "launch.angle=40:60:5")
     with workers(1) as pool:
         expected = [row for some in RowsInOrder(plan, pool) for row in some]
     killed: list[int] = []
-    # everything on loopback: nothing here may be reached from outside
-    with distributed.LocalCluster(
-        n_workers=2, threads_per_worker=1, host="127.0.0.1", dashboard_address=None, silence_logs=50
-    ) as cluster:
+    with local_cluster(2, threads_per_worker=1) as cluster:
 
         def kill_one(done: int, total: int) -> None:
             if done > 5 and not killed:
@@ -601,13 +607,10 @@ def test_a_cluster_that_loses_a_worker_loses_nothing():
 
 @pytest.mark.parametrize("loss", ["workers", "scheduler"])
 def test_a_cluster_that_goes_away_is_told_in_a_line(tmp_path, monkeypatch, one_at_a_time, loss):
-    distributed = pytest.importorskip("distributed")
     monkeypatch.setattr(cluster_of, "ARRIVAL", 0.5)
     plan = grid(load(own_scene(tmp_path, "    import time\n    time.sleep(0.02)\n")), "launch.height=0.5:2:400")
     path = tmp_path / "rows.csv"
-    with distributed.LocalCluster(
-        n_workers=1, processes=False, protocol="tcp://", host="127.0.0.1", dashboard_address=None, silence_logs=50
-    ) as cluster:
+    with local_cluster(1, **THREADS) as cluster:
 
         def lose(done: int, total: int) -> None:
             if done > 5:
@@ -626,7 +629,7 @@ def test_a_cluster_that_goes_away_is_told_in_a_line(tmp_path, monkeypatch, one_a
 
 
 def test_a_cluster_that_cannot_compute_is_told_in_a_line(monkeypatch):
-    distributed = pytest.importorskip("distributed")
+    nobody = local_cluster(0, **THREADS)
     monkeypatch.setattr(cluster_of, "ANSWER", 1.0)
     monkeypatch.setattr(cluster_of, "ARRIVAL", 0.5)
     with pytest.raises(RequestError, match="--scheduler no address: write it as"), workers(1, "no address"):
@@ -637,9 +640,6 @@ def test_a_cluster_that_cannot_compute_is_told_in_a_line(monkeypatch):
         address = f"tcp://127.0.0.1:{deaf.getsockname()[1]}"
         with pytest.raises(RunError, match=f"--scheduler {address}: no Dask scheduler there"), workers(1, address):
             pass
-    nobody = distributed.LocalCluster(
-        n_workers=0, processes=False, protocol="tcp://", host="127.0.0.1", dashboard_address=None, silence_logs=50
-    )
     with nobody, pytest.raises(RunError, match="it has no workers, and none connected within"):
         workers(1, nobody.scheduler_address).__enter__()
 
