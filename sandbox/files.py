@@ -112,6 +112,13 @@ def json_ready(value: Any) -> Any:
     return None if isinstance(value, float) and not isfinite(value) else value
 
 
+def json_text(value: Any) -> str:
+    """JSON of numbers, words and lists; NaN and infinities are null. Raises TypeError for other values."""
+    import json
+
+    return json.dumps(json_ready(value), allow_nan=False, ensure_ascii=False)
+
+
 @contextmanager
 def written_whole(path: Path) -> Iterator[TextIO]:
     """A text file that appears under its name only when complete; a device such as /dev/stdout is written directly."""

@@ -72,26 +72,19 @@ def read(path: Path) -> Record:
 
 def as_text(recorded: Record) -> str:
     """JSON with one row per line, so that a change of one number changes one line."""
-    parts = []
-    for key, value in recorded.items():
-        if key == "events":
-            text = _lines("[", (json.dumps(row, ensure_ascii=False) for row in value), "]")
-        elif key == "states":
-            balls = (
-                f"{json.dumps(name)}: {_lines('[', map(json.dumps, rows), ']', 2)}" for name, rows in value.items()
-            )
-            text = _lines("{", balls, "}")
-        elif isinstance(value, Mapping):
-            text = _lines("{", (f"{json.dumps(k)}: {json.dumps(v, ensure_ascii=False)}" for k, v in value.items()), "}")
-        else:
-            text = json.dumps(value)
-        parts.append(f"{json.dumps(key)}: {text}")
-    return "{\n" + ",\n".join(f" {part}" for part in parts) + "\n}\n"
+    return _lines(recorded, 0) + "\n"
 
 
-def _lines(opening: str, rows: Iterator[str], closing: str, deep: int = 1) -> str:
-    inner = ",\n".join(" " * (deep + 1) + row for row in rows)
-    return f"{opening}\n{inner}\n{' ' * deep}{closing}" if inner else opening + closing
+def _lines(value: Any, deep: int) -> str:
+    """Of a table, or of a list of rows, a line for each entry; what is deeper than the states of a ball is on one."""
+    if isinstance(value, Mapping) and deep < 2:
+        brackets, entries = "{}", [f"{json.dumps(key)}: {_lines(entry, deep + 1)}" for key, entry in value.items()]
+    elif isinstance(value, list) and deep < 3 and all(isinstance(row, list) for row in value):
+        brackets, entries = "[]", [json.dumps(row, ensure_ascii=False) for row in value]
+    else:
+        return json.dumps(value, ensure_ascii=False)
+    inner = ",\n".join(" " * (deep + 1) + entry for entry in entries)
+    return f"{brackets[0]}\n{inner}\n{' ' * deep}{brackets[1]}" if inner else brackets
 
 
 def first_change(expected: Record, actual: Record, tolerance: float = TOLERANCE) -> tuple[float, str] | None:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from sandbox.engine.ledger import warnings
 from sandbox.errors import RunError
-from sandbox.files import json_ready, written_whole
+from sandbox.files import json_ready, json_text, written_whole
 from sandbox.lab.tables import paragraph, table
 from sandbox.scene.checking import NUDGE
 from sandbox.sport.amounts import margin
@@ -54,7 +54,7 @@ def as_json(scene: Scene, run: Run, check: Check | None = None, other: Run | Non
             "changed": check.unsettled,
         }
     try:
-        return json.dumps(json_ready(report), allow_nan=False, ensure_ascii=False)
+        return json_text(report)
     except TypeError as error:  # a result with other values than numbers, words and lists of them
         raise RunError(f"{scene.name}: its result cannot be written as JSON: {error}") from None
 

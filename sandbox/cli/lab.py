@@ -8,9 +8,9 @@ from typing import Any
 import click
 
 from sandbox.cli.arguments import changes_options, json_option, load, optional_scene, scene_argument
-from sandbox.cli.say import json_text, say
+from sandbox.cli.say import say
 from sandbox.errors import RequestError, RunError
-from sandbox.files import writing
+from sandbox.files import json_text, writing
 
 
 @click.command()

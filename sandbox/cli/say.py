@@ -1,9 +1,8 @@
-"""Printing on stdout, and JSON text."""
+"""Printing on stdout."""
 
 from __future__ import annotations
 
 import sys
-from typing import Any
 
 import click
 
@@ -24,12 +23,3 @@ def say(text: str) -> None:
         from sandbox.files import reason
 
         raise RunError(f"stdout cannot be written: {reason(error)}") from None
-
-
-def json_text(value: Any) -> str:
-    """JSON of numbers, words and lists; NaN and infinities are null."""
-    import json
-
-    from sandbox.files import json_ready
-
-    return json.dumps(json_ready(value), allow_nan=False, ensure_ascii=False)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import base64
 import io
-import json
 import zlib
 from collections.abc import Iterable, Mapping
 from functools import cache
@@ -17,7 +16,7 @@ from typing import Any
 import numpy as np
 from PIL import Image
 
-from sandbox.files import json_ready, written_whole
+from sandbox.files import json_text, written_whole
 from sandbox.picture.palette import ASSETS, Colour
 from sandbox.text import one_line
 
@@ -58,7 +57,7 @@ def css(colour: Colour) -> str:
 
 def packed(data: Any) -> str:
     """Data as JSON, with all digits of its numbers, deflated and in letters."""
-    return _letters(json.dumps(json_ready(data), allow_nan=False, ensure_ascii=False).encode())
+    return _letters(json_text(data).encode())
 
 
 def _letters(data: bytes) -> str:

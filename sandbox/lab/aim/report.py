@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator, Mapping
 from dataclasses import asdict
 from pathlib import Path
@@ -10,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from sandbox.files import json_ready
+from sandbox.files import json_text
 from sandbox.lab.aim.question import GREATEST, Aim, Interval, Solution, Target, Try
 from sandbox.lab.axes import label, result_label, unit_of
 from sandbox.lab.chart import chart, legend, mark
@@ -40,7 +39,7 @@ def as_json(aim: Aim) -> str:
         "tries": len(aim.tries),
         "failures": aim.failures,
     }
-    return json.dumps(json_ready(told), allow_nan=False, ensure_ascii=False)
+    return json_text(told)
 
 
 def _solution(solution: Solution) -> dict[str, Any]:
