@@ -1,4 +1,4 @@
-"""What each command of the keys, the bar's buttons and its lists does, in one table."""
+"""Commands in one table: their keys, and what keys, the bar's buttons and its lists do."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from collections.abc import Callable
 from concurrent.futures import Future
 from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import pygame
@@ -22,7 +22,6 @@ from sandbox.window import aim, export, replay
 from sandbox.window.choice import Choice, Mark
 from sandbox.window.find import Found, Question, find, questions
 from sandbox.window.game import WIDEST
-from sandbox.window.keys import Command, name_of
 from sandbox.window.measure import Tape
 from sandbox.window.menu import Menu, thumbnail
 from sandbox.window.overlay import Board, Chart, Overlay, Row
@@ -43,6 +42,43 @@ ZOOM, PAN = 1.25, 60.0
 STEP = 12.0
 
 NO_SHOTS = "no shots yet: pull back and let go"
+
+
+class Command(NamedTuple):
+    """A command with its key, or two keys: the second does the opposite of the first."""
+
+    name: str
+    keys: tuple[str, ...]  # as named by pygame, after "ctrl " or "alt "
+    meaning: str
+    group: str
+    do: Callable[[View, float], object] | None = None  # so much of it; None: it switches its name on or off
+    mouse: str = ""  # how the mouse does the same
+    repeats: bool = False  # while the key is held
+    fine: bool = False  # a tenth with Shift
+
+    @property
+    def shown(self) -> str:
+        """Keys and mouse, for people."""
+        held = next((held for held in HELD if self.keys[0].startswith(held)), "")
+        names = [key.removeprefix(held) for key in self.keys]
+        words = [SHORT.get(name, name.upper() if len(name) == 1 else name) for name in names]
+        keys = " ".join([*filter(None, [held.strip().capitalize()]), *words])
+        return ", ".join(filter(None, (keys, self.mouse)))
+
+
+#: Modifiers that are part of a key's name here.
+HELD = ("ctrl ", "alt ")
+#: Shorter names than pygame's, and keys that do the same as others.
+SHORT = {"page down": "PgDn", "page up": "PgUp", "return": "Enter", "escape": "Esc", "space": "Space", "tab": "Tab",
+         "backspace": "Backspace", **{f"f{number}": f"F{number}" for number in range(1, 13)}}  # fmt: skip
+SAME = {"=": "+", "[+]": "+", "[-]": "-", "[0]": "0", "enter": "return", "f1": "h"}
+
+
+def name_of(key: int, modifiers: int) -> str:
+    """What a key that is pressed is called in a command's ``keys``."""
+    held = "ctrl " * bool(modifiers & pygame.KMOD_CTRL) + "alt " * bool(modifiers & pygame.KMOD_ALT)
+    name = pygame.key.name(key)
+    return held + SAME.get(name, name)
 
 
 def do(view: View, command: str, by: float = 1) -> None:
@@ -322,17 +358,9 @@ def _export(view: View, suffix: str, write: Callable[[Path], object], about: str
     game.trying(lambda: game.tell(f"wrote {export.new_file(game.session.title + about, suffix, write)}"))
 
 
-def _save_scene(view: View, by: float) -> None:
-    view.game.trying(lambda: view.game.tell(f"wrote {export.scene_file(view.game.session)}"))
-
-
 def _screenshot(view: View, by: float) -> None:
     view.draw()  # without the list that this may have been chosen from
     _export(view, ".png", partial(save_png, view.canvas))
-
-
-def _save_replay(view: View, by: float) -> None:
-    _with_shot(view, lambda shot: _export(view, replay.SUFFIX, partial(replay.save, shot)))
 
 
 def _open_replay(view: View, by: float) -> None:
@@ -426,12 +454,14 @@ TABLE: tuple[Command, ...] = (
     Command("tape", ("t",), "tape; arrows move its end, K the other", "See", _tape, mouse="right drag"),
     Command("accuracy", ("a",), "accuracy: fast, balanced, precise", "See",
             lambda view, by: view.game.trying(lambda: _accuracy(view, by))),
-    Command("save_scene", ("s",), "a scene file with what was changed", "Keep", _save_scene),
+    Command("save_scene", ("s",), "a scene file with what was changed", "Keep",
+            lambda view, by: view.game.trying(lambda: view.game.tell(f"wrote {export.scene_file(view.game.session)}"))),
     Command("copy", ("c",), "copy the command line of this shot", "Keep", _copy),
     Command("screenshot", ("f12",), "picture of the window", "Keep", _screenshot),
     Command("animation", ("f9",), "animation of the last shot", "Keep",
             lambda view, by: _with_shot(view, lambda shot: _animate(view, shot))),
-    Command("save_replay", ("f5",), "replay file of the last shot", "Keep", _save_replay),
+    Command("save_replay", ("f5",), "replay file of the last shot", "Keep",
+            lambda view, by: _with_shot(view, lambda shot: _export(view, replay.SUFFIX, partial(replay.save, shot)))),
     Command("compare", ("f6",), "compute the shot again, and compare", "Keep",
             lambda view, by: _with_shot(view, view.game.compare)),
     Command("open_replay", ("f7",), "see the newest replay; or drop one here", "Keep", _open_replay),

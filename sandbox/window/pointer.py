@@ -114,10 +114,10 @@ class Pointer:
             return self._lay(at)
         if pygame.key.get_mods() & pygame.KMOD_CTRL:
             return self._pan
-        card = view.card_at(at)
+        card = next((name for name, rect in view.cards.items() if rect.collidepoint(at)), None)
         if card == "map":
-            game.nudge(aim.aimed(game.session, *view.aim_on_map(at)))
-        elif card == "charts":
+            return self._begun(self._aim_on_map, at)
+        if card == "charts":
             commands.do(view, "graphs")
         elif (spot := view.spot_at(at)) is not None:
             view.hold()
@@ -139,6 +139,15 @@ class Pointer:
         """A drag that does something at once."""
         drag(at)
         return drag
+
+    def _aim_on_map(self, to: Place) -> None:
+        """Aim with the speed and the angle at a place of the map."""
+        view, known = self.view, self.view.maps.value
+        rect = view.cards.get("map")
+        if known is not None and rect is not None:
+            shares = (to[0] - rect.left) / rect.width, (rect.bottom - to[1]) / rect.height
+            across, up = (min(max(share, 0.0), 1.0) for share in shares)
+            view.game.nudge(aim.aimed(view.game.session, *known.aim(across, up)))
 
     def _pan(self, to: Place) -> None:
         self.view.pan(to[0] - self.view.at[0], to[1] - self.view.at[1])

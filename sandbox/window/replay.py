@@ -9,6 +9,8 @@ from math import isfinite
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from sandbox.engine.accuracy import Accuracy
 from sandbox.engine.arc import Arc
 from sandbox.engine.lasting import LastingContact
@@ -98,12 +100,9 @@ def compared(recorded: Run, again: Run) -> str:
     """In words, how far apart a recorded run and the same shot, simulated again, are."""
     if again.arcs.keys() != recorded.arcs.keys():
         return "simulated again: different balls"
-    apart = 0.0
-    times = [recorded.duration * i / 500 for i in range(501)]
-    for ball in again.arcs:
-        for t in times:
-            a, b = recorded.state(ball, t), again.state(ball, t)
-            apart = max(apart, ((a[0] - b[0]) ** 2 + (a[1] - b[1]) ** 2) ** 0.5)
+    times = np.linspace(0.0, recorded.duration, 501).tolist()
+    ways = [again.states(times, ball)[:, :2] - recorded.states(times, ball)[:, :2] for ball in again.arcs]
+    apart = max(float(np.hypot(*way.T).max()) for way in ways)
     if apart == 0.0 and _through_json(again.result) == _through_json(recorded.result):
         return "simulated again: identical to the last bit"
     return f"simulated again: up to {apart:.2g} m apart"

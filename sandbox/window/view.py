@@ -478,7 +478,10 @@ class View:
         sheet.surface.blit(stage.backdrop, (0, 0))
         if "ghosts" in self.on:
             stage.draw_ghosts(sheet, self._ghosts(shot), shot if game.pull is None else None)
-        self._draw_cloud(sheet, stage, shot)
+        found = self._cloud_of(shot) if "fan" in self.on and not self.hidden else None
+        if found is not None and found.pixels and self.clouds.key[2] == stage.camera:
+            image = self._once("cloud", found, lambda: pygame.image.frombuffer(found.pixels, found.size, "RGBA"))
+            sheet.surface.blit(image, found.at)
         stage.draw_path(sheet, shot, self.until(shot))
         stage.draw_balls(sheet, t or 0.0, self.until(shot))
         forces = []
@@ -543,17 +546,6 @@ class View:
         there = self.clouds.value is not None and self.clouds.key[0].place == shot.place
         return self.clouds.value if there else None
 
-    def _map_of(self, shot: Shot) -> ScoreMap | None:
-        """The map around a shot."""
-        there = self.maps.value is not None and self.maps.key[0] == shot.unaimed
-        return self.maps.value if there else None
-
-    def _draw_cloud(self, sheet: Canvas, stage: Stage, shot: Shot) -> None:
-        found = self._cloud_of(shot) if "fan" in self.on and not self.hidden else None
-        if found is not None and found.pixels and self.clouds.key[2] == stage.camera:
-            image = self._once("cloud", found, lambda: pygame.image.frombuffer(found.pixels, found.size, "RGBA"))
-            sheet.surface.blit(image, found.at)
-
     def _draw_cards(self, sheet: Canvas, stage: Stage, shot: Shot) -> None:
         """Cards down the right side, what the mouse reads, the tape."""
         game, sheet.avoid = self.game, self.head
@@ -575,8 +567,8 @@ class View:
             share, spread = found.said if found is not None else (self._why(self.clouds, "the fan"), "")
             sheet.note((share, CARD["text"]), *[(spread, CARD["quiet"])] * bool(spread))
         if "map" in self.on:
-            known = self._map_of(shot)
-            if known is None:
+            known = self.maps.value
+            if known is None or self.maps.key[0] != shot.unaimed:
                 sheet.note((self._why(self.maps, "the map"), CARD["text"]))
             else:
                 self.cards["map"] = draw_map(sheet, known, shot.aim)
@@ -599,16 +591,6 @@ class View:
     def _why(self, latest: Latest[Any], what: str) -> str:
         """Why there is no such value."""
         return f"{what} ..." if latest.error is None else self.game.reason(latest.error)
-
-    def card_at(self, at: tuple[int, int]) -> str | None:
-        """The card at a place (px)."""
-        return next((name for name, rect in self.cards.items() if rect.collidepoint(at)), None)
-
-    def aim_on_map(self, at: tuple[int, int]) -> tuple[float, float]:
-        """The speed and the angle at a place (px) on the map."""
-        rect = self.cards["map"]
-        assert self.maps.value is not None
-        return self.maps.value.aim((at[0] - rect.left) / rect.width, (rect.bottom - at[1]) / rect.height)
 
 
 def _scaled(camera: Camera, factor: float, at: tuple[float, float]) -> Camera:

@@ -212,7 +212,7 @@ class TestTheMap:
             session.change({"launch.speed": speed, "launch.angle": angle})
             assert simulate(session.scene).result["made"] == (found.cells[column, row] == SCORED)
 
-    def test_it_is_drawn_refined_and_a_click_on_it_aims_there(self, player):
+    def test_it_is_drawn_refined_and_a_drag_on_it_aims_there(self, player):
         player = player(PUTT)
         plain = picture(player)
         player.key(pygame.K_m)
@@ -223,7 +223,10 @@ class TestTheMap:
         assert differ(picture(player), plain) > 0.02
         rect = player.view.cards["map"]
         at = rect.left + rect.width // 4, rect.top + rect.height // 3
-        player.click(at)
+        player.move(at)
+        player.press(rect.center)
+        player.move(at)  # the aim follows
+        player.release(at)
         assert player.game.playback is None
         assert player.game.pull is None
         speed, angle = known.aim((at[0] - rect.left) / rect.width, (rect.bottom - at[1]) / rect.height)
