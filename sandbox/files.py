@@ -7,6 +7,7 @@ import shutil
 import tempfile
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
+from dataclasses import fields, is_dataclass
 from importlib.util import find_spec
 from math import isfinite
 from pathlib import Path
@@ -102,7 +103,9 @@ def _check_folder(option: str, folder: Path) -> None:
 
 
 def json_ready(value: Any) -> Any:
-    """The value in JSON's types; NaN and infinities become null."""
+    """The value in JSON's types, a dataclass as a table; NaN and infinities become null."""
+    if is_dataclass(value):
+        value = {field.name: getattr(value, field.name) for field in fields(value)}
     if isinstance(value, Mapping):
         return {str(key): json_ready(item) for key, item in value.items()}
     if isinstance(value, list | tuple):

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import csv
 import json
-from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -36,10 +35,10 @@ def as_json(scene: Scene, run: Run, check: Check | None = None, other: Run | Non
     """One JSON object; NaN and infinities are null. ``other`` is a run to compare with."""
     report = {
         **_outcome(scene, run),
-        "accuracy": asdict(run.accuracy),
+        "accuracy": run.accuracy,
         "warnings": warnings(run),
         "events": [_event(event) for event in run.events],
-        "numerics": asdict(run.numerics),
+        "numerics": run.numerics,
     }
     if other is not None:
         report["compared"] = _outcome(other.scene, other)

@@ -225,7 +225,7 @@ def stress(scene: str | None, changes: dict[str, Any], as_json: bool) -> None:
         outcomes = lab.stress(
             scenes, changes.get("accuracy.level", "balanced"), with_bare=scene is None, progress=progress
         )
-    say(json_text(lab.as_dicts(outcomes)) if as_json else "\n".join(lab.as_text(outcomes)))
+    say(json_text(outcomes) if as_json else "\n".join(lab.as_text(outcomes)))
 
 
 @click.command()
@@ -245,4 +245,4 @@ def validate(scene: str | None, changes: dict[str, Any], as_json: bool) -> None:
 
     with bar("validate") as progress:
         rows = lab.validate(scene, changes, progress)
-    say(json_text(lab.as_dicts(rows)) if as_json else "\n".join(lab.as_text(rows)))
+    say(json_text(rows) if as_json else "\n".join(lab.as_text(rows)))

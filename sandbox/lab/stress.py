@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, replace
 from itertools import pairwise, takewhile
 from math import inf, isfinite
 from time import perf_counter, process_time
@@ -227,11 +227,6 @@ def _overlap_of_balls(run: Run) -> float:
 
 #: Headings of what ``_sums`` gives.
 _SUMS = ("held", "refused", "failed", "energy", "overlap")
-
-
-def as_dicts(outcomes: Sequence[Outcome]) -> list[dict[str, Any]]:
-    """For JSON."""
-    return [asdict(outcome) for outcome in outcomes]
 
 
 def as_text(outcomes: Sequence[Outcome]) -> list[str]:

@@ -186,7 +186,7 @@ def as_dict(found: Trade) -> dict[str, Any]:
             name: {**point.as_dict(), "times_front": found.behind_front(name)} for name, point in found.levels.items()
         },
         "ablation": [row.as_dict() for row in found.ablation],
-        "verdicts": found.verdicts and asdict(found.verdicts),
+        "verdicts": found.verdicts,
     }
 
 

@@ -11,7 +11,7 @@ import csv
 import math
 import tomllib
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -132,11 +132,6 @@ def _compare(case: Case, run: Run) -> Compared:
 
 
 # ------------------------------------------------------------------------------------------------------------- report
-
-
-def as_dicts(rows: Sequence[Compared]) -> list[dict[str, Any]]:
-    """For JSON."""
-    return [asdict(row) for row in rows]
 
 
 def as_text(rows: Sequence[Compared]) -> list[str]:
