@@ -150,7 +150,8 @@ def test_what_holds_by_two_parameters_has_regions():
     """The ball bounces within its second if h - r < g / 2: with both ranges taken as 1 a trapezoid, of half the area,
     whose largest circle touches three sides."""
     low, high = (0.1, 5.0), (10.0, 15.0)
-    (solution,) = aim(DROP, {"launch.height": (0.1, 10.0), "gravity": (5.0, 15.0)}, {"bounced": True}).solutions
+    found = aim(DROP, {"launch.height": (0.1, 10.0), "gravity": (5.0, 15.0)}, {"bounced": True})
+    (solution,) = found.solutions
     wide, tall = (b - a for a, b in zip(low, high, strict=True))
     at_bottom, lean = (0.05 + 0.5 * low[1] - low[0]) / wide, 0.5 * tall / wide
     radius = (at_bottom + lean) / (1.0 + lean + hypot(1.0, lean))
@@ -160,6 +161,8 @@ def test_what_holds_by_two_parameters_has_regions():
     room = solution.region.room
     assert (room["launch.height"] / wide, room["gravity"] / tall) == pytest.approx((radius, radius), abs=spacing)
     assert solution.region.share == pytest.approx(at_bottom + 0.5 * lean, abs=2.0 * spacing)
+    everywhere = replace(solution, region=replace(solution.region, share=1.0))
+    assert " 100 %" in "\n".join(as_text(replace(found, solutions=[everywhere])))
     assert aim(DROP, {"launch.height": (9.0, 10.0), "gravity": (5.0, 6.0)}, {"bounced": True}).solutions == []
 
 

@@ -150,7 +150,7 @@ def _region_lines(aim: Aim) -> list[str]:
         assert solution.region is not None  # the target has regions
         room = solution.region.room
         row = [part for key, value in solution.values.items() for part in (f"{value:.5g}", significant(room[key], 2))]
-        rows.append([*row, f"{100.0 * solution.region.share:.2g} %"])
+        rows.append([*row, f"{significant(100.0 * solution.region.share, 2)} %"])
     headings = [part for span in aim.spans for part in (label(aim.scene, span.key), "room")]
     return ["  most forgiving points", *table([*headings, "of the range"], rows, "rrrrr"), *_more(aim)]
 
