@@ -42,18 +42,6 @@ class Arc:
     def y(self) -> Sequence[float]:
         return self.curves[1]
 
-    @property
-    def vx(self) -> Sequence[float]:
-        return self.curves[2]
-
-    @property
-    def vy(self) -> Sequence[float]:
-        return self.curves[3]
-
-    @property
-    def spin(self) -> Sequence[float]:
-        return self.curves[4]
-
     def state(self, t: float) -> State:
         """Position, velocity, spin and what else is in its state at time t in [t0, t1]."""
         h = self.t1 - self.t0

@@ -36,7 +36,7 @@ class Above(NamedTuple):
 
 def climb(arc: Arc) -> Sequence[Any]:
     """The upward velocity, in m/s."""
-    return arc.vy
+    return arc.curves[3]
 
 
 def height(passage: Passage) -> float:

@@ -145,7 +145,8 @@ class Run:
             if arc.t0 >= t:
                 break
             part = arc.until(t)
-            turned += (part.t1 - part.t0) * sum(part.spin) / len(part.spin)
+            spin = part.curves[4]
+            turned += (part.t1 - part.t0) * sum(spin) / len(spin)
         return turned
 
     def trajectory(self, ball: str = "ball", every: float = 1 / 120, ends: bool = False) -> np.ndarray:

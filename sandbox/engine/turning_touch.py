@@ -54,8 +54,9 @@ class Mover(NamedTuple):
         h = arc.t1 - arc.t0
         if h <= 0.0:
             return _Bounds(0.0, (), 0.0, 0.0, 0.0)
-        ax, ay, turning = ([slope / h for slope in derivative(curve)] for curve in (arc.vx, arc.vy, arc.spin))
-        largest, fastest_turn, turning_up = max(map(hypot, ax, ay)), max(map(abs, arc.spin)), max(map(abs, turning))
+        _, _, vx, vy, spin, *_ = arc.curves
+        ax, ay, turning = ([slope / h for slope in derivative(curve)] for curve in (vx, vy, spin))
+        largest, fastest_turn, turning_up = max(map(hypot, ax, ay)), max(map(abs, spin)), max(map(abs, turning))
         return _Bounds(arc.fastest(), tuple(zip(ax, ay, strict=True)), largest, fastest_turn, turning_up)
 
 

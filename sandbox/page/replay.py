@@ -215,7 +215,7 @@ def _path(arcs: Path) -> dict[str, Any]:
     """
     rows, last = [], [0, 0, 0]
     for arc, end in zip(arcs, [*arcs.starts[1:], arcs[-1].t1], strict=True):
-        curves, within = [list(arc.x), list(arc.y), list(arc.spin)], _within(arc)
+        curves, within = [list(arc.x), list(arc.y), list(arc.curves[4])], _within(arc)
         if within and isinstance(within[0], float):
             whole = [[round(value / HEAPED) for value in curve] for curve in curves]
             curves = [np.diff([start, *curve]).tolist() for start, curve in zip(last, whole, strict=True)]
