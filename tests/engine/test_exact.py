@@ -8,9 +8,11 @@ import pytest
 
 from sandbox.engine import simulate
 from sandbox.engine.accuracy import resolve
+from sandbox.engine.acting import law_of
 from sandbox.engine.setup import DISC, HOLLOW_SPHERE, SOLID_SPHERE, Ball, Bounce, Circle, Segment, Setup, Surface
 from sandbox.physics.coefficients import Constant
 from sandbox.physics.forces import Drag, Gravity, Magnus
+from sandbox.physics.rocket import Motor
 
 G = 9.81
 FLOOR = Surface("floor", Segment((-100.0, 0.0), (100.0, 0.0)), 0.5, 0.0)
@@ -301,3 +303,17 @@ def test_coming_off_a_round_top_never_stalls(speed, friction):
     )
     run = fly(ball, 0.8, [top], "balanced")
     assert run.state("ball", 0.8)[1] < 0.2
+
+
+@pytest.mark.parametrize("loss", [None, Motor((0.0, 2.0), (1.0, 1.0), 1.0)], ids=["whole", "burning"])
+@pytest.mark.parametrize("forces", range(4))
+@pytest.mark.parametrize("torques", range(3))
+def test_a_ball_is_accelerated_by_the_sum_of_its_forces_and_torques(forces, torques, loss):
+    """F_n = (n v_x, x + t), T_n = n + w; a burning ball of 2 kg has 1.5 kg left at 1 s."""
+    pushes = [lambda t, p, v, w, n=n: (n * v[0], p[0] + t) for n in range(forces)]
+    twists = [lambda t, p, v, w, n=n: n + w for n in range(torques)]
+    ball = Ball("cue", 2.0, 0.5, (0.0, 0.0), forces=pushes, torques=twists, loss=loss)
+    share = 0.75 if loss else 1.0
+    total = sum(range(forces)) * 7.0 / (2.0 * share), forces * 4.0 / (2.0 * share), sum(n + 9.0 for n in range(torques))
+    expected = (*total[:2], total[2] / (0.2 * share))
+    assert law_of(ball)(1.0, (3.0, 5.0, 7.0, 8.0, 9.0)) == pytest.approx(expected, rel=1e-15)
