@@ -26,7 +26,7 @@ from sandbox.sport.controls import Controls, Handle, Spin, Spread
 from sandbox.sport.facts import ENDED, Fact
 from sandbox.sport.flight import DEGREE, RPM, Directed
 from sandbox.sport.readings import LAUNCH, apex, at, landing, passing
-from sandbox.sport.solids import Solid, level
+from sandbox.sport.solids import Solid, below, check_apart, disc, level
 
 LONGEST, YARD = 15.0, 0.9144  # s, after which a run is ended; m
 
@@ -53,6 +53,10 @@ class Football(Group):
     width: float = quantity(..., "m", 0.05, 1, "short axis")
     nose_drag: float = quantity(..., "", 0, 2, "drag coefficient, nose first, on the round cross-section")
     side_drag: float = quantity(..., "", 0, 2, "drag coefficient, side on, on the same cross-section")
+
+    def reach(self, angle: float) -> float:
+        """From its centre up and down, in m, with its long axis at an angle in rad."""
+        return 0.5 * hypot(self.length * sin(angle), self.width * cos(angle))
 
 
 class Goal(Group):
@@ -97,9 +101,11 @@ LANDINGS, ROUGH = 12, replace(LEVELS["fast"], tolerance=1.0)
 
 
 def build(it: Parameters) -> Setup:
-    """The ball as an ellipse, the grass and, if there is a goal, its bar."""
-    ball, launch, angle = it.ball, it.launch, it.launch.angle * DEGREE
-    half, round_half, spiral = ball.length / 2, ball.width / 2, it.launch.turns == "spiral"
+    """The ball as an ellipse, the grass and, if there is a goal, its bar. RequestError for a ball in the grass."""
+    ball, launch, spiral = it.ball, it.launch, it.launch.turns == "spiral"
+    half, round_half, angle = ball.length / 2, ball.width / 2, DEGREE * (launch.angle if spiral else launch.nose)
+    keys = "launch.height", "ball.length", "ball.width"
+    check_apart(it, disc("the ball", keys, 0.0, launch.height, ball.reach(angle)), below("the ground"))
     inertia = ball.mass * (half**2 + round_half**2) / 3.0  # about, of a thin shell: 5/3 of the solid's; assumed
     forces: list[Any] = [Gravity(ball.mass, it.gravity)] if it.gravity else []
     if it.air.density:
@@ -110,7 +116,7 @@ def build(it: Parameters) -> Setup:
         position=(0.0, launch.height),
         velocity=launch.velocity,
         spin=0.0 if spiral else launch.spin * RPM,
-        angle=angle if spiral else radians(launch.nose),
+        angle=angle,
         shape=Ellipse(half, round_half),
         mass=ball.mass,
         moment=inertia,
@@ -169,8 +175,8 @@ def _spread(run: Run, parameters: Parameters) -> float | None:
         noses = [nose + sigma * NormalDist().inv_cdf((k + 0.5) / LANDINGS) for k in range(LANDINGS)]
     ways = []
     for nose in noses:
-        high = 0.5 * hypot(parameters.ball.length * sin(nose), parameters.ball.width * cos(nose))
-        start = replace(ball, position=(down.x, high), velocity=(down.vx, down.vy), spin=down.spin, angle=nose)
+        place, velocity = (down.x, parameters.ball.reach(nose)), (down.vx, down.vy)
+        start = replace(ball, position=place, velocity=velocity, spin=down.spin, angle=nose)
         bounces = simulate(replace(run.setup, balls=[start]), ROUGH)
         ways.append(bounces.state("ball", bounces.duration).x)
     return pstdev(ways)

@@ -24,7 +24,7 @@ from sandbox.sport.controls import Controls, Handle, Spread
 from sandbox.sport.facts import ENDED, Fact
 from sandbox.sport.flight import DEGREE, Directed, Sphere, forces_in_flight
 from sandbox.sport.readings import Moment, at
-from sandbox.sport.solids import level
+from sandbox.sport.solids import below, check_apart, disc, level
 
 
 class Start(Directed):
@@ -85,8 +85,10 @@ def motor_of(parameters: Parameters) -> Motor:
 
 
 def build(parameters: Parameters) -> Setup:
-    """The rocket on its rail, over level ground."""
+    """The rocket on its rail, over level ground. Raises RequestError if it is in the ground."""
     launch, rocket, motor = parameters.launch, parameters.ball, motor_of(parameters)
+    held = disc("the rocket", ("launch.height", "ball.radius"), 0.0, launch.height, rocket.radius)
+    check_apart(parameters, held, below("the ground"))
     start, ex, ey = (0.0, launch.height), cos(launch.angle * DEGREE), sin(launch.angle * DEGREE)
     thrust = Thrust(motor, start, (ex, ey), launch.rail, wind_in(parameters.air))
     weight = Gravity(rocket.mass, parameters.gravity, motor)

@@ -288,6 +288,8 @@ def test_an_effect_left_out_is_an_absent_term(source: str, changes: dict[str, An
         ("rocket", {"motor.curve": [[0.0, 0.0], [1.0, 0.0]]}, ["and some thrust"]),
         ("rocket", {"motor.curve": []}, ["needs two points"]),
         ("rocket", {"motor.propellant": 0.2}, ["must be less than ball.mass"]),
+        ("rocket", {"ball.radius": 0.5}, ["launch.height = 0.2 m", "the rocket and the ground overlap"]),
+        ("football", {"ball.width": 1.0}, ["ball.width = 1 m: the ball and the ground overlap"]),
         ("bowling", {"pin.standing": "1 11"}, ["pin.standing: there is no pin 11"]),
         ("bowling", {"launch.aside": 0.6}, ["launch.aside = 0.6 m: must be between -0.527 and 0.527 m"]),
         ("collisions/tumbling-box", {"contact.model": "hertz"}, ['contact.model = "hertz"', "boxes"]),
