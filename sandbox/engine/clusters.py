@@ -172,7 +172,7 @@ class Cluster:
         self._overlap = np.minimum(self._gap, 0.0)
         elastic[0] = self._rates(state[:2], rates[0])
         pushed, rubbed, closed = (np.zeros(links) for _ in range(3))  # N s: elastic, and what has had its friction
-        force, closing = elastic[0], self._closing
+        force, closing, normal = elastic[0], self._closing, self._normal
         approach = np.where(self._gap < _TOUCH, np.maximum(closing, 0.0), 0.0)
         moments, states, ends = [0.0], list[np.ndarray](), False
         while True:
@@ -190,11 +190,11 @@ class Cluster:
                 break
             if t > (_PATIENCE[0] * count + _PATIENCE[1]) * longest or len(moments) > _MOST_STEPS:
                 raise Unresolved(f"bodies do not separate within {t:.3g} s")
-            if (self._depth > self._deepest).any():
+            if ((self._depth > self._deepest) | ((normal.conj() * self._normal).real < 0.0)).any():
                 raise Unresolved(f"bodies pass through each other after {t:.3g} s")
             if (np.abs(state[_PLACE] - started) > self._room).any():
                 raise Entered(f"a body has left its place after {t:.3g} s")
-            rubbed, before, gap = reached, closing, self._gap
+            rubbed, before, gap, normal = reached, closing, self._gap, self._normal
             start = state[:2].copy()
             start[1] -= np.vecdot(self._pushed, self._held * self._normal)
             elastic[0] = self._rates(start, rates[0])

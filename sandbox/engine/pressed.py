@@ -72,6 +72,7 @@ class Pressed:
         members = dict(touching)
         met: set[frozenset[int]] = set()  # pairs that are within reach only as the others leave them
         hard, deep = model.wall_stiffness, _DEEP_IN_A_HEAP if slow > 0.0 else _DEEP
+        reach = fastest * lasts  # m, up to which walls take part, if they are rigid
         while True:
             self._add_reached(t, members, fastest, lasts, fresh)
             if not members.keys().isdisjoint(fresh):
@@ -80,12 +81,13 @@ class Pressed:
             for index, (x, y, *_) in members.items():
                 for obstacle in self._tracks[index].obstacles:
                     gap = obstacle.near(x, y).gap
-                    room[index] = min(room[index], gap + deep * self._tracks[index].ball.radius)
-                    if gap <= fastest * lasts:
+                    if gap <= reach:
                         near.append((index, obstacle))
+                    if gap > reach or not hard:
+                        room[index] = min(room[index], gap + deep * self._tracks[index].ball.radius)
             if model.name == "auto" and len(members) == 2 and not near:
                 return None
-            walls, room = (near, {}) if hard else ([], room)
+            walls = near if hard else []
             pairs = [
                 (i, j)
                 for i, j in combinations(members, 2)
@@ -97,7 +99,7 @@ class Pressed:
             except Entered:
                 if slow > 0.0:
                     return None
-                hard = _RIGID * stiffness
+                hard, reach = _RIGID * stiffness, reach * (2.0 if hard else 1.0)
                 continue
             except Unresolved:
                 return None
@@ -174,7 +176,7 @@ class Pressed:
         faint: float,
     ) -> Outcome:
         place = {index: number for number, index in enumerate(members)}
-        bodies = [self._body(t, index, state, room.get(index, inf)) for index, state in members.items()]
+        bodies = [self._body(t, index, state, room[index]) for index, state in members.items()]
         contacts: list[tuple[tuple[int, ...], str, Link]] = [
             ((i, j), self._tracks[j].ball.name, self._link(place, members, i, j, speed)) for i, j in pairs
         ]

@@ -222,3 +222,12 @@ def test_a_ball_may_graze_a_rack_for_less_than_a_step_of_the_contact(model: str)
         above = 2 * R * (1.0 - (approach / 7.68) ** 2) ** 0.5
         run = struck([ball("cue", -2e-3, above, vx=7.68), *rack], model=model, duration=0.01)
         assert -2.0 * approach < sum(run.state(each.name, 0.01)[3] for each in rack) <= 1e-9
+
+
+def test_the_last_of_many_soft_balls_does_not_leave_through_a_wall_while_the_others_are_pressed():
+    row = [ball("cue", -2 * R - 0.01, vx=10.5), *(ball(f"{place}", 2 * R * place) for place in range(12))]
+    place = 23 * R + 0.1  # m
+    wall = Surface("wall", Segment((place, -1.0), (place, 1.0)), 0.9, 0.1)
+    law, soft = Always(Bounce(0.95, 0.05)), ContactModel("auto", 1e5)
+    run = simulate(Setup(row, [wall], 0.1, between_balls=law, contact=soft), resolve())
+    assert max(run.states([0.02, 0.05, 0.1], each.name)[:, 0].max() for each in row) < place
