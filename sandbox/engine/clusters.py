@@ -18,6 +18,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 from math import hypot
 from typing import Any, NamedTuple
 
@@ -50,6 +51,10 @@ _TOO_DEEP = 1.0
 #: Longest contact times, for each body and in addition, after which bodies that press on one another will not separate
 #: by themselves; a chain of n equal balls takes 1 + (n - 1) / 2.
 _PATIENCE = 1.0, 10.0
+
+#: The slowest blow that they wait for, in m/s: a grazing ball leaves little. Where something else presses them together
+#: it is what that gives them in so many contact times.
+_SLOWEST, _TIMES = 1e-3, 10.0
 
 #: Depth in m below which it is rounding.
 _TOUCH = 1e-12
@@ -159,8 +164,9 @@ class Cluster:
         state[_PLACE, count] = 1e3  # m: a placeholder for walls, never read
         fastest = max(2.0 * float(np.abs(state[_VELOCITY]).max()), CLOSING)
         quickest = max(fastest, *(hypot(*body.spin) * body.radius for body in self._bodies))
-        times = [contact_time(m, k, fastest) for m, k in zip(self._mass, self._stiffness, strict=True)]
-        shortest, longest = min(times), max(times)
+        at = partial(contact_time, self._mass, self._stiffness)
+        slowest = _SLOWEST + _TIMES * np.abs(self._push).max() * at(_SLOWEST).max()
+        shortest, longest = at(fastest).min(), at(min(slowest, fastest)).max()
         started = state[_PLACE].copy()
         scale = np.repeat([fastest * shortest, fastest], count + 1)
         whole, h, t = share * shortest, 0.0, 0.0

@@ -17,7 +17,7 @@ slightly attractive, as in the paper).
 from __future__ import annotations
 
 from math import gamma, inf, log, pi, sqrt
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 #: Lowest restitution: with none a contact would never end, and with less two balls stay together for seconds.
 LEAST_RESTITUTION = 1e-3
@@ -46,7 +46,7 @@ def damping(restitution: float) -> float:
     return -sqrt(5.0) * fading / sqrt(fading**2 + pi**2)
 
 
-def contact_time(mass: float, stiffness: float, speed: float) -> float:
+def contact_time(mass: Any, stiffness: Any, speed: Any) -> Any:
     """Seconds for which two balls of reduced ``mass`` (kg) that meet at ``speed`` (m/s) touch, without damping.
 
     T = 3.218 (m^2 / (k^2 v))^(1/5); the number is (5/4)^(2/5) 2 sqrt(pi) gamma(2/5) / (5/2 gamma(9/10)).

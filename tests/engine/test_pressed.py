@@ -57,6 +57,16 @@ def test_a_third_ball_counts_if_it_is_reached_during_the_contact(gap, through):
     assert 0.0 < second.t - first.t < 3.0 * gap
 
 
+def test_a_ball_that_grazes_one_of_two_leaves_them_less_and_less():
+    """It has passed by before they are pressed together; they then part slowly."""
+    left = []
+    for sine in (0.02, 0.01, 0.005, 0.002):
+        cue = ball("cue", -0.1, 2 * R * sqrt(1 - sine**2), vx=7.7)
+        left.append(struck([cue, ball("1", 0.0), ball("2", 0.0, -2 * R)], restitution=0.95).state("2", 0.1)[3] / sine)
+    assert left == sorted(left)
+    assert abs(left[-1]) < 0.01 * abs(left[0])
+
+
 def test_a_gap_that_a_contact_does_not_notice_changes_nothing():
     """A frozen combination, struck at 30 deg to the line of the two: alike with no gap, and with one of 0.1 um."""
     turn = radians(30.0)
