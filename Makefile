@@ -23,7 +23,7 @@ test: .venv/ready-dev
 lint: .venv/ready-dev
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
-	$(BIN)/mypy
+	$(BIN)/mypy --num-workers=auto
 
 format: .venv/ready-dev
 	$(BIN)/ruff check --fix .
