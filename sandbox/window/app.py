@@ -27,9 +27,9 @@ MODIFIED = pygame.KMOD_CTRL | pygame.KMOD_ALT
 
 FRAMES = 60  # per second
 #: How often files are checked while nothing happens, in s; an event ends the wait.
-IDLE = 0.25
-#: How often events are looked for then, in s.
-LOOKS = 1 / 30
+IDLE = 0.4
+#: How often events are looked for then, in s, if none came for so many s; before that in every frame.
+LOOKS, QUIET = 0.05, 2.0
 #: The window is shown with its first shot, but after this time, in s, in any case.
 FIRST = 1.5
 #: What SDL falls back to if there is no display.
@@ -47,6 +47,7 @@ class App:
         self.view = View(game, screen, sound, patience, commands.hint_of)
         self.pointer = Pointer(self.view)
         self.hidden = False  # minimised
+        self.last_event = perf_counter()
         self.held: set[int] = set()  # keys
         self._repeated: set[int] = set()  # keys, in this frame
 
@@ -64,13 +65,12 @@ class App:
                 self._wait()
         self.close()
 
-    @staticmethod
-    def _wait() -> None:
+    def _wait(self) -> None:
         """Wait until something happens in the window, or it is time to check the files. pygame's own wait polls a
         thousand times a second."""
         end = perf_counter() + IDLE
         while perf_counter() < end and not pygame.event.peek():
-            sleep(LOOKS)
+            sleep(LOOKS if perf_counter() - self.last_event > QUIET else 1 / FRAMES)
 
     def close(self) -> None:
         """End the background threads."""
@@ -89,6 +89,7 @@ class App:
         events = pygame.event.get()
         for event in events:
             self.handle(event)
+            self.last_event = started
         game, view = self.game, self.view
         start, end = game.advance(dt, hold=self.hidden or not view.up_to_date)
         view.tick(dt)
