@@ -9,6 +9,7 @@ from types import SimpleNamespace
 import pygame
 import pytest
 
+from sandbox.picture.lettering import Lettering
 from sandbox.picture.sheet import rows_of
 from sandbox.scene import listings
 from sandbox.window import commands
@@ -146,3 +147,21 @@ def test_cards_of_the_picture_leave_room_for_each_other_and_for_the_numbers(play
     assert set(cards) == {"map", "charts"}
     assert not cards["map"].colliderect(cards["charts"])
     assert all(card.bottom < sheet.card_row() and not card.colliderect(player.view.head) for card in cards.values())
+
+
+def test_a_list_that_does_not_fit_is_scrolled_by_key_and_wheel(player, monkeypatch):
+    monkeypatch.setattr(Lettering, "larger", 1.5)
+    player = player(PUTT, (480, 400))
+    commands.do(player.view, "see")
+    player.frames(1)
+    over, area = player.view.over, pygame.Rect(0, 0, 480, player.view.area.height)
+    assert over.seen < len(over.rows)
+    for row in over.rows:
+        player.key(pygame.K_DOWN)
+        assert over.chosen == row
+        assert row in [what for _, what in over.places]
+        assert all(area.contains(place) for place, _ in over.places)
+    player.key(pygame.K_DOWN)
+    assert over.first == 0, "after the last comes the first"
+    player.send(pygame.MOUSEWHEEL, x=0, y=-1, flipped=False)
+    assert over.places[0][1] == over.rows[1]
