@@ -206,12 +206,17 @@ class Painter:
             return
         along, down = (b[0] - a[0]) / length, (b[1] - a[1]) / length
         head = min(3.5 * width, length)
-        neck, shaft, wide = (b[0] - head * along, b[1] - head * down), width / 2, ARROW * head
-        sides = (a, shaft), (neck, shaft), (neck, wide), (b, 0.0), (neck, -wide), (neck, -shaft), (a, -shaft)
-        outline = [(x - aside * down, y + aside * along) for (x, y), aside in sides]
+
+        def outline(wider: float) -> list[Point]:
+            beyond = wider * hypot(1, ARROW) / ARROW  # by which the tip of a head whose sides move out moves on
+            neck, shaft, wide = length - head - wider, width / 2 + wider, ARROW * (head + wider + beyond)
+            half = (-wider, shaft), (neck, shaft), (neck, wide), (length + beyond, 0.0)
+            corners = [*half, *((far, -aside) for far, aside in half[2::-1])]
+            return [(a[0] + far * along - aside * down, a[1] + far * down + aside * along) for far, aside in corners]
+
         if rim is not None:
-            self.line([*outline, outline[0]], 2 * rim[1], rim[0], 0.6 * opacity)
-        self.polygon(outline, colour, opacity)
+            self.polygon(outline(rim[1]), rim[0], 0.6 * opacity)
+        self.polygon(outline(0.0), colour, opacity)
 
     def panel(self, rect: pygame.Rect, colour: Colour, opacity: float, corner: float) -> None:
         """A rectangle with round corners."""

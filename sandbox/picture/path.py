@@ -21,7 +21,7 @@ from sandbox.sport.amounts import nice
 #: The path is sampled this often in s; of a long run, in so many pieces.
 SAMPLING, MOST_SAMPLES = 1 / 120, 5000
 #: Points of a trace are this far apart, in px.
-FINEST = 1.5
+FINEST = 2.0
 #: At most so many balls are drawn along a path, or along that part of it that matters.
 BALLS = 14
 

@@ -567,14 +567,14 @@ class View(Generic[P]):
         late = self.spots(camera, np.vstack([path.points[first:last], self.run.state(name, t)[:2]]), 0.0)
         if np.ptp(late, axis=0).max() > 2:
             width = 1.1 * max(self.radii[name] * camera.scale, self.least)
-            painter.fading(late[apart(late, 2.0)], width, self.colour_of(name), 0.9)
+            painter.fading(late[apart(late, 3.0)], width, self.colour_of(name), 0.9)
 
     @cached_property
     def _tracks(self) -> dict[str, tuple[np.ndarray, np.ndarray]]:
         """Times (s) and places (m) along each ball's path that can be told apart where frames begin."""
         camera, found = self.view(0.0), {}
         for name, path in self.paths.items():
-            some = apart(camera.pixels(path.points), 3.0)
+            some = apart(camera.pixels(path.points), 4.0)
             found[name] = path.samples[some, 0], path.points[some]
         return found
 
