@@ -55,7 +55,8 @@ def page_of(run: Run, ghosts: Mapping[str, Run] | None = None) -> str:
     scene, verdict = run.scene, run.scene.verdict(run)
     views = list(_views(run, ghosts))
     wide, narrow = (layout.pop("poster") for _, layout in views)
-    view, heading = views[0][0], views[0][0].heading
+    view = views[0][0]
+    _, notes, _ = view.heading
     events = run.events[:MOST_EVENTS]
     others = {ghost.label: css(ghost.light) for ghost in view.ghosts}
     labelled = [dict(scene.rows(run)), *(dict(ghost.run.scene.rows(ghost.run)) for ghost in view.ghosts)]
@@ -77,7 +78,7 @@ def page_of(run: Run, ghosts: Mapping[str, Run] | None = None) -> str:
         "run.html",
         title=html(f"{scene.title}: {verdict}"),
         verdict=html(verdict),
-        notes=html("   ·   ".join(heading.notes)),
+        notes=html("   ·   ".join(notes)),
         ground="dark" if view.on_dark else "light",
         picture=html(f"{scene.title}: {verdict}. The path of the {view.THING}; the numbers are in the table below."),
         poster=wide,
@@ -139,7 +140,7 @@ def _layout(view: View[Any]) -> dict[str, Any]:
         "unit": view.unit,
         "least": view.least,
         "lift": too_large if isinstance(view, SideView) and not isinf(view.STRETCHES) else None,
-        "room": view.heading.room,
+        "room": view.heading[2],
         "poster": picture(poster),
         "place": picture(Image.fromarray(place)),
         "along": picture(what_changed(paths, along), exact=True),

@@ -16,15 +16,11 @@ from sandbox.engine.nearest import Pose, meeting_points, nearest
 from sandbox.engine.run import Run
 from sandbox.engine.setup import outline_of
 from sandbox.engine.shapes import Shape
-from sandbox.sport.amounts import nice
 
 #: The path is sampled this often in s; of a long run, in so many pieces.
 SAMPLING, MOST_SAMPLES = 1 / 120, 5000
 #: Points of a trace are this far apart, in px.
 FINEST = 2.0
-#: At most so many balls are drawn along a path, or along that part of it that matters.
-BALLS = 14
-
 #: Points on each arc of a path. The arcs of a drive are seconds long, and its line must still look smooth.
 POINTS = 9
 #: A drawn line has no points nearer to each other than this, none farther, in px, and bends by no more at one, in rad.
@@ -81,14 +77,6 @@ class Path:
             found += [(t, *arc.position(t)) for t in (arc.t0, *(i * every for i in between))]
         self.samples = np.array([*found, (self.until, *run.state(name, self.until)[:2])])
         self.points = self.samples[:, 1:]
-
-    def even_times(self, span: float) -> tuple[float, list[float]]:
-        """The time between balls along the path, and the times of all of them but the one at its end; in s.
-
-        Over ``span`` s there are BALLS at most.
-        """
-        every = nice(max(span, 0.01) / BALLS)
-        return every, [i * every for i in range(max(1, ceil(self.until / every - 1e-9)))]
 
     def marks(self) -> Iterator[Mark]:
         """The impacts along the path."""

@@ -9,8 +9,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cached_property, wraps
-from math import atan2, degrees, dist, hypot, pi
-from typing import Any, ClassVar, Generic, NamedTuple, TypeVar
+from math import atan2, ceil, degrees, dist, hypot, pi
+from typing import Any, ClassVar, Generic, TypeVar
 
 import numpy as np
 import pygame
@@ -28,7 +28,7 @@ from sandbox.picture.palette import Colour, palette
 from sandbox.picture.path import FINEST, Mark, Path, apart
 from sandbox.picture.sheet import Entry, Sheet
 from sandbox.picture.vectors import Vectors
-from sandbox.sport.amounts import amount, metres, signed, times
+from sandbox.sport.amounts import amount, metres, nice, signed, times
 from sandbox.text import shortened
 from sandbox.tracebacks import is_ours
 
@@ -47,6 +47,8 @@ INSTANT = 0.1
 UNSAID = 1.05
 #: Of impacts that are nearer to each other than this, in px on 720 rows, the hardest is marked.
 APART = 20
+#: At most so many balls are drawn along a path, or along that part of it that matters.
+BALLS = 14
 #: Radius of a bead on the path: at most so much of that of the balls there, and so many px on 720 rows.
 BEAD, LARGEST_BEAD = 0.5, 3.0
 
@@ -54,14 +56,6 @@ BEAD, LARGEST_BEAD = 0.5, 3.0
 STRING = 1.5
 
 P = TypeVar("P", bound=Group)
-
-
-class Heading(NamedTuple):
-    """What stands over a poster: a headline, notes on what is drawn, and how wide they may be, in px."""
-
-    text: str
-    notes: list[str]
-    room: float
 
 
 def _function(member: Any) -> Any:
@@ -359,8 +353,8 @@ class View(Generic[P]):
         """The whole run in one picture."""
         for _ in self.layers():
             pass
-        sheet, (text, notes, room) = self.sheet, self.heading
-        sheet.headline(text, notes, room)
+        sheet = self.sheet
+        sheet.headline(*self.heading)
         rows = [(ghost.light, ghost.run.scene.rows(ghost.run)) for ghost in self.ghosts]
         sheet.columns(self.card_row, self.run.scene.rows(self.run), rows)
         for ghost in self.ghosts:
@@ -369,7 +363,8 @@ class View(Generic[P]):
 
     def layers(self) -> Iterator[pygame.Surface]:
         """The poster without its text and other runs' names, as it is after each layer: the place, the paths, the balls
-        along them, the balls, and what stands before them. Then ``heading`` is known."""
+        along them, the balls, and what stands before them. Then ``heading`` is known: the headline, notes on what is
+        drawn, and the room for them in px."""
         sheet = self.sheet = Sheet(self.size, self.on_dark)
         camera, painter = self.camera, sheet.painter
         self.backdrop(painter, camera)
@@ -395,7 +390,7 @@ class View(Generic[P]):
         mark_impacts(sheet, camera, self.impacts(camera), last=self._placed(camera, self.told, 1.0).get(self.ball))
         room = self._room(sheet, camera, None)
         notes = [*(ghost.note for ghost in self.ghosts), *self.aligned, *every[:1], *self.notes(camera), *every[1:]]
-        self.heading = Heading(self.run.scene.verdict(self.run), notes, room)
+        self.heading = self.run.scene.verdict(self.run), notes, room  # px
         yield sheet.surface
 
     def frame(self, t: float) -> pygame.Surface:
@@ -519,7 +514,8 @@ class View(Generic[P]):
         if len(self.balls) > 1:
             return []
         painter = sheet.painter
-        every, moments = self.path.even_times(self.span)
+        every = nice(max(self.span, 0.01) / BALLS)
+        moments = [i * every for i in range(max(1, ceil(self.told / every - 1e-9)))]
         radius, look = max(self.radius * camera.scale, mark_radius(self.rows)), self.looks[self.ball]
         states = np.array([self.run.state(self.ball, t)[:2] for t in [*moments, self.told]])
         *places, end = self.spots(camera, states, radius)

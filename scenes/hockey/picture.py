@@ -8,9 +8,9 @@ import numpy as np
 
 from sandbox.picture.palette import Colour, scene_colours
 from sandbox.picture.places import plan
-from sandbox.picture.places.rink import air_table, ice_rink
 from sandbox.picture.views import AboveView, Camera, Look, Mark, Painter, near
 
+from .rink import air_table, ice_rink
 from .scene import Parameters, decided
 
 COLOURS = scene_colours(__file__)
@@ -41,10 +41,7 @@ class Picture(AboveView[Parameters]):
 
     @cached_property
     def plan(self) -> plan.Plan:
-        rink = self.parameters.rink
-        if self.table:
-            return air_table(rink.outline, rink.goal_width, COLOURS)
-        return ice_rink(rink.outline, rink.line, rink.goal_width, COLOURS)
+        return air_table(self.parameters.rink) if self.table else ice_rink(self.parameters.rink)
 
     def look_of(self, name: str) -> Look:
         return LOOKS["mallet" if name != "puck" else "air_puck" if self.table else "puck"]
