@@ -20,7 +20,7 @@ from sandbox.engine.shapes import Shape
 #: The path is sampled this often in s; of a long run, in so many pieces.
 SAMPLING, MOST_SAMPLES = 1 / 120, 5000
 #: Points of a trace are this far apart, in px.
-FINEST = 2.0
+FINEST = 1.5
 #: Points on each arc of a path. The arcs of a drive are seconds long, and its line must still look smooth.
 POINTS = 9
 #: A drawn line has no points nearer to each other than this, none farther, in px, and bends by no more at one, in rad.
