@@ -8,10 +8,10 @@ import numpy as np
 
 from sandbox.picture.palette import mix, palette, scene_colours
 from sandbox.picture.places import Hall, Person, Size, boards
-from sandbox.picture.places.courts import basketball_key, basketball_lines
 from sandbox.picture.views import Box, Camera, Entry, Length, Look, Painter, Place, Sheet, seams
 from sandbox.sport.amounts import metres, roughly, times
 
+from . import court
 from .hoop import HangingNet, hoop, stand
 from .lens import LensView
 
@@ -82,8 +82,8 @@ class Picture(LensView):
     @cached_property
     def place(self) -> Place:
         face = self.parameters.board[0]
-        lines = basketball_lines(face, self.ring[0])
-        ground = boards(FLOOR, areas=[(basketball_key(face), FLOOR["key"])], lines=lines)
+        lines = court.lines(face, self.ring[0])
+        ground = boards(FLOOR, areas=[(court.key(face), FLOOR["key"])], lines=lines)
         goal = self.hoop_size.of(*stand(self.parameters), *hoop(self.parameters))
         return Place(Hall(**COLOURS["hall"]), ground, [*goal, *self.thrower])
 

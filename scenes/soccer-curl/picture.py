@@ -11,12 +11,11 @@ import numpy as np
 from sandbox.picture.palette import mix, palette, scene_colours
 from sandbox.picture.places import goal as goal_at
 from sandbox.picture.places import plan
-from sandbox.picture.places.courts import SPOT, soccer_lines
 from sandbox.picture.views import AboveView, Box, Camera, Entry, Painter, Sheet
 from sandbox.sport.amounts import metres, times
 from sandbox.sport.readings import first_touch
 
-from ..soccer.look import EARLIER, LINE, LOOK, STRIPE, TRACE
+from ..soccer.look import EARLIER, LINE, LOOK, SPOT, STRIPE, TRACE, pitch_lines
 from .scene import BOARDS_ASIDE, BOARDS_BEHIND, BOARDS_BEYOND, Parameters
 
 CARD, COLOURS = palette("card"), scene_colours(__file__)
@@ -77,7 +76,7 @@ class Picture(AboveView[Parameters]):
         aside, mouth = goal.width / 2 + goal.post_radius, (end, goal.depth, HEIGHT, goal.width, goal.post_radius)
         return (
             plan.Stripes(grass, COLOURS["grass"], STRIPE, end),
-            *(plan.Line(tuple(points), LINE, COLOURS["line"]) for points in soccer_lines(end, middle)),
+            *(plan.Line(tuple(points), LINE, COLOURS["line"]) for points in pitch_lines(end, middle)),
             plan.Spot((end - SPOT, middle), LINE, COLOURS["line"]),
             *(plan.Ground(everywhere._replace(**edge), COLOURS["beyond"]) for edge in sides),
             *(plan.Stripes(box, COLOURS["boards"], BOARD_LENGTH, -BOARDS_ASIDE, along=True) for box in boards),

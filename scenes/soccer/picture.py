@@ -10,11 +10,10 @@ import numpy as np
 from sandbox.engine.setup import Segment
 from sandbox.picture.palette import mix
 from sandbox.picture.places import Person, Shape, Size, Stands, goal, turf
-from sandbox.picture.places.courts import SOCCER_WIDTH, soccer_lines
 from sandbox.picture.views import Box, Camera, Length, Place, Sheet, SideView
 from sandbox.sport.amounts import metres, roughly, times
 
-from .look import COLOURS, EARLIER, LINE, LOOK, STRIPE, TRACE
+from .look import COLOURS, EARLIER, LINE, LOOK, STRIPE, TRACE, WIDTH, pitch_lines
 from .scene import Parameters
 
 PITCH, BOARDS = COLOURS["pitch"], COLOURS["stands"]["boards"]
@@ -66,7 +65,7 @@ class Picture(SideView[Parameters]):
     @cached_property
     def place(self) -> Place:
         mouth, wall = self.parameters.goal, self.parameters.wall
-        lines = soccer_lines(mouth.distance, GOAL_WIDTH / 2)
+        lines = pitch_lines(mouth.distance, GOAL_WIDTH / 2)
         ground = turf(PITCH, STRIPE, 6, LINE, start=mouth.distance, lines=lines, far=FAR, haze=PITCH["far"])
         size = mouth.distance, mouth.depth, mouth.height, GOAL_WIDTH, mouth.post_radius
         standing = [
@@ -79,7 +78,7 @@ class Picture(SideView[Parameters]):
     def _boards(self) -> list[Shape]:
         """Advertising boards across the pitch, where a ball is out of play."""
         shapes = (surface.shape for surface in self.run.setup.surfaces if surface.name == "boards")
-        edges = np.arange((GOAL_WIDTH + SOCCER_WIDTH) / 2, -BOARD, -BOARD).clip(0.0).tolist()
+        edges = np.arange((GOAL_WIDTH + WIDTH) / 2, -BOARD, -BOARD).clip(0.0).tolist()
         return [
             Shape([(*low, near), (*low, far), (*top, far), (*top, near)], mix(BOARDS[i * 3 % 4], PITCH["far"], 0.25))
             for low, top in ((shape.a, shape.b) for shape in shapes if isinstance(shape, Segment))
