@@ -181,11 +181,11 @@ def _static(view: View[Any], run: Run) -> dict[str, Any]:
         "ghosts": [
             {
                 "label": ghost.label,
-                "radius": ghost.path.radius,
+                "radius": ghost.view.radius,
                 "colour": css(ghost.colour if not view.on_dark else ghost.light),
                 "light": css(ghost.light),
                 "shift": ghost.shift,
-                "path": _path(ghost.run.arcs[ghost.path.name]),
+                "path": _path(ghost.run.arcs[ghost.view.ball]),
             }
             for ghost in view.ghosts
         ],

@@ -13,7 +13,7 @@ import numpy as np
 from sandbox.engine.run import Run
 from sandbox.picture.lettering import around
 from sandbox.picture.palette import Colour, mix, palette
-from sandbox.picture.path import FINEST, Path, apart
+from sandbox.picture.path import FINEST, apart
 from sandbox.picture.sheet import CARD, Sheet
 
 if TYPE_CHECKING:
@@ -38,19 +38,14 @@ class Ghost:
     def run(self) -> Run:
         return self.view.run
 
-    @property
-    def path(self) -> Path:
-        """Of its ball, where it was played."""
-        return self.view.path
-
     @cached_property
     def points(self) -> np.ndarray:
         """Its path where it is drawn, in m, shape (n, 2)."""
-        return self.path.points + self.shift
+        return self.view.path.points + self.shift
 
     def at(self, t: float) -> np.ndarray:
         """Its ball where it is drawn at time t in s, in m, shape (1, 2)."""
-        return np.array([self.run.state(self.path.name, min(t, self.run.duration))[:2]]) + self.shift
+        return np.array([self.run.state(self.view.ball, min(t, self.run.duration))[:2]]) + self.shift
 
     @property
     def light(self) -> Colour:

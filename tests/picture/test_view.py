@@ -87,7 +87,7 @@ def test_shots_over_other_distances_are_laid_over_each_other_at_their_target(nam
     (x, _), _ = picture.datum
     (there, _), _ = picture_of(other).datum
     assert there != x
-    assert ghost.points - ghost.path.points == pytest.approx(np.full(ghost.points.shape, (x - there, 0.0)))
+    assert ghost.points - ghost.view.path.points == pytest.approx(np.full(ghost.points.shape, (x - there, 0.0)))
     picture.poster()
     assert words in written(picture)
     picture.frame(0.1)
