@@ -8,7 +8,7 @@ import sys
 
 from sandbox.cli.interrupts import Interrupts, is_interrupt
 
-#: Exit code after Ctrl-C; after SIGTERM it is 143, and 129 if the terminal was closed.
+#: Exit code after Ctrl-C, SIGTERM, or if the terminal was closed.
 STOPPED = 130
 
 
@@ -39,7 +39,8 @@ def main(args: list[str] | None = None) -> int:
     interrupts.end()
     if args is None:
         gc.freeze()  # the process ends here: to look for cycles once more would take a fifth of a run
-    if code != STOPPED:
-        return code
-    eval("0")  # or Python would end with SIGINT and not with this code, if it was in an exec when it was interrupted
-    return interrupts.code
+    if code == STOPPED:
+        eval(
+            "0"
+        )  # or Python would end with SIGINT and not with this code, if it was in an exec when it was interrupted
+    return code

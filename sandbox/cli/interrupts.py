@@ -34,8 +34,8 @@ class Interrupts:
     """The handler of the signals; between ``begin`` and ``end`` in the program's main thread."""
 
     def __init__(self) -> None:
-        self.code = 128 + signal.SIGINT  # exit code if interrupted
-        self._last = -_ONE
+        self._number = signal.SIGINT.value  # the last one
+        self._last = -_ONE  # s
 
     def begin(self) -> None:
         """Handle the signals that nobody else handles or ignores."""
@@ -54,7 +54,7 @@ class Interrupts:
         now = time.monotonic()
         if now - self._last >= _ONE:
             self._last = now
-            self.code = 128 + number
+            self._number = number
             raise KeyboardInterrupt
 
     def _lost(self, error: sys.UnraisableHookArgs) -> None:
@@ -69,4 +69,4 @@ class Interrupts:
 
     def _again(self) -> None:
         time.sleep(_AGAIN)
-        os.kill(os.getpid(), self.code - 128)
+        os.kill(os.getpid(), self._number)
