@@ -7,6 +7,7 @@ import pickle
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import partial
+from itertools import chain
 from time import perf_counter
 from typing import Any
 
@@ -661,7 +662,7 @@ def test_rows_are_the_arcs_they_were_made_from():
     run = simulate(thrown(), resolve())
     arcs = run.arcs["ball"]
     flights = [arc for arc in arcs if len(arc.x) == 6]
-    numbers = [[a.t0, a.t1, *a.start, *a.x, *a.y, *a.vx, *a.vy, *a.spin, *a.state(a.t1)] for a in flights]
+    numbers = [[a.t0, a.t1, *a.start, *chain(*a.curves), *a.state(a.t1)] for a in flights]
     count = len(flights)
     paths = Paths(np.array([*numbers, *numbers]), [count, 2 * count])
     rows, _ = paths[0], paths[1].passages(climb)

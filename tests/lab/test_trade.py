@@ -294,8 +294,9 @@ def test_the_command_prints_tables(
     monkeypatch.setattr(lab, "trade", lambda scene, progress: basketball)
     assert main(["trade", "basketball"]) == 0
     out = capsys.readouterr().out
-    for heading in ("levels", "cheapest choice", "effect of each part of the model", "dormand-prince"):
+    for heading in ("levels", "cheapest choice", "effect of each part of the model", "dormand-prince", "verdicts that"):
         assert heading in out
+    assert "verdicts that" not in "".join(lab.as_text(replace(basketball, verdicts=None)))
 
 
 def test_a_picture_of_another_kind_is_refused_before_any_work(capsys: pytest.CaptureFixture[str]):

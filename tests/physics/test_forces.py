@@ -121,8 +121,8 @@ def test_floats_and_arrays_agree(shots, wx: float):
 
 
 def test_a_force_inside_a_medium_grows_with_the_share_of_the_ball_that_is_in_it():
-    force = Inside(Gravity(1.0, 10.0), (0.0, 2.0), (0.0, 1.0), 0.5, "drag of water")
-    heights = np.array([3.0, 2.5, 2.25, 2.0, 1.75, 1.5, 0.0])
+    force = Inside(Gravity(1.0, 10.0), (0.0, 2.0), (0.0, 1.0), 0.25, "drag of water")
+    heights = np.array([3.0, 2.25, 2.125, 2.0, 1.875, 1.75, 0.0])
     shares = [0.0, 0.0, 0.25, 0.5, 0.75, 1.0, 1.0]
     together = force(0.0, (np.zeros(7), heights), (0.0, 0.0), 0.0)[1]
     alone = [force(0.0, (0.0, y), (0.0, 0.0), 0.0)[1] for y in heights.tolist()]
