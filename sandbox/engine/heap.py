@@ -127,7 +127,7 @@ class Heap:
 
     def has(self, indices: Collection[int]) -> bool:
         """Whether some of these balls lie in the heap, at rest or not."""
-        return not (self._members.keys() | self._resting.keys()).isdisjoint(indices)
+        return any(index in self._members or index in self._resting for index in indices)
 
     def wake(self, indices: Collection[int]) -> None:
         """Step on those that lie with these at rest."""
@@ -241,8 +241,9 @@ class Heap:
             member = self._members[index]
             slow = member.fastest**2 <= 2.0 * self._forced * self._settle and index not in overlapped
             member.slow_for = member.slow_for + h if slow else 0.0
+        rests = self._lasting(_REST, self._forced)
         for heap in self._apart(held):
-            if all(self._members[index].slow_for >= self._lasting(_REST, self._forced) for index in heap):
+            if all(self._members[index].slow_for >= rests for index in heap):
                 self._resting |= dict.fromkeys(heap, heap)
                 for index in heap:
                     at_rest = (*states[index][:2], 0.0, 0.0, 0.0, *states[index][5:])
@@ -252,11 +253,12 @@ class Heap:
 
     def _apart(self, held: set[int]) -> list[set[int]]:
         """These balls as heaps that do not press on each other."""
-        heaps = [{index} for index in held]
-        for pair in self._pressed:
-            joined = [heap for heap in heaps if not heap.isdisjoint(pair)]
-            heaps = [heap for heap in heaps if heap.isdisjoint(pair)] + [set().union(*joined)]
-        return heaps
+        heap_of = {index: {index} for index in held}
+        for one, other in (pair for pair in self._pressed if len(pair) == 2):
+            if heap_of[one] is not heap_of[other]:
+                joined = heap_of[one] | heap_of[other]
+                heap_of |= dict.fromkeys(joined, joined)
+        return list({id(heap): heap for heap in heap_of.values()}.values())
 
     def _refuse_leap(self, index: int, arc: Arc) -> None:
         """Raise RunError if a body's centre passed through a surface: it was too thin for the step."""
