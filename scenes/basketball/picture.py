@@ -2,18 +2,24 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import cached_property
+from math import cos, radians, sin
 
 import numpy as np
+import pygame
 
+from sandbox.picture.lettering import Labels
+from sandbox.picture.marks import draw_trace, mark_impacts
+from sandbox.picture.painter import around_corners
 from sandbox.picture.palette import mix, palette, scene_colours
+from sandbox.picture.path import Mark
 from sandbox.picture.places import Hall, Person, Size, boards
-from sandbox.picture.views import Box, Camera, Entry, Length, Look, Painter, Place, Sheet, seams
+from sandbox.picture.views import Box, Camera, Entry, Eye, Length, Look, Painter, Place, Sheet, SideView, seams
 from sandbox.sport.amounts import metres, roughly, times
 
 from . import court
-from .hoop import HangingNet, hoop, stand
-from .lens import LensView
+from .scene import Parameters, entry, on_floor
 
 CARD, COLOURS = palette("card"), scene_colours(__file__)
 BALL, FLOOR = COLOURS["ball"], COLOURS["floor"]
@@ -22,9 +28,13 @@ BALL, FLOOR = COLOURS["ball"], COLOURS["floor"]
 STAND, THROWER = 2.5, 0.7
 #: Board, ring and stand are drawn larger where they would be less tall than this, px on 720 rows.
 LEAST_HEIGHT = 80
+#: The lens shows so much of the world, in m, on so many px (of 720 rows); its middle lies so far from the ring's, in m.
+SHOWN, SIDE, OFF_MIDDLE = 1.22, 286, (-0.02, 0.08)
+#: There is no lens if the whole would have to be drawn smaller than this for it, or if it were no larger than this.
+LEAST_SHRINK, LEAST_LENS = 0.85, 1.5
 
 
-class Picture(LensView):
+class Picture(SideView[Parameters]):
     """One shot."""
 
     LOOK = Look(BALL["colour"], seams(BALL["seam"]))
@@ -37,7 +47,11 @@ class Picture(LensView):
     @cached_property
     def told(self) -> float:
         """When the ball is on the floor."""
-        return next((event.t for event in self.run.events if event.partner == "floor"), self.run.duration)
+        return on_floor(self.run)
+
+    @property
+    def datum(self) -> tuple[tuple[float, float], str]:
+        return self.ring, "the ring"
 
     @cached_property
     def span(self) -> float:
@@ -62,8 +76,8 @@ class Picture(LensView):
         return self.parameters.hoop.middle
 
     @cached_property
-    def net(self) -> HangingNet:
-        return HangingNet(self.run, self.parameters)
+    def net(self) -> court.HangingNet:
+        return court.HangingNet(self.run, self.parameters)
 
     @property
     def hoop_size(self) -> Size:
@@ -84,7 +98,7 @@ class Picture(LensView):
         face = self.parameters.board[0]
         lines = court.lines(face, self.ring[0])
         ground = boards(FLOOR, areas=[(court.key(face), FLOOR["key"])], lines=lines)
-        goal = self.hoop_size.of(*stand(self.parameters), *hoop(self.parameters))
+        goal = self.hoop_size.of(*court.stand(self.parameters), *court.hoop(self.parameters))
         return Place(Hall(**COLOURS["hall"]), ground, [*goal, *self.thrower])
 
     def behind(self, painter: Painter, camera: Camera, t: float) -> None:
@@ -120,5 +134,112 @@ class Picture(LensView):
         points = camera.pixels(np.array([self.run.state(self.ball, t)[:2] for t in moments]))
         if np.ptp(points, axis=0).max() > 2:
             sheet.painter.fading(points[::-1], 4 * self.unit, self.TRACE, 0.6)
-        if self.has_lens:
+        if self.beside:
             sheet.labels.take(self.lens)
+
+    # The lens: the ring from near by
+
+    @cached_property
+    def lens(self) -> pygame.Rect:
+        """Where it is, in px."""
+        side, frame = round(SIDE * self.unit), self.sheet.frame
+        return pygame.Rect(frame.right - side, frame.top, side, side)
+
+    @cached_property
+    def near(self) -> Camera:
+        """Its camera."""
+        at = np.add(self.ring, OFF_MIDDLE).tolist()
+        return Camera((at[0], at[1]), self.lens.center, self.lens.width / SHOWN)
+
+    def _away(self, points: np.ndarray) -> np.ndarray:
+        """How far points are from the ring, as shares of half of what the lens shows."""
+        return np.abs(points - self.ring).max(axis=1) / (SHOWN / 2)
+
+    @cached_property
+    def beside(self) -> Camera | None:
+        """The poster's camera that leaves room for the lens; None where there is none: the ball does not come to the
+        ring, the whole would be too small, or the lens shows it hardly larger."""
+        area = self.area._replace(left=0.06 * self.size[0], right=self.lens.left - 24 * self.unit)
+        camera, comes = self.fitted(area), self._away(self.path.points).min() < 0.9
+        large = camera.scale >= LEAST_SHRINK * self.fitted(self.area).scale
+        return camera if comes and large and self.near.scale > LEAST_LENS * camera.scale else None
+
+    @cached_property
+    def camera(self) -> Camera:
+        return self.beside or self.fitted(self.area)
+
+    @cached_property
+    def columns(self) -> tuple[float, float]:
+        low, high = super().columns
+        return low, min(high, self.lens.left - 40 * self.unit) if self.beside else high
+
+    def eye(self, camera: Camera) -> Eye:
+        if camera != self.near:
+            return super().eye(camera)
+        eye = super().eye(self.camera)  # the same eye sees what is in the lens
+        centre, level = camera.pixel(*self.camera.world(eye.centre, eye.level))
+        return replace(eye, camera=camera, centre=centre, level=level)
+
+    def impacts(self, camera: Camera) -> list[Mark]:
+        """Those that this camera shows; the rest are in the lens."""
+        marks, here = super().impacts(camera), camera == self.near
+        return [mark for mark in marks if not self.beside or here == (self._away(np.array([mark.at]))[0] < 1.0)]
+
+    def inset(self, sheet: Sheet, camera: Camera, t: float | None) -> pygame.Rect | None:
+        """The lens, unless it would hide what it shows: how the ball comes, and on the poster what it touches."""
+        _, bottom, back, top = self.parameters.board
+        (left, high), (right, low) = camera.pixel(self.ring[0] - 0.6, top), camera.pixel(back + 1.0, bottom)
+        hidden = self.lens.colliderect((round(left), round(high), round(right - left), round(low - high)))
+        if not self.beside or (t is not None and hidden):
+            return None
+        near, painter, moment = self.near, sheet.painter, self.moment if t is None else t
+        corners = around_corners(sheet.surface, self.lens, 10 * self.unit)
+        sheet.surface.fill(COLOURS["lens"], self.lens)
+        sheet.surface.set_clip(self.lens)
+        self.draw_things(painter, self.eye(near), near=False)
+        self.behind(painter, near, moment)
+        outside, sheet.labels = sheet.labels, Labels(self.lens.inflate(-2 * sheet.gap, -2 * sheet.gap), sheet.gap)
+        if t is None:
+            points = near.pixels(self.path.points)
+            seen = np.flatnonzero(np.abs(points - self.lens.center).max(axis=1) < self.lens.width)
+            draw_trace(sheet, points[seen[0] : seen[-1] + 1], self.TRACE)
+            self._entry(sheet)
+        else:
+            self.trail(painter, near, self.ball, t)
+            self.draw_ball(painter, near, self.ball, t, *self._placed(near, t, 1.0)[self.ball])
+        self.before(painter, near, moment)
+        if t is None:
+            mark_impacts(sheet, near, self.impacts(near))
+            corner = self.lens.left + 2 * sheet.gap, self.lens.bottom - 1.6 * sheet.gap
+            larger = f"{near.scale / self.camera.scale:.1f}×"
+            sheet.label(larger, "small", [(*corner, "bottomleft")], CARD["quiet"])
+        sheet.labels = outside
+        sheet.surface.set_clip(None)
+        sheet.surface.blit(corners, self.lens)
+        return self.lens
+
+    def _entry(self, sheet: Sheet) -> None:
+        """The ball as it comes to the ring, and the angle at which it does."""
+        ball = entry(self.run, self.parameters)
+        if ball is None:
+            return
+        (px, py), unit, accent, side = (
+            self.near.pixel(ball.x, ball.y),
+            self.unit,
+            CARD["accent"],
+            -1 if ball.vx > 0 else 1,
+        )
+        radius = self.radius * self.near.scale
+        far, turn = radius + 26 * unit, np.linspace(0, radians(ball.descent), 25)
+        across, down = side * cos(turn[-1] / 2), -sin(turn[-1] / 2)
+        anchor = "midright" if side < 0 else "midleft"
+        spots = [(px + across * (far + out * unit), py + down * (far + out * unit), anchor) for out in (6, 12, 20, 30)]
+        shown = self.lens.collidepoint(px + side * far, py) and ball.descent > 5
+        if shown and sheet.label(f"{ball.descent:.1f}°", "small", spots, accent, bold=True):
+            level = [(px, py), (px + side * (far + 8 * unit), py)]
+            sheet.painter.dashes(level, 1.3 * unit, accent, 4 * unit, 4 * unit)
+            arc = np.column_stack([px + side * far * np.cos(turn), py - far * np.sin(turn)])
+            sheet.painter.line(arc, 1.8 * unit, accent)
+            sheet.labels.take_path(arc, 2 * unit)
+        self.LOOK.draw(sheet.painter, (px, py), radius, self.turn("ball", ball.t), unit)
+        sheet.labels.take_path([(px, py)], radius)
