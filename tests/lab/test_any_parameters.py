@@ -73,7 +73,7 @@ PLAIN = st.fixed_dictionaries({"accuracy.method": st.just("plain"), "accuracy.st
 @pytest.mark.parametrize(
     ("space", "examples", "share"),
     [
-        (lambda usual: overrides(type(usual)), 8, 0.3),
+        (lambda usual: overrides(type(usual)), 10, 0.6),
         # Every number somewhat changed. A quarter at least: a rink that is a fifth shorter has its goalie outside.
         (nearby, 8, 0.25),
         # Everything changed. Most of such scenes are refused, as what is in them overlaps; the others are odd.
