@@ -112,8 +112,9 @@ def stiff(
     before: State, after: State, acceleration: Acceleration, following: Acceleration, h: Any, limit: float = STIFFEST
 ) -> Any:
     """Whether a fixed step is too long for forces that depend on velocity: in it they change by more than ``limit``
-    times the change of velocity, over h."""
+    times the change of velocity, over h. A force that starts on a ball at rest, as a thrust, is not."""
+    pulled = abs(before[2]) + abs(before[3]) + abs(acceleration[0]) + abs(acceleration[1])
     change = h * (abs(following[0] - acceleration[0]) + abs(following[1] - acceleration[1]))
     gain = abs(after[2] - before[2]) + abs(after[3] - before[3])
     speed = most(abs(before[2]) + abs(before[3]), abs(after[2]) + abs(after[3]))
-    return ((change <= limit * gain) | (change <= JUMP * speed)) ^ True
+    return ((change <= limit * gain) | (change <= JUMP * speed) | (pulled == 0.0)) ^ True

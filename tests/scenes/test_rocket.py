@@ -27,6 +27,12 @@ def test_its_nose_turns_into_the_wind_while_the_motor_burns():
     assert fly(launch__angle=90.0, air__wind=[-4.0, 0.0]).result["distance"] > 50.0
 
 
+@pytest.mark.parametrize("integrator", ["explicit-euler", "rk4"])
+def test_without_weight_a_thrust_that_starts_from_rest_is_not_stiff(integrator: str):
+    fixed, controlled = (fly(gravity=0.0, accuracy__integrator=how) for how in (integrator, "dormand-prince"))
+    assert fixed.result["top_speed"] == pytest.approx(controlled.result["top_speed"], rel=1e-3)
+
+
 def test_a_grenade_ends_itself():
     assert fly("rocket/grenade").result["flight_time"] == 4.5
     assert "away after 4.5 s" in fly("rocket/grenade").scene.verdict(fly("rocket/grenade"))
