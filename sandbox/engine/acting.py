@@ -76,7 +76,7 @@ def _written_out(forces: int, torques: int, turns: bool, loses: bool) -> Any:
         left=" * ball.left(t)" if loses else "",
     )
     names = [*(f"force{n}" for n in range(forces)), *(f"torque{n}" for n in range(torques))]
-    used = {"is_from_inside": is_from_inside, "place": _place, "refused": _refused}
+    used = {"is_from_inside": is_from_inside, "place": _place, "refused": refused}
     return straight(f"law_of(ball, {', '.join(names)})", law.splitlines(), __file__, used)
 
 
@@ -85,9 +85,12 @@ def _quick(term: Any) -> Any:
     return term.__call__ if is_dataclass(type(term)) and callable(term) else term
 
 
-def _refused(ball: Ball, t: float, state: State) -> RunError:
-    wrong = wrong_term(ball, t, state) or "the sum of its forces and torques is not a real number"
-    return RunError(f"t = {t:.6g} s, ball {ball.name!r}: {wrong}")
+def refused(
+    ball: Ball, t: float, state: State, otherwise: str = "the sum of its forces and torques is not a real number"
+) -> RunError:
+    """An error that names the force or torque that does not return finite numbers in this state; or, if all do, says
+    what is wrong ``otherwise``."""
+    return RunError(f"t = {t:.6g} s, ball {ball.name!r}: {_wrong_term(ball, t, state) or otherwise}")
 
 
 def acceleration(ball: Ball, t: Any, state: State) -> Acceleration:
@@ -108,7 +111,7 @@ def cause(term: object) -> str:
     return CALLED.get(words, words)
 
 
-def wrong_term(ball: Ball, t: float, state: State) -> str | None:
+def _wrong_term(ball: Ball, t: float, state: State) -> str | None:
     """What a force or torque on a ball returns in place of finite numbers; None if all return those."""
     arguments = _place(state), state[2:4], state[4]
     for term, parts in (*((force, 2) for force in ball.forces), *((torque, 0) for torque in ball.torques)):

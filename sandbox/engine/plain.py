@@ -18,7 +18,7 @@ from typing import Any
 import pymunk
 
 from sandbox.engine.accuracy import Accuracy
-from sandbox.engine.acting import law_of
+from sandbox.engine.acting import law_of, refused
 from sandbox.engine.arc import Arc
 from sandbox.engine.event import Event
 from sandbox.engine.impacts import after_one, of_two, with_surface
@@ -209,7 +209,8 @@ class PlainSimulation:
         tracked, setup = self._tracked[body], self._setup
         state = tracked.state()
         x, y, vx, vy, spin = state[:5]
-        acceleration = tracked.law(self._t, state if tracked.turns else state[:5])
+        before = state if tracked.turns else state[:5]
+        acceleration = tracked.law(self._t, before)
         self._refuse_leap(tracked, tracked.last[0][:2], (x, y))
         if tracked.touched != self._steps:
             self._refuse_reversal(tracked, *tracked.last, state, acceleration, h)
@@ -220,7 +221,8 @@ class PlainSimulation:
             phase = setup.plane_of(tracked.ball.name).phase(after, tracked.ball.radius)
             after = (x, y, *phase.after(h)[2:])
         after = (*after[:4], after[4] + h * alpha, *after[5:])
-        setup.bounds.check(self._t, tracked.ball.name, after)
+        if not setup.bounds.hold(after):
+            raise refused(tracked.ball, self._t, before, setup.bounds.broken_by(after))
         tracked.take(after)
 
     def _meet(self, arbiter: pymunk.Arbiter) -> None:

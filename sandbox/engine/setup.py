@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple, Protocol
 from sandbox.engine.nearest import Pose, nearest
 from sandbox.engine.setup_errors import asked
 from sandbox.engine.shapes import Shape, Vector, disc
-from sandbox.errors import RunError
 from sandbox.physics.checks import check
 from sandbox.physics.elementwise import least, most
 from sandbox.physics.hertz import PHENOLIC
@@ -265,10 +264,8 @@ class Bounds(NamedTuple):
         inside = (self.left <= x) & (x <= self.right) & (self.bottom <= y) & (y <= self.top)
         return inside & (total - total == 0.0)
 
-    def check(self, t: float, ball: str, state: State) -> None:
-        """Raise RunError unless a ball in this state is inside at time t (s), and all its numbers are finite."""
-        if self.hold(state):
-            return
+    def broken_by(self, state: State) -> str:
+        """What is wrong with a ball in a state that they do not hold."""
         x, y, vx, vy, spin = state[:5]
         wrong = (
             f"is outside the world ({self.left:g} to {self.right:g} m, {self.bottom:g} to {self.top:g} m); shorten the "
@@ -276,10 +273,7 @@ class Bounds(NamedTuple):
             if all(map(isfinite, state))
             else "is not finite; check the forces, or lower accuracy.step or accuracy.tolerance"
         )
-        raise RunError(
-            f"t = {t:.6g} s, ball {ball!r}: position ({x:.6g}, {y:.6g}) m, velocity ({vx:.6g}, {vy:.6g}) m/s, "
-            f"spin {spin:.6g} rad/s {wrong}"
-        )
+        return f"position ({x:.6g}, {y:.6g}) m, velocity ({vx:.6g}, {vy:.6g}) m/s, spin {spin:.6g} rad/s {wrong}"
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,7 @@ from math import hypot
 from typing import NamedTuple
 
 from sandbox.engine.accuracy import Accuracy
-from sandbox.engine.acting import law_of, wrong_term
+from sandbox.engine.acting import law_of, refused
 from sandbox.engine.arc import Arc, crossing, still, through
 from sandbox.engine.lasting import BECOMES, FLYING, RESTING, LastingContact, motion_on, wedged
 from sandbox.engine.run import Numerics
@@ -19,7 +19,6 @@ from sandbox.engine.setup import Ball, Setup
 from sandbox.engine.step_control import LONGEST, StepControl, before_break, within
 from sandbox.engine.surfaces import PUSH, STILL, leaves_at, press
 from sandbox.engine.touch import TOUCHING_GAP, Near, Obstacle, flush, touched
-from sandbox.errors import RunError
 from sandbox.physics.integrators import Acceleration, Law, State
 
 #: Difference in m/s and rad/s below which it is rounding.
@@ -161,7 +160,8 @@ class Track:
             if fits:
                 break
             if following < shortest:
-                self._check(t + h, end, _TOO_FAST.format(h))
+                self._check(t + h, end)
+                raise refused(ball, t + h, end, _TOO_FAST.format(h))
             self._numerics.refined_steps += 1
             h = wanted = following
         self.next_step = following
@@ -169,15 +169,10 @@ class Track:
         self._known = (end, last)
         return through(t, h, state, acceleration, end, last, contact)
 
-    def _check(self, t: float, after: State, wrong: str | None = None) -> None:
-        """Raise RunError, which names a force that is not finite, if a state is outside the world or not finite, or if
-        something else is ``wrong``."""
-        inside = self._setup.bounds.hold(after)
-        if inside and wrong is None:
-            return
-        if wrong := wrong_term(self.ball, t, after if inside else self.state) or (wrong if inside else None):
-            raise RunError(f"t = {t:.6g} s, ball {self.ball.name!r}: {wrong}")
-        self._setup.bounds.check(t, self.ball.name, after)
+    def _check(self, t: float, after: State) -> None:
+        """Raise RunError, which names a force that is not finite, if a state is outside the world or not finite."""
+        if not self._setup.bounds.hold(after):
+            raise refused(self.ball, t, self.state, self._setup.bounds.broken_by(after))
 
     # ------------------------------------------------------------------ lasting contact
 
