@@ -436,7 +436,7 @@ def build(parameters):
 #: Signals that end a sweep, and the exit codes of the program that they may lead to; 0 if it was done.
 SIGNALS = {
     signal.SIGKILL: (0, -signal.SIGKILL),
-    **{by: (0, 128 + by, -by) for by in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP)},
+    **{by: (0, 130, -by) for by in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP)},
 }
 
 
