@@ -40,7 +40,6 @@ def main(args: list[str] | None = None) -> int:
     if args is None:
         gc.freeze()  # the process ends here: to look for cycles once more would take a fifth of a run
     if code == STOPPED:
-        eval(
-            "0"
-        )  # or Python would end with SIGINT and not with this code, if it was in an exec when it was interrupted
+        # without it Python would end by SIGINT, not with this code, if it was interrupted in an exec
+        eval("0")
     return code

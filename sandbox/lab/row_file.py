@@ -69,7 +69,6 @@ class RowFile:
     def finish(self) -> None:
         """Mark the file as complete."""
         if not self._is_device:
-            self._file.flush()
             with suppress(OSError):  # a full disk: the same sweep would be computed again
                 self._seal_path.write_text(self._seal(), encoding="utf-8")
             self._mark_path.unlink(missing_ok=True)
