@@ -57,7 +57,10 @@ def table(headings: Sequence[str], rows: Iterable[Sequence[str]], align: str, in
 
 
 def _wrapped(text: str, room: int) -> list[str]:
-    return textwrap.wrap(text, room, break_on_hyphens=False) if _room(text) > room else [text]
+    if _room(text) <= room:
+        return [text]
+    letters = room if _room(text) == len(text) else max(1, room // 2)  # some may take two columns
+    return textwrap.wrap(text, letters, break_on_hyphens=False)
 
 
 def _padded(text: str, room: int, side: str) -> str:

@@ -60,6 +60,13 @@ def test_a_wider_terminal_is_used(monkeypatch: pytest.MonkeyPatch):
     assert max(map(len, table(("", ""), [row], "ll"))) <= 20
 
 
+@pytest.mark.parametrize("text", ["日本語" * 60, "日本語 and " * 20])
+def test_letters_as_wide_as_two_fit(text: str):
+    lines = table(("", ""), [("own", text)], "ll", indent="")
+    assert max(len(line) + sum(letter in "日本語" for letter in line) for line in lines) <= 80
+    assert "".join("".join(lines).split()) == "own" + text.replace(" ", "")
+
+
 def test_a_paragraph_fits():
     lines = paragraph("word " * 40)
     assert max(map(len, lines)) <= 80
