@@ -3,17 +3,22 @@
 from __future__ import annotations
 
 from functools import cached_property
+from math import pi, sin
+from typing import Any
 
 import numpy as np
+import pygame
 
-from sandbox.picture.palette import Colour, palette
-from sandbox.picture.views import Box, Camera, Length, Painter, Sheet, SideRows, SideView, nice
-from sandbox.sport.amounts import metres, twice
+from sandbox.engine.setup import Segment
+from sandbox.picture.palette import Colour, mix, palette, scene_colours
+from sandbox.picture.places import Ground, Landscape, Line, Stripes
+from sandbox.picture.views import Box, Camera, Eye, Length, Look, Mark, Painter, Sheet, SideRows, SideView, dimples
+from sandbox.sport.amounts import metres, nice, twice
 
-from .drawing import BALL, COLOURS, Course
 from .scene import Parameters
 
-CARD = palette("card")
+CARD, COLOURS = palette("card"), scene_colours(__file__)
+HOLE, BALL = COLOURS["hole"], COLOURS["ball"]
 
 #: Carry is measured at launch height; a ball that is then at least this far above the ground (px on 720 rows) shows so.
 LEAST_DROP = 14
@@ -21,14 +26,23 @@ LEAST_DROP = 14
 LEAST_GRAVITY = 5.0
 #: Mown stripes are about so wide, and the dashed line under the apex is at least so long, in px on 720 rows.
 STRIPE, LEAST_APEX = 70, 44
+#: Height of the flagstick in m, and scale of things at the far side of the fairway, compared with the line of play.
+FLAGSTICK, FAR = 2.13, 0.42
+#: How deep the turf is that is cut open, and a hollow at most, in px on 720 rows; a cup is drawn that is so wide.
+TURF, HOLLOW, LEAST_CUP = 7, 16, 10
 #: Frames show at most this much of the world's length, in m.
 WIDEST_VIEW = 64.0
+
+
+def _stripe(at: np.ndarray) -> np.ndarray:
+    """The line that players draw around half of it."""
+    return ((abs(at[..., 1]) < 0.13) & (at[..., 2] > 0.0) & (abs(at[..., 0]) < 0.7)).astype(float)
 
 
 class Picture(SideView[Parameters]):
     """One shot of golf."""
 
-    LOOK = BALL
+    LOOK = Look(BALL["colour"], Mark(BALL["mark"], _stripe, least=6), dimples(BALL["dimple"]))
     HEADROOM = 40
     STRETCHES = 2.0
     LEAST_PATH = 0.2
@@ -46,7 +60,7 @@ class Picture(SideView[Parameters]):
 
     @property
     def datum(self) -> tuple[tuple[float, float], str]:
-        return (self.parameters.pin.distance, 0.0), "the pin"
+        return (self.pin, 0.0), "the pin"
 
     @cached_property
     def span(self) -> float:
@@ -57,8 +71,7 @@ class Picture(SideView[Parameters]):
 
     @property
     def target(self) -> Box:
-        pin = self.parameters.pin.distance
-        return Box(pin, 0.0, pin, 0.0)
+        return Box(self.pin, 0.0, self.pin, 0.0)
 
     @property
     def near_view(self) -> float:
@@ -66,40 +79,138 @@ class Picture(SideView[Parameters]):
 
     # The place
 
+    @property
+    def pin(self) -> float:
+        """Where it is, in m."""
+        return self.parameters.pin.distance
+
+    @property
+    def colours(self) -> dict[str, Any]:
+        """Those of the course."""
+        found: dict[str, Any] = COLOURS["moon" if self.moon else "earth"]
+        return found
+
     @cached_property
-    def course(self) -> Course:
-        return Course(self.run.setup, self.parameters.pin.distance, self.moon)
+    def pieces(self) -> list[tuple[str, Segment]]:
+        """The ground, from left to right, each piece with its kind."""
+        found = ((s.name, s.shape) for s in self.run.setup.surfaces if isinstance(s.shape, Segment) and s.name != "cup")
+        return sorted(found, key=lambda piece: piece[1].a)
+
+    @cached_property
+    def cup(self) -> Box:
+        """The cup; without height where there is none."""
+        corners = [s.shape.a for s in self.run.setup.surfaces if isinstance(s.shape, Segment) and s.name == "cup"]
+        corners = corners or [(self.pin, self._under(self.pin))]
+        return Box(*np.min(corners, axis=0), *np.max(corners, axis=0))
+
+    @cached_property
+    def line(self) -> np.ndarray:
+        """The ground's line in m, from left to right, shape (n, 2)."""
+        return np.array(self.parameters.ground.line)
 
     def ground(self, x: np.ndarray) -> np.ndarray:
-        return self.course.heights(x)
+        """Across the cup too."""
+        return np.interp(x, *self.line.T)
 
     def profile(self, left: float, right: float) -> np.ndarray:
-        return self.course.between(left, right)
+        inner = self.line[(self.line[:, 0] > left) & (self.line[:, 0] < right)]
+        return np.array([(left, self._under(left)), *inner, (right, self._under(right))])
 
     def base(self, rows: SideRows, scale: float) -> int:
         """Higher where the cup can be seen, for lengths and ruler are below it."""
-        cup, seen = self.course.cup, self.subject.left <= self.parameters.pin.distance <= self.subject.right
+        cup, seen = self.cup, self.subject.left <= self.pin <= self.subject.right
         deep = (cup.top - cup.bottom) * scale - 4 * self.unit if seen else 0.0
         return rows.base - round(min(max(0.0, deep), 0.15 * self.size[1]))
 
     def backdrop(self, painter: Painter, camera: Camera) -> None:
+        """Landscape, field and ground."""
         scale = camera.scale if camera == self.camera else self.home.scale
-        self.course.draw(painter, self.eye(camera), nice(STRIPE * self.unit / scale), self.moved(camera))
+        eye, (width, height), turf = self.eye(camera), self.size, self.colours["turf"]
+        low, high = camera.world(0, 0)[0], camera.world(width, 0)[0]
+        outline = camera.pixels(self.profile(low, high))
+        deepest = min(height, max(round(eye.base), round(outline[:, 1].max())))
+        field, thick = self._field(eye, nice(STRIPE * self.unit / scale)), max(3, round(TURF * self.unit))
+        Landscape(**self.colours["landscape"]).draw(painter.surface, min(field.foot(eye), height), self.moved(camera))
+        field.draw(painter, eye, deepest)
+        if outline[:, 1].min() < deepest - 1:
+            under = np.add(outline, (0, thick / 2))  # so that its rough edge is hidden
+            pygame.draw.polygon(painter.surface, turf["soil"][0], [*under, (width, deepest), (0, deepest)])
+        for name, shape in self.pieces:
+            left, right = max(shape.a[0], low), min(shape.b[0], high)
+            if left < right:
+                top = camera.pixels(self.profile(left, right)).round()
+                painter.polygon([*top, *np.add(top[::-1], (0, thick))], mix(turf[name], (255, 255, 255), 0.13))
+            if left < right and name in ("bunker", "water"):
+                self._hollow(painter, eye, camera.pixels(np.array([shape.a, shape.b])), turf[name])
+        self._hole(painter, eye)
+
+    def _field(self, eye: Eye, stripe: float) -> Ground:
+        """What is behind the line of play: rough along the horizon, in front of it fairway, green and bunkers."""
+        far, close, turf = eye.depth(FAR), eye.depth(2.0), self.colours["turf"]
+        areas: list[tuple[Line, Colour]] = []
+        for name, shape in self.pieces:
+            a, b = shape.a[0], shape.b[0]
+            if name in ("rough", "tee"):
+                left, right = max(a, eye.along(0, far)), min(b, eye.along(2 * eye.centre, far))
+                areas.append(([(left, close), (right, close), (right, far), (left, far)], turf[name]))
+            elif name != "fairway":
+                deep = min(0.5, max(0.16 * (b - a) * eye.camera.scale, 8.0 * self.unit) / (eye.base - eye.level))
+                turn = np.linspace(0.0, pi, 41)
+                x, z = (a + b) / 2 + np.cos(turn) * (b - a) / 2, np.sin(turn) * eye.depth(1 - deep)
+                areas.append(([(b, close), *zip(x, z, strict=True), (a, close)], turf[name]))
+        stripes = Stripes((turf["fairway"], turf["fairway_stripe"]), stripe)
+        beyond = turf["rough_far"], turf["rough"]
+        return Ground(stripes, turf["soil"], areas=areas, far=FAR, beyond=beyond)
+
+    def _hollow(self, painter: Painter, eye: Eye, ends: np.ndarray, colour: Colour) -> None:
+        """Sand or water in a shallow hollow between two points in px."""
+        (left, top), (right, end) = ends
+        turn = np.linspace(0, pi, 25)
+        x = (left + right) / 2 + np.cos(turn) * (right - left) / 2
+        deep = np.sin(turn) ** 0.7 * min(HOLLOW * self.unit, 0.2 * (right - left))
+        painter.polygon([*ends, *zip(x, np.interp(x, [left, right], [top, end]) + deep, strict=True)], colour)
+
+    def _hole(self, painter: Painter, eye: Eye) -> None:
+        """The cup, or a shadow where it would be too small to see."""
+        (left, low), (right, top) = eye.camera.pixel(*self.cup[:2]), eye.camera.pixel(*self.cup[2:])
+        unit, dark = self.unit, HOLE["cup"]
+        if self.cup.left < self.cup.right and right - left <= LEAST_CUP * unit:
+            painter.shadow(((left + right) / 2, top + 3 * unit), 7 * unit, 2.5 * unit, dark, 0.9)
+        elif left < right:
+            thin = max(1, round(1.6 * unit))
+            liner = pygame.Rect(round(left), round(top), round(right - left), round(low - top))
+            painter.surface.fill(HOLE["liner"], liner)
+            painter.surface.fill(dark, (liner.left + thin, liner.top, liner.width - 2 * thin, liner.height - thin))
+
+    def flag_box(self, camera: Camera) -> pygame.Rect:
+        """The place that the flag takes; it is drawn larger where it would be too small to see."""
+        (x, ground), unit = camera.pixel(self.pin, self.cup.top), self.unit
+        tall, cloth = min(max(FLAGSTICK * camera.scale, 66 * unit), 190 * unit), 30 * unit
+        return pygame.Rect(round(x - cloth), round(ground - tall), round(2 * cloth), round(tall))
 
     def behind(self, painter: Painter, camera: Camera, t: float) -> None:
-        self.course.flag(painter, camera, self.unit, t, self.wind[0])
+        """The flag, which flutters in the wind."""
+        (x, ground), unit = camera.pixel(self.pin, self.cup.top), self.unit
+        top, deep = self.flag_box(camera).top, (self.cup.top - self.cup.bottom) * camera.scale
+        foot = ground + (deep if deep > LEAST_CUP * unit else 3 * unit if deep else 0.0)
+        painter.shadow((x + 12 * unit, ground - unit), 16 * unit, 2.5 * unit, CARD["shadow"], 0.3)
+        painter.trace([(x, foot), (x, top)], max(2.0, 2.6 * unit), HOLE["pole"], CARD["shadow"], 0.7 * unit)
+        share = np.linspace(0, 1, 9)
+        along = x + (-1 if self.wind[0] < 0 else 1) * 30 * unit * share
+        wave = top + np.array([1.6 * unit * s * sin(5 * s - 9 * t) for s in share])
+        edges = np.concatenate([wave + 9 * unit * share, (wave + (19 - 9 * share) * unit)[::-1]])
+        painter.polygon(np.column_stack([[*along, *along[::-1]], edges]), HOLE["flag"])
 
     def before(self, painter: Painter, camera: Camera, t: float) -> None:
         """Nothing: the ball is in front of all of the course."""
 
     def landmarks(self, sheet: Sheet, camera: Camera) -> None:
         """How far the pin is."""
-        flag = self.course.flag_box(camera, self.unit)
+        flag = self.flag_box(camera)
         if flag.colliderect(sheet.surface.get_rect()):
             sheet.labels.take(flag.inflate(0, 2 * sheet.gap))
             spots = [(flag.centerx, flag.top - lift * self.unit, "midbottom") for lift in (8, 14)]
-            distance = self.parameters.pin.distance
-            text = f"pin {metres(distance, 0 if distance == int(distance) else None)}"
+            text = f"pin {metres(self.pin, 0 if self.pin == int(self.pin) else None)}"
             sheet.label(text, "small", spots, sheet.ink, bold=True)
 
     # The poster
@@ -144,11 +255,10 @@ class Picture(SideView[Parameters]):
 
     @property
     def turf(self) -> Colour:
-        return self.course.turf["fairway"]
+        return self.colours["turf"]["fairway"]
 
     def on_map(self, painter: Painter, camera: Camera) -> None:
         """The flag."""
-        pin, tall = self.parameters.pin.distance, 24 * self.unit
-        (x, y), hole = camera.pixel(pin, self._under(pin)), COLOURS["hole"]
-        painter.thread([(x, y), (x, y - tall)], max(1, round(1.6 * self.unit)), hole["pole"])
-        painter.polygon([(x, y - tall), (x + 0.6 * tall, y - 0.8 * tall), (x, y - 0.6 * tall)], hole["flag"])
+        (x, y), tall = camera.pixel(self.pin, self._under(self.pin)), 24 * self.unit
+        painter.thread([(x, y), (x, y - tall)], max(1, round(1.6 * self.unit)), HOLE["pole"])
+        painter.polygon([(x, y - tall), (x + 0.6 * tall, y - 0.8 * tall), (x, y - 0.6 * tall)], HOLE["flag"])

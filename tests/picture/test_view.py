@@ -138,9 +138,9 @@ def _nearest(rect, point):
 
 
 def test_no_trees_grow_on_the_moon():
-    moon = picture_of("golf/moon").course.colours["landscape"]
+    moon = picture_of("golf/moon").colours["landscape"]
     assert Landscape(**moon).trees == ()
-    assert Landscape(**picture_of("golf").course.colours["landscape"]).trees
+    assert Landscape(**picture_of("golf").colours["landscape"]).trees
 
 
 @pytest.mark.parametrize("name", ["golf", "soccer", "basketball"])
@@ -149,7 +149,7 @@ def test_a_place_is_data(name: str):
     one, other = (picture_of(name) for _ in range(2))
     assert one is not other
     if name == "golf":
-        assert Landscape(**one.course.colours["landscape"]) == Landscape(**other.course.colours["landscape"])
+        assert Landscape(**one.colours["landscape"]) == Landscape(**other.colours["landscape"])
     else:
         assert one.place.scenery == other.place.scenery
         assert hash(one.place.scenery) == hash(other.place.scenery)
