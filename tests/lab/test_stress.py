@@ -163,6 +163,15 @@ def test_a_run_that_ends_with_all_balls_potted_is_looked_at_too():
     assert simulate(potted.build(), LEVELS["balanced"]).caught_at("cue") is not None
 
 
+def test_what_lies_in_a_heap_may_overlap_as_promised_and_takes_one_integrator_of_each_kind(monkeypatch):
+    falling = load("collisions/dominoes", {"duration": 0.35})
+    monkeypatch.setattr(lab, "of_scene", lambda scene: [Extreme("own", scene.build)])
+    outcomes = {outcome.method: outcome for outcome in lab.stress([falling], with_bare=False)}
+    assert outcomes.keys() == {"rk4", "dormand-prince", "plain"}
+    assert outcomes[LEVEL_METHOD].outcome == HELD
+    assert outcomes[LEVEL_METHOD].penetration_m > lab.OVERLAP
+
+
 # The command ---------------------------------------------------------------------------------------------------------
 
 
