@@ -103,12 +103,11 @@ class Scene:
             setup = self.module.build(self.parameters)
         if not isinstance(setup, Setup):
             raise self._wrong("build", "a Setup", setup)
+        known = ("start", "end", *setup.names)
         for fact in self.facts.values():
-            if isinstance(fact.settled, str) and fact.settled not in ("start", "end", *setup.names):
-                file, there = from_here(self.folder / "scene.py"), ", ".join(setup.names)
-                raise RequestError(
-                    f'{file}: {fact.key} is settled by "{fact.settled}", but there are start, end, {there}'
-                )
+            if isinstance(fact.settled, str) and fact.settled not in known:
+                file, there = from_here(self.folder / "scene.py"), ", ".join(known)
+                raise RequestError(f'{file}: {fact.key} is settled by "{fact.settled}", but there are {there}')
         return setup
 
     @property
