@@ -125,7 +125,8 @@ def _changed_states(expected: Record, actual: Record, tolerance: float) -> Itera
     for ball, rows in expected["states"].items():
         others = actual["states"].get(ball)
         if others is None or len(others) != len(rows):
-            yield 0.0, f"t = 0 s, {ball} is gone" if others is None else f"{ball} has {len(rows)} of its states"
+            change = "is gone" if others is None else f"has {len(others)} states, had {len(rows)}"
+            yield 0.0, f"t = 0 s, {ball} {change}"
             continue
         for row, other in zip(rows, others, strict=True):
             columns = zip(COLUMNS, row, other, strict=True)
