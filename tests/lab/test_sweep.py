@@ -351,12 +351,12 @@ def test_what_another_sweep_found_is_kept_and_the_same_rows_are_not(drop, tmp_pa
     path, before = tmp_path / "rows.csv", tmp_path / "rows.csv~"
     first, other = grid(drop, "launch.height=0.5:2:3"), grid(drop, "launch.height=0.5:2:4")
     found = whole(first, path)
-    with workers(1) as pool:
-        again = sweep_to_file(first, path, pool)
+    again = swept(first, path)
     assert (again.resumed, again.as_text()) == (3, "3 points, all of them from before: the sweep is complete")
+    path.with_name(".rows.csv.complete").unlink()
+    assert (swept(first, path).resumed, before.exists()) == (0, False)  # the same rows are not kept twice
     path.write_bytes(found.replace(b"1.25", b"1.35"))  # no longer what the sweep wrote
-    with workers(1) as pool:
-        assert sweep_to_file(first, path, pool).resumed == 0
+    assert swept(first, path).resumed == 0
     assert (path.read_bytes(), before.exists()) == (found, True)
     before.unlink()
     done = swept(other, path)
