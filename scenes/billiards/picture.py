@@ -9,12 +9,12 @@ import numpy as np
 import pygame
 
 from sandbox.picture.palette import Colour, mix, palette, scene_colours
-from sandbox.picture.places.plan import Plan
+from sandbox.picture.places.plan import Ground, Line, Plan, Point, Spot, arc
+from sandbox.picture.places.table import Lamp, Pocket, Rails, Room, around, cushions, sights
 from sandbox.picture.views import AboveView, Area, Camera, Entry, Look, Painter, Sheet, nice
 from sandbox.sport.sliding import met
 
 from . import balls
-from .place import outside, place
 from .scene import Parameters
 
 CARD, COLOURS = palette("card"), scene_colours(__file__)
@@ -23,6 +23,18 @@ CARD, COLOURS = palette("card"), scene_colours(__file__)
 DOTS = 16
 #: A ball that goes no further than this, in radii, is taken not to have moved.
 LEAST_WAY = 0.3
+#: Least width of the wood beyond the cushions, and beyond the pockets; of a line on the cloth and of a spot, in m.
+WOOD, ROUND_POCKETS, LINE, SPOT = 0.10, 0.032, 0.004, 0.0055
+#: The maker's plate on the head rail: its width and length, and how far from the table's edge its middle lies, in m.
+PLATE, PLATE_LENGTH, PLATE_INSIDE = 0.013, 0.16, 0.026
+#: Head spot, centre spot and foot spot, as shares of half the length.
+SPOTS = (-0.5, 0.0, 0.5)
+#: Snooker's markings (WPBSA): from the head cushion to the line, the D's radius, from the foot cushion to the black, m.
+BAULK, D_RADIUS, BLACK_SPOT = 0.737, 0.292, 0.324
+
+MARKING = mix(COLOURS["cloth"], COLOURS["marking"], 0.55)
+#: The cloth between the jaws lies in the cushions' shadow.
+THROAT = mix(COLOURS["cloth"], COLOURS["rim"], 0.5)
 
 
 class Picture(AboveView[Parameters]):
@@ -36,13 +48,42 @@ class Picture(AboveView[Parameters]):
         return self.parameters.cue.ball
 
     @cached_property
+    def bed(self) -> Point:
+        """Half the length and half the width between the cushions, in m."""
+        return 0.5 * self.parameters.table.length, 0.5 * self.parameters.table.width
+
+    @cached_property
+    def outer(self) -> Point:
+        """Half the length and half the width of the table with its rails, in m."""
+        (x, y), holes = self.bed, self.run.setup.catches
+        reach = [max(abs(h.center[0]) - x, abs(h.center[1]) - y) + h.radius + ROUND_POCKETS for h in holes]
+        rail = max([self.parameters.table.cushion_width + WOOD, *reach])
+        return x + rail, y + rail
+
+    @cached_property
     def plan(self) -> Plan:
-        return place(self.run.setup, self.parameters.table)
+        """Room, rails, cloth with its markings, pockets, cushions, sights, and the lamp over them."""
+        table, setup, bed, outer = self.parameters.table, self.run.setup, self.bed, self.outer
+        back = bed[0] + table.cushion_width, bed[1] + table.cushion_width
+        beds, head = ((back, THROAT), (bed, COLOURS["cloth"])), PLATE_INSIDE - outer[0]
+        middle = 0.55 * back[0] + 0.45 * outer[0], 0.55 * back[1] + 0.45 * outer[1]
+        snooker = table.kind == "snooker"
+        return (
+            Room(outer, COLOURS["room"], COLOURS["room_shadow"]),
+            Rails(back, outer, COLOURS["wood"], COLOURS["lip"]),
+            *(Ground(around(half), colour) for half, colour in beds),
+            *(_snooker_markings(*bed) if snooker else _spots(*((share * bed[0], 0.0) for share in SPOTS))),
+            *(Pocket(h.center, h.radius, beds, COLOURS["leather"], COLOURS["pocket"]) for h in setup.catches),
+            *cushions(setup.surfaces, back, COLOURS["cushion"]),
+            *(() if snooker else sights(bed, middle, COLOURS["sight"], bool(setup.catches))),
+            Line(((head, -0.5 * PLATE_LENGTH), (head, 0.5 * PLATE_LENGTH)), PLATE, COLOURS["plate"]),
+            Lamp(bed, outer),
+        )
 
     @cached_property
     def seen(self) -> np.ndarray:
         """The table with its rails, which no ball leaves."""
-        return np.array([outside(self.run.setup, self.parameters.table)]) * [[1], [-1]]
+        return np.array([self.outer]) * [[1], [-1]]
 
     @property
     def area(self) -> Area:
@@ -96,7 +137,7 @@ class Picture(AboveView[Parameters]):
 
     def scale(self, sheet: Sheet, camera: Camera) -> None:
         """A scale bar on the floor to the table's left, and which end is which, where there is room."""
-        x, y = outside(self.run.setup, self.parameters.table)
+        x, y = self.outer
         (left, bottom), (right, _) = camera.pixel(-x, -y), camera.pixel(x, 0.0)
         room = left - sheet.frame.left - 4 * sheet.gap
         if room > 5 * sheet.lettering.height("small"):
@@ -164,3 +205,15 @@ class Picture(AboveView[Parameters]):
             ("cushions", str(rails)),
             *(self.vectors.entries(t) if there else [("cloth", "–")]),
         ]
+
+
+def _snooker_markings(x: float, y: float) -> Plan:
+    """Baulk line, D and spots, on a bed of half sizes x and y."""
+    baulk = BAULK - x
+    d = arc((baulk, 0.0), D_RADIUS, 90.0, 270.0)
+    spots = [(baulk, side * D_RADIUS) for side in (-1, 0, 1)] + [(0.0, 0.0), (0.5 * x, 0.0), (x - BLACK_SPOT, 0.0)]
+    return (Line(((baulk, -y), (baulk, y)), LINE, MARKING), Line(d, LINE, MARKING), *_spots(*spots))
+
+
+def _spots(*places: Point) -> Plan:
+    return tuple(Spot(at, SPOT, MARKING) for at in places)

@@ -31,7 +31,7 @@ from sandbox.sport.amounts import roughly
 from sandbox.sport.controls import Controls, Goal, Handle, Spin, Spread
 from sandbox.sport.facts import ENDED, Fact, once
 from sandbox.sport.flight import Directed
-from sandbox.sport.readings import at, travelled
+from sandbox.sport.readings import Moment, at, travelled
 from sandbox.sport.sliding import REST_TIME, left, meetings, met, taken
 from sandbox.sport.solids import Solid
 
@@ -324,28 +324,23 @@ def scored(run: Run, parameters: Parameters) -> bool:
 
 
 @once
-def leaving(run: Run, parameters: Parameters) -> dict[str, tuple[Vector, Vector]]:
-    """The velocities (m/s) with which each ball leaves its first meeting with ball or cushion: just after it, and once
-    it rolls, if it meets nothing before: ``v - 2/7 s``, with its slip s over the cloth."""
-    radius, ways = parameters.ball.radius, dict[str, tuple[Vector, Vector]]()
+def leaving(run: Run, parameters: Parameters) -> dict[str, tuple[Moment, Moment]]:
+    """Each ball as it leaves its first meeting with ball or cushion: just after it, and with the velocity that it has
+    once it rolls, if it meets nothing before: ``v - 2/7 s``, with its slip s over the cloth."""
+    radius, ways = parameters.ball.radius, dict[str, tuple[Moment, Moment]]()
     for event in meetings(run):
         for name in {event.ball, event.partner} & (run.arcs.keys() - ways.keys()):
             arc = next((arc for arc in run.arcs[name] if arc.t1 > event.t), run.arcs[name][-1])
             t = arc.contact.end if isinstance(arc.contact, Pressing) else event.t
-            _, _, vx, vy, _ = run.state(name, t)
-            wx, wy = run.rolling_spin(name, t)
-            ways[name] = (vx, vy), ((5.0 * vx + 2.0 * radius * wy) / 7.0, (5.0 * vy - 2.0 * radius * wx) / 7.0)
+            ball, (wx, wy) = Moment(t, *run.state(name, t)), run.rolling_spin(name, t)
+            rolling = (5.0 * ball.vx + 2.0 * radius * wy) / 7.0, (5.0 * ball.vy - 2.0 * radius * wx) / 7.0
+            ways[name] = ball, ball._replace(vx=rolling[0], vy=rolling[1])
     return {name: ways[name] for name in run.arcs if name in ways}
 
 
-def of_leaving(when: int, what: Callable[[float, float], float]) -> Callable[[Run, Parameters], dict[str, float]]:
-    """The function that reads something from the velocities of each ball just after it (0), or once it rolls (1)."""
-    return lambda run, parameters: {name: what(*ways[when]) for name, ways in leaving(run, parameters).items()}
-
-
-def direction(vx: float, vy: float) -> float:
-    """In deg, counter-clockwise from +x."""
-    return degrees(atan2(vy, vx))
+def of_leaving(when: int, what: str) -> Callable[[Run, Parameters], dict[str, float]]:
+    """The function that reads something of each ball just after it (0), or once it rolls (1)."""
+    return lambda run, parameters: {name: getattr(ways[when], what) for name, ways in leaving(run, parameters).items()}
 
 
 def tip(run: Run, parameters: Parameters) -> str:
@@ -370,10 +365,10 @@ FACTS = (
     Fact("point", "", "", point),
     Fact("scored", "", "", scored),
     Fact("positions", "", "m", lambda run, parameters: {name: [*place] for name, place in left(run).items()}),
-    Fact("leaving_speed", "", "m/s", of_leaving(0, hypot)),
-    Fact("leaving_direction", "", "deg", of_leaving(0, direction)),
-    Fact("rolling_speed", "", "m/s", of_leaving(1, hypot)),
-    Fact("rolling_direction", "", "deg", of_leaving(1, direction)),
+    Fact("leaving_speed", "", "m/s", of_leaving(0, "speed")),
+    Fact("leaving_direction", "", "deg", of_leaving(0, "direction")),
+    Fact("rolling_speed", "", "m/s", of_leaving(1, "speed")),
+    Fact("rolling_direction", "", "deg", of_leaving(1, "direction")),
     Fact("touches", "", "", touches, names=True),
     ENDED,
 )

@@ -103,16 +103,13 @@ class Pocket(NamedTuple):
         return Segment((ax, ay), b, self.jaw_radius)
 
 
-def pockets(table: Table) -> tuple[Pocket, Pocket]:
+def pockets(table: Table) -> Iterator[Pocket]:
     """Corner and side pocket."""
-
-    def pocket(name: str) -> Pocket:
+    for name in ("corner", "side"):
         mouth, angle, jaw, shelf, hole = (
             getattr(table, f"{name}_{size}") for size in ("mouth", "angle", "jaw_radius", "shelf", "hole_radius")
         )
-        return Pocket(name, mouth, pi * (1.0 - angle / 180.0), jaw, shelf, hole, table.cushion_width)
-
-    return pocket("corner"), pocket("side")
+        yield Pocket(name, mouth, pi * (1.0 - angle / 180.0), jaw, shelf, hole, table.cushion_width)
 
 
 def check(table: Table, ball_radius: float) -> None:
@@ -134,8 +131,7 @@ def _faults(table: Table, ball_radius: float) -> Iterator[str]:
             yield f"table.{key} = {sizes[key]:g} m: the pockets leave no rail; it must be more than {need:g} m"
     for pocket, inward in ((corner, 0.25 * pi - corner.turn), (side, 0.5 * pi - side.turn)):
         half = max(0.5 * pocket.mouth - ball_radius, 0.0)  # how far from the pocket's axis a ball can pass
-        widest = pocket.facing / tan(0.5 * pocket.turn)
-        hole = pocket.hole_radius
+        widest, hole = pocket.facing / tan(0.5 * pocket.turn), pocket.hole_radius
         deepest = pocket.facing * cos(inward) - (hole - sqrt(max(0.0, hole**2 - half**2)))
         if pocket.jaw_radius >= widest:
             yield _said(pocket, "jaw_radius", "the rounding is longer than the facing", f"less than {widest:g}")
@@ -172,12 +168,8 @@ def cushions(table: Table, restitution: float, friction: float, nose: float | No
 
 def _rails(table: Table) -> Iterator[tuple[str, Segment]]:
     """Each nose and each jaw, by name."""
-    x, y, flanks, ends = (
-        0.5 * table.length,
-        0.5 * table.width,
-        {"right": -1.0, "left": 1.0},
-        {"head": -1.0, "foot": 1.0},
-    )
+    x, y = 0.5 * table.length, 0.5 * table.width
+    flanks, ends = {"right": -1.0, "left": 1.0}, {"head": -1.0, "foot": 1.0}
     if not table.pockets:
         yield from ((f"{flank} long cushion", Segment((-x, sy * y), (x, sy * y))) for flank, sy in flanks.items())
         yield from ((f"{end} cushion", Segment((sx * x, -y), (sx * x, y))) for end, sx in ends.items())
