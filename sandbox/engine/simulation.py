@@ -10,6 +10,7 @@ import heapq
 from collections.abc import Callable, Collection, Mapping, Sequence
 from functools import cached_property, partial
 from itertools import count
+from math import inf
 from time import perf_counter
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -256,6 +257,10 @@ class Simulation:
         for index, arcs in parted.arcs.items():
             self._tracks[index].meet(t, arcs)
             self._push(parted.t, "part", index)
+            caught = (self._first_touch(index, arc, self._tracks[index].catches, arc.t1) for arc in arcs)
+            at = next((at for at in caught if at is not None), inf)
+            if at < self._setup.duration:
+                self._push(at, "catch", index)
         for index in touching.keys() - parted.states.keys() - (heap.members if heap else set()):
             self._tracks[index].arrive(t, touching[index])
             self._resume(index, t)
@@ -265,8 +270,8 @@ class Simulation:
     def _catch(self, t: float, index: int) -> None:
         """Remove a ball that is caught."""
         track = self._tracks[index]
-        x, y, vx, vy = track.arc.state(t)[:4]
-        track.arrive(t, track.arc.state(t))
+        track.finish(t)
+        x, y, vx, vy = track.path[-1].state(t)[:4]
         track.version += 1
         track.caught = True
         self._moving.discard(index)
@@ -355,15 +360,12 @@ class Simulation:
         arc = track.arc
         at = arc.t1
         left, bottom, right, top = arc.box()
-        for obstacles, what in ((track.obstacles, "touch"), (track.catches, "catch")):
-            for obstacle in obstacles:
-                west, south, east, north = obstacle.box
-                if left > east or right < west or bottom > north or top < south or in_contact(obstacle):
-                    continue
-                self._numerics.queries += 1
-                touch = track.first_touch(obstacle)
-                if touch is not None and touch <= at:
-                    at, kind = touch, what
+        touch = self._first_touch(index, arc, track.obstacles, at, in_contact)
+        if touch is not None:
+            at, kind = touch, "touch"
+        caught = self._first_touch(index, arc, track.catches, at)
+        if caught is not None:
+            at, kind = caught, "catch"
         self._push(at, kind, index)
         for other in others:
             neighbour = self._tracks[other]
@@ -379,6 +381,26 @@ class Simulation:
                 pair_at = pair_touches(track, neighbour, max(t, neighbour.arc.t0), self._accuracy.skin)
                 if pair_at is not None and pair_at <= at:
                     self._push(pair_at, "touch", index, other)
+
+    def _first_touch(
+        self,
+        index: int,
+        arc: Arc,
+        obstacles: Sequence[Obstacle],
+        until: float,
+        in_contact: Callable[[Obstacle], bool] = lambda obstacle: False,
+    ) -> float | None:
+        """The first time up to ``until`` (s) at which a ball touches one of these on an arc, or None; it does not meet
+        what it is ``in_contact`` with."""
+        first, (left, bottom, right, top) = None, arc.box()
+        for obstacle in obstacles:
+            west, south, east, north = obstacle.box
+            if left <= east and right >= west and bottom <= north and top >= south and not in_contact(obstacle):
+                self._numerics.queries += 1
+                touch = self._tracks[index].first_touch(obstacle, arc)
+                if touch is not None and touch <= until:
+                    first = until = touch
+        return first
 
     def _push(self, t: float, kind: str, i: int, j: int = -1) -> None:
         other = self._tracks[j].version if j >= 0 else 0

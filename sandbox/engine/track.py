@@ -78,10 +78,10 @@ class Track:
 
     # ------------------------------------------------------------------ its path
 
-    def first_touch(self, obstacle: Obstacle) -> float | None:
-        """The time in s at which it starts to touch on its current arc, or None."""
-        u = obstacle.first_touch(self.arc)
-        return None if u is None else self.arc.t0 + u * (self.arc.t1 - self.arc.t0)
+    def first_touch(self, obstacle: Obstacle, arc: Arc) -> float | None:
+        """The time in s at which it starts to touch on this arc, or None."""
+        u = obstacle.first_touch(arc)
+        return None if u is None else arc.t0 + u * (arc.t1 - arc.t0)
 
     @property
     def on(self) -> str:

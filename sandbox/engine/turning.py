@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from math import atan2
 
+from sandbox.engine.arc import Arc
 from sandbox.engine.meeting import kept, standing
 from sandbox.engine.one_point import one_point
 from sandbox.engine.setup import outline_of
@@ -27,15 +28,14 @@ class Turning(Track):
         if self.contact is not None:
             self.state = self.contact.placed(self.ball, self.state)
 
-    def first_touch(self, obstacle: Obstacle) -> float | None:
-        """The time in s at which the body starts to touch on its current arc, or None.
+    def first_touch(self, obstacle: Obstacle, arc: Arc) -> float | None:
+        """The time in s at which the body starts to touch on this arc, or None.
 
         ``obstacle`` is prepared for a ball around the body: nothing touches the body before it touches that.
         """
-        arc = self.arc
         start = arc.t0
         if obstacle in self.catches:
-            return super().first_touch(obstacle)
+            return super().first_touch(obstacle, arc)
         if obstacle.near(*arc.start[:2]).gap > 0.0:
             u = obstacle.first_touch(arc)
             if u is None:

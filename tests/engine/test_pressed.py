@@ -12,7 +12,7 @@ from sandbox.engine import simulate
 from sandbox.engine.accuracy import resolve
 from sandbox.engine.clusters import Body
 from sandbox.engine.ledger import ledger
-from sandbox.engine.setup import Always, Ball, Bounce, Circle, ContactModel, Segment, Setup, Surface
+from sandbox.engine.setup import Always, Ball, Bounce, Catch, Circle, ContactModel, Segment, Setup, Surface
 
 from .contact_law import by_contact_law
 
@@ -39,6 +39,18 @@ def test_two_balls_that_touch_share_the_blow(model, expected):
     assert [run.state(name, 1.0)[2] / 2.0 for name in ("cue", "1", "2")] == pytest.approx(expected, abs=1e-4)
     assert (run.numerics.clusters == 0) == (model == "rigid")
     assert abs(ledger(run).residue) < 1e-9
+
+
+@pytest.mark.parametrize(("pocket", "duration"), [(0.02, 1.0), (0.02, 0.07), (0.3, 1.0)])
+def test_a_pocket_takes_a_ball_while_others_press_on_it(pocket, duration):
+    """Soft balls touch for 76 ms, in which the one struck moves by 3.8 cm: in a pocket it is gone before they part."""
+    balls, catches = [ball("cue", -2 * R, vx=1.0), ball("1", 0.0)], [Catch("pocket", (pocket, 0.0), 0.001)]
+    run = simulate(Setup(balls, catches=catches, duration=duration, contact=ContactModel("hertz", 1000.0)), resolve())
+    t = run.caught_at("1")
+    (caught,) = [event for event in run.events if event.kind == "caught"]
+    assert caught.x == run.state("1", duration)[0] == pytest.approx(pocket - 0.001, abs=1e-9)
+    assert run.arcs["1"][-1].t1 == t < duration
+    assert run.state("cue", duration)[0] > run.state("cue", 0.5 * t)[0]
 
 
 def test_a_lone_pair_takes_no_contact_mechanics():
