@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from itertools import pairwise
 from typing import Any
 
-from sandbox.physics.elementwise import choose, clip
+from sandbox.physics.elementwise import choose, clip, smooth
 from sandbox.physics.forces import Wind, in_wind
 
 
@@ -90,8 +90,7 @@ class Thrust:
         (x, y), (ex, ey) = position, self.along
         ux, uy = velocity if self.wind is None else in_wind(self.wind, t, position, velocity)
         speed = (ux * ux + uy * uy) ** 0.5 + 1e-30
-        turned = clip(((x - self.start[0]) * ex + (y - self.start[1]) * ey) / self.rail - 1.0, 0.0, 1.0)
-        turned = turned * turned * (3.0 - 2.0 * turned)  # gently: no kink for the integrator
+        turned = smooth(((x - self.start[0]) * ex + (y - self.start[1]) * ey) / self.rail - 1.0)
         ux, uy = ex + turned * (ux / speed - ex), ey + turned * (uy / speed - ey)
         force = self.motor.thrust(t) / ((ux * ux + uy * uy) ** 0.5 + 1e-30)
         return force * ux, force * uy

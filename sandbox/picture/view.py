@@ -175,10 +175,14 @@ class View(Generic[P]):
             ("time", self.clock(t)),
             *self.position(t),
             ("speed", amount(speed, "m/s", 1)),
-            ("direction", signed(f"{degrees(atan2(vy, vx)):.0f}") + "°" if speed > 0.01 else "–"),
+            ("direction", self.heading_text(degrees(atan2(vy, vx))) if speed > 0.01 else "–"),
             *self.vectors.entries(t),
             ("spin", self.spin_text(spin)),
         ]
+
+    def heading_text(self, angle: float) -> str:
+        """A direction in deg, counter-clockwise from straight ahead, for people."""
+        return signed(f"{angle:.0f}") + "°"
 
     def spin_text(self, spin: float) -> str:
         """A spin in rad/s for people."""

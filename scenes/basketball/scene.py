@@ -23,7 +23,7 @@ from sandbox.engine.run import Event, Run
 from sandbox.engine.setup import Circle, Patch, Segment, Setup, Surface, Vector
 from sandbox.errors import RequestError
 from sandbox.parameters import Group, group, quantity, switch
-from sandbox.physics.elementwise import anywhere, clip
+from sandbox.physics.elementwise import anywhere, smooth
 from sandbox.physics.integrators import State
 from sandbox.sport.amounts import roughly
 from sandbox.sport.controls import Controls, Handle, Spin, Spread
@@ -152,17 +152,10 @@ class NetDrag:
         inside = self.half_width - abs(x - self.middle[0])
         if not anywhere((depth > 0.0) & (depth < self.length) & (inside > -self.EDGE)):
             return 0.0, 0.0
-        hold = (
-            _smooth(depth / self.EDGE) * _smooth((self.length - depth) / self.EDGE) * _smooth(1.0 + inside / self.EDGE)
-        )
+        within = depth / self.EDGE, (self.length - depth) / self.EDGE, 1.0 + inside / self.EDGE
+        hold = smooth(within[0]) * smooth(within[1]) * smooth(within[2])
         k = -self.mass * self.damping * hold
         return self.HOLD * k * velocity[0], k * velocity[1]
-
-
-def _smooth(x: Any) -> Any:
-    """0 below 0, 1 above 1, smooth between."""
-    s = clip(x, 0.0, 1.0)
-    return s * s * (3.0 - 2.0 * s)
 
 
 def build(parameters: Parameters) -> Setup:

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from functools import cached_property
-from itertools import product
-from math import atan2, cos, degrees, dist, hypot, radians, sin, tan
+from math import cos, dist, hypot, pi, radians, sin, tan
 
 import numpy as np
 
+from sandbox.picture.lettering import around
 from sandbox.picture.palette import mix, palette, scene_colours
 from sandbox.picture.places import goal as goal_at
 from sandbox.picture.places import plan
@@ -152,12 +152,11 @@ class Picture(AboveView[Parameters]):
         sheet.painter.line([(x - 6 * unit, start), (x + 6 * unit, start)], 2.0 * unit, accent)
         sheet.labels.take_path([(x, row) for row in np.linspace(start, end, 30)], 3 * unit)
         way = 1.0 if end < start else -1.0
-        spots = [(x, start + way * far * unit, 0.0, way) for far in (12, 20)]
-        aside = product((14, 24, 40), (0.0, 0.25, 0.5, 0.75), (1.0, -1.0))
-        spots += [(x + side * far * unit, start + (end - start) * share, side, 0.0) for far, share, side in aside]
+        turns = [-way * turn for turn in (pi / 2, 1.0, 2.1, 0.0, pi)]
+        spots = around((x, start), [far * unit for far in (12, 20, 32)], turns)
         sheet.chip(f"{metres(abs(deviation))} to the {_side(deviation)}", spots, accent)
-        near, anchor = (10, 16, 24), "midtop" if way > 0 else "midbottom"
-        beside = [(*(line[i] + (0, way * far * unit)), anchor) for i in (49, 40, 59, 30) for far in near]
+        anchor = "midtop" if way > 0 else "midbottom"
+        beside = [(*(line[i] + (0, way * far * unit)), anchor) for i in (49, 40, 59, 30) for far in (10, 16, 24)]
         sheet.label("without spin", "small", beside, sheet.ink)
 
     # Frames
@@ -166,19 +165,14 @@ class Picture(AboveView[Parameters]):
         away = self.parameters.goal.distance - self.run.state("ball", t)[0]
         return metres(abs(away)), "to the goal line" if away >= 0 else "behind the goal line"
 
-    def live(self, t: float) -> list[Entry]:
-        """What a frame's card says at time t in s."""
-        x, y, vx, vy, spin = self.run.state("ball", t)
-        angle, speed = radians(self.parameters.launch.angle), hypot(vx, vy)
+    def position(self, t: float) -> list[Entry]:
+        """How far the ball is off its straight line."""
+        (x, y, *_), angle = self.run.state("ball", t), radians(self.parameters.launch.angle)
         aside = y * cos(angle) - x * sin(angle)
-        return [
-            ("time", f"{t:.2f} s"),
-            ("off the straight", f"{metres(abs(aside))} {_side(aside)}" if abs(aside) >= 0.005 else "–"),
-            ("speed", f"{speed:.1f} m/s"),
-            ("direction", f"{abs(degrees(atan2(vy, vx))):.0f}° {_side(vy)}" if speed > 0.01 else "–"),
-            ("spin", self.spin_text(spin)),
-            *self.vectors.entries(t),
-        ]
+        return [("off the straight", f"{metres(abs(aside))} {_side(aside)}" if abs(aside) >= 0.005 else "–")]
+
+    def heading_text(self, angle: float) -> str:
+        return f"{abs(angle):.0f}° {_side(angle)}"
 
 
 def _side(amount: float) -> str:

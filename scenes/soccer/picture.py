@@ -110,11 +110,8 @@ class Picture(SideView[Parameters]):
 
     def annotate(self, sheet: Sheet, camera: Camera) -> None:
         """How far the ball passes over the heads and under or over the bar."""
-        wall, goal, (over, under) = (
-            self.parameters.wall,
-            self.parameters.goal,
-            map(self.run.result.get, ("over_wall", "under_bar")),
-        )
+        wall, goal, result = self.parameters.wall, self.parameters.goal, self.run.result
+        over, under = result["over_wall"], result["under_bar"]
         if over is not None and over > 0.0:
             self.gap(sheet, camera, wall.distance, wall.height, wall.height + over, "over the wall")
         if under is not None and under > 0.0:
