@@ -81,7 +81,7 @@ def _written_out(forces: int, torques: int, turns: bool, loses: bool) -> Any:
 
 
 def _quick(term: Any) -> Any:
-    """A force or torque as what Python calls with the least effort: its ``__call__``, bound, if it is data."""
+    """A force or torque in the form that Python calls fastest: its bound ``__call__`` if it is data."""
     return term.__call__ if is_dataclass(type(term)) and callable(term) else term
 
 

@@ -130,7 +130,7 @@ class Heap:
         return any(index in self._members or index in self._resting for index in indices)
 
     def wake(self, indices: Collection[int]) -> None:
-        """Step on those that lie with these at rest."""
+        """Step the heaps again in which these balls lie at rest."""
         woken = set[int]().union(*(self._resting.get(index, ()) for index in indices))
         self._take(self._members.keys() | woken)
         for index in woken:

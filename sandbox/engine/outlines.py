@@ -145,7 +145,8 @@ def _first_touch(outline: Outline, x: np.ndarray, y: np.ndarray, skin: float) ->
 def _to_corners(
     outline: Outline, straight: np.ndarray, x: np.ndarray, y: np.ndarray, skin: float
 ) -> tuple[np.ndarray, np.ndarray]:
-    """The paths that may come to touch a corner, and their gaps to it: of order 2 in the distance, in m there."""
+    """The paths that may come to touch a corner, and (d^2 - r^2) / 2 r of their distance d to it: near r their gap in
+    m."""
     path = np.concatenate((np.arange(len(outline.reach)), straight))
     dx = x[:, path] - np.concatenate((outline.ax, outline.bx[straight]))
     dy = y[:, path] - np.concatenate((outline.ay, outline.by[straight]))

@@ -84,8 +84,8 @@ def narrowed(
     widest: float,
     finer: bool = False,
 ) -> list[_Change]:
-    """The same changes between nearer values, no more than ``widest`` apart; a number of a change and a value make a
-    ``point``. Of several changes in between it is the one next to where the target is met."""
+    """The same changes between nearer values, no more than ``widest`` apart, by runs at the ``point`` of a change's
+    number and a value. Where there are several changes, the one next to where the target is met is kept."""
     found, between = list(changes), FIRST
     while wide := [number for number, (low, high, _) in enumerate(found) if high - low > widest]:
         places = [np.linspace(*found[number][:2], between + 2).tolist() for number in wide]
